@@ -26,7 +26,7 @@
 //! terrain    uses ──► base, geometry, kit, scene
 //! objects    uses ──► base, data, geometry, kit, scene, terrain
 //! packages   uses ──► base
-//! engine     uses ──► base, data, kit, language, packages, scene
+//! engine     uses ──► base, data, kit, language, packages, query, scene
 //! export     uses ──► base, data, scene
 //! watch      uses ──► base
 //! presets    uses ──► base, engine, export, watch

@@ -70,6 +70,13 @@ fn the_gallery_shows_every_script_and_no_other() {
     assert!(
         ["variations", "live", "village", "castle", "roofs", "quay"].iter().all(|name| shown.remove(*name))
     );
+    for path in quarter() {
+        let name = format!("geospatial/{}", path.file_stem().unwrap().to_string_lossy());
+        assert!(guide().contains(&format!("/scripts/{name}.lua")), "{name}");
+        if shown.remove(&name) {
+            assert!(root().join(format!("docs/pictures/{name}.png")).is_file(), "{name} has no picture");
+        }
+    }
     let types: Vec<PathBuf> = lua_files("examples/types");
     assert!(
         types.iter().all(|path| shown.remove(&*path.file_stem().unwrap().to_string_lossy())),
@@ -78,6 +85,29 @@ fn the_gallery_shows_every_script_and_no_other() {
     assert_eq!(shown, shipped);
     for name in &shipped {
         assert!(root().join(format!("docs/pictures/{name}.png")).is_file(), "{name} has no picture");
+    }
+}
+
+/// The scripts that ask data of a quarter of a town, without those that others require.
+fn quarter() -> Vec<PathBuf> {
+    let mut paths = lua_files("scripts/geospatial");
+    paths.retain(|path| {
+        !["details", "models", "town"].iter().any(|part| path.ends_with(format!("{part}.lua")))
+    });
+    paths
+}
+
+#[test]
+fn the_scripts_of_a_quarter_ask_its_data_and_make_the_same_with_any_number_of_threads() {
+    let folder = tempfile::tempdir().unwrap();
+    let scripts = quarter();
+    assert_eq!(scripts.len(), 8);
+    for script in scripts {
+        let shown = script.display();
+        let first = run(&script, 1);
+        assert!(first.scene.triangles() > 1000 || first.scene.instances.len() > 30, "{shown}");
+        assert!(first.warnings.is_empty(), "{shown}: {}", first.warnings[0]);
+        assert!(glb(&first, folder.path()) == glb(&run(&script, 3), folder.path()), "{shown}");
     }
 }
 

@@ -4,6 +4,10 @@ import { find, make } from './dom.js';
 import { count, short } from './format.js';
 import { icon } from './icons.js';
 
+// What made a module: a rule, what a query or a fragmentation stood for, or the axiom.
+const madeBy = (it) =>
+  [it.rule && `by ${it.rule}`, it.answer && `from ${short(it.answer)}`].filter(Boolean).join(', ') || 'axiom';
+
 export class Card {
   #card = find('#card');
   #dot = find('#dot');
@@ -120,7 +124,7 @@ export class Card {
         'div',
         {},
         make('code', { class: 'is', text: short(it.module), title: it.module }),
-        make('div', { class: 'by' }, make('span', { text: it.rule ? `by ${it.rule}` : 'axiom' }), this.#place(it)),
+        make('div', { class: 'by' }, make('span', { text: madeBy(it), title: it.answer ?? '' }), this.#place(it)),
       ),
     );
   }

@@ -6,6 +6,7 @@
 mod declare;
 mod derive;
 mod machine;
+mod questions;
 pub mod results;
 pub mod run;
 pub mod trace;
@@ -17,6 +18,7 @@ pub mod script {
         TraceRequest, api_version,
     };
     pub use crate::machine::{Machine, Watchdog, make_ready};
+    pub use crate::questions::{Question, RowSource, Rows};
 }
 
 pub use run::{Run, RunTimes, ScriptCheck, check, check_package, run_session};

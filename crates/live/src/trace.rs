@@ -142,8 +142,10 @@ fn tell_made(state: &ServerState, shown: &PresentModel, made: &engine::ModuleOri
         RulePlace { text: rule.text.clone(), file, line }
     };
     let path = made.path.iter().map(|ancestor| {
-        let rule = ancestor.rule.as_ref();
-        let (file, line) = place(state, rule.map_or(made.axiom.as_ref(), |rule| rule.place.as_ref()));
+        let (rule, answer) = (ancestor.rule.as_ref(), ancestor.answer.as_ref());
+        let made_by = rule.or(answer);
+        let (file, line) =
+            place(state, made_by.map_or(made.axiom.as_ref(), |made_by| made_by.place.as_ref()));
         StepMessage {
             step: ancestor.step,
             module: ancestor.module.text.clone(),
@@ -151,6 +153,7 @@ fn tell_made(state: &ServerState, shown: &PresentModel, made: &engine::ModuleOri
             file,
             line,
             ordinal: ancestor.ordinal,
+            answer: answer.map(|answer| answer.text.clone()),
         }
     });
     let [before, at, after] = made.around.clone();

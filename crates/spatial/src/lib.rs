@@ -12,6 +12,7 @@
 
 mod buffer;
 mod edges;
+mod fragments;
 mod geometry;
 #[cfg(test)]
 mod geos;

@@ -6,6 +6,8 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 use super::paths::{is_absolute, lead};
 use super::session::Session;
+#[cfg(feature = "data")]
+use super::tables::{SourceTable, SourceTables, TableContent};
 use burgeon_base::budget::Budget;
 use burgeon_base::error::{Error, Result};
 use burgeon_data::{Cache, Layer, ReferenceFrame, Source, SourceOptions, nearest_file, split_name};
@@ -26,6 +28,9 @@ struct LayerStore {
     loaded: BTreeMap<String, Result<Arc<Layer>>>,
     /// What was made of files, by type, file and fields.
     objects: BTreeMap<String, Result<LoadedObject>>,
+    /// The sources as tables.
+    #[cfg(feature = "data")]
+    tables: SourceTables,
     /// What all reading of the run may take.
     budget: Option<Arc<Budget>>,
 }
@@ -44,19 +49,20 @@ impl Data {
     /// The features that `source(text, wanted)` means where a file of `asker` says it.
     pub(crate) fn load(
         &self,
-        session: &Arc<Session>,
+        session: &Session,
         asker: Option<&Package>,
         text: &str,
         mut wanted: SourceOptions,
+        table: Option<&str>,
     ) -> Result<Arc<Layer>> {
         let mut known = self.known.lock().unwrap_or_else(PoisonError::into_inner);
-        let key = format!("{:?} {text:?} {wanted:?}", asker.map(|asker| &asker.manifest.name));
+        let key = format!("{:?} {text:?} {wanted:?} {table:?}", asker.map(|asker| &asker.manifest.name));
         if let Some(loaded) = known.loaded.get(&key) {
             return loaded.clone();
         }
         wanted.budget = known.budget(session);
         let before = wanted.budget.taken();
-        let loaded = read(session, asker, text, wanted, &mut known);
+        let loaded = read(session, asker, text, wanted, &mut known, table);
         session.stop.check()?;
         let kept = loaded.as_ref().map_or(0, |layer| layer.size());
         known.budget(session).settle(before, kept);
@@ -109,6 +115,19 @@ impl Data {
         loaded
     }
 
+    /// What comes of the tables, the projection of the run, and what reading them may take.
+    #[cfg(feature = "data")]
+    pub(super) fn with_tables<T>(
+        &self,
+        session: &Session,
+        act: impl FnOnce(&mut SourceTables, Option<&ReferenceFrame>, &Arc<Budget>) -> Result<T>,
+    ) -> Result<T> {
+        let mut known = self.known.lock().unwrap_or_else(PoisonError::into_inner);
+        let budget = known.budget(session);
+        let LayerStore { frame, tables, .. } = &mut *known;
+        act(tables, frame.as_ref(), &budget)
+    }
+
     /// The projection and the origin of the run, if any data has decided them.
     pub(crate) fn frame(&self) -> Option<ReferenceFrame> {
         self.known.lock().unwrap_or_else(PoisonError::into_inner).frame.clone()
@@ -137,8 +156,11 @@ fn read(
     text: &str,
     mut wanted: SourceOptions,
     known: &mut LayerStore,
+    table: Option<&str>,
 ) -> Result<Arc<Layer>> {
     let (name, layer) = split_name(text);
+    let SourceOptions { condition, limit, id, kind, crs, .. } = &wanted;
+    let is_whole = (condition, limit, id, kind, crs) == (&None, &None, &None, &None, &None);
     wanted.layer = wanted.layer.or_else(|| layer.map(str::to_owned));
     if name.is_empty() {
         return Err(
@@ -168,6 +190,18 @@ fn read(
     if let (true, Some((_, error))) = (session.options.strict, layer.refused.first()) {
         return Err(error.clone());
     }
+    #[cfg(not(feature = "data"))]
+    let _ = (table, is_whole);
+    #[cfg(feature = "data")]
+    known.tables.add(SourceTable {
+        name: table.unwrap_or(&layer.name).to_owned(),
+        content: match is_whole
+            && path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("gpkg"))
+        {
+            true => TableContent::GeoPackage { path, shown: name.to_owned(), layer: layer.name.clone() },
+            false => TableContent::Layer(Arc::clone(&layer)),
+        },
+    });
     Ok(layer)
 }
 

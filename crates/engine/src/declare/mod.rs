@@ -14,6 +14,8 @@ pub(crate) mod paths;
 mod positions;
 mod preset;
 mod session;
+#[cfg(feature = "data")]
+mod tables;
 
 pub(crate) use api::has_name;
 pub use api::{API_VERSION, api_version};

@@ -6,6 +6,7 @@ use std::sync::{Arc, LazyLock};
 use std::time::Duration;
 
 use super::Preset;
+use crate::questions::RowSource;
 use burgeon_base::stop::Stop;
 use burgeon_data::Cache;
 use burgeon_kit::Registry;
@@ -92,6 +93,8 @@ pub struct RunOptions {
     pub user_mods: Option<PathBuf>,
     /// Layers that earlier runs have read.
     pub cache: Option<Arc<Cache>>,
+    /// Answers what scripts ask in SQL, in place of the sources that they have loaded.
+    pub rows: Option<Arc<dyn RowSource>>,
     /// The types of objects that scripts can use.
     pub registry: Registry,
     /// A file in the place of the built-in standard library.
@@ -143,6 +146,7 @@ impl Default for RunOptions {
             mods: Vec::new(),
             user_mods: None,
             cache: None,
+            rows: None,
             registry: Registry::default(),
             stdlib: None,
             forgiving: false,

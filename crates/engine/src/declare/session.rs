@@ -8,13 +8,14 @@ use std::time::Duration;
 
 use rustc_hash::FxHashMap;
 
-use super::analysis::{Analysis, Globals, ScriptReader, has_metatables};
+use super::analysis::{Analysis, Globals, QueryCall, ScriptReader, has_metatables};
 use super::api::api_version;
 use super::data::Data;
 use super::deprecations::Deprecations;
 use super::options::RunOptions;
 use super::param::Param;
 use super::positions::RandomPositions;
+use crate::questions::{AskedRows, KeptRows, Question, RowSource, Rows};
 use burgeon_base::error::{Error, Limit, Result, SourcePlace};
 use burgeon_base::stop::Stop;
 use burgeon_base::warning::{Warning, Warnings};
@@ -97,6 +98,8 @@ pub struct Session {
     pub(super) used: Mutex<BTreeSet<String>>,
     /// The data files that were read.
     pub(crate) data: Data,
+    /// What was asked of them.
+    pub(crate) rows: KeptRows,
     /// How far its random numbers have got.
     pub(crate) drawn: RandomPositions,
     /// The names of methods that scripts have added to types of objects.
@@ -114,6 +117,8 @@ pub struct Session {
     /// Counts the shapes of the rules' returns.
     pub(crate) shapes: Arc<AtomicUsize>,
     randoms: AtomicBool,
+    /// Whether modules have been made that stand for others.
+    pending: AtomicBool,
     peeking: AtomicBool,
     metatables: AtomicBool,
     kept: Mutex<Vec<f64>>,
@@ -147,6 +152,7 @@ impl Session {
             packages,
             used: Mutex::default(),
             data: Data::default(),
+            rows: KeptRows::default(),
             drawn: RandomPositions::default(),
             extensions: Mutex::default(),
             stdlib,
@@ -159,6 +165,7 @@ impl Session {
             deprecated,
             shapes: Arc::default(),
             randoms: AtomicBool::new(false),
+            pending: AtomicBool::new(false),
             peeking: AtomicBool::new(false),
             metatables: AtomicBool::new(false),
             kept: Mutex::default(),
@@ -280,6 +287,12 @@ impl Session {
         self.source_called(file)?.analysis.lost.get(&line).copied()
     }
 
+    /// What the functions of rules ask of data that begin in a line of a file, as far as that can be seen.
+    pub(crate) fn queries(&self, file: &str, line: usize) -> Vec<QueryCall> {
+        let queries = self.source_called(file).and_then(|source| source.analysis.queries.get(&line).cloned());
+        queries.unwrap_or_default()
+    }
+
     /// How people find a file that was read.
     pub(crate) fn name_of(&self, path: &Path) -> String {
         let sources = self.sources.lock().unwrap_or_else(PoisonError::into_inner);
@@ -298,6 +311,34 @@ impl Session {
         self.randoms.fetch_or(analysis.random, Ordering::AcqRel);
         self.metatables.fetch_or(has_metatables(&analysis.text), Ordering::AcqRel);
         self.peeking.fetch_or(super::analysis::peeks(&analysis.text), Ordering::AcqRel);
+    }
+
+    /// Notes that a module has been made that stands for others.
+    pub(crate) fn note_pending(&self) {
+        self.pending.store(true, Ordering::Release);
+    }
+
+    /// Whether there may be modules that stand for others.
+    pub(crate) fn has_pending(&self) -> bool {
+        self.pending.load(Ordering::Acquire)
+    }
+
+    /// The rows that answer `question`, the same for as long as they are kept, which is to the end if the answer
+    /// `stays`.
+    pub(crate) fn ask(&self, question: &Question, stays: bool) -> Result<Arc<Rows>> {
+        let source: &dyn RowSource = match &self.options.rows {
+            Some(own) => &**own,
+            #[cfg(feature = "data")]
+            None => self,
+            #[cfg(not(feature = "data"))]
+            None => {
+                return Err(Error::unavailable("this program was built without databases")
+                    .help("build it with the feature data"));
+            }
+        };
+        let rows = self.rows.ask(question, &AskedRows { source, most: self.options.limits.modules, stays });
+        self.stop.check()?;
+        rows
     }
 
     /// Keeps the values that `params` names for the rest of the run.

@@ -5,6 +5,7 @@ use std::sync::Arc;
 use std::time::Instant;
 
 use super::interpret::InterpretationPass;
+use super::pending::{Resolution, resolve};
 use super::plan::{Derivation, DerivationPlan};
 use super::rewriter::SystemRewriter;
 use super::step::Stepper;
@@ -84,6 +85,9 @@ impl<'a> Growth<'a> {
         let (derivation, session) = (self.derivation, &self.machine.session);
         let plan = &derivation.plan;
         chain.mark(plan.batch, plan.grammar.arities());
+        if !session.options.check {
+            chain = self.resolve(chain, 0)?;
+        }
         let interprets = plan.objects.is_some() && !session.options.check;
         if session.options.check {
             plan.sketch()?;
@@ -99,6 +103,7 @@ impl<'a> Growth<'a> {
             session.stop.check()?;
             let outcome;
             (chain, outcome) = self.step(chain, done + 1)?;
+            chain = self.resolve(chain, done + 1)?;
             let still = !outcome.changed && derivation.draws_afresh && !plan.grammar.draws_random();
             if !outcome.ran || still {
                 break;
@@ -129,17 +134,36 @@ impl<'a> Growth<'a> {
     fn step(&mut self, chain: Chain, step: usize) -> Result<(Chain, StepChange)> {
         let begin = Instant::now();
         self.times.read += chain.symbols.len();
-        let before = match self.derivation.traced {
-            Some(TraceRequest { chain: Some(_), .. }) => chain.clone(),
-            _ => Chain::default(),
-        };
+        let before = self.noted(&chain);
         let outcome =
             self.stepper.step((self.machine, self.threads), &self.derivation.declared, chain, step)?;
         self.times.rewriting += begin.elapsed();
         if self.derivation.traced.is_some() {
-            self.steps.push(Step { chain: before, applied: outcome.applied });
+            let applied = outcome.applied;
+            self.steps.push(Step { number: step, chain: before, applied, answers: Vec::new() });
         }
         Ok((outcome.chain, StepChange { ran: outcome.ran, changed: outcome.changed }))
+    }
+
+    /// The chain for the lineage, if its modules will be asked for.
+    fn noted(&self, chain: &Chain) -> Chain {
+        match self.derivation.traced {
+            Some(TraceRequest { chain: Some(_), .. }) => chain.clone(),
+            _ => Chain::default(),
+        }
+    }
+
+    /// Puts in what modules of the chain stand for, as it is after `step` steps.
+    fn resolve(&mut self, chain: Chain, step: usize) -> Result<Chain> {
+        let begin = Instant::now();
+        let resolved = resolve((self.machine, self.threads), &self.derivation.plan, &chain, step)?;
+        let Some(Resolution { chain: made, applied, answers }) = resolved else { return Ok(chain) };
+        if self.derivation.traced.is_some() {
+            self.steps.push(Step { number: step, chain: self.noted(&chain), applied, answers });
+        }
+        self.stepper.reuse(chain);
+        self.times.rewriting += begin.elapsed();
+        Ok(made)
     }
 
     /// Has the chain interpreted as it stands after `step` steps, and gives it back.

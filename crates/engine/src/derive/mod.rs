@@ -15,6 +15,7 @@ mod group;
 mod interpret;
 mod lead;
 mod output;
+mod pending;
 mod plan;
 mod rewriter;
 mod splice;

@@ -1,15 +1,16 @@
 //! Applies the rules of a script's systems for objects that expand by themselves.
 
-use std::cell::RefCell;
+use std::cell::{RefCell, RefMut};
 use std::sync::Arc;
 
 use rustc_hash::FxHashMap;
 
+use super::pending::{Resolution, resolve};
 use super::plan::DerivationPlan;
 use super::step::{StepOutcome, Stepper};
 use super::threads::ThreadPool;
 use crate::machine::{Interpretations, Machine, SystemFunctions};
-use burgeon_base::error::Result;
+use burgeon_base::error::{Error, Result};
 use burgeon_kit::rules::{Chain, ModuleKey};
 use burgeon_kit::{RewriteOutcome, Rewriter, RuleSet};
 
@@ -25,6 +26,7 @@ pub(super) struct SystemRewriter<'a> {
 /// A system whose rules have been applied.
 struct Ready {
     declared: SystemFunctions,
+    plan: Arc<DerivationPlan>,
     stepper: Stepper,
 }
 
@@ -54,7 +56,17 @@ impl<'a> SystemRewriter<'a> {
             profiled: false,
         });
         let declared = self.machine.library.systems.borrow()[index].prepare(self.machine)?;
-        Ok(Ready { declared, stepper: Stepper::new(plan) })
+        Ok(Ready { declared, stepper: Stepper::new(Arc::clone(&plan)), plan })
+    }
+
+    /// System `index`, ready to be derived.
+    fn ready(&self, index: usize) -> Result<RefMut<'_, Ready>> {
+        if !self.ready.borrow().contains_key(&index) {
+            let ready = self.prepare(index)?;
+            self.ready.borrow_mut().insert(index, ready);
+        }
+        RefMut::filter_map(self.ready.borrow_mut(), |ready| ready.get_mut(&index))
+            .map_err(|_| Error::internal("a system is not ready"))
     }
 }
 
@@ -84,19 +96,27 @@ impl Rewriter for SystemRewriter<'_> {
         let random = self.rules(index)?.grammar.draws_random();
         let axiom =
             self.machine.library.systems.borrow()[index].axiom(self.machine, ModuleKey::default(), random)?;
-        self.axioms.borrow_mut().insert(index, axiom.chain.clone());
-        Ok(axiom.chain)
+        let plan = Arc::clone(&self.ready(index)?.plan);
+        let chain = match resolve((self.machine, self.threads), &plan, &axiom.chain, 0)? {
+            Some(resolution) => resolution.chain,
+            None => axiom.chain,
+        };
+        self.axioms.borrow_mut().insert(index, chain.clone());
+        Ok(chain)
     }
 
     fn rewrite(&self, index: usize, chain: Chain, step: usize) -> Result<RewriteOutcome> {
-        let mut ready = self.ready.borrow_mut();
-        let ready = match ready.entry(index) {
-            std::collections::hash_map::Entry::Occupied(entry) => entry.into_mut(),
-            std::collections::hash_map::Entry::Vacant(entry) => entry.insert(self.prepare(index)?),
-        };
-        let StepOutcome { chain, applied, .. } =
-            ready.stepper.step((self.machine, self.threads), &ready.declared, chain, step)?;
-        Ok(RewriteOutcome { chain, applied })
+        let ready = &mut *self.ready(index)?;
+        let threads = (self.machine, self.threads);
+        let StepOutcome { chain, applied, .. } = ready.stepper.step(threads, &ready.declared, chain, step)?;
+        Ok(match resolve(threads, &ready.plan, &chain, step)? {
+            Some(resolution) => {
+                ready.stepper.reuse(chain);
+                let applied = together(applied, &resolution);
+                RewriteOutcome { chain: resolution.chain, applied }
+            }
+            None => RewriteOutcome { chain, applied },
+        })
     }
 
     fn reuse(&self, index: usize, chain: Chain) {
@@ -108,4 +128,14 @@ impl Rewriter for SystemRewriter<'_> {
     fn check(&self) -> Result<()> {
         self.machine.session.stop.check()
     }
+}
+
+/// What rules have `applied`, with the number of symbols that there are once those that stood for others are resolved.
+fn together(applied: Vec<(u16, u32)>, resolution: &Resolution) -> Vec<(u16, u32)> {
+    let mut became = resolution.applied.iter();
+    let counted = applied.into_iter().map(|(rule, count)| {
+        let of_rule = became.by_ref().take(count as usize);
+        (rule, of_rule.map(|(_, count)| count).sum())
+    });
+    counted.collect()
 }

@@ -30,6 +30,7 @@ pub(crate) fn functions(lua: &Lua, current: &Rc<WorkState>, library: &Rc<Library
     add_applications(lua, &host, current)?;
     add_methods(lua, &host, current)?;
     add_script_objects(lua, &host, current)?;
+    super::questions::add_questions(lua, &host, current)?;
     Ok(host)
 }
 

@@ -19,7 +19,7 @@ use crate::declare::analysis::Globals;
 use crate::declare::{API_VERSION, Param, Print, has_name};
 use burgeon_base::error::{Error, Result, SourcePlace};
 use burgeon_base::warning::{Warning, WarningKind};
-use burgeon_kit::rules::{Signature, Symbol, Symbols};
+use burgeon_kit::rules::{FRAGMENT, QUERY, Signature, Symbol, Symbols};
 use burgeon_kit::{Construct, Kind};
 use burgeon_language::LOCKED;
 use burgeon_packages::FileName;
@@ -142,6 +142,7 @@ impl Library {
     /// Gives the machine its globals and runs the standard library.
     pub(crate) fn install(&self, machine: &Machine) -> Result<()> {
         self.install_names(machine).map_err(|error| machine.translate(error))?;
+        self.install_pending(machine).map_err(|error| machine.translate(error))?;
         self.note_names(machine.lua());
         let (name, chunk) = match machine.session.stdlib() {
             None => ("stdlib.lua", machine.load_compiled(&STANDARD_COMPILED)?),
@@ -176,6 +177,13 @@ impl Library {
             .filter_map(|name| Some((name.to_owned(), symbols.signature(symbols.find(name).ok()?).clone())))
             .collect();
         Ok(())
+    }
+
+    /// Gives the machine what makes modules that stand for others.
+    fn install_pending(&self, machine: &Machine) -> mlua::Result<()> {
+        let symbols = self.symbols.borrow();
+        let [query, fragment] = [QUERY, FRAGMENT].map(|symbol| machine.constructor(&symbols, symbol));
+        machine.prelude().pending.call((query?, fragment?))
     }
 
     /// Makes native code of the standard library once a script that names one of its functions is loaded.

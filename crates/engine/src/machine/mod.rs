@@ -12,6 +12,7 @@ mod host;
 mod library;
 mod prelude;
 mod protected;
+mod questions;
 mod require;
 mod system;
 mod types;

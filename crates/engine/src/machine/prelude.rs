@@ -11,21 +11,29 @@ use crate::machine::types::POINTS;
 const TEMPLATE: &str = include_str!("prelude.luau");
 /// The part of it that is about types of objects of scripts.
 const SCRIPT_TYPES: &str = include_str!("types/script_types.luau");
+/// The part of it that is about questions to data.
+const QUESTIONS: &str = include_str!("questions.luau");
 
 /// The template written out and compiled, once for all machines.
 static COMPILED: LazyLock<Vec<u8>> = LazyLock::new(|| {
-    super::compile(&expand(&TEMPLATE.replace("--@include script_types.luau", SCRIPT_TYPES)))
+    let parts = [("script_types", SCRIPT_TYPES), ("questions", QUESTIONS)];
+    let whole = parts.iter().fold(TEMPLATE.to_owned(), |text, (name, part)| {
+        text.replace(&format!("--@include {name}.luau"), part)
+    });
+    super::compile(&expand(&whole))
 });
 
 /// The functions of `prelude.luau` that Rust calls.
 pub(crate) struct Prelude {
     /// `(symbol, signature)`: a module's constructor.
     pub constructor: Function,
-    /// `(rule, arity)`: a function that applies the rule to a batch.
+    /// `(query, fragment)`: the constructors of the modules that stand for others.
+    pub pending: Function,
+    /// `(rule, arity, places)`: a function that applies the rule to a batch; `places` are those of its arguments by name.
     pub driver: Function,
-    /// `(guard, arity)`: a function that asks the guard about a batch.
+    /// `(guard, arity, places)`: a function that asks the guard about a batch.
     pub guard_driver: Function,
-    /// `(id, rule, arity)`: sets an interpretation rule.
+    /// `(id, rule, arity, places)`: sets an interpretation rule.
     pub interpreter: Function,
     /// `(method, name, arity)`: a method that records its calls.
     pub recorder: Function,
@@ -80,6 +88,7 @@ impl Prelude {
     pub(super) fn new(table: &Table) -> mlua::Result<Self> {
         Ok(Self {
             constructor: table.get("constructor")?,
+            pending: table.get("pending")?,
             driver: table.get("driver")?,
             guard_driver: table.get("guard_driver")?,
             interpreter: table.get("interpreter")?,

@@ -15,5 +15,6 @@ pub use layers::layers;
 pub(crate) use records::SourceFeatures;
 pub use remark::{FeatureReport, Remark};
 pub use trace::{Ancestor, Module, RuleName, RuleProducts, Trace};
+pub(crate) use trace::{PendingAnswer, RESOLVED};
 pub(crate) use trace::{Step, around};
 pub use uses::Use;

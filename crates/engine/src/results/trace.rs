@@ -6,19 +6,35 @@
 use std::sync::Arc;
 
 use burgeon_base::error::{SourcePlace, shortened};
-use burgeon_kit::rules::{Chain, END, Symbol, Symbols, Values, module_brief};
+use burgeon_kit::rules::{Chain, END, QUERY, Symbol, Symbols, Values, module_brief};
 use burgeon_kit::{Makers, RewriteOutcome};
 
 /// Characters of a parameter that people are shown.
 const SHOWN: usize = 2000;
 
+/// In place of a rule's number: what a module stood for took its place.
+pub(crate) const RESOLVED: u16 = RewriteOutcome::NONE - 1;
+
+/// What took the place of a module that stood for others, in words.
+pub(crate) struct PendingAnswer {
+    /// Its place in the chain.
+    pub symbol: usize,
+    pub text: String,
+    /// The line that made the module.
+    pub place: Option<SourcePlace>,
+}
+
 /// How the symbols of a chain became those of the next.
 #[derive(Default)]
 pub(crate) struct Step {
+    /// The number of the derivation step, 0 for the axiom.
+    pub number: usize,
     /// The chain before the step; left empty where all chains are traced, whose modules nobody looks at.
     pub chain: Chain,
     /// For each symbol of that chain: the rule that ran, or none, and how many symbols came of it.
     pub applied: Vec<(u16, u32)>,
+    /// What took the places of modules that stood for others, in the order of the chain.
+    pub answers: Vec<PendingAnswer>,
 }
 
 /// A rule as people see it.
@@ -48,8 +64,11 @@ pub struct Ancestor {
     pub step: usize,
     /// The module.
     pub module: Module,
-    /// The rule that made it; `None` for the axiom's.
+    /// The rule that made it, or that asked for it; `None` for the axiom's, and for a part of another module.
     pub rule: Option<RuleName>,
+    /// What it came of where it took the place of a module that stood for others, such as a query with its values and
+    /// the number of its rows, and the line that made that module.
+    pub answer: Option<RuleName>,
     /// Its number among the modules that came of the same application, from 0.
     pub ordinal: usize,
 }
@@ -160,23 +179,29 @@ impl Trace {
     pub fn path(&self, index: usize) -> Vec<Ancestor> {
         let mut path = Vec::new();
         let mut here = index;
-        for (number, step) in self.steps.iter().enumerate().rev() {
+        for (place, step) in self.steps.iter().enumerate().rev() {
             let Some((parent, begin)) = parent(&step.applied, here) else { return path };
             let rule = step.applied[parent].0;
             if rule != RewriteOutcome::NONE {
-                let after = self.steps.get(number + 1).map_or(&self.chain, |next| &next.chain);
+                let after = self.steps.get(place + 1).map_or(&self.chain, |next| &next.chain);
                 let before = after.symbols[begin..here].iter().filter(|symbol| **symbol > END);
-                if let Some(module) = self.module_of(after, here) {
-                    let rule = self.rules.get(usize::from(rule)).cloned();
-                    path.push(Ancestor { step: number + 1, module, rule, ordinal: before.count() });
+                let rule = self.rules.get(usize::from(rule)).cloned();
+                if stands_for_rows(after, here) {
+                    // What took its place is told of, and that this rule asked for it.
+                    path.last_mut().into_iter().for_each(|rows: &mut Ancestor| rows.rule.clone_from(&rule));
+                } else if let Some(module) = self.module_of(after, here) {
+                    let answer = step.answers.iter().find(|answer| answer.symbol == parent);
+                    let answer = answer
+                        .map(|answer| RuleName { text: answer.text.clone(), place: answer.place.clone() });
+                    path.push(Ancestor { step: step.number, module, rule, answer, ordinal: before.count() });
                 }
             }
             here = parent;
         }
         let first = self.steps.first().map_or(&self.chain, |step| &step.chain);
-        if let Some(module) = self.module_of(first, here) {
+        if let Some(module) = self.module_of(first, here).filter(|_| !stands_for_rows(first, here)) {
             let before = first.symbols[..here].iter().filter(|symbol| **symbol > END).count();
-            path.push(Ancestor { step: 0, module, rule: None, ordinal: before });
+            path.push(Ancestor { step: 0, module, rule: None, answer: None, ordinal: before });
         }
         path.reverse();
         path
@@ -251,6 +276,11 @@ enum LineSubject {
     Axiom,
     Rule(u16),
     Interpretation(u16),
+}
+
+/// Whether the module at place `index` of a chain is a query.
+fn stands_for_rows(chain: &Chain, index: usize) -> bool {
+    chain.symbols.get(index) == Some(&QUERY)
 }
 
 /// The symbol that became the one at `index` after a step, and where the symbols that came of it begin.

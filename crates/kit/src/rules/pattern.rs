@@ -46,6 +46,23 @@ impl Pattern {
         PatternReader { text, at: 0, depth: 0, symbols, formals: Vec::new() }.pattern()
     }
 
+    /// The names of the values that the functions of a rule are given besides `this`, each with its place among them:
+    /// the formal parameters, and those of the predecessor as its module was declared where no formal one is called so.
+    pub fn arguments<'a>(&'a self, symbols: &'a Symbols) -> Vec<(usize, &'a str)> {
+        let formals = self.formals.iter().map(String::as_str);
+        let own: usize = self.left.iter().map(|item| item.bound).sum();
+        let declared =
+            symbols.signature(self.predecessor.symbol).parameters.iter().take(self.predecessor.bound);
+        let declared = (own..).zip(declared.map(String::as_str));
+        let mut arguments: Vec<(usize, &str)> = formals.enumerate().collect();
+        for (place, name) in declared {
+            if !self.formals.iter().any(|formal| formal == name) {
+                arguments.push((place, name));
+            }
+        }
+        arguments
+    }
+
     /// The context modules in the order in which [`Bindings`](super::matching::Bindings) lists them.
     pub fn context_items(&self) -> Vec<Item> {
         fn flatten(contexts: &[Context], items: &mut Vec<Item>) {

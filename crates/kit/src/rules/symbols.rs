@@ -2,11 +2,18 @@
 
 use rustc_hash::FxHashMap;
 
-use super::chain::Symbol;
+use super::chain::{END, Symbol};
 use burgeon_base::error::{Error, Limit, Result};
 
-/// The first number that a declared symbol may have; those below are the brackets and the end of a chain.
-pub const FIRST_SYMBOL: Symbol = 3;
+/// A module that stands for those that the rows of a query give: the text of SQL, the name of the modules, the values
+/// of the text's parameters, and the line of the script.
+pub const QUERY: Symbol = END + 1;
+/// A module that stands for the parts of what is to its left: the name of the modules, and the line of the script.
+pub const FRAGMENT: Symbol = END + 2;
+
+/// The first number that a declared symbol may have; those below are the brackets, the end of a chain, and the modules
+/// that stand for others. No rule ever sees these, so no pattern can name them.
+pub const FIRST_SYMBOL: Symbol = FRAGMENT + 1;
 
 /// The largest number of modules that a script may declare, those of the standard library among them.
 const MOST_MODULES: usize = 65_000;
@@ -100,11 +107,26 @@ fn is_name(text: &str) -> bool {
 }
 
 /// All declared modules. A symbol is a place in this list.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone)]
 pub struct Symbols {
+    /// Those of [`QUERY`] and [`FRAGMENT`], then the declared ones.
     signatures: Vec<Signature>,
     by_name: FxHashMap<String, Symbol>,
+    /// How many of the declared ones are the standard library's.
     standard: usize,
+}
+
+impl Default for Symbols {
+    fn default() -> Self {
+        let signature = |name: &str, parameters: &[&str], required| Signature {
+            name: name.to_owned(),
+            parameters: parameters.iter().map(|&parameter| parameter.to_owned()).collect(),
+            required,
+        };
+        let query = signature("query", &["sql", "module", "values", "line"], 2);
+        let fragment = signature("fragment", &["module", "line"], 1);
+        Self { signatures: vec![query, fragment], by_name: FxHashMap::default(), standard: 0 }
+    }
 }
 
 impl Symbols {
@@ -123,7 +145,7 @@ impl Symbols {
                     .help("declare it once, or give the other module another name"));
             }
         }
-        let symbol = u16::try_from(self.signatures.len() + usize::from(FIRST_SYMBOL)).ok();
+        let symbol = u16::try_from(self.signatures.len() + usize::from(QUERY)).ok();
         let symbol = symbol.filter(|_| self.signatures.len() < MOST_MODULES).ok_or_else(|| {
             Error::limit(Limit::Size, "more than 65,000 modules are declared")
                 .help("declare fewer, and tell them apart by a parameter")
@@ -135,7 +157,7 @@ impl Symbols {
 
     /// Marks what is declared so far as the standard library's.
     pub fn end_of_standard(&mut self) {
-        self.standard = self.signatures.len();
+        self.standard = self.declared().len();
     }
 
     /// Whether `symbol` is one of the standard library's.
@@ -153,19 +175,23 @@ impl Symbols {
 
     /// The declared names, in the order of their declaration.
     pub fn names(&self) -> impl Iterator<Item = &str> {
-        self.signatures.iter().map(|signature| signature.name.as_str())
+        self.declared().iter().map(|signature| signature.name.as_str())
     }
 
-    /// How `symbol` was declared; `symbol` is one that [`Symbols::declare`] gave.
+    fn declared(&self) -> &[Signature] {
+        self.signatures.get(usize::from(FIRST_SYMBOL - QUERY)..).unwrap_or_default()
+    }
+
+    /// How `symbol` was declared; `symbol` is one that [`Symbols::declare`] gave, or one that stands for others.
     pub fn signature(&self, symbol: Symbol) -> &Signature {
-        &self.signatures[usize::from(symbol - FIRST_SYMBOL)]
+        &self.signatures[usize::from(symbol - QUERY)]
     }
 
     /// The number of parameters by symbol, brackets included.
     pub fn arities(&self) -> Vec<u8> {
         let declared =
             self.signatures.iter().map(|signature| u8::try_from(signature.arity()).unwrap_or(u8::MAX));
-        [0; FIRST_SYMBOL as usize].into_iter().chain(declared).collect()
+        [0; QUERY as usize].into_iter().chain(declared).collect()
     }
 }
 

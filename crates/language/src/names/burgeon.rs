@@ -9,7 +9,10 @@ use crate::form::argument;
 
 /// All of them.
 pub(super) fn names() -> Vec<Name> {
-    let shared = [&*PARAM, &OBJECT, &EXTEND, &LSYSTEM, &SYSTEM, &RULE, &DERIVED, &SOURCE, &LAYER, &VECTOR];
+    let shared = [
+        &*PARAM, &OBJECT, &EXTEND, &LSYSTEM, &SYSTEM, &RULE, &DERIVED, &SOURCE, &LAYER, &QUERY, &FRAGMENT,
+        &VECTOR,
+    ];
     let mut names: Vec<Name> = shared.into_iter().cloned().collect();
     names.extend([
         Name::global(
@@ -330,6 +333,12 @@ pub static SOURCE: LazyLock<Name> = LazyLock::new(|| {
                             "nil",
                             "The layer, if its name does not stand behind a colon.",
                         ),
+                        field(
+                            "table",
+                            "string?",
+                            "nil",
+                            "What query calls it, in place of its layer's name.",
+                        ),
                     ],
                 ),
             ],
@@ -351,6 +360,33 @@ pub static LAYER: LazyLock<Name> = LazyLock::new(|| {
             Field::new("crs", "string?", "The coordinate system of the file."),
             metres("origin", "{ number }?", "Where the run's origin is in its projection (m)."),
         ])
+});
+
+/// What is asked of data.
+static QUERY: LazyLock<Name> = LazyLock::new(|| {
+    let sql = || argument("sql", "string");
+    let values = || argument("values", "{ [string]: any }?");
+    Name::global(
+        "query",
+        "Asks the sources that the script has loaded, as tables called as their layers are, in SQL. With what makes a \
+         module it stands for a module for each row, with the columns as parameters, which take its place before the next \
+         step begins; without, it gives the rows. $name in the text is a value of that name, or else the parameter of the \
+         rule that is called so.",
+    )
+    .form([sql(), argument("module", "(...any) -> Module"), values()], "Module")
+    .form([sql(), values()], "{ { [string]: any } }")
+    .pure()
+});
+
+/// What takes geometries apart.
+static FRAGMENT: LazyLock<Name> = LazyLock::new(|| {
+    Name::global(
+        "fragment",
+        "Stands for a module for each part of what is to its left, whose place they take before the next step begins, \
+         with its parameters: a collection's geometries, a polygon's rings, a line's segments, a segment's points.",
+    )
+    .form([argument("module", "(...any) -> Module")], "Module")
+    .pure()
 });
 
 /// What a vector has.

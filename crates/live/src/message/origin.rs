@@ -87,6 +87,9 @@ pub struct StepMessage {
     pub line: usize,
     /// Its number among the modules of the same application, from 0.
     pub ordinal: usize,
+    /// The query or the fragmentation whose place it took, with values and the number of rows; none where a rule made it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub answer: Option<String>,
 }
 
 /// A piece of a chain as text.

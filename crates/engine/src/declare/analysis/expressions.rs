@@ -163,6 +163,7 @@ impl Walk<'_> {
 
     pub(super) fn call(&mut self, call: &FunctionCall) {
         self.called(call);
+        self.query_called(call);
         let suffixes: Vec<&Suffix> = call.suffixes().collect();
         self.library_field(call.prefix(), suffixes.first().copied());
         if let (Prefix::Name(name), [Suffix::Call(Call::AnonymousCall(arguments))]) =

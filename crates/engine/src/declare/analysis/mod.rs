@@ -12,10 +12,12 @@ mod inference;
 mod peeks;
 mod prepare;
 mod pure;
+mod queries;
 mod script;
 mod syntax;
 mod walk;
 
 pub(crate) use peeks::peeks;
 pub(crate) use pure::has_metatables;
+pub(crate) use queries::QueryCall;
 pub(crate) use script::{Analysis, Globals, ScriptReader, analyse, unmarked};

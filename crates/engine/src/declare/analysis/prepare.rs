@@ -158,6 +158,13 @@ impl Walk<'_> {
                 self.lost.insert(begin.line(), line);
             }
             self.begins.push(begin.bytes());
+            match self.functions.last_mut() {
+                Some(outer) if role == FunctionRole::Other && outer.role != FunctionRole::Script => {
+                    outer.queries.extend(function.queries.iter().cloned());
+                }
+                _ if role == FunctionRole::Other => {}
+                _ => self.queries.entry(begin.line()).or_default().extend(function.queries.iter().cloned()),
+            }
         }
         function
     }

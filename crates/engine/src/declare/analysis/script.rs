@@ -6,6 +6,7 @@ use std::sync::atomic::AtomicUsize;
 use std::sync::mpsc::{Receiver, Sender, channel};
 use std::time::Duration;
 
+use super::queries::QueryCall;
 use super::walk::{Facts, Walk};
 use burgeon_base::error::{Error, Limit, SourcePlace};
 use burgeon_kit::rules::Signature;
@@ -48,6 +49,8 @@ pub(crate) struct Analysis {
     pub blind: Vec<usize>,
     /// By the line on which an interpretation begins: where it returns modules.
     pub lost: BTreeMap<usize, usize>,
+    /// By the line on which a function of a rule begins: what it asks of data, as far as that can be seen.
+    pub queries: BTreeMap<usize, Vec<QueryCall>>,
     /// The names that will go, and the lines on which they stand.
     pub deprecated: Vec<(String, usize)>,
     /// The texts that may name files of packages, and their lines.
@@ -143,7 +146,8 @@ fn read(file: &str, text: &str, globals: &Receiver<Globals>) -> Analysis {
     first.run(&ast);
     let mut second = Walk::new(file, globals, std::mem::take(&mut first.facts));
     second.run(&ast);
-    let Walk { mut edits, mut problems, random, pure, mut blind, lost, begins, deprecated, .. } = second;
+    let Walk { mut edits, mut problems, random, pure, mut blind, lost, queries, begins, deprecated, .. } =
+        second;
     // Luau knows functions by the line of their first word, which is then another.
     let is_apart =
         |begin: &usize| text[..*begin].rsplit('\n').next().is_some_and(|head| head.trim().is_empty());
@@ -170,7 +174,7 @@ fn read(file: &str, text: &str, globals: &Receiver<Globals>) -> Analysis {
     }
     out.push_str(&text[at..]);
     let packages = package_names(&ast);
-    Analysis { text: out, problems, random, pure, blind, lost, deprecated, packages }
+    Analysis { text: out, problems, random, pure, blind, lost, queries, deprecated, packages }
 }
 
 /// The texts of a script that begin as the names of packages' files do, and their lines.

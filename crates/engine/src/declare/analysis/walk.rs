@@ -8,6 +8,7 @@ use full_moon::node::Node;
 use full_moon::tokenizer::TokenReference;
 
 use super::Globals;
+use super::queries::QueryCall;
 use super::syntax::{declared_module, end_of, first_position, instead_of, text_of};
 use burgeon_base::error::{Error, SourcePlace};
 use burgeon_kit::rules::Signature;
@@ -47,11 +48,13 @@ pub(super) struct Function {
     pub(super) asks: bool,
     /// The first of its returns that gives modules, where nobody takes them.
     pub(super) loses: Option<usize>,
+    /// What it asks of data, as far as that can be seen.
+    pub(super) queries: Vec<QueryCall>,
 }
 
 impl Function {
     pub(super) fn new(role: FunctionRole, rule: Option<String>) -> Self {
-        Self { role, rule, shapes: Vec::new(), pure: true, asks: false, loses: None }
+        Self { role, rule, shapes: Vec::new(), pure: true, asks: false, loses: None, queries: Vec::new() }
     }
 }
 
@@ -95,6 +98,8 @@ pub(super) struct Walk<'a> {
     pub(super) blind: BTreeMap<usize, bool>,
     /// By line: where an interpretation that begins there returns modules.
     pub(super) lost: BTreeMap<usize, usize>,
+    /// By the line on which a function of a rule begins: what it asks of data.
+    pub(super) queries: BTreeMap<usize, Vec<QueryCall>>,
     /// Where the parameters of functions begin.
     pub(super) begins: Vec<usize>,
     /// The names that will go, and their lines.
@@ -118,6 +123,7 @@ impl<'a> Walk<'a> {
             pure: BTreeMap::new(),
             blind: BTreeMap::new(),
             lost: BTreeMap::new(),
+            queries: BTreeMap::new(),
             begins: Vec::new(),
             deprecated: Vec::new(),
         }

@@ -6,10 +6,11 @@ use std::sync::Arc;
 use crate::machine::Machine;
 use crate::machine::freeze::{ReachableFunction, TableFreeze, freeze};
 use crate::machine::library::Library;
+use crate::machine::questions::argument_places;
 use crate::machine::types::methods_key;
 use burgeon_base::error::{Result, SourcePlace};
 use burgeon_kit::Object;
-use burgeon_kit::rules::{CLOSE, END, FIRST_SYMBOL, Grammar, OPEN, Rule, Symbol};
+use burgeon_kit::rules::{CLOSE, END, FIRST_SYMBOL, Grammar, OPEN, Pattern, Rule, Symbol};
 use burgeon_scene::CityClass;
 use mlua::{Function, Table, Value as LuaValue};
 
@@ -67,10 +68,8 @@ pub(crate) struct DeclaredRule {
 }
 
 pub(crate) struct DeclaredInterpretation {
-    pub(crate) symbol: Symbol,
-    pub(crate) bound: usize,
+    pub(crate) pattern: Pattern,
     pub(crate) rule: Function,
-    pub(crate) name: String,
     pub(crate) place: Option<SourcePlace>,
     /// Whether it has been told already that it returns modules.
     pub(crate) loses: bool,
@@ -149,12 +148,13 @@ impl SystemDeclaration {
                 methods[usize::from(standard.symbol)] = u16::try_from(standard.method).unwrap_or(u16::MAX);
             }
             for (index, known) in (0u16..).zip(&self.interpretations) {
-                by_symbol[usize::from(known.symbol)] = index;
-                methods[usize::from(known.symbol)] = u16::MAX;
-                let DeclaredInterpretation { bound, name, place, loses, .. } = known;
+                let DeclaredInterpretation { pattern, place, loses, .. } = known;
+                let item = pattern.predecessor;
+                by_symbol[usize::from(item.symbol)] = index;
+                methods[usize::from(item.symbol)] = u16::MAX;
                 list.push(Interpretation {
-                    bound: *bound,
-                    name: name.clone(),
+                    bound: item.bound,
+                    name: pattern.text.clone(),
                     place: place.clone(),
                     loses: *loses,
                 });
@@ -217,7 +217,9 @@ impl SystemDeclaration {
         prelude.fresh_interpreters.call::<()>(())?;
         if self.object.is_some() {
             for (index, known) in self.interpretations.iter().enumerate() {
-                prelude.interpreter.call::<()>((index, &known.rule, known.bound))?;
+                let pattern = &known.pattern;
+                let places = argument_places(lua, pattern, &machine.library.symbols.borrow())?;
+                prelude.interpreter.call::<()>((index, &known.rule, pattern.predecessor.bound, places))?;
             }
         }
         if let Some(of) = of {
@@ -246,7 +248,9 @@ impl SystemDeclaration {
         let mut guards = Vec::new();
         for declared in &self.rules {
             let arity = declared.rule.arguments();
-            drivers.push(prelude.driver.call((&declared.successor, arity))?);
+            let symbols = machine.library.symbols.borrow();
+            let places = argument_places(machine.lua(), &declared.rule.pattern, &symbols)?;
+            drivers.push(prelude.driver.call((&declared.successor, arity, &places))?);
             let reach = |function: &Function| ReachableFunction {
                 function: function.clone(),
                 name: declared.rule.pattern.text.clone(),
@@ -256,7 +260,7 @@ impl SystemDeclaration {
             guards.push(match &declared.guard {
                 Some(guard) => {
                     reached.push(reach(guard));
-                    Some(prelude.guard_driver.call((guard, arity))?)
+                    Some(prelude.guard_driver.call((guard, arity, places))?)
                 }
                 None => None,
             });
@@ -264,7 +268,7 @@ impl SystemDeclaration {
         for known in self.interpretations.iter().filter(|_| self.object.is_some()) {
             reached.push(ReachableFunction {
                 function: known.rule.clone(),
-                name: known.name.clone(),
+                name: known.pattern.text.clone(),
                 place: known.place.clone(),
             });
         }

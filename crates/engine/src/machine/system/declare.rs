@@ -3,7 +3,7 @@
 use mlua::{Function, Lua, Table, Value as LuaValue};
 
 use crate::declare::Session;
-use crate::declare::analysis::{analyse, unmarked};
+use crate::declare::analysis::{QueryCall, analyse, unmarked};
 use crate::machine::Machine;
 use crate::machine::convert::to_value;
 use crate::machine::library::Library;
@@ -11,7 +11,7 @@ use burgeon_base::error::{Error, Limit, Result, SourcePlace};
 use burgeon_base::text::grouped;
 use burgeon_base::warning::{Warning, WarningKind};
 use burgeon_kit::Value;
-use burgeon_kit::rules::{FIRST_SYMBOL, MOST_RULES, Pattern, Rule, Symbol};
+use burgeon_kit::rules::{FIRST_SYMBOL, MOST_RULES, Pattern, Rule, Symbol, Symbols};
 use burgeon_language::RULE;
 
 use super::{DeclaredAxiom, DeclaredInterpretation, DeclaredRule, SourceHandle, SystemDeclaration};
@@ -76,6 +76,7 @@ impl SystemDeclaration {
         let (successor, mut asks) = match arguments.pop() {
             Some(LuaValue::Function(function)) => {
                 check_parameters(&function, &pattern, "the successor").map_err(named)?;
+                check_queries(library, &function, &pattern).map_err(named)?;
                 let asks = may_ask(&session, &function);
                 (function, asks)
             }
@@ -93,6 +94,7 @@ impl SystemDeclaration {
         };
         if let Some(guard) = &guard {
             check_parameters(guard, &pattern, "the guard").map_err(named)?;
+            check_queries(library, guard, &pattern).map_err(named)?;
             asks |= may_ask(&session, guard);
         }
         let rule = Rule::new(pattern, weight, guard.is_some(), place);
@@ -122,8 +124,11 @@ impl SystemDeclaration {
             return Err(Error::argument("an interpretation needs a function").rule(&name).help(usage));
         };
         check_parameters(&rule, &pattern, "the interpretation").map_err(|error| error.rule(&name))?;
+        check_queries(library, &rule, &pattern).map_err(|error| error.rule(&name))?;
         let item = pattern.predecessor;
-        if let Some(known) = self.interpretations.iter().find(|known| known.symbol == item.symbol) {
+        if let Some(known) =
+            self.interpretations.iter().find(|known| known.pattern.predecessor.symbol == item.symbol)
+        {
             let line = known.place.as_ref().map_or(String::new(), |place| format!(" in line {}", place.line));
             return Err(Error::script(format!("{name} is interpreted already{line}"))
                 .rule(&name)
@@ -137,8 +142,8 @@ impl SystemDeclaration {
         if loses {
             machine.warn(returns_modules().at(line).rule(format!("{name} (interpretation)")));
         }
-        let (symbol, bound, place) = (item.symbol, item.bound, Machine::place(lua));
-        self.interpretations.push(DeclaredInterpretation { symbol, bound, rule, name, place, loses });
+        let place = Machine::place(lua);
+        self.interpretations.push(DeclaredInterpretation { pattern, rule, place, loses });
         Ok(())
     }
 }
@@ -206,6 +211,27 @@ fn check_parameters(function: &Function, pattern: &Pattern, what: &str) -> Resul
     Ok(())
 }
 
+/// Refuses questions of a function to data whose parameters have no value.
+fn check_queries(library: &Library, function: &Function, pattern: &Pattern) -> Result<()> {
+    let Some((file, line)) = begin_of(function) else { return Ok(()) };
+    let queries = library.machine()?.session.queries(&file, line);
+    check_open(&queries, &file, pattern, &library.symbols.borrow())
+}
+
+/// Refuses the first parameter of `queries`, which stand in `file`, that is not among the arguments of `pattern`.
+fn check_open(queries: &[QueryCall], file: &str, pattern: &Pattern, symbols: &Symbols) -> Result<()> {
+    let arguments = pattern.arguments(symbols);
+    let mut open = queries.iter().flat_map(|query| query.open.iter().map(move |name| (query.line, name)));
+    let is_unknown = |name: &str| !arguments.iter().any(|(_, argument)| *argument == name);
+    let Some((line, name)) = open.find(|(_, name)| is_unknown(name)) else { return Ok(()) };
+    let names = arguments.iter().map(|(_, argument)| *argument);
+    let error = Error::not_found("parameter", name, names, format!("${name} of the query has no value"));
+    let place = SourcePlace { file: file.to_owned(), line };
+    Err(error.at(Some(place)).help(format!(
+        "it is no parameter of the rule's pattern; name it there, or give it a value: query(sql, {{ {name} = ... }})"
+    )))
+}
+
 /// Compiles a successor given as a string of Lua, with the formal parameters, `this` and all modules in scope; tells
 /// whether it may look at `this`.
 fn compile_successor(
@@ -245,6 +271,8 @@ fn compile_successor(
     if !analysis.problems.is_empty() {
         return Err(Error::several(analysis.problems));
     }
+    let queries: Vec<QueryCall> = analysis.queries.values().flatten().cloned().collect();
+    check_open(&queries, file, pattern, &library.symbols.borrow())?;
     let text = analysis.text.replacen("lsystem:rule(\"\", ", "return (", 1);
     let chunk = machine.load(file, &text)?;
     let successor: Function = chunk.call(()).map_err(|error| machine.translate(error))?;

@@ -28,10 +28,11 @@ impl SourceHandle {
             (LuaValue::Table(_), _) => Err(Error::argument("a list of features takes no options")
                 .help("choose among them in Lua: where, limit and the like are for files")),
             (LuaValue::String(text), Value::Nil) => {
-                Self::load(machine, &text.to_string_lossy(), SourceOptions::default())
+                Self::load(machine, &text.to_string_lossy(), SourceOptions::default(), None)
             }
             (LuaValue::String(text), Value::Table(options)) => {
-                Self::load(machine, &text.to_string_lossy(), wanted(options)?)
+                let (wanted, table) = wanted(options)?;
+                Self::load(machine, &text.to_string_lossy(), wanted, table.as_deref())
             }
             (LuaValue::String(_), other) => {
                 Err(Error::argument(format!("source takes a table of options, not {}", other.describe()))
@@ -42,9 +43,9 @@ impl SourceHandle {
         }
     }
 
-    fn load(machine: &Machine, text: &str, wanted: SourceOptions) -> Result<Self> {
+    fn load(machine: &Machine, text: &str, wanted: SourceOptions, table: Option<&str>) -> Result<Self> {
         let asker = Machine::asker(machine.lua(), &machine.session);
-        let layer = machine.session.data.load(&machine.session, asker, text, wanted)?;
+        let layer = machine.session.data.load(&machine.session, asker, text, wanted, table)?;
         layer.warnings().into_iter().for_each(|warning| machine.warn(warning));
         Ok(Self::Layer(layer))
     }
@@ -291,9 +292,9 @@ pub(super) fn nested(lua: &Lua, value: &serde_json::Value) -> mlua::Result<LuaVa
     })
 }
 
-/// The options of `source`.
-fn wanted(options: &ValueTable) -> Result<SourceOptions> {
-    let mut wanted = SourceOptions::default();
+/// The options of `source`, and what statements call it.
+fn wanted(options: &ValueTable) -> Result<(SourceOptions, Option<String>)> {
+    let (mut wanted, mut table) = (SourceOptions::default(), None);
     for (key, value) in &options.entries {
         let name = match key {
             burgeon_kit::TableKey::Name(name) => name,
@@ -320,6 +321,7 @@ fn wanted(options: &ValueTable) -> Result<SourceOptions> {
             "where" => wanted.condition = text("\"height > 10\"")?,
             "limit" => wanted.limit = Some(whole("100")? as usize),
             "id" => wanted.id = text("\"name\"")?,
+            "table" => table = text("\"houses\"")?,
             "layer" => wanted.layer = text("\"buildings\"")?,
             "crs" => wanted.crs = Some(whole("3067")?),
             "tags" => wanted.tags = Some(super::tags::filter(value)?),
@@ -342,7 +344,7 @@ fn wanted(options: &ValueTable) -> Result<SourceOptions> {
             }
         }
     }
-    Ok(wanted)
+    Ok((wanted, table))
 }
 
 /// West, south, east and north.

@@ -30,7 +30,7 @@ impl SystemDeclaration {
         if let (None, Some(first)) = (&self.object, self.interpretations.first()) {
             let text = "the system has no object, so its interpretations are never run";
             let warning = Warning::new(WarningKind::NoObject, text);
-            let warning = warning.rule(format!("{} (interpretation)", first.name));
+            let warning = warning.rule(format!("{} (interpretation)", first.pattern.text));
             machine.warn(
                 warning.at(first.place.clone()).help("give it one, such as lsystem({ object = turtle() })"),
             );
@@ -92,7 +92,7 @@ impl SystemDeclaration {
         let (kind, is_a) = (&of.name, |known: &StandardInterpretation| of.is_a(&known.kind));
         let (symbols, standard) = (library.symbols.borrow(), library.standard.borrow());
         let signature = symbols.signature(symbol);
-        if self.interpretations.iter().any(|known| known.symbol == symbol)
+        if self.interpretations.iter().any(|known| known.pattern.predecessor.symbol == symbol)
             || standard.iter().any(|known| known.symbol == symbol && is_a(known))
         {
             return None;

@@ -1,0 +1,95 @@
+//! Finds the questions to data that stand in the functions of rules as text, so that a parameter without a value is
+//! found before the rule runs.
+
+use full_moon::ast::{Call, Expression, Field, FunctionArgs, FunctionCall, Prefix, Suffix};
+use full_moon::node::Node;
+
+use super::syntax::{string_of, text_of};
+use super::walk::Walk;
+use crate::questions::sql_parameters;
+
+/// A call of `query` in a function of a rule.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) struct QueryCall {
+    /// Its line.
+    pub line: usize,
+    /// The parameters of its text to which the call itself gives no value.
+    pub open: Vec<String>,
+}
+
+impl Walk<'_> {
+    /// Notes a call of `query` if all that it gives can be seen.
+    pub(super) fn query_called(&mut self, call: &FunctionCall) {
+        let suffixes: Vec<&Suffix> = call.suffixes().collect();
+        let (Prefix::Name(name), [Suffix::Call(Call::AnonymousCall(arguments))]) =
+            (call.prefix(), suffixes.as_slice())
+        else {
+            return;
+        };
+        if text_of(name) != "query" || self.find("query").is_some() {
+            return;
+        }
+        let (FunctionArgs::Parentheses { arguments, .. }, Some(begin)) =
+            (&**arguments, name.start_position())
+        else {
+            return;
+        };
+        let arguments: Vec<&Expression> = arguments.iter().collect();
+        let Some((Expression::String(sql), rest)) = arguments.split_first() else { return };
+        let is_module = |value: &Expression| matches!(value, Expression::Var(full_moon::ast::Var::Name(name)) if self.module(name).is_some());
+        let given = match rest {
+            [] => Some(Vec::new()),
+            [only] if is_module(only) => Some(Vec::new()),
+            [Expression::TableConstructor(table)] => names_of(table),
+            [module, Expression::TableConstructor(table)] if is_module(module) => names_of(table),
+            _ => None,
+        };
+        let sql = string_of(sql).unwrap_or_default();
+        if let (Some(given), Ok(names), Some(function)) =
+            (given, sql_parameters(&sql), self.functions.last_mut())
+        {
+            let open = names.into_iter().filter(|name| !given.iter().any(|given| given == name));
+            function.queries.push(QueryCall { line: begin.line(), open: open.map(str::to_owned).collect() });
+        }
+    }
+}
+
+/// The names of a table's fields; none if there may be more than can be seen.
+fn names_of(table: &full_moon::ast::TableConstructor) -> Option<Vec<String>> {
+    let name = |field: &Field| match field {
+        Field::NameKey { key, .. } => Some(text_of(key)),
+        _ => None,
+    };
+    table.fields().iter().map(name).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::{Globals, analyse};
+
+    #[test]
+    fn the_open_parameters_of_questions_are_known_by_the_functions_of_rules() {
+        let names = ["lsystem", "module", "query"].map(str::to_owned).to_vec();
+        let globals = Globals { names, ..Globals::default() };
+        let open = |call: &str| -> Option<Vec<String>> {
+            let script = format!(
+                "local s, A, t = lsystem(), module(\"A\", \"x\"), {{}}\nlocal A = module(\"A\", \"x\")\ns:rule(\"A(x)\", function(this, x)\nlocal function f() return {call} end return f() end)"
+            );
+            let queries = analyse("s.lua", &script, &globals).queries;
+            let call = queries.get(&3)?.first()?;
+            assert_eq!(call.line, 4);
+            Some(call.open.clone())
+        };
+        let of = |names: &[&str]| Some(names.iter().map(|&name| name.to_owned()).collect::<Vec<_>>());
+        assert_eq!(open("query(\"select $a, $b\")"), of(&["a", "b"]));
+        assert_eq!(open("query(\"select $a, $b\", A)"), of(&["a", "b"]));
+        assert_eq!(open("query(\"select $a, $b\", A, { a = x })"), of(&["b"]));
+        assert_eq!(open("query('select $a', { b = 1 })"), of(&["a"]));
+        assert_eq!(open("query(\"select 1\")"), of(&[]));
+        for unknown in
+            ["query(\"$a\", t)", "query(\"$a\", A, t)", "query(t)", "query(\"$a\", { [t] = 1 })", "A(1)"]
+        {
+            assert_eq!(open(unknown), None, "{unknown}");
+        }
+    }
+}

@@ -1,0 +1,120 @@
+//! The modules of the parts of a geometry.
+
+use std::rc::Rc;
+use std::sync::Arc;
+
+use rustc_hash::{FxHashMap, FxHashSet};
+
+use crate::questions::{fit, listed};
+use burgeon_base::error::{Error, Result};
+use burgeon_kit::rules::{Chain, ColumnValue, Mark, Symbol, Symbols, Values, module_brief};
+use burgeon_kit::{GeometryObject, Value};
+
+/// Takes modules apart, and remembers how.
+#[derive(Default)]
+pub(super) struct Fragmentation {
+    /// By the module that is taken apart, its geometry's place, and what its parts are: where their parameters come from.
+    fits: FxHashMap<(Symbol, usize, Symbol), Rc<[Option<usize>]>>,
+    /// By the bits of a geometry's column: its parts, and whether it is one of its own.
+    parts: FxHashMap<u64, (Rc<[f64]>, bool)>,
+    /// The fragmentations that have met a geometry without parts.
+    whole: Vec<Mark>,
+}
+
+impl Fragmentation {
+    /// In place of each module of `group`: a module with `symbol` for each part of its geometry, with its parameters.
+    /// `at` is the fragmentation's place.
+    pub(super) fn apply(
+        &mut self,
+        group: &Chain,
+        symbol: Symbol,
+        symbols: &Symbols,
+        (at, values): (Mark, &Values),
+    ) -> Result<Chain> {
+        let mut made = Chain::default();
+        let mut param = 0;
+        for (index, left) in group.symbols.iter().enumerate() {
+            let params = &group.params[param..param + symbols.signature(*left).arity()];
+            param += params.len();
+            let (geometry, parts) = self.parts(params, at, values).ok_or_else(|| {
+                let left = module_brief(symbols, values, *left, params);
+                Error::argument(format!("{left}, whose parts it is to make, has no geometry"))
+                    .help("give the module to its left a geometry, such as Outline(lot:exterior_ring(), id)")
+            })?;
+            let fit = self.fit((*left, geometry, symbol), symbols)?;
+            for (ordinal, part) in parts.iter().enumerate() {
+                made.symbols.push(symbol);
+                made.params.extend(fit.iter().map(|from| match from {
+                    Some(from) if *from == geometry => *part,
+                    Some(from) => params[*from],
+                    None => ColumnValue::Nil.pack(),
+                }));
+                made.keys.extend(group.keys.get(index).map(|key| key.child(ordinal)));
+            }
+        }
+        Ok(made)
+    }
+
+    /// The place of the first geometry among `params`, and its parts.
+    fn parts(&mut self, params: &[f64], at: Mark, values: &Values) -> Option<(usize, Rc<[f64]>)> {
+        for (place, stored) in params.iter().enumerate() {
+            if !matches!(ColumnValue::unpack(*stored), ColumnValue::Handle(_)) {
+                continue;
+            }
+            let known = match self.parts.get(&stored.to_bits()) {
+                Some(known) => known,
+                None => {
+                    let Some(parts) = geometry_parts(&values.unpack(*stored)) else { continue };
+                    let is_whole = parts.is_none();
+                    let parts = match parts {
+                        Some(parts) => parts.into_iter().map(|part| values.pack(part)).collect(),
+                        None => [*stored].into_iter().collect(),
+                    };
+                    self.parts.entry(stored.to_bits()).or_insert((parts, is_whole))
+                }
+            };
+            if known.1 {
+                self.whole.push(at);
+            }
+            return Some((place, Rc::clone(&known.0)));
+        }
+        None
+    }
+
+    /// Where the parameters of the parts come from.
+    fn fit(&mut self, key: (Symbol, usize, Symbol), symbols: &Symbols) -> Result<Rc<[Option<usize>]>> {
+        if let Some(known) = self.fits.get(&key) {
+            return Ok(Rc::clone(known));
+        }
+        let (left, target) = (symbols.signature(key.0), symbols.signature(key.2));
+        let names: Vec<&str> = left.parameters.iter().map(String::as_str).collect();
+        let is_geometry: Vec<bool> = (0..names.len()).map(|place| place == key.1).collect();
+        let found = fit(&names, &is_geometry, target).map_err(|missing| {
+            Error::argument(format!(
+                "{}, whose parts it is to make, has nothing for {} of {}",
+                left.usage(),
+                listed(&missing),
+                target.usage()
+            ))
+            .help("parameters go over by name: call them alike in both modules, or let them be left out: \"name?\"")
+        })?;
+        let found: Rc<[Option<usize>]> = found.into();
+        self.fits.insert(key, Rc::clone(&found));
+        Ok(found)
+    }
+
+    /// What people should know: where, and what.
+    pub(super) fn warnings(&self) -> impl Iterator<Item = (Mark, String)> + '_ {
+        let mut told = FxHashSet::default();
+        let first = self.whole.iter().filter(move |at| told.insert(at.module));
+        first.map(|at| (*at, "a point has no parts, so it stays as it is".to_owned()))
+    }
+}
+
+/// The parts of a geometry, `None` within for one that has none; `None` for anything else.
+fn geometry_parts(value: &Value) -> Option<Option<Vec<Value>>> {
+    let Value::Object(object) = value else { return None };
+    let parts = GeometryObject::of(&**object)?.fragments();
+    let value = |part| Value::Object(Arc::new(GeometryObject::new(part)));
+    Some(parts.map(|parts| parts.into_iter().map(value).collect()))
+}

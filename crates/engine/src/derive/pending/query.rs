@@ -1,0 +1,149 @@
+//! The modules of the rows of queries.
+
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::{Arc, Weak};
+
+use rustc_hash::FxHashMap;
+
+use crate::declare::Session;
+use crate::derive::threads::{ThreadJob, ThreadPool};
+use crate::machine::Machine;
+use crate::questions::{Question, Rows, fit, listed};
+use burgeon_base::error::{Error, Result};
+use burgeon_kit::rules::{Chain, ModuleKey, Signature, Symbol, Values};
+use burgeon_kit::{Prefetch, Value};
+
+/// Questions from which asking them takes longer than starting a helper.
+const MANY: usize = 64;
+
+/// The questions of a step, each once.
+#[derive(Default)]
+pub(super) struct QuestionSet {
+    questions: Vec<Question>,
+    numbers: FxHashMap<Question, usize>,
+}
+
+impl QuestionSet {
+    /// Adds a question, and gives its number.
+    pub(super) fn add(&mut self, question: Question) -> usize {
+        *self.numbers.entry(question).or_insert_with_key(|question| {
+            self.questions.push(question.clone());
+            self.questions.len() - 1
+        })
+    }
+
+    /// Has all of them asked, by helpers as well; gives the answers by number.
+    pub(super) fn ask(self, machine: &Machine, threads: &ThreadPool) -> Result<Vec<Result<Arc<Rows>>>> {
+        let session = &machine.session;
+        let batch = Arc::new(QuestionBatch {
+            session: Arc::clone(session),
+            questions: self.questions,
+            next: AtomicUsize::new(0),
+        });
+        let job: Weak<QuestionBatch> = Arc::downgrade(&batch);
+        let count = batch.questions.len();
+        threads.hand_out(machine, count, MANY, || ThreadJob::Prefetch(job.clone()))?;
+        batch.work();
+        // What a helper is still at is waited for here.
+        Ok(batch.questions.iter().map(|question| session.ask(question, false)).collect())
+    }
+}
+
+/// Questions that all threads ask.
+struct QuestionBatch {
+    session: Arc<Session>,
+    questions: Vec<Question>,
+    next: AtomicUsize,
+}
+
+impl Prefetch for QuestionBatch {
+    fn work(&self) {
+        while !self.session.stop.is_stopped()
+            && let Some(question) = self.questions.get(self.next.fetch_add(1, Ordering::Relaxed))
+        {
+            // The answer is kept, whatever it is.
+            let _ = self.session.ask(question, false);
+        }
+    }
+
+    fn end(&self) {
+        self.next.store(self.questions.len(), Ordering::Relaxed);
+    }
+}
+
+/// The modules of the rows of an answer, but for their random keys.
+pub(super) struct RowModules {
+    symbol: Symbol,
+    params: Vec<f64>,
+    /// By row: what tells it from others, and how many rows before it have the same.
+    ids: Vec<(String, usize)>,
+    count: usize,
+}
+
+impl RowModules {
+    /// A module with `symbol`, which `target` declares, for each of the `rows`.
+    pub(super) fn new(rows: &Rows, symbol: Symbol, target: &Signature, values: &Values) -> Result<Self> {
+        let mut made = Self { symbol, params: Vec::new(), ids: Vec::new(), count: rows.len() };
+        if rows.is_empty() {
+            return Ok(made);
+        }
+        let names: Vec<&str> = rows.names.iter().map(|name| &**name).collect();
+        let columns = fit(&names, &rows.geometries(), target).map_err(|missing| {
+            let (missing, first) = (listed(&missing), missing[0]);
+            Error::argument(format!("its rows have nothing for {missing} of {}", target.usage())).help(format!(
+                "they have {}: give a column that name, as in select ... as {first}, or let it be left out: module(\"{}\", ... \"{first}?\")",
+                listed(&names),
+                target.name
+            ))
+        })?;
+        made.params.reserve(rows.len() * columns.len());
+        for (number, row) in rows.iter().enumerate() {
+            for (parameter, column) in columns.iter().enumerate() {
+                let value = column.map_or(&Value::Nil, |column| &row[column]);
+                if parameter < target.required && matches!(value, Value::Nil) {
+                    let name = &target.parameters[parameter];
+                    return Err(Error::argument(format!(
+                        "{name} is NULL in row {}, and {} must have it",
+                        number + 1,
+                        target.name
+                    ))
+                    .help(format!(
+                        "leave such rows out, where {name} is not null, or give them a value: coalesce({name}, 0) as {name}"
+                    ))
+                    .of_data());
+                }
+                made.params.push(values.pack(value.clone()));
+            }
+        }
+        if let Some(id) = rows.id() {
+            let mut seen: FxHashMap<String, usize> = FxHashMap::default();
+            for row in rows.iter() {
+                let id = row[id].to_string();
+                let times = seen.entry(id.clone()).or_default();
+                made.ids.push((id, *times));
+                *times += 1;
+            }
+        }
+        Ok(made)
+    }
+
+    /// How many there are.
+    pub(super) fn len(&self) -> usize {
+        self.count
+    }
+
+    /// Puts the modules behind `chain`; with keys that come of `key` if there is one.
+    pub(super) fn add_to(&self, chain: &mut Chain, key: Option<ModuleKey>) {
+        chain.symbols.resize(chain.symbols.len() + self.count, self.symbol);
+        chain.params.extend_from_slice(&self.params);
+        let Some(key) = key else { return };
+        if self.ids.is_empty() {
+            chain.keys.extend((0..self.count).map(|ordinal| key.child(ordinal)));
+        } else {
+            chain.keys.extend(self.ids.iter().map(|(id, times)| match times {
+                0 => key.feature(id),
+                times => key.feature(id).child(*times),
+            }));
+        }
+    }
+}

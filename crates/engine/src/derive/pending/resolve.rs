@@ -1,0 +1,321 @@
+//! Puts the modules that others stand for in their places.
+
+use std::sync::Arc;
+
+use rustc_hash::FxHashMap;
+
+use super::fragment::Fragmentation;
+use super::query::{QuestionSet, RowModules};
+use super::sites::{PendingSite, sites};
+use crate::derive::plan::DerivationPlan;
+use crate::derive::threads::ThreadPool;
+use crate::machine::Machine;
+use crate::questions::{Question, Rows};
+use crate::results::{PendingAnswer, RESOLVED};
+use burgeon_base::error::{Error, Limit, Result, SourcePlace};
+use burgeon_base::text::grouped;
+use burgeon_base::warning::{Warning, WarningKind};
+use burgeon_kit::rules::{Chain, FRAGMENT, Mark, QUERY, Symbol, Values, module_brief};
+use burgeon_kit::{RewriteOutcome, Value};
+
+/// How often the time is looked at: after so many places.
+const OFTEN: usize = 1024;
+
+/// What the chain became.
+#[derive(Default)]
+pub(in crate::derive) struct Resolution {
+    pub chain: Chain,
+    /// For each symbol of the chain before, how many came of it; empty if none stood for others.
+    pub applied: Vec<(u16, u32)>,
+    /// What came of which symbol of the chain before, where that is traced.
+    pub answers: Vec<PendingAnswer>,
+}
+
+/// Puts in what modules of `chain` stand for, as it is after `step` steps.
+pub(in crate::derive) fn resolve(
+    (machine, threads): (&Machine, &ThreadPool),
+    plan: &DerivationPlan,
+    chain: &Chain,
+    step: usize,
+) -> Result<Option<Resolution>> {
+    // Most scripts never make one, and pay for no look at their chains.
+    let is_pending = |symbol: &Symbol| *symbol == QUERY || *symbol == FRAGMENT;
+    if !machine.session.has_pending() || !chain.symbols.iter().any(is_pending) {
+        return Ok(None);
+    }
+    let resolver = Resolver { machine, plan, chain, step };
+    let sites = sites(chain, plan.grammar.arities()).map_err(|(at, error)| resolver.blame(at, error))?;
+    let (answers, asked) = resolver.ask(threads, &sites)?;
+    let mut resolution = resolver.put_in(&sites, &answers, &asked)?;
+    machine.session.rows.forget_many();
+    resolution.chain.mark(plan.batch, plan.grammar.arities());
+    Ok(Some(resolution))
+}
+
+/// A chain whose pending modules are being replaced.
+struct Resolver<'a> {
+    machine: &'a Machine,
+    plan: &'a DerivationPlan,
+    chain: &'a Chain,
+    step: usize,
+}
+
+/// What a site has become, for whoever asks how.
+struct SiteReport {
+    modules: usize,
+    rows: Option<usize>,
+}
+
+impl Resolver<'_> {
+    fn values(&self) -> &Values {
+        &self.machine.session.values
+    }
+
+    /// Parameter number `index` of the module at `at`.
+    fn value(&self, at: Mark, index: usize) -> Value {
+        self.values().unpack(self.chain.params[at.param + index])
+    }
+
+    fn text(&self, at: Mark, index: usize) -> Result<Arc<str>> {
+        match self.value(at, index) {
+            Value::Text(text) => Ok(text),
+            _ => Err(Error::internal("a module that stands for others has lost what it stands for")),
+        }
+    }
+
+    /// Whether the chain at `at` is left out, since its data is at fault.
+    fn is_left_out(&self, at: Mark) -> bool {
+        self.plan.objects.as_ref().is_some_and(|objects| objects.has_failed(at.chain))
+    }
+
+    /// An error of the module at `at`, with the line that made it.
+    fn blame(&self, at: Mark, error: Error) -> Error {
+        let symbol = self.chain.symbols[at.module];
+        let arity = usize::from(self.plan.grammar.arities()[usize::from(symbol)]);
+        let place = match self.value(at, arity - 1) {
+            Value::Text(line) => line.rsplit_once(':').and_then(|(file, line)| {
+                Some(SourcePlace { file: file.to_owned(), line: line.parse().ok()? })
+            }),
+            _ => None,
+        };
+        error.at(place).module(self.shown(at), self.step)
+    }
+
+    /// The module at `at` as a script writes it, with the values of its parameters.
+    fn shown(&self, at: Mark) -> String {
+        let text = |index| self.text(at, index).unwrap_or_default();
+        match self.chain.symbols[at.module] {
+            FRAGMENT => format!("fragment({})", text(0)),
+            QUERY => {
+                let question = self.question(at).map(|it| it.to_string()).unwrap_or_default();
+                let values = question.strip_prefix(&*text(0)).unwrap_or_default();
+                format!("query(\"{}\", {}){values}", text(0), text(1))
+            }
+            symbol => {
+                let grammar = &self.plan.grammar;
+                let arity = usize::from(grammar.arities()[usize::from(symbol)]);
+                let params = &self.chain.params[at.param..][..arity];
+                module_brief(grammar.symbols(), self.values(), symbol, params)
+            }
+        }
+    }
+
+    /// Passes an error of the module at `at` on, unless the data of its chain is at fault, which is left out then.
+    fn forgive(&self, at: Mark, error: Error) -> Result<()> {
+        let error = self.blame(at, error);
+        match &self.plan.objects {
+            Some(objects) => objects.forgive(at.chain, error),
+            None => Err(error),
+        }
+    }
+
+    fn question(&self, at: Mark) -> Result<Question> {
+        let values = match self.value(at, 2) {
+            Value::Table(values) => Some(values),
+            _ => None,
+        };
+        Ok(Question::new(self.text(at, 0)?, values))
+    }
+
+    /// The module that the pending one at `at` names in its parameter number `index`.
+    fn target(&self, at: Mark, index: usize) -> Result<Symbol> {
+        self.plan.grammar.symbols().find(&self.text(at, index)?)
+    }
+
+    /// Asks what the queries among `sites` ask; gives the answers, and by site the number of its own.
+    fn ask(
+        &self,
+        threads: &ThreadPool,
+        sites: &[PendingSite],
+    ) -> Result<(Vec<Result<Arc<Rows>>>, Vec<Option<usize>>)> {
+        let mut set = QuestionSet::default();
+        let mut asked = Vec::with_capacity(sites.len());
+        for site in sites {
+            let is_asked = self.chain.symbols[site.at.module] == QUERY && !self.is_left_out(site.at);
+            asked.push(if is_asked { Some(set.add(self.question(site.at)?)) } else { None });
+        }
+        Ok((set.ask(self.machine, threads)?, asked))
+    }
+
+    /// The chain with all that the `sites` stand for.
+    fn put_in(
+        &self,
+        sites: &[PendingSite],
+        answers: &[Result<Arc<Rows>>],
+        asked: &[Option<usize>],
+    ) -> Result<Resolution> {
+        let (arities, session) = (self.plan.grammar.arities(), &self.machine.session);
+        let limit = session.options.limits.modules;
+        let mut made = Resolution::default();
+        if self.plan.traced {
+            made.applied = vec![(RewriteOutcome::NONE, 1); self.chain.symbols.len()];
+        }
+        let mut rows: FxHashMap<(usize, Symbol), RowModules> = FxHashMap::default();
+        let mut fragmentation = Fragmentation::default();
+        let mut done = Mark::default();
+        // Fragmentations stand behind the sites that they belong to, and vanish.
+        let mut gone: Vec<Mark> = sites.iter().flat_map(|site| site.fragments.iter().copied()).collect();
+        gone.sort_by_key(|at| at.module);
+        let mut gone = gone.into_iter().peekable();
+        for (number, (site, asked)) in sites.iter().zip(asked).enumerate() {
+            if number % OFTEN == 0 {
+                session.stop.check()?;
+            }
+            while let Some(at) = gone.next_if(|at| at.module < site.at.module) {
+                self.keep(&mut made.chain, &mut done, at);
+            }
+            self.keep(&mut made.chain, &mut done, site.at);
+            let before = made.chain.symbols.len();
+            let group =
+                self.group(site, asked.map(|asked| (asked, &answers[asked])), &mut rows, &mut fragmentation);
+            let report = match group {
+                Ok((group, rows)) => {
+                    made.chain.symbols.extend_from_slice(&group.symbols);
+                    made.chain.params.extend_from_slice(&group.params);
+                    made.chain.keys.extend_from_slice(&group.keys);
+                    SiteReport { modules: group.symbols.len(), rows }
+                }
+                Err((at, error)) => {
+                    self.forgive(at, error)?;
+                    SiteReport { modules: 0, rows: None }
+                }
+            };
+            if self.plan.traced {
+                let count = made.chain.symbols.len() - before;
+                made.applied[site.at.module] = (RESOLVED, u32::try_from(count).unwrap_or(u32::MAX));
+                site.fragments.iter().for_each(|at| made.applied[at.module] = (RESOLVED, 0));
+                made.answers.push(self.answer(site, &report));
+            }
+            if made.chain.symbols.len() > limit {
+                let error = Error::limit(
+                    Limit::Modules,
+                    format!("the chain grows past {} modules in step {}", grouped(limit), self.step),
+                );
+                let error = error.help(
+                    "ask for fewer rows: where ..., or limit 1000; or raise the limit: --module-limit N",
+                );
+                return Err(self.blame(*site.fragments.last().unwrap_or(&site.at), error));
+            }
+        }
+        for at in gone {
+            self.keep(&mut made.chain, &mut done, at);
+        }
+        let end = Mark { module: self.chain.symbols.len(), param: self.chain.params.len(), chain: 0 };
+        self.keep(&mut made.chain, &mut done, end);
+        for (at, warning) in fragmentation.warnings() {
+            session.warn(self.told(at, warning));
+        }
+        debug_assert_eq!(
+            made.chain.params.len(),
+            made.chain.symbols.iter().map(|symbol| usize::from(arities[usize::from(*symbol)])).sum::<usize>()
+        );
+        Ok(made)
+    }
+
+    /// A warning of the module at `at`, with the line that made it.
+    fn told(&self, at: Mark, text: String) -> Warning {
+        let placed = self.blame(at, Error::internal(""));
+        Warning::new(WarningKind::NoEffect, text).at(placed.place().cloned())
+    }
+
+    /// Copies the symbols from `done` up to the one at `at`, and passes that over.
+    fn keep(&self, to: &mut Chain, done: &mut Mark, at: Mark) {
+        to.symbols.extend_from_slice(&self.chain.symbols[done.module..at.module]);
+        to.params.extend_from_slice(&self.chain.params[done.param..at.param]);
+        if !self.chain.keys.is_empty() {
+            to.keys.extend_from_slice(&self.chain.keys[done.module..at.module]);
+        }
+        let arity = self
+            .chain
+            .symbols
+            .get(at.module)
+            .map_or(0, |symbol| self.plan.grammar.arities()[usize::from(*symbol)]);
+        *done = Mark {
+            module: (at.module + 1).min(self.chain.symbols.len()),
+            param: at.param + usize::from(arity),
+            chain: 0,
+        };
+    }
+
+    /// The modules that come at `site`, and how many rows a query gave.
+    fn group(
+        &self,
+        site: &PendingSite,
+        asked: Option<(usize, &Result<Arc<Rows>>)>,
+        known: &mut FxHashMap<(usize, Symbol), RowModules>,
+        fragmentation: &mut Fragmentation,
+    ) -> Result<(Chain, Option<usize>), (Mark, Error)> {
+        let mut group = Chain::default();
+        let mut rows = None;
+        let at = |error| (site.at, error);
+        let key = self.chain.keys.get(site.at.module).copied();
+        match (asked, self.chain.symbols[site.at.module]) {
+            (Some((question, answer)), _) => {
+                let symbol = self.target(site.at, 1).map_err(at)?;
+                let modules = match known.entry((question, symbol)) {
+                    std::collections::hash_map::Entry::Occupied(entry) => entry.into_mut(),
+                    std::collections::hash_map::Entry::Vacant(entry) => {
+                        let answer = answer.as_ref().map_err(|error| at(error.clone()))?;
+                        let target = self.plan.grammar.symbols().signature(symbol);
+                        entry.insert(RowModules::new(answer, symbol, target, self.values()).map_err(at)?)
+                    }
+                };
+                modules.add_to(&mut group, key);
+                rows = Some(modules.len());
+            }
+            // It belongs to a chain that is left out.
+            (None, QUERY) => {}
+            (None, symbol) => {
+                let arity = usize::from(self.plan.grammar.arities()[usize::from(symbol)]);
+                group.symbols.push(symbol);
+                group.params.extend_from_slice(&self.chain.params[site.at.param..][..arity]);
+                group.keys.extend(key);
+            }
+        }
+        for fragment in &site.fragments {
+            let at = |error| (*fragment, error);
+            let symbol = self.target(*fragment, 0).map_err(at)?;
+            let symbols = self.plan.grammar.symbols();
+            group = fragmentation.apply(&group, symbol, symbols, (*fragment, self.values())).map_err(at)?;
+        }
+        Ok((group, rows))
+    }
+
+    /// What came of `site`, in words.
+    fn answer(&self, site: &PendingSite, report: &SiteReport) -> PendingAnswer {
+        let count = |count: usize, of: &str| format!("{count} {of}{}", if count == 1 { "" } else { "s" });
+        let mut text = self.shown(site.at);
+        if let Some(rows) = report.rows {
+            text.push_str(&format!(": {}", count(rows, "row")));
+        }
+        for fragment in &site.fragments {
+            text.push_str(&format!(", {}", self.shown(*fragment)));
+        }
+        if !site.fragments.is_empty() {
+            text.push_str(&format!(": {}", count(report.modules, "part")));
+        }
+        let at = *site.fragments.last().unwrap_or(&site.at);
+        let place = self.blame(at, Error::internal("")).place().cloned();
+        PendingAnswer { symbol: site.at.module, text, place }
+    }
+}

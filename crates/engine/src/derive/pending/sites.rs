@@ -1,0 +1,106 @@
+//! Where in a chain modules stand that stand for others.
+
+use burgeon_base::error::{Error, Result};
+use burgeon_kit::rules::{CLOSE, Chain, END, FRAGMENT, Mark, OPEN, QUERY};
+
+/// A place in a chain where other modules come.
+#[derive(Debug)]
+pub(super) struct PendingSite {
+    /// The query, or the module whose parts come.
+    pub at: Mark,
+    /// The fragmentations that are applied, one after the other.
+    pub fragments: Vec<Mark>,
+}
+
+/// The places in `chain`, in its order. `arities` gives the parameters by symbol.
+///
+/// A fragmentation belongs to the module or the query to its left on its own branch; closed branches in between, and
+/// other fragmentations, are passed over. Fails with the place of one that has none, and what is wrong.
+pub(super) fn sites(chain: &Chain, arities: &[u8]) -> Result<Vec<PendingSite>, (Mark, Error)> {
+    let mut sites: Vec<PendingSite> = Vec::new();
+    // The last module or query on each branch that is open, and its number among the sites if it is one.
+    let mut branches: Vec<Option<(Mark, Option<usize>)>> = Vec::new();
+    let mut last: Option<(Mark, Option<usize>)> = None;
+    let mut here = Mark::default();
+    for (module, symbol) in chain.symbols.iter().enumerate() {
+        here.module = module;
+        match *symbol {
+            OPEN => branches.push(last.take()),
+            CLOSE => last = branches.pop().flatten(),
+            END => {
+                last = None;
+                here.chain += 1;
+            }
+            FRAGMENT => {
+                let Some((left, number)) = &mut last else {
+                    let error = Error::argument("there is no module to its left on its branch")
+                        .help("fragment(Part) stands right behind the module whose parts it makes: return Outline(ring), fragment(Part)");
+                    return Err((here, error));
+                };
+                let site = *number.get_or_insert_with(|| {
+                    sites.push(PendingSite { at: *left, fragments: Vec::new() });
+                    sites.len() - 1
+                });
+                sites[site].fragments.push(here);
+            }
+            QUERY => {
+                last = Some((here, Some(sites.len())));
+                sites.push(PendingSite { at: here, fragments: Vec::new() });
+            }
+            _ => last = Some((here, None)),
+        }
+        here.param += usize::from(arities[usize::from(*symbol)]);
+    }
+    sites.sort_by_key(|site| site.at.module);
+    Ok(sites)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use burgeon_kit::rules::{FIRST_SYMBOL, Symbols};
+
+    /// The sites of a chain as text: `a` to `z` modules, `?` a query, `%` a fragmentation, `;` an end.
+    fn found(text: &str) -> Result<String, usize> {
+        let symbol = |c: char| match c {
+            '[' => OPEN,
+            ']' => CLOSE,
+            ';' => END,
+            '?' => QUERY,
+            '%' => FRAGMENT,
+            _ => FIRST_SYMBOL,
+        };
+        let mut arities = Symbols::default().arities();
+        arities.push(1);
+        let chain = Chain { symbols: text.chars().map(symbol).collect(), ..Chain::default() };
+        let sites = sites(&chain, &arities).map_err(|(at, _)| at.module)?;
+        let shown = sites.iter().map(|site| {
+            let param: usize =
+                chain.symbols[..site.at.module].iter().map(|it| usize::from(arities[usize::from(*it)])).sum();
+            assert_eq!(site.at.param, param);
+            assert_eq!(site.at.chain, text[..site.at.module].matches(';').count());
+            let fragments: Vec<usize> = site.fragments.iter().map(|at| at.module).collect();
+            format!("{}{fragments:?}", site.at.module)
+        });
+        Ok(shown.collect::<Vec<_>>().join(" "))
+    }
+
+    #[test]
+    fn a_fragmentation_belongs_to_what_is_to_its_left_on_its_own_branch() {
+        for (text, expected) in [
+            ("abc;", ""),
+            ("a%;", "0[1]"),
+            ("a%%b%;", "0[1, 2] 3[4]"),
+            ("?;", "0[]"),
+            ("?%;", "0[1]"),
+            ("a[b%]%;", "0[5] 2[3]"),
+            ("a[?][b[c]]%?;", "0[10] 2[] 11[]"),
+            ("a;b%;", "2[3]"),
+        ] {
+            assert_eq!(found(text).as_deref(), Ok(expected), "{text}");
+        }
+        for (text, at) in [("%;", 0), ("a[%];", 2), ("a;%;", 2), ("[a]%;", 3)] {
+            assert_eq!(found(text), Err(at), "{text}");
+        }
+    }
+}

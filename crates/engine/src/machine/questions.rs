@@ -1,0 +1,96 @@
+//! The functions that Rust gives to `questions.luau`: what scripts ask of data, and what comes of it.
+
+use std::cell::RefCell;
+use std::rc::Rc;
+use std::sync::Arc;
+
+use mlua::{Lua, LuaString, Table, Value as LuaValue};
+use rustc_hash::FxHashMap;
+
+use super::WorkState;
+use super::convert::{to_lua, to_value};
+use crate::questions::{Question, Rows, sql_parameters};
+use burgeon_kit::Value;
+use burgeon_kit::rules::{Pattern, Symbols};
+
+/// The values of answers that a machine keeps as tables.
+const MOST: usize = 200_000;
+
+/// Answers as tables, by where they lie in memory.
+#[derive(Default)]
+struct RowTables {
+    known: FxHashMap<usize, (Arc<Rows>, Table)>,
+    values: usize,
+}
+
+/// Adds those that [`questions.luau`](self) calls.
+pub(super) fn add_questions(lua: &Lua, host: &Table, current: &Rc<WorkState>) -> mlua::Result<()> {
+    host.set(
+        "sql_parameters",
+        lua.create_function(|lua, sql: LuaString| {
+            let sql = sql.to_string_lossy();
+            let names = lua.create_sequence_from(sql_parameters(&sql).map_err(mlua::Error::external)?)?;
+            names.set_readonly(true);
+            Ok(names)
+        })?,
+    )?;
+    let state = Rc::clone(current);
+    host.set(
+        "note_pending",
+        lua.create_function(move |_, ()| {
+            state.session.note_pending();
+            Ok(())
+        })?,
+    )?;
+    let (state, tables) = (Rc::clone(current), RefCell::<RowTables>::default());
+    host.set(
+        "rows",
+        lua.create_function(move |lua, (sql, values, at_top): (LuaString, LuaValue, bool)| {
+            let values = match to_value(&values, false).map_err(mlua::Error::external)? {
+                Value::Table(values) => Some(values),
+                _ => None,
+            };
+            let question = Question::new(sql.to_string_lossy().into(), values);
+            let rows = state.session.ask(&question, at_top).map_err(mlua::Error::external)?;
+            let mut tables = tables.borrow_mut();
+            let address = Arc::as_ptr(&rows) as usize;
+            if let Some((_, known)) = tables.known.get(&address) {
+                return Ok(known.clone());
+            }
+            let table = row_tables(lua, &rows)?;
+            if tables.values > MOST {
+                *tables = RowTables::default();
+            }
+            tables.values += rows.values.len() + 1;
+            tables.known.insert(address, (rows, table.clone()));
+            Ok(table)
+        })?,
+    )
+}
+
+/// A frozen list of frozen tables, one for each row, without what is NULL.
+fn row_tables(lua: &Lua, rows: &Rows) -> mlua::Result<Table> {
+    let names: Vec<LuaString> =
+        rows.names.iter().map(|name| lua.create_string(name.as_bytes())).collect::<mlua::Result<_>>()?;
+    let list = lua.create_table_with_capacity(rows.len(), 0)?;
+    for row in rows.iter() {
+        let table = lua.create_table_with_capacity(0, names.len())?;
+        for (name, value) in names.iter().zip(row) {
+            table.raw_set(name, to_lua(lua, value, true)?)?;
+        }
+        table.set_readonly(true);
+        list.raw_push(table)?;
+    }
+    list.set_readonly(true);
+    Ok(list)
+}
+
+/// The places of the arguments of a rule with this pattern, by name, for `questions.luau`.
+pub(super) fn argument_places(lua: &Lua, pattern: &Pattern, symbols: &Symbols) -> mlua::Result<Table> {
+    let places = lua.create_table()?;
+    for (place, name) in pattern.arguments(symbols) {
+        places.raw_set(name, place + 1)?;
+    }
+    places.set_readonly(true);
+    Ok(places)
+}

@@ -1,0 +1,103 @@
+//! Answers that are kept, so that the same question is asked once.
+
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::{Arc, Mutex, OnceLock, PoisonError};
+
+use rustc_hash::FxHashMap;
+
+use super::{Question, RowSource, Rows};
+use burgeon_base::error::Result;
+
+/// The values of answers that are kept from step to step.
+const MOST: usize = 2_000_000;
+
+/// The rows of a question, once they are known. Whoever asks meanwhile waits for them.
+type Slot = Arc<OnceLock<Result<Arc<Rows>>>>;
+
+/// The answers of a run, by question. What the top level of the script asks is kept to its end, since every virtual
+/// machine is to see the same.
+#[derive(Default)]
+pub(crate) struct KeptRows {
+    known: Mutex<FxHashMap<Question, KeptAnswer>>,
+    values: AtomicUsize,
+}
+
+struct KeptAnswer {
+    slot: Slot,
+    stays: bool,
+}
+
+/// Who asks, and how.
+pub(crate) struct AskedRows<'a> {
+    /// Who answers what is not known yet.
+    pub source: &'a dyn RowSource,
+    /// The most rows of an answer.
+    pub most: usize,
+    /// Whether the answer is kept to the end of the run.
+    pub stays: bool,
+}
+
+impl KeptRows {
+    /// The answer to `question`.
+    pub(crate) fn ask(&self, question: &Question, asked: &AskedRows<'_>) -> Result<Arc<Rows>> {
+        let slot = {
+            let mut known = self.known.lock().unwrap_or_else(PoisonError::into_inner);
+            let kept = known
+                .entry(question.clone())
+                .or_insert_with(|| KeptAnswer { slot: Slot::default(), stays: false });
+            kept.stays |= asked.stays;
+            Arc::clone(&kept.slot)
+        };
+        let rows = slot.get_or_init(|| {
+            let rows = asked.source.rows(question, asked.most)?;
+            self.values.fetch_add(rows.values.len() + 16, Ordering::Relaxed);
+            Ok(Arc::new(rows))
+        });
+        rows.clone()
+    }
+
+    /// Forgets answers once they are many. Nobody is asking.
+    pub(crate) fn forget_many(&self) {
+        if self.values.load(Ordering::Relaxed) > MOST {
+            self.known.lock().unwrap_or_else(PoisonError::into_inner).retain(|_, kept| kept.stays);
+            self.values.store(0, Ordering::Relaxed);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use burgeon_base::error::Error;
+
+    #[derive(Default)]
+    struct CountedSource(AtomicUsize);
+
+    impl RowSource for CountedSource {
+        fn rows(&self, question: &Question, _: usize) -> Result<Rows> {
+            self.0.fetch_add(1, Ordering::Relaxed);
+            match question.sql() {
+                "wrong" => Err(Error::argument("it is wrong")),
+                _ => Ok(Rows::default()),
+            }
+        }
+    }
+
+    #[test]
+    fn the_same_question_is_asked_once_whatever_the_answer_and_by_any_number_of_threads() {
+        let (kept, source) = (KeptRows::default(), CountedSource::default());
+        let ask = |sql: &str| {
+            let asked = AskedRows { source: &source, most: 10, stays: false };
+            kept.ask(&Question::new(sql.into(), None), &asked)
+        };
+        std::thread::scope(|scope| {
+            for _ in 0..8 {
+                scope.spawn(|| {
+                    assert!(ask("right").is_ok());
+                    assert_eq!(ask("wrong").unwrap_err().message(), "it is wrong");
+                });
+            }
+        });
+        assert_eq!(source.0.load(Ordering::Relaxed), 2);
+    }
+}

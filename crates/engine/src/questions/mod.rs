@@ -1,0 +1,15 @@
+//! Questions to data: what scripts ask in SQL, and the rows that answer them.
+//!
+//! Comes in: a text of SQL with the values of its parameters, and something that can answer it, a [`RowSource`]. Goes
+//! out: [`Rows`], the same for the same question for as long as they are kept, and which of their columns fits which
+//! parameter of a module. It never runs Lua, and knows no database.
+
+mod fit;
+mod kept;
+mod parameters;
+mod question;
+
+pub(crate) use fit::{fit, listed};
+pub(crate) use kept::{AskedRows, KeptRows};
+pub(crate) use parameters::sql_parameters;
+pub use question::{Question, RowSource, Rows};

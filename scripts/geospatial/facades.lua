@@ -1,0 +1,45 @@
+--!strict
+-- Windows and balconies on the walls with no other building within 3 m, and bare walls where neighbours stand.
+-- burgeon run scripts/geospatial/facades.lua --data examples/data -o facades.glb
+local details = require("details")
+
+local Building = module("Building", "geom", "id", "floors", "style")
+local Outline = module("Outline", "line", "id", "floors", "style")
+local Wall = module("Wall", "line", "id", "floors", "style")
+local Candidate, Zone = module("Candidate", "line", "id", "floors", "style"), module("Zone", "geom", "id")
+local Facade, Volume =
+  module("Facade", "line", "floors", "style"), module("Volume", "geom", "floors", "style")
+
+source("quarter/buildings.geojson")
+
+local town = lsystem({ object = extruder({ smooth = false, roughness = 0.9 }) })
+town:axiom(query("select geom, id, floors, style from buildings where floors > 0", Building))
+
+town:rule("Building(geom, id, floors, style)", function(_, geom, id, floors, style)
+  return Volume(geom, floors, style), Outline(geom:exterior_ring(), id, floors, style), fragment(Wall)
+end)
+town:rule("Wall(line, id, floors, style)", function(_, line, id, floors, style)
+  -- Neighbours in the same row touch a wall at its ends, and leave it free.
+  local zone = line:line_substring(0.15, 0.85):buffer(3, { cap = "flat" })
+  return Candidate(line, id, floors, style), Zone(zone, id)
+end)
+town:rule("Candidate(line, id, floors, style) > Zone(geom, other)", {
+  when = function(_, _, _, _, _, geom)
+    return #query(
+        "select id from buildings where id <> $id and ST_Intersects(geom, $geom)",
+        { geom = geom }
+      ) == 0
+  end,
+}, function(_, line, _, floors, style)
+  return Facade(line, floors, style)
+end)
+town:rule("Candidate", function()
+  return nil
+end)
+town:rule("Zone", function()
+  return nil
+end)
+
+town:interpret("Volume(geom, floors, style)", details.volume)
+town:interpret("Facade(line, floors, style)", details.facade)
+town:derive()

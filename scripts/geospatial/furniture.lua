@@ -1,0 +1,21 @@
+--!strict
+-- Street furniture whose direction the data knows: benches that look away from their lawn.
+-- burgeon run scripts/geospatial/furniture.lua --data examples/data -o furniture.glb
+local models = require("models")
+
+local Furniture = module("Furniture", "place", "code", "model", "direction")
+local Standing = module("Standing", "place", "code", "model", "direction")
+
+source("quarter/furniture.geojson")
+
+local street = lsystem({ object = extruder() })
+street:axiom(
+  query("select geom as place, code, model, direction from furniture where direction is not null", Furniture)
+)
+street:rule("Furniture(place, code, model, direction)", function(_, place, code, model, direction)
+  return Standing(place, code, model, direction)
+end)
+street:interpret("Standing(place, code, model, direction)", function(this, place, code, _, direction)
+  this:jump(place:place() + vec(0, 0, 0.15)):roll(direction):place(models.furniture[code])
+end)
+street:derive()

@@ -1,0 +1,115 @@
+--!strict
+-- A garden laid out by nothing but its border: lawns in circles, eight ways that meet in the middle, flower beds with a
+-- tree of their own on every large lawn, and trees all over the grass.
+-- burgeon run scripts/geospatial/garden.lua --data examples/data -o garden.glb
+local models = require("models")
+
+local way = param("way", { default = 4, min = 1, max = 8, unit = "m", text = "Half the width of the ways" })
+
+local Area, Plan = module("Area", "geom"), module("Plan", "geom", "radius")
+local Circle = module("Circle", "geom")
+local Ways, Border = module("Ways", "geom", "x", "y"), module("Border", "line", "x", "y")
+local Side, End = module("Side", "line", "x", "y"), module("End", "place", "x", "y")
+local Crossway, Radial = module("Crossway", "geom"), module("Radial", "geom")
+local Garden, Candidate = module("Garden", "geom"), module("Candidate", "geom")
+local Bed, Tree = module("Bed", "geom", "flowers"), module("Tree", "place", "species", "height")
+local Lawn, Planting = module("Lawn", "geom"), module("Planting", "geom", "count")
+
+source("quarter/parks.geojson")
+
+local park = lsystem({ object = extruder({ smooth = false, roughness = 1 }) })
+park:axiom(query("select geom from parks", Area))
+
+park:rule("Area(geom)", function(_, geom)
+  return Plan(geom, math.sqrt(geom:area() / (2 * math.pi)))
+end)
+park:rule("Plan(geom, radius)", function(_, geom, radius)
+  local middle = geom:centroid()
+  return Lawn(geom),
+    Circle(geom:difference(middle:buffer(radius))),
+    Circle(middle:buffer(radius - 8):difference(middle:buffer(radius / 2))),
+    Ways(geom:oriented_envelope(), middle:x(), middle:y()),
+    Garden(middle:buffer(radius / 4))
+end)
+
+-- A way from the middle to each corner of what is around the garden, and to the middle of each side.
+park:rule("Ways(geom, x, y)", function(_, geom, x, y)
+  return Border(geom:exterior_ring(), x, y), fragment(Side)
+end)
+park:rule("Side(line, x, y)", function(_, line, x, y)
+  return End(line:start_point(), x, y), End(line:centroid(), x, y)
+end)
+park:rule("End(place, x, y)", function(_, place, x, y)
+  return Crossway(line(place:place(), { x, y }):buffer(way))
+end)
+
+-- From the last to the first, the ways become one, and are taken out of the circles.
+park:rule("Crossway(geom) > Garden(_)", function(_, geom)
+  return Radial(geom)
+end)
+park:rule("Crossway(geom) > Radial(others)", function(_, geom, others)
+  return Radial(geom:union(others))
+end)
+park:rule("Circle(geom) > Radial(ways)", function(_, geom, ways)
+  local made = { Radial(ways) }
+  for _, lawn in geom:difference(ways):geometries() do
+    table.insert(made, Garden(lawn))
+    table.insert(made, Candidate(lawn))
+  end
+  return table.unpack(made)
+end)
+
+park:rule("Candidate(geom)", {
+  when = function(_, geom)
+    return geom:area() > 500
+  end,
+}, function(_, geom)
+  local middle = geom:point_on_surface()
+  return Bed(middle:buffer(5), math.floor(random(1, 5))), Tree(middle, 6, random(15, 20))
+end)
+park:rule("Candidate", function()
+  return nil
+end)
+park:rule("Radial(a) < Radial(b)", function()
+  return nil
+end)
+-- The grass between the beds has a tree for every 200 m2, once the garden is laid out.
+park:rule("Garden(geom) > Bed(bed, _)", function(_, geom, bed)
+  return Planting(geom:difference(bed:buffer(3)), math.round(geom:area() / 200))
+end)
+park:rule("Planting(geom, count)", {
+  when = function(_, _, count)
+    return count > 0
+  end,
+}, function(_, geom, count)
+  local place = geom:random_point(random(), random())
+  return Planting(geom, count - 1), Tree(place, math.floor(random(1, 6)), random(5, 11))
+end)
+
+local function level(this, geom, from: number, to: number)
+  for _, part in geom:geometries() do
+    this:polygon(part):jump({ 0, 0, from }):extrude(to - from)
+  end
+end
+
+park:interpret("Lawn(geom)", function(this, geom)
+  level(this:color("#c9b894"), geom, -0.4, 0.05)
+end)
+local function grass(this, geom)
+  this:material({ texture = "textures/grass.png", texture_size = { 4, 4 }, roughness = 1 })
+  level(this, geom, 0, 0.2)
+end
+park:interpret("Garden(geom)", grass)
+park:interpret("Planting(geom, count)", function(this, geom)
+  grass(this, geom:buffer(0))
+end)
+park:interpret("Bed(geom, flowers)", function(this, geom, flowers)
+  grass(this, geom:buffer(3))
+  this:material({ texture = `textures/flowers{flowers}.png`, texture_size = { 2, 2 }, roughness = 1 })
+  level(this, geom, 0.2, 0.5)
+end)
+park:interpret("Tree(place, species, height)", function(this, place, species, height)
+  this:jump(place:place() + vec(0, 0, 0.2)):place(models.trees[species], height)
+end)
+park:interpret("Radial(geom)", function() end)
+park:derive()

@@ -1,0 +1,57 @@
+--!strict
+-- Street furniture without a direction turns to the road that is nearest: bus stops and lamps face the street.
+-- burgeon run scripts/geospatial/orientation.lua --data examples/data -o orientation.glb
+local models = require("models")
+
+local Furniture = module("Furniture", "place", "code")
+local Item, End = module("Item", "place", "code"), module("End")
+local Centreline, RoadSeg = module("Centreline", "geom"), module("RoadSeg", "geom")
+local Road = module("Road", "geom", "distance")
+local Standing = module("Standing", "place", "code", "direction")
+
+source("quarter/furniture.geojson")
+source("quarter/roads.geojson")
+
+local street = lsystem({ object = extruder() })
+street:axiom(query("select geom as place, code from furniture where direction is null", Furniture))
+
+-- All centrelines come behind the item, in segments.
+street:rule("Furniture(place, code)", function(_, place, code)
+  return Item(place, code), query("select geom from roads", Centreline), fragment(RoadSeg), End()
+end)
+-- One after the other, each tells how far it is from the item; of two the nearer one stays.
+street:rule("Item(place, code) < RoadSeg(geom)", function(_, place, _, geom)
+  return Road(geom, place:distance(geom))
+end)
+street:rule("Item(place, code) Road(nearest, distance) < RoadSeg(geom)", function(_, place, _, _, _, geom)
+  return Road(geom, place:distance(geom))
+end)
+street:rule("Road(a, nearest) < Road(b, distance)", {
+  when = function(_, _, nearest, _, distance)
+    return distance >= nearest
+  end,
+}, function()
+  return nil
+end)
+street:rule("Road(a, distance) > Road(b, nearest)", {
+  when = function(_, _, distance, _, nearest)
+    return nearest < distance
+  end,
+}, function()
+  return nil
+end)
+-- The road that is left decides.
+street:rule("Item(place, code) > Road(geom, distance) End", function(_, place, code, geom)
+  return Standing(place, code, line(place:place(), geom:nearest_point(place):place()):direction())
+end)
+street:rule("Standing(place, code, direction) < Road(geom, distance)", function()
+  return nil
+end)
+street:rule("Standing(place, code, direction) < End", function()
+  return nil
+end)
+
+street:interpret("Standing(place, code, direction)", function(this, place, code, direction)
+  this:jump(place:place() + vec(0, 0, 0.15)):roll(direction):place(models.furniture[code])
+end)
+street:derive()

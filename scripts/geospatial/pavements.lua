@@ -1,0 +1,72 @@
+--!strict
+-- Pavements from a layer of polygons, each levelled and laid by its code: carriageways, slabs, crossings, cobbles.
+-- burgeon run scripts/geospatial/pavements.lua --data examples/data -o pavements.glb
+local Pavement = module("Pavement", "geom", "code", "level")
+local Counting = module("Counting", "geom", "code", "level", "length", "points", "corners")
+local Laid = module("Laid", "geom", "code", "level", "length", "corners")
+
+source("quarter/pavements.geojson")
+
+local ASPHALT, SLABS, CROSSING, COBBLES = 1, 2, 3, 4
+local PAVING = {
+  [ASPHALT] = { texture = "textures/asphalt.png", texture_size = { 2, 2 }, roughness = 1 },
+  [SLABS] = { texture = "textures/slabs.png", texture_size = { 2, 2 }, roughness = 1 },
+  [CROSSING] = { texture = "textures/asphalt.png", texture_size = { 2, 2 }, roughness = 1 },
+  [COBBLES] = { texture = "textures/cobbles.png", texture_size = { 1.6, 1.6 }, roughness = 1 },
+}
+local DEPTH = 0.4
+
+local streets = lsystem({ object = extruder({ smooth = false }) })
+streets:axiom(query("select geom, code, level from pavements", Pavement))
+
+-- The texture is fitted to the longer side of what is around the polygon, and its corners are counted one a step.
+streets:rule("Pavement(geom, code, level)", function(_, geom, code, level)
+  local length = math.max(geom:envelope_width(), geom:envelope_height())
+  return Counting(geom, code, level, length, geom:exterior_ring():num_points() - 1, "-1")
+end)
+streets:rule("Counting(geom, code, level, length, points, corners)", {
+  when = function(_, _, _, _, _, points)
+    return points > 0
+  end,
+}, function(_, geom, code, level, length, points, corners)
+  return Counting(geom, code, level, length, points - 1, `{points - 1},{corners}`)
+end)
+streets:rule(
+  "Counting(geom, code, level, length, points, corners)",
+  function(_, geom, code, level, length, _, corners)
+    return Laid(geom, code, level, length, corners)
+  end
+)
+
+-- The bars of a crossing run along the street, beside one another across it.
+local function bars(this, geom, level: number)
+  local sides = geom:oriented_envelope():segments()
+  local across, along = sides[1], sides[2]
+  if across:length() < along:length() then
+    across, along = along, across
+  end
+  local from, to = across:start_point():place(), across:end_point():place()
+  local reach = along:end_point():place() - along:start_point():place()
+  if
+    (along:start_point():place() - from):length() < 0.01
+    or (along:start_point():place() - to):length() < 0.01
+  then
+    -- It leads away from the side that is gone through.
+  else
+    reach = reach * -1
+  end
+  local count = math.floor(across:length())
+  for bar = 0, count - 1 do
+    local a, b = from:lerp(to, (bar + 0.25) / count), from:lerp(to, (bar + 0.75) / count)
+    this:polygon({ a, b, b + reach, a + reach }):jump({ 0, 0, level }):extrude(0.012)
+  end
+end
+
+streets:interpret("Laid(geom, code, level, length, corners)", function(this, geom, code, level)
+  this:material(PAVING[code] or PAVING[SLABS])
+  this:polygon(geom):jump({ 0, 0, level - DEPTH }):extrude(DEPTH)
+  if code == CROSSING then
+    bars(this:material({ color = "#e6e4dc", roughness = 1 }), geom, level)
+  end
+end)
+streets:derive()

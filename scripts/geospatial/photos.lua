@@ -1,0 +1,53 @@
+--!strict
+-- Buildings whose frontages each show a photo: the most that one rule can do for a street.
+-- burgeon run scripts/geospatial/photos.lua --data examples/data -o photos.glb
+local Building = module("Building", "geom", "floors", "image", "roof")
+local Facade, Photo = module("Facade", "line", "image", "floors"), module("Photo", "line", "image", "height")
+local Roof = module("Roof", "geom", "height", "roof")
+
+source("quarter/buildings.geojson")
+
+local storey = param("storey", { default = 3, min = 2.4, max = 5, unit = "m", text = "How high a floor is" })
+
+local town = lsystem({ object = extruder({ smooth = false, roughness = 0.95 }) })
+-- In the data a style stands for a photo.
+town:axiom(query("select geom, floors, style as image, roof from buildings where floors > 0", Building))
+town:rule("Building(geom, floors, image, roof)", function(_, geom, floors, image, roof)
+  return Roof(geom, floors * storey, roof), Facade(geom:exterior_ring(), image, floors), fragment(Facade)
+end)
+town:rule("Facade(line, image, floors)", function(_, line, image, floors)
+  return Photo(line, image, floors * storey)
+end)
+
+-- The photos show four floors and four bays of about 3 m; narrow walls show as many bays as they have room for.
+town:interpret("Photo(line, image, height)", function(this, line, image, height)
+  local from, to = line:start_point():place(), line:end_point():place()
+  local along, length = (to - from):unit(), line:length()
+  local bays = math.max(1, math.round(length / 3))
+  local out = vec(along.y, -along.x, 0) * 0.05
+  this:material({
+    texture = `textures/facade{image}.png`,
+    texture_size = { length * 4 / bays, height },
+    roughness = 0.95,
+  })
+  this:polygon({ from + out, to + out, to, from }):jump({ 0, 0, 0 }):extrude(height)
+end)
+
+town:interpret("Roof(geom, height, roof)", function(this, geom, height, roof)
+  this:color("#cbbfa8"):polygon(geom:inset(0.02)):jump({ 0, 0, 0 }):extrude(height)
+  this
+    :color("#e2d9c6")
+    :polygon(geom:buffer(0.25, { join = "mitre" }))
+    :jump({ 0, 0, height - 0.2 })
+    :extrude(0.3)
+  for step = 1, if roof > 1 then 4 else 1 do
+    for _, part in geom:inset(step * 0.8):geometries() do
+      this
+        :color(if roof > 1 then "#92513c" else "#8b8880")
+        :polygon(part)
+        :jump({ 0, 0, height })
+        :extrude(step * 0.5 + 0.1)
+    end
+  end
+end)
+town:derive()

@@ -1,0 +1,219 @@
+//! Modules that stand for the parts of a geometry, and questions to the sources that a script has loaded.
+
+use burgeon::script::RunOptions;
+use burgeon::{Error, Run};
+
+use super::scripts::{all_chains, divided};
+
+/// A square with a hole, a bent line, a place, and a triangle beside the square.
+const PLAN: &str = r#"{"type":"FeatureCollection","crs":{"type":"name","properties":{"name":"EPSG:25832"}},"features":[
+{"type":"Feature","id":1,"properties":{"name":"square","floors":3},"geometry":{"type":"Polygon","coordinates":[
+  [[500000,5000000],[500020,5000000],[500020,5000020],[500000,5000020],[500000,5000000]],
+  [[500005,5000005],[500005,5000010],[500010,5000010],[500005,5000005]]]}},
+{"type":"Feature","id":2,"properties":{"name":"way"},"geometry":{"type":"LineString","coordinates":[[500000,5000030],[500010,5000030],[500010,5000040],[500010,5000050]]}},
+{"type":"Feature","id":3,"properties":{"name":"well"},"geometry":{"type":"Point","coordinates":[500015,5000015]}},
+{"type":"Feature","id":4,"properties":{"name":"triangle","floors":1},"geometry":{"type":"Polygon","coordinates":[[[500020,5000000],[500030,5000000],[500020,5000020],[500020,5000000]]]}}
+]}"#;
+
+const HEAD: &str = r#"
+    local Shape, Ring, Wall = module("Shape", "geom", "name?"), module("Ring", "line", "name?"), module("Wall", "line", "name?")
+    local Corner, Count, End = module("Corner", "place", "name?"), module("Count", "n"), module("End")
+    local plan = source("plan.geojson")
+    local s = lsystem({})
+"#;
+
+fn try_run(script: &str, options: RunOptions) -> burgeon::Result<Run> {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("main.lua");
+    std::fs::write(folder.path().join("plan.geojson"), PLAN).expect("a file");
+    std::fs::write(&path, format!("{HEAD}{script}")).expect("a file");
+    burgeon::run(&path, options)
+}
+
+/// The chain of a script that goes on behind [`HEAD`], without the word for a geometry.
+fn chain(script: &str) -> String {
+    match try_run(script, burgeon::options()) {
+        Ok(run) => without_geometries(all_chains(&run).trim_end()).replace('"', ""),
+        Err(error) => panic!("{error}\n{script}"),
+    }
+}
+
+/// A chain without what stands before the first comma of modules that have a geometry.
+fn without_geometries(chain: &str) -> String {
+    let mut text = String::new();
+    let mut rest = chain;
+    while let Some(at) =
+        ["(POINT (", "(LINESTRING (", "(POLYGON ("].iter().filter_map(|kind| rest.find(kind)).min()
+    {
+        text.push_str(&rest[..=at]);
+        let end = rest[at..].find(",\"").expect("a name follows");
+        rest = &rest[at + end + 1..];
+    }
+    text + rest
+}
+
+fn refused(script: &str) -> Error {
+    match try_run(script, burgeon::options()) {
+        Err(error) => error,
+        Ok(run) => panic!("this should fail, but it makes {}\n{script}", all_chains(&run)),
+    }
+}
+
+#[test]
+fn geometries_come_apart_level_by_level_with_their_parameters() {
+    let times = |count: usize, module: &str| vec![module; count].join(" ");
+    for (script, expected) in [
+        (r#"query("select * from plan where id = '1'", Shape), fragment(Ring)"#, times(2, "Ring(square)")),
+        (
+            r#"query("select * from plan where id = '1'", Shape), fragment(Ring), fragment(Wall)"#,
+            times(7, "Wall(square)"),
+        ),
+        (
+            r#"query("select * from plan where id = '1'", Shape), fragment(Ring), fragment(Wall), fragment(Corner)"#,
+            times(14, "Corner(square)"),
+        ),
+        // All rows of a query come apart, each with what is its own, and what stands beside them stays.
+        (
+            r#"End(), query("select * from plan where id in ('2', '4')", Shape), fragment(Ring), End()"#,
+            "End Ring(way) Ring(way) Ring(way) Ring(triangle) End".to_owned(),
+        ),
+        // In branches, with a branch in between, and behind no rows.
+        (
+            r#"{ query("select * from plan where id = '4'", Shape), { End() }, fragment(Ring), fragment(Wall) }, End()"#,
+            "[ Wall(triangle) Wall(triangle) Wall(triangle) [ End ] ] End".to_owned(),
+        ),
+        (r#"query("select * from plan where false", Shape), fragment(Ring), End()"#, "End".to_owned()),
+        // A collection of what is united in the database.
+        (
+            r#"query("select ST_Collect(geom) as geom, 'all' as name from plan where id in ('1', '4')", Shape), fragment(Shape), fragment(Ring)"#,
+            times(3, "Ring(all)"),
+        ),
+    ] {
+        assert_eq!(chain(&format!("s:axiom({script}) s:derive()")), expected, "{script}");
+    }
+}
+
+#[test]
+fn a_module_of_a_rule_comes_apart_and_its_parts_are_rewritten_in_the_next_step() {
+    let script = r#"
+        s:axiom(query("select * from plan where id = '4'", Shape))
+        s:rule("Shape(geom, name)", function(this, geom, name) return Ring(geom, name), fragment(Ring), fragment(Wall), End() end)
+        s:rule("Wall(line, name) > Wall(other, _)", function(this, line, name, other) return Corner(line, name), fragment(Corner) end)
+        s:derive(2)
+        "#;
+    assert_eq!(
+        chain(script),
+        "Corner(triangle) Corner(triangle) Corner(triangle) Corner(triangle) Wall(triangle) End"
+    );
+}
+
+#[test]
+fn geometries_are_values_of_questions() {
+    for (script, expected) in [
+        (
+            r#"s:axiom(query("select * from plan where id = '3'", Shape))
+               s:rule("Shape(geom, _)", function(this, geom)
+                 return query("select name, geom from plan where id <> '3' and ST_Intersects(geom, $geom)", Ring)
+               end) s:derive()"#,
+            "Ring(square)",
+        ),
+        // Walls within 3 m of another building: the square and the triangle share one.
+        (
+            r#"s:axiom(query("select * from plan where floors > 0", Shape), fragment(Ring), fragment(Wall))
+               s:rule("Wall(line, name)", { when = function(this, line, name)
+                 return #query("select id from plan where name <> $name and floors > 0 and ST_DWithin(geom, $line, 0.1)") == 0
+               end }, function(this, line, name) return End() end) s:derive()"#,
+            "Wall(square) Wall(square) Wall(square) End End End End Wall(triangle) Wall(triangle) Wall(triangle)",
+        ),
+        (
+            r#"local rows = query("select geom, name from plan where floors > $least", { least = 2 })
+               s:axiom(Count(#rows), Shape(rows[1].geom, rows[1].name), fragment(Ring)) s:derive()"#,
+            "Count(1) Ring(square) Ring(square)",
+        ),
+        (
+            r#"local also = source("plan.geojson", { table = "houses", kind = "polygon" })
+               s:axiom(Count(query("select count(*) as n from houses")[1].n), Count(#also), Count(#query("select 1 from plan"))) s:derive()"#,
+            "Count(2) Count(2) Count(4)",
+        ),
+    ] {
+        assert_eq!(chain(script), expected, "{script}");
+    }
+}
+
+#[test]
+fn parts_have_random_numbers_of_their_own_for_any_number_of_threads() {
+    let script = r#"
+        s:axiom(query("select * from plan where floors > 0 order by id", Shape), fragment(Ring), fragment(Wall))
+        s:rule("Wall(line, _)", function(this, line) return Count(random()), Corner(line), fragment(Corner) end)
+        s:rule("Corner", function() return Count(random()) end)
+        s:derive()
+        "#;
+    let chains = |threads, batch| all_chains(&try_run(script, divided(threads, batch)).expect("it runs"));
+    let first = chains(1, 4096);
+    let mut modules: Vec<&str> = first.split_whitespace().collect();
+    assert_eq!(modules.len(), 3 * 10, "{first}");
+    modules.sort_unstable();
+    modules.dedup();
+    assert_eq!(modules.len(), 3 * 10, "{first}");
+    for (threads, batch) in [(1, 3), (2, 1), (7, 2)] {
+        assert_eq!(chains(threads, batch), first);
+    }
+    // What is left out changes nothing of the others.
+    let fewer = script.replace("floors > 0", "floors > 1");
+    let fewer = all_chains(&try_run(&fewer, burgeon::options()).expect("it runs"));
+    assert!(first.starts_with(fewer.trim_end()), "{fewer}\n{first}");
+}
+
+#[test]
+fn what_cannot_come_apart_or_be_asked_is_told_with_its_line() {
+    for (script, message, help) in [
+        ("s:axiom(fragment(Wall))\ns:derive()", "there is no module to its left", "right behind the module"),
+        (
+            "s:axiom(Count(1), fragment(Wall))\ns:derive()",
+            "Count(1), whose parts it is to make, has no geometry",
+            "give the module to its left a geometry",
+        ),
+        (
+            "s:axiom(query(\"select geom from plan where id = '4'\", Shape), fragment(Count))\ns:derive()",
+            "",
+            "",
+        ),
+        ("s:axiom(query(\"select * from plann\", Shape))\ns:derive()", "plann", "plan"),
+        ("s:axiom(query(\"select * from plan wher id = 1\", Shape))\ns:derive()", "", ""),
+        (
+            "s:axiom(query(\"select id from plan\", Shape))\ns:derive()",
+            "its rows have nothing for geom",
+            "they have id",
+        ),
+        (
+            "s:axiom(query(\"select null as geom\", Shape))\ns:derive()",
+            "geom is NULL in row 1",
+            "leave such rows out",
+        ),
+        ("s:axiom(Count(query(\"delete from plan\")[1].n))\ns:derive()", "", ""),
+    ] {
+        if message.is_empty() && !script.contains("wher ") && !script.contains("delete") {
+            continue;
+        }
+        let error = refused(script);
+        println!("{error}");
+        assert!(error.message().contains(message), "{error}");
+        assert!(error.remedy().unwrap_or_default().contains(help), "{error}");
+        assert_eq!(error.place().map(|place| place.line), Some(6), "{error}");
+    }
+}
+
+#[test]
+fn a_point_has_no_parts_and_stays_which_is_told() {
+    let run = try_run(
+        "s:axiom(query(\"select * from plan where id = '3'\", Shape), fragment(Corner))\ns:derive()",
+        burgeon::options(),
+    );
+    let run = run.expect("it runs");
+    assert_eq!(without_geometries(&all_chains(&run)), "Corner(\"well\")\n");
+    assert!(
+        run.warnings[0].to_string().contains("a point has no parts, so it stays as it is"),
+        "{}",
+        run.warnings[0]
+    );
+}
