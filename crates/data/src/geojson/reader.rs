@@ -184,6 +184,10 @@ impl FeatureReader<'_> {
     /// Reads the text of one feature of a list.
     pub(super) fn raw_feature(&mut self, text: &str) -> Result<()> {
         self.wanted.budget.tick()?;
+        // What follows may still tell the coordinate system.
+        if self.table.is_full() {
+            return Ok(());
+        }
         match serde_json::from_str::<RawFeature<'_>>(text) {
             Ok(feature) => self.feature(&feature),
             Err(error) => {
