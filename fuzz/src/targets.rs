@@ -4,16 +4,18 @@
 
 use std::fs;
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 use std::time::{Duration, SystemTime};
 
 use burgeon::kit::rules::{Pattern, Signature, Symbols};
 use burgeon::kit::{Construct, LoadRequest, Resources, Table};
 use burgeon::packages::{Manifest, install, is_name};
 use burgeon::presets::Presets;
+use burgeon::query::{Cell, Database};
 use burgeon::script::{Limits, Print, RunOptions};
 use burgeon::sources::elevation::{HeightOptions as WantedHeights, Raster, Relief};
 use burgeon::sources::{Cache, Layer, Listing, Source, SourceOptions};
+use burgeon::spatial::Geometry;
 use burgeon::{Budget, Error, Result};
 use rusqlite::Connection;
 
@@ -45,7 +47,7 @@ const JSON: &[&str] = &[
 ];
 
 /// All of them.
-pub(crate) const TARGETS: [Target; 18] = [
+pub(crate) const TARGETS: [Target; 19] = [
     Target {
         name: "geojson",
         read: |bytes, folder| layer(bytes, &folder.join("a.geojson")),
@@ -158,6 +160,39 @@ pub(crate) const TARGETS: [Target; 18] = [
         ],
     },
     Target { name: "presets", read: presets, words: JSON },
+    Target {
+        name: "query",
+        read: query,
+        words: &[
+            "SELECT ",
+            " FROM huts a",
+            " JOIN huts b ON ",
+            " LEFT JOIN ",
+            " WHERE ",
+            "ST_Intersects(a.geom, b.geom)",
+            " ORDER BY a.geom <-> b.geom",
+            " LIMIT 1",
+            " NOT EXISTS (",
+            "$g",
+            " && ",
+            "::text",
+            " UNION ",
+            "WITH n AS (",
+            "ST_Buffer(",
+            "count(*)",
+            " GROUP BY ",
+            "'",
+            "\"",
+            ";",
+            "--",
+            "/*",
+            "(",
+            ")",
+            ",",
+            "[",
+            "`",
+        ],
+    },
     Target {
         name: "message",
         read: |bytes, _| burgeon::live::message::read(&String::from_utf8_lossy(bytes)).is_ok(),
@@ -360,6 +395,39 @@ fn presets(bytes: &[u8], folder: &Path) -> bool {
     let _ = fs::File::options().write(true).open(&path).and_then(|file| file.set_modified(old));
     let read = Presets::read(&script);
     read.is_ok_and(|presets| presets.names().all(|name| presets.get(name).is_ok()))
+}
+
+/// A question that is put to two huts.
+fn query(bytes: &[u8], folder: &Path) -> bool {
+    static TABLES: OnceLock<Database> = OnceLock::new();
+    let tables = TABLES.get_or_init(|| huts(folder).unwrap_or_else(|error| panic!("{error}")));
+    let sql = String::from_utf8_lossy(bytes);
+    let budget = Budget::within(Duration::from_secs(2), 20_000_000);
+    let place = Geometry::from_wkt("POINT(1 2)").map_or(Cell::Null, |place| Cell::Geometry(Arc::new(place)));
+    let _ = tables.plan(&sql, &budget);
+    let answer = tables.query(&sql, &[("g", place), ("n", Cell::Number(1.0))], &budget);
+    let Ok(answer) = answer else { return false };
+    assert!(answer.rows.iter().all(|row| row.len() == answer.names.len()));
+    true
+}
+
+/// A table with two huts.
+fn huts(folder: &Path) -> Result<Database> {
+    let path = folder.join("huts.geojson");
+    let hut = |id: usize| {
+        format!(
+            r#"{{"type":"Feature","id":"{id}","properties":{{"name":"hut"}},"geometry":{{"type":"Polygon","coordinates":[[[0,0],[0.00{id},0],[0,0.00{id}],[0,0]]]}}}}"#
+        )
+    };
+    let text = format!(r#"{{"type":"FeatureCollection","features":[{},{}]}}"#, hut(1), hut(2));
+    // Without the file it is refused, which is told.
+    let _ = fs::write(&path, text);
+    let wanted = SourceOptions { budget: budget(), ..SourceOptions::default() };
+    let mut frame = None;
+    let layer = Layer::new(Source::open_within(&path, "huts", &wanted)?.read("huts", &wanted)?, &mut frame)?;
+    let tables = Database::new(frame)?;
+    tables.add_layer("huts", &layer, &budget())?;
+    Ok(tables)
 }
 
 fn pattern(bytes: &[u8], _: &Path) -> bool {

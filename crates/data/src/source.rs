@@ -7,7 +7,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 use super::tags::TagFilter;
-use super::{Crs, FeatureTable, FlatGeobuf, GeoPackage, GeometryKind, GmlFile, OsmFile, geojson};
+use super::{FeatureTable, FlatGeobuf, GeoPackage, GeometryKind, GmlFile, OsmFile, geojson};
 use burgeon_base::budget::Budget;
 use burgeon_base::error::{Error, Limit, Result};
 use burgeon_base::text::{listed, shown};
@@ -182,24 +182,12 @@ impl Source {
         if format != "GeoPackage" {
             table.identify(wanted.id.as_deref())?;
         }
-        if let Some(code) = wanted.crs {
-            table.crs = Crs::epsg(code);
-        }
-        table.check_kind()?;
-        if let (true, Some((_, error))) =
-            (table.features.is_empty() && !table.has_seen(), table.refused.first())
-        {
-            return Err(error.clone());
-        }
-        if table.features.is_empty() {
-            return Err(nothing(&table, wanted).help("check the file: burgeon sources FILE"));
-        }
-        Ok(table)
+        table.finished(wanted)
     }
 }
 
 /// The error for a table without features.
-fn nothing(table: &FeatureTable, wanted: &SourceOptions) -> Error {
+pub(super) fn nothing(table: &FeatureTable, wanted: &SourceOptions) -> Error {
     let what = &table.shown;
     if wanted.limit == Some(0) {
         return Error::argument(format!("limit = 0 leaves no feature of {what}")).help("leave limit out");

@@ -186,6 +186,18 @@ impl FeatureTable {
         }
     }
 
+    /// A layer with attributes called `names`, whose features are [pushed](Self::push) by another reader; `shown` is what
+    /// messages call it.
+    pub fn of_layer(
+        layer: &str,
+        shown: &str,
+        crs: Result<Crs>,
+        names: Vec<String>,
+        wanted: &SourceOptions,
+    ) -> Self {
+        Self { names, ..Self::new(layer, shown, crs, wanted) }
+    }
+
     /// The number of the attribute called `name`, which is added if it is new.
     pub(super) fn name(&mut self, name: &str) -> usize {
         match self.numbers.get(name) {
@@ -236,7 +248,7 @@ impl FeatureTable {
     /// Adds a feature for each of `parts` that is wanted; with an id that is taken, it becomes `id.2`, `id.3` and so on.
     ///
     /// Fails if reading is to end, or if there is no memory left for more.
-    pub(super) fn push(
+    pub fn push(
         &mut self,
         id: &str,
         parts: Vec<Geometry>,
@@ -272,6 +284,23 @@ impl FeatureTable {
             self.features.push(Feature { id, geometry, attributes: Arc::clone(&attributes) });
         }
         Ok(())
+    }
+
+    /// The table with what is wanted of it: a coordinate system in place of its own, one kind of geometry, so many
+    /// features. Fails if nothing is left.
+    pub fn finished(mut self, wanted: &SourceOptions) -> Result<Self> {
+        if let Some(code) = wanted.crs {
+            self.crs = Crs::epsg(code);
+        }
+        self.check_kind()?;
+        if let (true, Some((_, error))) = (self.features.is_empty() && !self.has_seen(), self.refused.first())
+        {
+            return Err(error.clone());
+        }
+        if self.features.is_empty() {
+            return Err(super::source::nothing(&self, wanted).help("check the file: burgeon sources FILE"));
+        }
+        Ok(self)
     }
 
     /// Leaves out a feature for the reason that `error` gives. Fails as [`FeatureTable::push`] does.

@@ -196,7 +196,7 @@ impl Database {
 
     /// How SQLite goes about a statement, a line for each step, after it was rewritten.
     pub fn plan(&self, sql: &str, budget: &Arc<Budget>) -> Result<String> {
-        self.asked(sql, budget, |link, prepared| ask::plan(link, prepared))
+        self.asked(sql, budget, ask::plan)
     }
 
     fn asked<T>(

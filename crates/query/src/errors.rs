@@ -129,7 +129,7 @@ pub(crate) fn told(error: &rusqlite::Error, sql: &str, catalogue: &Catalogue) ->
     if let Some(name) = named("no such function: ") {
         let what = format!("{}no function called {}", place(sql, offset, &name), shown(&name));
         return Error::not_found("function", &name, functions::names(), what)
-            .help("the book's page on queries lists what there is");
+            .help("the book's page on SQL lists what there is");
     }
     if text.starts_with("wrong number of arguments to function") {
         let name = text.split_whitespace().last().unwrap_or_default().trim_end_matches("()").to_owned();
@@ -154,7 +154,7 @@ pub(crate) fn told(error: &rusqlite::Error, sql: &str, catalogue: &Catalogue) ->
             Error::syntax(what).help("write SQL as SQLite takes it: SELECT ... FROM ... WHERE ...")
         }
         _ => Error::argument(what)
-            .help("check the statement; the book's page on queries tells what functions take"),
+            .help("check the statement; the book's page on SQL tells what functions take"),
     }
 }
 
@@ -164,7 +164,7 @@ const NOT_ALLOWED: &str = "not authorized to use function: ";
 fn refused(text: &str, sql: &str) -> Error {
     if let Some(name) = text.strip_prefix(NOT_ALLOWED) {
         return Error::scope(format!("{}the function {} may not be called", place(sql, None, name), shown(name)))
-            .help("questions give the same each time, and reach nothing but tables; the book's page on queries lists what there is");
+            .help("questions give the same each time, and reach nothing but tables; the book's page on SQL lists what there is");
     }
     only_reading()
 }

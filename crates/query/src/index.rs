@@ -57,13 +57,16 @@ struct RowLines {
     areas: Vec<Option<geo::Geometry<f64>>>,
 }
 
+/// The lines of all rows, and the geometry of each that is an area.
+type RowParts = (Vec<RowSegment>, Vec<Option<geo::Geometry<f64>>>);
+
 /// Takes rows in.
 #[derive(Default)]
 pub(crate) struct IndexBuilder {
     boxes: Vec<RowBox>,
     keys: Vec<i64>,
     without: Vec<i64>,
-    lines: Option<(Vec<RowSegment>, Vec<Option<geo::Geometry<f64>>>)>,
+    lines: Option<RowParts>,
     greatest: f64,
 }
 
@@ -131,7 +134,7 @@ impl SpatialIndex {
     pub(crate) fn near(&self, bounds: Option<[f64; 4]>, distance: f64) -> Vec<i64> {
         let Some([low_x, low_y, high_x, high_y]) = bounds else { return self.without.clone() };
         let most = distance + 1e-12 * distance.abs() + 4.0 * self.slack;
-        if !(most >= 0.0) {
+        if most.is_nan() || most < 0.0 {
             return Vec::new();
         }
         let around = AABB::from_corners([low_x - most, low_y - most], [high_x + most, high_y + most]);

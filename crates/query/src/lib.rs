@@ -18,6 +18,8 @@ mod functions;
 mod index;
 mod place;
 mod plane;
+#[cfg(feature = "postgis")]
+pub mod postgis;
 mod rewrite;
 mod tables;
 #[cfg(test)]

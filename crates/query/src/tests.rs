@@ -8,6 +8,8 @@ use burgeon_base::budget::Budget;
 use burgeon_spatial::Geometry;
 
 mod plans;
+#[cfg(feature = "postgis")]
+mod postgis;
 mod safety;
 mod same;
 

@@ -170,4 +170,14 @@ mod tests {
             assert!(function.takes.starts_with('(') && function.takes.ends_with(')'), "{}", function.name);
         }
     }
+
+    #[test]
+    fn the_books_page_has_every_function() {
+        let page = concat!(env!("CARGO_MANIFEST_DIR"), "/../../docs/book/src/sql.md");
+        let page = std::fs::read_to_string(page).unwrap();
+        for SpatialFunction { name, takes, gives, doc, .. } in FUNCTIONS {
+            let row = format!("| `{name}{takes}` | {gives} | {doc} |");
+            assert!(page.contains(&row), "the page lacks: {row}");
+        }
+    }
 }

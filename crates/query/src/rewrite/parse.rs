@@ -115,18 +115,17 @@ pub(super) fn expression(text: &str) -> Option<Expr> {
     parser.ok()?.parse_expr().ok()
 }
 
-/// The names behind `$` in a statement, each once, and where each stands first.
-pub(crate) fn placeholders(sql: &str) -> Vec<(String, Location)> {
-    let mut names: Vec<(String, Location)> = Vec::new();
-    for token in tokens(sql).unwrap_or_default() {
-        if let Token::Placeholder(text) = &token.token
-            && let Some(name) = text.strip_prefix('$')
-            && !names.iter().any(|(known, _)| known == name)
-        {
-            names.push((name.to_owned(), token.span.start));
+/// Where names behind `$` stand in a statement (bytes).
+#[cfg(feature = "postgis")]
+pub(crate) fn placeholder_ranges(sql: &str) -> Vec<(usize, usize)> {
+    let found = tokens(sql).unwrap_or_default().into_iter().filter_map(|token| match &token.token {
+        Token::Placeholder(text) if text.starts_with('$') => {
+            let begin = offset(sql, token.span.start);
+            Some((begin, begin + text.len()))
         }
-    }
-    names
+        _ => None,
+    });
+    found.collect()
 }
 
 /// Where a second statement begins (bytes), if there is one.

@@ -46,6 +46,7 @@ pub(crate) enum Dialect {
     /// The database within the program.
     Sqlite,
     /// A PostGIS server.
+    #[cfg(feature = "postgis")]
     Postgis,
 }
 
@@ -66,18 +67,15 @@ pub(crate) struct Rewritten {
 
 /// Rewrites a statement for who is asked; `None` if it cannot be read here, which does not mean that it is wrong.
 pub(crate) fn rewrite(sql: &str, catalogue: &Catalogue, dialect: Dialect) -> Option<Rewritten> {
-    std::thread::scope(|scope| {
-        let work = std::thread::Builder::new().name("sql".into()).stack_size(STACK);
-        let begun = work.spawn_scoped(scope, || {
-            let mut parsed = parse(sql).ok()?;
-            Some(rewritten(&mut parsed, catalogue, dialect))
-        });
-        begun.ok()?.join().ok().flatten()
+    with_stack(|| {
+        let mut tree = parse(sql).ok()?;
+        Some(rewritten(&mut tree, catalogue, dialect))
     })
+    .flatten()
 }
 
-/// Runs `work` with as much stack as a parsed statement may need.
-pub(crate) fn with_stack<T: Send>(work: impl FnOnce() -> T + Send) -> Option<T> {
+/// Runs `work` with as much stack as a statement may need.
+pub(super) fn with_stack<T: Send>(work: impl FnOnce() -> T + Send) -> Option<T> {
     std::thread::scope(|scope| {
         let thread = std::thread::Builder::new().name("sql".into()).stack_size(STACK);
         thread.spawn_scoped(scope, work).ok()?.join().ok()

@@ -192,27 +192,27 @@ fn errors_tell_the_place_and_what_there_is() {
 
     SELECT fid FROM houses a, houses b
     -> SQL, line 1, column 8: ambiguous column name: fid
-      help: check the statement; the book's page on queries tells what functions take
+      help: check the statement; the book's page on SQL tells what functions take
 
     SELECT ST_GeomFromText('POINT(1') AS g
     -> SQL: ST_GeomFromText: no well-known text: at letter 8 there should be a number, not its end
-      help: check the statement; the book's page on queries tells what functions take
+      help: check the statement; the book's page on SQL tells what functions take
 
     SELECT ST_X(geom) FROM houses
     -> SQL: ST_X: argument 1 must be a point, not a polygon
-      help: check the statement; the book's page on queries tells what functions take
+      help: check the statement; the book's page on SQL tells what functions take
 
     SELECT ST_Area(name) FROM houses WHERE name IS NOT NULL
     -> SQL: ST_Area: no well-known text: at letter 1 there should be the name of a kind of geometry, not "house"
-      help: check the statement; the book's page on queries tells what functions take
+      help: check the statement; the book's page on SQL tells what functions take
 
     SELECT ST_Intersects(geom, 3) FROM houses
     -> SQL: ST_Intersects: argument 2 must be a geometry, not a number: ST_Intersects(geometry, geometry)
-      help: check the statement; the book's page on queries tells what functions take
+      help: check the statement; the book's page on SQL tells what functions take
 
     SELECT random()
     -> SQL, line 1, column 8: the function random may not be called
-      help: questions give the same each time, and reach nothing but tables; the book's page on queries lists what there is
+      help: questions give the same each time, and reach nothing but tables; the book's page on SQL lists what there is
 
     DELETE FROM houses
     -> SQL: a question may only read: SELECT, WITH and VALUES are allowed

@@ -1,0 +1,162 @@
+//! Values on their way to the server and back.
+
+use std::error::Error as StdError;
+use std::sync::Arc;
+
+use bytes::BytesMut;
+use postgres::types::{FromSql, IsNull, ToSql, Type, to_sql_checked};
+
+use crate::ask::whole;
+use crate::blob;
+use crate::cell::Cell;
+use burgeon_base::budget::Budget;
+
+type BoxedError = Box<dyn StdError + Sync + Send>;
+
+/// A value that is handed over, in the coordinates of the server.
+#[derive(Debug)]
+pub(super) struct BoundCell(pub(super) Cell);
+
+impl BoundCell {
+    /// Whether it can be handed over as a type.
+    pub(super) fn fits(&self, kind: &Type) -> bool {
+        let number = |text: &str| text.trim().parse::<f64>().ok();
+        match &self.0 {
+            Cell::Null => true,
+            Cell::Boolean(_) => *kind == Type::BOOL || is_text(kind),
+            Cell::Number(value) => {
+                is_text(kind) || is_float(kind) || is_integer(kind) && whole(*value).is_some()
+            }
+            Cell::Text(text) => {
+                is_text(kind)
+                    || is_float(kind) && number(text).is_some()
+                    || is_integer(kind) && number(text).and_then(whole).is_some()
+            }
+            Cell::Geometry(_) => *kind == Type::BYTEA,
+        }
+    }
+}
+
+fn is_text(kind: &Type) -> bool {
+    [Type::TEXT, Type::VARCHAR, Type::BPCHAR, Type::NAME, Type::UNKNOWN].contains(kind)
+}
+
+fn is_float(kind: &Type) -> bool {
+    [Type::FLOAT4, Type::FLOAT8].contains(kind)
+}
+
+fn is_integer(kind: &Type) -> bool {
+    [Type::INT2, Type::INT4, Type::INT8, Type::OID].contains(kind)
+}
+
+impl ToSql for BoundCell {
+    fn to_sql(&self, kind: &Type, out: &mut BytesMut) -> Result<IsNull, BoxedError> {
+        let number = match &self.0 {
+            Cell::Null => return Ok(IsNull::Yes),
+            Cell::Geometry(geometry) => return geometry.to_ewkb(None).to_sql(&Type::BYTEA, out),
+            Cell::Boolean(value) if *kind == Type::BOOL => return value.to_sql(kind, out),
+            Cell::Boolean(value) => return value.to_string().to_sql(&Type::TEXT, out),
+            Cell::Text(text) if is_text(kind) => return text.as_ref().to_sql(&Type::TEXT, out),
+            Cell::Number(value) if is_text(kind) => return value.to_string().to_sql(&Type::TEXT, out),
+            Cell::Number(value) => *value,
+            Cell::Text(text) => text.trim().parse::<f64>()?,
+        };
+        let whole = || whole(number).ok_or_else(|| BoxedError::from(format!("{number} is no whole number")));
+        match *kind {
+            Type::INT2 => i16::try_from(whole()?)?.to_sql(kind, out),
+            Type::INT4 => i32::try_from(whole()?)?.to_sql(kind, out),
+            Type::INT8 => whole()?.to_sql(kind, out),
+            Type::OID => u32::try_from(whole()?)?.to_sql(kind, out),
+            #[allow(clippy::cast_possible_truncation, reason = "that is what the server keeps")]
+            Type::FLOAT4 => (number as f32).to_sql(kind, out),
+            _ => number.to_sql(&Type::FLOAT8, out),
+        }
+    }
+
+    fn accepts(_: &Type) -> bool {
+        true
+    }
+
+    to_sql_checked!();
+}
+
+/// A value as it comes, with geometries in the coordinates of the server.
+pub(super) struct ServerCell(pub(super) Cell);
+
+impl<'a> FromSql<'a> for ServerCell {
+    fn from_sql(kind: &Type, raw: &'a [u8]) -> Result<Self, BoxedError> {
+        let text = |raw: &[u8]| Cell::Text(String::from_utf8_lossy(raw).into());
+        Ok(Self(match *kind {
+            Type::BOOL => Cell::Boolean(bool::from_sql(kind, raw)?),
+            Type::INT2 => Cell::Number(i16::from_sql(kind, raw)?.into()),
+            Type::INT4 => Cell::Number(i32::from_sql(kind, raw)?.into()),
+            #[allow(clippy::cast_precision_loss, reason = "Lua's own numbers are f64")]
+            Type::INT8 => Cell::Number(i64::from_sql(kind, raw)? as f64),
+            Type::OID => Cell::Number(u32::from_sql(kind, raw)?.into()),
+            Type::FLOAT4 => Cell::Number(f32::from_sql(kind, raw)?.into()),
+            Type::FLOAT8 => Cell::Number(f64::from_sql(kind, raw)?),
+            Type::NUMERIC => numeric(raw).map_or(Cell::Null, Cell::Number),
+            // A byte tells the version.
+            Type::JSONB => text(raw.get(1..).unwrap_or_default()),
+            Type::JSON => text(raw),
+            Type::UUID => Cell::Text(uuid(raw).into()),
+            Type::BYTEA => geometry(raw)?,
+            _ if kind.name() == "geometry" => geometry(raw)?,
+            _ if is_text(kind) || kind.name() == "citext" => text(raw),
+            _ => return Err(format!("is of type {}; make it text: ...::text", kind.name()).into()),
+        }))
+    }
+
+    fn from_sql_null(_: &Type) -> Result<Self, BoxedError> {
+        Ok(Self(Cell::Null))
+    }
+
+    fn accepts(_: &Type) -> bool {
+        true
+    }
+}
+
+fn geometry(raw: &[u8]) -> Result<Cell, BoxedError> {
+    let read = blob::read(raw, &Budget::default());
+    read.map(|geometry| Cell::Geometry(Arc::new(geometry)))
+        .map_err(|why| format!("has a geometry that {why}").into())
+}
+
+/// A number of any length as the nearest of ours: groups of four digits, and where the point stands.
+fn numeric(raw: &[u8]) -> Option<f64> {
+    let word = |index: usize| Some(i16::from_be_bytes(raw.get(2 * index..2 * index + 2)?.try_into().ok()?));
+    let (count, weight, sign) = (word(0)?, word(1)?, word(2)?);
+    let digits: Option<String> =
+        (0..usize::try_from(count).ok()?).map(|index| Some(format!("{:04}", word(index + 4)?))).collect();
+    let exponent = 4 * (i32::from(weight) - i32::from(count) + 1);
+    let minus = if sign == 0x4000 { "-" } else { "" };
+    // Not a number, and endless ones.
+    if !matches!(sign, 0 | 0x4000) {
+        return None;
+    }
+    let digits = digits?;
+    format!("{minus}{}e{exponent}", if digits.is_empty() { "0" } else { &digits }).parse().ok()
+}
+
+fn uuid(raw: &[u8]) -> String {
+    let hex: String = raw.iter().map(|byte| format!("{byte:02x}")).collect();
+    let parts =
+        [0..8, 8..12, 12..16, 16..20, 20..32].map(|range| hex.get(range).unwrap_or_default().to_owned());
+    parts.join("-")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_of_any_length_become_the_nearest_of_ours() {
+        let words = |words: &[i16]| words.iter().flat_map(|word| word.to_be_bytes()).collect::<Vec<u8>>();
+        assert_eq!(numeric(&words(&[0, 0, 0, 0])), Some(0.0));
+        assert_eq!(numeric(&words(&[2, 0, 0, 2, 12, 3400])), Some(12.34));
+        assert_eq!(numeric(&words(&[1, 1, 0x4000, 0, 5])), Some(-50_000.0));
+        assert_eq!(numeric(&words(&[1, -1, 0, 4, 1])), Some(0.0001));
+        assert_eq!(numeric(&words(&[0, 0, -0x4000, 0])), None);
+        assert_eq!(numeric(&[0, 9]), None);
+    }
+}

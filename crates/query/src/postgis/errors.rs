@@ -1,0 +1,110 @@
+//! What is told of a server that is not there, and of a statement that it does not take.
+
+use postgres::error::{ErrorPosition, SqlState};
+
+use super::ServerAddress;
+use crate::errors;
+use crate::functions;
+use crate::rewrite::{Catalogue, find_word};
+use burgeon_base::error::{Error, Limit};
+use burgeon_base::text::{listed, shown};
+
+/// Whether the connection is gone, and not the statement wrong.
+pub(super) fn is_lost(error: &postgres::Error) -> bool {
+    let ended = [SqlState::ADMIN_SHUTDOWN, SqlState::CRASH_SHUTDOWN, SqlState::CANNOT_CONNECT_NOW];
+    error.is_closed()
+        || error.code().map_or(error.as_db_error().is_none() && has_io(error), |code| ended.contains(code))
+}
+
+fn has_io(error: &postgres::Error) -> bool {
+    use std::error::Error as _;
+    error.source().is_some_and(|source| source.is::<std::io::Error>())
+}
+
+/// The error of a server that cannot be reached.
+pub(super) fn unreachable(address: &ServerAddress, error: &postgres::Error) -> Error {
+    let why = cause(error);
+    Error::unavailable(format!("the database {address} cannot be reached: {why}"))
+        .help("start the server, or check the address that --database names")
+}
+
+/// The innermost reason.
+fn cause(error: &postgres::Error) -> String {
+    use std::error::Error as _;
+    match (error.as_db_error(), error.source()) {
+        (Some(told), _) => shown(told.message()).into_owned(),
+        (None, Some(source)) => source.to_string(),
+        (None, None) => error.to_string(),
+    }
+}
+
+/// The error of a statement `sql` that was asked as `asked`.
+pub(super) fn told(
+    address: &ServerAddress,
+    error: &postgres::Error,
+    (sql, asked): (&str, &str),
+    catalogue: &Catalogue,
+) -> Error {
+    if is_lost(error) {
+        return Error::unavailable(format!("the database {address} went away: {}", cause(error)))
+            .help("start the server, and run again");
+    }
+    let Some(told) = error.as_db_error() else {
+        return Error::data(format!("the database {address}: {}", cause(error)))
+            .help("ask for columns that are numbers, texts, true or false, or geometries");
+    };
+    let message = told.message();
+    // The word at which the server stopped, as it stands in what was written.
+    let word = match told.position() {
+        Some(ErrorPosition::Original(position)) => {
+            let begin = usize::try_from(*position).unwrap_or(0).saturating_sub(1);
+            let rest: String = asked.chars().skip(begin).collect();
+            rest.split(|letter: char| !(letter.is_alphanumeric() || letter == '_'))
+                .next()
+                .unwrap_or("")
+                .to_owned()
+        }
+        _ => String::new(),
+    };
+    let place = |name: &str| {
+        let found = find_word(sql, name).filter(|_| !name.is_empty());
+        found.map_or_else(|| "SQL: ".to_owned(), |offset| format!("SQL, {}: ", errors::at(sql, offset)))
+    };
+    let quoted = || message.split('"').nth(1).map(str::to_owned);
+    let code = told.code();
+    if *code == SqlState::UNDEFINED_TABLE {
+        let name = quoted().unwrap_or(word);
+        let known: Vec<&str> = catalogue.values().map(|table| table.name.as_str()).collect();
+        let what = format!("{}no table called {}", place(&name), shown(&name));
+        return Error::not_found("table", &name, known.iter().copied(), what)
+            .help(format!("the database has {}", listed(known.iter().copied())));
+    }
+    if *code == SqlState::UNDEFINED_COLUMN {
+        let name = quoted().unwrap_or(word);
+        let used = catalogue.values().filter(|table| find_word(sql, &table.name).is_some());
+        let known: Vec<&str> = used.flat_map(|table| table.columns.iter().map(String::as_str)).collect();
+        let what = format!("{}no column called {}", place(&name), shown(&name));
+        return Error::not_found("column", &name, known.iter().copied(), what)
+            .help(format!("there are {}; texts stand in single quotes", listed(known.iter().copied())));
+    }
+    if *code == SqlState::UNDEFINED_FUNCTION && message.starts_with("function ") {
+        let name = message["function ".len()..].split('(').next().unwrap_or_default().to_owned();
+        let what = format!("{}{}", place(&name), shown(message));
+        return Error::not_found("function", &name, functions::names(), what)
+            .help("check what it is given; PostGIS tells numbers from whole numbers and texts");
+    }
+    let what = format!("{}{}", place(&word), shown(message));
+    if *code == SqlState::QUERY_CANCELED {
+        return Error::limit(Limit::Time, what)
+            .help("ask for less, or raise the limit: --time-limit SECONDS");
+    }
+    if *code == SqlState::READ_ONLY_SQL_TRANSACTION || *code == SqlState::INSUFFICIENT_PRIVILEGE {
+        return Error::scope(what).help("questions may only read what the user of the database may see");
+    }
+    match *code == SqlState::SYNTAX_ERROR {
+        true => Error::syntax(what).help("write SQL as PostgreSQL takes it: SELECT ... FROM ... WHERE ..."),
+        false => Error::argument(what).help(
+            told.hint().map_or_else(|| "check the statement".to_owned(), |hint| shown(hint).into_owned()),
+        ),
+    }
+}

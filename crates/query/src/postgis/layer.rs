@@ -1,0 +1,120 @@
+//! Layers of a server.
+
+use std::sync::Arc;
+
+use super::Server;
+use super::server::ServerFailure;
+use crate::cell::{Cell, QueryAnswer};
+use crate::place::Move;
+use burgeon_base::error::{Error, Result};
+use burgeon_base::text::{listed, shown};
+use burgeon_data::{Attribute, Crs, FeatureTable, SourceOptions};
+
+impl Server {
+    /// Reads what is `wanted` of a layer, in the order of its keys, as [`Source::read`](burgeon_data::Source::read) does.
+    ///
+    /// Fails if there is no such table, and if it has no geometries.
+    pub fn read(&self, wanted: &SourceOptions) -> Result<FeatureTable> {
+        let budget = &wanted.budget;
+        let known = self.known(budget)?;
+        let with: Vec<&str> = known
+            .catalogue
+            .values()
+            .filter(|table| !table.geometries.is_empty())
+            .map(|table| table.name.as_str())
+            .collect();
+        let layer = match (&wanted.layer, with.as_slice()) {
+            (Some(layer), _) => layer.as_str(),
+            (None, [only]) => only,
+            (None, _) => {
+                return Err(Error::argument(format!("{} has several layers", self.address()))
+                    .help(format!("name one behind a colon; it has {}", listed(with.iter().copied()))));
+            }
+        };
+        let found =
+            known.catalogue.get(&layer.to_ascii_lowercase()).filter(|table| !table.geometries.is_empty());
+        let Some(table) = found else {
+            let what = format!("{} has no layer called {}", self.address(), shown(layer));
+            return Err(Error::not_found("layer", layer, with.iter().copied(), what)
+                .help(format!("it has {}", listed(with.iter().copied()))));
+        };
+        let label = format!("{}:{}", self.address(), shown(layer));
+        let geometry = &table.geometries[0];
+        let quoted = |name: &str| format!("\"{}\"", name.replace('"', "\"\""));
+        let key = table.key.as_deref();
+        let own: Vec<&String> =
+            table.columns.iter().filter(|name| *name != geometry && Some(name.as_str()) != key).collect();
+        let mut sql =
+            format!("SELECT {}, {}", key.map_or_else(|| "NULL".to_owned(), quoted), quoted(geometry));
+        for name in &own {
+            sql += &format!(", {}", quoted(name));
+        }
+        sql += &format!(" FROM {}", quoted(&table.name));
+        if let Some(condition) = &wanted.condition {
+            // The line's end ends a comment.
+            sql += &format!(" WHERE (\n{condition}\n)");
+        }
+        if let Some(key) = key {
+            sql += &format!(" ORDER BY {}", quoted(key));
+        }
+        if let (Some(limit), None, None) = (wanted.limit, wanted.kind, wanted.within) {
+            sql += &format!(" LIMIT {limit}");
+        }
+        crate::rewrite::check(&sql, &known.catalogue).map_err(|error| error.about(&label))?;
+        let none = |_: &str| Err(Error::argument("a layer's condition has no parameters"));
+        let answer = self.asked(&sql, 0, &none, &Move::nowhere(), budget).map_err(|failure| {
+            let error = match failure {
+                ServerFailure::Told(error) => error,
+                ServerFailure::Server(error, asked) => {
+                    super::errors::told(self.address(), &error, (&asked, &asked), &known.catalogue)
+                }
+            };
+            budget.check().err().unwrap_or(error).about(&label)
+        })?;
+        let srid = known.systems.get(&table.name.to_ascii_lowercase()).copied().unwrap_or(0);
+        let crs = match srid {
+            0 => Err(Error::data("the layer has no coordinate system")
+                .help("name its EPSG code: source(address, { crs = 3067 })")),
+            srid => Crs::epsg(srid),
+        };
+        let names = own.iter().map(|name| (*name).clone()).collect();
+        features(&answer, FeatureTable::of_layer(layer, &label, crs, names, wanted), wanted)
+    }
+}
+
+/// The rows as features.
+fn features(answer: &QueryAnswer, mut table: FeatureTable, wanted: &SourceOptions) -> Result<FeatureTable> {
+    let id = match &wanted.id {
+        Some(id) => Some(table.names.iter().position(|name| name == id).ok_or_else(|| {
+            let names = || table.names.iter().map(String::as_str);
+            let what = format!("{} has no attribute called {}", table.shown, shown(id));
+            Error::not_found("attribute", id, names(), what).help(format!("it has {}", listed(names())))
+        })?),
+        None => table.names.iter().position(|name| name.eq_ignore_ascii_case("id")),
+    };
+    let text = |cell: &Cell| match cell {
+        Cell::Null => None,
+        Cell::Text(text) if text.is_empty() => None,
+        Cell::Text(text) => Some(text.to_string()),
+        other => Some(other.to_string()),
+    };
+    for (row, number) in answer.rows.iter().zip(1usize..) {
+        let key = text(&row[0]).unwrap_or_else(|| number.to_string());
+        let id = id.and_then(|id| text(&row[id + 2])).unwrap_or(key);
+        let parts = match &row[1] {
+            Cell::Geometry(geometry) => geometry.parts(),
+            _ => Vec::new(),
+        };
+        let attributes = row[2..].iter().enumerate().filter_map(|(index, cell)| {
+            let value = match cell {
+                Cell::Boolean(value) => Attribute::Boolean(*value),
+                Cell::Number(value) => Attribute::Number(*value),
+                Cell::Text(text) => Attribute::Text(Arc::clone(text)),
+                Cell::Null | Cell::Geometry(_) => return None,
+            };
+            Some((index, value))
+        });
+        table.push(&id, parts, attributes.collect())?;
+    }
+    table.finished(wanted)
+}

@@ -1,0 +1,15 @@
+//! Questions that are put to a PostGIS server.
+//!
+//! Comes in: the address of a server that the user allows, statements with named parameters. Goes out: the same rows that
+//! the database within the program gives, and layers. Transactions are read-only, values are bound, connections are kept
+//! and used again; a connection that was lost is opened once more.
+
+mod address;
+mod cells;
+mod errors;
+mod layer;
+mod numbered;
+mod server;
+
+pub use address::ServerAddress;
+pub use server::Server;

@@ -1,0 +1,52 @@
+//! Named parameters as numbered ones.
+
+use crate::cell::Cell;
+use crate::rewrite::placeholder_ranges;
+
+/// A statement whose names behind `$` are numbers, and the name of each.
+pub(super) struct NumberedStatement {
+    /// With `$1` in place of names.
+    pub sql: String,
+    /// The names, in the order of their numbers.
+    pub names: Vec<String>,
+}
+
+/// How values are handed over.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub(super) enum ParameterTypes {
+    /// As what the server takes each for where it stands.
+    Inferred,
+    /// As what they are.
+    Told,
+}
+
+/// Numbers the parameters of a statement; geometries have the reference system `srid`.
+pub(super) fn numbered(
+    sql: &str,
+    types: ParameterTypes,
+    srid: u32,
+    value: impl Fn(&str) -> Option<Cell>,
+) -> NumberedStatement {
+    let mut made = NumberedStatement { sql: String::with_capacity(sql.len() + 40), names: Vec::new() };
+    let mut from = 0;
+    for (begin, end) in placeholder_ranges(sql) {
+        let name = &sql[begin + 1..end];
+        let index = made.names.iter().position(|known| known == name).unwrap_or_else(|| {
+            made.names.push(name.to_owned());
+            made.names.len() - 1
+        });
+        let number = index + 1;
+        made.sql += &sql[from..begin];
+        made.sql += &match (value(name), types) {
+            (Some(Cell::Geometry(_)), _) => format!("ST_GeomFromWKB(${number}::bytea, {srid})"),
+            (Some(Cell::Null), _) => format!("${number}::text"),
+            (_, ParameterTypes::Inferred) | (None, _) => format!("${number}"),
+            (Some(Cell::Number(_)), ParameterTypes::Told) => format!("${number}::float8"),
+            (Some(Cell::Text(_)), ParameterTypes::Told) => format!("${number}::text"),
+            (Some(Cell::Boolean(_)), ParameterTypes::Told) => format!("${number}::bool"),
+        };
+        from = end;
+    }
+    made.sql += &sql[from..];
+    made
+}

@@ -1,0 +1,176 @@
+//! What a statement may reach on a server: tables that are known, and functions of a list.
+
+use std::ops::ControlFlow;
+
+use sqlparser::ast::{Cte, Expr, FunctionArguments, ObjectName, Query, TableFactor, Visit, Visitor};
+
+use super::Catalogue;
+use super::parse::{find_word, parse};
+use super::statement::with_stack;
+use crate::errors::at;
+use crate::functions;
+use burgeon_base::error::{Error, Result};
+use burgeon_base::text::{listed, shown};
+
+/// Functions that stand behind FROM.
+const OF_ROWS: [&str; 6] =
+    ["generate_series", "unnest", "st_dump", "st_dumppoints", "st_dumpsegments", "st_dumprings"];
+
+/// Functions of PostgreSQL that others have not.
+const OTHERS: [&str; 18] = [
+    "array_agg",
+    "array_length",
+    "bool_and",
+    "bool_or",
+    "btrim",
+    "cardinality",
+    "cbrt",
+    "cot",
+    "every",
+    "initcap",
+    "left",
+    "lpad",
+    "position",
+    "regexp_replace",
+    "right",
+    "rpad",
+    "split_part",
+    "string_to_array",
+];
+
+/// Words that PostgreSQL takes for functions.
+const NEVER_THE_SAME: [&str; 11] = [
+    "current_catalog",
+    "current_date",
+    "current_role",
+    "current_schema",
+    "current_time",
+    "current_timestamp",
+    "current_user",
+    "localtime",
+    "localtimestamp",
+    "session_user",
+    "user",
+];
+
+/// Fails if a statement is none that asks for rows, or names a table or a function that it may not.
+pub(crate) fn check(sql: &str, catalogue: &Catalogue) -> Result<()> {
+    let checked = with_stack(|| {
+        let tree = parse(sql).map_err(|error| {
+            Error::syntax(unread(&error.message))
+                .help("write SQL that both SQLite and PostgreSQL take: SELECT ... FROM ... WHERE ...")
+        })?;
+        checked(&tree.query, sql, catalogue)
+    });
+    checked.unwrap_or_else(|| Err(Error::system("cannot start a thread")))
+}
+
+/// What the parser says, with the place first.
+fn unread(message: &str) -> String {
+    let message = message.trim_start_matches("sql parser error: ").replacen("Expected", "expected", 1);
+    let Some((what, at)) = message.rsplit_once(" at Line: ") else {
+        return format!("SQL: {}", shown(&message));
+    };
+    match at.split_once(", Column: ") {
+        Some((line, column)) => format!("SQL, line {line}, column {column}: {}", shown(what)),
+        None => format!("SQL: {}", shown(&message)),
+    }
+}
+
+fn checked(query: &Query, sql: &str, catalogue: &Catalogue) -> Result<()> {
+    struct Declarations(Vec<String>);
+    impl Visitor for Declarations {
+        type Break = ();
+        fn pre_visit_query(&mut self, query: &Query) -> ControlFlow<()> {
+            let declared = query.with.iter().flat_map(|with| &with.cte_tables);
+            self.0.extend(declared.map(|Cte { alias, .. }| alias.name.value.to_ascii_lowercase()));
+            ControlFlow::Continue(())
+        }
+    }
+    let mut own = Declarations(Vec::new());
+    let _ = query.visit(&mut own);
+    let mut guard = Guard { sql, catalogue, own: own.0 };
+    match query.visit(&mut guard) {
+        ControlFlow::Break(error) => Err(error),
+        ControlFlow::Continue(()) => Ok(()),
+    }
+}
+
+struct Guard<'a> {
+    sql: &'a str,
+    catalogue: &'a Catalogue,
+    /// The tables that the statement declares.
+    own: Vec<String>,
+}
+
+impl Guard<'_> {
+    fn place(&self, name: &str) -> String {
+        let found = find_word(self.sql, name);
+        found.map_or_else(|| "SQL: ".to_owned(), |offset| format!("SQL, {}: ", at(self.sql, offset)))
+    }
+
+    fn never_the_same(&self, word: &str) -> ControlFlow<Error> {
+        let what = format!("{}{} may not be asked for", self.place(word), shown(word));
+        ControlFlow::Break(Error::scope(what).help("questions give the same each time, whoever asks"))
+    }
+
+    fn function(&self, name: &ObjectName) -> ControlFlow<Error> {
+        let written = name.to_string();
+        let plain = written.trim_matches('"').to_ascii_lowercase();
+        let of_list = |name: &str| OF_ROWS.contains(&name) || OTHERS.contains(&name);
+        // Functions of geometries reach nothing, but for those that read rasters or networks.
+        let spatial = plain.strip_prefix("st_").is_some_and(|rest| {
+            rest.chars().all(|letter| letter.is_ascii_alphanumeric() || letter == '_')
+                && !["fromgdalraster", "asgdalraster"].contains(&rest)
+        });
+        if functions::is_allowed(&plain) || of_list(&plain) || spatial {
+            return ControlFlow::Continue(());
+        }
+        let what = format!("{}the function {} may not be called", self.place(&plain), shown(&written));
+        ControlFlow::Break(Error::not_found("function", &plain, functions::names(), what).help(
+            "questions give the same each time, and reach nothing but tables; the book's page on SQL lists what there is",
+        ))
+    }
+}
+
+impl Visitor for Guard<'_> {
+    type Break = Error;
+
+    fn pre_visit_expr(&mut self, expression: &Expr) -> ControlFlow<Error> {
+        if let Expr::Identifier(name) = expression
+            && name.quote_style.is_none()
+            && NEVER_THE_SAME.iter().any(|word| name.value.eq_ignore_ascii_case(word))
+        {
+            return self.never_the_same(&name.value);
+        }
+        let Expr::Function(function) = expression else { return ControlFlow::Continue(()) };
+        // Such as CURRENT_TIMESTAMP, which is never the same.
+        if matches!(function.args, FunctionArguments::None) {
+            return self.never_the_same(&function.name.to_string());
+        }
+        self.function(&function.name)
+    }
+
+    fn pre_visit_table_factor(&mut self, factor: &TableFactor) -> ControlFlow<Error> {
+        match factor {
+            TableFactor::Table { name, args: Some(_), .. } => self.function(name),
+            TableFactor::Function { name, .. } => self.function(name),
+            _ => ControlFlow::Continue(()),
+        }
+    }
+
+    fn pre_visit_relation(&mut self, name: &ObjectName) -> ControlFlow<Error> {
+        let written = name.to_string();
+        let plain = written.replace('"', "").to_ascii_lowercase();
+        let known = self.own.contains(&plain) || self.catalogue.contains_key(&plain);
+        if known || functions::is_allowed(&plain) || OF_ROWS.contains(&plain.as_str()) {
+            return ControlFlow::Continue(());
+        }
+        let names: Vec<&str> = self.catalogue.values().map(|table| table.name.as_str()).collect();
+        let what = format!("{}no table called {}", self.place(&plain), shown(&written));
+        ControlFlow::Break(
+            Error::not_found("table", &plain, names.iter().copied(), what)
+                .help(format!("the database has {}", listed(names.iter().copied()))),
+        )
+    }
+}

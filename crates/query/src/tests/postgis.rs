@@ -1,0 +1,307 @@
+//! The same statements give the same rows here and on a server, if `BURGEON_POSTGIS` names one that may be filled.
+
+use super::*;
+use crate::postgis::{Server, ServerAddress};
+
+/// The server's address, or nothing where there is none to test with.
+fn address() -> Option<ServerAddress> {
+    let found = std::env::var("BURGEON_POSTGIS").ok();
+    if found.is_none() {
+        eprintln!("left out: BURGEON_POSTGIS names no PostGIS server");
+    }
+    found.map(|address| ServerAddress::parse(&address).unwrap())
+}
+
+/// A connection that may write.
+fn writer() -> postgres::Client {
+    postgres::Client::connect(&std::env::var("BURGEON_POSTGIS").unwrap(), postgres::NoTls).unwrap()
+}
+
+/// Writes the tables of a GeoPackage into a schema of the server.
+fn fill(path: &Path, schema: &str, layers: &[(&str, &str)]) {
+    let source = rusqlite::Connection::open(path).unwrap();
+    let mut client = writer();
+    client.batch_execute(&format!("DROP SCHEMA IF EXISTS {schema} CASCADE; CREATE SCHEMA {schema}")).unwrap();
+    for (layer, columns) in layers {
+        client.batch_execute(&format!("CREATE TABLE {schema}.{layer} (fid int PRIMARY KEY, geom geometry(Geometry, 3067), {columns})")).unwrap();
+        let mut statement = source.prepare(&format!("SELECT * FROM {layer} ORDER BY fid")).unwrap();
+        let mut rows = statement.query([]).unwrap();
+        let mut batch = String::new();
+        while let Some(row) = rows.next().unwrap() {
+            let values: Vec<String> = (0..columns.split(',').count() + 2)
+                .map(|index| match row.get_ref(index).unwrap() {
+                    rusqlite::types::ValueRef::Null => "NULL".to_owned(),
+                    rusqlite::types::ValueRef::Integer(value)
+                        if columns
+                            .split(',')
+                            .nth(index.wrapping_sub(2))
+                            .is_some_and(|it| it.contains("bool")) =>
+                    {
+                        (value != 0).to_string()
+                    }
+                    rusqlite::types::ValueRef::Integer(value) => value.to_string(),
+                    rusqlite::types::ValueRef::Real(value) => format!("{value:?}"),
+                    rusqlite::types::ValueRef::Text(text) => format!("'{}'", String::from_utf8_lossy(text)),
+                    rusqlite::types::ValueRef::Blob(bytes) => {
+                        let geometry = blob::read(bytes, &Budget::default()).unwrap();
+                        format!("ST_GeomFromText('{}', 3067)", geometry.to_wkt())
+                    }
+                })
+                .collect();
+            batch += &format!("INSERT INTO {schema}.{layer} VALUES ({});", values.join(", "));
+        }
+        client.batch_execute(&batch).unwrap();
+        client
+            .batch_execute(&format!(
+                "CREATE INDEX ON {schema}.{layer} USING gist (geom); ANALYZE {schema}.{layer}"
+            ))
+            .unwrap();
+    }
+    client
+        .batch_execute(&format!("ALTER DATABASE {} SET search_path = {schema}, public", database_name()))
+        .unwrap();
+}
+
+fn database_name() -> String {
+    address().unwrap().database
+}
+
+const LAYERS: [(&str, &str); 3] = [
+    ("houses", "name text, height float8, levels int, part bool"),
+    ("roads", "kind text"),
+    ("lamps", "lit bool"),
+];
+
+/// Statements that both take.
+const STATEMENTS: [&str; 34] = [
+    "SELECT * FROM houses",
+    "SELECT fid, name, height, levels, part FROM houses WHERE levels > 2",
+    "SELECT a.fid, b.fid AS other FROM houses a JOIN houses b ON ST_Intersects(a.geom, b.geom) AND a.fid < b.fid",
+    "SELECT a.fid, b.fid AS other FROM houses a, houses b WHERE a.fid < b.fid AND ST_Overlaps(a.geom, b.geom)",
+    "SELECT h.fid, l.fid AS lamp FROM houses h, lamps l WHERE ST_Contains(h.geom, l.geom)",
+    "SELECT l.fid, h.fid AS house FROM lamps l LEFT JOIN houses h ON ST_Within(l.geom, h.geom)",
+    "SELECT h.fid, r.fid AS road FROM roads r JOIN houses h ON ST_Crosses(r.geom, h.geom)",
+    "SELECT fid FROM houses a WHERE NOT EXISTS (SELECT 1 FROM houses b WHERE a.fid <> b.fid AND ST_Intersects(a.geom, b.geom))",
+    "SELECT fid FROM houses a WHERE NOT EXISTS (SELECT 1 FROM roads r WHERE ST_DWithin(a.geom, r.geom, 3))",
+    "SELECT fid FROM houses WHERE ST_DWithin(geom, $g, $d)",
+    "SELECT fid FROM houses WHERE ST_Intersects(geom, ST_Buffer($g, $d))",
+    "SELECT fid FROM houses ORDER BY ST_Distance(geom, $g) LIMIT 5",
+    "SELECT fid FROM houses WHERE levels = $n ORDER BY geom <-> $g LIMIT 3",
+    "SELECT l.fid, (SELECT r.fid FROM roads r ORDER BY r.geom <-> l.geom LIMIT 1) AS road FROM lamps l",
+    "SELECT fid, ST_Area(geom) AS area, ST_Perimeter(geom) AS perimeter, ST_NPoints(geom) AS n FROM houses",
+    "SELECT fid, ST_Length(geom) AS length, ST_NumPoints(geom) AS n, ST_X(ST_StartPoint(geom)) AS x FROM roads",
+    "SELECT fid, ST_XMin(geom) AS w, ST_YMin(geom) AS s, ST_XMax(geom) AS e, ST_YMax(geom) AS n FROM houses",
+    "SELECT fid, ST_Centroid(geom) AS c, ST_Envelope(geom) AS e FROM houses",
+    "SELECT fid, ST_LineInterpolatePoint(geom, 0.5) AS middle, ST_EndPoint(geom) AS last FROM roads",
+    "SELECT fid, ST_Azimuth(geom, $g) AS way, ST_Distance(geom, $g) AS far FROM lamps",
+    "SELECT l.fid, ST_ClosestPoint(r.geom, l.geom) AS at FROM lamps l JOIN roads r ON ST_DWithin(l.geom, r.geom, 9)",
+    "SELECT levels, count(*) AS n, avg(height) AS height, max(name) AS name FROM houses GROUP BY levels ORDER BY n DESC, levels",
+    "SELECT kind, count(*) AS n FROM roads GROUP BY kind HAVING count(*) > 2",
+    "SELECT DISTINCT levels FROM houses",
+    "SELECT levels AS n FROM houses WHERE fid < 5 UNION ALL SELECT fid FROM lamps WHERE fid < 4",
+    "WITH tall AS (SELECT * FROM houses WHERE levels > 3) SELECT t.fid, r.fid AS road FROM tall t JOIN roads r ON ST_Intersects(t.geom, r.geom)",
+    "SELECT fid, name FROM houses ORDER BY name LIMIT 6",
+    "SELECT fid, name FROM houses ORDER BY name DESC LIMIT 6",
+    "SELECT fid, name IS NULL AS none, part, NOT part AS whole FROM houses WHERE name LIKE 'house 1%' OR name IS NULL",
+    "SELECT fid FROM houses WHERE name = $t",
+    "SELECT fid FROM houses WHERE fid <> $id AND levels = $n",
+    "SELECT fid, coalesce(name, 'nobody') AS name, round(height + 0.1) AS height, upper(name) AS loud FROM houses",
+    "SELECT fid, CASE WHEN levels > $n THEN 'high' ELSE 'low' END AS kind FROM houses LIMIT 9",
+    "SELECT fid FROM houses WHERE levels IN (1, 3) AND height BETWEEN 3 AND 10 LIMIT 7 OFFSET 4",
+];
+
+#[test]
+fn a_server_gives_the_same_rows() {
+    let Some(address) = address() else { return };
+    let folder = tempfile::tempdir().unwrap();
+    let database = database(folder.path(), 400);
+    fill(&folder.path().join("town.gpkg"), "burgeon_same", &LAYERS);
+    let server = Server::new(&address, Some(std::time::Duration::from_secs(60)));
+    let at = Geometry::from_wkt("POINT(385100 6672100)").unwrap();
+    let parameters = [
+        ("g", Cell::Geometry(Arc::new(at))),
+        ("d", Cell::Number(25.5)),
+        ("n", Cell::Number(3.0)),
+        ("id", Cell::Text("12".into())),
+        ("t", Cell::Text("house 7".into())),
+    ];
+    let (mut count, mut total) = (0, 0);
+    for sql in STATEMENTS {
+        let here = database.query(sql, &parameters, &budget()).unwrap();
+        let there = server.query(sql, &parameters, None, &budget()).unwrap();
+        assert_eq!(here.names, there.names, "{sql}");
+        assert_eq!(here.rows.len(), there.rows.len(), "{sql}");
+        for (a, b) in here.rows.iter().zip(&there.rows) {
+            for (a, b) in a.iter().zip(b) {
+                assert!(same(a, b), "{sql}: {a} here, {b} there");
+            }
+        }
+        count += 1;
+        total += here.rows.len();
+    }
+    assert!(count >= 25 && total > 3000, "{count} statements, {total} rows");
+    safety(&server);
+    lost(&server);
+    layers(&server);
+}
+
+/// Whether two values are the same but for what engines round otherwise.
+fn same(a: &Cell, b: &Cell) -> bool {
+    match (a, b) {
+        (Cell::Number(a), Cell::Number(b)) => (a - b).abs() <= 1e-6 * (1.0 + a.abs().min(1e3)),
+        (Cell::Geometry(a), Cell::Geometry(b)) => {
+            let near = a.points().zip(b.points()).all(|(a, b)| a.distance(*b) < 1e-6);
+            near && a.points().count() == b.points().count()
+                || a.bounds().zip(b.bounds()).is_some_and(|(a, b)| {
+                    a[0].distance(b[0]) < 1e-6 && a[1].distance(b[1]) < 1e-6 && a[0] != a[1]
+                })
+        }
+        (a, b) => a == b,
+    }
+}
+
+/// A server is only read, and what a statement says is only a question.
+fn safety(server: &Server) {
+    for sql in [
+        "DELETE FROM houses",
+        "INSERT INTO lamps VALUES (9999)",
+        "SELECT 1; DROP TABLE houses",
+        "WITH gone AS (DELETE FROM houses RETURNING *) SELECT * FROM gone",
+        "SELECT pg_sleep(5)",
+        "SELECT pg_read_file('/etc/passwd')",
+        "SELECT * FROM pg_shadow",
+        "SELECT * FROM pg_catalog.pg_authid",
+        "SELECT * FROM pg_ls_dir('/')",
+        "SELECT set_config('transaction_read_only', 'off', false)",
+        "SELECT lo_import('/etc/passwd')",
+        "SELECT random()",
+        "SELECT now()",
+        "SELECT CURRENT_TIMESTAMP",
+        "SELECT CURRENT_USER",
+        "SELECT dblink('a', 'b')",
+        "SELECT query_to_xml('DELETE FROM houses', true, true, '')",
+        "SELECT * INTO other FROM houses",
+        "SELECT fid FROM houses FOR UPDATE",
+        "SET TRANSACTION READ WRITE",
+        "COPY houses TO '/tmp/x'",
+    ] {
+        let answer = server.query(sql, &[], None, &budget());
+        assert!(answer.is_err(), "{sql}");
+    }
+    let evil = [("t", Cell::Text("x'; DROP TABLE houses; --".into()))];
+    assert!(
+        server
+            .query("SELECT fid FROM houses WHERE name = $t", &evil, None, &budget())
+            .unwrap()
+            .rows
+            .is_empty()
+    );
+    let count = server.query("SELECT count(*) AS n FROM houses", &[], None, &budget()).unwrap();
+    assert_eq!(count.rows, [[Cell::Number(400.0)]]);
+    let mut told = String::new();
+    for sql in [
+        "SELECT heigth FROM houses",
+        "SELECT fid\nFROM house",
+        "SELECT ST_Aera(geom) FROM houses",
+        "SELECT fid FROM houses WHERE height > > 3",
+        "SELECT fid FROM houses WHERE fid = $nobody",
+        "SELECT levels + name FROM houses",
+    ] {
+        told += &format!("{sql}\n-> {}\n", server.query(sql, &[], None, &budget()).unwrap_err());
+    }
+    insta::assert_snapshot!(told, @r"
+    SELECT heigth FROM houses
+    -> SQL, line 1, column 8: no column called heigth
+      help: did you mean height?
+    SELECT fid
+    FROM house
+    -> SQL, line 2, column 6: no table called house
+      help: did you mean houses?
+    SELECT ST_Aera(geom) FROM houses
+    -> SQL, line 1, column 8: function st_aera(geometry) does not exist
+      help: did you mean ST_Area?
+    SELECT fid FROM houses WHERE height > > 3
+    -> SQL, line 1, column 39: expected: an expression, found: >
+      help: write SQL that both SQLite and PostgreSQL take: SELECT ... FROM ... WHERE ...
+    SELECT fid FROM houses WHERE fid = $nobody
+    -> SQL, line 1, column 36: $nobody has no value
+      help: hand one over: query(sql, { nobody = ... })
+    SELECT levels + name FROM houses
+    -> SQL: operator does not exist: integer + text
+      help: No operator matches the given name and argument types. You might need to add exp...
+    ");
+    // A question that never ends.
+    let begin = std::time::Instant::now();
+    let endless =
+        "SELECT count(*) FROM houses a, houses b, houses c, houses d WHERE ST_Distance(a.geom, d.geom) > 1";
+    let short = Budget::within(std::time::Duration::from_millis(400), 1_000_000_000);
+    let error = server.query(endless, &[], None, &short).unwrap_err();
+    assert_eq!(error.kind().code(), "limit.time", "{error}");
+    assert!(begin.elapsed() < std::time::Duration::from_secs(10));
+    let small = Budget::within(std::time::Duration::from_secs(60), 100_000);
+    let error = server.query("SELECT a.fid FROM houses a, houses b", &[], None, &small).unwrap_err();
+    assert_eq!(error.kind().code(), "limit.memory", "{error}");
+}
+
+/// A connection that is lost is opened once more; a server that is not there is told of.
+fn lost(server: &Server) {
+    server.query("SELECT fid FROM lamps", &[], None, &budget()).unwrap();
+    writer()
+        .batch_execute(
+            "SELECT pg_terminate_backend(pid) FROM pg_stat_activity WHERE application_name = 'burgeon'",
+        )
+        .unwrap();
+    std::thread::sleep(std::time::Duration::from_millis(200));
+    assert!(!server.query("SELECT fid FROM lamps", &[], None, &budget()).unwrap().rows.is_empty());
+    let nobody = ServerAddress::parse("postgres://me:secret@127.0.0.1:1/nothing").unwrap();
+    let error = Server::new(&nobody, None).query("SELECT 1", &[], None, &budget()).unwrap_err();
+    assert_eq!(error.kind().code(), "unavailable");
+    assert!(
+        !error.to_string().contains("secret")
+            && error.to_string().contains("postgres://me@127.0.0.1:1/nothing"),
+        "{error}"
+    );
+    // In the middle of a question, which is asked once more.
+    let sql = "SELECT count(*) AS n FROM houses a, houses b WHERE a.fid < 60 AND ST_Distance(ST_Buffer(a.geom, 3), ST_Buffer(b.geom, 2)) > 1";
+    let known = server.query(sql, &[], None, &budget()).unwrap();
+    std::thread::scope(|scope| {
+        scope.spawn(|| {
+            let end = "SELECT pg_terminate_backend(pid) FROM pg_stat_activity WHERE application_name = 'burgeon' AND state = 'active' AND query LIKE '%ST_Buffer%'";
+            let mut client = writer();
+            let gone = (0..200).any(|_| {
+                std::thread::sleep(std::time::Duration::from_millis(5));
+                !client.query(end, &[]).unwrap().is_empty()
+            });
+            assert!(gone, "there was no question to end");
+        });
+        assert_eq!(server.query(sql, &[], None, &budget()).unwrap().rows, known.rows);
+    });
+}
+
+/// A table is a layer.
+fn layers(server: &Server) {
+    let read = |layer: Option<&str>, condition: Option<&str>, limit: Option<usize>| {
+        let wanted = burgeon_data::SourceOptions {
+            layer: layer.map(str::to_owned),
+            condition: condition.map(str::to_owned),
+            limit,
+            ..burgeon_data::SourceOptions::default()
+        };
+        server.read(&wanted)
+    };
+    let table = read(Some("houses"), None, None).unwrap();
+    assert_eq!((table.records, table.empty), (396, 4));
+    assert_eq!(table.names, ["name", "height", "levels", "part"]);
+    assert_eq!(table.crs.as_ref().unwrap().name(), "EPSG:3067");
+    assert_eq!(table.features[1].id, "2");
+    let some = read(Some("houses"), Some("height > 10 AND part"), Some(7)).unwrap();
+    assert_eq!(some.features.len(), 7);
+    for (layer, condition) in [
+        (None, None),
+        (Some("house"), None),
+        (Some("houses"), Some("heigth > 3")),
+        (Some("houses"), Some("pg_sleep(9) IS NULL")),
+    ] {
+        assert!(read(layer, condition, None).is_err());
+    }
+}

@@ -1,0 +1,1 @@
+SELECT fid::text || name AS t FROM huts WHERE geom && 'POINT(0 0)'::geometry AND name ILIKE 'H%' LIMIT 3

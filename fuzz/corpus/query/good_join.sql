@@ -1,0 +1,1 @@
+SELECT a.fid, b.fid FROM huts a JOIN huts b ON a.fid < b.fid AND ST_Intersects(a.geom, b.geom)

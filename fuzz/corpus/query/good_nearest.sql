@@ -1,0 +1,1 @@
+SELECT a.fid, (SELECT b.fid FROM huts b WHERE b.fid <> a.fid ORDER BY b.geom <-> a.geom LIMIT 1) AS n FROM huts a

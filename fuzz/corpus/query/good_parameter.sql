@@ -1,0 +1,1 @@
+WITH n AS (SELECT * FROM huts WHERE ST_DWithin(geom, $g, 5)) SELECT count(*), ST_Union(ST_Buffer(geom, $n)) FROM n
