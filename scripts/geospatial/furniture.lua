@@ -2,6 +2,8 @@
 -- Street furniture whose direction the data knows: benches that look away from their lawn.
 -- burgeon run scripts/geospatial/furniture.lua --data examples/data -o furniture.glb
 local models = require("models")
+-- The ground on which all stands.
+require("pavements")
 
 local Furniture = module("Furniture", "place", "code", "model", "direction")
 local Standing = module("Standing", "place", "code", "model", "direction")

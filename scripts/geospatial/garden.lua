@@ -9,10 +9,10 @@ local way = param("way", { default = 4, min = 1, max = 8, unit = "m", text = "Ha
 local Area, Plan = module("Area", "geom"), module("Plan", "geom", "radius")
 local Circle = module("Circle", "geom")
 local Ways, Border = module("Ways", "geom", "x", "y"), module("Border", "line", "x", "y")
-local Side, End = module("Side", "line", "x", "y"), module("End", "place", "x", "y")
+local Side, Gate = module("Side", "line", "x", "y"), module("Gate", "place", "x", "y")
 local Crossway, Radial = module("Crossway", "geom"), module("Radial", "geom")
-local Garden, Candidate = module("Garden", "geom"), module("Candidate", "geom")
-local Bed, Tree = module("Bed", "geom", "flowers"), module("Tree", "place", "species", "height")
+local Garden, FlowerCandidate = module("Garden", "geom"), module("FlowerCandidate", "geom")
+local Bed, ParkTree = module("Bed", "geom", "flowers"), module("ParkTree", "place", "species", "height")
 local Lawn, Planting = module("Lawn", "geom"), module("Planting", "geom", "count")
 
 source("quarter/parks.geojson")
@@ -37,9 +37,9 @@ park:rule("Ways(geom, x, y)", function(_, geom, x, y)
   return Border(geom:exterior_ring(), x, y), fragment(Side)
 end)
 park:rule("Side(line, x, y)", function(_, line, x, y)
-  return End(line:start_point(), x, y), End(line:centroid(), x, y)
+  return Gate(line:start_point(), x, y), Gate(line:centroid(), x, y)
 end)
-park:rule("End(place, x, y)", function(_, place, x, y)
+park:rule("Gate(place, x, y)", function(_, place, x, y)
   return Crossway(line(place:place(), { x, y }):buffer(way))
 end)
 
@@ -54,20 +54,20 @@ park:rule("Circle(geom) > Radial(ways)", function(_, geom, ways)
   local made = { Radial(ways) }
   for _, lawn in geom:difference(ways):geometries() do
     table.insert(made, Garden(lawn))
-    table.insert(made, Candidate(lawn))
+    table.insert(made, FlowerCandidate(lawn))
   end
   return table.unpack(made)
 end)
 
-park:rule("Candidate(geom)", {
+park:rule("FlowerCandidate(geom)", {
   when = function(_, geom)
     return geom:area() > 500
   end,
 }, function(_, geom)
   local middle = geom:point_on_surface()
-  return Bed(middle:buffer(5), math.floor(random(1, 5))), Tree(middle, 6, random(15, 20))
+  return Bed(middle:buffer(5), math.floor(random(1, 5))), ParkTree(middle, 6, random(15, 20))
 end)
-park:rule("Candidate", function()
+park:rule("FlowerCandidate", function()
   return nil
 end)
 park:rule("Radial(a) < Radial(b)", function()
@@ -83,7 +83,7 @@ park:rule("Planting(geom, count)", {
   end,
 }, function(_, geom, count)
   local place = geom:random_point(random(), random())
-  return Planting(geom, count - 1), Tree(place, math.floor(random(1, 6)), random(5, 11))
+  return Planting(geom, count - 1), ParkTree(place, math.floor(random(1, 6)), random(5, 11))
 end)
 
 local function level(this, geom, from: number, to: number)
@@ -108,7 +108,7 @@ park:interpret("Bed(geom, flowers)", function(this, geom, flowers)
   this:material({ texture = `textures/flowers{flowers}.png`, texture_size = { 2, 2 }, roughness = 1 })
   level(this, geom, 0.2, 0.5)
 end)
-park:interpret("Tree(place, species, height)", function(this, place, species, height)
+park:interpret("ParkTree(place, species, height)", function(this, place, species, height)
   this:jump(place:place() + vec(0, 0, 0.2)):place(models.trees[species], height)
 end)
 park:interpret("Radial(geom)", function() end)

@@ -2,6 +2,8 @@
 -- Street furniture without a direction turns to the road that is nearest: bus stops and lamps face the street.
 -- burgeon run scripts/geospatial/orientation.lua --data examples/data -o orientation.glb
 local models = require("models")
+-- The ground on which all stands.
+require("pavements")
 
 local Furniture = module("Furniture", "place", "code")
 local Item, End = module("Item", "place", "code"), module("End")

@@ -34,16 +34,16 @@ town:interpret("Photo(line, image, height)", function(this, line, image, height)
 end)
 
 town:interpret("Roof(geom, height, roof)", function(this, geom, height, roof)
-  this:color("#cbbfa8"):polygon(geom:inset(0.02)):jump({ 0, 0, 0 }):extrude(height)
+  this:material({ color = "#cbbfa8" }):polygon(geom:inset(0.02)):jump({ 0, 0, 0 }):extrude(height)
   this
-    :color("#e2d9c6")
+    :material({ color = "#e2d9c6" })
     :polygon(geom:buffer(0.25, { join = "mitre" }))
     :jump({ 0, 0, height - 0.2 })
     :extrude(0.3)
   for step = 1, if roof > 1 then 4 else 1 do
     for _, part in geom:inset(step * 0.8):geometries() do
       this
-        :color(if roof > 1 then "#92513c" else "#8b8880")
+        :material({ color = if roof > 1 then "#92513c" else "#8b8880" })
         :polygon(part)
         :jump({ 0, 0, height })
         :extrude(step * 0.5 + 0.1)

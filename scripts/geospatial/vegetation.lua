@@ -3,6 +3,8 @@
 -- one for every 60 m2.
 -- burgeon run scripts/geospatial/vegetation.lua --data examples/data -o vegetation.glb
 local models = require("models")
+-- The ground on which all stands.
+require("pavements")
 
 local Tree = module("Tree", "place", "species", "height", "radius")
 local Garden = module("Garden", "geom")

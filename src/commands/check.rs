@@ -20,7 +20,7 @@ impl CheckCommand {
     }
 
     pub(crate) fn run(&self) -> Result<()> {
-        let burgeon::ScriptCheck { params, warnings } =
+        let burgeon::ScriptCheck { params, warnings, .. } =
             burgeon::check(&self.script.script, self.script.options()?)?;
         if self.script.json {
             let params: Vec<_> = params

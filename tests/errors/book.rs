@@ -1,6 +1,6 @@
 //! The book: its reference is what the program writes, its scripts run, and its links lead somewhere.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
 use super::support::Folder;
@@ -18,7 +18,7 @@ fn pages(folder: &Path) -> BTreeMap<String, String> {
             let path = entry.unwrap().path();
             if path.is_dir() {
                 folders.push(path);
-            } else {
+            } else if path.extension().is_some_and(|extension| extension == "md") {
                 let name = path.strip_prefix(folder).unwrap().display().to_string();
                 pages.insert(name, std::fs::read_to_string(path).unwrap());
             }
@@ -57,19 +57,70 @@ fn every_script_of_the_book_runs() {
     assert!(count > 12, "{count}");
 }
 
+/// What mdBook makes of a heading, to lead to it.
+fn anchor(heading: &str) -> String {
+    let kept = heading.trim().chars().filter(|c| c.is_alphanumeric() || matches!(c, ' ' | '-' | '_'));
+    kept.map(|c| if c == ' ' { '-' } else { c.to_ascii_lowercase() }).collect()
+}
+
+/// The headings of a page, as links name them.
+fn anchors(text: &str) -> BTreeSet<String> {
+    let mut in_code = false;
+    let lines = text.lines().filter(|line| {
+        in_code ^= line.trim_start().starts_with("```");
+        !in_code && line.starts_with('#')
+    });
+    lines.map(|line| anchor(line.trim_start_matches('#'))).collect()
+}
+
 #[test]
-fn every_link_of_the_book_leads_to_a_page() {
+fn every_link_and_every_picture_of_the_book_leads_somewhere() {
     let pages = pages(&sources());
-    let mut count = 0;
-    for (name, text) in &pages {
+    let (mut links, mut pictures) = (0, 0);
+    for (name, text) in pages.iter().filter(|(name, _)| name.ends_with(".md")) {
         for link in text.split("](").skip(1).filter_map(|rest| rest.split_once(')')).map(|(link, _)| link) {
-            if !link.ends_with(".md") {
+            if link.starts_with("https://") {
                 continue;
             }
-            let folder = Path::new(name).parent().unwrap();
-            assert!(pages.contains_key(&folder.join(link).display().to_string()), "{name}: {link}");
-            count += 1;
+            let (file, place) = link.split_once('#').unwrap_or((link, ""));
+            let page = if file.is_empty() {
+                sources().join(name)
+            } else {
+                sources().join(name).parent().unwrap().join(file)
+            };
+            assert!(page.is_file() || page.is_dir(), "{name}: {link}");
+            if !place.is_empty() {
+                assert!(anchors(&std::fs::read_to_string(&page).unwrap()).contains(place), "{name}: {link}");
+            }
+            links += 1;
+            pictures += usize::from(file.ends_with(".png"));
         }
     }
-    assert!(count > 20, "{count}");
+    assert!(links > 80 && pictures > 60, "{links} links, {pictures} pictures");
+}
+
+#[test]
+fn every_picture_of_the_reference_shows_its_script_as_it_is_and_is_small() {
+    let folder = Folder::new();
+    let (from, to) = (sources().join("reference/pictures"), folder.path().join("src/reference/pictures"));
+    std::fs::create_dir_all(&to).unwrap();
+    let (mut count, mut bytes) = (0, 0);
+    for entry in std::fs::read_dir(&from).unwrap() {
+        let path = entry.unwrap().path();
+        let size = std::fs::copy(&path, to.join(path.file_name().unwrap())).unwrap();
+        assert!(size < 40_000, "{}: {size} bytes", path.display());
+        (count, bytes) = (count + usize::from(path.extension().is_some_and(|it| it == "png")), bytes + size);
+    }
+    assert!(count > 45 && bytes < 1_000_000, "{count} pictures of {bytes} bytes");
+    let said = folder.burgeon(&["api", "--book", ".", "--pictures"]).done();
+    assert!(!said.stderr.contains("drew"), "burgeon api --book docs/book --pictures\n{}", said.stderr);
+    let shown: BTreeSet<String> = folder
+        .read("src/reference/pictures/pictures.txt")
+        .lines()
+        .map(|line| line.split(['/', ' ']).nth(1).unwrap().to_owned())
+        .collect();
+    let there =
+        std::fs::read_dir(&from).unwrap().map(|entry| entry.unwrap().file_name().into_string().unwrap());
+    let there: BTreeSet<String> = there.filter(|name| name.ends_with(".png")).collect();
+    assert_eq!(there, shown, "a picture that nothing shows, or the other way round");
 }

@@ -128,7 +128,7 @@ fn what_scripts_add_to_types_is_known() {
     let script = "local lantern = object(\"lantern\", { extends = extruder, fields = { height = { default = 4 } } })\n\
                   extend(footprint, { reads = { wide = function(self) return self:area() > 9 end } })\n\
                   lsystem({ object = footprint }):rule(\"F\", function(this) print(this:wide()) return nil end)\n\
-                  lsystem({ object = lantern({ height = 5 }) }):interpret(\"F\", function(this) this:glow(1, 2) end)\n";
+                  lsystem({ object = lantern({ height = 5 }) }):interpret(\"F\", function(this) this:extrude(1) end)\n";
     Folder::new().with("s.lua", script).burgeon(&["check", "s.lua"]).done();
 }
 

@@ -301,7 +301,7 @@ fn help_reads_well() {
       api          Tells what scripts can use: types of objects with their fields and methods, functions and modules
       variations   Runs a script many times, with other seeds or other values of a parameter, and shows them side by side
       fit          Searches for a rule table whose terrain is like a height map
-      mods         Lists the packages that scripts can use, and what they replace; checks, explains and adds them
+      mods         Lists the packages that scripts can use, and what they replace; checks, explains, makes and adds them
       new          Makes a script to start from
       setup        Writes into a folder what Visual Studio Code with luau-lsp needs to complete and check scripts
       sources      Lists the layers of data files, with their attributes, coordinate systems and extents

@@ -357,7 +357,7 @@ fn options_of_a_source_are_checked() {
       help: write source("town.gpkg:buildings", { limit = 100 })
     "#);
     assert_snapshot!(told("source({}, { limit = 1 })"), @r#"
-    error: in/s.lua:2: a list of features takes no options
+    error: in/s.lua:2: a list of features takes no option but table
       | source({}, { limit = 1 })
       help: choose among them in Lua: where, limit and the like are for files
     "#);

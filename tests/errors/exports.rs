@@ -121,10 +121,64 @@ fn what_goes_out_without_a_meaning_says_so() {
         folder.burgeon(&["run", "s.lua", "--strict", "-o", output]).failed()
     };
     let plain = "local A = module('A')\nlocal s = lsystem({ object = turtle() })\ns:axiom(A())\ns:interpret('A', function(this) this:forward(1) end)\ns:derive()\n";
-    assert_snapshot!(told(plain, "a.gpkg"), @"");
+    assert_snapshot!(told(plain, "a.gpkg"), @r#"
+    error: s.lua:2: there are no layers to write, for no module of the final chains has a geometry
+      | local s = lsystem({ object = turtle() })
+      help: pass a geometry on, such as Lot(feature.geometry, area)
+    "#);
     let nowhere = "local A = module('A', 'shape')\nlocal s = lsystem()\ns:axiom(A(geometry('POINT (1 2)')))\ns:derive()\n";
-    assert_snapshot!(told(nowhere, "a.geojson"), @"");
+    assert_snapshot!(told(nowhere, "a.geojson"), @r#"
+    error: the model has no place on the earth, which GeoJSON counts its degrees on
+      help: read data that has one with source(FILE), or write a .gpkg, which takes metres from anywhere
+    "#);
     Folder::new().with("s.lua", nowhere).burgeon(&["run", "s.lua", "--strict", "-o", "a.gpkg"]).done();
-    assert_snapshot!(told("lsystem({ city = 'Raod' })", "a.glb"), @"");
-    assert_snapshot!(told("print(panel({ surface = 'roof' }))", "a.glb"), @"");
+    assert_snapshot!(told("lsystem({ city = 'Raod' })", "a.glb"), @r#"
+    error: s.lua:1: lsystem: city: "Raod" is no class of city objects
+      | lsystem({ city = 'Raod' })
+      help: did you mean Road?
+    "#);
+    assert_snapshot!(told("print(panel({ surface = 'roof' }))", "a.glb"), @r#"
+    error: s.lua:1: panel: surface must be "wall", "window" or "door", not "roof"
+      | print(panel({ surface = 'roof' }))
+    "#);
+}
+
+/// A prototype with a parameter is what a system gave for each of its values: a type of object from Lua, derived.
+const LANTERNS: &str = r#"local lantern = object("lantern", {
+  doc = "A street lantern.",
+  extends = extruder,
+  fields = { height = { default = 4, min = 1, max = 12, unit = "m", doc = "From the ground to the lamp." } },
+  changes = {
+    stand = function(self)
+      return self:scale(0.06):extrude(self.height)
+    end,
+  },
+})
+local Stand, Lamp = module("Stand"), module("Lamp", "height", "x")
+local prototypes = {}
+for _, height in { 4, 6 } do
+  local made = lsystem({ object = lantern({ height = height }) })
+  made:axiom(Stand())
+  made:interpret("Stand", function(this) this:stand() end)
+  prototypes[height] = made:derive()
+end
+local street = lsystem({ object = turtle() })
+street:axiom(Lamp(4, 0), Lamp(4, 5), Lamp(6, 10), Lamp(4, 15), Lamp(6, 20))
+street:interpret("Lamp(height, x)", function(this, height, x)
+  this:jump({ x, 0, 0 }):place(prototypes[height])
+end)
+street:derive()
+"#;
+
+#[test]
+fn modules_become_instances_of_prototypes_and_stay_such() {
+    let folder = Folder::new().with("s.lua", LANTERNS);
+    folder.burgeon(&["run", "s.lua", "--strict", "-o", "a.x3d", "-o", "a.gltf", "-o", "a.city.json"]).done();
+    let text = folder.read("a.x3d");
+    assert_eq!((text.matches("<ProtoDeclare ").count(), text.matches("<ProtoInstance ").count()), (2, 5));
+    assert_eq!(text.matches("<IndexedTriangleSet ").count(), 2);
+    assert_eq!(read(&folder, "a.gltf")["meshes"].as_array().unwrap().len(), 2);
+    let city = read(&folder, "a.city.json");
+    assert_eq!(city["geometry-templates"]["templates"].as_array().unwrap().len(), 2);
+    assert_eq!(city["CityObjects"]["system 3 chain 1"]["geometry"].as_array().unwrap().len(), 5);
 }

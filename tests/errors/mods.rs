@@ -39,7 +39,7 @@ fn packages_are_checked() {
     error: there is no script t.lua
       help: --script names the script whose packages are meant
     ");
-    insta::assert_snapshot!(Folder::new().burgeon(&["mods"]).done().stdout, @"there are no packages; add one: burgeon mods add FOLDER");
+    insta::assert_snapshot!(Folder::new().burgeon(&["mods"]).done().stdout, @"there are no packages; make one, burgeon mods new NAME, or add one: burgeon mods add FOLDER");
 }
 
 #[test]
@@ -71,4 +71,44 @@ fn packages_are_added_and_replaced_only_if_asked() {
     error: user has no mod.toml
       help: a package is a folder with a mod.toml, or a zip of one
     ");
+}
+
+#[test]
+fn a_package_to_begin_with_is_made_and_is_fine() {
+    let folder = Folder::new().with("s.lua", "print(next(require(\"@lights\")))");
+    let said = folder.burgeon(&["mods", "new", "lights"]).done();
+    insta::assert_snapshot!(said.stderr, @r#"made mods/lights; now: require("@lights")"#);
+    folder.burgeon(&["mods", "check"]).done();
+    assert_eq!(folder.burgeon(&["run", "s.lua"]).done().stderr.lines().next(), Some("nil"));
+    insta::assert_snapshot!(folder.burgeon(&["mods", "new", "lights"]).failed(), @r"
+    error: mods/lights exists already
+      help: choose another name
+    ");
+    insta::assert_snapshot!(folder.burgeon(&["mods", "new", "../Lights"]).failed(), @r#"
+    error: "../Lights" is no name for a package
+      help: write it with small letters, digits, - and _, such as "street-lamps"
+    "#);
+    let machine = folder.burgeon(&["mods", "new", "lamps", "--json"]).done().json();
+    assert_eq!(machine["folder"], "mods/lamps");
+}
+
+#[test]
+fn two_packages_of_one_name_in_the_users_folder_are_told_to_whoever_uses_them() {
+    let about = |version: &str| format!("name = \"lights\"\nversion = \"{version}\"\napi = \"1.0\"\n");
+    let folder = Folder::new()
+        .with("s.lua", "require(\"@lights\")")
+        .with("other.lua", "print(1)")
+        .with("user/burgeon/mods/one/mod.toml", about("1.0.0"))
+        .with("user/burgeon/mods/one/init.lua", "return {}")
+        .with("user/burgeon/mods/two/mod.toml", about("2.0.0"))
+        .with("user/burgeon/mods/two/init.lua", "return {}");
+    let text = folder.burgeon(&["run", "s.lua"]).failed();
+    insta::assert_snapshot!(text, @r#"
+    error: FOLDER/user/burgeon/mods/two/mod.toml:1: there are two packages lights: lights 1.0.0 in FOLDER/user/burgeon/mods/one, and 2.0.0 in FOLDER/user/burgeon/mods/two
+      | name = "lights"
+      help: remove one of them
+    "#);
+    assert_eq!(folder.burgeon(&["check", "s.lua"]).failed(), text);
+    assert_eq!(folder.burgeon(&["mods", "check"]).failed(), text);
+    folder.burgeon(&["run", "other.lua"]).done();
 }

@@ -217,3 +217,38 @@ fn a_point_has_no_parts_and_stays_which_is_told() {
         run.warnings[0]
     );
 }
+
+#[test]
+fn a_list_that_the_script_made_is_a_table_like_a_file() {
+    let script = r#"
+        local lots = {}
+        for n = 1, 3 do lots[n] = { n = n, name = `lot {n}`, geometry = polygon({ { n * 10, 0 }, { n * 10 + 10, 0 }, { n * 10 + 10, 10 }, { n * 10, 10 } }) } end
+        source(lots, { table = "lots" })
+        s:axiom(query("select a.n, a.name from lots a, lots b where b.n = 1 and a.n <> 1 and ST_Intersects(a.geom, b.geom)", Count))
+        s:rule("Count(n)", function(this, n) return query("select geom, name from lots where n = $n", Ring), fragment(Wall) end)
+        s:derive()
+        "#;
+    assert_eq!(chain(script), "Wall(lot 2)");
+    let error = refused("source({ { id = 1 } }, { table = \"lots\" })");
+    assert!(error.message().contains("feature 1 of the list has no geometry"), "{error}");
+    let error = refused("source({}, { limit = 3 })");
+    assert!(error.message().contains("a list of features takes no option but table"), "{error}");
+}
+
+#[test]
+fn fewer_steps_show_what_the_queries_so_far_stand_for() {
+    let script = r#"
+        s:axiom(query("select * from plan where id = '4'", Shape))
+        s:rule("Shape(geom, name)", function(this, geom, name) return Ring(geom, name), fragment(Ring), fragment(Wall) end)
+        s:rule("Wall(line, name)", function(this, line, name) return Corner(line, name), fragment(Corner) end)
+        s:derive()
+        "#;
+    for (steps, module, count) in
+        [(0, "Shape(triangle)", 1), (1, "Wall(triangle)", 3), (2, "Corner(triangle)", 6)]
+    {
+        let options = RunOptions { steps: Some(steps), ..burgeon::options() };
+        let run = try_run(script, options).expect("it runs");
+        let text = without_geometries(all_chains(&run).trim_end()).replace('"', "");
+        assert_eq!(text, vec![module; count].join(" "), "{steps} steps");
+    }
+}

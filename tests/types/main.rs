@@ -1,13 +1,17 @@
-//! Types of objects that scripts declare have the same rights and duties as those of Rust.
+//! Types of objects that scripts declare: what they do while chains are drawn. What is asked of types from every side
+//! stands in `tests/kind`.
 
 #![allow(clippy::unwrap_used, reason = "a test stops at what is wrong")]
+
+mod held;
+mod meshes;
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use burgeon::kit::declare::as_ref;
-use burgeon::kit::{Call, Kind, ScriptObject, Table, TableKey, Value};
+use burgeon::kit::{ScriptObject, Value};
 use burgeon::picture::Picture;
 use burgeon::script::RunOptions;
 use burgeon::trace::{Pick, pick};
@@ -86,18 +90,6 @@ fn open_edges(run: &Run) -> usize {
     edges.values().filter(|turns| **turns != 0).count()
 }
 
-fn kinds() -> Vec<Arc<Kind>> {
-    let runs = examples().into_iter().map(|path| run(&path, 1));
-    runs.flat_map(|run| {
-        let objects = run.systems.iter().flat_map(|system| system.objects.iter());
-        objects
-            .map(|object| Arc::clone(object.kind()))
-            .filter(|kind| kind.script.is_some())
-            .collect::<Vec<_>>()
-    })
-    .collect()
-}
-
 #[test]
 fn every_example_gives_a_closed_model_and_the_same_for_any_number_of_threads() {
     for path in examples() {
@@ -110,54 +102,6 @@ fn every_example_gives_a_closed_model_and_the_same_for_any_number_of_threads() {
         for threads in [2, 7] {
             assert!(glb(&run(&path, threads)) == bytes, "{} with {threads} threads", path.display());
         }
-    }
-}
-
-#[test]
-fn what_the_examples_can_do_is_documented() {
-    let kinds = kinds();
-    assert!(kinds.len() >= 4);
-    for kind in kinds {
-        assert!(kind.doc.trim().ends_with('.'), "{}: {}", kind.name, kind.doc);
-        for method in &kind.methods {
-            assert!(method.doc.trim().ends_with('.'), "{}:{}", kind.name, method.name);
-        }
-        for field in &kind.fields {
-            assert!(field.doc.trim().len() > 8 && !field.luau.is_empty(), "{}.{}", kind.name, field.name);
-        }
-    }
-}
-
-#[test]
-fn a_constructor_refuses_an_unknown_field_and_names_the_nearest() {
-    for kind in kinds() {
-        let field = kind.fields.iter().max_by_key(|field| field.name.len()).unwrap();
-        let misspelt = format!("{}x", field.name);
-        let table =
-            Table { class: None, entries: vec![(TableKey::Name(misspelt.as_str().into()), Value::Nil)] };
-        let Err(error) = kind.make(&table) else { panic!("{} takes {misspelt}", kind.name) };
-        let text = error.to_string();
-        assert!(
-            text.contains(&*kind.name) && text.contains(&format!("did you mean {}", field.name)),
-            "{text}"
-        );
-    }
-}
-
-#[test]
-fn what_begins_each_pass_empty_has_nothing_left_of_the_pass_before() {
-    for kind in kinds().iter().filter(|kind| kind.begins_empty) {
-        let mut object = kind.make(&Table::default()).unwrap();
-        object.begin();
-        let fresh = object.triangles();
-        for method in &kind.methods {
-            let Call::Write { numbers: Some(call), .. } = &method.call else { continue };
-            // What it refuses does not matter here.
-            let _ = call(&mut *object, &vec![1.0; method.arguments.len()]);
-        }
-        let _ = object.end();
-        object.begin();
-        assert_eq!(object.triangles(), fresh, "{}", kind.name);
     }
 }
 
@@ -332,4 +276,69 @@ s:derive(0)
         })
         .collect();
     assert!(bytes.windows(2).all(|pair| pair[0] == pair[1]));
+}
+
+#[test]
+fn hooks_draw_random_numbers_of_their_own() {
+    let text = r#"
+local die = object("die", {
+  state = { thrown = {}, n = 0 },
+  begin = function(self) table.insert(self.thrown, random()) end,
+  push = function(self) table.insert(self.thrown, random()) end,
+  pop = function(self) table.insert(self.thrown, random()) end,
+  finish = function(self) table.insert(self.thrown, random()) end,
+  reads = { thrown = function(self) return self.thrown end },
+  changes = { throw = function(self) table.insert(self.thrown, random()) end },
+})
+local A = module("A")
+local s = lsystem({ object = die })
+s:axiom(source("field.geojson"), function(feature) return A(), { A(), { A() }, {} } end)
+s:rule("A", function() return A(), { A() } end)
+s:interpret("A", function(this) this:throw() end)
+for _, object in s:derive(1).objects do
+  for _, number in object:thrown() do
+    print(number)
+  end
+end
+"#;
+    let one = printed(text, 1);
+    assert_eq!(
+        one.len(),
+        200 * (1 + 6 + 2 * 6 + 1),
+        "each chain begins, ends, and has six modules and six branches"
+    );
+    let different: std::collections::BTreeSet<&String> = one.iter().collect();
+    assert_eq!(different.len(), one.len(), "no number twice");
+    for threads in [2, 7] {
+        assert!(printed(text, threads) == one, "{threads} threads");
+    }
+}
+
+#[test]
+fn a_type_draws_less_in_lower_levels_of_detail_and_notes_what_it_left_out() {
+    let text = r#"
+local post = object("post", {
+  extends = extruder,
+  state = { inner = object("cap", { changes = { cap = function(self) self:note("no cap", "there is no room") end } })() },
+  changes = { raise = function(self)
+    if self:detail() < 2 then
+      self:note("a plain post", `detail {self:detail()}`)
+      self.inner:cap()
+    end
+    self:regular(if self:detail() < 2 then 4 else 32):extrude(3)
+  end },
+})
+local A = module("A")
+local s = lsystem({ object = post })
+s:axiom(source("field.geojson"), function(feature) return post({ position = feature.geometry.points[1] }), A() end)
+s:interpret("A", function(this) this:raise() end)
+s:derive()
+"#;
+    let (_folder, path) = script(text);
+    let run = |lod: u8| burgeon::run(&path, RunOptions { lod, ..options(2) }).unwrap();
+    let (whole, less) = (run(3), run(1));
+    assert!(less.scene.triangles() * 5 < whole.scene.triangles());
+    assert_eq!(format!("{:?}", whole.report()).matches("a plain post").count(), 0);
+    let said = format!("{:?}", less.report());
+    assert!(said.contains("a plain post") && said.contains("detail 1") && said.contains("no cap"), "{said}");
 }

@@ -2,6 +2,9 @@
 
 import { find, make, say } from './dom.js';
 
+/** Whether a preset is the script's own; those of packages are called @castle/grand, and changed there. */
+const isOwn = (name) => Boolean(name) && !name.startsWith('@');
+
 export class Presets {
   #select = find('#presets');
   #save = find('#save-preset');
@@ -19,14 +22,15 @@ export class Presets {
     this.#select.addEventListener('change', () => {
       const name = this.#select.value;
       this.#quit();
-      this.#delete.disabled = !name;
+      this.#delete.disabled = !isOwn(name);
       if (name) changes.send({ type: 'preset', action: 'load', name });
     });
     this.#save.addEventListener('click', () => {
       const open = this.#form.hidden;
       this.#quit();
       this.#form.hidden = !open;
-      this.#name.value = this.#select.value || this.#last;
+      // One of a package is saved under a name of its own.
+      this.#name.value = (this.#select.value || this.#last).replace(/^@[^/]*\//, '');
       if (open) this.#name.select();
     });
     this.#form.addEventListener('submit', (event) => {
@@ -55,7 +59,14 @@ export class Presets {
   show(names, chosen = null) {
     this.#names = names;
     const first = make('option', { value: '', text: names.length ? 'Presets' : 'No presets yet' });
-    this.#select.replaceChildren(first, ...names.map((name) => make('option', { value: name, text: name })));
+    const groups = new Map();
+    for (const name of names.filter((name) => !isOwn(name))) {
+      const [owner, ...inner] = name.split('/');
+      if (!groups.has(owner)) groups.set(owner, make('optgroup', { label: `of the package ${owner.slice(1)}` }));
+      groups.get(owner).append(make('option', { value: name, text: inner.join('/') }));
+    }
+    const own = names.filter(isOwn).map((name) => make('option', { value: name, text: name }));
+    this.#select.replaceChildren(first, ...own, ...groups.values());
     this.#select.disabled = names.length === 0;
     this.choose(chosen);
   }
@@ -63,7 +74,7 @@ export class Presets {
   choose(name) {
     if (name) this.#last = name;
     this.#select.value = this.#names.includes(name) ? name : '';
-    this.#delete.disabled = !this.#select.value;
+    this.#delete.disabled = !isOwn(this.#select.value);
   }
 
   #question(text, yes, answered) {

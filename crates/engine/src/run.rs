@@ -13,6 +13,7 @@ use burgeon_base::error::{Error, ErrorKind, Result};
 use burgeon_base::text::shown;
 use burgeon_base::warning::{Warning, WarningKind};
 use burgeon_data::ReferenceFrame;
+use burgeon_kit::Kind;
 use burgeon_packages::MANIFEST;
 use burgeon_scene::Scene;
 
@@ -48,6 +49,8 @@ impl Run {
 pub struct ScriptCheck {
     /// Its parameters.
     pub params: Vec<Param>,
+    /// The types of objects that it declares, and those that it adds methods to.
+    pub types: Vec<Arc<Kind>>,
     /// What people should know of it, in the order of files and lines.
     pub warnings: Vec<Warning>,
 }
@@ -172,22 +175,24 @@ fn checked(session: &Arc<Session>, run: impl FnOnce(&Machine) -> Result<()>) -> 
     let mut found = Vec::new();
     let ran = declare_with(session, &mut found, run);
     let mut problems = session.problems();
+    problems.extend(session.call_problems());
     // What a script adds to a type is known once it has run; whoever read the calls did not know it.
-    let added = session.extensions.lock().unwrap_or_else(PoisonError::into_inner);
+    let declared = session.declared.lock().unwrap_or_else(PoisonError::into_inner);
     problems.retain(|known| {
-        !matches!(known.kind(), ErrorKind::NotFound { what: "method", name, .. } if added.contains(name))
+        !matches!(known.kind(), ErrorKind::NotFound { what: "method", name, .. } if declared.has_added(name))
     });
-    drop(added);
+    drop(declared);
     problems.retain(|known| !found.iter().any(|found| is_same(known, found)));
     problems.extend(found);
     if let Err(error) = ran {
         for problem in error.problems() {
-            // Whoever ran into it knows more of it than whoever read it.
-            problems.retain(|known| !is_same(known, problem));
             let told =
                 problems.iter().any(|known| known.place().is_some() && known.place() == problem.place());
-            if !told {
-                problems.push(problem.alone());
+            match problems.iter_mut().find(|known| is_same(known, problem)) {
+                // Whoever ran into it knows more of it than whoever read it.
+                Some(known) => *known = problem.alone(),
+                None if told => {}
+                None => problems.push(problem.alone()),
             }
         }
     }
@@ -202,7 +207,7 @@ fn checked(session: &Arc<Session>, run: impl FnOnce(&Machine) -> Result<()>) -> 
     if !problems.is_empty() {
         return Err(Error::several(problems));
     }
-    Ok(ScriptCheck { params: session.params(), warnings })
+    Ok(ScriptCheck { params: session.params(), types: session.types(), warnings })
 }
 
 /// Whether two errors miss the same name in the same place.

@@ -12,13 +12,30 @@ use burgeon_scene::Part;
 /// Corners off the common plane are kept where they are; the polygon is divided as seen along its mean normal
 /// (Newell's method). Texture coordinates are metres within the plane. A polygon without area adds nothing.
 pub fn face(part: &mut Part, corners: &[DVec3]) -> Result<()> {
+    shaded_face(part, corners, CornerShading::default())
+}
+
+/// What the corners of a face look like, where that does not follow from its plane; in the order of the corners.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct CornerShading<'a> {
+    /// Where each faces.
+    pub normals: Option<&'a [DVec3]>,
+    /// Where each is on a texture (m).
+    pub uvs: Option<&'a [DVec2]>,
+}
+
+/// As [`face`], with normals and texture coordinates that are given.
+pub fn shaded_face(part: &mut Part, corners: &[DVec3], shading: CornerShading<'_>) -> Result<()> {
     let mut points: Vec<DVec3> = Vec::with_capacity(corners.len());
-    for corner in corners {
+    // Which of the corners each is.
+    let mut numbers: Vec<usize> = Vec::with_capacity(corners.len());
+    for (number, corner) in corners.iter().enumerate() {
         if !corner.is_finite() {
             return Err(Error::geometry("a corner of the polygon is not finite"));
         }
         if points.last().is_none_or(|last| last.distance_squared(*corner) > 1e-20) {
             points.push(*corner);
+            numbers.push(number);
         }
     }
     if points.len() > 1 && points[0].distance_squared(points[points.len() - 1]) <= 1e-20 {
@@ -47,10 +64,11 @@ pub fn face(part: &mut Part, corners: &[DVec3]) -> Result<()> {
     let raw = geo_polygon(std::slice::from_ref(&flat)).earcut_triangles_raw();
     let base = u32::try_from(part.positions.len())
         .map_err(|_| Error::limit(Limit::Size, "a mesh holds too many vertices"))?;
-    for (point, flat) in points.iter().zip(&flat) {
+    for ((point, flat), number) in points.iter().zip(&flat).zip(numbers) {
+        let given = shading.normals.map_or(DVec3::ZERO, |normals| normals[number].normalize_or_zero());
         part.positions.push(point.as_vec3());
-        part.normals.push(normal.into());
-        part.uvs.push(flat.as_vec2());
+        part.normals.push(if given == DVec3::ZERO { normal } else { given }.into());
+        part.uvs.push(shading.uvs.map_or(*flat, |uvs| uvs[number]).as_vec2());
     }
     // The ring is closed by repeating its first corner.
     let index = |vertex: usize| vertex % points.len();

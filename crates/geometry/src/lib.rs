@@ -29,7 +29,7 @@ mod sweep;
 mod sweep_tests;
 mod union;
 
-pub use face::{face, sphere};
+pub use face::{CornerShading, face, shaded_face, sphere};
 pub use frame::Frame;
 pub use path::{Segment, Station};
 pub use plan::Plan;

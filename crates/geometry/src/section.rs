@@ -203,6 +203,11 @@ impl Section {
         self.knots().map(|knot| knot.at)
     }
 
+    /// The number of points of all rings.
+    pub fn corners(&self) -> usize {
+        self.rings.iter().map(Vec::len).sum()
+    }
+
     /// The number of rings: 1 and the number of holes.
     pub fn ring_count(&self) -> usize {
         self.rings.len()

@@ -43,6 +43,14 @@ impl Parameter for Color {
     }
 }
 
+impl Color {
+    /// The colour of these bytes: red, green and blue as sRGB, and opacity.
+    pub fn of_bytes([red, green, blue, opacity]: [u8; 4]) -> Self {
+        let channel = |byte: u8| narrow(linear(f64::from(byte) / 255.0));
+        Self([channel(red), channel(green), channel(blue), f32::from(opacity) / 255.0])
+    }
+}
+
 #[allow(
     clippy::cast_possible_truncation,
     clippy::cast_sign_loss,

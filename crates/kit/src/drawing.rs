@@ -20,6 +20,10 @@ pub struct Drawing {
     placed: Vec<(Arc<Model>, Option<SurfaceMeaning>, Vec<DAffine3>)>,
     /// How many instances that makes.
     instances: usize,
+    /// Whether it is not to be emptied.
+    kept: bool,
+    /// How many triangles are certain to come of what is not finished.
+    expected: usize,
     /// Emptied parts, whose memory is used again: fresh pages cost more than drawing.
     spare: Vec<Part>,
     makers: Option<Makers>,
@@ -38,12 +42,21 @@ impl Drawing {
         self.origin
     }
 
+    /// Has [`Drawing::clear`] do nothing, or forget all again: one that several objects draw into is emptied once. Gives what
+    /// was the case before.
+    pub fn keep(&mut self, kept: bool) -> bool {
+        std::mem::replace(&mut self.kept, kept)
+    }
+
     /// Forgets all faces and models.
     pub fn clear(&mut self) {
+        if self.kept {
+            return;
+        }
         self.nearest.take();
         self.materials.clear();
         self.placed.clear();
-        self.instances = 0;
+        (self.instances, self.expected) = (0, 0);
         for mut part in self.parts.drain(..).rev() {
             part.clear();
             self.spare.push(part);
@@ -151,7 +164,12 @@ impl Drawing {
 
     /// The number of triangles, and of instances, each of which counts as one.
     pub fn triangles(&self) -> usize {
-        self.parts.iter().map(|part| part.triangles.len()).sum::<usize>() + self.instances
+        self.parts.iter().map(|part| part.triangles.len()).sum::<usize>() + self.instances + self.expected
+    }
+
+    /// Takes notice that what is not finished will be `triangles`, in the place of what was told before. They count.
+    pub fn expect(&mut self, triangles: usize) {
+        self.expected = triangles;
     }
 
     /// The number of triangles of the part with this number.

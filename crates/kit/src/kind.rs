@@ -361,8 +361,8 @@ impl Kind {
 
     /// Whether it is called `name`, or extends a type that is.
     pub fn is_a(&self, name: &str) -> bool {
-        let base = self.script.as_ref().and_then(|script| script.base.as_ref());
-        self.name == name || base.is_some_and(|base| base.is_a(name))
+        self.name == name
+            || self.script.as_ref().is_some_and(|script| script.above.iter().any(|it| **it == *name))
     }
 
     /// The method called `name`.
@@ -372,7 +372,12 @@ impl Kind {
 
     /// The error for a name that is no method, with the nearest one that is.
     pub fn unknown_method(&self, name: &str) -> Error {
-        let names: Vec<&str> = self.methods.iter().map(|method| &*method.name).collect();
+        let is_own = |method: &&Method| matches!(method.call, Call::Script { .. });
+        let (own, others): (Vec<_>, Vec<_>) = self.methods.iter().partition(is_own);
+        let mut names: Vec<&str> = own.iter().map(|method| &*method.name).collect();
+        names.extend(self.script.iter().flat_map(|script| script.parts()));
+        names.extend(others.iter().map(|method| &*method.name));
+        names.dedup();
         let message = format!("{} has no method or field called {name}", self.name);
         Error::not_found("method", name, names.iter().copied(), message)
             .help(format!("it has {}", names.join(", ")))

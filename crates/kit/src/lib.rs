@@ -8,6 +8,7 @@ extern crate self as burgeon_kit;
 
 pub mod declare;
 
+mod buffer_bytes;
 mod capability;
 mod color;
 mod colors;
@@ -36,6 +37,7 @@ mod script_type;
 mod seed;
 mod value;
 
+pub use buffer_bytes::BufferBytes;
 pub use capability::{Capability, Draw, Expand, Gather, LevelOfDetail, Report, Show};
 pub use color::Color;
 pub use column_value::ColumnValue;

@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use super::declare::{as_mut, as_ref};
 use super::{Draw, Drawing, Kind, LevelOfDetail, Note, Object, Report, ScriptType, Table, Value};
 use burgeon_base::error::{Error, Result};
 use burgeon_base::warning::Warning;
@@ -24,11 +25,17 @@ pub struct ScriptObject {
     notes: Vec<Note>,
 }
 
+/// The most notes that one object keeps of a pass.
+const MOST_NOTES: usize = 1000;
+
 #[methods("object")]
 impl ScriptObject {
     /// Notes what was done otherwise than asked, for the report of the run, such as "a short arm instead of a long one".
     pub fn note(&mut self, what: String, why: Option<String>) {
-        self.notes.push(Note::new(what, why.unwrap_or_default()));
+        // Nobody reads more of one object, and a loop that never ends must not fill the memory.
+        if self.notes.len() < MOST_NOTES {
+            self.notes.push(Note::new(what, why.unwrap_or_default()));
+        }
     }
 
     /// The level of detail to draw in: 0 the ground plan, 1 blocks, 2 roofs, 3 everything.
@@ -75,11 +82,6 @@ impl ScriptObject {
         self.state = state;
     }
 
-    /// The objects in its state: their names, and what they are at first.
-    pub fn held_names(&self) -> &[(Arc<str>, Arc<dyn Object>)] {
-        &self.of.held
-    }
-
     /// The field or the part of its state called `name`.
     pub fn member(&self, name: &str) -> Option<Value> {
         let held = || {
@@ -89,17 +91,37 @@ impl ScriptObject {
         self.fields.get(name).or_else(|| self.state.get(name)).cloned().or_else(held)
     }
 
-    /// The object number `index` in its state, to be asked.
-    pub fn held(&self, index: usize) -> Result<&dyn Object> {
-        self.held.get(index).map(|object| &**object).ok_or_else(none_held)
+    /// The object number `slot` among those that it holds, to be asked. Each is followed by those that it holds itself.
+    pub fn held(&self, slot: usize) -> Result<&dyn Object> {
+        let (index, inner) = self.of.held_at(slot).ok_or_else(none_held)?;
+        let object = self.held.get(index).map(|object| &**object).ok_or_else(none_held)?;
+        match inner {
+            None => Ok(object),
+            Some(inner) => as_ref::<Self>(object).ok_or_else(none_held)?.held(inner),
+        }
     }
 
-    /// Does something with the object number `index` in its state, which draws into this object's drawing.
-    pub fn with_held<T>(
-        &mut self,
-        index: usize,
-        act: impl FnOnce(&mut dyn Object) -> Result<T>,
-    ) -> Result<T> {
+    /// The objects in its state, in the order of their names' declaration; not those that they hold themselves.
+    pub fn held_directly(&self) -> impl Iterator<Item = (&Arc<str>, &dyn Object)> {
+        self.of.held.iter().map(|(name, _)| name).zip(self.held.iter().map(|object| &**object))
+    }
+
+    /// Does something with the object number `slot` among those that it holds, which draws into this object's drawing.
+    pub fn with_held<T>(&mut self, slot: usize, act: impl FnOnce(&mut dyn Object) -> Result<T>) -> Result<T> {
+        let (index, inner) = self.of.held_at(slot).ok_or_else(none_held)?;
+        self.with_direct(index, |object| match inner {
+            None => act(object),
+            Some(inner) => as_mut::<Self>(object).ok_or_else(none_held)?.with_held(inner, act),
+        })
+    }
+
+    /// The drawing that it and what it holds draw into.
+    fn shared(&mut self) -> &mut Drawing {
+        let Self { base, drawing, .. } = self;
+        base.as_deref_mut().and_then(|base| base.drawing_mut()).unwrap_or(drawing)
+    }
+
+    fn with_direct<T>(&mut self, index: usize, act: impl FnOnce(&mut dyn Object) -> Result<T>) -> Result<T> {
         let Self { base, held, drawing, .. } = self;
         let shared = base.as_deref_mut().and_then(|base| base.drawing_mut()).unwrap_or(drawing);
         let object = &mut **held.get_mut(index).ok_or_else(none_held)?;
@@ -110,7 +132,7 @@ impl ScriptObject {
     }
 
     fn each_held(&mut self, mut act: impl FnMut(&mut dyn Object) -> Result<()>) -> Result<()> {
-        (0..self.held.len()).try_for_each(|index| self.with_held(index, &mut act))
+        (0..self.held.len()).try_for_each(|index| self.with_direct(index, &mut act))
     }
 }
 
@@ -149,11 +171,14 @@ impl Object for ScriptObject {
         if let Some(base) = &mut self.base {
             base.begin();
         }
+        // What is held draws into the same drawing, and finds its materials there.
+        let before = self.shared().keep(true);
         // Beginning refuses nothing.
         let _: Result<()> = self.each_held(|object| {
             object.begin();
             Ok(())
         });
+        self.shared().keep(before);
     }
 
     fn push(&mut self) {
@@ -176,6 +201,9 @@ impl Object for ScriptObject {
         if let Some(base) = &mut self.base {
             base.end()?;
             self.notes.extend_from_slice(base.notes());
+        }
+        for object in &self.held {
+            self.notes.extend_from_slice(object.notes());
         }
         Ok(())
     }

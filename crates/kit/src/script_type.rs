@@ -4,14 +4,16 @@ use std::collections::BTreeSet;
 use std::sync::{Arc, Weak};
 
 use super::declare::refuse_unknown;
-use super::{Call, Construct, Kind, Method, Object, ScriptField, ScriptObject, Table, Value};
-use burgeon_base::error::{Error, Result};
+use super::{Argument, Call, Construct, Kind, Method, Object, ScriptField, ScriptObject, Table, Value};
+use burgeon_base::error::{Error, Limit, Result};
 
 /// What a script declares of a type.
 #[derive(Clone, Default)]
 pub struct ScriptType {
-    /// The type that it extends, if any.
+    /// The type of Rust that it extends, if any, by itself or through others.
     pub base: Option<Arc<Kind>>,
+    /// The names of the types that it extends, the nearest first.
+    pub above: Vec<Arc<str>>,
     /// What its constructor takes besides what the base's takes.
     pub fields: Vec<ScriptField>,
     /// The names and first values of its state.
@@ -22,7 +24,76 @@ pub struct ScriptType {
     pub branches: [bool; 2],
 }
 
+/// How deeply types that hold objects of types that hold objects may be nested.
+const DEEPEST_HELD: usize = 8;
+
+/// The most objects that one may hold, with those that these hold.
+const MOST_HELD: usize = 64;
+
 impl ScriptType {
+    /// How many objects one holds, with those that these hold.
+    pub fn held_count(&self) -> usize {
+        self.held.iter().map(|(_, object)| 1 + inner(object).map_or(0, Self::held_count)).sum()
+    }
+
+    /// The names of its fields, and of what is in its state.
+    pub fn parts(&self) -> impl Iterator<Item = &str> {
+        let fields = self.fields.iter().map(|field| &*field.name);
+        let state = self.state.entries.iter().filter_map(|(key, _)| match key {
+            super::TableKey::Name(name) => Some(&**name),
+            super::TableKey::Index(_) => None,
+        });
+        fields.chain(state).chain(self.held.iter().map(|(name, _)| &**name))
+    }
+
+    fn held_depth(&self) -> usize {
+        self.held.iter().map(|(_, object)| 1 + inner(object).map_or(0, Self::held_depth)).max().unwrap_or(0)
+    }
+
+    /// Which object of its state number `slot` is, or is held by, and then which of those: each is followed by those that it
+    /// holds itself.
+    pub(super) fn held_at(&self, slot: usize) -> Option<(usize, Option<usize>)> {
+        let mut left = slot;
+        for (index, (_, object)) in self.held.iter().enumerate() {
+            if left == 0 {
+                return Some((index, None));
+            }
+            left -= 1;
+            let count = inner(object).map_or(0, Self::held_count);
+            if left < count {
+                return Some((index, Some(left)));
+            }
+            left -= count;
+        }
+        None
+    }
+
+    /// Refuses what cannot be held, and too much of it.
+    fn check_held(&self, name: &str) -> Result<()> {
+        for (held, object) in &self.held {
+            let kind = object.kind();
+            if kind.draw.is_none() {
+                return Err(Error::argument(format!(
+                    "{name}: {held} of its state is a {}, which cannot be held",
+                    kind.name
+                ))
+                .help("hold an object that draws where it is told to, such as an extruder or a turtle"));
+            }
+        }
+        let help = "let modules place what others have drawn: this:place(derived)";
+        if self.held_depth() > DEEPEST_HELD {
+            let message = format!("{name} holds objects that hold objects, more than {DEEPEST_HELD} deep");
+            return Err(Error::limit(Limit::Size, message).help(help));
+        }
+        let count = self.held_count();
+        if count > MOST_HELD {
+            let message =
+                format!("{name} holds {count} objects, those within them counted, and may hold {MOST_HELD}");
+            return Err(Error::limit(Limit::Size, message).help(help));
+        }
+        Ok(())
+    }
+
     /// The type as the engine knows it: what it extends, and besides `methods` of the script.
     pub fn kind(self, name: &str, doc: &str, methods: Vec<Method>) -> Result<Arc<Kind>> {
         let base = self.base.clone();
@@ -34,13 +105,7 @@ impl ScriptType {
                 base.name
             )));
         }
-        for (held, object) in &self.held {
-            let kind = object.kind();
-            if kind.script.is_some() || kind.draw.is_none() {
-                return Err(Error::argument(format!("{name}: {held} of its state is a {}, which cannot be held", kind.name))
-                    .help("hold an object that comes with Burgeon and draws where it is told to, such as an extruder or a turtle"));
-            }
-        }
+        self.check_held(name)?;
         if let (Some(base), false) = (&base, self.held.is_empty())
             && base.draw.is_none()
         {
@@ -60,9 +125,14 @@ impl ScriptType {
                 all.push(method);
             }
         }
+        if !all.iter().any(|known| known.name == AS) {
+            all.push(seen_as());
+        }
         for method in methods {
             match all.iter_mut().find(|known| known.name == method.name) {
-                Some(known) if matches!(known.call, Call::Script { .. }) => *known = method,
+                Some(known) if matches!(known.call, Call::Script { .. }) && known.name != AS => {
+                    *known = method
+                }
                 Some(known) => {
                     let of = base.as_ref().map_or("every object", |base| &*base.name);
                     return Err(Error::argument(format!("{of} has a method called {} already", known.name))
@@ -77,6 +147,12 @@ impl ScriptType {
         {
             return Err(Error::argument(format!("{name} has a field and a method called {}", clash.name))
                 .help("give one of them another name"));
+        }
+        if let Some((held, _)) = self.held.iter().find(|(held, _)| all.iter().any(|it| it.name == **held)) {
+            return Err(Error::argument(format!(
+                "{name} has a method called {held}, and holds an object of that name"
+            ))
+            .help("give one of them another name"));
         }
         let doc = doc.to_owned();
         let of = Arc::new(self);
@@ -134,4 +210,19 @@ impl ScriptType {
         let base = self.base.as_ref().map(|base| base.make(&given)).transpose()?;
         Ok(ScriptObject::new(kind, Arc::clone(self), base, Arc::new(fields)))
     }
+}
+
+/// What a script declared of the type of an object, if one did.
+fn inner(object: &Arc<dyn Object>) -> Option<&ScriptType> {
+    object.kind().script.as_deref()
+}
+
+/// The method that all types of scripts have besides their own.
+const AS: &str = "as";
+
+fn seen_as() -> Method {
+    let doc = "The object as the type that `constructor` makes sees it, which its own extends: a function that says anew what that \
+               type's does can call it so, such as self:as(lantern):lamp(1).";
+    let (name, arguments, returns) = (AS.into(), vec![Argument::new("constructor")], "any".to_owned());
+    Method { name, doc: doc.into(), arguments, returns, call: Call::Script { changes: false } }
 }

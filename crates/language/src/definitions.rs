@@ -390,7 +390,9 @@ impl Writer {
             LuauType::Nil => "nil".to_owned(),
             LuauType::Text(text) => format!("\"{text}\""),
             LuauType::Function(text) => text.clone(),
-            LuauType::Named(name) if matches!(&**name, "number" | "string" | "boolean" | "never") => {
+            LuauType::Named(name)
+                if matches!(&**name, "number" | "string" | "boolean" | "never" | "buffer") =>
+            {
                 name.clone()
             }
             LuauType::Named(name) => {

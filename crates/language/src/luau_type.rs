@@ -64,6 +64,8 @@ impl LuauType {
                 ("number", _) => *literal == Literal::Number,
                 ("boolean", _) => *literal == Literal::Boolean,
                 ("string", _) => matches!(literal, Literal::Text(_)),
+                // No value that stands in a script is one.
+                ("buffer", _) => false,
                 (name, Literal::Object(given)) if name == given => true,
                 (name, _) => known(name).is_none_or(|stands_for| {
                     stands_for != Self::Named(name.to_owned()) && stands_for.accepts(literal, known)

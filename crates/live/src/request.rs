@@ -10,7 +10,6 @@ use serde_json::{Map, Value};
 use super::message::ParamMessage;
 use burgeon_base::error::{Error, Result};
 use burgeon_engine::script::{Param, Preset, RunOptions, Setting};
-use burgeon_presets::Presets;
 
 /// What pages have requested.
 #[derive(Debug, Clone, Default)]
@@ -131,9 +130,9 @@ impl Request {
         self.preset = Some(preset);
     }
 
-    /// Forgets the preset unless it is one of `presets` still, as it was.
-    pub(super) fn look_for_preset(&mut self, presets: &Presets) {
-        self.preset.take_if(|known| !presets.get(&known.name).is_ok_and(|preset| preset.is_like(known)));
+    /// Forgets the preset unless `find` finds it still, as it was.
+    pub(super) fn look_for_preset(&mut self, find: impl Fn(&str) -> Result<Preset>) {
+        self.preset.take_if(|known| !find(&known.name).is_ok_and(|preset| preset.is_like(known)));
     }
 
     /// Takes the values of a preset in the place of all others, and its seed if it has one.

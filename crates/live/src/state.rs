@@ -55,6 +55,8 @@ pub(super) struct ServerState {
     pub variations: Mutex<Option<Arc<Stop>>>,
     /// The names of presets that pages know; held while their file is written or read, so that a change is told once.
     pub presets: Mutex<Vec<String>>,
+    /// By package: the file of its presets, as far as a run has told.
+    pub package_presets: Mutex<Vec<(String, PathBuf)>>,
     /// Held while a chain is traced, since each may take all cores.
     pub tracing: Mutex<()>,
 }
@@ -164,6 +166,7 @@ impl ServerState {
             pages: broadcast::channel(QUEUE).0,
             variations: Mutex::default(),
             presets: Mutex::new(presets),
+            package_presets: Mutex::default(),
             tracing: Mutex::default(),
         }
     }
@@ -291,12 +294,15 @@ impl ServerState {
 
     /// Takes notice of changed files.
     pub(super) fn changed(&self, change: &Change) {
-        let presets = Presets::path_of(&self.script);
-        if change.files.contains(&presets) {
+        let mut presets = vec![Presets::path_of(&self.script)];
+        let of_packages = self.package_presets.lock().unwrap_or_else(PoisonError::into_inner);
+        presets.extend(of_packages.iter().map(|(_, path)| path.clone()));
+        drop(of_packages);
+        if change.files.iter().any(|path| presets.contains(path)) {
             super::tools::presets_changed(self);
         }
         let files: Vec<String> =
-            change.files.iter().filter(|path| **path != presets).map(|path| self.name(path)).collect();
+            change.files.iter().filter(|path| !presets.contains(path)).map(|path| self.name(path)).collect();
         if files.is_empty() {
             return;
         }

@@ -1,7 +1,7 @@
 //! Presets and variations: the request under a name, and small pictures of other values.
 
 use std::collections::BTreeMap;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::mpsc::{RecvTimeoutError, channel};
 use std::sync::{Arc, PoisonError};
 use std::time::Duration;
@@ -13,7 +13,7 @@ use super::message::{Cause, Event, json};
 use super::request::seed;
 use super::state::ServerState;
 use burgeon_base::error::{Error, Result};
-use burgeon_engine::script::{Param, Preset, RunOptions};
+use burgeon_engine::script::{Param, Preset, RunOptions, Session};
 use burgeon_export::picture::{Background, Picture, Quality};
 use burgeon_presets::Presets;
 use burgeon_scene::image;
@@ -34,14 +34,62 @@ fn names(presets: &Presets) -> Vec<String> {
     presets.names().map(str::to_owned).collect()
 }
 
+/// The names of the script's presets, and those of packages, such as `@castle/grand`.
+fn all_names(state: &ServerState, own: &Presets) -> Vec<String> {
+    let of_packages = state.package_presets.lock().unwrap_or_else(PoisonError::into_inner);
+    let mut all = names(own);
+    for (package, path) in of_packages.iter() {
+        // What is wrong with their file is told to those who use one of them.
+        let Ok(presets) = Presets::read_file(path) else { continue };
+        all.extend(presets.names().map(|name| format!("@{package}/{name}")));
+    }
+    all
+}
+
+/// The preset that pages call `name`, of the script or of a package.
+fn find(state: &ServerState, own: &Presets, name: &str) -> Result<Preset> {
+    let Some((package, inner)) = of_package(name) else { return own.get(name).cloned() };
+    let of_packages = state.package_presets.lock().unwrap_or_else(PoisonError::into_inner);
+    let Some((_, path)) = of_packages.iter().find(|(known, _)| known == package) else {
+        let known = of_packages.iter().map(|(known, _)| known.as_str());
+        let message = format!("no package called {package} has presets");
+        return Err(Error::not_found("package", package, known, message));
+    };
+    let preset = Presets::read_file(path)?.get(inner)?.clone();
+    Ok(Preset { name: name.to_owned(), ..preset })
+}
+
+/// The package and the name of a preset that pages call `@castle/grand`.
+fn of_package(name: &str) -> Option<(&str, &str)> {
+    name.strip_prefix('@')?.split_once('/')
+}
+
+/// Takes notice of the packages that a run has found to have presets. Returns their files.
+pub(super) fn find_package_presets(state: &ServerState, session: &Session) -> Vec<(PathBuf, bool)> {
+    let found = session.package_presets();
+    let files = found.iter().map(|(_, path)| (path.clone(), true)).collect();
+    let mut known = state.package_presets.lock().unwrap_or_else(PoisonError::into_inner);
+    let is_new = *known != found;
+    *known = found;
+    drop(known);
+    if is_new {
+        presets_changed(state);
+    }
+    files
+}
+
 /// Saves, loads or deletes a preset; one that is there is saved over only if it is to be replaced. Returns what the page
 /// that asked is answered.
 pub(super) fn preset(state: &ServerState, action: &str, name: &str, replace: bool) -> Option<Event> {
     let mut known = state.presets.lock().unwrap_or_else(PoisonError::into_inner);
     let done = match action {
+        "save" | "delete" if of_package(name).is_some() => {
+            Err(Error::argument(format!("{name} is a preset of a package, which is changed there"))
+                .help("save it under a name of your own"))
+        }
         "save" => save(state, name, replace).map(Some),
         "delete" => Presets::remove(&state.script, name).map(Some),
-        "load" => match Presets::read(&state.script).and_then(|presets| presets.get(name).cloned()) {
+        "load" => match Presets::read(&state.script).and_then(|presets| find(state, &presets, name)) {
             Ok(preset) => {
                 return state.change(Cause::Preset, |inner| {
                     inner.request.load(&preset);
@@ -57,8 +105,8 @@ pub(super) fn preset(state: &ServerState, action: &str, name: &str, replace: boo
         Ok(presets) => {
             let mut inner = state.lock();
             if let Some(presets) = &presets {
-                *known = names(presets);
-                inner.request.look_for_preset(presets);
+                *known = all_names(state, presets);
+                inner.request.look_for_preset(|name| find(state, presets, name));
             }
             state.send(&Event::Presets { names: known.clone(), chosen: inner.request.preset() });
             None
@@ -75,8 +123,8 @@ pub(super) fn presets_changed(state: &ServerState) {
     let event = match read {
         Ok(presets) => {
             let before = inner.request.preset();
-            inner.request.look_for_preset(&presets);
-            let (names, chosen) = (names(&presets), inner.request.preset());
+            inner.request.look_for_preset(|name| find(state, &presets, name));
+            let (names, chosen) = (all_names(state, &presets), inner.request.preset());
             if *known == names && chosen == before {
                 return;
             }

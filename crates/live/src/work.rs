@@ -87,6 +87,9 @@ pub(super) fn work(state: &ServerState, watch: &Watch) {
         let presets = Presets::path_of(&state.script);
         let there = presets.is_file();
         files.push((presets, there));
+        if let Some(session) = &session {
+            files.extend(super::tools::find_package_presets(state, session));
+        }
         if matches!(outcome, RunOutcome::Cancelled) {
             // It has not come to all of its files.
             followed.extend(files);

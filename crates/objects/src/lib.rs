@@ -6,6 +6,7 @@
 //! call.
 
 mod elevation;
+mod examples;
 mod extruder;
 pub mod facade;
 mod footprint;
@@ -19,6 +20,7 @@ mod turtle;
 mod universe;
 
 pub use elevation::{Elevation, ElevationOptions};
+pub use examples::{EXAMPLES, MemberExample};
 pub use extruder::Extruder;
 pub use facade::{Facade, Template, Templates, Wall};
 pub use footprint::{EdgeKeywords, Footprint, Roof, RoofDetail, Walls};

@@ -1,38 +1,290 @@
-//! Faces that a script gives by their corners, drawn in a frame.
+//! Faces that a script gives by their corners, drawn in a frame: in lists, or in buffers where they are many.
 
-use burgeon_base::error::{Error, Result};
-use burgeon_geometry::{Frame, face};
-use burgeon_kit::Vector;
-use burgeon_scene::Part;
-use glam::DVec3;
+use burgeon_base::error::{Error, Limit, Result};
+use burgeon_geometry::{CornerShading, Frame, shaded_face};
+use burgeon_kit::{BufferBytes, Color, Drawing, Expectation, Field, Parameter, Table, Value, Vector, fields};
+use burgeon_scene::{Material, Part};
+use glam::{DVec2, DVec3};
+
+/// The most colours that the faces of one call may have.
+const MOST_COLORS: usize = 256;
+
+/// Points or directions: a list of vectors, or a buffer of three 32-bit numbers for each.
+#[derive(Debug, Clone, Default)]
+pub struct MeshPoints(Vec<DVec3>);
+
+/// Places on a texture (m): a list of { u, v }, or a buffer of two 32-bit numbers for each.
+#[derive(Debug, Clone, Default)]
+pub struct MeshPlaces(Vec<DVec2>);
+
+/// Colours: a list, or a buffer of four bytes for each.
+#[derive(Debug, Clone, Default)]
+pub struct MeshColors(Vec<Color>);
+
+/// Faces: a list of lists of the numbers of points, from 1, or a buffer of three 32-bit whole numbers for each, from 0.
+#[derive(Debug, Clone, Default)]
+pub struct MeshFaces {
+    corners: Vec<u32>,
+    /// Where the corners of each face end.
+    ends: Vec<usize>,
+    /// The number of the first point: 1 in lists, as everywhere in Lua, and 0 in buffers, as everywhere else.
+    first: u32,
+}
+
+/// What `mesh` takes besides points and faces.
+#[fields("mesh")]
+pub struct MeshOptions {
+    /// Where each point faces, as vectors or in a buffer like that of points; without them faces are flat.
+    pub normals: Option<MeshPoints>,
+    /// Where each point is on the texture (m), as { u, v }, or in a buffer of two 32-bit numbers for each.
+    pub uvs: Option<MeshPlaces>,
+    /// The colour of each face, or a buffer of four bytes for each: red, green, blue and opacity. At most 256 different ones.
+    pub colors: Option<MeshColors>,
+}
+
+impl Parameter for MeshPoints {
+    fn luau() -> String {
+        "{ Vector } | buffer".into()
+    }
+
+    fn from_value(value: Value) -> std::result::Result<Self, Expectation> {
+        if let Some(bytes) = BufferBytes::of(&value) {
+            let read = BufferBytes::numbers::<3>(bytes, "point")?;
+            return Ok(Self(read.into_iter().map(|at| DVec3::from_array(at.map(f64::from))).collect()));
+        }
+        Ok(Self(Vec::<Vector>::from_value(value)?.into_iter().map(|vector| vector.0).collect()))
+    }
+
+    fn into_value(self) -> Value {
+        self.0.into_iter().map(Vector).collect::<Vec<_>>().into_value()
+    }
+}
+
+impl Parameter for MeshPlaces {
+    fn luau() -> String {
+        "{ { number } } | buffer".into()
+    }
+
+    fn from_value(value: Value) -> std::result::Result<Self, Expectation> {
+        if let Some(bytes) = BufferBytes::of(&value) {
+            let read = BufferBytes::numbers::<2>(bytes, "point")?;
+            return Ok(Self(read.into_iter().map(|at| DVec2::from_array(at.map(f64::from))).collect()));
+        }
+        Ok(Self(Vec::<Vector>::from_value(value)?.into_iter().map(|vector| vector.0.truncate()).collect()))
+    }
+
+    fn into_value(self) -> Value {
+        self.0.into_iter().map(|at| at.to_array().to_vec()).collect::<Vec<_>>().into_value()
+    }
+}
+
+impl Parameter for MeshColors {
+    fn luau() -> String {
+        "{ Color } | buffer".into()
+    }
+
+    fn from_value(value: Value) -> std::result::Result<Self, Expectation> {
+        let Some(bytes) = BufferBytes::of(&value) else { return Ok(Self(Vec::from_value(value)?)) };
+        let (found, rest) = bytes.as_chunks::<4>();
+        if rest.is_empty() {
+            return Ok(Self(found.iter().copied().map(Color::of_bytes).collect()));
+        }
+        Err(Expectation::new("a buffer of 4 bytes for each face")
+            .but_was(format!("one of {} bytes", bytes.len())))
+    }
+
+    fn into_value(self) -> Value {
+        self.0.into_value()
+    }
+}
+
+impl Parameter for MeshFaces {
+    fn luau() -> String {
+        "{ { number } } | buffer".into()
+    }
+
+    fn from_value(value: Value) -> std::result::Result<Self, Expectation> {
+        if let Some(bytes) = BufferBytes::of(&value) {
+            let corners = BufferBytes::indices::<3>(bytes, "triangle")?.into_flattened();
+            let ends = (1..=corners.len() / 3).map(|number| number * 3).collect();
+            return Ok(Self { corners, ends, first: 0 });
+        }
+        let mut faces = Self { first: 1, ..Self::default() };
+        for face in Vec::<Vec<u32>>::from_value(value)? {
+            faces.corners.extend(face);
+            faces.ends.push(faces.corners.len());
+        }
+        Ok(faces)
+    }
+
+    fn into_value(self) -> Value {
+        self.iter().map(<[u32]>::to_vec).collect::<Vec<_>>().into_value()
+    }
+}
+
+impl MeshFaces {
+    /// The numbers of the corners of each face, as they were given.
+    fn iter(&self) -> impl Iterator<Item = &[u32]> {
+        let begins = std::iter::once(0).chain(self.ends.iter().copied());
+        begins.zip(&self.ends).map(|(begin, end)| &self.corners[begin..*end])
+    }
+}
+
+impl Parameter for MeshOptions {
+    fn luau() -> String {
+        "{ [string]: any }".into()
+    }
+
+    fn fields() -> Vec<Field> {
+        Self::fields()
+    }
+
+    fn from_value(value: Value) -> std::result::Result<Self, Expectation> {
+        match value {
+            Value::Table(table) => Self::from_table(&table).map_err(|error| {
+                Expectation::new(format!("a table of normals, uvs and colors ({})", error.message()))
+            }),
+            _ => Err(Expectation::new("a table of normals, uvs and colors")),
+        }
+    }
+
+    fn into_value(self) -> Value {
+        Value::Table(std::sync::Arc::new(Table::default()))
+    }
+}
 
 /// Draws `faces`, each the numbers of its corners among `points` (m), counter-clockwise seen from outside.
 ///
-/// The points are in the axes of `frame`, as models are placed. Fails where a face has fewer than three corners, or names a
-/// point that there is not, and then draws nothing.
+/// The points are in the axes of `frame`, as models are placed; `kind` is for messages, and `base` the material. Fails
+/// where a face has fewer than three corners, or names a point that there is not, and then draws nothing. What has no area
+/// is left out.
 pub(crate) fn draw_mesh(
-    (kind, part): (&str, &mut Part),
+    (kind, drawing, base): (&str, &mut Drawing, &Material),
     frame: &Frame,
-    points: &[Vector],
-    faces: &[Vec<u32>],
+    points: &MeshPoints,
+    faces: &MeshFaces,
+    options: &MeshOptions,
 ) -> Result<()> {
     let transform = frame.transform();
-    let placed: Vec<DVec3> = points.iter().map(|point| transform.transform_point3(point.0)).collect();
-    let mut corners = Vec::with_capacity(faces.len());
-    for (number, face) in (1..).zip(faces) {
+    let placed: Vec<DVec3> = points.0.iter().map(|point| transform.transform_point3(*point)).collect();
+    let turned = |normal: &DVec3| transform.transform_vector3(*normal);
+    let normals: Option<Vec<DVec3>> =
+        options.normals.as_ref().map(|normals| normals.0.iter().map(turned).collect());
+    let shading =
+        CornerShading { normals: normals.as_deref(), uvs: options.uvs.as_ref().map(|uvs| uvs.0.as_slice()) };
+    for (name, count, wanted, each) in [
+        ("normals", shading.normals.map(<[_]>::len), placed.len(), "point"),
+        ("uvs", shading.uvs.map(<[_]>::len), placed.len(), "point"),
+        ("colors", options.colors.as_ref().map(|colors| colors.0.len()), faces.ends.len(), "face"),
+    ] {
+        if let Some(count) = count.filter(|count| *count != wanted) {
+            return Err(Error::argument(format!(
+                "{kind}:mesh: there are {count} {name} for {wanted} {each}s"
+            ))
+            .help(format!("give one for each {each}, or leave {name} out")));
+        }
+    }
+    check(kind, placed.len(), faces)?;
+    let parts = parts(kind, drawing, base, options.colors.as_ref())?;
+    let mut corners: Vec<usize> = Vec::new();
+    for (number, face) in faces.iter().enumerate() {
+        corners.clear();
+        corners.extend(face.iter().map(|corner| (corner - faces.first) as usize));
+        let part = drawing.part(parts[if options.colors.is_some() { number } else { 0 }]);
+        match corners[..] {
+            // What buffers hold are the triangles of somebody else's mesh, where some have no area.
+            [a, b, c] if faces.first == 0 => triangle(part, &placed, shading, [a, b, c])?,
+            _ => polygon(part, &placed, shading, &corners)?,
+        }
+    }
+    Ok(())
+}
+
+/// Refuses faces with too few corners, or with corners that are none of `count` points.
+fn check(kind: &str, count: usize, faces: &MeshFaces) -> Result<()> {
+    let first = faces.first as usize;
+    for (number, face) in (1..).zip(faces.iter()) {
         if face.len() < 3 {
             return Err(Error::argument(format!("{kind}:mesh: face {number} has {} corners", face.len()))
                 .help("a face has three corners or more, such as { 1, 2, 3 }"));
         }
-        let found: Option<Vec<DVec3>> =
-            face.iter().map(|corner| placed.get((*corner as usize).checked_sub(1)?).copied()).collect();
-        corners.push(found.ok_or_else(|| {
-            let count = placed.len();
-            Error::argument(format!(
-                "{kind}:mesh: face {number} names a point that is not one of 1 to {count}"
-            ))
-            .help("points are numbered from 1 on, in the order in which they are given")
-        })?);
+        if face.iter().any(|corner| !(first..first + count).contains(&(*corner as usize))) {
+            let what = match count {
+                0 => "a point, and there are none".to_owned(),
+                _ => format!("a point that is not one of {first} to {}", first + count - 1),
+            };
+            let kept = if first == 0 { " in a buffer" } else { "" };
+            return Err(Error::argument(format!("{kind}:mesh: face {number} names {what}")).help(format!(
+                "points are numbered from {first} on{kept}, in the order in which they are given"
+            )));
+        }
     }
-    corners.iter().try_for_each(|corners| face(part, corners))
+    Ok(())
+}
+
+/// The part of the drawing for each face, or one for all.
+fn parts(
+    kind: &str,
+    drawing: &mut Drawing,
+    base: &Material,
+    colors: Option<&MeshColors>,
+) -> Result<Vec<usize>> {
+    let Some(colors) = colors else { return Ok(vec![drawing.material(base)]) };
+    let mut known: Vec<[f32; 4]> = Vec::new();
+    let mut numbers = Vec::with_capacity(colors.0.len());
+    for Color(color) in &colors.0 {
+        // Neighbours mostly have the same.
+        let number = known.iter().rposition(|other| other == color).unwrap_or_else(|| {
+            known.push(*color);
+            known.len() - 1
+        });
+        if known.len() > MOST_COLORS {
+            let message = format!("{kind}:mesh: the faces have more than {MOST_COLORS} different colours");
+            return Err(Error::limit(Limit::Size, message)
+                .help("round the colours, or draw an image on the mesh: a texture, with uvs"));
+        }
+        numbers.push(number);
+    }
+    let material = |color: &[f32; 4]| Material { base_color: *color, ..base.clone() };
+    let found: Vec<usize> = known.iter().map(|color| drawing.material(&material(color))).collect();
+    Ok(numbers.into_iter().map(|number| found[number]).collect())
+}
+
+/// Adds a triangle, unless it has no area.
+fn triangle(
+    part: &mut Part,
+    placed: &[DVec3],
+    shading: CornerShading<'_>,
+    corners: [usize; 3],
+) -> Result<()> {
+    let [a, b, c] = corners.map(|corner| placed[corner]);
+    let normal = (b - a).cross(c - a).normalize_or_zero();
+    if normal == DVec3::ZERO {
+        return Ok(());
+    }
+    let base = u32::try_from(part.positions.len() + 2)
+        .map_err(|_| Error::limit(Limit::Size, "a mesh holds too many vertices"))?
+        - 2;
+    let right = normal.any_orthonormal_vector();
+    let up = normal.cross(right);
+    part.make_room(3, 1);
+    for corner in corners {
+        let at = placed[corner];
+        let given = shading.normals.map_or(DVec3::ZERO, |normals| normals[corner].normalize_or_zero());
+        let flat = || DVec2::new((at - a).dot(right), (at - a).dot(up));
+        part.positions.push(at.as_vec3());
+        part.normals.push(if given == DVec3::ZERO { normal } else { given }.into());
+        part.uvs.push(shading.uvs.map_or_else(flat, |uvs| uvs[corner]).as_vec2());
+    }
+    part.triangles.push([base, base + 1, base + 2]);
+    Ok(())
+}
+
+/// Adds a face of more corners.
+fn polygon(part: &mut Part, placed: &[DVec3], shading: CornerShading<'_>, corners: &[usize]) -> Result<()> {
+    let points: Vec<DVec3> = corners.iter().map(|corner| placed[*corner]).collect();
+    let normals: Option<Vec<DVec3>> =
+        shading.normals.map(|normals| corners.iter().map(|corner| normals[*corner]).collect());
+    let uvs: Option<Vec<DVec2>> = shading.uvs.map(|uvs| corners.iter().map(|corner| uvs[*corner]).collect());
+    shaded_face(part, &points, CornerShading { normals: normals.as_deref(), uvs: uvs.as_deref() })
 }

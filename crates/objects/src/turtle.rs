@@ -5,7 +5,7 @@ use std::sync::Arc;
 use glam::{DAffine3, DQuat, DVec3};
 
 use super::MaterialOptions;
-use super::mesh::draw_mesh;
+use super::mesh::{MeshFaces, MeshOptions, MeshPoints, draw_mesh};
 use super::surface::plain_material;
 use burgeon_base::error::{Error, Result};
 use burgeon_geometry::{Frame, Strand, face, sphere};
@@ -272,9 +272,13 @@ impl Turtle {
     }
 
     /// Draws `faces` in the turtle's frame, each the numbers of its corners among `points` (m), such as { 1, 2, 3 }.
-    pub fn mesh(&mut self, points: Vec<Vector>, faces: Vec<Vec<u32>>) -> Result<()> {
-        let part = self.drawing.part(self.state.part);
-        draw_mesh(("turtle", part), &self.state.frame, &points, &faces)
+    ///
+    /// Where there are many, buffers hold them: points of three 32-bit numbers, and triangles of three 32-bit whole numbers,
+    /// which count points from 0. `options` shade and colour them.
+    pub fn mesh(&mut self, points: MeshPoints, faces: MeshFaces, options: Option<MeshOptions>) -> Result<()> {
+        let base = self.drawing.material_of(self.state.part);
+        let to = ("turtle", &mut self.drawing, &base);
+        draw_mesh(to, &self.state.frame, &points, &faces, &options.unwrap_or_default())
     }
 
     /// Its place (m).

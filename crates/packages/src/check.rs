@@ -94,7 +94,7 @@ fn conflicts(package: &Package, together: &[&Package]) -> Vec<Error> {
 fn problems(found: &Packages, package: &Package, api: &Version, circles: &[DependencyCircle]) -> Vec<Error> {
     let manifest = &package.manifest;
     let name = &manifest.name;
-    let mut problems = Vec::new();
+    let mut problems = package.problems.clone();
     if !manifest.api.matches(api) {
         let message = format!(
             "the package {name} is made for version {} of the script API, and this is {api}",

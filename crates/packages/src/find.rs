@@ -224,7 +224,7 @@ impl Packages {
             Ok(manifest) => manifest,
             Err(error) => return self.add_broken(folder, error, origin),
         };
-        let known = self.packages.iter().find(|known| known.manifest.name == manifest.name);
+        let known = self.packages.iter_mut().find(|known| known.manifest.name == manifest.name);
         let Some(known) = known else {
             let is_replacing = origin != PackageOrigin::User;
             let problems = Vec::new();
@@ -242,6 +242,10 @@ impl Packages {
             ))
             .help("remove one of them")
             .at(Some(manifest.begin()));
+            // Whoever uses it is told which one is not meant.
+            if origin == PackageOrigin::User {
+                known.problems.push(error.clone());
+            }
             return self.add_broken(folder, error, origin);
         }
         // The user's folder is there for all scripts, and each may have versions of its own.

@@ -27,7 +27,7 @@ impl SurfaceRuns {
     /// From triangle number `first` on, which is not before an earlier one, all are this.
     #[inline]
     pub fn mark(&mut self, first: usize, meaning: Option<SurfaceMeaning>) {
-        if self.0.last().map_or(None, |(_, known)| *known) == meaning {
+        if self.0.last().and_then(|(_, known)| *known) == meaning {
             return;
         }
         match self.0.last_mut() {

@@ -3,6 +3,11 @@
 use std::fmt::Write as _;
 
 use super::entry::{Entry, EntryGroup, Member, MemberKind};
+use super::pictures::{example_of, file_of};
+use burgeon::objects::MemberExample;
+
+/// The types in whose pictures the axes are.
+const AXES: [&str; 2] = ["extruder", "turtle"];
 
 /// A page: its file, from the book's sources, and its text.
 pub(super) type Page = (String, String);
@@ -10,7 +15,7 @@ pub(super) type Page = (String, String);
 /// The pages that follow from what scripts can use, and the list of all pages.
 pub(super) fn pages(entries: &[Entry]) -> Vec<Page> {
     let mut summary = String::from(
-        "# Summary\n\n[Burgeon](introduction.md)\n[Data and heights](data.md)\n[Ground and planets](ground.md)\n[What scripts can use](objects.md)\n[Running scripts](running.md)\n[Files for other programs](formats.md)\n[Live](live.md)\n[Types of objects of your own](types.md)\n[Packages](packages.md)\n[Scripts from others](threats.md)\n[Editors](editors.md)\n[Speed](speed.md)\n\n# Types of objects\n\n",
+        "# Summary\n\n[Burgeon](introduction.md)\n[Contexts and features](rules.md)\n[Data and heights](data.md)\n[Questions to data in rules](queries.md)\n[SQL](sql.md)\n[Ground and planets](ground.md)\n[What scripts can use](objects.md)\n[Running scripts](running.md)\n[Files for other programs](formats.md)\n[Live](live.md)\n[Types of objects of your own](types.md)\n[Packages](packages.md)\n[Scripts from others](threats.md)\n[Editors](editors.md)\n[Speed](speed.md)\n\n# Types of objects\n\n",
     );
     let mut pages = Vec::new();
     for entry in entries.iter().filter(|entry| entry.group == EntryGroup::Type) {
@@ -56,6 +61,12 @@ fn body(text: &mut String, entry: &Entry, level: usize) {
         let language = if entry.usage.contains("(file") { "text" } else { "lua" };
         let _ = writeln!(text, "\n```{language}\n{}\n```", entry.example.trim_end());
     }
+    if let Some(example) = example_of(&entry.name) {
+        let _ = writeln!(text, "\n![What it draws]({})", file_of(example));
+        if AXES.contains(&&*entry.name) {
+            text.push_str("\nIn pictures, the arrows at the origin are the axes, each 1 m long: x red, y green, z blue.\n");
+        }
+    }
     let heading = "#".repeat(level);
     for (what, title) in [
         (MemberKind::Field, "Fields"),
@@ -70,22 +81,25 @@ fn body(text: &mut String, entry: &Entry, level: usize) {
         }
         let _ = writeln!(text, "\n{heading} {title}\n");
         if what == MemberKind::Field {
-            fields(text, &members);
+            fields(text, &entry.name, &members);
         } else {
-            members.into_iter().for_each(|member| method(text, member));
+            members.into_iter().for_each(|member| method(text, &entry.name, member));
         }
     }
 }
 
 /// A table of fields, each followed by those of the table that it is.
-fn fields(text: &mut String, members: &[&Member]) {
+fn fields(text: &mut String, owner: &str, members: &[&Member]) {
     text.push_str("| field | type | default | unit | |\n| --- | --- | --- | --- | --- |\n");
     let mut rows = Vec::new();
     members.iter().for_each(|member| collect(&mut rows, "", member));
     for (name, member) in rows {
         let code = |part: &str| if part.is_empty() { String::new() } else { format!("`{}`", cell(part)) };
         let unit = member.unit.as_deref().unwrap_or_default();
-        let doc = cell(&plain(&member.doc));
+        let mut doc = cell(&plain(&member.doc));
+        if let Some(example) = example_of(&format!("{owner}.{name}")) {
+            let _ = write!(doc, " [Picture]({}).", file_of(example));
+        }
         let (luau, default) = (code(&member.luau), code(&member.default));
         let _ = writeln!(text, "| `{name}` | {luau} | {default} | {unit} | {doc} |");
     }
@@ -97,17 +111,41 @@ fn collect<'a>(rows: &mut Vec<(String, &'a Member)>, owner: &str, member: &'a Me
     member.fields.iter().for_each(|field| collect(rows, &format!("{name}."), field));
 }
 
-fn method(text: &mut String, member: &Member) {
+fn method(text: &mut String, owner: &str, member: &Member) {
     for line in member.usage().lines() {
         let _ = writeln!(text, "- `{line}`  ");
     }
     let _ = writeln!(text, "  {}", plain(&member.doc));
+    let full = member.full_name(owner);
+    match example_of(&full) {
+        Some(example) if example.shows.first() == Some(&&*full) => picture(text, &full, example),
+        Some(example) => {
+            let _ = writeln!(text, "  ([Picture]({}).)", file_of(example));
+        }
+        None => {}
+    }
     if !member.fields.is_empty() {
         text.push('\n');
         let members: Vec<&Member> = member.fields.iter().collect();
-        fields(text, &members);
+        fields(text, &full, &members);
         text.push('\n');
     }
+}
+
+/// What an example draws, and its script, within an item of a list.
+fn picture(text: &mut String, name: &str, example: &MemberExample) {
+    let _ = writeln!(text, "\n  ![{name}]({})  ", file_of(example));
+    // The first line of the script says what there is to see.
+    if let Some(caption) = example.script.strip_prefix("-- ").and_then(|rest| rest.lines().next()) {
+        let _ = writeln!(text, "  *{}*", plain(caption));
+    }
+    text.push('\n');
+    let _ = writeln!(text, "  <details><summary>Script</summary>\n\n  ```lua");
+    for line in example.script.trim_end().lines() {
+        let indent = if line.is_empty() { "" } else { "  " };
+        let _ = writeln!(text, "{indent}{line}");
+    }
+    text.push_str("  ```\n\n  </details>\n\n");
 }
 
 /// A doc in one line.

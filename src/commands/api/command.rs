@@ -1,12 +1,15 @@
 //! The command `api`.
 
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use super::entry::{Entry, Member};
-use super::{book, text};
+use super::{book, pictures, text};
 use crate::commands::report;
-use burgeon::kit::Registry;
+use crate::commands::shared::user_mods;
+use burgeon::kit::{Kind, Registry};
 use burgeon::language::{definitions, names};
+use burgeon::script::RunOptions;
 use burgeon::{Error, Result};
 use clap::Args;
 use serde_json::json;
@@ -17,13 +20,25 @@ pub(crate) struct ApiCommand {
     /// One of them, such as extruder, extruder:extrude or extruder.sides; a list of all if left out
     name: Option<String>,
 
+    /// Tells of the types of objects that this script declares, and of what it adds to others
+    #[arg(long, value_name = "FILE")]
+    script: Option<PathBuf>,
+
+    /// Uses the packages in this folder, or the one that it is, besides those in mods beside the script; may be repeated
+    #[arg(long, value_name = "FOLDER", requires = "script")]
+    mods: Vec<PathBuf>,
+
     /// Prints the definition file that luau-lsp takes, for editors
-    #[arg(long, conflicts_with_all = ["name", "json"])]
+    #[arg(long, conflicts_with_all = ["name", "json", "script"])]
     luau: bool,
 
     /// Writes the pages of the reference into the sources of this mdBook, such as docs/book
-    #[arg(long, value_name = "FOLDER", conflicts_with_all = ["name", "json", "luau"])]
+    #[arg(long, value_name = "FOLDER", conflicts_with_all = ["name", "json", "luau", "script"])]
     book: Option<PathBuf>,
+
+    /// Draws the pictures of the reference besides, those whose examples have changed
+    #[arg(long, requires = "book")]
+    pictures: bool,
 
     /// Prints one JSON document, for machines, in place of text for people
     #[arg(long)]
@@ -39,9 +54,23 @@ impl ApiCommand {
         if self.luau {
             return report::print(&definitions(&burgeon::objects::registry()).luau);
         }
-        let entries = entries(&burgeon::objects::registry());
+        let registry = burgeon::objects::registry();
+        let own = self.script.as_deref().map(|script| self.declared(script)).transpose()?;
+        let with_own = |own: &[Arc<Kind>]| -> Registry {
+            let others = registry.kinds().filter(|kind| !own.iter().any(|it| it.name == kind.name));
+            others.chain(own).map(Arc::clone).collect()
+        };
+        let entries = match (&own, &self.name) {
+            (None, _) => entries(&registry),
+            (Some(own), Some(_)) => entries(&with_own(own)),
+            (Some(own), None) => own.iter().map(|kind| Entry::of_kind(kind)).collect(),
+        };
         if let Some(folder) = &self.book {
-            return write_book(folder, &entries);
+            write_book(folder, &entries)?;
+            return match self.pictures {
+                true => pictures::draw(&folder.join("src/reference")),
+                false => Ok(()),
+            };
         }
         let found = self.name.as_deref().map(|name| find(&entries, name)).transpose()?;
         report::print(&if self.json {
@@ -53,11 +82,19 @@ impl ApiCommand {
             format!("{}\n", json!({ "ok": true, "entries": documents }))
         } else {
             match &found {
-                None => text::list(&entries),
+                None => text::list(&entries, self.script.as_deref()),
                 Some(ApiSubject::Entry(entry)) => text::entry(entry),
                 Some(ApiSubject::Member((owner, member))) => text::member(owner, member),
             }
         })
+    }
+}
+
+impl ApiCommand {
+    /// The types of objects that `script` declares, and those that it adds to.
+    fn declared(&self, script: &Path) -> Result<Vec<Arc<Kind>>> {
+        let options = RunOptions { mods: self.mods.clone(), user_mods: user_mods(), ..burgeon::options() };
+        Ok(burgeon::check(script, options)?.types)
     }
 }
 

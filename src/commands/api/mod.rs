@@ -5,6 +5,7 @@
 mod book;
 mod command;
 mod entry;
+mod pictures;
 mod text;
 
 pub(crate) use command::ApiCommand;

@@ -1,14 +1,16 @@
 //! What `burgeon api` prints for people.
 
 use std::fmt::Write as _;
+use std::path::Path;
 
 use super::entry::{Entry, EntryGroup, Member, MemberKind};
+use super::pictures::example_of;
 
 /// The longest line of a doc.
 const WIDTH: usize = 100;
 
-/// All names, each with the first sentence of its doc.
-pub(super) fn list(entries: &[Entry]) -> String {
+/// All names, each with the first sentence of its doc; with a `script`, those that it declares.
+pub(super) fn list(entries: &[Entry], script: Option<&Path>) -> String {
     let mut text = String::new();
     for (group, title) in [
         (EntryGroup::Type, "Types of objects"),
@@ -18,6 +20,9 @@ pub(super) fn list(entries: &[Entry]) -> String {
         (EntryGroup::Luau, "Luau itself"),
     ] {
         let of_group = || entries.iter().filter(|entry| entry.group == group);
+        if of_group().next().is_none() {
+            continue;
+        }
         let widest = of_group().map(|entry| entry.name.chars().count()).max().unwrap_or(0);
         // Writing into a string cannot fail.
         let _ = writeln!(text, "{title}");
@@ -26,7 +31,18 @@ pub(super) fn list(entries: &[Entry]) -> String {
         }
         text.push('\n');
     }
-    text.push_str("burgeon api NAME tells more of one, such as extruder or extruder:extrude\n");
+    let flag = script.map_or_else(String::new, |script| format!(" --script {}", script.display()));
+    match (script, entries.first()) {
+        (Some(script), None) => {
+            let _ = writeln!(text, "{} declares no type of object and adds to none", script.display());
+        }
+        (Some(_), Some(Entry { name, .. })) => {
+            let _ = writeln!(text, "burgeon api{flag} NAME tells more of one, such as {name}");
+        }
+        (None, _) => {
+            text.push_str("burgeon api NAME tells more of one, such as extruder or extruder:extrude\n")
+        }
+    }
     text
 }
 
@@ -68,6 +84,12 @@ pub(super) fn member(owner: &str, member: &Member) -> String {
         MemberKind::Field | MemberKind::Declares | MemberKind::Function => {}
         MemberKind::Reads => wrap(&mut text, "It only reads: rules and interpretations may call it.", 2),
         MemberKind::Changes => wrap(&mut text, "It changes the object: only interpretations may call it.", 2),
+    }
+    if let Some(example) = example_of(&member.full_name(owner)) {
+        text.push_str("\nExample\n");
+        for line in example.script.trim_end().lines() {
+            let _ = writeln!(text, "  {line}");
+        }
     }
     for (index, field) in member.fields.iter().enumerate() {
         if index == 0 {

@@ -1,4 +1,4 @@
-//! `burgeon mods` and its parts: `check`, `explain` and `add`.
+//! `burgeon mods` and its parts: `check`, `explain`, `new` and `add`.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -11,9 +11,10 @@ use serde_json::json;
 
 use super::super::report;
 use super::super::shared::user_mods;
+use super::create::create;
 use super::text;
 
-/// Lists the packages that scripts can use, and what they replace; checks, explains and adds them
+/// Lists the packages that scripts can use, and what they replace; checks, explains, makes and adds them
 #[derive(Args)]
 #[command(args_conflicts_with_subcommands = false)]
 pub(crate) struct ModsCommand {
@@ -45,6 +46,11 @@ enum ModsAction {
         /// Its name
         name: String,
     },
+    /// Makes a package to begin with, in mods beside the script, or here
+    New {
+        /// Its name
+        name: String,
+    },
     /// Copies a package from a folder or a zip
     Add {
         /// The folder that has the mod.toml, or a zip of it
@@ -71,6 +77,7 @@ impl ModsCommand {
             None => self.list(),
             Some(ModsAction::Check { folder }) => self.check(folder.as_deref()),
             Some(ModsAction::Explain { name }) => self.explain(name),
+            Some(ModsAction::New { name }) => self.create(name),
             Some(ModsAction::Add { from, into, replace }) => self.add(from, into.as_deref(), *replace),
         }
     }
@@ -98,6 +105,15 @@ impl ModsCommand {
             true => format!("{}\n", text::list_json(&packages)),
             false => text::list(&packages),
         })
+    }
+
+    fn create(&self, name: &str) -> Result<()> {
+        let folder = create(&self.beside()?.join("mods"), name)?;
+        if self.json {
+            return report::print(&format!("{}\n", json!({ "ok": true, "folder": folder })));
+        }
+        report::eprint(&format!("made {}; now: require(\"@{name}\")\n", folder.display()));
+        Ok(())
     }
 
     fn explain(&self, name: &str) -> Result<()> {
@@ -186,7 +202,7 @@ impl ModsCommand {
         // What the folder of a package is called by is how its files are told of.
         mods.insert(0, package.shown.clone());
         let options = RunOptions { mods, user_mods: search.user.clone(), ..burgeon::options() };
-        let ScriptCheck { params, warnings } = burgeon::check_package(&package.shown, options)?;
+        let ScriptCheck { params, warnings, .. } = burgeon::check_package(&package.shown, options)?;
         declared.insert(package.manifest.name.clone(), params);
         Ok(warnings)
     }

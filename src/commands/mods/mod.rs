@@ -4,6 +4,7 @@
 //! mean is decided by the library; here it is only told.
 
 mod command;
+mod create;
 mod text;
 
 pub(crate) use command::ModsCommand;

@@ -22,7 +22,8 @@ pub(super) fn list(packages: &Packages) -> String {
         text += &problems(package);
     }
     if packages.order().is_empty() {
-        text += "there are no packages; add one: burgeon mods add FOLDER\n";
+        text +=
+            "there are no packages; make one, burgeon mods new NAME, or add one: burgeon mods add FOLDER\n";
     }
     for hidden in &packages.hidden {
         let (name, version, by) = (&hidden.name, &hidden.version, hidden.by.display());

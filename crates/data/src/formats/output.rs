@@ -7,7 +7,7 @@ use rusqlite::{Connection, params, params_from_iter};
 use super::projection::definition;
 use crate::Attribute;
 use crate::frame::ReferenceFrame;
-use crate::output::{ColumnKind, Outward, Record, RecordTable, apart, column_kinds};
+use crate::output::{ColumnKind, Outward, Record, RecordTable, column_kinds};
 use burgeon_base::error::{Error, Result};
 use burgeon_base::stop::Stop;
 use burgeon_spatial::Geometry;
@@ -236,6 +236,18 @@ fn kind_name(table: &RecordTable) -> &'static str {
         });
     let Some(first) = kinds.next() else { return "GEOMETRY" };
     if kinds.all(|kind| kind == first) { first } else { "GEOMETRY" }
+}
+
+/// `name`, or with a number behind it if one of `taken` is called so: databases do not tell small letters from capitals.
+fn apart(name: &str, taken: &[String]) -> String {
+    let is_taken = |name: &str| taken.iter().any(|known| known.to_lowercase() == name.to_lowercase());
+    let mut free = name.to_owned();
+    let mut count = 1;
+    while is_taken(&free) {
+        count += 1;
+        free = format!("{name}_{count}");
+    }
+    free
 }
 
 fn joined(a: LayerBox, b: LayerBox) -> LayerBox {

@@ -13,5 +13,4 @@ mod tests;
 pub use column::{ColumnKind, column_kinds};
 pub use geojson::write_geojson;
 pub use place::Outward;
-pub(crate) use table::apart;
 pub use table::{Record, RecordTable};

@@ -35,15 +35,3 @@ impl Record {
         }
     }
 }
-
-/// `name`, or with a number behind it if one of `taken` is called so: databases do not tell small letters from capitals.
-pub(crate) fn apart(name: &str, taken: &[String]) -> String {
-    let is_taken = |name: &str| taken.iter().any(|known| known.to_lowercase() == name.to_lowercase());
-    let mut free = name.to_owned();
-    let mut count = 1;
-    while is_taken(&free) {
-        count += 1;
-        free = format!("{name}_{count}");
-    }
-    free
-}

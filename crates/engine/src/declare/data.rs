@@ -6,8 +6,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 use super::paths::{is_absolute, lead};
 use super::session::Session;
-#[cfg(feature = "data")]
-use super::tables::{SourceTable, SourceTables, TableContent};
+use super::tables::{ListTable, SourceTable, SourceTables, TableContent};
 use burgeon_base::budget::Budget;
 use burgeon_base::error::{Error, Result};
 use burgeon_data::{Cache, Layer, ReferenceFrame, Source, SourceOptions, nearest_file, split_name};
@@ -29,7 +28,6 @@ struct LayerStore {
     /// What was made of files, by type, file and fields.
     objects: BTreeMap<String, Result<LoadedObject>>,
     /// The sources as tables.
-    #[cfg(feature = "data")]
     tables: SourceTables,
     /// What all reading of the run may take.
     budget: Option<Arc<Budget>>,
@@ -115,6 +113,12 @@ impl Data {
         loaded
     }
 
+    /// Adds a list that the script made as the table `name`.
+    pub(crate) fn add_list(&self, name: &str, list: ListTable) {
+        let mut known = self.known.lock().unwrap_or_else(PoisonError::into_inner);
+        known.tables.add(SourceTable { name: name.to_owned(), content: TableContent::List(list) });
+    }
+
     /// What comes of the tables, the projection of the run, and what reading them may take.
     #[cfg(feature = "data")]
     pub(super) fn with_tables<T>(
@@ -190,9 +194,6 @@ fn read(
     if let (true, Some((_, error))) = (session.options.strict, layer.refused.first()) {
         return Err(error.clone());
     }
-    #[cfg(not(feature = "data"))]
-    let _ = (table, is_whole);
-    #[cfg(feature = "data")]
     known.tables.add(SourceTable {
         name: table.unwrap_or(&layer.name).to_owned(),
         content: match is_whole

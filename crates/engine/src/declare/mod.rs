@@ -14,8 +14,8 @@ pub(crate) mod paths;
 mod positions;
 mod preset;
 mod session;
-#[cfg(feature = "data")]
 mod tables;
+mod types;
 
 pub(crate) use api::has_name;
 pub use api::{API_VERSION, api_version};
@@ -23,3 +23,4 @@ pub use options::{Limits, Print, RunOptions, TraceRequest};
 pub use param::{Control, Param, Setting};
 pub use preset::Preset;
 pub use session::{RunProgress, Session};
+pub(crate) use tables::ListTable;

@@ -1,6 +1,6 @@
 //! The files of packages, as a run's scripts ask for them.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::PoisonError;
 
 use super::param::Param;
@@ -8,6 +8,9 @@ use super::session::Session;
 use burgeon_base::error::{Error, Result, SourcePlace};
 use burgeon_data::split_name;
 use burgeon_packages::{FileName, Package, PackageFile};
+
+/// The file of a package's presets.
+const PRESETS: &str = "presets.json";
 
 impl Session {
     /// The package whose file people find as `file`; none for the script's own.
@@ -29,6 +32,19 @@ impl Session {
             self.together(package)?;
         }
         located
+    }
+
+    /// The files of presets that packages have: of those that are there for this script, and of others that it has used.
+    pub fn package_presets(&self) -> Vec<(String, PathBuf)> {
+        let used = self.used.lock().unwrap_or_else(PoisonError::into_inner).clone();
+        let meant = |package: &&Package| package.is_replacing || used.contains(&package.manifest.name);
+        let found = self.packages().order().iter().filter(meant).filter_map(|package| {
+            let name = package.manifest.name.clone();
+            let file = FileName { package: name.clone(), path: PRESETS.to_owned() };
+            let located = self.packages().locate("file of presets", &file, None, &mut |_, _| {}).ok()?;
+            Some((name, located.path))
+        });
+        found.collect()
     }
 
     /// Whether there is a package `name` that can be used.

@@ -8,18 +8,22 @@ use std::time::Duration;
 
 use rustc_hash::FxHashMap;
 
-use super::analysis::{Analysis, Globals, QueryCall, ScriptReader, has_metatables};
+use super::analysis::{
+    Analysis, CheckedFile, Globals, QueryCall, ScriptReader, call_problems, has_metatables,
+};
 use super::api::api_version;
 use super::data::Data;
 use super::deprecations::Deprecations;
 use super::options::RunOptions;
 use super::param::Param;
 use super::positions::RandomPositions;
+use super::types::DeclaredTypes;
 use crate::questions::{AskedRows, KeptRows, Question, RowSource, Rows};
 use burgeon_base::error::{Error, Limit, Result, SourcePlace};
 use burgeon_base::stop::Stop;
 use burgeon_base::warning::{Warning, Warnings};
 use burgeon_kit::rules::Values;
+use burgeon_language::CallForm;
 use burgeon_packages::{PackageSearch, Packages};
 
 /// The most (bytes) that one file of a script may have; reading it takes 300 times as much memory.
@@ -102,9 +106,11 @@ pub struct Session {
     pub(crate) rows: KeptRows,
     /// How far its random numbers have got.
     pub(crate) drawn: RandomPositions,
-    /// The names of methods that scripts have added to types of objects.
-    pub(crate) extensions: Mutex<BTreeSet<String>>,
+    /// The types of objects that scripts have declared, and the methods that they have added to others.
+    pub(crate) declared: Mutex<DeclaredTypes>,
     stdlib: Option<(String, String)>,
+    /// By file: what it writes in `require`, and the files that are meant.
+    required: Mutex<BTreeMap<String, BTreeMap<String, String>>>,
     sources: Mutex<FxHashMap<PathBuf, Arc<SourceFile>>>,
     /// The main file while it is read ahead, and its path.
     ahead: Mutex<Option<(PathBuf, ScriptReader)>>,
@@ -154,8 +160,9 @@ impl Session {
             data: Data::default(),
             rows: KeptRows::default(),
             drawn: RandomPositions::default(),
-            extensions: Mutex::default(),
+            declared: Mutex::default(),
             stdlib,
+            required: Mutex::default(),
             sources: Mutex::default(),
             ahead: Mutex::default(),
             sought: Mutex::default(),
@@ -285,6 +292,33 @@ impl Session {
     /// Where the interpretation that begins in a line of a file returns modules, if that can be seen.
     pub(crate) fn loses_modules(&self, file: &str, line: usize) -> Option<usize> {
         self.source_called(file)?.analysis.lost.get(&line).copied()
+    }
+
+    /// How the function is called that begins in a line of a file, if it is the only one there.
+    pub(crate) fn signature(&self, file: &str, line: usize) -> Option<CallForm> {
+        self.source_called(file)?.analysis.signatures.get(&line).cloned()
+    }
+
+    /// Takes notice that the file `asker` means the file `meant` by `require(name)`.
+    pub(crate) fn note_required(&self, asker: &str, name: &str, meant: &str) {
+        let mut required = self.required.lock().unwrap_or_else(PoisonError::into_inner);
+        required.entry(asker.to_owned()).or_default().insert(name.to_owned(), meant.to_owned());
+    }
+
+    /// What is wrong with the calls of all files that were read, once the script has declared its types of objects.
+    pub(crate) fn call_problems(&self) -> Vec<Error> {
+        let required = self.required.lock().unwrap_or_else(PoisonError::into_inner).clone();
+        let sources = self.sources.lock().unwrap_or_else(PoisonError::into_inner);
+        let mut files: Vec<CheckedFile> = sources
+            .values()
+            .filter_map(|source| {
+                let (name, ast) = (source.name.clone(), Arc::clone(source.analysis.ast.as_ref()?));
+                let required = required.get(&name).cloned().unwrap_or_default();
+                Some(CheckedFile { name, ast, required })
+            })
+            .collect();
+        files.sort_by(|a, b| a.name.cmp(&b.name));
+        call_problems(&files, &self.registry_with_types())
     }
 
     /// What the functions of rules ask of data that begin in a line of a file, as far as that can be seen.

@@ -7,7 +7,7 @@ use mlua::{Lua, LuaString, Value as LuaValue};
 use super::system::{SourceHandle, SystemHandle, feature_of};
 use super::types::{DerivedHandle, ObjectHandle};
 use burgeon_base::error::{Error, Limit, Result};
-use burgeon_kit::{System, Table, TableKey, Value};
+use burgeon_kit::{BufferBytes, System, Table, TableKey, Value};
 
 /// The field of a metatable that names a class of tables, so that they keep their operators as parameters.
 const CLASS: &str = "__class";
@@ -22,6 +22,8 @@ enum CopyMode {
     Freeze,
     /// As they are; systems may be among them.
     Field,
+    /// As they are, and buffers too, for methods that read them at once.
+    Argument,
 }
 
 /// Copies a Lua value to Rust. With `freeze`, tables are made read-only on the way.
@@ -32,6 +34,11 @@ pub(crate) fn to_value(value: &LuaValue, freeze: bool) -> Result<Value> {
 /// Copies what a constructor takes to Rust, where it may find sources as [`Features`](burgeon_kit::Features), and systems.
 pub(crate) fn to_field(value: &LuaValue) -> Result<Value> {
     convert(value, CopyMode::Field, 0)
+}
+
+/// Copies what a method is given to Rust, where it may find buffers as [`BufferBytes`].
+pub(crate) fn to_argument(value: &LuaValue) -> Result<Value> {
+    convert(value, CopyMode::Argument, 0)
 }
 
 fn convert(value: &LuaValue, manner: CopyMode, depth: usize) -> Result<Value> {
@@ -105,6 +112,9 @@ fn convert(value: &LuaValue, manner: CopyMode, depth: usize) -> Result<Value> {
             }
         }
         LuaValue::Vector(_) => return Err(no_module()),
+        LuaValue::Buffer(buffer) if manner == CopyMode::Argument => {
+            Value::Object(Arc::new(BufferBytes(buffer.to_vec().into())))
+        }
         other => {
             return Err(Error::argument(format!("a {} cannot be passed on", other.type_name()))
                 .help("pass numbers, booleans, strings, tables of these, or objects"));
@@ -128,7 +138,13 @@ pub(crate) fn to_lua(lua: &Lua, value: &Value, freeze: bool) -> mlua::Result<Lua
         Value::Boolean(value) => LuaValue::Boolean(*value),
         Value::Number(value) => LuaValue::Number(*value),
         Value::Text(text) => LuaValue::String(lua.create_string(text.as_bytes())?),
-        Value::Object(object) => LuaValue::UserData(lua.create_userdata(ObjectHandle(Arc::clone(object)))?),
+        Value::Object(object) => {
+            let any: &dyn std::any::Any = &**object;
+            match any.downcast_ref::<BufferBytes>() {
+                Some(bytes) => LuaValue::Buffer(lua.create_buffer(&bytes.0)?),
+                None => LuaValue::UserData(lua.create_userdata(ObjectHandle(Arc::clone(object)))?),
+            }
+        }
         Value::Table(table) => {
             let made = lua.create_table_with_capacity(0, table.entries.len())?;
             for (key, value) in &table.entries {

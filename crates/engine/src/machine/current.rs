@@ -10,7 +10,7 @@ use burgeon_base::warning::Warning;
 use burgeon_kit::declare::{downcast_mut, downcast_ref};
 use burgeon_kit::random::Stream;
 use burgeon_kit::rules::{ModuleKey, Symbol};
-use burgeon_kit::{Call, Kind, ScriptObject, Table, Value};
+use burgeon_kit::{Call, Kind, Object, ScriptObject, Table, Value};
 
 /// Applies recorded method calls to objects while a batch is interpreted.
 pub(crate) trait Flusher: std::any::Any {
@@ -111,24 +111,35 @@ impl WorkState {
         }
     }
 
-    /// Asks the object of `chain`, whose type the script declared.
+    /// Asks the object of `chain`, whose type the script declared, or the one that it holds at `slot`.
     pub(crate) fn script_object<T>(
         &self,
         chain: usize,
+        slot: Option<usize>,
         ask: impl FnOnce(&ScriptObject) -> Result<T>,
     ) -> Result<T> {
         let objects = self.objects.borrow();
         let objects = objects.as_ref().ok_or_else(outside)?;
-        objects.read(chain, |object| ask(downcast_ref(object)?))
+        objects.read(chain, |object| {
+            let object = downcast_ref::<ScriptObject>(object)?;
+            match slot {
+                None => ask(object),
+                Some(slot) => ask(downcast_ref(object.held(slot)?)?),
+            }
+        })
     }
 
-    /// Keeps the state that a pass has left with the object of `chain`.
-    pub(crate) fn keep_state(&self, chain: usize, state: Arc<Table>) -> Result<()> {
+    /// Keeps the state that a pass has left with the object of `chain`, or with the one that it holds at `slot`.
+    pub(crate) fn keep_state(&self, chain: usize, slot: Option<usize>, state: Arc<Table>) -> Result<()> {
         let objects = self.objects.borrow();
         let objects = objects.as_ref().ok_or_else(outside)?;
-        objects.write(chain, |object| {
+        let keep = |object: &mut dyn Object, state| {
             downcast_mut::<ScriptObject>(object)?.set_state(state);
             Ok(())
+        };
+        objects.write(chain, |object| match slot {
+            None => keep(object, state),
+            Some(slot) => downcast_mut::<ScriptObject>(object)?.with_held(slot, |object| keep(object, state)),
         })
     }
 

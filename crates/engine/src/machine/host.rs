@@ -6,7 +6,7 @@ use std::sync::{Arc, LazyLock};
 use mlua::{Lua, MultiValue, Table, Value as LuaValue};
 
 use super::current::WorkState;
-use crate::machine::convert::{to_lua, to_value};
+use crate::machine::convert::{to_argument, to_lua, to_value};
 use crate::machine::library::Library;
 use crate::machine::types::ObjectHandle;
 use burgeon_base::error::{Error, Limit};
@@ -29,7 +29,7 @@ pub(crate) fn functions(lua: &Lua, current: &Rc<WorkState>, library: &Rc<Library
     add_tables(lua, &host)?;
     add_applications(lua, &host, current)?;
     add_methods(lua, &host, current)?;
-    add_script_objects(lua, &host, current)?;
+    add_script_objects(lua, &host, current, library)?;
     super::questions::add_questions(lua, &host, current)?;
     Ok(host)
 }
@@ -206,7 +206,20 @@ fn add_methods(lua: &Lua, host: &Table, current: &Rc<WorkState>) -> mlua::Result
 }
 
 /// What is asked of objects whose types the script declares, and kept of them.
-fn add_script_objects(lua: &Lua, host: &Table, current: &Rc<WorkState>) -> mlua::Result<()> {
+fn add_script_objects(
+    lua: &Lua,
+    host: &Table,
+    current: &Rc<WorkState>,
+    library: &Rc<Library>,
+) -> mlua::Result<()> {
+    let shelf = Rc::clone(library);
+    host.set(
+        "type_name",
+        lua.create_function(move |_, constructor: LuaValue| {
+            let LuaValue::Function(constructor) = constructor else { return Ok(None) };
+            Ok(shelf.kind_of(&constructor).map(|kind| kind.name.to_string()))
+        })?,
+    )?;
     let state = Rc::clone(current);
     host.set("chain_of", lua.create_function(move |_, application: usize| Ok(state.chain_of(application)))?)?;
     let state = Rc::clone(current);
@@ -214,16 +227,16 @@ fn add_script_objects(lua: &Lua, host: &Table, current: &Rc<WorkState>) -> mlua:
     let state = Rc::clone(current);
     host.set(
         "fields",
-        lua.create_function(move |lua, chain: usize| {
-            let fields = state.script_object(chain, |object| Ok(Arc::clone(object.fields())));
+        lua.create_function(move |lua, (chain, slot): (usize, Option<usize>)| {
+            let fields = state.script_object(chain, slot, |object| Ok(Arc::clone(object.fields())));
             to_lua(lua, &Value::Table(fields.map_err(mlua::Error::external)?), true)
         })?,
     )?;
     let state = Rc::clone(current);
     host.set(
         "state",
-        lua.create_function(move |lua, chain: usize| {
-            let kept = state.script_object(chain, |object| Ok(Arc::clone(object.state())));
+        lua.create_function(move |lua, (chain, slot): (usize, Option<usize>)| {
+            let kept = state.script_object(chain, slot, |object| Ok(Arc::clone(object.state())));
             let kept = kept.map_err(mlua::Error::external)?;
             to_table(lua, &kept)
         })?,
@@ -231,7 +244,7 @@ fn add_script_objects(lua: &Lua, host: &Table, current: &Rc<WorkState>) -> mlua:
     let state = Rc::clone(current);
     host.set(
         "keep_state",
-        lua.create_function(move |_, (chain, kept): (usize, Table)| {
+        lua.create_function(move |_, (chain, slot, kept): (usize, Option<usize>, Table)| {
             let mut entries = Vec::new();
             for pair in kept.pairs::<String, LuaValue>() {
                 let (name, value) = pair?;
@@ -245,7 +258,7 @@ fn add_script_objects(lua: &Lua, host: &Table, current: &Rc<WorkState>) -> mlua:
             }
             entries.sort_by(|a, b| a.0.cmp(&b.0));
             let kept = Arc::new(burgeon_kit::Table { class: None, entries });
-            state.keep_state(chain, kept).map_err(mlua::Error::external)
+            state.keep_state(chain, slot, kept).map_err(mlua::Error::external)
         })?,
     )?;
     let state = Rc::clone(current);
@@ -263,11 +276,11 @@ fn add_script_objects(lua: &Lua, host: &Table, current: &Rc<WorkState>) -> mlua:
                 return Err(mlua::Error::external(Error::argument("this object belongs to another type")));
             };
             let state = to_table(lua, object.state())?;
-            for (index, (name, _)) in object.held_names().iter().enumerate() {
-                let held = object.held(index).map_err(mlua::Error::external)?.boxed();
-                state.raw_set(&**name, lua.create_userdata(ObjectHandle(Arc::from(held)))?)?;
+            for (name, held) in object.held_directly() {
+                state.raw_set(&**name, lua.create_userdata(ObjectHandle(Arc::from(held.boxed())))?)?;
             }
-            Ok((state, to_lua(lua, &Value::Table(Arc::clone(object.fields())), true)?))
+            let fields = to_lua(lua, &Value::Table(Arc::clone(object.fields())), true)?;
+            Ok((state, fields, handle.0.kind().name.to_string()))
         })?,
     )
 }
@@ -308,5 +321,5 @@ pub(crate) fn native(lua: &Lua, function: &mlua::Function) -> mlua::Result<()> {
 }
 
 fn values(arguments: &MultiValue) -> mlua::Result<Vec<Value>> {
-    arguments.iter().map(|value| to_value(value, false).map_err(mlua::Error::external)).collect()
+    arguments.iter().map(|value| to_argument(value).map_err(mlua::Error::external)).collect()
 }

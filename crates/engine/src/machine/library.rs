@@ -59,9 +59,9 @@ pub(crate) struct Library {
     modules: RefCell<FxHashMap<String, Signature>>,
     /// The types of objects by the addresses of their constructors.
     constructed: RefCell<FxHashMap<usize, Arc<Kind>>>,
-    /// The types of objects that the script declared, and the functions that it added to others.
+    /// The types of objects that the script declared, and the functions that it added to others, by their names.
     pub script_types: RefCell<Vec<ScriptTypeEntry>>,
-    pub extensions: RefCell<Vec<ScriptFunction>>,
+    pub extensions: RefCell<Vec<(String, ScriptFunction)>>,
     /// The constructors of objects, by name.
     kinds: RefCell<Vec<String>>,
     /// The parameters as they were declared first, and where.
@@ -77,11 +77,8 @@ impl Library {
             .as_ref()
             .map(|session| (Arc::clone(&session.shapes), Arc::clone(session.deprecated_names())))
             .unwrap_or_default();
-        let held_against = session
-            .filter(|session| session.options.check)
-            .map(|session| Arc::new(session.options.registry.clone()));
         Globals {
-            held_against,
+            checks_calls: session.is_some_and(|session| session.options.check),
             names: self.names.borrow().clone(),
             modules: self.modules.borrow().clone(),
             kinds: self.kinds.borrow().clone(),

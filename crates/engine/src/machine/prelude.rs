@@ -35,9 +35,9 @@ pub(crate) struct Prelude {
     pub guard_driver: Function,
     /// `(id, rule, arity, places)`: sets an interpretation rule.
     pub interpreter: Function,
-    /// `(method, name, arity)`: a method that records its calls.
+    /// `(method, name, arity, kind)`: a method that records its calls.
     pub recorder: Function,
-    /// `(method, name, changes)`: a method that runs at once.
+    /// `(method, name, changes, kind)`: a method that runs at once.
     pub direct: Function,
     /// `(count)`: interprets a batch; gives the calls and arguments recorded last.
     pub interpret: Function,
@@ -47,7 +47,7 @@ pub(crate) struct Prelude {
     pub finish: Function,
     /// The application at hand.
     pub at: Function,
-    /// `(object, type)`: sets `this`, and its type if the script declared it.
+    /// `(object, kind, type)`: sets `this`, the name of its type, and the type itself if the script declared it.
     pub set_this: Function,
     /// `(type)`: makes a type known that the script declares.
     pub script_type: Function,

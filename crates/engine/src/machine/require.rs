@@ -35,6 +35,11 @@ pub(super) fn require(library: &Library, session: &Session, lua: &Lua, name: &st
             find(session, folder, name, bare)?
         }
     };
+    if session.options.check
+        && let Some(place) = Machine::place(lua)
+    {
+        session.note_required(&place.file, name, &shown);
+    }
     if let Some(value) = library.loaded.borrow().get(&path) {
         return Ok(value.clone());
     }

@@ -258,7 +258,7 @@ impl<'a> DocumentPlan<'a> {
         let mut transform = instance.transform;
         transform.translation -= self.checked.origin;
         if mesh.mirrored {
-            transform = transform * DAffine3::from_scale(DVec3::new(-1.0, 1.0, 1.0));
+            transform *= DAffine3::from_scale(DVec3::new(-1.0, 1.0, 1.0));
         }
         let (place, turn, scale, axes) = match decompose(&y_up(&transform)) {
             Steps::One(trs) => (trs.translation, trs.rotation, trs.scale, DQuat::IDENTITY),

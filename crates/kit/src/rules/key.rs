@@ -39,6 +39,12 @@ impl ModuleKey {
         Stream::new(self.0)
     }
 
+    /// The key of the numbers that are drawn beside the module: number `place` of what runs there and is no rule.
+    #[must_use]
+    pub fn beside(self, place: usize) -> Self {
+        Self(mix(self.0 ^ 0xBE51)).child(place)
+    }
+
     /// The key of the numbers that an interpretation rule draws.
     #[must_use]
     pub fn interpretation(self) -> Self {
@@ -70,6 +76,9 @@ mod tests {
             root.child(0),
             root.child(1),
             root.advanced(),
+            root.interpretation(),
+            root.beside(0),
+            root.beside(1),
             root.feature("a"),
             root.feature("b"),
         ];

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use super::state::{ExtruderState, SolidRun};
 use crate::MaterialOptions;
-use crate::mesh::draw_mesh;
+use crate::mesh::{MeshFaces, MeshOptions, MeshPoints, draw_mesh};
 use burgeon_base::error::{Error, Result};
 use burgeon_base::warning::{Warning, WarningKind};
 use burgeon_geometry::{Rings, Section, Segment, SweepOptions, sweep};
@@ -222,9 +222,12 @@ impl Extruder {
     }
 
     /// Draws `faces` in the extruder's frame, each the numbers of its corners among `points` (m), such as { 1, 2, 3 }.
-    pub fn mesh(&mut self, points: Vec<Vector>, faces: Vec<Vec<u32>>) -> Result<()> {
-        let part = self.drawing.material(&self.state.material);
-        draw_mesh(("extruder", self.drawing.part(part)), &self.state.frame, &points, &faces)
+    ///
+    /// Where there are many, buffers hold them: points of three 32-bit numbers, and triangles of three 32-bit whole numbers,
+    /// which count points from 0. `options` shade and colour them.
+    pub fn mesh(&mut self, points: MeshPoints, faces: MeshFaces, options: Option<MeshOptions>) -> Result<()> {
+        let to = ("extruder", &mut self.drawing, &*self.state.material);
+        draw_mesh(to, &self.state.frame, &points, &faces, &options.unwrap_or_default())
     }
 
     /// Places what another system has drawn at the extruder's frame, scaled.
@@ -383,12 +386,15 @@ impl Extruder {
         }
         state.frame = end;
         state.scale = state.taper;
+        let run = state.run.as_ref();
+        self.drawing.expect(run.map_or(0, |run| 2 * run.stations.len() * run.section.corners()));
         Ok(())
     }
 
     /// Builds the solid of the segments so far.
     fn close(&mut self) -> Result<()> {
         let Some(run) = self.state.run.take() else { return Ok(()) };
+        self.drawing.expect(0);
         let options = SweepOptions {
             around: run.smooth,
             along: run.smooth,

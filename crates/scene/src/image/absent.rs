@@ -23,6 +23,11 @@ pub fn encode_opaque(_width: u32, _height: u32, _channels: &[u8]) -> Result<Vec<
     check().map(|()| Vec::new())
 }
 
+/// Fails as [`check`] does.
+pub fn encode_indexed(_image: &Image, _most: usize) -> Result<Vec<u8>> {
+    check().map(|()| Vec::new())
+}
+
 /// Whether the pixels of a file have an opacity, as the chunks before a PNG's pixels say.
 ///
 /// Fails if the content is neither PNG nor JPEG, or ends before that is told.

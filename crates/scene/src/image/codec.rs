@@ -8,7 +8,7 @@ use zune_core::colorspace::ColorSpace;
 use zune_core::options::DecoderOptions;
 use zune_jpeg::JpegDecoder;
 
-use super::{Image, ImageKind};
+use super::{Image, ImageKind, PaletteImage};
 use burgeon_base::error::{Error, Limit, Result};
 
 /// The most memory (bytes) that the pixels of a file may take.
@@ -52,6 +52,23 @@ pub fn encode(image: &Image) -> Result<Vec<u8>> {
 /// The red, green and blue `channels` of an opaque image as a PNG file.
 pub fn encode_opaque(width: u32, height: u32, channels: &[u8]) -> Result<Vec<u8>> {
     write([width, height], ColorType::Rgb, channels)
+}
+
+/// `image` as a small PNG file of at most `most` colours, from 1 to 256, without its opacity.
+pub fn encode_indexed(image: &Image, most: usize) -> Result<Vec<u8>> {
+    let failed = |error| Error::internal(format!("an image cannot be written as PNG: {error}"));
+    let PaletteImage { colors, pixels } = PaletteImage::of(image, most);
+    let mut bytes = Vec::new();
+    let mut encoder = png::Encoder::new(&mut bytes, image.width(), image.height());
+    encoder.set_color(ColorType::Indexed);
+    encoder.set_depth(BitDepth::Eight);
+    encoder.set_palette(colors.into_flattened());
+    encoder.set_compression(Compression::High);
+    encoder.set_filter(Filter::NoFilter);
+    let mut writer = encoder.write_header().map_err(failed)?;
+    writer.write_image_data(&pixels).map_err(failed)?;
+    writer.finish().map_err(failed)?;
+    Ok(bytes)
 }
 
 fn write([width, height]: [u32; 2], color: ColorType, channels: &[u8]) -> Result<Vec<u8>> {

@@ -6,7 +6,9 @@
 #[cfg_attr(feature = "pictures", path = "codec.rs")]
 #[cfg_attr(not(feature = "pictures"), path = "absent.rs")]
 mod codec;
+mod palette;
 mod raster;
 
-pub use codec::{check, decode, encode, encode_opaque, has_alpha};
+pub use codec::{check, decode, encode, encode_indexed, encode_opaque, has_alpha};
+pub use palette::PaletteImage;
 pub use raster::{Image, ImageKind};

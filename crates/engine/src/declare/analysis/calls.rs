@@ -4,7 +4,7 @@
 //! It tells only of what is certain: of variables that are set once, and of values that stand in the script or that
 //! something declared gives. `burgeon check` asks for it; a run does not.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
 use full_moon::ast::punctuated::Punctuated;
@@ -30,18 +30,15 @@ pub(super) struct CallCheck<'a> {
     pub(super) scope: Vec<(String, Inference)>,
     /// The names of variables that are set more than once.
     assigned: BTreeSet<String>,
+    /// The names of functions that the file adds to types.
+    pub(super) added: BTreeSet<String>,
     /// What the function is for that is being walked.
     pub(super) role: FunctionRole,
     /// The rule that it belongs to, as errors name it.
     rule: Option<String>,
+    /// What is known of what another file gives, by the name that this one requires it by.
+    pub(super) required: Option<&'a dyn Fn(&str) -> Inference>,
     pub(super) problems: Vec<Error>,
-}
-
-/// What is wrong with the calls of a script.
-pub(super) fn problems(file: &str, ast: &Ast, registry: &Registry) -> Vec<Error> {
-    let mut check = CallCheck::new(file, ast, registry);
-    check.block(ast.nodes());
-    check.problems
 }
 
 /// The names that something is assigned to, wherever that is.
@@ -67,11 +64,42 @@ fn collect_assigned(ast: &Ast, names: &mut BTreeSet<String>) {
 }
 
 impl<'a> CallCheck<'a> {
-    pub(super) fn new(file: &'a str, ast: &Ast, registry: &'a Registry) -> Self {
+    pub(super) fn new(
+        file: &'a str,
+        ast: &Ast,
+        registry: &'a Registry,
+        required: Option<&'a dyn Fn(&str) -> Inference>,
+    ) -> Self {
         let mut assigned = BTreeSet::new();
         collect_assigned(ast, &mut assigned);
         let (role, rule) = (FunctionRole::Script, None);
-        Self { file, registry, scope: Vec::new(), assigned, role, rule, problems: Vec::new() }
+        let added = BTreeSet::new();
+        Self {
+            added,
+            file,
+            registry,
+            scope: Vec::new(),
+            assigned,
+            role,
+            rule,
+            required,
+            problems: Vec::new(),
+        }
+    }
+
+    /// Walks the whole file. Gives what is known of the value that it returns.
+    pub(super) fn file(&mut self, ast: &Ast) -> Inference {
+        for statement in ast.nodes().stmts() {
+            self.statement(statement);
+        }
+        match ast.nodes().last_stmt() {
+            Some(LastStmt::Return(last)) => {
+                let found: Vec<Inference> =
+                    last.returns().iter().map(|value| self.expression(value)).collect();
+                found.into_iter().next().unwrap_or(Inference::Unknown)
+            }
+            _ => Inference::Unknown,
+        }
     }
 
     fn block(&mut self, block: &Block) {
@@ -92,13 +120,17 @@ impl<'a> CallCheck<'a> {
     fn statement(&mut self, statement: &Stmt) {
         match statement {
             Stmt::Assignment(assignment) => {
-                self.expressions(assignment.expressions());
-                for variable in assignment.variables() {
-                    self.variable(variable);
+                let found: Vec<Inference> =
+                    assignment.expressions().iter().map(|value| self.expression(value)).collect();
+                let found = found.into_iter().chain(std::iter::repeat(Inference::Unknown));
+                for (variable, value) in assignment.variables().iter().zip(found) {
+                    self.assigned_to(variable);
+                    self.remember(variable, value);
                 }
             }
             Stmt::CompoundAssignment(assignment) => {
                 self.expression(assignment.rhs());
+                self.assigned_to(assignment.lhs());
             }
             Stmt::Do(inner) => self.block(inner.block()),
             Stmt::FunctionCall(call) => {
@@ -176,7 +208,7 @@ impl<'a> CallCheck<'a> {
     }
 
     /// Walks a function; `this` is what its first parameter is, if that is known.
-    fn function(&mut self, body: &FunctionBody, this: Option<&Arc<Kind>>) {
+    pub(super) fn function(&mut self, body: &FunctionBody, this: Option<&Arc<Kind>>) {
         let outside = self.scope.len();
         for (index, parameter) in body.parameters().iter().enumerate() {
             if let Parameter::Name(name) = parameter {
@@ -286,27 +318,31 @@ impl<'a> CallCheck<'a> {
                 "true" | "false" => Inference::Value(Literal::Boolean),
                 _ => Inference::Unknown,
             },
-            Expression::TableConstructor(table) => {
-                self.table(table);
-                Inference::Value(Literal::Table)
-            }
+            Expression::TableConstructor(table) => self.table(table),
             Expression::Var(variable) => self.variable(variable),
             _ => Inference::Unknown,
         }
     }
 
-    fn table(&mut self, table: &TableConstructor) {
+    fn table(&mut self, table: &TableConstructor) -> Inference {
+        let mut named = BTreeMap::new();
         for field in table.fields() {
             match field {
                 Field::ExpressionKey { key, value, .. } => {
                     self.expression(key);
                     self.expression(value);
                 }
-                Field::NameKey { value, .. } => drop(self.expression(value)),
+                Field::NameKey { key, value, .. } => {
+                    let found = self.expression(value);
+                    if found.is_telling() {
+                        named.insert(text_of(key), found);
+                    }
+                }
                 Field::NoKey(value) => drop(self.expression(value)),
                 _ => {}
             }
         }
+        if named.is_empty() { Inference::Value(Literal::Table) } else { Inference::Table(Arc::new(named)) }
     }
 
     fn variable(&mut self, variable: &Var) -> Inference {
@@ -325,7 +361,7 @@ impl<'a> CallCheck<'a> {
         self.suffixes(call.prefix(), &suffixes)
     }
 
-    fn suffixes(&mut self, prefix: &Prefix, suffixes: &[&Suffix]) -> Inference {
+    pub(super) fn suffixes(&mut self, prefix: &Prefix, suffixes: &[&Suffix]) -> Inference {
         let mut known = match prefix {
             Prefix::Name(name) => self.named(name),
             Prefix::Expression(expression) => self.expression(expression),
@@ -368,8 +404,7 @@ impl<'a> CallCheck<'a> {
                 ]
             }
             FunctionArgs::TableConstructor(table) => {
-                self.table(table);
-                vec![Inference::Value(Literal::Table)]
+                vec![self.table(table)]
             }
             _ => Vec::new(),
         }

@@ -157,6 +157,7 @@ impl CallCheck<'_> {
             }
             Inference::Value(literal) => literal.clone(),
             Inference::Object(kind) => Literal::Object(kind.luau()),
+            Inference::Table(_) => Literal::Table,
             Inference::Given(name) if name.luau == "Vector" => Literal::Object("Vector".to_owned()),
             Inference::Name(name) if !name.forms.is_empty() => Literal::Function,
             Inference::Unknown
@@ -231,7 +232,7 @@ fn refused(owner: &str, name: &str, luau: &str, found: &Inference) -> String {
         Inference::Value(Literal::Nil) => "nothing".to_owned(),
         Inference::Value(Literal::Boolean) => "a boolean".to_owned(),
         Inference::Value(Literal::Number) => "a number".to_owned(),
-        Inference::Value(Literal::Table) => "a table".to_owned(),
+        Inference::Value(Literal::Table) | Inference::Table(_) => "a table".to_owned(),
         Inference::Value(Literal::Function) | Inference::Name(_) => "a function".to_owned(),
         Inference::Object(kind) => format!("an object of type {}", kind.name),
         _ => "a vector".to_owned(),
@@ -242,12 +243,13 @@ fn refused(owner: &str, name: &str, luau: &str, found: &Inference) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::declare::analysis::calls::problems;
 
     fn said(script: &str) -> Vec<String> {
         let ast = full_moon::parse(script).unwrap_or_else(|errors| panic!("{script}: {errors:?}"));
-        let problems = problems("s.lua", &ast, &burgeon_objects::registry());
-        problems.iter().map(|problem| problem.message().to_owned()).collect()
+        let registry = burgeon_objects::registry();
+        let mut check = CallCheck::new("s.lua", &ast, &registry, None);
+        check.file(&ast);
+        check.problems.iter().map(|problem| problem.message().to_owned()).collect()
     }
 
     /// Values that stand in a script.
@@ -263,7 +265,7 @@ mod tests {
     fn values(argument: &Argument) -> (Option<&'static str>, Option<&'static str>) {
         let registry = burgeon_objects::registry();
         let ast = full_moon::parse("").expect("nothing");
-        let check = CallCheck::new("s.lua", &ast, &registry);
+        let check = CallCheck::new("s.lua", &ast, &registry, None);
         let fits = |literal: &Literal| check.may_be(&Inference::Value(literal.clone()), argument, false);
         let find =
             |wanted: bool| VALUES.iter().find(|(_, literal)| fits(literal) == wanted).map(|(text, _)| *text);

@@ -1,5 +1,6 @@
 //! What is known of the values in a script: of variables, of what is called, and of what that gives.
 
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use full_moon::ast::{Expression, FunctionArgs};
@@ -23,12 +24,21 @@ pub(super) enum Inference {
     Object(Arc<Kind>),
     /// The constructor of this type.
     Constructor(Arc<Kind>),
+    /// A table, and what is known of its named entries.
+    Table(Arc<BTreeMap<String, Self>>),
     /// A system, and its object's type, if that is known.
     System(Option<Arc<Kind>>),
     /// What a name of the language gives, such as a vector.
     Given(&'static Name),
     /// A function or a library of the language.
     Name(&'static Name),
+}
+
+impl Inference {
+    /// Whether it is worth while to remember it of an entry of a table.
+    pub(super) fn is_telling(&self) -> bool {
+        matches!(self, Self::Object(_) | Self::Constructor(_) | Self::Table(_) | Self::System(_))
+    }
 }
 
 impl CallCheck<'_> {
@@ -58,6 +68,8 @@ impl CallCheck<'_> {
                 let field = given.fields.iter().find(|field| field.name == text);
                 field.map_or(Inference::Unknown, |field| self.of_type(&field.luau))
             }
+            Inference::Table(entries) => entries.get(&text).cloned().unwrap_or(Inference::Unknown),
+            Inference::Object(kind) => self.member(&Arc::clone(kind), name),
             _ => Inference::Unknown,
         }
     }
@@ -97,6 +109,16 @@ impl CallCheck<'_> {
                 let given = self.arguments(args);
                 self.hold_constructor(kind, word, args, &given);
                 Inference::Object(Arc::clone(kind))
+            }
+            Inference::Name(name) if matches!(&*name.name, "object" | "extend") => {
+                self.declares(&name.name, args)
+            }
+            Inference::Name(name) if name.name == "require" => {
+                let given = self.arguments(args);
+                match (&given[..], self.required) {
+                    ([Inference::Value(Literal::Text(name))], Some(required)) => required(name),
+                    _ => Inference::Unknown,
+                }
             }
             Inference::Name(name) if !name.forms.is_empty() => {
                 let given = self.arguments(args);
@@ -140,7 +162,9 @@ impl CallCheck<'_> {
             Inference::Object(kind) => {
                 let given = self.arguments(args);
                 let Some(method) = kind.method(&text) else {
-                    self.problem(name, kind.unknown_method(&text));
+                    if !self.may_be_above(kind, &text) {
+                        self.problem(name, kind.unknown_method(&text));
+                    }
                     return Inference::Unknown;
                 };
                 let full = format!("{}:{text}", kind.name);
@@ -149,6 +173,13 @@ impl CallCheck<'_> {
                     let help =
                         "use an interpretation rule: system:interpret(pattern, function(this, ...) ... end)";
                     self.problem(name, Error::scope(message).help(help));
+                } else if method.call.changes() && self.role == FunctionRole::Reading {
+                    let message = format!("{full} changes the object, and a function that reads does not");
+                    let help = "put it among the changes of the type";
+                    self.problem(name, Error::scope(message).help(help));
+                }
+                if text == "as" {
+                    return self.seen_as(&given);
                 }
                 let form = CallForm { arguments: method.arguments.clone(), returns: method.returns.clone() };
                 self.hold_call(name, &full, &[form], args, &given, false);

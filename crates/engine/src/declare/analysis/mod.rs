@@ -7,8 +7,10 @@
 
 mod calls;
 mod expressions;
+mod files;
 mod held;
 mod inference;
+mod own_types;
 mod peeks;
 mod prepare;
 mod pure;
@@ -17,6 +19,7 @@ mod script;
 mod syntax;
 mod walk;
 
+pub(crate) use files::{CheckedFile, call_problems};
 pub(crate) use peeks::peeks;
 pub(crate) use pure::has_metatables;
 pub(crate) use queries::QueryCall;

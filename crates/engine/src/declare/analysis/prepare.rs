@@ -1,5 +1,6 @@
 //! Prepares rules: writes their returns so that what they make needs no taking apart.
 
+use full_moon::ast::luau::TypeSpecifier;
 use full_moon::ast::punctuated::Punctuated;
 use full_moon::ast::{Call, Expression, Field, FunctionArgs, FunctionBody, Parameter, Prefix, Suffix};
 use full_moon::node::Node;
@@ -8,6 +9,8 @@ use std::sync::atomic::Ordering;
 
 use super::syntax::{end_of, first_position, is_open, string_of, text_of};
 use super::walk::{Fact, Function, FunctionRole, Variable, Walk};
+use burgeon_kit::Argument;
+use burgeon_language::CallForm;
 
 /// The most parameters that a prepared return can have.
 const MOST_EMITTED: usize = 64;
@@ -156,6 +159,11 @@ impl Walk<'_> {
             *self.blind.entry(begin.line()).or_insert(true) &= !function.asks;
             if let Some(line) = function.loses {
                 self.lost.insert(begin.line(), line);
+            }
+            let form = (!is_method).then(|| signature(body));
+            let known = self.signatures.entry(begin.line()).or_insert_with(|| form.clone());
+            if known.as_ref().map(ToString::to_string) != form.as_ref().map(ToString::to_string) {
+                *known = None;
             }
             self.begins.push(begin.bytes());
             match self.functions.last_mut() {
@@ -340,4 +348,19 @@ impl Walk<'_> {
             self.edit(begin.bytes(), end.bytes(), text.to_owned());
         }
     }
+}
+/// How a function is called, as it says itself.
+fn signature(body: &FunctionBody) -> CallForm {
+    let luau = |of: Option<&TypeSpecifier>| {
+        let text = of.map(|of| of.type_info().to_string());
+        text.map_or_else(|| "any".to_owned(), |text| text.split_whitespace().collect::<Vec<_>>().join(" "))
+    };
+    let arguments = body.parameters().iter().zip(body.type_specifiers()).map(|(parameter, of)| {
+        let name = match parameter {
+            Parameter::Name(name) => text_of(name),
+            _ => "...".to_owned(),
+        };
+        Argument { luau: luau(of), ..Argument::new(name) }
+    });
+    CallForm { arguments: arguments.collect(), returns: luau(body.return_type()) }
 }

@@ -9,9 +9,11 @@ use std::time::Duration;
 use super::queries::QueryCall;
 use super::walk::{Facts, Walk};
 use burgeon_base::error::{Error, Limit, SourcePlace};
+use burgeon_kit::Deprecation;
 use burgeon_kit::rules::Signature;
-use burgeon_kit::{Deprecation, Registry};
+use burgeon_language::CallForm;
 use burgeon_packages::FileName;
+use full_moon::ast::Ast;
 use full_moon::node::Node;
 use full_moon::tokenizer::TokenType;
 use mlua::chunk::Compiler;
@@ -30,8 +32,8 @@ pub(crate) struct Globals {
     pub deprecated: Arc<BTreeMap<String, Deprecation>>,
     /// Counts the shapes of the run's rules.
     pub shapes: Arc<AtomicUsize>,
-    /// What calls are held against, if anybody asks for that.
-    pub held_against: Option<Arc<Registry>>,
+    /// Whether calls are to be held against what is declared.
+    pub checks_calls: bool,
 }
 
 /// What reading a script gives.
@@ -53,6 +55,10 @@ pub(crate) struct Analysis {
     pub queries: BTreeMap<usize, Vec<QueryCall>>,
     /// The names that will go, and the lines on which they stand.
     pub deprecated: Vec<(String, usize)>,
+    /// By line: how the function is called that begins there.
+    pub signatures: BTreeMap<usize, CallForm>,
+    /// What stands in it, if its calls are to be checked.
+    pub ast: Option<Arc<Ast>>,
     /// The texts that may name files of packages, and their lines.
     pub packages: Vec<(String, usize)>,
 }
@@ -73,7 +79,7 @@ pub(crate) fn unmarked(text: &str) -> (Option<usize>, &str) {
 }
 
 /// The stack (bytes) for reading a script: enough for the deepest nesting that Luau compiles.
-const STACK: usize = 256 << 20;
+pub(super) const STACK: usize = 256 << 20;
 
 /// How long reading a script may take. The parser's time doubles with each level of nested strings.
 const PATIENCE: Duration = Duration::from_secs(30);
@@ -146,8 +152,19 @@ fn read(file: &str, text: &str, globals: &Receiver<Globals>) -> Analysis {
     first.run(&ast);
     let mut second = Walk::new(file, globals, std::mem::take(&mut first.facts));
     second.run(&ast);
-    let Walk { mut edits, mut problems, random, pure, mut blind, lost, queries, begins, deprecated, .. } =
-        second;
+    let Walk {
+        mut edits,
+        mut problems,
+        random,
+        pure,
+        mut blind,
+        lost,
+        queries,
+        signatures,
+        begins,
+        deprecated,
+        ..
+    } = second;
     // Luau knows functions by the line of their first word, which is then another.
     let is_apart =
         |begin: &usize| text[..*begin].rsplit('\n').next().is_some_and(|head| head.trim().is_empty());
@@ -156,9 +173,6 @@ fn read(file: &str, text: &str, globals: &Receiver<Globals>) -> Analysis {
     }
     let pure = pure.into_iter().filter_map(|(line, pure)| pure.then_some(line)).collect();
     let blind = blind.into_iter().filter_map(|(line, blind)| blind.then_some(line)).collect();
-    if let Some(registry) = &globals.held_against {
-        problems.extend(super::calls::problems(file, &ast, registry));
-    }
     problems.sort_by(|a, b| a.place().cmp(&b.place()));
     // What is put before a token comes before what replaces it.
     edits.sort_by_key(|edit| (edit.begin, edit.end > edit.begin, edit.order));
@@ -174,11 +188,25 @@ fn read(file: &str, text: &str, globals: &Receiver<Globals>) -> Analysis {
     }
     out.push_str(&text[at..]);
     let packages = package_names(&ast);
-    Analysis { text: out, problems, random, pure, blind, lost, queries, deprecated, packages }
+    let signatures = signatures.into_iter().filter_map(|(line, form)| Some((line, form?))).collect();
+    let ast = globals.checks_calls.then(|| Arc::new(ast));
+    Analysis {
+        text: out,
+        problems,
+        random,
+        pure,
+        blind,
+        lost,
+        queries,
+        signatures,
+        ast,
+        deprecated,
+        packages,
+    }
 }
 
 /// The texts of a script that begin as the names of packages' files do, and their lines.
-fn package_names(ast: &full_moon::ast::Ast) -> Vec<(String, usize)> {
+fn package_names(ast: &Ast) -> Vec<(String, usize)> {
     let texts = ast.nodes().tokens().filter_map(|token| match token.token_type() {
         TokenType::StringLiteral { literal, .. } if FileName::is_meant(literal) => {
             Some((literal.to_string(), token.start_position()?.line()))

@@ -12,6 +12,7 @@ use super::queries::QueryCall;
 use super::syntax::{declared_module, end_of, first_position, instead_of, text_of};
 use burgeon_base::error::{Error, SourcePlace};
 use burgeon_kit::rules::Signature;
+use burgeon_language::CallForm;
 
 /// What the first walk learned about the variables, in the order of their declaration.
 #[derive(Default)]
@@ -33,6 +34,10 @@ pub(super) enum FunctionRole {
     Rule,
     Guard,
     Interpretation,
+    /// Of a type of object, for rules and interpretations.
+    Reading,
+    /// Of a type of object, for interpretations.
+    Changing,
     Other,
 }
 
@@ -98,6 +103,8 @@ pub(super) struct Walk<'a> {
     pub(super) blind: BTreeMap<usize, bool>,
     /// By line: where an interpretation that begins there returns modules.
     pub(super) lost: BTreeMap<usize, usize>,
+    /// By line: how the function is called that begins there, if that is one only.
+    pub(super) signatures: BTreeMap<usize, Option<CallForm>>,
     /// By the line on which a function of a rule begins: what it asks of data.
     pub(super) queries: BTreeMap<usize, Vec<QueryCall>>,
     /// Where the parameters of functions begin.
@@ -123,6 +130,7 @@ impl<'a> Walk<'a> {
             pure: BTreeMap::new(),
             blind: BTreeMap::new(),
             lost: BTreeMap::new(),
+            signatures: BTreeMap::new(),
             queries: BTreeMap::new(),
             begins: Vec::new(),
             deprecated: Vec::new(),

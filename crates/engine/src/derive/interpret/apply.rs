@@ -8,7 +8,7 @@ use mlua::Buffer;
 use super::InterpretationPass;
 use super::notices::ObjectNotice;
 use crate::machine::{Flusher, Machine, Objects, read_column, returns_modules};
-use burgeon_base::error::{Error, Result};
+use burgeon_base::error::{Error, Limit, Result};
 use burgeon_base::warning::Warning;
 use burgeon_kit::rules::{CLOSE, END, Mark, OPEN, Values, module_brief};
 use burgeon_kit::{Call, Kind, Object, Value};
@@ -46,9 +46,14 @@ pub(crate) struct Applier {
     /// The next of the calls that have been read, and the first of its arguments.
     call_at: usize,
     number_at: usize,
+    /// The entry whose calls were applied last before it was done, and how many that were.
+    flushed: (usize, usize),
     /// What the objects have warned of during the batch.
     notices: Vec<ObjectNotice>,
 }
+
+/// The most calls of methods that one application may make.
+const MOST_CALLS: usize = 1 << 24;
 
 /// Where applying has stopped.
 #[derive(PartialEq)]
@@ -88,6 +93,7 @@ impl Applier {
             failed: None,
             call_at: 0,
             number_at: 0,
+            flushed: (0, 0),
             notices: Vec::new(),
         })
     }
@@ -100,7 +106,7 @@ impl Applier {
         self.entries.extend_from_slice(entries);
         self.next = 0;
         self.times.clear();
-        (self.applied, self.failed) = (0, None);
+        (self.applied, self.failed, self.flushed) = (0, None, (0, 0));
     }
 
     /// The entry of the batch whose call failed, and the number of that call.
@@ -351,8 +357,18 @@ fn follow(object: &mut dyn Object, position: usize) {
 
 impl Flusher for Applier {
     fn flush(&mut self, entry: usize, called: usize) -> Result<()> {
+        let so_far = if self.flushed.0 == entry { self.flushed.1 } else { 0 };
+        // One that runs at once is not among those that were recorded.
+        self.flushed = (entry, so_far + called + 1);
+        if self.flushed.1 > MOST_CALLS {
+            let message =
+                format!("one application of an interpretation rule calls more than {MOST_CALLS} methods");
+            return Err(Error::limit(Limit::Size, message)
+                .help("look for a loop that never ends, or let more modules draw the parts"));
+        }
         self.read(entry, called)?;
-        self.apply(entry, self.position)
+        self.apply(entry, self.position)?;
+        self.count()
     }
 
     fn chain(&self) -> usize {

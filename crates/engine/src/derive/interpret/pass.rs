@@ -14,7 +14,7 @@ use crate::machine::{Flusher, Machine, write_column};
 use crate::results::Use;
 use burgeon_base::error::{Error, Limit, Result, SourcePlace};
 use burgeon_base::warning::Warning;
-use burgeon_kit::rules::{Chain, END, Mark, Symbol, module_brief};
+use burgeon_kit::rules::{CLOSE, Chain, END, Mark, ModuleKey, OPEN, Symbol, module_brief};
 
 /// Entries that one call into Lua interprets.
 const ENTRIES: usize = 4096;
@@ -196,7 +196,7 @@ impl InterpretationPass {
         if self.plan.grammar.draws_random() {
             let mut keys = machine.current.keys.borrow_mut();
             keys.clear();
-            keys.extend(entries.iter().map(|(module, _)| self.chain.keys[*module].interpretation()));
+            keys.extend(entries.iter().zip(ids).map(|((module, _), id)| self.key(*module, *id)));
             machine.current.used.set(0);
         }
         let with_applier = |act: &mut dyn FnMut(&mut Applier) -> Result<()>| -> Result<()> {
@@ -257,6 +257,32 @@ impl InterpretationPass {
         }
         self.note_all(machine, &notices);
         Ok(None)
+    }
+
+    /// What the random numbers of entry `id` come from: an interpretation rule, or what runs around them at `module`.
+    ///
+    /// A chain's end has the chain's own key. Brackets have none, and take that of the module nearest within them.
+    fn key(&self, module: usize, id: u16) -> ModuleKey {
+        let Chain { symbols, keys, .. } = &self.chain;
+        let end =
+            || symbols[module..].iter().position(|symbol| *symbol == END).map_or(module, |at| module + at);
+        if id == self.plan.interpretations.begin {
+            return keys[end()].beside(0).interpretation();
+        }
+        let is_module = |symbol: &Symbol| *symbol != OPEN && *symbol != CLOSE;
+        let (nearest, place) = match symbols[module] {
+            OPEN => {
+                let away = symbols[module..].iter().position(is_module).unwrap_or(0);
+                (module + away, 2 * away + 1)
+            }
+            CLOSE => {
+                let away = symbols[..module].iter().rev().position(is_module);
+                let within = away.filter(|away| symbols[module - 1 - away] != END);
+                within.map_or_else(|| (end(), 2), |away| (module - 1 - away, 2 * away + 4))
+            }
+            _ => return keys[module].interpretation(),
+        };
+        keys[nearest].beside(place).interpretation()
     }
 
     /// Adds what objects have warned of in the batch that was interpreted last.

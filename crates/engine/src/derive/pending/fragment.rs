@@ -10,11 +10,14 @@ use burgeon_base::error::{Error, Result};
 use burgeon_kit::rules::{Chain, ColumnValue, Mark, Symbol, Symbols, Values, module_brief};
 use burgeon_kit::{GeometryObject, Value};
 
+/// Where each parameter of a module comes from, among those of another.
+type ParameterPlaces = Rc<[Option<usize>]>;
+
 /// Takes modules apart, and remembers how.
 #[derive(Default)]
 pub(super) struct Fragmentation {
     /// By the module that is taken apart, its geometry's place, and what its parts are: where their parameters come from.
-    fits: FxHashMap<(Symbol, usize, Symbol), Rc<[Option<usize>]>>,
+    fits: FxHashMap<(Symbol, usize, Symbol), ParameterPlaces>,
     /// By the bits of a geometry's column: its parts, and whether it is one of its own.
     parts: FxHashMap<u64, (Rc<[f64]>, bool)>,
     /// The fragmentations that have met a geometry without parts.
@@ -82,7 +85,7 @@ impl Fragmentation {
     }
 
     /// Where the parameters of the parts come from.
-    fn fit(&mut self, key: (Symbol, usize, Symbol), symbols: &Symbols) -> Result<Rc<[Option<usize>]>> {
+    fn fit(&mut self, key: (Symbol, usize, Symbol), symbols: &Symbols) -> Result<ParameterPlaces> {
         if let Some(known) = self.fits.get(&key) {
             return Ok(Rc::clone(known));
         }
@@ -98,7 +101,7 @@ impl Fragmentation {
             ))
             .help("parameters go over by name: call them alike in both modules, or let them be left out: \"name?\"")
         })?;
-        let found: Rc<[Option<usize>]> = found.into();
+        let found: ParameterPlaces = found.into();
         self.fits.insert(key, Rc::clone(&found));
         Ok(found)
     }

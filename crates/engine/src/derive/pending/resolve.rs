@@ -52,6 +52,9 @@ pub(in crate::derive) fn resolve(
     Ok(Some(resolution))
 }
 
+/// What questions are answered with, by number.
+type Answers = Vec<Result<Arc<Rows>>>;
+
 /// A chain whose pending modules are being replaced.
 struct Resolver<'a> {
     machine: &'a Machine,
@@ -143,11 +146,7 @@ impl Resolver<'_> {
     }
 
     /// Asks what the queries among `sites` ask; gives the answers, and by site the number of its own.
-    fn ask(
-        &self,
-        threads: &ThreadPool,
-        sites: &[PendingSite],
-    ) -> Result<(Vec<Result<Arc<Rows>>>, Vec<Option<usize>>)> {
+    fn ask(&self, threads: &ThreadPool, sites: &[PendingSite]) -> Result<(Answers, Vec<Option<usize>>)> {
         let mut set = QuestionSet::default();
         let mut asked = Vec::with_capacity(sites.len());
         for site in sites {

@@ -213,7 +213,8 @@ impl SystemDeclaration {
         let kind = self.object.as_ref().map(|object| object.kind());
         let types = machine.library.script_types.borrow();
         let of = kind.and_then(|kind| types.iter().find(|known| known.kind.name == kind.name));
-        prelude.set_this.call::<()>((this, of.map(|of| of.table.clone())))?;
+        let name = kind.map(|kind| kind.name.to_string());
+        prelude.set_this.call::<()>((this, name, of.map(|of| of.table.clone())))?;
         prelude.fresh_interpreters.call::<()>(())?;
         if self.object.is_some() {
             for (index, known) in self.interpretations.iter().enumerate() {
@@ -276,7 +277,7 @@ impl SystemDeclaration {
         let functions =
             types.iter().flat_map(|known| known.functions.iter().map(|it| (&*known.kind.name, it)));
         let extensions = machine.library.extensions.borrow();
-        for (of, known) in functions.chain(extensions.iter().map(|it| ("extend", it))) {
+        for (of, known) in functions.chain(extensions.iter().map(|(_, it)| ("extend", it))) {
             let (name, function) = (format!("{of}: {}", known.name), known.function.clone());
             reached.push(ReachableFunction { function, name, place: None });
         }

@@ -7,6 +7,7 @@ mod declaration;
 mod declare;
 mod handle;
 mod lazy;
+mod list_table;
 mod source;
 mod tags;
 mod unseen;

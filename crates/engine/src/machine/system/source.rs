@@ -5,6 +5,7 @@ use std::sync::Arc;
 use mlua::{AnyUserData, Function, Lua, MetaMethod, Table, UserData, UserDataMethods, Value as LuaValue};
 
 use super::lazy;
+use super::list_table::list_table;
 use crate::machine::Machine;
 use burgeon_base::error::{Error, Result};
 use burgeon_data::{Attribute, GeometryKind, Layer, SourceOptions};
@@ -25,8 +26,33 @@ impl SourceHandle {
         let options = crate::machine::convert::to_value(options, false)?;
         match (what, &options) {
             (LuaValue::Table(features), Value::Nil) => Ok(Self::List(features.clone())),
-            (LuaValue::Table(_), _) => Err(Error::argument("a list of features takes no options")
-                .help("choose among them in Lua: where, limit and the like are for files")),
+            (LuaValue::Table(features), options) => {
+                let table = match options {
+                    Value::Table(options) => wanted(options)?,
+                    _ => Default::default(),
+                };
+                let (
+                    SourceOptions {
+                        layer: None,
+                        condition: None,
+                        limit: None,
+                        id: None,
+                        kind: None,
+                        crs: None,
+                        ..
+                    },
+                    Some(table),
+                ) = table
+                else {
+                    return Err(Error::argument("a list of features takes no option but table")
+                        .help("choose among them in Lua: where, limit and the like are for files"));
+                };
+                if machine.driver.leads() {
+                    let list = crate::machine::convert::to_value(what, false)?;
+                    machine.session.data.add_list(&table, list_table(&list)?);
+                }
+                Ok(Self::List(features.clone()))
+            }
             (LuaValue::String(text), Value::Nil) => {
                 Self::load(machine, &text.to_string_lossy(), SourceOptions::default(), None)
             }

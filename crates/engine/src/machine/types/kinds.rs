@@ -41,10 +41,10 @@ pub(in crate::machine) fn install_methods(machine: &Machine, kind: &Arc<Kind>) -
         let function: Function = match &method.call {
             Call::Script { .. } => continue,
             Call::Write { numbers: Some(_), .. } if method.arguments.len() <= 3 => {
-                machine.prelude().recorder.call((index, name, method.arguments.len()))?
+                machine.prelude().recorder.call((index, name, method.arguments.len(), &*kind.name))?
             }
             Call::Write { .. } | Call::Read(_) => {
-                machine.prelude().direct.call((index, name, method.call.changes()))?
+                machine.prelude().direct.call((index, name, method.call.changes(), &*kind.name))?
             }
         };
         let function = match kind.deprecation(&method.name) {

@@ -1,18 +1,19 @@
 //! `object` and `extend`: types of objects that a script declares, and methods that it adds to others.
 
-use std::sync::{Arc, PoisonError};
+use std::sync::Arc;
 
 use mlua::{Function, Table, Value as LuaValue};
 
 use super::handles::{ObjectHandle, methods_key};
 use super::kinds::{constructor, install_methods};
+use crate::declare::Session;
 use crate::machine::Machine;
 use crate::machine::convert::{to_lua, to_value};
 use burgeon_base::error::{Error, Result, SourcePlace};
 use burgeon_kit::{
     Argument, Call, Kind, Method, ScriptField, ScriptType, Table as ValueTable, TableKey, Value,
 };
-use burgeon_language::{EXTEND, OBJECT};
+use burgeon_language::{CallForm, EXTEND, OBJECT};
 
 /// The functions that run around the interpretation of a chain, as a script names them.
 const HOOKS: [&str; 4] = ["begin", "finish", "push", "pop"];
@@ -100,7 +101,12 @@ impl ScriptTypeEntry {
             }
         }
         let has = |hook: &str| entry.functions.iter().any(|it| it.role == Role::Hook && it.name == hook);
-        entry.declaration.branches = [has("push"), has("pop")];
+        let mut branches = [has("push"), has("pop")];
+        // So do hooks of what it holds.
+        for script in entry.declaration.held.iter().filter_map(|(_, object)| object.kind().script.as_ref()) {
+            branches = [branches[0] | script.branches[0], branches[1] | script.branches[1]];
+        }
+        entry.declaration.branches = branches;
         let doc = match declared.raw_get::<LuaValue>("doc").map_err(internal)? {
             LuaValue::Nil => String::new(),
             LuaValue::String(text) => text.to_string_lossy(),
@@ -111,7 +117,8 @@ impl ScriptTypeEntry {
                 )));
             }
         };
-        let methods = entry.functions.iter().filter(|it| it.role != Role::Hook).map(ScriptFunction::method);
+        let methods = entry.functions.iter().filter(|it| it.role != Role::Hook);
+        let methods = methods.map(|it| it.method(&machine.session));
         let kind = entry.declaration.clone().kind(name, &doc, methods.collect())?;
         let table = entry.table(machine, &kind).map_err(|error| machine.translate(error))?;
         let Parts { declaration, functions } = entry;
@@ -131,15 +138,22 @@ impl Parts {
     fn of(machine: &Machine, constructor: &Function) -> Option<Self> {
         let kind = machine.library.kind_of(constructor)?;
         let types = machine.library.script_types.borrow();
-        Some(match types.iter().find(|known| known.kind.name == kind.name) {
+        let mut parts = match types.iter().find(|known| known.kind.name == kind.name) {
             Some(known) => {
                 Self { declaration: known.declaration.clone(), functions: known.functions.clone() }
             }
             None => Self {
-                declaration: ScriptType { base: Some(kind), ..ScriptType::default() },
+                declaration: ScriptType { base: Some(Arc::clone(&kind)), ..ScriptType::default() },
                 functions: Vec::new(),
             },
-        })
+        };
+        parts.declaration.above.insert(0, (*kind.name).into());
+        // What was added to that type holds for those that extend it.
+        let extensions = machine.library.extensions.borrow();
+        parts
+            .functions
+            .extend(extensions.iter().filter(|(of, _)| *of == kind.name).map(|(_, it)| it.clone()));
+        Some(parts)
     }
 
     /// Adds the functions that a table declares as `reads` and `changes`.
@@ -180,13 +194,24 @@ impl Parts {
         of.raw_set("fields", fields)?;
         of.raw_set("start", to_lua(lua, &Value::Table(Arc::clone(&self.declaration.state)), false)?)?;
         let holds = lua.create_table()?;
+        let above = lua.create_table()?;
+        self.declaration.above.iter().try_for_each(|name| above.push(&**name))?;
+        of.raw_set("above", above)?;
+        let types = machine.library.script_types.borrow();
         for (name, object) in &self.declaration.held {
             let held = lua.create_table()?;
+            if let Some(known) = types.iter().find(|known| known.kind.name == object.kind().name) {
+                held.raw_set("of", &known.table)?;
+            }
             held.raw_set("name", &**name)?;
             held.raw_set("kind", &*object.kind().name)?;
             let methods = lua.create_table()?;
-            for method in &object.kind().methods {
+            for (index, method) in object.kind().methods.iter().enumerate() {
+                if matches!(method.call, Call::Script { .. }) {
+                    continue;
+                }
                 let entry = lua.create_table()?;
+                entry.raw_set("index", index)?;
                 entry.raw_set("name", &*method.name)?;
                 entry.raw_set("changes", method.call.changes())?;
                 methods.push(entry)?;
@@ -217,20 +242,21 @@ impl ScriptFunction {
     }
 
     /// The method as people are told of it.
-    fn method(&self) -> Method {
-        let count = self.function.info().num_params.saturating_sub(1);
-        let argument = |index| Argument {
-            name: format!("a{}", index + 1).into(),
-            luau: "any".to_owned(),
-            unit: None,
-            fields: Vec::new(),
-            default: String::new(),
-        };
+    fn method(&self, session: &Session) -> Method {
+        let info = self.function.info();
+        let file = info.source.as_deref().and_then(|source| source.strip_prefix('@'));
+        let form = file.zip(info.line_defined).and_then(|(file, line)| session.signature(file, line));
+        let form = form.filter(|form| !form.arguments.is_empty()).unwrap_or_else(|| {
+            // Where several begin in one line, it is not known which of them this is.
+            let names = (0..info.num_params).map(|index| format!("a{index}"));
+            let names = names.chain(info.is_vararg.then(|| "...".to_owned()));
+            CallForm::new(names.map(Argument::new).collect(), "any")
+        });
         Method {
             name: self.name.clone().into(),
             doc: self.doc.clone().into(),
-            arguments: (0..count).map(argument).collect(),
-            returns: if self.role == Role::Read { "any".to_owned() } else { String::new() },
+            arguments: form.arguments.into_iter().skip(1).collect(),
+            returns: if self.role == Role::Read { form.returns } else { String::new() },
             call: Call::Script { changes: self.role == Role::Change },
         }
     }
@@ -254,6 +280,7 @@ pub(in crate::machine) fn declare_type(
     let constructor = constructor(machine, &entry.kind).map_err(|error| machine.translate(error))?;
     let constructor = constructor.ok_or_else(|| Error::internal("the type has no constructor"))?;
     machine.library.stateless.borrow_mut().insert(constructor.to_pointer() as usize);
+    machine.session.note_type(&entry.kind);
     machine.library.script_types.borrow_mut().push(entry);
     Ok(constructor)
 }
@@ -297,9 +324,12 @@ pub(in crate::machine) fn extend_type(
         machine.prelude().extension.call((&*kind.name, methods, of, reads, changes))
     };
     add().map_err(|error| machine.translate(error))?;
-    let names = parts.functions.iter().map(|known| known.name.clone());
-    machine.session.extensions.lock().unwrap_or_else(PoisonError::into_inner).extend(names);
-    machine.library.extensions.borrow_mut().extend(parts.functions);
+    parts
+        .functions
+        .iter()
+        .for_each(|known| machine.session.note_method(&kind.name, known.method(&machine.session)));
+    let added = parts.functions.into_iter().map(|known| (kind.name.to_string(), known));
+    machine.library.extensions.borrow_mut().extend(added);
     Ok(())
 }
 

@@ -1,0 +1,201 @@
+//! What scripts do with types of objects that they declare: what their functions have as `self`, and what that has.
+
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+use full_moon::ast::{Expression, Field, FunctionArgs, Index, Prefix, Suffix, TableConstructor, Var};
+use full_moon::tokenizer::TokenReference;
+
+use super::calls::{CallCheck, expressions_of};
+use super::inference::Inference;
+use super::syntax::{string_of, text_of};
+use super::walk::FunctionRole;
+use burgeon_base::error::Error;
+use burgeon_kit::{Kind, Value};
+use burgeon_language::Literal;
+
+/// The names of the functions that are added to a type.
+fn added_names(table: &TableConstructor) -> Vec<String> {
+    let named = |table: &TableConstructor| -> Vec<(String, Expression)> {
+        let fields = table.fields().iter().filter_map(|field| match field {
+            Field::NameKey { key, value, .. } => Some((text_of(key), (**value).clone())),
+            _ => None,
+        });
+        fields.collect()
+    };
+    let parts = named(table).into_iter().filter_map(|(_, value)| match value {
+        Expression::TableConstructor(functions) => Some(named(&functions)),
+        _ => None,
+    });
+    parts.flatten().map(|(name, _)| name).collect()
+}
+
+impl CallCheck<'_> {
+    /// `object(name, { ... })` or `extend(constructor, { ... })`: walks its functions, which have objects of that type. Gives
+    /// the constructor, if it is known which type that is.
+    pub(super) fn declares(&mut self, word: &str, args: &FunctionArgs) -> Inference {
+        let written = expressions_of(args);
+        let first = written.first().map(|first| (self.expression(first), *first));
+        let kind = match first {
+            Some((_, Expression::String(text))) if word == "object" => {
+                string_of(text).and_then(|name| self.registry.get(&name).cloned())
+            }
+            Some((Inference::Constructor(kind), _)) if word == "extend" => Some(kind),
+            _ => None,
+        };
+        match written.get(1) {
+            Some(Expression::TableConstructor(table)) => {
+                self.declaration(table, kind.as_ref());
+                if word == "extend" {
+                    // Where the script ends before it comes to this, nobody else knows of it.
+                    self.added.extend(added_names(table));
+                }
+            }
+            Some(other) => drop(self.expression(other)),
+            None => {}
+        }
+        kind.filter(|_| word == "object").map_or(Inference::Unknown, Inference::Constructor)
+    }
+
+    fn declaration(&mut self, table: &TableConstructor, kind: Option<&Arc<Kind>>) {
+        for field in table.fields() {
+            let Field::NameKey { key, value, .. } = field else { continue };
+            let role = match text_of(key).as_str() {
+                "reads" => FunctionRole::Reading,
+                "changes" | "begin" | "finish" | "push" | "pop" => FunctionRole::Changing,
+                _ => {
+                    self.expression(value);
+                    continue;
+                }
+            };
+            let outer = std::mem::replace(&mut self.role, role);
+            match &**value {
+                Expression::TableConstructor(functions) => {
+                    for one in functions.fields() {
+                        if let Field::NameKey { value, .. } = one {
+                            self.declared_function(value, kind);
+                        }
+                    }
+                }
+                value => self.declared_function(value, kind),
+            }
+            self.role = outer;
+        }
+    }
+
+    /// A function of a type, alone or in a table behind its doc.
+    fn declared_function(&mut self, value: &Expression, kind: Option<&Arc<Kind>>) {
+        match value {
+            Expression::Function(function) => self.function(function.body(), kind),
+            Expression::TableConstructor(described) => {
+                for field in described.fields() {
+                    match field {
+                        Field::NoKey(value) => self.declared_function(value, kind),
+                        Field::NameKey { value, .. } => drop(self.expression(value)),
+                        _ => {}
+                    }
+                }
+            }
+            other => drop(self.expression(other)),
+        }
+    }
+
+    /// What a field of an object is, or a part of its state.
+    pub(super) fn member(&mut self, kind: &Arc<Kind>, name: &TokenReference) -> Inference {
+        let (text, Some(script)) = (text_of(name), &kind.script) else { return Inference::Unknown };
+        if let Some((_, held)) = script.held.iter().find(|(held, _)| **held == *text) {
+            let kind = self.registry.get(&held.kind().name).unwrap_or(held.kind());
+            return Inference::Object(Arc::clone(kind));
+        }
+        if let Some(field) = script.fields.iter().find(|field| *field.name == *text) {
+            return match (&field.describe().luau[..], &field.default) {
+                ("number", Some(Value::Number(_))) => Inference::Value(Literal::Number),
+                _ => Inference::Unknown,
+            };
+        }
+        // A type that extends this one may have more than it has itself.
+        let extends = |other: &Arc<Kind>| {
+            let script =
+                other.script.as_ref().filter(|it| it.above.iter().any(|above| **above == *kind.name));
+            script.is_some_and(|it| {
+                it.fields.iter().any(|field| *field.name == *text) || it.state.get(&text).is_some()
+            }) || script.is_some() && other.method(&text).is_some()
+        };
+        let known = kind.method(&text).is_some() || script.state.get(&text).is_some();
+        if !known && !self.registry.kinds().any(extends) {
+            self.problem(name, kind.unknown_method(&text));
+        }
+        Inference::Unknown
+    }
+
+    /// Whether an object of type `kind` may have the method `name`, though the type is not known to have it: it was added, or
+    /// the object is of a type that extends it.
+    pub(super) fn may_be_above(&self, kind: &Kind, name: &str) -> bool {
+        let above = |other: &Kind| {
+            other.script.as_ref().is_some_and(|script| script.above.iter().any(|above| **above == *kind.name))
+        };
+        self.added.contains(name)
+            || matches!(self.role, FunctionRole::Reading | FunctionRole::Changing)
+                && self.registry.kinds().any(|other| above(other) && other.method(name).is_some())
+    }
+
+    /// Something is assigned to a variable, or to a part of what one holds.
+    pub(super) fn assigned_to(&mut self, variable: &Var) {
+        let Var::Expression(inner) = variable else { return };
+        let suffixes: Vec<&Suffix> = inner.suffixes().collect();
+        let Some((Suffix::Index(Index::Dot { name, .. }), before)) = suffixes.split_last() else {
+            return drop(self.suffixes(inner.prefix(), &suffixes));
+        };
+        let owner = self.suffixes(inner.prefix(), before);
+        let (Inference::Object(kind), text) = (&owner, text_of(name)) else { return };
+        let Some(script) = &kind.script else { return };
+        let kind_name = &kind.name;
+        let error = if self.role == FunctionRole::Reading {
+            Error::scope(format!("{kind_name}: a function that reads assigns {text}"))
+                .help("put it among the changes of the type, which interpretations may call")
+        } else if self.role != FunctionRole::Changing || script.state.get(&text).is_some() {
+            return;
+        } else if script.fields.iter().any(|field| *field.name == *text) {
+            Error::scope(format!("{text} is a field of {kind_name}, which is given when one is made"))
+                .help("keep what changes in its state")
+        } else if self.registry.kinds().any(|other| {
+            other.script.as_ref().is_some_and(|it| {
+                it.above.iter().any(|above| **above == **kind_name) && it.state.get(&text).is_some()
+            })
+        }) {
+            return;
+        } else {
+            Error::scope(format!("{kind_name} has no state called {text}"))
+                .help(format!("declare it: state = {{ {text} = ... }}"))
+        };
+        self.problem(name, error);
+    }
+
+    /// Remembers what is put into a table that a variable holds, such as `M.lantern = object(...)`.
+    pub(super) fn remember(&mut self, variable: &Var, value: Inference) {
+        let Var::Expression(inner) = variable else { return };
+        let suffixes: Vec<&Suffix> = inner.suffixes().collect();
+        let (Prefix::Name(owner), [Suffix::Index(Index::Dot { name, .. })]) = (inner.prefix(), &suffixes[..])
+        else {
+            return;
+        };
+        let owner = text_of(owner);
+        let Some((_, known)) = self.scope.iter_mut().rev().find(|(name, _)| *name == owner) else { return };
+        let mut entries = match known {
+            Inference::Table(entries) => BTreeMap::clone(entries),
+            Inference::Value(Literal::Table) => BTreeMap::new(),
+            _ => return,
+        };
+        let is_first = !entries.contains_key(&text_of(name));
+        entries.insert(text_of(name), if is_first { value } else { Inference::Unknown });
+        *known = Inference::Table(Arc::new(entries));
+    }
+
+    /// `self:as(lantern)`: the object as a type sees it.
+    pub(super) fn seen_as(&self, given: &[Inference]) -> Inference {
+        match given.first() {
+            Some(Inference::Constructor(kind)) => Inference::Object(Arc::clone(kind)),
+            _ => Inference::Unknown,
+        }
+    }
+}

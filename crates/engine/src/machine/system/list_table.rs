@@ -1,0 +1,53 @@
+//! A list of features that a script made, as a table for queries.
+
+use std::sync::Arc;
+
+use crate::declare::ListTable;
+use burgeon_base::error::{Error, Result};
+use burgeon_data::{Attribute, Feature};
+use burgeon_kit::{Parameter, Shape, Table, TableKey, Value};
+
+/// The table of a list: for each feature its `id` or its number, its geometry, and what else it has that a table can hold.
+pub(super) fn list_table(features: &Value) -> Result<ListTable> {
+    let mut made = ListTable::default();
+    let Value::Table(list) = features else { return Ok(made) };
+    for (number, feature) in list.list().iter().enumerate() {
+        let refuse = |why: &str| {
+            Error::argument(format!("feature {} of the list {why}, so it is in no table", number + 1))
+                .help("write { id = \"a\", geometry = polygon({ ... }), height = 3 }")
+        };
+        let Value::Table(feature) = feature else { return Err(refuse("is no table")) };
+        let geometry = feature.get("geometry").ok_or_else(|| refuse("has no geometry"))?;
+        let shape =
+            Shape::from_value(geometry.clone()).map_err(|_| refuse("has no geometry that can be read"))?;
+        let id = match feature.get("id") {
+            Some(Value::Text(id)) => id.to_string(),
+            Some(Value::Nil) | None => (number + 1).to_string(),
+            Some(other) => other.to_string(),
+        };
+        let attributes = attributes(feature, &mut made.names);
+        made.features.push(Feature { id, geometry: shape.geometry().clone(), attributes });
+    }
+    Ok(made)
+}
+
+/// What a feature has besides, by the numbers of its `names`.
+fn attributes(feature: &Table, names: &mut Vec<String>) -> Arc<[(usize, Attribute)]> {
+    let mut attributes = Vec::new();
+    for (key, value) in &feature.entries {
+        let TableKey::Name(name) = key else { continue };
+        let value = match value {
+            _ if ["id", "geometry", "layer"].contains(&&**name) => continue,
+            Value::Boolean(value) => Attribute::Boolean(*value),
+            Value::Number(value) if value.is_finite() => Attribute::Number(*value),
+            Value::Text(text) => Attribute::Text(Arc::clone(text)),
+            _ => continue,
+        };
+        let number = names.iter().position(|known| **known == **name).unwrap_or_else(|| {
+            names.push(name.to_string());
+            names.len() - 1
+        });
+        attributes.push((number, value));
+    }
+    attributes.into()
+}

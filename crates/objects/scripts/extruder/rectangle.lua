@@ -1,0 +1,9 @@
+-- The width goes along x, the height along y, where it begins upwards.
+local Part = module("Part")
+local parts = lsystem({ object = extruder({ smooth = false }) })
+parts:axiom(Part())
+parts:interpret("Part", function(this)
+  this:rectangle(2, 0.6):extrude(1)
+  this:color("orange"):rectangle(0.6, 2):extrude(1)
+end)
+parts:derive()

@@ -1,0 +1,10 @@
+-- At once, and only in one direction at the top.
+local Part = module("Part")
+local parts = lsystem({ object = extruder({ sides = 4, smooth = false }) })
+parts:axiom(Part())
+parts:interpret("Part", function(this)
+  this:scale(1):extrude(0.5)
+  this:scale(0.6):extrude(0.5)
+  this:color("orange"):scale(0.6, 0.15):extrude(0.5)
+end)
+parts:derive()

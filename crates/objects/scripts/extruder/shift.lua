@@ -1,0 +1,10 @@
+-- Orange to the right, green up, as seen along the direction of extruding.
+local Part = module("Part")
+local parts = lsystem({ object = extruder({ sides = 6, smooth = false }) })
+parts:axiom(Part())
+parts:interpret("Part", function(this)
+  this:scale(0.5):extrude(1)
+  this:color("orange"):jump({ 0, 0, 0 }):shift(1.5, 0):extrude(1)
+  this:color("#7fa650"):jump({ 0, 0, 0 }):shift(0, 1.5):extrude(1)
+end)
+parts:derive()

@@ -1,0 +1,9 @@
+-- pitch is orange, pitch_up green.
+local Part = module("Part")
+local parts = lsystem({ object = turtle({ width = 0.15 }) })
+parts:axiom(Part())
+parts:interpret("Part", function(this)
+  this:forward(1):pitch(40):color("orange"):forward(1)
+  this:jump({ 0, 0, 1 }):face({ 0, 0, 1 }):pitch_up(40):color("#7fa650"):forward(1)
+end)
+parts:derive()

@@ -1,0 +1,176 @@
+//! What `burgeon check` and `burgeon api` know of types of objects that scripts declare.
+
+use std::fmt::Write as _;
+
+use insta::assert_snapshot;
+
+use super::support::Folder;
+
+const LAMP: &str = r#"local lamp = object("lamp", {
+  doc = "A lamp.",
+  extends = extruder,
+  fields = { height = { default = 4, min = 1, unit = "m", doc = "How high it is." }, kind = { default = "gas", choices = { "gas", "arc" } } },
+  state = { lit = 0, mast = extruder() },
+  reads = {
+    lit = { doc = "How many are lit.", function(self): number
+      return self.lit
+    end },
+  },
+  changes = {
+    light = { doc = "Lights one.", function(self, reach: number, toward: number?)
+      self.lit += 1
+      self.mast:extrude(reach)
+      return self:extrude(self.height)
+    end },
+  },
+})
+"#;
+
+/// What `check` says of a script that begins with the lamp, without the lines of the script.
+fn checked(rest: &str) -> String {
+    let script = format!("{LAMP}{rest}");
+    let said = Folder::new().with("s.lua", script).burgeon(&["check", "s.lua"]);
+    let told = said.stderr.lines().filter(|line| !line.starts_with("  |"));
+    told.fold(String::new(), |mut all, line| {
+        // Writing into a string cannot fail.
+        let _ = writeln!(all, "{line}");
+        all
+    })
+}
+
+#[test]
+fn a_check_knows_the_methods_and_fields_of_types_of_the_script() {
+    let system = "local A = module(\"A\", \"x\")\nlocal s = lsystem({ object = lamp({ height = 5 }) })\ns:axiom(A(1))\n";
+    assert_snapshot!(checked(&format!("{system}s:interpret(\"A(x)\", function(this, x) this:ligth(x) end)")), @r##"
+    error: s.lua:22: rule A(x) (interpretation): lamp has no method or field called ligth
+      help: did you mean light?
+    "##);
+    assert_snapshot!(checked(&format!("{system}s:interpret(\"A(x)\", function(this, x) this:light(x, 2, 3) this:light(\"far\") end)")), @r##"
+    error: s.lua:22: rule A(x) (interpretation): lamp:light takes 1 to 2 arguments, not 3
+      help: write lamp:light(reach: number, toward: number?)
+    error: s.lua:22: rule A(x) (interpretation): lamp:light: reach must be a number, not "far"
+    "##);
+    assert_snapshot!(checked(&format!("{system}s:rule(\"A(x)\", function(this, x) this:light(x) return A(this:lit()) end)")), @r##"
+    error: s.lua:22: rule A(x): lamp:light changes the object, so a rule cannot call it
+      help: use an interpretation rule: system:interpret(pattern, function(this, ...) ... end)
+    "##);
+    assert_snapshot!(checked("lamp({ height = \"tall\", glow = 3, kind = \"oil\", sides = \"many\" })"), @r##"
+    error: s.lua:19: lamp: height must be a number, not "tall"
+    error: s.lua:19: lamp has no field called glow
+      help: it has height, kind, sides, shape, smooth, along, around, caps, color, roughness, metallic, position, heading
+    error: s.lua:19: lamp: kind must be "gas" | "arc", not "oil"
+    error: s.lua:19: lamp: sides must be a number, not "many"
+    "##);
+    assert_snapshot!(checked(&format!("{system}s:interpret(\"A(x)\", function(this, x) this:light(x):extrude(this.height):lightt(1) print(this.hieght, this.mast:extrude(1)) end)")), @r##"
+    error: s.lua:22: rule A(x) (interpretation): lamp has no method or field called lightt
+      help: did you mean light?
+    error: s.lua:22: rule A(x) (interpretation): lamp has no method or field called hieght
+      help: did you mean height?
+    "##);
+}
+
+#[test]
+fn a_check_knows_what_the_functions_of_a_type_may_do() {
+    let of = |parts: &str| {
+        checked(&format!(
+            "local other = object(\"other\", {{ extends = lamp, state = {{ n = 0 }}, {parts} }})"
+        ))
+    };
+    assert_snapshot!(of("reads = { bad = function(self) self.n = 1 self:extrude(1) return self.m end }"), @r##"
+    error: s.lua:19: other: a function that reads assigns n
+      help: put it among the changes of the type, which interpretations may call
+    error: s.lua:19: other:extrude changes the object, and a function that reads does not
+      help: put it among the changes of the type
+    error: s.lua:19: other has no method or field called m
+      help: it has as, lit, light, bad, height, kind, lit, n, mast, regular, star, rectangle, polygon, direction, resolution, scale, taper, bend, twist, caps, smooth, extrude, advance, shift, jump, turn, pitch, roll, color, material, mesh, place, position, heading, distance, open_edges, note, detail
+    "##);
+    assert_snapshot!(of("changes = { bad = function(self) self.m = 1 self.height = 2 self.lit = 3 self:light() self:lite(1) end }"), @r##"
+    error: s.lua:19: other has no state called m
+      help: declare it: state = { m = ... }
+    error: s.lua:19: height is a field of other, which is given when one is made
+      help: keep what changes in its state
+    error: s.lua:19: other:light takes 1 to 2 arguments, not 0
+      help: write other:light(reach: number, toward: number?)
+    error: s.lua:19: other has no method or field called lite
+      help: did you mean lit?
+    "##);
+    assert_snapshot!(of("begin = function(self) self.mast:extrde(1) self:as(lamp):light(\"a\") self:as(lamp):go() end"), @r##"
+    error: s.lua:19: extruder has no method or field called extrde
+      help: did you mean extrude?
+    error: s.lua:19: lamp:light: reach must be a number, not "a"
+    error: s.lua:19: lamp has no method or field called go
+      help: it has as, lit, light, height, kind, lit, mast, regular, star, rectangle, polygon, direction, resolution, scale, taper, bend, twist, caps, smooth, extrude, advance, shift, jump, turn, pitch, roll, color, material, mesh, place, position, heading, distance, open_edges, note, detail
+    "##);
+    // A type that extends it may have what it has not.
+    assert_snapshot!(of("changes = { go = function(self) self:draw_top() end } })\nobject(\"third\", { extends = other, changes = { draw_top = function(self) end }"), @"s.lua is fine");
+}
+
+#[test]
+fn a_check_knows_types_of_required_files_and_of_packages() {
+    let folder = Folder::new()
+        .with("parts/lamp.lua", format!("{LAMP}return {{ lamp = lamp, more = {{ size = 3 }} }}"))
+        .with("mods/lights/mod.toml", "name = \"lights\"\nversion = \"1.0.0\"\napi = \"1.0\"\n")
+        .with("mods/lights/init.lua", "local M = {}\nM.arc = require(\"./arc\")\nreturn M")
+        .with("mods/lights/arc.lua", "return object(\"arc\", { extends = turtle, fields = { power = 5 }, changes = { shine = function(self, n: number) self:forward(n) end } })")
+        .with(
+            "s.lua",
+            "local parts, lights = require(\"parts/lamp\"), require(\"@lights\")\nlocal A = module(\"A\")\n\
+             local s = lsystem({ object = parts.lamp })\ns:axiom(A())\ns:interpret(\"A\", function(this) this:lite(1) end)\n\
+             local t = lsystem({ object = lights.arc({ powr = 3 }) })\nt:axiom(A())\nt:interpret(\"A\", function(this) this:shine(\"far\") end)\n\
+             extend(parts.lamp, { changes = { dim = function(self) end } })\ns:interpret(\"A\", function(this) this:dim(1) end)",
+        );
+    assert_snapshot!(folder.burgeon(&["check", "s.lua"]).stderr, @r##"
+    error: s.lua:5: rule A (interpretation): lamp has no method or field called lite
+      | s:interpret("A", function(this) this:lite(1) end)
+      help: did you mean lit?
+    error: s.lua:6: arc has no field called powr
+      | local t = lsystem({ object = lights.arc({ powr = 3 }) })
+      help: did you mean power?
+    error: s.lua:8: rule A (interpretation): arc:shine: n must be a number, not "far"
+      | t:interpret("A", function(this) this:shine("far") end)
+    "##);
+}
+
+#[test]
+fn the_types_of_a_script_are_told_like_those_that_come_with_burgeon() {
+    let rest = "extend(turtle, { reads = { high = { doc = \"How high it is.\", function(self, above: number?): number return 1 end } } })";
+    let folder = Folder::new().with("s.lua", format!("{LAMP}{rest}")).with("empty.lua", "");
+    let told = |arguments: &[&str]| folder.burgeon(&[&["api", "--script"], arguments].concat()).done().stdout;
+    assert_snapshot!(told(&["s.lua"]), @r##"
+    Types of objects
+      lamp    A lamp.
+      turtle  A turtle as in The Algorithmic Beauty of Plants, which draws round branches in three dimensions.
+
+    burgeon api --script s.lua NAME tells more of one, such as lamp
+    "##);
+    let lamp = told(&["s.lua", "lamp"]);
+    assert!(
+        lamp.contains("light(reach: number, toward: number?)") && lamp.contains("lit() -> number"),
+        "{lamp}"
+    );
+    assert!(
+        lamp.contains("height: number = 4") && lamp.contains("kind: \"gas\" | \"arc\" = \"gas\""),
+        "{lamp}"
+    );
+    assert_snapshot!(told(&["s.lua", "turtle:high"]), @r##"
+    turtle:high(above: number?) -> number
+      How high it is.
+      It only reads: rules and interpretations may call it.
+    "##);
+    assert_snapshot!(told(&["s.lua", "lamp:as"]), @r##"
+    lamp:as(constructor: any) -> any
+      The object as the type that `constructor` makes sees it, which its own extends: a function that
+      says anew what that type's does can call it so, such as self:as(lantern):lamp(1).
+      It only reads: rules and interpretations may call it.
+    "##);
+    assert_snapshot!(told(&["empty.lua"]), @r##"
+    empty.lua declares no type of object and adds to none
+    "##);
+    let machine = folder.burgeon(&["api", "--script", "s.lua", "--json"]).done().json();
+    let names: Vec<_> =
+        machine["entries"].as_array().unwrap().iter().map(|entry| entry["name"].clone()).collect();
+    assert_eq!(names, ["lamp", "turtle"]);
+    assert!(
+        folder.burgeon(&["api", "--script", "none.lua"]).failed().contains("there is no script none.lua")
+    );
+}
