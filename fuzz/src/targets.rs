@@ -15,7 +15,7 @@ use burgeon::query::{Cell, Database};
 use burgeon::script::{Limits, Print, RunOptions};
 use burgeon::sources::elevation::{HeightOptions as WantedHeights, Raster, Relief};
 use burgeon::sources::{Cache, Layer, Listing, Source, SourceOptions};
-use burgeon::spatial::Geometry;
+use burgeon::spatial::{BufferOptions, Geometry};
 use burgeon::{Budget, Error, Result};
 use rusqlite::Connection;
 
@@ -47,7 +47,7 @@ const JSON: &[&str] = &[
 ];
 
 /// All of them.
-pub(crate) const TARGETS: [Target; 19] = [
+pub(crate) const TARGETS: [Target; 21] = [
     Target {
         name: "geojson",
         read: |bytes, folder| layer(bytes, &folder.join("a.geojson")),
@@ -100,6 +100,37 @@ pub(crate) const TARGETS: [Target; 19] = [
         name: "osm",
         read: osm,
         words: &["\u{ff}\u{ff}\u{ff}\u{ff}\u{f}", "OSMData", "building", "\u{1a}"],
+    },
+    Target {
+        name: "wkt",
+        read: |bytes, _| {
+            Geometry::from_wkt_within(&String::from_utf8_lossy(bytes), &budget())
+                .is_ok_and(|it| computed(&it))
+        },
+        words: &[
+            "SRID=4326;",
+            "GEOMETRYCOLLECTION (",
+            "MULTISURFACE (",
+            "CURVEPOLYGON (",
+            "COMPOUNDCURVE (",
+            "CIRCULARSTRING (0 0, 4 0, 0 0)",
+            "POLYGON ((0 0, 9 0, 9 9, 0 0))",
+            "MULTIPOINT",
+            "LINESTRING Z (0 0 0, 9 9 9)",
+            " EMPTY",
+            " ZM",
+            "POINT (1 2)",
+            "1e15",
+            "1e-300",
+            "nan",
+            ",",
+            ")",
+        ],
+    },
+    Target {
+        name: "geometry",
+        read: |bytes, _| Geometry::from_wkb(bytes).is_ok_and(|it| computed(&it)),
+        words: &["\u{1}\u{7}\0\0\0\u{1}\0\0\0", "\u{1}\u{6}\0\0\0", "\0\0\0\u{8}", "\u{f0}\u{3f}"],
     },
     Target { name: "wkb", read: wkb, words: &["GP\0", "\0\0\0\u{8}", "\u{1}\u{6}\0\0\0"] },
     Target {
@@ -294,6 +325,35 @@ fn osm(bytes: &[u8], folder: &Path) -> bool {
 }
 
 /// The bytes as the geometry of a feature in a sound package.
+/// Computes with a geometry that was read: all that comes of it has finite numbers, and is written as it is read.
+fn computed(geometry: &Geometry) -> bool {
+    assert_eq!(Geometry::from_wkt(&geometry.to_wkt()).ok().as_ref(), Some(geometry));
+    assert_eq!(Geometry::from_wkb(&geometry.to_wkb()).ok().as_ref(), Some(geometry));
+    // What takes long of many points is no subject here.
+    if geometry.points().count() > 500 {
+        return true;
+    }
+    let hull = geometry.convex_hull();
+    for made in [
+        geometry.union(&hull),
+        hull.difference(geometry),
+        geometry.intersection(&hull.envelope()),
+        geometry.make_valid(),
+        geometry.simplify(1.0),
+        geometry.boundary(),
+        geometry.centroid(),
+        geometry.point_on_surface(),
+        geometry.oriented_envelope(),
+        geometry.buffer(1.0, &BufferOptions::default()).unwrap_or_default(),
+        geometry.random_point(0.3, 0.7).unwrap_or_default(),
+        geometry.nearest_point(&hull),
+    ] {
+        assert!(made.is_sound(), "{geometry}: {made}");
+    }
+    let _ = (geometry.relate(&hull), geometry.distance(&hull), geometry.area(), geometry.length());
+    true
+}
+
 fn wkb(bytes: &[u8], folder: &Path) -> bool {
     let path = folder.join("wkb.gpkg");
     let made = || -> rusqlite::Result<()> {
