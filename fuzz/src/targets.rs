@@ -47,7 +47,7 @@ const JSON: &[&str] = &[
 ];
 
 /// All of them.
-pub(crate) const TARGETS: [Target; 18] = [
+pub(crate) const TARGETS: [Target; 21] = [
     Target {
         name: "geojson",
         read: |bytes, folder| layer(bytes, &folder.join("a.geojson")),
@@ -69,6 +69,38 @@ pub(crate) const TARGETS: [Target; 18] = [
         ],
     },
     Target { name: "geopackage", read: |bytes, folder| layer(bytes, &folder.join("a.gpkg")), words: &[] },
+    Target {
+        name: "flatgeobuf",
+        read: |bytes, folder| layer(bytes, &folder.join("a.fgb")),
+        words: &["\u{ff}\u{ff}\u{ff}\u{7f}", "\0\0\0\0", "\u{1}\0\0\0"],
+    },
+    Target {
+        name: "gml",
+        read: |bytes, folder| layer(bytes, &folder.join("a.gml")),
+        words: &[
+            "<gml:featureMember>",
+            "</gml:featureMember>",
+            "<gml:Polygon srsName=\"EPSG:4326\">",
+            "<gml:posList srsDimension=\"3\">",
+            "</gml:posList>",
+            "<gml:interior>",
+            "urn:ogc:def:crs:EPSG::4326",
+            "<!DOCTYPE a [<!ENTITY a \"a\">]>",
+            "&a;",
+            "&#0;",
+            "<![CDATA[",
+            "]]>",
+            "<!--",
+            "1e999",
+            "nan",
+            "/>",
+        ],
+    },
+    Target {
+        name: "osm",
+        read: osm,
+        words: &["\u{ff}\u{ff}\u{ff}\u{ff}\u{f}", "OSMData", "building", "\u{1a}"],
+    },
     Target {
         name: "wkt",
         read: |bytes, _| {
@@ -271,6 +303,25 @@ fn layer(bytes: &[u8], path: &Path) -> bool {
     let _ = layer.warnings();
     assert!(layer.bounds.iter().flatten().all(|value| value.is_finite()), "{:?}", layer.bounds);
     true
+}
+
+/// Layers of an extract of OpenStreetMap, in metres, and as a listing of all.
+fn osm(bytes: &[u8], folder: &Path) -> bool {
+    let path = folder.join("a.osm.pbf");
+    let _ = fs::write(&path, bytes);
+    let _ = Listing::read(&path, &budget()).map(|listing| (listing.text(), listing.to_json()));
+    let mut good = true;
+    for name in ["buildings", "roads", "trees"] {
+        let wanted =
+            SourceOptions { layer: Some(name.to_owned()), budget: budget(), ..SourceOptions::default() };
+        let source = Source::open_within(&path, "a", &wanted).and_then(|source| source.read("a", &wanted));
+        let layer = source.and_then(|table| Layer::new(table, &mut None));
+        good &= layer.is_ok_and(|layer| {
+            let _ = layer.warnings();
+            layer.bounds.iter().flatten().all(|value| value.is_finite())
+        });
+    }
+    good
 }
 
 /// The bytes as the geometry of a feature in a sound package.
