@@ -164,6 +164,9 @@ fn extracts() {
     }
 }
 
+/// Writes a million points or small polygons.
+type Writer = fn(&Path, bool);
+
 fn main() {
     let arguments: Vec<String> = std::env::args().collect();
     if let [_, command, path, part] = &arguments[..]
@@ -174,7 +177,7 @@ fn main() {
     extracts();
     let folder = tempfile::tempdir().unwrap();
     let program = std::env::current_exe().unwrap();
-    let writers: [(&str, fn(&Path, bool)); 3] =
+    let writers: [(&str, Writer); 3] =
         [("a.geojsonl", geojson), ("a.gpkg", geopackage), ("a.fgb", flatgeobuf)];
     for polygons in [false, true] {
         for (name, write) in writers {

@@ -40,7 +40,7 @@ mod tests {
     fn projections_are_within_a_millimetre_of_another_programs() {
         let projection = |code: u32| {
             let (_, definition) = known(code).unwrap().unwrap();
-            Projection::new(definition, |why| Error::data(why)).unwrap()
+            Projection::new(definition, Error::data).unwrap()
         };
         let degrees = projection(4326);
         let mut counts = std::collections::BTreeMap::new();

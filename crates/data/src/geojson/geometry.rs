@@ -137,9 +137,7 @@ fn members(
         .map_err(|error| error.message().to_owned())?;
     match kind {
         "Point" => parts.push(Geometry::point(read_as(text, One(budget))?)),
-        "MultiPoint" => {
-            parts.extend(read_as(text, ListOf(One(budget)))?.into_iter().map(|place| Geometry::point(place)))
-        }
+        "MultiPoint" => parts.extend(read_as(text, ListOf(One(budget)))?.into_iter().map(Geometry::point)),
         "LineString" => parts.extend(Geometry::line(read_as(text, ListOf(One(budget)))?)),
         "MultiLineString" => {
             parts.extend(read_as(text, ListOf(ListOf(One(budget))))?.into_iter().filter_map(Geometry::line));
