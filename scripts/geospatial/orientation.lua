@@ -5,20 +5,20 @@ local models = require("models")
 -- The ground on which all stands.
 require("pavements")
 
-local Furniture = module("Furniture", "place", "code")
+local Piece = module("Piece", "place", "code")
 local Item, End = module("Item", "place", "code"), module("End")
 local Centreline, RoadSeg = module("Centreline", "geom"), module("RoadSeg", "geom")
 local Road = module("Road", "geom", "distance")
-local Standing = module("Standing", "place", "code", "direction")
+local Turned = module("Turned", "place", "code", "direction")
 
 source("quarter/furniture.geojson")
 source("quarter/roads.geojson")
 
 local street = lsystem({ object = extruder() })
-street:axiom(query("select geom as place, code from furniture where direction is null", Furniture))
+street:axiom(query("select geom as place, code from furniture where direction is null", Piece))
 
 -- All centrelines come behind the item, in segments.
-street:rule("Furniture(place, code)", function(_, place, code)
+street:rule("Piece(place, code)", function(_, place, code)
   return Item(place, code), query("select geom from roads", Centreline), fragment(RoadSeg), End()
 end)
 -- One after the other, each tells how far it is from the item; of two the nearer one stays.
@@ -44,16 +44,16 @@ street:rule("Road(a, distance) > Road(b, nearest)", {
 end)
 -- The road that is left decides.
 street:rule("Item(place, code) > Road(geom, distance) End", function(_, place, code, geom)
-  return Standing(place, code, line(place:place(), geom:nearest_point(place):place()):direction())
+  return Turned(place, code, line(place:place(), geom:nearest_point(place):place()):direction())
 end)
-street:rule("Standing(place, code, direction) < Road(geom, distance)", function()
+street:rule("Turned(place, code, direction) < Road(geom, distance)", function()
   return nil
 end)
-street:rule("Standing(place, code, direction) < End", function()
+street:rule("Turned(place, code, direction) < End", function()
   return nil
 end)
 
-street:interpret("Standing(place, code, direction)", function(this, place, code, direction)
+street:interpret("Turned(place, code, direction)", function(this, place, code, direction)
   this:jump(place:place() + vec(0, 0, 0.15)):roll(direction):place(models.furniture[code])
 end)
 street:derive()

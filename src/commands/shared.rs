@@ -30,6 +30,10 @@ pub(crate) struct ScriptFlags {
     #[arg(long, value_name = "FOLDER")]
     data: Vec<PathBuf>,
 
+    /// Lets the script ask this database, postgres://USER:PASSWORD@HOST/NAME; may be repeated
+    #[arg(long, value_name = "ADDRESS")]
+    database: Vec<String>,
+
     /// Uses the packages in this folder, or the one that it is, besides those in mods beside the script; may be repeated
     #[arg(long, value_name = "FOLDER")]
     mods: Vec<PathBuf>,
@@ -138,6 +142,7 @@ impl ScriptFlags {
                 triangles: self.triangle_limit as usize,
             },
             data: self.data.clone(),
+            databases: self.database.clone(),
             mods: self.mods.clone(),
             user_mods: user_mods(),
             strict: self.strict,

@@ -329,6 +329,7 @@ fn help_reads_well() {
           --set <NAME=VALUE>    Sets a parameter of the script
           --preset <NAME>       Takes the parameters and the seed from a preset of the script; --set and --seed win over it
           --data <FOLDER>       Lets the script read data files in this folder and below it; may be repeated
+          --database <ADDRESS>  Lets the script ask this database, postgres://USER:PASSWORD@HOST/NAME; may be repeated
           --mods <FOLDER>       Uses the packages in this folder, or the one that it is, besides those in mods beside the script; may be repeated
           --strict              Ends with an error where there would be a warning, and at the first feature whose data cannot be built
           --seed <N>            The seed of all random numbers [default: 0]
@@ -370,18 +371,19 @@ fn help_reads_well() {
       <SCRIPT>  The script, a Lua file
 
     Options:
-          --set <NAME=VALUE>  Sets a parameter of the script
-          --preset <NAME>     Takes the parameters and the seed from a preset of the script; --set and --seed win over it
-          --data <FOLDER>     Lets the script read data files in this folder and below it; may be repeated
-          --mods <FOLDER>     Uses the packages in this folder, or the one that it is, besides those in mods beside the script; may be repeated
-          --strict            Ends with an error where there would be a warning, and at the first feature whose data cannot be built
-          --seed <N>          The seed of all random numbers [default: 0]
-          --steps <N>         Derives at most N steps
-          --lod <N>           Draws less: 0 ground plans, 1 blocks, 2 roofs, 3 everything [default: 3]
-          --threads <N>       Works with N threads; the result does not depend on it [default: one for each core]
-          --stdlib <FILE>     Reads this file in the place of the built-in standard library
-          --json              Prints one JSON document, for machines, in place of text for people
-      -h, --help              Print help
+          --set <NAME=VALUE>    Sets a parameter of the script
+          --preset <NAME>       Takes the parameters and the seed from a preset of the script; --set and --seed win over it
+          --data <FOLDER>       Lets the script read data files in this folder and below it; may be repeated
+          --database <ADDRESS>  Lets the script ask this database, postgres://USER:PASSWORD@HOST/NAME; may be repeated
+          --mods <FOLDER>       Uses the packages in this folder, or the one that it is, besides those in mods beside the script; may be repeated
+          --strict              Ends with an error where there would be a warning, and at the first feature whose data cannot be built
+          --seed <N>            The seed of all random numbers [default: 0]
+          --steps <N>           Derives at most N steps
+          --lod <N>             Draws less: 0 ground plans, 1 blocks, 2 roofs, 3 everything [default: 3]
+          --threads <N>         Works with N threads; the result does not depend on it [default: one for each core]
+          --stdlib <FILE>       Reads this file in the place of the built-in standard library
+          --json                Prints one JSON document, for machines, in place of text for people
+      -h, --help                Print help
 
     Limits:
           --time-limit <SECONDS>      Stops after this time [default: 300]

@@ -16,6 +16,7 @@ mod files;
 mod fitting;
 mod footprints;
 mod foreign;
+mod geometries;
 mod hostile;
 mod limits;
 mod mods;

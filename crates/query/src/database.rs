@@ -74,6 +74,11 @@ pub(crate) struct PreparedStatement {
     pub rewritten: Option<Rewritten>,
 }
 
+/// Whether a statement names a table.
+pub fn names_table(sql: &str, table: &str) -> bool {
+    rewrite::find_word(sql, table).is_some()
+}
+
 impl std::fmt::Debug for Database {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         write!(f, "Database({})", self.tables().join(", "))

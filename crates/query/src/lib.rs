@@ -26,5 +26,5 @@ mod tables;
 mod tests;
 
 pub use cell::{Cell, QueryAnswer};
-pub use database::Database;
+pub use database::{Database, names_table};
 pub use functions::{FUNCTIONS, SpatialFunction};

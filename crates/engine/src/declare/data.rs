@@ -21,14 +21,14 @@ pub(crate) struct Data {
 }
 
 #[derive(Default)]
-struct LayerStore {
+pub(super) struct LayerStore {
     /// The projection and the origin, which the first source decides.
-    frame: Option<ReferenceFrame>,
+    pub(super) frame: Option<ReferenceFrame>,
     loaded: BTreeMap<String, Result<Arc<Layer>>>,
     /// What was made of files, by type, file and fields.
     objects: BTreeMap<String, Result<LoadedObject>>,
     /// The sources as tables.
-    tables: SourceTables,
+    pub(super) tables: SourceTables,
     /// What all reading of the run may take.
     budget: Option<Arc<Budget>>,
 }
@@ -162,6 +162,9 @@ fn read(
     known: &mut LayerStore,
     table: Option<&str>,
 ) -> Result<Arc<Layer>> {
+    if text.starts_with("postgres://") || text.starts_with("postgresql://") {
+        return super::servers::read(session, text, wanted, known, table);
+    }
     let (name, layer) = split_name(text);
     let SourceOptions { condition, limit, id, kind, crs, .. } = &wanted;
     let is_whole = (condition, limit, id, kind, crs) == (&None, &None, &None, &None, &None);

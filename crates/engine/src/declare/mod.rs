@@ -13,6 +13,7 @@ mod param;
 pub(crate) mod paths;
 mod positions;
 mod preset;
+mod servers;
 mod session;
 mod tables;
 mod types;

@@ -87,6 +87,8 @@ pub struct RunOptions {
     pub stop: Option<Arc<Stop>>,
     /// Folders besides the script's whose data files it may read.
     pub data: Vec<PathBuf>,
+    /// Addresses of databases that it may ask, with a password where one is needed.
+    pub databases: Vec<String>,
     /// Folders besides `mods` beside the script that packages are in, or that are packages.
     pub mods: Vec<PathBuf>,
     /// The user's own folder of packages, which need not be there.
@@ -143,6 +145,7 @@ impl Default for RunOptions {
             print: None,
             stop: None,
             data: Vec::new(),
+            databases: Vec::new(),
             mods: Vec::new(),
             user_mods: None,
             cache: None,

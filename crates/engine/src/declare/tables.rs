@@ -2,8 +2,12 @@
 
 use std::path::PathBuf;
 use std::sync::Arc;
+#[cfg(feature = "postgis")]
+use std::time::Duration;
 
 use burgeon_data::{Feature, Layer};
+#[cfg(feature = "postgis")]
+use burgeon_query::postgis::{Server, ServerAddress};
 
 /// A source as a table.
 #[cfg_attr(not(feature = "data"), allow(dead_code, reason = "nobody can ask"))]
@@ -22,6 +26,9 @@ pub(super) enum TableContent {
     GeoPackage { path: PathBuf, shown: String, layer: String },
     /// What the script made, in metres around the origin of the run.
     List(ListTable),
+    /// A table of a server.
+    #[cfg(feature = "postgis")]
+    Server(Arc<Server>),
 }
 
 /// A list of features that the script made.
@@ -39,12 +46,37 @@ pub(super) struct SourceTables {
     loaded: Vec<SourceTable>,
     #[cfg(feature = "data")]
     database: Option<database::SourceDatabase>,
+    /// The servers that were asked.
+    #[cfg(feature = "postgis")]
+    servers: Vec<Arc<Server>>,
 }
 
 impl SourceTables {
     /// Adds what a source is.
     pub(super) fn add(&mut self, table: SourceTable) {
         self.loaded.push(table);
+    }
+
+    /// The server at an address; no question to it takes longer than `most`.
+    #[cfg(feature = "postgis")]
+    pub(super) fn server(&mut self, address: &ServerAddress, most: Duration) -> Arc<Server> {
+        if let Some(known) = self.servers.iter().find(|known| known.address() == address) {
+            return Arc::clone(known);
+        }
+        let server = Arc::new(Server::new(address, Some(most)));
+        self.servers.push(Arc::clone(&server));
+        server
+    }
+
+    /// The server that has a table which a statement names.
+    #[cfg(feature = "postgis")]
+    fn asked_server(&self, sql: &str) -> Option<Arc<Server>> {
+        self.loaded.iter().find_map(|table| match &table.content {
+            TableContent::Server(server) if burgeon_query::names_table(sql, &table.name) => {
+                Some(Arc::clone(server))
+            }
+            _ => None,
+        })
     }
 }
 

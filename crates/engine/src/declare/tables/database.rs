@@ -40,6 +40,8 @@ impl SourceTables {
                 TableContent::GeoPackage { path, shown, layer } => {
                     known.database.add_geopackage(&table.name, path, shown, layer, budget)?;
                 }
+                #[cfg(feature = "postgis")]
+                TableContent::Server(_) => {}
                 TableContent::List(list) => {
                     let layer = Layer {
                         name: table.name.clone(),
@@ -51,6 +53,7 @@ impl SourceTables {
                         bounds: [[0.0; 3]; 2],
                         empty: 0,
                         refused: Vec::new(),
+                        notes: Vec::new(),
                     };
                     known.database.add_layer(&table.name, &layer, budget)?;
                 }
@@ -71,6 +74,16 @@ impl RowSource for Session {
         let values = question.values()?;
         let cells: Vec<(&str, Cell)> =
             values.iter().map(|(name, value)| Ok((*name, cell(name, value)?))).collect::<Result<_>>()?;
+        #[cfg(feature = "postgis")]
+        let (server, frame) = self.data.with_tables(self, |tables, frame, _| {
+            Ok((tables.asked_server(question.sql()), frame.cloned()))
+        })?;
+        #[cfg(feature = "postgis")]
+        let answer = match server {
+            Some(server) => server.query(question.sql(), &cells, frame.as_ref(), &budget)?,
+            None => database.query(question.sql(), &cells, &budget)?,
+        };
+        #[cfg(not(feature = "postgis"))]
         let answer = database.query(question.sql(), &cells, &budget)?;
         if answer.rows.len() > most {
             let text =
