@@ -21,6 +21,7 @@ mod hostile;
 mod limits;
 mod mods;
 mod neighbors;
+mod networks;
 mod outputs;
 mod own_types;
 mod packages;
