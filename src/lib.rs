@@ -19,12 +19,13 @@
 //! scene      uses ──► base
 //! geometry   uses ──► base, scene
 //! spatial    uses ──► base, geometry
+//! streets    uses ──► base, geometry
 //! data       uses ──► base, spatial
 //! query      uses ──► base, data, geometry, spatial
 //! kit        uses ──► base, data, geometry, macros, scene, spatial
 //! language   uses ──► kit
 //! terrain    uses ──► base, geometry, kit, scene
-//! objects    uses ──► base, data, geometry, kit, scene, terrain
+//! objects    uses ──► base, data, geometry, kit, scene, streets, terrain
 //! packages   uses ──► base
 //! engine     uses ──► base, data, kit, language, packages, query, scene
 //! export     uses ──► base, data, scene

@@ -179,6 +179,51 @@ fn the_village_has_what_its_script_draws() {
     assert!(path.metadata().unwrap().len() < 60_000);
 }
 
+#[test]
+fn the_same_features_are_read_from_every_format_that_another_program_writes() {
+    let corpus = Path::new(env!("CARGO_MANIFEST_DIR")).join("fuzz/corpus");
+    let expected = [
+        "a 3.5 1 POLYGON ((385400 6671500, 385440 6671500, 385440 6671540, 385400 6671540, 385400 6671500), (385410 6671510, 385410 6671520, 385420 6671520, 385410 6671510))",
+        "b 7 2 POLYGON ((385540 6671500, 385540 6671540, 385500 6671540, 385500 6671500, 385540 6671500))",
+        "b 7 2 POLYGON ((385640 6671500, 385640 6671540, 385600 6671540, 385600 6671500, 385640 6671500))",
+    ];
+    let mut files = 0;
+    for name in [
+        "flatgeobuf/good-index.fgb",
+        "flatgeobuf/good-row.fgb",
+        "gml/good-32.gml",
+        "gml/good-31.gml",
+        "gml/good-2.gml",
+    ] {
+        let table =
+            Source::open(&corpus.join(name), name).unwrap().read(name, &SourceOptions::default()).unwrap();
+        let mut found: Vec<String> = table
+            .features
+            .iter()
+            .map(|feature| {
+                let of = |name: &str| {
+                    let column = table.names.iter().position(|known| known == name).unwrap();
+                    let found = feature.attributes.iter().find(|(number, _)| *number == column).unwrap();
+                    match &found.1 {
+                        burgeon::sources::Attribute::Number(number) => number.to_string(),
+                        burgeon::sources::Attribute::Text(text) => text.to_string(),
+                        other => format!("{other:?}"),
+                    }
+                };
+                format!("{} {} {} {}", of("name"), of("height"), of("levels"), feature.geometry.to_wkt())
+            })
+            .collect();
+        found.sort();
+        assert_eq!(found, expected, "{name}");
+        assert_eq!(table.crs.unwrap().code, Some(3067), "{name}");
+        files += 1;
+    }
+    assert_eq!(files, 5);
+    let degrees = corpus.join("gml/good-degrees.gml");
+    let table = Source::open(&degrees, "a").unwrap().read("a", &SourceOptions::default()).unwrap();
+    assert!(table.features[0].geometry.points().all(|at| at.x < 30.0 && at.y > 60.0));
+}
+
 /// The rings of one of the polygons that triangulators are tested with.
 fn rings(text: &str) -> Rings {
     let rings: Vec<Vec<Vec<f64>>> = serde_json::from_str(text).unwrap();

@@ -15,7 +15,7 @@ use burgeon::query::{Cell, Database};
 use burgeon::script::{Limits, Print, RunOptions};
 use burgeon::sources::elevation::{HeightOptions as WantedHeights, Raster, Relief};
 use burgeon::sources::{Cache, Layer, Listing, Source, SourceOptions};
-use burgeon::spatial::Geometry;
+use burgeon::spatial::{BufferOptions, Geometry};
 use burgeon::{Budget, Error, Result};
 use rusqlite::Connection;
 
@@ -47,7 +47,7 @@ const JSON: &[&str] = &[
 ];
 
 /// All of them.
-pub(crate) const TARGETS: [Target; 16] = [
+pub(crate) const TARGETS: [Target; 21] = [
     Target {
         name: "geojson",
         read: |bytes, folder| layer(bytes, &folder.join("a.geojson")),
@@ -69,6 +69,69 @@ pub(crate) const TARGETS: [Target; 16] = [
         ],
     },
     Target { name: "geopackage", read: |bytes, folder| layer(bytes, &folder.join("a.gpkg")), words: &[] },
+    Target {
+        name: "flatgeobuf",
+        read: |bytes, folder| layer(bytes, &folder.join("a.fgb")),
+        words: &["\u{ff}\u{ff}\u{ff}\u{7f}", "\0\0\0\0", "\u{1}\0\0\0"],
+    },
+    Target {
+        name: "gml",
+        read: |bytes, folder| layer(bytes, &folder.join("a.gml")),
+        words: &[
+            "<gml:featureMember>",
+            "</gml:featureMember>",
+            "<gml:Polygon srsName=\"EPSG:4326\">",
+            "<gml:posList srsDimension=\"3\">",
+            "</gml:posList>",
+            "<gml:interior>",
+            "urn:ogc:def:crs:EPSG::4326",
+            "<!DOCTYPE a [<!ENTITY a \"a\">]>",
+            "&a;",
+            "&#0;",
+            "<![CDATA[",
+            "]]>",
+            "<!--",
+            "1e999",
+            "nan",
+            "/>",
+        ],
+    },
+    Target {
+        name: "osm",
+        read: osm,
+        words: &["\u{ff}\u{ff}\u{ff}\u{ff}\u{f}", "OSMData", "building", "\u{1a}"],
+    },
+    Target {
+        name: "wkt",
+        read: |bytes, _| {
+            Geometry::from_wkt_within(&String::from_utf8_lossy(bytes), &budget())
+                .is_ok_and(|it| computed(&it))
+        },
+        words: &[
+            "SRID=4326;",
+            "GEOMETRYCOLLECTION (",
+            "MULTISURFACE (",
+            "CURVEPOLYGON (",
+            "COMPOUNDCURVE (",
+            "CIRCULARSTRING (0 0, 4 0, 0 0)",
+            "POLYGON ((0 0, 9 0, 9 9, 0 0))",
+            "MULTIPOINT",
+            "LINESTRING Z (0 0 0, 9 9 9)",
+            " EMPTY",
+            " ZM",
+            "POINT (1 2)",
+            "1e15",
+            "1e-300",
+            "nan",
+            ",",
+            ")",
+        ],
+    },
+    Target {
+        name: "geometry",
+        read: |bytes, _| Geometry::from_wkb(bytes).is_ok_and(|it| computed(&it)),
+        words: &["\u{1}\u{7}\0\0\0\u{1}\0\0\0", "\u{1}\u{6}\0\0\0", "\0\0\0\u{8}", "\u{f0}\u{3f}"],
+    },
     Target { name: "wkb", read: wkb, words: &["GP\0", "\0\0\0\u{8}", "\u{1}\u{6}\0\0\0"] },
     Target {
         name: "ascii",
@@ -242,7 +305,55 @@ fn layer(bytes: &[u8], path: &Path) -> bool {
     true
 }
 
+/// Layers of an extract of OpenStreetMap, in metres, and as a listing of all.
+fn osm(bytes: &[u8], folder: &Path) -> bool {
+    let path = folder.join("a.osm.pbf");
+    let _ = fs::write(&path, bytes);
+    let _ = Listing::read(&path, &budget()).map(|listing| (listing.text(), listing.to_json()));
+    let mut good = true;
+    for name in ["buildings", "roads", "trees"] {
+        let wanted =
+            SourceOptions { layer: Some(name.to_owned()), budget: budget(), ..SourceOptions::default() };
+        let source = Source::open_within(&path, "a", &wanted).and_then(|source| source.read("a", &wanted));
+        let layer = source.and_then(|table| Layer::new(table, &mut None));
+        good &= layer.is_ok_and(|layer| {
+            let _ = layer.warnings();
+            layer.bounds.iter().flatten().all(|value| value.is_finite())
+        });
+    }
+    good
+}
+
 /// The bytes as the geometry of a feature in a sound package.
+/// Computes with a geometry that was read: all that comes of it has finite numbers, and is written as it is read.
+fn computed(geometry: &Geometry) -> bool {
+    assert_eq!(Geometry::from_wkt(&geometry.to_wkt()).ok().as_ref(), Some(geometry));
+    assert_eq!(Geometry::from_wkb(&geometry.to_wkb()).ok().as_ref(), Some(geometry));
+    // What takes long of many points is no subject here.
+    if geometry.points().count() > 500 {
+        return true;
+    }
+    let hull = geometry.convex_hull();
+    for made in [
+        geometry.union(&hull),
+        hull.difference(geometry),
+        geometry.intersection(&hull.envelope()),
+        geometry.make_valid(),
+        geometry.simplify(1.0),
+        geometry.boundary(),
+        geometry.centroid(),
+        geometry.point_on_surface(),
+        geometry.oriented_envelope(),
+        geometry.buffer(1.0, &BufferOptions::default()).unwrap_or_default(),
+        geometry.random_point(0.3, 0.7).unwrap_or_default(),
+        geometry.nearest_point(&hull),
+    ] {
+        assert!(made.is_sound(), "{geometry}: {made}");
+    }
+    let _ = (geometry.relate(&hull), geometry.distance(&hull), geometry.area(), geometry.length());
+    true
+}
+
 fn wkb(bytes: &[u8], folder: &Path) -> bool {
     let path = folder.join("wkb.gpkg");
     let made = || -> rusqlite::Result<()> {

@@ -69,6 +69,10 @@ fn a_type_is_told_with_its_fields_and_methods_and_an_example() {
     Fields
       where: string?
           An SQL condition, for GeoPackages.
+      tags: { [string]: any }?
+          What tags of OpenStreetMap are: true for any value but no, "*" for any, false for none, a text, or a list of texts. All of them hold; of a list of such tables, one holds.
+      within: { number }?
+          West, south, east and north of a box that features touch, in the coordinates of the file.
       limit: number?
           At most as many features.
       id: string?

@@ -1,5 +1,6 @@
 //! What stands in the place of `formats` where a program is built without the feature `data`: it says so.
 
+use std::fs::File;
 use std::path::Path;
 
 use super::{FeatureTable, SourceOptions};
@@ -23,6 +24,50 @@ impl GeoPackage {
 
     pub(crate) fn read(self, _layer: &str, _wanted: &SourceOptions) -> Result<FeatureTable> {
         match self {}
+    }
+}
+
+/// A format of files of which none is read without the feature `data`.
+macro_rules! absent {
+    ($name:ident, $doc:literal, ($($argument:ident: $kind:ty),*)) => {
+        #[doc = $doc]
+        pub enum $name {}
+
+        impl $name {
+            pub(crate) fn open(_file: File, _path: &Path, name: &str, _wanted: &SourceOptions) -> Result<Self> {
+                left_out().map_err(|error: Error| error.about(name))
+            }
+
+            pub(crate) fn layers(&self) -> Vec<String> {
+                match *self {}
+            }
+
+            pub(crate) fn read(&self, $($argument: $kind),*) -> Result<FeatureTable> {
+                match *self {}
+            }
+        }
+    };
+}
+
+absent!(FlatGeobuf, "A row of features, of which there is none without the feature `data`.", (_wanted: &SourceOptions));
+absent!(GmlFile, "A file of GML, of which there is none without the feature `data`.", (_layer: &str, _wanted: &SourceOptions));
+absent!(OsmFile, "An extract, of which there is none without the feature `data`.", (_wanted: &SourceOptions));
+
+impl FlatGeobuf {
+    pub(crate) fn is_one(head: &[u8]) -> bool {
+        head.starts_with(b"fgb")
+    }
+}
+
+impl GmlFile {
+    pub(crate) fn is_one(head: &[u8]) -> bool {
+        head.trim_ascii_start().starts_with(b"<")
+    }
+}
+
+impl OsmFile {
+    pub(crate) fn is_one(head: &[u8]) -> bool {
+        head.get(4..15).is_some_and(|found| found == b"\x0a\x09OSMHeader")
     }
 }
 

@@ -346,7 +346,7 @@ mod tests {
     use super::*;
 
     fn table(code: u32, points: &[[f64; 2]]) -> FeatureTable {
-        let mut table = FeatureTable::new("a", "a", Crs::epsg(code), std::sync::Arc::default());
+        let mut table = FeatureTable::new("a", "a", Crs::epsg(code), &crate::SourceOptions::default());
         for [x, y] in points {
             table.push("p", vec![Geometry::point([*x, *y, 5.0])], Vec::new()).unwrap();
         }

@@ -28,6 +28,8 @@ pub struct Layer {
     pub empty: usize,
     /// The ids of features whose geometry cannot be read or has no place, and why; they are left out.
     pub refused: Vec<(String, Error)>,
+    /// What people should know of how it was read, besides what was left out.
+    pub notes: Vec<String>,
 }
 
 impl Layer {
@@ -48,6 +50,7 @@ impl Layer {
             let warning = Warning::new(WarningKind::Data, text);
             warnings.push(warning.help(error.remedy().unwrap_or("repair the file, or leave them out")));
         }
+        warnings.extend(self.notes.iter().map(|note| Warning::new(WarningKind::Data, note.clone())));
         warnings
     }
 
@@ -93,6 +96,7 @@ impl Layer {
             bounds,
             empty: table.empty,
             refused: table.refused,
+            notes: table.notes,
         })
     }
 }
@@ -119,7 +123,7 @@ mod tests {
             [[0.0, 0.0], [0.0, size], [size, size], [size, 0.0]].map(|[x, y]| DVec3::new(x, y, 0.0)).to_vec()
         };
         let hole: Vec<DVec3> = square(1.0).into_iter().rev().collect();
-        let mut table = FeatureTable::new("a", "a", Crs::epsg(3067), std::sync::Arc::default());
+        let mut table = FeatureTable::new("a", "a", Crs::epsg(3067), &crate::SourceOptions::default());
         table.push("1", vec![Geometry::Polygon(Rings(vec![square(4.0), hole.clone()]))], Vec::new()).unwrap();
         let layer = Layer::new(table, &mut None).unwrap();
         let outer = square(4.0).into_iter().rev().collect();

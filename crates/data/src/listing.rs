@@ -21,7 +21,7 @@ const EXAMPLES: usize = 3;
 pub struct Listing {
     /// The file as it was named.
     pub file: String,
-    /// `GeoJSON` or `GeoPackage`.
+    /// What its format is called, such as `GeoPackage`.
     pub format: &'static str,
     /// Its layers, in order.
     pub layers: Vec<LayerListing>,
@@ -79,6 +79,24 @@ impl Listing {
                 for layer in package.layers() {
                     let Source::GeoPackage(package) = open()? else { continue };
                     layers.push(LayerListing::of(&package.read(&layer, &wanted)?));
+                    budget.settle(before, 0);
+                }
+            }
+            Source::FlatGeobuf(file) => layers.push(LayerListing::of(&file.read(&wanted)?)),
+            Source::Gml(file) => {
+                for layer in file.layers() {
+                    layers.push(LayerListing::of(&file.read(&layer, &wanted)?));
+                    budget.settle(before, 0);
+                }
+            }
+            Source::Osm(file) => {
+                for layer in file.layers() {
+                    let wanted = SourceOptions { layer: Some(layer), ..wanted.clone() };
+                    let layer = LayerListing::of(&file.read(&wanted)?);
+                    // Those are offered that the extract has something of.
+                    if layer.records > 0 || layer.refused.is_some() {
+                        layers.push(layer);
+                    }
                     budget.settle(before, 0);
                 }
             }

@@ -1,10 +1,13 @@
 //! What a layer holds, as it stands in its file.
 
+use std::hash::BuildHasher;
 use std::sync::Arc;
 
+use hashbrown::HashTable;
 use rayon::prelude::*;
-use rustc_hash::FxHashMap;
+use rustc_hash::{FxBuildHasher, FxHashMap, FxHashSet};
 
+use super::id::FeatureId;
 use super::{Crs, SourceOptions};
 use burgeon_base::budget::Budget;
 use burgeon_base::error::{Error, Result};
@@ -28,7 +31,7 @@ pub enum Attribute {
 #[derive(Debug, Clone)]
 pub struct Feature {
     /// Tells it from all others of its layer.
-    pub id: String,
+    pub id: FeatureId,
     /// Where it is: a geometry of one part.
     pub geometry: Geometry,
     /// What it knows: the number of the name in [`FeatureTable::names`], and the value. Shared by the parts of a geometry.
@@ -54,13 +57,117 @@ pub struct FeatureTable {
     pub empty: usize,
     /// The ids of features whose geometry cannot be read, and why; they are left out.
     pub refused: Vec<(String, Error)>,
-    /// The ids that are taken, each with the number that was tried last behind it.
-    ids: FxHashMap<String, usize>,
+    /// What people should know of how it was read, besides what was left out.
+    pub notes: Vec<String>,
+    selection: Selection,
+    ids: TakenIds,
+    /// The numbers of the attributes' names.
+    numbers: FxHashMap<String, usize>,
+    /// Short texts that came lately, which many features share.
+    texts: FxHashSet<Arc<str>>,
     budget: Arc<Budget>,
 }
 
+/// Which features are kept as they are read.
+#[derive(Debug)]
+struct Selection {
+    kind: Option<GeometryKind>,
+    /// West, south, east and north of what features touch, in the coordinates of the file.
+    within: Option<[f64; 4]>,
+    limit: Option<usize>,
+    /// The kinds that there were, by their numbers, whether they are kept or not.
+    seen: [bool; 3],
+}
+
+impl Selection {
+    fn keeps(&mut self, geometry: &Geometry) -> bool {
+        if let Some(seen) = self.seen.get_mut(geometry.kind() as usize) {
+            *seen = true;
+        }
+        self.kind.is_none_or(|kind| kind == geometry.kind())
+            && self.within.is_none_or(|within| touches(geometry, within))
+    }
+}
+
+/// Whether the bounds of a geometry and a box have a place in common.
+fn touches(geometry: &Geometry, [west, south, east, north]: [f64; 4]) -> bool {
+    let (mut low, mut high) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
+    for point in geometry.points() {
+        for axis in 0..2 {
+            low[axis] = low[axis].min(point[axis]);
+            high[axis] = high[axis].max(point[axis]);
+        }
+    }
+    low[0] <= east && low[1] <= north && high[0] >= west && high[1] >= south
+}
+
+/// The ids that are taken.
+#[derive(Debug, Default)]
+struct TakenIds {
+    /// The numbers of features, by their ids.
+    features: HashTable<u32>,
+    /// The number that was tried last behind an id that came again.
+    last: FxHashMap<String, usize>,
+}
+
+fn hash(id: &str) -> u64 {
+    FxBuildHasher.hash_one(id)
+}
+
+impl TakenIds {
+    /// The id that the next of `features` gets, where it wants `id`: that one, or it with a number behind it.
+    fn fresh(&mut self, id: &str, features: &[Feature]) -> FeatureId {
+        let last = self.last.get(id).copied();
+        let id = match last.is_some() || self.taken(id, features) {
+            false => FeatureId::from(id),
+            true => {
+                let mut count = last.unwrap_or(1);
+                let unique = loop {
+                    count += 1;
+                    let unique = format!("{id}.{count}");
+                    if !self.taken(&unique, features) {
+                        break unique;
+                    }
+                };
+                self.last.insert(id.to_owned(), count);
+                FeatureId::from(unique.as_str())
+            }
+        };
+        let number = u32::try_from(features.len()).unwrap_or(u32::MAX);
+        let own = hash(&id);
+        let of = |number: &u32| {
+            // The next one is not there yet.
+            features.get(*number as usize).map_or(own, |feature| hash(&feature.id))
+        };
+        self.features.insert_unique(own, number, of);
+        id
+    }
+
+    /// Counts a part with this id that is not wanted, so that others have the same ids as if it were.
+    fn skip(&mut self, id: &str, features: &[Feature]) {
+        let first = usize::from(self.taken(id, features));
+        *self.last.entry(id.to_owned()).or_insert(first) += 1;
+    }
+
+    fn taken(&self, id: &str, features: &[Feature]) -> bool {
+        let same = |number: &u32| features.get(*number as usize).is_some_and(|feature| feature.id == *id);
+        self.features.find(hash(id), same).is_some()
+    }
+}
+
+/// About how much memory (bytes) a geometry takes besides its own place.
+fn weight(geometry: &Geometry) -> usize {
+    geometry.lists().iter().map(|list| if list.len() > 1 { 48 + 24 * list.len() } else { 0 }).sum()
+}
+
+/// How many texts are remembered, and the longest of them (bytes).
+const TEXTS: usize = 4096;
+const LONGEST_TEXT: usize = 40;
+
 impl FeatureTable {
-    pub(super) fn new(layer: &str, shown: &str, crs: Result<Crs>, budget: Arc<Budget>) -> Self {
+    /// An empty table of a layer, which keeps what is `wanted`.
+    pub(super) fn new(layer: &str, shown: &str, crs: Result<Crs>, wanted: &SourceOptions) -> Self {
+        let SourceOptions { kind, within, limit, .. } = *wanted;
         Self {
             layer: layer.to_owned(),
             shown: shown.to_owned(),
@@ -70,8 +177,12 @@ impl FeatureTable {
             records: 0,
             empty: 0,
             refused: Vec::new(),
-            ids: FxHashMap::default(),
-            budget,
+            notes: Vec::new(),
+            selection: Selection { kind, within, limit, seen: [false; 3] },
+            ids: TakenIds::default(),
+            numbers: FxHashMap::default(),
+            texts: FxHashSet::default(),
+            budget: Arc::clone(&wanted.budget),
         }
     }
 
@@ -82,12 +193,59 @@ impl FeatureTable {
         shown: &str,
         crs: Result<Crs>,
         names: Vec<String>,
-        budget: Arc<Budget>,
+        wanted: &SourceOptions,
     ) -> Self {
-        Self { names, ..Self::new(layer, shown, crs, budget) }
+        Self { names, ..Self::new(layer, shown, crs, wanted) }
     }
 
-    /// Adds a feature for each of `parts`; with an id that is taken, it becomes `id.2`, `id.3` and so on.
+    /// The number of the attribute called `name`, which is added if it is new.
+    pub(super) fn name(&mut self, name: &str) -> usize {
+        match self.numbers.get(name) {
+            Some(number) => *number,
+            None => {
+                let number = self.names.len();
+                self.names.push(name.to_owned());
+                self.numbers.insert(name.to_owned(), number);
+                number
+            }
+        }
+    }
+
+    /// A text as an attribute; features share those that come often.
+    pub(super) fn text(&mut self, text: &str) -> Attribute {
+        if text.len() > LONGEST_TEXT {
+            return Attribute::Text(text.into());
+        }
+        if let Some(known) = self.texts.get(text) {
+            return Attribute::Text(Arc::clone(known));
+        }
+        if self.texts.len() >= TEXTS {
+            self.texts.clear();
+        }
+        let text: Arc<str> = text.into();
+        self.texts.insert(Arc::clone(&text));
+        Attribute::Text(text)
+    }
+
+    /// Whether as many features are there as are wanted.
+    pub(super) fn is_full(&self) -> bool {
+        self.selection.limit.is_some_and(|limit| self.features.len() >= limit)
+    }
+
+    /// Whether there was a geometry, kept or not.
+    pub(super) fn has_seen(&self) -> bool {
+        self.selection.seen.contains(&true)
+    }
+
+    /// Whether features in this box (west, south, east, north) may be wanted.
+    #[cfg(feature = "data")]
+    pub(super) fn may_keep(&self, [west, south, east, north]: [f64; 4]) -> bool {
+        self.selection.within.is_none_or(|within| {
+            west <= within[2] && south <= within[3] && east >= within[0] && north >= within[1]
+        })
+    }
+
+    /// Adds a feature for each of `parts` that is wanted; with an id that is taken, it becomes `id.2`, `id.3` and so on.
     ///
     /// Fails if reading is to end, or if there is no memory left for more.
     pub fn push(
@@ -101,14 +259,28 @@ impl FeatureTable {
             self.empty += 1;
             return Ok(());
         }
-        let known: usize = attributes.iter().map(|(_, value)| 40 + value.weight()).sum();
-        let points: usize = parts.iter().map(|part| part.points().count() * 24).sum();
-        // Each id is kept twice, in a list and in a map.
-        self.budget.take(known + points + parts.len() * (300 + 2 * id.len()))?;
+        let several = parts.len() > 1;
+        let keeps: Vec<bool> = parts.iter().map(|part| self.selection.keeps(part)).collect();
+        if self.is_full() || !keeps.contains(&true) {
+            return Ok(());
+        }
+        let known: usize = attributes.iter().map(|(_, value)| 32 + value.weight()).sum();
+        let points: usize = parts.iter().map(weight).sum();
+        self.budget.take(40 + known + points + parts.len() * (size_of::<Feature>() + 16))?;
         self.records += 1;
         let attributes: Arc<[(usize, Attribute)]> = attributes.into();
-        for geometry in parts {
-            let id = self.fresh(id);
+        for (geometry, keeps) in parts.into_iter().zip(keeps) {
+            if !keeps {
+                if several {
+                    self.ids.skip(id, &self.features);
+                }
+                continue;
+            }
+            if self.is_full() {
+                break;
+            }
+            let id = self.ids.fresh(id, &self.features);
+            self.budget.take(id.weight())?;
             self.features.push(Feature { id, geometry, attributes: Arc::clone(&attributes) });
         }
         Ok(())
@@ -120,25 +292,13 @@ impl FeatureTable {
         if let Some(code) = wanted.crs {
             self.crs = Crs::epsg(code);
         }
-        self.choose(wanted.kind)?;
-        if let Some(limit) = wanted.limit {
-            self.features.truncate(limit);
-        }
-        if let (true, Some((_, error))) = (self.features.is_empty(), self.refused.first()) {
+        self.check_kind()?;
+        if let (true, Some((_, error))) = (self.features.is_empty() && !self.has_seen(), self.refused.first())
+        {
             return Err(error.clone());
         }
         if self.features.is_empty() {
-            let what = &self.shown;
-            return Err(match (&wanted.condition, wanted.limit) {
-                (_, Some(0)) => {
-                    Error::argument(format!("limit = 0 leaves no feature of {what}")).help("leave limit out")
-                }
-                (Some(condition), _) => Error::data(format!("no feature of {what} meets where {condition}"))
-                    .help("burgeon sources FILE lists attributes and their values"),
-                (None, _) if self.empty > 0 => Error::data(format!("{what} has no features with a geometry")),
-                (None, _) => Error::data(format!("{what} has no features")),
-            }
-            .help("check the file: burgeon sources FILE"));
+            return Err(super::source::nothing(&self, wanted).help("check the file: burgeon sources FILE"));
         }
         Ok(self)
     }
@@ -162,7 +322,7 @@ impl FeatureTable {
         }
         for (feature, wrong) in std::mem::take(&mut self.features).into_iter().zip(wrong) {
             match wrong {
-                Some(error) => self.refuse(feature.id, error)?,
+                Some(error) => self.refuse(feature.id.to_string(), error)?,
                 None => self.features.push(feature),
             }
         }
@@ -182,24 +342,6 @@ impl FeatureTable {
         })
     }
 
-    fn fresh(&mut self, id: &str) -> String {
-        let Some(mut count) = self.ids.get(id).copied() else {
-            self.ids.insert(id.to_owned(), 1);
-            return id.to_owned();
-        };
-        loop {
-            count += 1;
-            let unique = format!("{id}.{count}");
-            if !self.ids.contains_key(&unique) {
-                self.ids.insert(unique.clone(), 1);
-                if let Some(last) = self.ids.get_mut(id) {
-                    *last = count;
-                }
-                return unique;
-            }
-        }
-    }
-
     /// The number of the attribute `name`, and an error that lists those that there are if there is none.
     pub(super) fn column(&self, name: &str) -> Result<usize> {
         self.names.iter().position(|known| known == name).ok_or_else(|| {
@@ -213,35 +355,32 @@ impl FeatureTable {
     pub(super) fn identify(&mut self, name: Option<&str>) -> Result<()> {
         let Some(name) = name else { return Ok(()) };
         let column = self.column(name)?;
-        self.ids.clear();
+        self.ids = TakenIds::default();
         for mut feature in std::mem::take(&mut self.features) {
             let known = feature.attributes.iter().find(|(index, _)| *index == column);
-            let id = known.map_or_else(|| feature.id.clone(), |(_, value)| value.as_id());
-            feature.id = self.fresh(&id);
+            let id = known.map_or_else(|| feature.id.to_string(), |(_, value)| value.as_id());
+            feature.id = self.ids.fresh(&id, &self.features);
             self.features.push(feature);
         }
         Ok(())
     }
 
-    /// Leaves only geometries of the kind that is wanted, of which there must be one.
-    pub(super) fn choose(&mut self, kind: Option<GeometryKind>) -> Result<()> {
-        let Some(kind) = kind else { return Ok(()) };
-        let there: Vec<&str> = GeometryKind::SINGLE
-            .iter()
-            .filter(|known| self.features.iter().any(|feature| feature.geometry.kind() == **known))
-            .map(|known| known.name())
-            .collect();
-        self.features.retain(|feature| feature.geometry.kind() == kind);
-        if self.features.is_empty() && !there.is_empty() {
-            return Err(Error::argument(format!(
-                "{} has geometries of kind {}, none of kind {}",
-                self.shown,
-                there.join(" and "),
-                kind.name()
-            ))
-            .help("name another layer, or leave kind out"));
+    /// Fails if there were geometries, but none of the kind that is wanted.
+    pub(super) fn check_kind(&self) -> Result<()> {
+        let Some(kind) = self.selection.kind else { return Ok(()) };
+        let seen = |known: &GeometryKind| self.selection.seen.get(*known as usize) == Some(&true);
+        let there: Vec<&str> =
+            GeometryKind::SINGLE.iter().filter(|known| seen(known)).map(|known| known.name()).collect();
+        if there.is_empty() || seen(&kind) {
+            return Ok(());
         }
-        Ok(())
+        Err(Error::argument(format!(
+            "{} has geometries of kind {}, none of kind {}",
+            self.shown,
+            there.join(" and "),
+            kind.name()
+        ))
+        .help("name another layer, or leave kind out"))
     }
 }
 
@@ -289,11 +428,13 @@ impl Attribute {
 
 #[cfg(test)]
 mod tests {
+    use glam::DVec3;
+
     use super::*;
 
     #[test]
     fn parts_and_repeated_ids_are_numbered_on() {
-        let mut table = FeatureTable::new("a", "a", Crs::epsg(4326), Arc::default());
+        let mut table = FeatureTable::new("a", "a", Crs::epsg(4326), &SourceOptions::default());
         let point = Geometry::point([0.0; 3]);
         table.push("12", vec![point.clone(), point.clone(), point.clone()], Vec::new()).unwrap();
         table.push("12.2", vec![point.clone()], Vec::new()).unwrap();
@@ -301,14 +442,43 @@ mod tests {
         let ids: Vec<&str> = table.features.iter().map(|feature| feature.id.as_str()).collect();
         assert_eq!(ids, ["12", "12.2", "12.3", "12.2.2", "12.4"]);
     }
+
+    #[test]
+    fn what_is_not_wanted_is_not_kept_and_changes_no_id() {
+        let (point, line) = (Geometry::point([1.0; 3]), Geometry::Line(vec![DVec3::ZERO, DVec3::ONE]));
+        let far = Geometry::Line(vec![DVec3::splat(5.0), DVec3::splat(6.0)]);
+        let kind = Some(GeometryKind::Line);
+        let read = |wanted: SourceOptions| {
+            let mut table = FeatureTable::new("a", "a", Crs::epsg(4326), &wanted);
+            table
+                .push("1", vec![point.clone(), line.clone(), point.clone(), far.clone()], Vec::new())
+                .unwrap();
+            table.push("2", vec![line.clone()], Vec::new()).unwrap();
+            table.features.iter().map(|feature| feature.id.to_string()).collect::<Vec<_>>().join(" ")
+        };
+        assert_eq!(read(SourceOptions::default()), "1 1.2 1.3 1.4 2");
+        assert_eq!(read(SourceOptions { kind, ..SourceOptions::default() }), "1.2 1.4 2");
+        assert_eq!(read(SourceOptions { kind, limit: Some(2), ..SourceOptions::default() }), "1.2 1.4");
+        let within = Some([1.0, 0.5, 4.0, 4.0]);
+        assert_eq!(read(SourceOptions { within, ..SourceOptions::default() }), "1 1.2 1.3 2");
+    }
+
+    #[test]
+    fn a_feature_takes_little() {
+        assert!(size_of::<Feature>() <= 64, "{}", size_of::<Feature>());
+        let mut table = FeatureTable::new("a", "a", Crs::epsg(4326), &SourceOptions::default());
+        let [a, b] = ["residential"; 2].map(|text| table.text(text));
+        assert!(matches!((a, b), (Attribute::Text(a), Attribute::Text(b)) if Arc::ptr_eq(&a, &b)));
+    }
+
     #[test]
     fn many_equal_ids_take_no_longer_than_others() {
-        let mut table = FeatureTable::new("a", "a", Crs::epsg(4326), Arc::default());
+        let mut table = FeatureTable::new("a", "a", Crs::epsg(4326), &SourceOptions::default());
         for number in 0..200_000 {
             let id = if number % 3 == 0 { format!("a.{number}") } else { "a".to_owned() };
             table.push(&id, vec![Geometry::point([0.0; 3])], Vec::new()).unwrap();
         }
-        let ids: std::collections::HashSet<_> = table.features.iter().map(|feature| &feature.id).collect();
+        let ids: std::collections::HashSet<_> = table.features.iter().map(|feature| &*feature.id).collect();
         assert_eq!(ids.len(), 200_000);
     }
 }

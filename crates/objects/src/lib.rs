@@ -13,6 +13,7 @@ mod footprint;
 mod import;
 mod line_index;
 mod mesh;
+mod network;
 pub mod planet;
 mod surface;
 pub mod terrain;
@@ -25,6 +26,7 @@ pub use extruder::Extruder;
 pub use facade::{Facade, Template, Templates, Wall};
 pub use footprint::{EdgeKeywords, Footprint, Roof, RoofDetail, Walls};
 pub use line_index::LineIndex;
+pub use network::Network;
 pub use planet::Planet;
 pub use surface::MaterialOptions;
 pub use terrain::{EditFile, Terrain};
@@ -44,6 +46,7 @@ pub fn registry() -> Registry {
         GeometryObject::kind(),
         Planet::kind(),
         LineIndex::kind(),
+        Network::kind(),
         Terrain::kind(),
         Turtle::kind(),
         Universe::kind(),

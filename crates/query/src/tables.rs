@@ -220,7 +220,7 @@ pub(crate) fn write_layer(
         let Some((feature, number)) = features.next() else { return Ok(None) };
         let mut values = vec![Value::Integer(number)];
         if !has_id {
-            values.push(Value::Text(feature.id.clone()));
+            values.push(Value::Text(feature.id.to_string()));
         }
         let mut own: Vec<Value> = vec![Value::Null; layer.names.len()];
         for (index, attribute) in feature.attributes.iter() {

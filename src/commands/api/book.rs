@@ -12,14 +12,36 @@ const AXES: [&str; 2] = ["extruder", "turtle"];
 /// A page: its file, from the book's sources, and its text.
 pub(super) type Page = (String, String);
 
+/// The chapters that are written by hand: their titles and files.
+const CHAPTERS: [(&str, &str); 16] = [
+    ("Burgeon", "introduction"),
+    ("Contexts and features", "rules"),
+    ("Data and heights", "data"),
+    ("Questions to data in rules", "queries"),
+    ("SQL", "sql"),
+    ("Ground and planets", "ground"),
+    ("What scripts can use", "objects"),
+    ("Street networks", "networks"),
+    ("Running scripts", "running"),
+    ("Files for other programs", "formats"),
+    ("Live", "live"),
+    ("Types of objects of your own", "types"),
+    ("Packages", "packages"),
+    ("Scripts from others", "threats"),
+    ("Editors", "editors"),
+    ("Speed", "speed"),
+];
+
 /// The pages that follow from what scripts can use, and the list of all pages.
 pub(super) fn pages(entries: &[Entry]) -> Vec<Page> {
-    let mut summary = String::from(
-        "# Summary\n\n[Burgeon](introduction.md)\n[Contexts and features](rules.md)\n[Data and heights](data.md)\n[Questions to data in rules](queries.md)\n[SQL](sql.md)\n[Ground and planets](ground.md)\n[What scripts can use](objects.md)\n[Running scripts](running.md)\n[Files for other programs](formats.md)\n[Live](live.md)\n[Types of objects of your own](types.md)\n[Packages](packages.md)\n[Scripts from others](threats.md)\n[Editors](editors.md)\n[Speed](speed.md)\n\n# Types of objects\n\n",
-    );
+    let mut summary = "# Summary\n\n".to_owned();
+    for (title, file) in CHAPTERS {
+        // Writing into a string cannot fail.
+        let _ = writeln!(summary, "[{title}]({file}.md)");
+    }
+    summary.push_str("\n# Types of objects\n\n");
     let mut pages = Vec::new();
     for entry in entries.iter().filter(|entry| entry.group == EntryGroup::Type) {
-        // Writing into a string cannot fail.
         let _ = writeln!(summary, "- [{0}](reference/{0}.md)", entry.name);
         pages.push((format!("reference/{}.md", entry.name), page(entry)));
     }

@@ -31,3 +31,34 @@ pub(crate) fn known(code: u32) -> Result<Option<(u16, &'static str)>> {
 pub(crate) fn definition(code: u16) -> Result<Option<&'static str>> {
     Ok(crs_definitions::from_code(code).map(|found| found.wkt))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn projections_are_within_a_millimetre_of_another_programs() {
+        let projection = |code: u32| {
+            let (_, definition) = known(code).unwrap().unwrap();
+            Projection::new(definition, |why| Error::data(why)).unwrap()
+        };
+        let degrees = projection(4326);
+        let mut counts = std::collections::BTreeMap::new();
+        for line in include_str!("../fixtures/projections.csv").lines().filter(|line| !line.starts_with('#'))
+        {
+            let numbers: Vec<f64> = line.split(',').map(|number| number.parse().unwrap()).collect();
+            let [code, longitude, latitude, x, y] = numbers[..] else { panic!("{line}") };
+            #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a code")]
+            let plane = projection(code as u32);
+            let mut place = (longitude.to_radians(), latitude.to_radians(), 0.0);
+            degrees.bring(&plane, &mut place).unwrap();
+            let off = (place.0 - x).hypot(place.1 - y);
+            assert!(off < 1e-3, "{line}: {off} m");
+            plane.bring(&degrees, &mut place).unwrap();
+            let back = (place.0.to_degrees() - longitude).hypot(place.1.to_degrees() - latitude) * 111_320.0;
+            assert!(back < 1e-3, "{line}: {back} m on the way back");
+            *counts.entry(code.to_string()).or_insert(0) += 1;
+        }
+        assert_eq!((counts.len(), counts.values().min()), (5, Some(&120)));
+    }
+}

@@ -8,7 +8,6 @@ use super::geometry;
 use crate::{Attribute, Crs, FeatureTable, SourceOptions};
 use burgeon_base::error::{Error, Result};
 use burgeon_base::text::shown;
-use rustc_hash::FxHashMap;
 use serde::Deserialize;
 use serde_json::value::RawValue;
 use serde_json::{Map, Value};
@@ -38,17 +37,16 @@ pub(crate) fn read(bytes: &[u8], path: &Path, name: &str, wanted: &SourceOptions
     let text = match std::str::from_utf8(bytes) {
         Ok(text) if !bytes.iter().take(1000).any(|byte| *byte == 0) => text,
         _ => {
-            return Err(Error::data(format!("{name} is a binary file, neither GeoJSON nor a GeoPackage"))
-                .help("convert it: ogr2ogr out.gpkg FILE"));
+            return Err(Error::data(format!("{name} is a binary file of no format that is known"))
+                .help("data files are GeoJSON, GeoPackage, FlatGeobuf, GML and .osm.pbf; convert it: ogr2ogr out.gpkg FILE"));
         }
     };
     let stem = path.file_stem().map_or_else(|| name.to_owned(), |stem| stem.to_string_lossy().into_owned());
     let mut reader = FeatureReader {
-        table: FeatureTable::new(&stem, name, Crs::epsg(4326), Arc::clone(&wanted.budget)),
+        table: FeatureTable::new(&stem, name, Crs::epsg(4326), wanted),
         name,
         wanted,
         records: 0,
-        names: FxHashMap::default(),
         failure: None,
     };
     let extension = path.extension().unwrap_or_default().to_string_lossy().to_ascii_lowercase();
@@ -68,8 +66,6 @@ pub(super) struct FeatureReader<'a> {
     wanted: &'a SourceOptions,
     /// How many features there have been.
     records: usize,
-    /// The numbers of the attributes' names.
-    names: FxHashMap<String, usize>,
     /// Why reading has to end, where the parser cannot tell.
     pub(super) failure: Option<Error>,
 }
@@ -188,6 +184,10 @@ impl FeatureReader<'_> {
     /// Reads the text of one feature of a list.
     pub(super) fn raw_feature(&mut self, text: &str) -> Result<()> {
         self.wanted.budget.tick()?;
+        // What follows may still tell the coordinate system.
+        if self.table.is_full() {
+            return Ok(());
+        }
         match serde_json::from_str::<RawFeature<'_>>(text) {
             Ok(feature) => self.feature(&feature),
             Err(error) => {
@@ -216,14 +216,12 @@ impl FeatureReader<'_> {
         let id = own.or_else(|| properties.get("id").and_then(id_text)).unwrap_or_else(|| number.to_string());
         let mut attributes = Vec::new();
         for (key, value) in properties {
-            let count = self.names.len();
-            let number = *self.names.entry(key).or_insert_with_key(|key| {
-                self.table.names.push(key.clone());
-                count
-            });
-            if let Some(value) = attribute(value) {
-                attributes.push((number, value));
-            }
+            let number = self.table.name(&key);
+            let value = match value {
+                Value::String(text) => Some(self.table.text(&text)),
+                value => attribute(value),
+            };
+            attributes.extend(value.map(|value| (number, value)));
         }
         let parts = feature.geometry.map_or(Ok(Vec::new()), |text| geometry::read(text, self.wanted));
         self.add(id, parts, attributes)
@@ -332,7 +330,6 @@ fn attribute(value: Value) -> Option<Attribute> {
         Value::Null => None,
         Value::Bool(value) => Some(Attribute::Boolean(value)),
         Value::Number(number) => Some(Attribute::Number(number.as_f64()?)),
-        Value::String(text) => Some(Attribute::Text(text.into())),
         nested => Some(Attribute::Nested(Arc::new(nested))),
     }
 }

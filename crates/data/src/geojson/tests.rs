@@ -129,7 +129,7 @@ fn sequences_are_read_with_separators_and_line_by_line() {
     let ids = |text: &str, name: &str| -> Vec<String> {
         let table = read_as(text, name).unwrap();
         assert_eq!(told(&table), [""; 0]);
-        table.features.into_iter().map(|feature| feature.id).collect()
+        table.features.into_iter().map(|feature| feature.id.to_string()).collect()
     };
     for text in [
         format!("\u{1e}{a}\n\u{1e}{b}\n"),

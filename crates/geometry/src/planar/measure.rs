@@ -24,6 +24,25 @@ pub(crate) fn twice_area(ring: impl IntoIterator<Item = DVec2>) -> f64 {
     sum
 }
 
+/// Whether the area inside a ring of points is more than rounding may have made of none, so that it has the same sign
+/// from whichever point on and whichever way around it is measured.
+pub(super) fn has_area(ring: impl IntoIterator<Item = DVec2>) -> bool {
+    let mut ring = ring.into_iter();
+    let (Some(from), Some(mut last)) = (ring.next(), ring.next()) else { return false };
+    let (mut sum, mut terms, mut products, mut count) = (0.0, 0.0, 0.0, 0.0);
+    for next in ring {
+        let (a, b) = (last - from, next - from);
+        sum += a.perp_dot(b);
+        terms += a.perp_dot(b).abs();
+        products += (a.x * b.y).abs() + (a.y * b.x).abs();
+        count += 1.0;
+        last = next;
+    }
+    // Coordinates, products and differences are rounded once each, and every partial sum once more. The ring from
+    // another point on has other, at most four times as great products.
+    sum.abs() > 16.0 * f64::EPSILON * products + 4.0 * count * f64::EPSILON * terms
+}
+
 /// Whether `place` is inside a ring of points, whichever way that runs. On its border the answer may be either.
 ///
 /// Method: whether a ray to the right meets it an odd number of times, by exact predicates (J. Shewchuk, "Adaptive

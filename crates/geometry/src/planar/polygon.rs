@@ -7,7 +7,7 @@ use geo::{Buffer, LineString, Simplify};
 use glam::{DVec2, DVec3};
 
 use super::convert::open;
-use super::measure::{bounds, contains, hull};
+use super::measure::{bounds, contains, has_area, hull};
 use super::ring::shown;
 use super::{Point, Ring, Rings};
 use crate::cap;
@@ -49,7 +49,7 @@ impl<P: Point> Polygon<P> {
     /// The polygon inside the first ring and outside the others; fails if a promise is broken, and says where.
     pub fn new(rings: impl Into<Rings<P>>) -> Result<Self> {
         Self::checked(rings.into(), |ring, is_outer, name| {
-            if ring.is_counter_clockwise() == is_outer || ring.twice_area() == 0.0 {
+            if ring.is_counter_clockwise() == is_outer || !has_area(ring.iter().map(|point| point.flat())) {
                 return Ok(ring);
             }
             let way = if is_outer { "clockwise" } else { "counter-clockwise" };
@@ -78,10 +78,8 @@ impl<P: Point> Polygon<P> {
                     format!("points {number} and {next} of {name} of the polygon are both at {}", shown(a));
                 return Err(Error::geometry(message).help("leave one out: as seen from above they are one"));
             }
-            let is_none = ring.twice_area() == 0.0;
             let ring = turned(ring, index == 0, &name)?;
-            // What is left of an area by rounding may have the same sign either way around.
-            if is_none || ring.is_counter_clockwise() != (index == 0) {
+            if !has_area(ring.iter().map(|point| point.flat())) {
                 return Err(Error::geometry(format!("{name} of the polygon has no area"))
                     .help("move a point off the line of the others"));
             }

@@ -170,3 +170,22 @@ fn what_breaks_a_promise_is_named_with_what_to_do() {
       help: give finite coordinates in metres
     ");
 }
+
+#[test]
+fn what_rounding_left_of_an_area_is_none() {
+    // A bow tie whose halves are of one size, in tenths, which have no exact sum.
+    let tie = [(1.0, -2.0), (-2.0, 0.1), (-2.0, 1.0), (0.1, -2.0)].map(DVec2::from);
+    for start in 0..4 {
+        for is_reversed in [false, true] {
+            let mut points = tie.to_vec();
+            points.rotate_left(start);
+            if is_reversed {
+                points.reverse();
+            }
+            for made in [Polygon::new(Rings(vec![points.clone()])), Polygon::turned(Rings(vec![points]))] {
+                let error = made.expect_err("no area");
+                assert_eq!(error.message(), "the outer ring of the polygon has no area");
+            }
+        }
+    }
+}

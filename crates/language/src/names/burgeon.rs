@@ -301,6 +301,18 @@ pub static SOURCE: LazyLock<Name> = LazyLock::new(|| {
                     "{ ... }?",
                     [
                         field("where", "string?", "nil", "An SQL condition, for GeoPackages."),
+                        field(
+                            "tags",
+                            "{ [string]: any }?",
+                            "nil",
+                            "What tags of OpenStreetMap are: true for any value but no, \"*\" for any, false for none, a text, or a list of texts. All of them hold; of a list of such tables, one holds.",
+                        ),
+                        field(
+                            "within",
+                            "{ number }?",
+                            "nil",
+                            "West, south, east and north of a box that features touch, in the coordinates of the file.",
+                        ),
                         field("limit", "number?", "nil", "At most as many features."),
                         field("id", "string?", "nil", "The attribute that tells features apart."),
                         field(

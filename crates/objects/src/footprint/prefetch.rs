@@ -127,7 +127,7 @@ mod tests {
             let (x, size) = (10.0 * f64::from(number), if number.is_multiple_of(7) { 0.0 } else { 4.0 });
             let ring = [[x, 0.0, 1.0], [x + 4.0, 0.0, 1.0], [x + 4.0, size, 1.0], [x, size, 1.0]];
             let geometry = Geometry::Polygon(Rings(vec![ring.map(DVec3::from).to_vec()]));
-            Feature { id: number.to_string(), geometry, attributes: Arc::default() }
+            Feature { id: number.to_string().as_str().into(), geometry, attributes: Arc::default() }
         };
         Arc::new(Layer {
             name: String::new(),
@@ -139,6 +139,7 @@ mod tests {
             bounds: [[0.0; 3]; 2],
             empty: 0,
             refused: Vec::new(),
+            notes: Vec::new(),
         })
     }
 

@@ -57,7 +57,7 @@ impl Server {
         if let Some(key) = key {
             sql += &format!(" ORDER BY {}", quoted(key));
         }
-        if let (Some(limit), None) = (wanted.limit, wanted.kind) {
+        if let (Some(limit), None, None) = (wanted.limit, wanted.kind, wanted.within) {
             sql += &format!(" LIMIT {limit}");
         }
         crate::rewrite::check(&sql, &known.catalogue).map_err(|error| error.about(&label))?;
@@ -78,7 +78,7 @@ impl Server {
             srid => Crs::epsg(srid),
         };
         let names = own.iter().map(|name| (*name).clone()).collect();
-        features(&answer, FeatureTable::of_layer(layer, &label, crs, names, Arc::clone(budget)), wanted)
+        features(&answer, FeatureTable::of_layer(layer, &label, crs, names, wanted), wanted)
     }
 }
 

@@ -59,8 +59,9 @@ pub(crate) fn relate(one: &Geometry, two: &Geometry) -> [u8; 9] {
             sides => sides,
         });
         let place = |is_inside: bool| if is_inside { Position::Interior } else { Position::Exterior };
-        for side in 0..2 {
-            note([0, 1].map(|geometry| place(sides[geometry][side])), b'2');
+        let [first, second] = sides;
+        for (one, two) in first.into_iter().zip(second) {
+            note([place(one), place(two)], b'2');
         }
         note(
             [0, 1].map(|geometry| match sides[geometry] {
@@ -73,9 +74,9 @@ pub(crate) fn relate(one: &Geometry, two: &Geometry) -> [u8; 9] {
         for node in piece.nodes {
             let node = &mut nodes[node];
             node.is_met = true;
-            for geometry in 0..2 {
-                node.area[geometry] |= sides[geometry] == [true; 2];
-                node.ring[geometry] |= sides[geometry][0] != sides[geometry][1];
+            for (geometry, [left, right]) in sides.into_iter().enumerate() {
+                node.area[geometry] |= left && right;
+                node.ring[geometry] |= left != right;
                 node.line[geometry] |= piece.line[geometry];
             }
         }

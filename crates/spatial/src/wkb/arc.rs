@@ -16,7 +16,7 @@ const MOST: f64 = 65_536.0;
 /// `near` from it; all three are among them. Heights change evenly from each to the next.
 ///
 /// Where both ends are the same place, it is a circle, and `by` lies opposite. What lies on one line stays one.
-pub(crate) fn add_arc(points: &mut Vec<DVec3>, [from, by, to]: [DVec3; 3], near: f64) {
+pub fn add_arc(points: &mut Vec<DVec3>, [from, by, to]: [DVec3; 3], near: f64) {
     // All as seen from the first point.
     let start = from.truncate();
     let [a, b] = [by, to].map(|point| point.truncate() - start);

@@ -6,6 +6,5 @@ mod read;
 mod tests;
 mod write;
 
-pub use arc::NEAR;
-pub(crate) use arc::add_arc;
+pub use arc::{NEAR, add_arc};
 pub use read::{read, srid};

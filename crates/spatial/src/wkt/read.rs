@@ -39,10 +39,12 @@ impl Geometry {
         let mut reader = WktReader { text, at: 0, budget };
         reader.skip_reference();
         let geometry = reader.geometry(0)?;
-        match reader.peek() {
-            None => Ok(geometry),
-            Some(_) => Err(reader.expected("the end")),
+        if reader.peek().is_some() {
+            return Err(reader.expected("the end"));
         }
+        // An arc may lead farther than the points that it is given by.
+        geometry.check()?;
+        Ok(geometry)
     }
 }
 
@@ -271,13 +273,13 @@ impl WktReader<'_> {
                 })?;
                 Geometry::MultiPoint(points.concat())
             }
-            "MULTILINESTRING" => Geometry::MultiLine(self.list(|reader| reader.line(ordinates))?),
-            "MULTICURVE" => Geometry::MultiLine(self.list(|reader| reader.curve(ordinates))?),
-            "MULTIPOLYGON" | "POLYHEDRALSURFACE" | "TIN" => Geometry::MultiPolygon(self.list(|reader| {
+            "MULTILINESTRING" => lines(self.list(|reader| reader.line(ordinates))?),
+            "MULTICURVE" => lines(self.list(|reader| reader.curve(ordinates))?),
+            "MULTIPOLYGON" | "POLYHEDRALSURFACE" | "TIN" => polygons(self.list(|reader| {
                 let rings = reader.rings(ordinates)?;
                 reader.polygon(rings)
             })?),
-            "MULTISURFACE" => Geometry::MultiPolygon(self.list(|reader| {
+            "MULTISURFACE" => polygons(self.list(|reader| {
                 if matches!(reader.peek(), Some('(')) {
                     let rings = reader.rings(ordinates)?;
                     return reader.polygon(rings);
@@ -349,6 +351,18 @@ impl WktReader<'_> {
         }
         Ok(points)
     }
+}
+
+/// Lines without the empty ones.
+fn lines(mut lines: Vec<Vec<DVec3>>) -> Geometry {
+    lines.retain(|line| !line.is_empty());
+    Geometry::MultiLine(lines)
+}
+
+/// Polygons without the empty ones.
+fn polygons(mut polygons: Vec<burgeon_geometry::Rings>) -> Geometry {
+    polygons.retain(|rings| !rings.is_empty());
+    Geometry::MultiPolygon(polygons)
 }
 
 fn is_known(name: &str) -> bool {

@@ -145,7 +145,7 @@ impl GeoPackage {
         };
         let described = self.layers.swap_remove(position);
         let label = format!("{name}:{}", shown(layer));
-        let mut table = FeatureTable::new(layer, &label, described.crs, Arc::clone(&wanted.budget));
+        let mut table = FeatureTable::new(layer, &label, described.crs, wanted);
         let crs = wanted.crs.map_or_else(|| table.crs.clone(), Crs::epsg);
         let near = burgeon_spatial::wkb::NEAR / crs.map_or(1.0, |crs| crs.metres());
         let columns = LayerColumns::read(&self.connection, layer, &described.column).map_err(error)?;
@@ -192,12 +192,15 @@ impl GeoPackage {
                     #[allow(clippy::cast_precision_loss, reason = "Lua's own numbers are f64")]
                     ValueRef::Integer(value) => Attribute::Number(value as f64),
                     ValueRef::Real(value) => Attribute::Number(value),
-                    ValueRef::Text(text) => Attribute::Text(String::from_utf8_lossy(text).into()),
+                    ValueRef::Text(text) => table.text(&String::from_utf8_lossy(text)),
                     ValueRef::Null | ValueRef::Blob(_) => continue,
                 };
                 attributes.push((index, value));
             }
             table.push(&id, parts, attributes)?;
+            if table.is_full() {
+                break;
+            }
         }
         Ok(table)
     }
@@ -233,7 +236,7 @@ impl GeoPackage {
     pub fn shape(path: &Path, name: &str, layer: &str, budget: &Arc<Budget>) -> Result<TableShape> {
         let wanted = SourceOptions { budget: Arc::clone(budget), ..SourceOptions::default() };
         let mut package = Self::open(path, name, &wanted)?;
-        let layer = crate::choose(name, &package.layers(), Some(layer))?;
+        let layer = crate::source::choose(name, &package.layers(), Some(layer))?;
         let position = package.layers.iter().position(|known| known.table == layer).unwrap_or_default();
         let LayerDescription { column, crs, .. } = package.layers.swap_remove(position);
         let name = name.to_owned();
@@ -380,10 +383,6 @@ impl LayerColumns {
         }
         if self.key.is_some() {
             sql += &format!(" ORDER BY {key}");
-        }
-        // A kind is chosen afterwards, and what is left is cut then.
-        if let (Some(limit), None) = (wanted.limit, wanted.kind) {
-            sql += &format!(" LIMIT {limit}");
         }
         sql
     }

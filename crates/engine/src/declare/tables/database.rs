@@ -53,6 +53,7 @@ impl SourceTables {
                         bounds: [[0.0; 3]; 2],
                         empty: 0,
                         refused: Vec::new(),
+                        notes: Vec::new(),
                     };
                     known.database.add_layer(&table.name, &layer, budget)?;
                 }

@@ -26,7 +26,11 @@ pub(super) fn list_table(features: &Value) -> Result<ListTable> {
             Some(other) => other.to_string(),
         };
         let attributes = attributes(feature, &mut made.names);
-        made.features.push(Feature { id, geometry: shape.geometry().clone(), attributes });
+        made.features.push(Feature {
+            id: id.as_str().into(),
+            geometry: shape.geometry().clone(),
+            attributes,
+        });
     }
     Ok(made)
 }

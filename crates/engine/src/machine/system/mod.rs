@@ -9,6 +9,7 @@ mod handle;
 mod lazy;
 mod list_table;
 mod source;
+mod tags;
 mod unseen;
 
 pub(crate) use axiom::Axiom;

@@ -350,6 +350,8 @@ fn wanted(options: &ValueTable) -> Result<(SourceOptions, Option<String>)> {
             "table" => table = text("\"houses\"")?,
             "layer" => wanted.layer = text("\"buildings\"")?,
             "crs" => wanted.crs = Some(whole("3067")?),
+            "tags" => wanted.tags = Some(super::tags::filter(value)?),
+            "within" => wanted.within = Some(corners(value)?),
             "kind" => {
                 let kind = text("\"polygon\"")?.unwrap_or_default();
                 let known = GeometryKind::SINGLE.into_iter().find(|known| known.name() == kind);
@@ -369,4 +371,22 @@ fn wanted(options: &ValueTable) -> Result<(SourceOptions, Option<String>)> {
         }
     }
     Ok((wanted, table))
+}
+
+/// West, south, east and north.
+fn corners(value: &Value) -> Result<[f64; 4]> {
+    let numbers = match value {
+        Value::Table(table) => table.list(),
+        _ => Vec::new(),
+    };
+    let corners = match numbers[..] {
+        [Value::Number(west), Value::Number(south), Value::Number(east), Value::Number(north)] => {
+            Some([west, south, east, north])
+        }
+        _ => None,
+    };
+    corners.filter(|[west, south, east, north]| west <= east && south <= north).ok_or_else(|| {
+        Error::argument("source: within must be { west, south, east, north }, the lesser number first")
+            .help("write { within = { 24.94, 60.16, 24.95, 60.17 } }, in the coordinates of the file")
+    })
 }

@@ -1,0 +1,88 @@
+//! The geometries of FlatGeobuf.
+
+use glam::DVec3;
+
+use super::buffer::{BufferDamage, BufferTable};
+use super::header::doubles;
+use crate::Geometry;
+use burgeon_base::budget::Budget;
+use burgeon_spatial::DEEPEST;
+
+/// Adds the parts of a geometry of a kind, which it may tell itself if that is 0. Fails with the reason.
+pub(super) fn read(
+    table: &BufferTable<'_>,
+    kind: u8,
+    budget: &Budget,
+    depth: usize,
+    parts: &mut Vec<Geometry>,
+) -> Result<(), String> {
+    budget.tick().map_err(|error| error.message().to_owned())?;
+    if depth > DEEPEST {
+        return Err(format!("is nested more than {DEEPEST} deep"));
+    }
+    let broken = |why: BufferDamage| format!("has a geometry that {why}");
+    let kind = match (kind, table.fixed(6).map_err(broken)?) {
+        (0, Some([own])) => own,
+        (kind, _) => kind,
+    };
+    match kind {
+        1 => parts.extend(
+            points(table, budget)?.into_iter().filter(|place| !place.x.is_nan()).map(Geometry::point),
+        ),
+        4 => parts.extend(points(table, budget)?.into_iter().map(Geometry::point)),
+        2 => parts.extend(Geometry::line(points(table, budget)?)),
+        3 | 17 => parts.extend(Geometry::polygon(lists(table, budget)?)),
+        5 => parts.extend(lists(table, budget)?.into_iter().filter_map(Geometry::line)),
+        6 | 7 | 15 | 16 => {
+            let inner = match kind {
+                6 => 3,
+                15 => 3,
+                16 => 17,
+                _ => 0,
+            };
+            for part in table.tables(7).map_err(broken)? {
+                read(&part.map_err(broken)?, inner, budget, depth + 1, parts)?;
+            }
+        }
+        8..=14 => return Err("is a curve, which is not read".to_owned()),
+        kind => return Err(format!("has a geometry of type {kind}, which is not known")),
+    }
+    Ok(())
+}
+
+/// The points of a geometry.
+fn points(table: &BufferTable<'_>, budget: &Budget) -> Result<Vec<DVec3>, String> {
+    let broken = |why: BufferDamage| format!("has a geometry that {why}");
+    let (places, heights) = (table.list(1, 8).map_err(broken)?, table.list(2, 8).map_err(broken)?);
+    if !places.len().is_multiple_of(16) || !(heights.is_empty() || heights.len() * 2 == places.len()) {
+        return Err("has points that lack a coordinate".to_owned());
+    }
+    budget.take(places.len() * 3 / 2).map_err(|error| error.message().to_owned())?;
+    let mut heights = doubles(heights);
+    let points = places.as_chunks::<16>().0.iter().map(|place| {
+        let mut place = doubles(place);
+        let mut next = || place.next().unwrap_or_default();
+        let (x, y, z) = (next(), next(), heights.next().unwrap_or_default());
+        // Some programs write a height that is not known so.
+        DVec3::new(x, y, if z.is_nan() { 0.0 } else { z })
+    });
+    Ok(points.collect())
+}
+
+/// The lists of points that a geometry is divided into.
+fn lists(table: &BufferTable<'_>, budget: &Budget) -> Result<Vec<Vec<DVec3>>, String> {
+    let ends = table.list(0, 4).map_err(|why| format!("has a geometry that {why}"))?;
+    let all = points(table, budget)?;
+    if ends.is_empty() {
+        return Ok(if all.is_empty() { Vec::new() } else { vec![all] });
+    }
+    let mut lists = Vec::with_capacity(ends.len() / 4);
+    let mut begin = 0;
+    for end in ends.as_chunks().0 {
+        let end = u32::from_le_bytes(*end) as usize;
+        let list = all.get(begin..end).ok_or("has parts that end where they cannot")?;
+        lists.push(list.to_vec());
+        begin = end;
+    }
+    if begin < all.len() { Err("has points that belong to no part".to_owned()) } else { Ok(lists) }
+}

@@ -1,0 +1,363 @@
+//! Reads the features of a FlatGeobuf, one by one.
+
+use std::fs::File;
+use std::io::{BufReader, Read, Seek, SeekFrom};
+use std::path::Path;
+use std::sync::Arc;
+
+use super::buffer::{BufferDamage, BufferTable};
+use super::geometry;
+use super::header::{Column, LayerHeader, columns};
+use super::index::{BoxEntry, Levels};
+use crate::{Attribute, FeatureTable, Geometry, SourceOptions};
+use burgeon_base::error::{Error, Result};
+
+/// What a file begins with; the fourth byte is the version.
+const MAGIC: &[u8] = b"fgb\x03fgb";
+
+/// The largest header (bytes).
+const LARGEST_HEADER: u64 = 64 << 20;
+
+/// How much (of its size and place) a feature may lie outside of where it is said to be.
+const ROUNDING: f64 = 1e-12;
+
+/// An open FlatGeobuf.
+pub struct FlatGeobuf {
+    file: File,
+    name: String,
+    layer: String,
+    header: LayerHeader,
+    levels: Option<Levels>,
+    /// Where the index and the features begin, and the file ends (bytes).
+    index: u64,
+    features: u64,
+    end: u64,
+}
+
+impl FlatGeobuf {
+    /// Whether a file that begins so is a FlatGeobuf, of any version.
+    pub(crate) fn is_one(head: &[u8]) -> bool {
+        head.starts_with(b"fgb") && head.get(4..7) == Some(b"fgb")
+    }
+
+    pub(crate) fn open(mut file: File, path: &Path, name: &str, wanted: &SourceOptions) -> Result<Self> {
+        let damaged = |why: &str| damaged(name, why);
+        let cannot = |error: std::io::Error| damaged(&error.to_string());
+        let end = file.seek(SeekFrom::End(0)).map_err(cannot)?;
+        file.rewind().map_err(cannot)?;
+        let mut head = [0; 12];
+        file.read_exact(&mut head).map_err(cannot)?;
+        if !head.starts_with(MAGIC) {
+            return Err(Error::data(format!(
+                "{name} is a FlatGeobuf of version {}, which is not read",
+                head[3]
+            ))
+            .help("write it anew: ogr2ogr out.fgb FILE"));
+        }
+        let (_, size) = head.split_at(8);
+        let size = u64::from(u32::from_le_bytes([size[0], size[1], size[2], size[3]]));
+        if size > LARGEST_HEADER || size > end - 12 {
+            return Err(damaged(&format!("it has a header of {size} bytes")));
+        }
+        let _held = wanted.budget.hold(usize::try_from(size).unwrap_or(usize::MAX) * 4)?;
+        let mut bytes = vec![0; usize::try_from(size).unwrap_or_default()];
+        file.read_exact(&mut bytes).map_err(cannot)?;
+        let header = LayerHeader::read(&bytes).map_err(|why| damaged(&format!("its header {why}")))?;
+        let index = 12 + size;
+        let levels = Levels::new(header.count, header.fan);
+        let taken = match (&levels, header.fan > 0 && header.count > 0) {
+            (Some(levels), _) => levels.size(),
+            (None, wrong) => (!wrong).then_some(0),
+        };
+        let features = taken.and_then(|taken| index.checked_add(taken)).filter(|features| *features <= end);
+        let Some(features) = features else {
+            return Err(damaged(&format!("it is too short for an index of {} features", header.count)));
+        };
+        let stem =
+            path.file_stem().map_or_else(|| name.to_owned(), |stem| stem.to_string_lossy().into_owned());
+        let layer = if header.name.is_empty() { stem } else { header.name.clone() };
+        Ok(Self { file, name: name.to_owned(), layer, header, levels, index, features, end })
+    }
+
+    pub(crate) fn layers(&self) -> Vec<String> {
+        vec![self.layer.clone()]
+    }
+
+    pub(crate) fn read(&self, wanted: &SourceOptions) -> Result<FeatureTable> {
+        let crs = self.header.crs.clone();
+        let mut table = FeatureTable::new(&self.layer, &self.name, crs, wanted);
+        table.names = self.header.columns.iter().map(|column| column.name.clone()).collect();
+        match (&self.levels, wanted.within) {
+            (Some(levels), Some(_)) => {
+                let damaged = |why: &str| damaged(&self.name, why);
+                let touch = |bounds| table.may_keep(bounds);
+                let place = (self.index, self.header.fan);
+                let found = levels.search(&self.file, place, touch, (&wanted.budget, &damaged))?;
+                let mut reader = self.reader(self.features);
+                for (number, to) in found {
+                    let at = self.features.checked_add(to).filter(|at| *at < self.end);
+                    let at = at.ok_or_else(|| damaged("its index leads beyond its end"))?;
+                    reader.seek_relative_to(at)?;
+                    self.feature(&mut reader, (number, None), &mut table, wanted)?;
+                    if table.is_full() {
+                        break;
+                    }
+                }
+            }
+            _ => self.all(&mut table, wanted)?,
+        }
+        Ok(table)
+    }
+
+    /// Reads all features, in their order.
+    fn all(&self, table: &mut FeatureTable, wanted: &SourceOptions) -> Result<()> {
+        let mut reader = self.reader(self.features);
+        let leaves = self.levels.as_ref().map(|levels| self.index + levels.leaves() * super::index::ENTRY);
+        let mut leaves = leaves.map(|at| self.reader(at));
+        let mut number = 0;
+        while reader.at < self.end && !table.is_full() {
+            let entry = match &mut leaves {
+                Some(leaves) if number < self.header.count => {
+                    let entry = BoxEntry::read(&mut leaves.file);
+                    let entry = entry.map_err(|error| damaged(&self.name, &error.to_string()))?;
+                    if self.features.checked_add(entry.to) != Some(reader.at) {
+                        return Err(damaged(&self.name, "its index leads to where no feature begins"));
+                    }
+                    Some(entry)
+                }
+                _ => None,
+            };
+            self.feature(&mut reader, (number, entry), table, wanted)?;
+            number += 1;
+        }
+        let count = self.header.count;
+        if count > 0 && number != count && !table.is_full() {
+            let has = format!("it has {number} features, and says that it has {count}");
+            return Err(damaged(&self.name, &has));
+        }
+        Ok(())
+    }
+
+    fn reader(&self, at: u64) -> Reader<'_> {
+        let file = BufReader::with_capacity(1 << 16, Position { file: &self.file, at });
+        Reader { file, at, name: &self.name, bytes: Vec::new() }
+    }
+
+    /// Reads the feature that the reader is at, which has a number and perhaps a box in the index.
+    fn feature(
+        &self,
+        reader: &mut Reader<'_>,
+        (number, entry): (u64, Option<BoxEntry>),
+        table: &mut FeatureTable,
+        wanted: &SourceOptions,
+    ) -> Result<()> {
+        wanted.budget.tick()?;
+        let bytes = reader.next(self.end, wanted)?;
+        let own = (number + 1).to_string();
+        let parts = self.parts(bytes, entry, wanted);
+        let attributes = self.attributes(bytes, table);
+        let (parts, (attributes, key)) = match (parts, attributes) {
+            (Ok(parts), Ok(attributes)) => (parts, attributes),
+            (Err(why), _) => return self.refuse(table, own, &why, wanted),
+            (_, Err(why)) => {
+                return self.refuse(
+                    table,
+                    own,
+                    &format!("has attributes that cannot be read: it {why}"),
+                    wanted,
+                );
+            }
+        };
+        table.push(key.as_deref().unwrap_or(&own), parts, attributes)
+    }
+
+    fn refuse(&self, table: &mut FeatureTable, id: String, why: &str, wanted: &SourceOptions) -> Result<()> {
+        // It may be that the time is over, and not the feature's fault.
+        wanted.budget.check()?;
+        let error = Error::data(format!("feature {id} of {} {why}", self.name))
+            .help("the file is damaged, or holds what is not read; write it anew: ogr2ogr -nlt CONVERT_TO_LINEAR out.fgb FILE");
+        table.refuse(id, error)
+    }
+
+    /// The parts of a feature's geometry.
+    fn parts(
+        &self,
+        bytes: &[u8],
+        entry: Option<BoxEntry>,
+        wanted: &SourceOptions,
+    ) -> std::result::Result<Vec<Geometry>, String> {
+        let broken = |why: BufferDamage| format!("cannot be read: it {why}");
+        let mut parts = Vec::new();
+        if let Some(table) = BufferTable::root(bytes).and_then(|feature| feature.table(0)).map_err(broken)? {
+            geometry::read(&table, self.header.kind, &wanted.budget, 0, &mut parts)?;
+        }
+        for bounds in entry.map(|entry| entry.bounds).into_iter().chain(self.header.bounds) {
+            if let Some(place) =
+                parts.iter().flat_map(Geometry::points).find(|place| !lies([place.x, place.y], bounds))
+            {
+                return Err(format!("lies at {}, {}, which is not where the file has it", place.x, place.y));
+            }
+        }
+        Ok(parts)
+    }
+
+    /// What a feature knows, and its key if it has one.
+    fn attributes(
+        &self,
+        bytes: &[u8],
+        table: &mut FeatureTable,
+    ) -> std::result::Result<PropertyList, BufferDamage> {
+        let feature = BufferTable::root(bytes)?;
+        let own = columns(&feature, 2)?;
+        let known = if own.is_empty() { &self.header.columns } else { &own };
+        let mut values = PropertyBytes(feature.list(1, 1)?);
+        let (mut attributes, mut key) = (Vec::new(), None);
+        while !values.0.is_empty() {
+            let number = usize::from(u16::from_le_bytes(values.take()?));
+            let column = known.get(number).ok_or("has a value of a column that there is not")?;
+            let Some(value) = values.value(column, table)? else { continue };
+            if column.is_key || (key.is_none() && column.name.eq_ignore_ascii_case("id")) {
+                key = Some(value.as_id()).filter(|key| !key.is_empty());
+            }
+            let number = if own.is_empty() { number } else { table.name(&column.name) };
+            attributes.push((number, value));
+        }
+        Ok((attributes, key))
+    }
+}
+
+/// Attributes, and the key among them.
+type PropertyList = (Vec<(usize, Attribute)>, Option<String>);
+
+/// The error for bytes that are not as they should be.
+fn damaged(name: &str, why: &str) -> Error {
+    Error::data(format!("{name} cannot be read: {why}"))
+        .help("the file is damaged or cut short; get it again")
+}
+
+/// Whether a place lies within bounds; NaN does, since others speak of it.
+fn lies([x, y]: [f64; 2], [west, south, east, north]: [f64; 4]) -> bool {
+    let slack = |low: f64, high: f64| (low.abs().max(high.abs())) * ROUNDING;
+    let (across, along) = (slack(west, east), slack(south, north));
+    !(x < west - across || x > east + across || y < south - along || y > north + along)
+}
+
+/// A place in a file that others read too.
+struct Position<'a> {
+    file: &'a File,
+    at: u64,
+}
+
+impl Read for Position<'_> {
+    fn read(&mut self, into: &mut [u8]) -> std::io::Result<usize> {
+        let mut file = self.file;
+        file.seek(SeekFrom::Start(self.at))?;
+        let count = file.read(into)?;
+        self.at += count as u64;
+        Ok(count)
+    }
+}
+
+impl Seek for Position<'_> {
+    fn seek(&mut self, to: SeekFrom) -> std::io::Result<u64> {
+        let at = match to {
+            SeekFrom::Start(at) => Some(at),
+            SeekFrom::Current(by) => self.at.checked_add_signed(by),
+            SeekFrom::End(by) => self.file.metadata()?.len().checked_add_signed(by),
+        };
+        self.at = at.ok_or(std::io::ErrorKind::InvalidInput)?;
+        Ok(self.at)
+    }
+}
+
+/// The file at a place.
+struct Reader<'a> {
+    file: BufReader<Position<'a>>,
+    at: u64,
+    name: &'a str,
+    bytes: Vec<u8>,
+}
+
+impl Reader<'_> {
+    /// Goes on at another place.
+    fn seek_relative_to(&mut self, at: u64) -> Result<()> {
+        let offset = at.cast_signed() - self.at.cast_signed();
+        self.file.seek_relative(offset).map_err(|error| damaged(self.name, &error.to_string()))?;
+        self.at = at;
+        Ok(())
+    }
+
+    /// The bytes of the next feature, which ends before `end`.
+    fn next(&mut self, end: u64, wanted: &SourceOptions) -> Result<&[u8]> {
+        let ends = |_| damaged(self.name, &format!("the feature at byte {} is cut short", self.at));
+        let mut length = [0; 4];
+        self.file.read_exact(&mut length).map_err(ends)?;
+        let length = u32::from_le_bytes(length);
+        let after = self.at + 4 + u64::from(length);
+        if after > end {
+            return Err(damaged(self.name, &format!("the feature at byte {} is cut short", self.at)));
+        }
+        let length = length as usize;
+        let _held = wanted.budget.hold(length)?;
+        self.bytes.resize(length, 0);
+        self.file.read_exact(&mut self.bytes).map_err(|_| damaged(self.name, "it is cut short"))?;
+        self.at = after;
+        Ok(&self.bytes)
+    }
+}
+
+/// Values one behind the other.
+struct PropertyBytes<'a>(&'a [u8]);
+
+impl<'a> PropertyBytes<'a> {
+    fn take<const N: usize>(&mut self) -> std::result::Result<[u8; N], BufferDamage> {
+        let (taken, rest) = self.0.split_first_chunk().ok_or("ends too early")?;
+        self.0 = rest;
+        Ok(*taken)
+    }
+
+    fn bytes(&mut self) -> std::result::Result<&'a [u8], BufferDamage> {
+        let length = u32::from_le_bytes(self.take()?) as usize;
+        let (taken, rest) = self.0.split_at_checked(length).ok_or("ends too early")?;
+        self.0 = rest;
+        Ok(taken)
+    }
+
+    /// The next value; none if it is nothing that scripts can use.
+    #[allow(clippy::cast_precision_loss, reason = "Lua's own numbers are f64")]
+    fn value(
+        &mut self,
+        column: &Column,
+        table: &mut FeatureTable,
+    ) -> std::result::Result<Option<Attribute>, BufferDamage> {
+        let number = match column.kind {
+            0 => i8::from_le_bytes(self.take()?).into(),
+            1 => u8::from_le_bytes(self.take()?).into(),
+            2 => return self.take().map(|[value]: [u8; 1]| Some(Attribute::Boolean(value != 0))),
+            3 => i16::from_le_bytes(self.take()?).into(),
+            4 => u16::from_le_bytes(self.take()?).into(),
+            5 => i32::from_le_bytes(self.take()?).into(),
+            6 => u32::from_le_bytes(self.take()?).into(),
+            7 => i64::from_le_bytes(self.take()?) as f64,
+            8 => u64::from_le_bytes(self.take()?) as f64,
+            9 => f32::from_le_bytes(self.take()?).into(),
+            10 => f64::from_le_bytes(self.take()?),
+            12 => {
+                let bytes = self.bytes()?;
+                return Ok(Some(match serde_json::from_slice(bytes) {
+                    Ok(value @ (serde_json::Value::Array(_) | serde_json::Value::Object(_))) => {
+                        Attribute::Nested(Arc::new(value))
+                    }
+                    _ => table.text(&String::from_utf8_lossy(bytes)),
+                }));
+            }
+            11 | 13 => {
+                let text = String::from_utf8_lossy(self.bytes()?);
+                return Ok(Some(table.text(&text)));
+            }
+            14 => return self.bytes().map(|_| None),
+            _ => return Err("has a column of a type that is not known"),
+        };
+        Ok(number.is_finite().then_some(Attribute::Number(number)))
+    }
+}

@@ -1,0 +1,393 @@
+//! The geometries of GML.
+
+use std::rc::Rc;
+use std::sync::Arc;
+
+use glam::DVec3;
+
+use super::system::NamedSystem;
+use super::xml::{Element, Xml, XmlPiece};
+use crate::Geometry;
+use burgeon_base::budget::Budget;
+use burgeon_base::error::{Error, Result as Checked};
+use burgeon_base::text::shown;
+use burgeon_spatial::wkb::{NEAR, add_arc};
+
+/// Why a geometry is not read.
+pub(super) enum GeometryProblem {
+    /// Reading ends.
+    Stop(Error),
+    /// It is wrong, for this reason.
+    Wrong(String),
+}
+
+impl From<Error> for GeometryProblem {
+    fn from(error: Error) -> Self {
+        Self::Stop(error)
+    }
+}
+
+type GeometryResult<T> = Result<T, GeometryProblem>;
+
+fn wrong<T>(why: impl Into<String>) -> GeometryResult<T> {
+    Err(GeometryProblem::Wrong(why.into()))
+}
+
+/// What holds for coordinates, unless an element within says otherwise.
+#[derive(Clone, Default)]
+pub(super) struct GmlContext {
+    /// The coordinate system, or why it is not known.
+    pub(super) system: Option<Rc<Checked<NamedSystem>>>,
+    /// How many numbers make a place.
+    dimension: Option<usize>,
+}
+
+impl GmlContext {
+    /// What holds within `element`; `named` gives the coordinate system of a name.
+    pub(super) fn within(
+        &self,
+        element: &Element,
+        named: impl FnOnce(&str) -> Rc<Checked<NamedSystem>>,
+    ) -> Self {
+        let dimension = element.attribute("srsDimension").or_else(|| element.attribute("dimension"));
+        let dimension =
+            dimension.and_then(|text| text.trim().parse().ok()).filter(|number| (2..=4).contains(number));
+        let system = element.attribute("srsName").map(named);
+        Self { system: system.or_else(|| self.system.clone()), dimension: dimension.or(self.dimension) }
+    }
+
+    fn known(&self) -> Option<&NamedSystem> {
+        self.system.as_ref().and_then(|system| system.as_ref().as_ref().ok())
+    }
+}
+
+/// Whether an element called `name` is a geometry.
+pub(super) fn is_geometry(name: &str) -> bool {
+    const OTHERS: [&str; 12] = [
+        "Point",
+        "Polygon",
+        "PolygonPatch",
+        "Triangle",
+        "Rectangle",
+        "Surface",
+        "PolyhedralSurface",
+        "TriangulatedSurface",
+        "Tin",
+        "OrientableSurface",
+        "CompositeSurface",
+        "GeometryCollection",
+    ];
+    is_curve(name)
+        || OTHERS.contains(&name)
+        || name.starts_with("Multi") && MULTI.contains(&name)
+        || SOLIDS.contains(&name)
+}
+
+const MULTI: [&str; 8] = [
+    "MultiPoint",
+    "MultiLineString",
+    "MultiCurve",
+    "MultiPolygon",
+    "MultiSurface",
+    "MultiGeometry",
+    "MultiSolid",
+    "MultiGeometryCollection",
+];
+const SOLIDS: [&str; 3] = ["Solid", "CompositeSolid", "MultiSolid"];
+
+fn is_curve(name: &str) -> bool {
+    matches!(name, "LineString" | "LinearRing" | "Ring" | "Curve" | "CompositeCurve" | "OrientableCurve")
+}
+
+/// Reads geometries from a file.
+pub(super) struct GeometryReader<'x> {
+    pub(super) xml: &'x mut Xml,
+    pub(super) named: &'x mut dyn FnMut(&str) -> Rc<Checked<NamedSystem>>,
+    /// The coordinate system that was found first.
+    pub(super) system: Option<Rc<Checked<NamedSystem>>>,
+    pub(super) budget: Arc<Budget>,
+}
+
+impl GeometryReader<'_> {
+    /// Adds the parts of the geometry that `element` begins.
+    pub(super) fn geometry(
+        &mut self,
+        element: &Element,
+        context: &GmlContext,
+        parts: &mut Vec<Geometry>,
+    ) -> GeometryResult<()> {
+        self.budget.tick()?;
+        let context = context.within(element, &mut *self.named);
+        if self.system.is_none() {
+            self.system.clone_from(&context.system);
+        }
+        match &*element.name {
+            "Point" => {
+                let places = self.places(&context)?;
+                parts.extend(places.into_iter().take(1).map(Geometry::point));
+            }
+            name if is_curve(name) => parts.extend(Geometry::line(self.curve(element, &context)?)),
+            "Polygon" | "PolygonPatch" | "Triangle" | "Rectangle" => {
+                parts.extend(Geometry::polygon(self.rings(&context)?));
+            }
+            name if SOLIDS.contains(&name) => {
+                return wrong("is a solid, of which no footprint is told");
+            }
+            _ => {
+                let depth = self.xml.depth;
+                while let Some(inner) = self.child(depth)? {
+                    if is_geometry(&inner.name) {
+                        self.geometry(&inner, &context, parts)?;
+                    } else if is_aside(&inner.name) {
+                        self.xml.leave(self.xml.depth - 1)?;
+                    }
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// The next element that begins within the one that began at `depth`, however deep; none where that one ends.
+    fn child(&mut self, depth: usize) -> GeometryResult<Option<Element>> {
+        loop {
+            match self.xml.next()? {
+                XmlPiece::Start(element) => return Ok(Some(element)),
+                XmlPiece::End if self.xml.depth >= depth => {}
+                XmlPiece::End | XmlPiece::Eof => return Ok(None),
+            }
+        }
+    }
+
+    /// The rings of a polygon: the outer one first.
+    fn rings(&mut self, context: &GmlContext) -> GeometryResult<Vec<Vec<DVec3>>> {
+        let depth = self.xml.depth;
+        let (mut rings, mut outer) = (Vec::new(), None);
+        let mut is_outer = true;
+        while let Some(inner) = self.child(depth)? {
+            match &*inner.name {
+                "exterior" | "outerBoundaryIs" => is_outer = true,
+                "interior" | "innerBoundaryIs" => is_outer = false,
+                name if is_curve(name) => {
+                    let context = context.within(&inner, &mut *self.named);
+                    let ring = self.curve(&inner, &context)?;
+                    if is_outer && outer.replace(rings.len()).is_some() {
+                        return wrong("has a polygon with more than one outer ring");
+                    }
+                    rings.push(ring);
+                }
+                _ => self.xml.leave(self.xml.depth - 1)?,
+            }
+        }
+        match outer {
+            Some(at) => rings.swap(0, at),
+            None if rings.is_empty() => {}
+            None => return wrong("has a polygon without an outer ring"),
+        }
+        Ok(rings)
+    }
+
+    /// The places along the curve that `element` begins.
+    fn curve(&mut self, element: &Element, context: &GmlContext) -> GeometryResult<Vec<DVec3>> {
+        let mut places = match &*element.name {
+            "LineString" | "LinearRing" | "LineStringSegment" | "GeodesicString" | "Geodesic" => {
+                self.places(context)?
+            }
+            "Arc" | "ArcString" | "Circle" => {
+                let given = self.places(context)?;
+                self.arcs(element, &given, context)?
+            }
+            "Ring" | "Curve" | "CompositeCurve" | "OrientableCurve" => self.chain(context)?,
+            name => return wrong(format!("has a curve that is a {}, which is not read", shown(name))),
+        };
+        if element.attribute("orientation") == Some("-") {
+            places.reverse();
+        }
+        Ok(places)
+    }
+
+    /// The places along the curves and segments within an element, each of which begins where the one before it ends.
+    fn chain(&mut self, context: &GmlContext) -> GeometryResult<Vec<DVec3>> {
+        let depth = self.xml.depth;
+        let mut places: Vec<DVec3> = Vec::new();
+        while let Some(inner) = self.child(depth)? {
+            // What has a small first letter is a property of what is around it.
+            if !inner.name.starts_with(|letter: char| letter.is_ascii_uppercase()) {
+                if is_aside(&inner.name) {
+                    self.xml.leave(self.xml.depth - 1)?;
+                }
+                continue;
+            }
+            let context = context.within(&inner, &mut *self.named);
+            let part = self.curve(&inner, &context)?;
+            let same = places.last().is_some_and(|last| part.first() == Some(last));
+            places.extend(part.into_iter().skip(usize::from(same)));
+        }
+        Ok(places)
+    }
+
+    fn arcs(&self, element: &Element, given: &[DVec3], context: &GmlContext) -> GeometryResult<Vec<DVec3>> {
+        if given.len() < 3 || given.len().is_multiple_of(2) {
+            return wrong(format!("has a curve that is an {} of {} places", element.name, given.len()));
+        }
+        let near = NEAR / context.known().map_or(1.0, |system| system.crs.metres());
+        let mut places = vec![given[0]];
+        for from in (0..given.len() - 2).step_by(2) {
+            let before = places.len();
+            add_arc(&mut places, [given[from], given[from + 1], given[from + 2]], near);
+            self.budget.take((places.len() - before) * 24)?;
+            self.budget.tick()?;
+        }
+        if element.name == "Circle" {
+            // Three places tell it, of which the last goes on to the first: the other half of its way.
+            let opposite = around(given);
+            add_arc(&mut places, [given[2], opposite, given[0]], near);
+        }
+        Ok(places)
+    }
+
+    /// The places that are told within an element.
+    fn places(&mut self, context: &GmlContext) -> GeometryResult<Vec<DVec3>> {
+        let depth = self.xml.depth;
+        let mut places = Vec::new();
+        while let Some(inner) = self.child(depth)? {
+            let inside = context.within(&inner, &mut *self.named);
+            let own = self.xml.depth;
+            match &*inner.name {
+                "pos" | "posList" => {
+                    let many = inner.name == "posList";
+                    self.end(own)?;
+                    let numbers = numbers(self.xml.text())?;
+                    self.budget.take(numbers.len() * 16)?;
+                    let dimension = match many {
+                        true => dimension(&numbers, &inner, &inside)?,
+                        false => numbers.len().min(3),
+                    };
+                    if dimension < 2 {
+                        return wrong("has a place of fewer than two numbers");
+                    }
+                    if many && !numbers.len().is_multiple_of(dimension) {
+                        let count = numbers.len();
+                        return wrong(format!(
+                            "has a list of {count} numbers, which are no places of {dimension}"
+                        ));
+                    }
+                    let chunks = numbers.chunks_exact(if many { dimension } else { numbers.len() });
+                    places.extend(chunks.map(|place| ordered(place, &inside)));
+                }
+                "coordinates" => {
+                    self.end(own)?;
+                    let old = tuples(self.xml.text(), &inner)?;
+                    self.budget.take(old.len() * 32)?;
+                    places.extend(old.iter().map(|place| ordered(&place[..], &inside)));
+                }
+                "coord" => {
+                    let mut place = Vec::new();
+                    while let Some(axis) = self.child(own)? {
+                        let at = self.xml.depth;
+                        self.end(at)?;
+                        let number = self.xml.text().parse::<f64>();
+                        place.push(number.or_else(|_| {
+                            wrong(format!("has a coordinate {} that is no number", shown(&axis.name)))
+                        })?);
+                    }
+                    if place.len() < 2 {
+                        return wrong("has a place of fewer than two numbers");
+                    }
+                    places.push(ordered(&place, &inside));
+                }
+                name if is_aside(name) => self.xml.leave(own - 1)?,
+                // A property around places.
+                _ => {}
+            }
+        }
+        Ok(places)
+    }
+
+    /// Goes to where the element that began at `depth` ends, which is to hold text alone.
+    fn end(&mut self, depth: usize) -> GeometryResult<()> {
+        match self.xml.next()? {
+            XmlPiece::End if self.xml.depth < depth => Ok(()),
+            _ => wrong("has an element where numbers should be"),
+        }
+    }
+}
+
+/// Whether an element says something beside geometries.
+fn is_aside(name: &str) -> bool {
+    matches!(
+        name,
+        "boundedBy" | "description" | "metaDataProperty" | "name" | "identifier" | "descriptionReference"
+    )
+}
+
+/// The place opposite of the second of three on their circle.
+fn around(given: &[DVec3]) -> DVec3 {
+    let [a, b, c] = [given[0], given[1], given[2]].map(|place| place.truncate());
+    let (u, v) = (b - a, c - a);
+    let twice = 2.0 * u.perp_dot(v);
+    let centre = a + (u * v.length_squared() - v * u.length_squared()).perp() / twice;
+    (centre + centre - b).extend(given[1].z)
+}
+
+/// How many numbers make a place in a list.
+fn dimension(numbers: &[f64], element: &Element, context: &GmlContext) -> GeometryResult<usize> {
+    if let Some(told) = context.dimension {
+        return Ok(told);
+    }
+    if let Some(count) = element.attribute("count").and_then(|count| count.trim().parse::<usize>().ok())
+        && count > 0
+        && numbers.len().is_multiple_of(count)
+    {
+        return Ok(numbers.len() / count);
+    }
+    let closes = |dimension: usize| {
+        let count = numbers.len();
+        count.is_multiple_of(dimension)
+            && count > dimension
+            && numbers[..dimension] == numbers[count - dimension..]
+    };
+    Ok(match (closes(2), closes(3)) {
+        (false, true) => 3,
+        (true, false) => 2,
+        _ if context.known().is_some_and(|system| system.has_heights) => 3,
+        _ if numbers.len().is_multiple_of(2) => 2,
+        _ => 3,
+    })
+}
+
+/// A place with east first.
+fn ordered(place: &[f64], context: &GmlContext) -> DVec3 {
+    let z = place.get(2).copied().unwrap_or_default();
+    match context.known() {
+        Some(system) if system.north_first => DVec3::new(place[1], place[0], z),
+        _ => DVec3::new(place[0], place[1], z),
+    }
+}
+
+fn number(text: &str) -> GeometryResult<f64> {
+    text.parse().or_else(|_| wrong(format!("has \"{}\" where a number should be", shown(text))))
+}
+
+/// The numbers between blanks.
+fn numbers(text: &str) -> GeometryResult<Vec<f64>> {
+    text.split_ascii_whitespace().map(number).collect()
+}
+
+/// The places of a text of version 2, whose separators may be others.
+fn tuples(text: &str, element: &Element) -> GeometryResult<Vec<Vec<f64>>> {
+    let mark = |name: &str, usual: char| {
+        let told = element.attribute(name).and_then(|text| text.chars().next());
+        told.unwrap_or(usual)
+    };
+    let (decimal, comma, blank) = (mark("decimal", '.'), mark("cs", ','), mark("ts", ' '));
+    let places = text.split(|letter: char| letter == blank || (blank == ' ' && letter.is_whitespace()));
+    let places = places.map(str::trim).filter(|place| !place.is_empty()).map(|place| {
+        let numbers = place.split(comma).map(|text| match decimal {
+            '.' => number(text.trim()),
+            mark => number(&text.trim().replace(mark, ".")),
+        });
+        let numbers: Vec<f64> = numbers.collect::<GeometryResult<_>>()?;
+        if numbers.len() < 2 { wrong("has a place of fewer than two numbers") } else { Ok(numbers) }
+    });
+    places.collect()
+}

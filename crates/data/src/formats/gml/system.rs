@@ -1,0 +1,106 @@
+//! What `srsName` means: a coordinate system, and which coordinate comes first.
+
+use super::axes::is_north_first;
+use crate::Crs;
+use burgeon_base::error::{Error, Result};
+use burgeon_base::text::shown;
+
+/// A coordinate system as a file names it.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct NamedSystem {
+    pub(super) crs: Crs,
+    /// Whether the first coordinate is the northing, or the latitude.
+    pub(super) north_first: bool,
+    /// Whether it has heights.
+    pub(super) has_heights: bool,
+}
+
+impl NamedSystem {
+    /// What `name` means; `forced` is the code that holds in its place.
+    ///
+    /// A URN, or an address of opengis.net, has coordinates in the order of the registry; so latitude comes first. In the
+    /// short forms of old, east comes first always.
+    pub(super) fn named(name: &str, forced: Option<u32>) -> Result<Self> {
+        let parts: Vec<&str> = name.split(',').collect();
+        let is_compound = parts.len() > 2 && parts[0].ends_with(":crs");
+        let part = if is_compound { parts[1] } else { name };
+        let (code, by_registry) = code(part.trim()).unwrap_or((None, false));
+        let code = forced.or(code).ok_or_else(|| {
+            Error::data(format!("the coordinate system \"{}\" is not known", shown(name)))
+                .help("name its EPSG code: source(file, { crs = 3067 })")
+        })?;
+        let crs = Crs::epsg(code)?;
+        let north_first = by_registry
+            && (crs.is_geographic() && !part.contains("CRS84") || crs.code.is_some_and(is_north_first));
+        Ok(Self { crs, north_first, has_heights: is_compound || matches!(code, 4979 | 4937 | 7423) })
+    }
+}
+
+/// The EPSG code in a name, and whether the registry's order of coordinates holds.
+fn code(name: &str) -> Option<(Option<u32>, bool)> {
+    let last = |separator: char| name.rsplit(separator).next().and_then(|code| code.parse().ok());
+    let lower = name.to_ascii_lowercase();
+    // As German surveyors name them; east comes first.
+    if let Some((_, zone)) = lower.split_once("etrs89_utm") {
+        let zone: String = zone.chars().take_while(char::is_ascii_digit).collect();
+        return Some((
+            zone.parse::<u32>().ok().filter(|zone| (28..=38).contains(zone)).map(|zone| 25_800 + zone),
+            false,
+        ));
+    }
+    if lower.ends_with("crs84") || lower.ends_with("crs:84") {
+        return Some((Some(4326), false));
+    }
+    if lower.starts_with("urn:") {
+        return lower.contains(":epsg:").then(|| (last(':'), true));
+    }
+    if lower.contains("/def/crs/epsg/") {
+        return Some((last('/'), true));
+    }
+    if lower.contains("epsg.xml#") {
+        return Some((last('#'), false));
+    }
+    if lower.starts_with("epsg:") || lower.starts_with("crs:") {
+        return Some((last(':'), false));
+    }
+    name.parse().ok().map(|code| (Some(code), false))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_of_all_forms_are_known_with_their_order() {
+        let of = |name: &str| {
+            NamedSystem::named(name, None)
+                .map(|system| (system.crs.name(), system.north_first, system.has_heights))
+                .ok()
+        };
+        for (name, code, north_first) in [
+            ("urn:ogc:def:crs:EPSG::4326", 4326, true),
+            ("urn:ogc:def:crs:EPSG:6.9:4326", 4326, true),
+            ("urn:x-ogc:def:crs:EPSG:4326", 4326, true),
+            ("http://www.opengis.net/def/crs/EPSG/0/4258", 4258, true),
+            ("https://www.opengis.net/def/crs/EPSG/0/31467", 31467, true),
+            ("urn:ogc:def:crs:EPSG::25832", 25832, false),
+            ("urn:ogc:def:crs:EPSG::3035", 3035, true),
+            ("http://www.opengis.net/gml/srs/epsg.xml#4326", 4326, false),
+            ("EPSG:4326", 4326, false),
+            ("epsg:31467", 31467, false),
+            ("urn:ogc:def:crs:OGC:1.3:CRS84", 4326, false),
+            ("CRS:84", 4326, false),
+            ("urn:adv:crs:ETRS89_UTM32", 25832, false),
+        ] {
+            assert_eq!(of(name), Some((format!("EPSG:{code}"), north_first, false)), "{name}");
+        }
+        let compound = "urn:ogc:def:crs,crs:EPSG::25832,crs:EPSG::7837";
+        assert_eq!(of(compound), Some(("EPSG:25832".to_owned(), false, true)));
+        for name in
+            ["", "#crs", "urn:ogc:def:crs:EPSG::", "urn:adv:crs:DE_DHDN_3GK3", "EPSG:99999", "EPSG:-1"]
+        {
+            assert_eq!(of(name), None, "{name}");
+        }
+        assert!(NamedSystem::named("urn:ogc:def:crs:EPSG::99999", Some(4326)).unwrap().north_first);
+    }
+}

@@ -1,0 +1,244 @@
+//! A file of XML, element by element, within bounds.
+
+use std::cell::Cell;
+use std::fs::File;
+use std::io::{BufRead, BufReader, Read, Seek};
+use std::rc::Rc;
+use std::sync::Arc;
+
+use quick_xml::Reader;
+use quick_xml::escape::resolve_predefined_entity;
+use quick_xml::events::{BytesStart, Event};
+
+use burgeon_base::budget::Budget;
+use burgeon_base::error::{Error, Result};
+use burgeon_base::text::shown;
+
+/// The deepest that elements may be nested.
+const DEEPEST: usize = 100;
+
+/// The longest text, comment or tag (bytes).
+const LONGEST: usize = 100_000_000;
+
+/// A piece of a file.
+pub(super) enum XmlPiece {
+    /// An element begins.
+    Start(Element),
+    /// The element that began last ends.
+    End,
+    /// The file ends.
+    Eof,
+}
+
+/// The beginning of an element.
+pub(super) struct Element {
+    /// Its name without what stands before a colon.
+    pub(super) name: String,
+    attributes: Vec<(String, String)>,
+}
+
+impl Element {
+    /// The attribute called `name`, whatever stands before a colon.
+    pub(super) fn attribute(&self, name: &str) -> Option<&str> {
+        self.attributes.iter().find(|(known, _)| known == name).map(|(_, value)| value.as_str())
+    }
+}
+
+/// A file that is read from the front to the end.
+pub(super) struct Xml {
+    reader: Reader<BoundedReader<BufReader<Text>>>,
+    buffer: Vec<u8>,
+    /// The text since an element began or ended.
+    text: String,
+    /// How many elements have begun and not ended.
+    pub(super) depth: usize,
+    name: String,
+    budget: Arc<Budget>,
+    unread: Rc<Cell<usize>>,
+}
+
+impl Xml {
+    /// Begins at the front of `file`.
+    pub(super) fn new(file: &File, name: &str, budget: &Arc<Budget>) -> Result<Self> {
+        let cannot = |error: std::io::Error| broken(name, &error.to_string());
+        let mut file = file.try_clone().map_err(cannot)?;
+        let mut head = [0; 256];
+        file.rewind().map_err(cannot)?;
+        let count = file.read(&mut head).map_err(cannot)?;
+        file.rewind().map_err(cannot)?;
+        let unread = Rc::new(Cell::new(0));
+        let longest = LONGEST.min(budget.memory() / 4);
+        let text = Text { file, is_latin: is_latin(&head[..count], name)?, held: Vec::new() };
+        let bounded = BoundedReader {
+            inner: BufReader::with_capacity(1 << 16, text),
+            unread: Rc::clone(&unread),
+            longest,
+        };
+        let mut reader = Reader::from_reader(bounded);
+        reader.config_mut().expand_empty_elements = true;
+        let (name, budget) = (name.to_owned(), Arc::clone(budget));
+        Ok(Self { reader, buffer: Vec::new(), text: String::new(), depth: 0, name, budget, unread })
+    }
+
+    /// The text since the last element began or ended.
+    pub(super) fn text(&self) -> &str {
+        self.text.trim()
+    }
+
+    /// The next beginning or end. Text, of which [`Xml::text`] tells, begins anew where an element begins.
+    pub(super) fn next(&mut self) -> Result<XmlPiece> {
+        self.text.clear();
+        loop {
+            self.budget.tick()?;
+            self.buffer.clear();
+            self.unread.set(0);
+            let event = self.reader.read_event_into(&mut self.buffer);
+            let event = event
+                .map_err(|error| wrong(&self.name, &error.to_string(), self.reader.buffer_position()))?;
+            match event {
+                Event::Start(start) => {
+                    let element = element(&start).map_err(|why| broken(&self.name, &why))?;
+                    self.depth += 1;
+                    if self.depth > DEEPEST {
+                        return Err(broken(
+                            &self.name,
+                            &format!("its elements are nested more than {DEEPEST} deep"),
+                        ));
+                    }
+                    return Ok(XmlPiece::Start(element));
+                }
+                Event::End(_) => {
+                    self.depth = self.depth.saturating_sub(1);
+                    return Ok(XmlPiece::End);
+                }
+                Event::Eof if self.depth > 0 => return Err(broken(&self.name, "it ends within an element")),
+                Event::Eof => return Ok(XmlPiece::Eof),
+                Event::Text(text) => self.text.push_str(&text.into_inner()),
+                Event::CData(text) => self.text.push_str(&text.into_inner()),
+                Event::GeneralRef(reference) => {
+                    let letter = reference.resolve_char_ref().ok().flatten();
+                    let name = reference.into_inner();
+                    match (letter, resolve_predefined_entity(&name)) {
+                        (Some(letter), _) => self.text.push(letter),
+                        (None, Some(text)) => self.text.push_str(text),
+                        (None, None) => {
+                            let why = format!("it names the entity {}, which is not known", shown(&name));
+                            return Err(broken(&self.name, &why));
+                        }
+                    }
+                }
+                Event::DocType(kind) if kind.contains("<!ENTITY") => {
+                    return Err(broken(
+                        &self.name,
+                        "it declares entities of its own, which are not followed",
+                    ));
+                }
+                Event::DocType(_) | Event::Comment(_) | Event::PI(_) | Event::Decl(_) | Event::Empty(_) => {}
+            }
+            if self.text.len() > LONGEST.min(self.budget.memory() / 4) {
+                return Err(broken(&self.name, "it has a text that is too long"));
+            }
+        }
+    }
+
+    /// Passes over what is left of the elements that are deeper than `depth`.
+    pub(super) fn leave(&mut self, depth: usize) -> Result<()> {
+        while self.depth > depth {
+            if matches!(self.next()?, XmlPiece::Eof) {
+                break;
+            }
+        }
+        Ok(())
+    }
+}
+
+/// The name and the attributes of an element.
+fn element(start: &BytesStart<'_>) -> std::result::Result<Element, String> {
+    let name = start.local_name().as_ref().to_owned();
+    let mut attributes = Vec::new();
+    for attribute in start.attributes() {
+        let attribute =
+            attribute.map_err(|error| format!("an attribute of {} is damaged: {error}", shown(&name)))?;
+        let value = attribute.normalized_value(quick_xml::XmlVersion::Implicit1_0);
+        let value = value.map_err(|error| format!("an attribute of {} is damaged: {error}", shown(&name)))?;
+        attributes.push((attribute.key.local_name().as_ref().to_owned(), value.into_owned()));
+    }
+    Ok(Element { name, attributes })
+}
+
+fn broken(name: &str, why: &str) -> Error {
+    Error::data(format!("{name} cannot be read: {why}"))
+        .help("the file is damaged or cut short; get it again")
+}
+
+fn wrong(name: &str, why: &str, at: u64) -> Error {
+    broken(name, &format!("at byte {at}: {}", shown(why)))
+}
+
+/// Whether the head of a file says that each of its bytes is a letter of Latin; fails if it is of neither this nor UTF-8.
+fn is_latin(head: &[u8], name: &str) -> Result<bool> {
+    let head = String::from_utf8_lossy(head);
+    let declared = head.split_once("?>").map_or("", |(declared, _)| declared);
+    let encoding = declared.split_once("encoding=").map_or("", |(_, rest)| rest);
+    let encoding: String =
+        encoding.trim_start_matches(['"', '\'']).chars().take_while(|c| !matches!(c, '"' | '\'')).collect();
+    match encoding.to_ascii_lowercase().as_str() {
+        "" | "utf-8" | "utf8" | "us-ascii" | "ascii" => Ok(false),
+        "iso-8859-1" | "iso-8859-15" | "latin1" | "windows-1252" | "cp1252" => Ok(true),
+        other => Err(Error::data(format!("{name} is written in {}, which is not read", shown(other)))
+            .help("convert it: iconv -f ENCODING -t UTF-8 IN > OUT.gml, and mend its first line")),
+    }
+}
+
+/// A file as UTF-8.
+struct Text {
+    file: File,
+    is_latin: bool,
+    /// What did not fit last time.
+    held: Vec<u8>,
+}
+
+impl Read for Text {
+    fn read(&mut self, into: &mut [u8]) -> std::io::Result<usize> {
+        if !self.is_latin {
+            return self.file.read(into);
+        }
+        if self.held.is_empty() {
+            let mut bytes = vec![0; (into.len() / 2).max(1)];
+            let count = self.file.read(&mut bytes)?;
+            let text: String = bytes[..count].iter().copied().map(char::from).collect();
+            self.held = text.into_bytes();
+        }
+        let count = self.held.len().min(into.len());
+        into[..count].copy_from_slice(&self.held[..count]);
+        self.held.drain(..count);
+        Ok(count)
+    }
+}
+
+/// Bytes of which no more than so many are read for one piece.
+struct BoundedReader<R> {
+    inner: R,
+    unread: Rc<Cell<usize>>,
+    longest: usize,
+}
+
+impl<R: Read> Read for BoundedReader<R> {
+    fn read(&mut self, into: &mut [u8]) -> std::io::Result<usize> {
+        self.inner.read(into)
+    }
+}
+
+impl<R: BufRead> BufRead for BoundedReader<R> {
+    fn fill_buf(&mut self) -> std::io::Result<&[u8]> {
+        if self.unread.get() > self.longest {
+            return Err(std::io::Error::other("a tag, a text or a comment is too long"));
+        }
+        self.inner.fill_buf()
+    }
+
+    fn consume(&mut self, count: usize) {
+        self.unread.set(self.unread.get() + count);
+        self.inner.consume(count);
+    }
+}

@@ -1,0 +1,239 @@
+//! The blobs that an extract is a row of, and how they are unpacked.
+
+use std::fs::File;
+use std::io::{Read, Seek, SeekFrom};
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::{Mutex, OnceLock, PoisonError};
+
+use flate2::{Decompress, FlushDecompress, Status};
+
+use super::wire::{WireDamage, WireField, WireFields};
+use crate::formats::packed::{DEFLATED, can_hold};
+use burgeon_base::budget::Budget;
+use burgeon_base::error::{Error, Result};
+
+/// The most bytes of a blob's header, and of a blob, packed or not, that the format allows.
+const LARGEST_HEADER: usize = 64 << 10;
+const LARGEST: usize = 32 << 20;
+
+/// How many unpacked bytes are kept for what asks for them again.
+const KEPT: usize = 64 << 20;
+
+/// How many bytes a block may take while it is looked at, besides its own, for each of its own.
+const AROUND: usize = 8;
+
+/// What a file has to be read as, of what it may say is needed.
+const KNOWN: [&str; 2] = ["OsmSchema-V0.6", "DenseNodes"];
+
+/// A file of blobs.
+pub(super) struct BlobFile {
+    file: Mutex<File>,
+    name: String,
+    blobs: Vec<Blob>,
+    /// The bytes of blocks that are kept.
+    kept: AtomicUsize,
+}
+
+struct Blob {
+    at: u64,
+    size: usize,
+    unpacked: OnceLock<Vec<u8>>,
+}
+
+/// Whether a file that begins so is an extract.
+pub(super) fn is_extract(head: &[u8]) -> bool {
+    head.get(4..15).is_some_and(|found| found == b"\x0a\x09OSMHeader")
+}
+
+impl BlobFile {
+    /// Finds the blobs of `file`, and looks at its header. Fails if it is cut short, or needs what is not known.
+    pub(super) fn open(file: File, name: &str, budget: &Budget) -> Result<Self> {
+        let mut found = Self {
+            file: Mutex::new(file),
+            name: name.to_owned(),
+            blobs: Vec::new(),
+            kept: AtomicUsize::new(0),
+        };
+        let mut header = None;
+        let mut at = 0;
+        while let Some((kind, begin, size)) = found.head(at, budget)? {
+            at = begin + size as u64;
+            budget.take(size_of::<Blob>())?;
+            let blob = Blob { at: begin, size, unpacked: OnceLock::new() };
+            match (&*kind, header.is_some()) {
+                (b"OSMHeader", false) => header = Some(blob),
+                (b"OSMData", true) => found.blobs.push(blob),
+                // Blobs of other kinds are for other programs.
+                _ => {}
+            }
+        }
+        let header = header.ok_or_else(|| found.damaged("it has no header"))?;
+        found.look(&header, budget, |bytes| found.check(bytes))?;
+        Ok(found)
+    }
+
+    /// How many blocks it has.
+    pub(super) fn len(&self) -> usize {
+        self.blobs.len()
+    }
+
+    /// The error for bytes that are not as they should be.
+    pub(super) fn damaged(&self, why: &str) -> Error {
+        Error::data(format!("{} cannot be read: {why}", self.name))
+            .help("the file is damaged or cut short; get it again")
+    }
+
+    /// The kind of the blob whose header is at `at`, where it begins and how long it is; none at the end.
+    fn head(&self, at: u64, budget: &Budget) -> Result<Option<(Vec<u8>, u64, usize)>> {
+        budget.tick()?;
+        let mut file = self.file.lock().unwrap_or_else(PoisonError::into_inner);
+        let ends = |_| self.damaged(&format!("the blob at byte {at} is cut short"));
+        let end = file.seek(SeekFrom::End(0)).map_err(ends)?;
+        if at == end {
+            return Ok(None);
+        }
+        file.seek(SeekFrom::Start(at)).map_err(ends)?;
+        let mut length = [0; 4];
+        file.read_exact(&mut length).map_err(ends)?;
+        let length = u32::from_be_bytes(length) as usize;
+        if length > LARGEST_HEADER {
+            return Err(self.damaged(&format!("the blob at byte {at} has a header of {length} bytes")));
+        }
+        let mut header = vec![0; length];
+        file.read_exact(&mut header).map_err(ends)?;
+        let (mut kind, mut size) = (&[][..], None);
+        for field in WireFields(&header) {
+            let wrong = |why| self.damaged(&format!("the header of the blob at byte {at} {why}"));
+            match field.map_err(wrong)? {
+                (1, field) => kind = field.bytes().map_err(wrong)?,
+                (3, field) => size = Some(field.number().map_err(wrong)?),
+                _ => {}
+            }
+        }
+        let begin = at + 4 + length as u64;
+        let size = size.and_then(|size| usize::try_from(size).ok()).filter(|size| *size <= LARGEST);
+        let Some(size) = size else {
+            return Err(self.damaged(&format!("the blob at byte {at} has no size that can be")));
+        };
+        if end - begin < size as u64 {
+            return Err(self.damaged(&format!("the blob at byte {at} is cut short")));
+        }
+        Ok(Some((kind.to_vec(), begin, size)))
+    }
+
+    /// Has `work` look at the bytes of the block `index`.
+    pub(super) fn block<T>(
+        &self,
+        index: usize,
+        budget: &Budget,
+        work: impl FnOnce(&[u8]) -> Result<T, WireDamage>,
+    ) -> Result<T> {
+        let blob = &self.blobs[index];
+        self.look(blob, budget, |bytes| {
+            work(bytes).map_err(|why| {
+                // It may be that the time is over, and not the block's fault.
+                budget
+                    .check()
+                    .err()
+                    .unwrap_or_else(|| self.damaged(&format!("the block at byte {} {why}", blob.at)))
+            })
+        })
+    }
+
+    fn look<T>(&self, blob: &Blob, budget: &Budget, work: impl FnOnce(&[u8]) -> Result<T>) -> Result<T> {
+        budget.check()?;
+        if let Some(bytes) = blob.unpacked.get() {
+            let _held = budget.hold(bytes.len() * AROUND)?;
+            return work(bytes);
+        }
+        let mut packed = vec![0; blob.size];
+        {
+            let mut file = self.file.lock().unwrap_or_else(PoisonError::into_inner);
+            let read = file.seek(SeekFrom::Start(blob.at)).and_then(|_| file.read_exact(&mut packed));
+            read.map_err(|error| self.damaged(&error.to_string()))?;
+        }
+        let wrong = |why: WireDamage| self.damaged(&format!("the blob at byte {} {why}", blob.at));
+        let (content, size) = self.content(&packed).map_err(wrong)?.map_err(|packing| {
+            Error::data(format!("{} is packed by {packing}, which is not read", self.name))
+                .help("pack it anew: osmium cat IN.osm.pbf -o OUT.osm.pbf -f pbf,pbf_compression=zlib")
+        })?;
+        let _held = budget.hold(size * (AROUND + 1))?;
+        let bytes = match content {
+            Content::Plain(bytes) => bytes.to_vec(),
+            Content::Deflated(bytes) => inflate(bytes, size).map_err(wrong)?,
+        };
+        let result = work(&bytes)?;
+        let before = self.kept.fetch_add(size, Ordering::Relaxed);
+        if before + size <= KEPT && budget.take(size).is_ok() {
+            // Whoever comes second keeps nothing.
+            let _ = blob.unpacked.set(bytes);
+        }
+        Ok(result)
+    }
+
+    /// What a blob holds and how many bytes that are unpacked; or by what it is packed, if that is not read.
+    fn content<'a>(&self, blob: &'a [u8]) -> Result<Result<(Content<'a>, usize), &'static str>, WireDamage> {
+        let (mut content, mut size) = (None, None);
+        for field in WireFields(blob) {
+            match field? {
+                (1, field) => content = Some(Content::Plain(field.bytes()?)),
+                (2, field) => size = Some(field.number()?),
+                (3, field) => content = Some(Content::Deflated(field.bytes()?)),
+                (4, WireField::Bytes(_)) => return Ok(Err("LZMA")),
+                (5, WireField::Bytes(_)) => return Ok(Err("bzip2")),
+                (6, WireField::Bytes(_)) => return Ok(Err("LZ4")),
+                (7, WireField::Bytes(_)) => return Ok(Err("Zstandard")),
+                _ => {}
+            }
+        }
+        let content = content.ok_or("holds nothing")?;
+        let size = match content {
+            Content::Plain(bytes) => bytes.len(),
+            Content::Deflated(packed) => {
+                let size =
+                    size.and_then(|size| usize::try_from(size).ok()).ok_or("does not tell its size")?;
+                if size > LARGEST || !can_hold(packed.len(), DEFLATED, size) {
+                    return Err("claims to be larger than it can be");
+                }
+                size
+            }
+        };
+        Ok(Ok((content, size)))
+    }
+
+    /// Fails if the header block says that something is needed that is not known.
+    fn check(&self, header: &[u8]) -> Result<()> {
+        for field in WireFields(header) {
+            let field = field.and_then(|(number, field)| if number == 4 { field.bytes() } else { Ok(&[]) });
+            let needed = field.map_err(|why| self.damaged(&format!("its header {why}")))?;
+            if needed == b"HistoricalInformation" {
+                return Err(Error::data(format!("{} holds the history of its features", self.name))
+                    .help("take out the present: osmium time-filter IN.osh.pbf -o OUT.osm.pbf"));
+            }
+            if !needed.is_empty() && !KNOWN.iter().any(|known| known.as_bytes() == needed) {
+                let needed = String::from_utf8_lossy(needed);
+                let needed = burgeon_base::text::shown(&needed);
+                return Err(Error::data(format!("{} needs \"{needed}\", which is not known", self.name))
+                    .help("write it anew: osmium cat IN.osm.pbf -o OUT.osm.pbf"));
+            }
+        }
+        Ok(())
+    }
+}
+
+enum Content<'a> {
+    Plain(&'a [u8]),
+    Deflated(&'a [u8]),
+}
+
+/// Unpacks what becomes exactly `size` bytes.
+fn inflate(packed: &[u8], size: usize) -> Result<Vec<u8>, WireDamage> {
+    // One more, so that a stream that goes on is told from one that ends.
+    let mut bytes = Vec::with_capacity(size + 1);
+    let mut stream = Decompress::new(true);
+    let status = stream.decompress_vec(packed, &mut bytes, FlushDecompress::Finish);
+    match status {
+        Ok(Status::StreamEnd) if bytes.len() == size => Ok(bytes),
+        _ => Err("cannot be unpacked"),
+    }
+}

@@ -1,0 +1,214 @@
+//! What looks through the blocks of an extract: for what tags choose, for ways, and for the places of nodes.
+
+use rustc_hash::{FxHashMap, FxHashSet};
+
+use super::block::{OsmBlock, TagNumbers, VisitResult, Visitor, WantedTags};
+use super::layers::{ReadyLayer, is_area};
+use super::places::Place;
+use super::shapes::{OsmShape, Record};
+use super::wire::{Deltas, Varints};
+use crate::tags::TagFilter;
+use crate::{GeometryKind, SourceOptions};
+use burgeon_base::budget::Budget;
+
+/// What is wanted of an extract.
+pub(super) struct TagChoice {
+    /// What tags have to be: all of these hold.
+    filters: Vec<TagFilter>,
+    /// Keys of which a feature has one; none if any feature may be meant.
+    pub(super) words: Option<FxHashMap<Vec<u8>, usize>>,
+    /// The kind of geometry; any if none.
+    kind: Option<GeometryKind>,
+    /// Whether tags decide if a closed way is an area.
+    by_tags: bool,
+}
+
+impl TagChoice {
+    pub(super) fn new(layer: Option<&ReadyLayer>, wanted: &SourceOptions) -> Self {
+        let filters: Vec<TagFilter> =
+            layer.map(ReadyLayer::filter).into_iter().chain(wanted.tags.clone()).collect();
+        let words = filters.iter().find_map(TagFilter::needed).map(|keys| {
+            keys.into_iter().enumerate().map(|(number, key)| (key.as_bytes().to_vec(), number)).collect()
+        });
+        let kind = layer.map_or(wanted.kind, |layer| Some(layer.kind));
+        Self { filters, words, kind, by_tags: layer.is_some() || kind.is_none() }
+    }
+
+    fn wants(&self, kind: GeometryKind) -> bool {
+        self.kind.is_none_or(|wanted| wanted == kind)
+    }
+}
+
+/// Looks for what is chosen.
+pub(super) struct TagSearch<'c> {
+    pub(super) choice: &'c TagChoice,
+    pub(super) budget: &'c Budget,
+    /// Which texts of the block are keys of which a feature has one.
+    pub(super) class: Option<Vec<usize>>,
+    pub(super) records: Vec<Record>,
+}
+
+/// Fails if reading is to end.
+fn told_to_go_on(budget: &Budget) -> VisitResult<()> {
+    budget.tick().map_err(|_| "takes too much")
+}
+
+/// The value of a key among tags.
+fn value_of<'b>(block: &OsmBlock<'b>, tags: &[TagNumbers], key: &str) -> Option<&'b [u8]> {
+    let found = tags.iter().find(|(number, _)| block.string(*number) == Ok(key.as_bytes()));
+    found.and_then(|(_, value)| block.string(*value).ok())
+}
+
+impl TagSearch<'_> {
+    /// The alternative that holds for tags, if they are chosen.
+    fn chosen(&self, block: &OsmBlock<'_>, tags: &[TagNumbers]) -> VisitResult<Option<usize>> {
+        told_to_go_on(self.budget)?;
+        if let Some(class) = &self.class
+            && !tags.iter().any(|(key, _)| class.get(*key).is_some_and(|class| *class > 0))
+        {
+            return Ok(None);
+        }
+        let value = |key: &str| value_of(block, tags, key);
+        let mut alternative = None;
+        for filter in &self.choice.filters {
+            let Some(found) = filter.chosen(value) else { return Ok(None) };
+            alternative.get_or_insert(found);
+        }
+        Ok(alternative)
+    }
+
+    fn take(
+        &mut self,
+        block: &OsmBlock<'_>,
+        (id, tags, alternative): (i64, &[TagNumbers], usize),
+        shape: OsmShape,
+    ) -> VisitResult<()> {
+        let mut taken = Vec::with_capacity(tags.len());
+        let mut weight = 100 + 8 * (shape.nodes().len() + shape.ways().len());
+        for (key, value) in tags {
+            let [key, value] = [block.string(*key)?, block.string(*value)?];
+            weight += 80 + key.len() + value.len();
+            let text = |bytes: &[u8]| String::from_utf8_lossy(bytes).into_owned();
+            taken.push((text(key), text(value)));
+        }
+        self.budget.take(weight).map_err(|_| "takes too much")?;
+        self.records.push(Record { id, shape, tags: taken, alternative });
+        Ok(())
+    }
+}
+
+impl Visitor for TagSearch<'_> {
+    fn wants_nodes(&self) -> Option<WantedTags> {
+        self.choice.wants(GeometryKind::Point).then_some(WantedTags::All)
+    }
+
+    fn node(&mut self, block: &OsmBlock<'_>, id: i64, place: Place, tags: &[TagNumbers]) -> VisitResult<()> {
+        // Most nodes are nothing but places of ways.
+        if tags.is_empty() {
+            return told_to_go_on(self.budget);
+        }
+        match self.chosen(block, tags)? {
+            Some(alternative) => self.take(block, (id, tags, alternative), OsmShape::Point(place)),
+            None => Ok(()),
+        }
+    }
+
+    fn way(
+        &mut self,
+        block: &OsmBlock<'_>,
+        id: i64,
+        tags: &[TagNumbers],
+        nodes: Deltas<'_>,
+    ) -> VisitResult<()> {
+        let (lines, areas) =
+            (self.choice.wants(GeometryKind::Line), self.choice.wants(GeometryKind::Polygon));
+        if !(lines || areas) {
+            return Ok(());
+        }
+        let Some(alternative) = self.chosen(block, tags)? else { return Ok(()) };
+        let nodes = all(nodes)?;
+        let closed = nodes.len() > 3 && nodes.first() == nodes.last();
+        let is_area = closed
+            && areas
+            && match self.choice.by_tags {
+                true => is_area(|key| value_of(block, tags, key)),
+                false => value_of(block, tags, "area") != Some(b"no"),
+            };
+        match (is_area, lines) {
+            (true, _) => self.take(block, (id, tags, alternative), OsmShape::Area(nodes)),
+            (false, true) => self.take(block, (id, tags, alternative), OsmShape::Line(nodes)),
+            (false, false) => Ok(()),
+        }
+    }
+
+    fn relation(
+        &mut self,
+        block: &OsmBlock<'_>,
+        id: i64,
+        tags: &[TagNumbers],
+        (mut members, mut types): (Deltas<'_>, Varints<'_>),
+    ) -> VisitResult<()> {
+        let kind = value_of(block, tags, "type");
+        if !self.choice.wants(GeometryKind::Polygon) || !matches!(kind, Some(b"multipolygon" | b"boundary")) {
+            return Ok(());
+        }
+        let Some(alternative) = self.chosen(block, tags)? else { return Ok(()) };
+        let mut ways = Vec::new();
+        while let Some(member) = members.next()? {
+            // Nodes and relations among the members are labels and the like.
+            if types.next()?.ok_or("has a member without a type")? == 1 {
+                ways.push(member);
+            }
+        }
+        self.take(block, (id, tags, alternative), OsmShape::Ways(ways))
+    }
+}
+
+/// All of some numbers.
+fn all(mut deltas: Deltas<'_>) -> VisitResult<Vec<i64>> {
+    let mut numbers = Vec::new();
+    while let Some(number) = deltas.next()? {
+        numbers.push(number);
+    }
+    Ok(numbers)
+}
+
+/// Looks for ways by their ids.
+pub(super) struct WaySearch<'w> {
+    pub(super) wanted: &'w FxHashSet<i64>,
+    pub(super) found: Vec<(i64, Vec<i64>)>,
+    pub(super) budget: &'w Budget,
+}
+
+impl Visitor for WaySearch<'_> {
+    fn way(&mut self, _: &OsmBlock<'_>, id: i64, _: &[TagNumbers], nodes: Deltas<'_>) -> VisitResult<()> {
+        told_to_go_on(self.budget)?;
+        if self.wanted.contains(&id) {
+            let nodes = all(nodes)?;
+            self.budget.take(100 + nodes.len() * 8).map_err(|_| "takes too much")?;
+            self.found.push((id, nodes));
+        }
+        Ok(())
+    }
+}
+
+/// Looks for places of nodes by their ids.
+pub(super) struct PlaceSearch<'w> {
+    pub(super) wanted: &'w FxHashSet<i64>,
+    pub(super) found: Vec<(i64, Place)>,
+    pub(super) budget: &'w Budget,
+}
+
+impl Visitor for PlaceSearch<'_> {
+    fn wants_nodes(&self) -> Option<WantedTags> {
+        Some(WantedTags::None)
+    }
+
+    fn node(&mut self, _: &OsmBlock<'_>, id: i64, place: Place, _: &[TagNumbers]) -> VisitResult<()> {
+        told_to_go_on(self.budget)?;
+        if self.wanted.contains(&id) {
+            self.found.push((id, place));
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,254 @@
+//! Reads a layer of an extract: what is chosen by tags, then the ways of its relations, then the places of its nodes.
+
+use std::fs::File;
+use std::path::Path;
+
+use rayon::prelude::*;
+use rustc_hash::{FxHashMap, FxHashSet};
+
+use super::blobs::{BlobFile, is_extract};
+use super::block::{Holds, OsmBlock, Visitor};
+use super::choosing::{PlaceSearch, TagChoice, TagSearch, WaySearch};
+use super::layers::{LAYERS, ReadyLayer};
+use super::meaning::{TagValue, told};
+use super::places::Place;
+use super::shapes::{BuildResult, Record, build};
+use crate::{Attribute, Crs, FeatureTable, SourceOptions};
+use burgeon_base::budget::Budget;
+use burgeon_base::error::{Error, Result};
+use burgeon_base::text::{listed, shown};
+
+/// An open extract of OpenStreetMap.
+pub struct OsmFile {
+    blobs: BlobFile,
+    name: String,
+    stem: String,
+}
+
+impl OsmFile {
+    /// Whether a file that begins so is an extract.
+    pub(crate) fn is_one(head: &[u8]) -> bool {
+        is_extract(head)
+    }
+
+    pub(crate) fn open(file: File, path: &Path, name: &str, wanted: &SourceOptions) -> Result<Self> {
+        let stem =
+            path.file_stem().map_or_else(|| name.to_owned(), |stem| stem.to_string_lossy().into_owned());
+        let stem = stem.strip_suffix(".osm").map_or_else(|| stem.clone(), str::to_owned);
+        Ok(Self { blobs: BlobFile::open(file, name, &wanted.budget)?, name: name.to_owned(), stem })
+    }
+
+    pub(crate) fn layers(&self) -> Vec<String> {
+        LAYERS.iter().map(|layer| layer.name.to_owned()).collect()
+    }
+
+    pub(crate) fn read(&self, wanted: &SourceOptions) -> Result<FeatureTable> {
+        let layer = match &wanted.layer {
+            Some(layer) => Some(ReadyLayer::named(layer).ok_or_else(|| {
+                let names = || LAYERS.iter().map(|layer| layer.name);
+                let message = format!("{} has no layer called {}", self.name, shown(layer));
+                let help = format!("it has {}; or choose by tags: {EXAMPLE}", listed(names()));
+                Error::not_found("layer", layer, names(), message).help(help)
+            })?),
+            None => None,
+        };
+        if layer.is_none() && wanted.tags.is_none() {
+            let names = listed(LAYERS.iter().map(|layer| layer.name));
+            let help = format!(
+                "name a layer: \"{}:buildings\"; it has {names}; or choose by tags: {EXAMPLE}",
+                self.name
+            );
+            return Err(Error::argument(format!(
+                "{} is an extract of OpenStreetMap, of which a layer is read",
+                self.name
+            ))
+            .help(help));
+        }
+        let label = match layer {
+            Some(layer) => format!("{}:{}", self.name, layer.name),
+            None => self.name.clone(),
+        };
+        let title = layer.map_or(&*self.stem, |layer| layer.name);
+        let mut table = FeatureTable::new(title, &label, Crs::epsg(4326), wanted);
+        let choice = TagChoice::new(layer, wanted);
+        let records = self.records(&choice, &wanted.budget)?;
+        let ways = self.member_ways(&records, &wanted.budget)?;
+        let places = self.places(&records, &ways, &wanted.budget)?;
+        let build = |record: &Record| build(record, &ways, &places, &wanted.budget);
+        let built: Vec<BuildResult> = records.par_iter().map(build).collect();
+        self.fill(&mut table, layer, records, built, wanted)?;
+        Ok(table)
+    }
+
+    /// What is chosen, in the order of the file.
+    fn records(&self, choice: &TagChoice, budget: &Budget) -> Result<Vec<Record>> {
+        let found = (0..self.blobs.len()).into_par_iter().map(|index| {
+            self.blobs.block(index, budget, |bytes| {
+                let block = OsmBlock::open(bytes)?;
+                let class = choice.words.as_ref().map(|words| block.numbered(words));
+                let mut choosing = TagSearch { choice, budget, class, records: Vec::new() };
+                block.visit(&mut choosing)?;
+                Ok(choosing.records)
+            })
+        });
+        let found: Result<Vec<Vec<Record>>> = found.collect();
+        Ok(found?.into_iter().flatten().collect())
+    }
+
+    /// The nodes of the ways that relations are made of.
+    fn member_ways(&self, records: &[Record], budget: &Budget) -> Result<FxHashMap<i64, Vec<i64>>> {
+        let wanted: FxHashSet<i64> = records.iter().flat_map(|record| record.shape.ways()).copied().collect();
+        if wanted.is_empty() {
+            return Ok(FxHashMap::default());
+        }
+        let found = self.collect(
+            budget,
+            |holds| holds.ways,
+            || WaySearch { wanted: &wanted, found: Vec::new(), budget },
+        )?;
+        // Of what stands there twice, the first counts.
+        let mut ways = FxHashMap::default();
+        for (id, nodes) in found.into_iter().flat_map(|members| members.found) {
+            ways.entry(id).or_insert(nodes);
+        }
+        Ok(ways)
+    }
+
+    /// The places of all nodes that are needed.
+    fn places(
+        &self,
+        records: &[Record],
+        ways: &FxHashMap<i64, Vec<i64>>,
+        budget: &Budget,
+    ) -> Result<FxHashMap<i64, Place>> {
+        let mut wanted: FxHashSet<i64> = FxHashSet::default();
+        for record in records {
+            let of_ways = record.shape.ways().iter().filter_map(|way| ways.get(way)).flatten();
+            wanted.extend(record.shape.nodes().iter().chain(of_ways));
+        }
+        if wanted.is_empty() {
+            return Ok(FxHashMap::default());
+        }
+        budget.take(wanted.len() * 80)?;
+        let found = self.collect(
+            budget,
+            |holds| holds.nodes,
+            || PlaceSearch { wanted: &wanted, found: Vec::new(), budget },
+        )?;
+        let mut places = FxHashMap::with_capacity_and_hasher(wanted.len(), Default::default());
+        for (id, place) in found.into_iter().flat_map(|places| places.found) {
+            places.entry(id).or_insert(place);
+        }
+        Ok(places)
+    }
+
+    /// Has a visitor visit each block that holds what it looks for.
+    fn collect<V: Visitor + Send>(
+        &self,
+        budget: &Budget,
+        holds: impl Fn(Holds) -> bool + Sync,
+        visitor: impl Fn() -> V + Sync,
+    ) -> Result<Vec<V>> {
+        let visit = |index| {
+            self.blobs.block(index, budget, |bytes| {
+                let (block, mut visitor) = (OsmBlock::open(bytes)?, visitor());
+                if holds(block.holds()?) {
+                    block.visit(&mut visitor)?;
+                }
+                Ok(visitor)
+            })
+        };
+        (0..self.blobs.len()).into_par_iter().map(visit).collect()
+    }
+
+    /// Adds what was built to the table, with what its tags mean.
+    fn fill(
+        &self,
+        table: &mut FeatureTable,
+        layer: Option<&ReadyLayer>,
+        records: Vec<Record>,
+        built: Vec<BuildResult>,
+        wanted: &SourceOptions,
+    ) -> Result<()> {
+        let mut cut = 0;
+        let mut unread: Option<(usize, String)> = None;
+        for (record, built) in records.into_iter().zip(built) {
+            let id = record.name();
+            let (parts, lacks) = match built {
+                Ok(built) => built,
+                Err(why) => {
+                    // It may be that the time is over, and not the feature's fault.
+                    wanted.budget.check()?;
+                    let error = Error::data(format!("{id} of {} {why}", table.shown));
+                    table.refuse(
+                        id,
+                        error.help("get an extract that reaches farther, or mend it in OpenStreetMap"),
+                    )?;
+                    continue;
+                }
+            };
+            cut += usize::from(lacks);
+            let attributes = self.attributes(table, layer, &record, |key, value| {
+                let (count, _) =
+                    unread.get_or_insert_with(|| (0, format!("{key} = \"{}\" of {id}", shown(value))));
+                *count += 1;
+            });
+            table.push(&id, parts, attributes)?;
+        }
+        let shown = table.shown.clone();
+        if cut > 0 {
+            let lines = if cut == 1 { "line ends" } else { "lines end" };
+            table.notes.push(format!("{shown}: {cut} {lines} where the extract does"));
+        }
+        if let Some((count, first)) = unread {
+            let values = if count == 1 { "tag is no number and was" } else { "tags are no numbers and were" };
+            table.notes.push(format!("{shown}: {count} {values} left out, such as {first}"));
+        }
+        Ok(())
+    }
+
+    fn attributes(
+        &self,
+        table: &mut FeatureTable,
+        layer: Option<&ReadyLayer>,
+        record: &Record,
+        mut unread: impl FnMut(&str, &str),
+    ) -> Vec<(usize, Attribute)> {
+        let value = |key: &str| {
+            let found = record.tags.iter().find(|(known, _)| known == key);
+            found.map(|(_, value)| value.as_str())
+        };
+        let mut plain: Vec<(&str, Option<Attribute>)> = told(value)
+            .map(|(name, told)| match told {
+                TagValue::Number(number) => (name, Some(Attribute::Number(number))),
+                TagValue::Text(text) => (name, Some(table.text(text))),
+                TagValue::Unread(text) => {
+                    unread(name, text);
+                    (name, None)
+                }
+            })
+            .collect();
+        if let Some(layer) = layer {
+            let kind = layer.key(record.alternative).and_then(value);
+            plain.extend(kind.map(|kind| ("kind", Some(table.text(kind)))));
+            if layer.name.starts_with("building") {
+                let part = value("building:part").is_some_and(|part| part != "no");
+                plain.push(("part", Some(Attribute::Boolean(part))));
+            }
+        }
+        let mut attributes = Vec::with_capacity(record.tags.len() + plain.len());
+        for (key, value) in &record.tags {
+            if !plain.iter().any(|(name, _)| name == key) {
+                let text = table.text(value);
+                attributes.push((table.name(key), text));
+            }
+        }
+        for (name, value) in plain {
+            attributes.extend(value.map(|value| (table.name(name), value)));
+        }
+        attributes
+    }
+}
+
+/// How a layer is chosen by tags.
+const EXAMPLE: &str = "source(\"town.osm.pbf\", { tags = { building = true } })";

@@ -1,0 +1,386 @@
+//! Polygons from the ways of a multipolygon, of which nothing is known but that together they are its border.
+//!
+//! Method: the ways' segments are a planar graph. What lies inside is told by counting borders (even and odd), so
+//! the roles that members say they have decide nothing. The border of each connected part of the inside is walked;
+//! where a walk comes to a place again, a ring is cut off it: so rings that touch one another in places are told apart.
+
+use std::cmp::Ordering;
+
+use rustc_hash::FxHashMap;
+
+use super::places::{Place, area};
+use burgeon_base::budget::Budget;
+
+/// Rings of a polygon: the outer one, and its holes. None repeats its first place.
+pub(super) type PolygonRings = Vec<Vec<Place>>;
+
+/// The polygons of which `ways` are the border. Fails with the reason.
+pub(super) fn assemble<'w>(
+    ways: impl Iterator<Item = &'w [Place]>,
+    budget: &Budget,
+) -> Result<Vec<PolygonRings>, String> {
+    let graph = Graph::new(ways, budget)?;
+    graph.refuse_crossing(budget)?;
+    let walks = graph.walks();
+    let inside = graph.inside(&walks, budget)?;
+    graph.polygons(&walks, &inside, budget)
+}
+
+/// The polygon that a closed way is, or several where it comes to a place again. The last place is the first.
+pub(super) fn of_way(places: &[Place], budget: &Budget) -> Result<Vec<PolygonRings>, String> {
+    let mut ring = places.to_vec();
+    ring.dedup();
+    ring.pop();
+    let mut sorted = ring.clone();
+    sorted.sort_unstable();
+    if sorted.windows(2).any(|pair| pair[0] == pair[1]) {
+        return assemble(std::iter::once(places), budget);
+    }
+    if ring.len() < 3 || area(&ring) == 0 {
+        return Err("has no area".to_owned());
+    }
+    Ok(vec![vec![ring]])
+}
+
+/// The places and segments of a border. The half-edge `2 * s` leads along the segment `s`, `2 * s + 1` back.
+struct Graph {
+    places: Vec<Place>,
+    /// The numbers of the places that each half-edge leads from.
+    from: Vec<usize>,
+    /// The half-edge that follows each along the part to its left.
+    next: Vec<usize>,
+}
+
+fn told(budget: &Budget) -> Result<(), String> {
+    budget.tick().map_err(|error| error.message().to_owned())
+}
+
+fn shown(place: Place) -> String {
+    let at = place.degrees();
+    format!("{}, {}", at.x, at.y)
+}
+
+impl Graph {
+    fn new<'w>(ways: impl Iterator<Item = &'w [Place]>, budget: &Budget) -> Result<Self, String> {
+        let mut segments: Vec<[Place; 2]> = Vec::new();
+        for way in ways {
+            budget.take(way.len() * 150).map_err(|error| error.message().to_owned())?;
+            let pairs = way.windows(2).filter(|pair| pair[0] != pair[1]);
+            segments.extend(pairs.map(|pair| [pair[0].min(pair[1]), pair[0].max(pair[1])]));
+        }
+        segments.sort_unstable();
+        // Where two borders run along each other, there is none.
+        let mut single: Vec<[Place; 2]> = Vec::with_capacity(segments.len());
+        for segment in segments {
+            match single.last() {
+                Some(last) if *last == segment => drop(single.pop()),
+                _ => single.push(segment),
+            }
+        }
+        if single.is_empty() {
+            return Err("has no area".to_owned());
+        }
+        let mut places: Vec<Place> = single.iter().flatten().copied().collect();
+        places.sort_unstable();
+        places.dedup();
+        let number = |place: &Place| places.binary_search(place).unwrap_or_default();
+        let from: Vec<usize> = single.iter().flatten().map(number).collect();
+        let mut graph = Self { places, next: vec![0; from.len()], from };
+        graph.connect()?;
+        Ok(graph)
+    }
+
+    fn place(&self, edge: usize) -> Place {
+        self.places[self.from[edge]]
+    }
+
+    fn ends(&self, segment: usize) -> [Place; 2] {
+        [self.place(2 * segment), self.place(2 * segment + 1)]
+    }
+
+    /// Finds what follows each half-edge. Fails where a border ends.
+    fn connect(&mut self) -> Result<(), String> {
+        let mut around: Vec<usize> = (0..self.from.len()).collect();
+        around.sort_unstable_by(|a, b| {
+            self.from[*a].cmp(&self.from[*b]).then_with(|| {
+                let centre = self.place(*a);
+                by_angle(centre.to(self.place(a ^ 1)), centre.to(self.place(b ^ 1)))
+            })
+        });
+        let mut rest = &around[..];
+        while let Some(first) = rest.first() {
+            let from = self.from[*first];
+            let count = rest.iter().take_while(|edge| self.from[**edge] == from).count();
+            let (here, after) = rest.split_at(count);
+            if !count.is_multiple_of(2) {
+                return Err(format!("has a border that ends at {}", shown(self.places[from])));
+            }
+            // Whoever comes to a place leaves it by the next way to the right, so that what lies left stays the same.
+            for (at, edge) in here.iter().enumerate() {
+                self.next[edge ^ 1] = here[(at + count - 1) % count];
+            }
+            rest = after;
+        }
+        Ok(())
+    }
+
+    /// Fails if segments cross, or lie on each other.
+    fn refuse_crossing(&self, budget: &Budget) -> Result<(), String> {
+        // Segments are sorted by their western ends.
+        let segments: Vec<[Place; 2]> = (0..self.from.len() / 2).map(|at| self.ends(at)).collect();
+        for (at, [a, b]) in segments.iter().enumerate() {
+            let (low, high) = (a.0[1].min(b.0[1]), a.0[1].max(b.0[1]));
+            for [c, d] in segments[at + 1..].iter().take_while(|[c, _]| c.0[0] <= b.0[0]) {
+                told(budget)?;
+                if c.0[1].max(d.0[1]) < low || c.0[1].min(d.0[1]) > high {
+                    continue;
+                }
+                let sides =
+                    [a.turn(*b, *c), a.turn(*b, *d), c.turn(*d, *a), c.turn(*d, *b)].map(i128::signum);
+                let crosses = sides[0] * sides[1] < 0 && sides[2] * sides[3] < 0;
+                // On one line, they meet in more than a place if each begins before the other one ends.
+                let along = sides == [0; 4] && a.max(c) < b.min(d);
+                if crosses || along {
+                    return Err(format!("has borders that cross near {}", shown(*c)));
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// The walks along the parts of the plane, each of which has one part to its left.
+    fn walks(&self) -> Walks {
+        let mut walks = Walks { begins: Vec::new(), of: vec![usize::MAX; self.next.len()] };
+        for begin in 0..self.next.len() {
+            if walks.of[begin] == usize::MAX {
+                self.walk(begin).for_each(|edge| walks.of[edge] = walks.begins.len());
+                walks.begins.push(begin);
+            }
+        }
+        walks
+    }
+
+    /// The half-edges of the walk that begins with one.
+    fn walk(&self, begin: usize) -> impl Iterator<Item = usize> {
+        let mut next = Some(begin);
+        std::iter::from_fn(move || {
+            let edge = next?;
+            next = Some(self.next[edge]).filter(|edge| *edge != begin);
+            Some(edge)
+        })
+    }
+
+    /// Which walks have the inside to their left, and what they are parts of.
+    fn inside(&self, walks: &Walks, budget: &Budget) -> Result<Vec<WalkSide>, String> {
+        let mut sides: Vec<Option<WalkSide>> = vec![None; walks.begins.len()];
+        for first in 0..walks.begins.len() {
+            if sides[first].is_some() {
+                continue;
+            }
+            // Whoever crosses a border changes between inside and outside; at first it is not known which is which.
+            let component = first;
+            let mut members = Vec::new();
+            let mut stack = vec![(first, false)];
+            while let Some((walk, is_inside)) = stack.pop() {
+                if sides[walk].is_some() {
+                    continue;
+                }
+                sides[walk] = Some(WalkSide { is_inside, component });
+                members.push(walk);
+                for edge in self.walk(walks.begins[walk]) {
+                    told(budget)?;
+                    let beyond = walks.of[edge ^ 1];
+                    if sides[beyond].is_none() {
+                        stack.push((beyond, !is_inside));
+                    }
+                }
+            }
+            // What lies around the component is to the left of the one walk that turns right.
+            let around = |walk: &usize| {
+                let ring: Vec<Place> = self.walk(walks.begins[*walk]).map(|edge| self.place(edge)).collect();
+                area(&ring)
+            };
+            let outer = members.iter().copied().min_by_key(around).unwrap_or(first);
+            let at = self.place(walks.begins[first]);
+            let mut odd = false;
+            for segment in 0..self.from.len() / 2 {
+                told(budget)?;
+                let own = sides[walks.of[2 * segment]].is_some_and(|side| side.component == component);
+                let [a, b] = self.ends(segment);
+                odd ^= !own && at.sees(a, b);
+            }
+            let wrong = sides[outer].is_some_and(|side| side.is_inside) != odd;
+            for walk in members {
+                if let Some(side) = &mut sides[walk] {
+                    side.is_inside ^= wrong;
+                }
+            }
+        }
+        Ok(sides.into_iter().flatten().collect())
+    }
+
+    /// The polygons that the walks with the inside to their left are the borders of.
+    fn polygons(
+        &self,
+        walks: &Walks,
+        sides: &[WalkSide],
+        budget: &Budget,
+    ) -> Result<Vec<PolygonRings>, String> {
+        let (mut polygons, mut loose): (Vec<PolygonRings>, Vec<Vec<Place>>) = (Vec::new(), Vec::new());
+        for (begin, side) in walks.begins.iter().zip(sides) {
+            told(budget)?;
+            if !side.is_inside {
+                continue;
+            }
+            let (outer, holes): (Vec<_>, Vec<_>) = self
+                .rings(*begin)
+                .into_iter()
+                .filter(|ring| area(ring) != 0)
+                .partition(|ring| area(ring) > 0);
+            let mut outer = outer.into_iter();
+            match outer.next() {
+                Some(first) => {
+                    polygons.push(std::iter::once(first).chain(holes).collect());
+                    polygons.extend(outer.map(|ring| vec![ring]));
+                }
+                None => loose.extend(holes),
+            }
+        }
+        let sizes: Vec<i128> = polygons.iter().map(|polygon| area(&polygon[0])).collect();
+        for hole in loose {
+            let at = hole[0];
+            let mut around: Option<usize> = None;
+            for (index, polygon) in polygons.iter().enumerate() {
+                told(budget)?;
+                let ring = &polygon[0];
+                let pairs = ring.iter().zip(ring.iter().cycle().skip(1));
+                let is_in = pairs.filter(|(a, b)| at.sees(**a, **b)).count() % 2 == 1;
+                if is_in && around.is_none_or(|best| sizes[index] < sizes[best]) {
+                    around = Some(index);
+                }
+            }
+            match around {
+                Some(index) => polygons[index].push(hole),
+                None => return Err(format!("has a hole outside of it, at {}", shown(at))),
+            }
+        }
+        if polygons.is_empty() { Err("has no area".to_owned()) } else { Ok(polygons) }
+    }
+
+    /// The rings of a walk, none of which comes to a place twice.
+    fn rings(&self, begin: usize) -> Vec<Vec<Place>> {
+        let mut rings = Vec::new();
+        let mut path: Vec<Place> = Vec::new();
+        let mut positions: FxHashMap<usize, usize> = FxHashMap::default();
+        let mut visited: Vec<usize> = Vec::new();
+        for edge in self.walk(begin) {
+            let number = self.from[edge];
+            if let Some(position) = positions.get(&number).copied() {
+                rings.push(path.split_off(position));
+                for gone in visited.drain(position..) {
+                    positions.remove(&gone);
+                }
+            }
+            positions.insert(number, path.len());
+            visited.push(number);
+            path.push(self.place(edge));
+        }
+        rings.push(path);
+        rings
+    }
+}
+
+/// Walks along the parts of the plane.
+struct Walks {
+    /// The first half-edge of each.
+    begins: Vec<usize>,
+    /// The walk of each half-edge.
+    of: Vec<usize>,
+}
+
+/// What lies to the left of a walk.
+#[derive(Clone, Copy)]
+struct WalkSide {
+    is_inside: bool,
+    /// The number of the connected borders that it belongs to.
+    component: usize,
+}
+
+/// The order of directions, turning left from the west.
+fn by_angle(a: [i128; 2], b: [i128; 2]) -> Ordering {
+    let half = |[x, y]: [i128; 2]| y > 0 || (y == 0 && x > 0);
+    half(a).cmp(&half(b)).then_with(|| (b[0] * a[1] - b[1] * a[0]).cmp(&0))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn ways(ways: &[&[[i64; 2]]]) -> Vec<Vec<Place>> {
+        ways.iter().map(|way| way.iter().map(|at| Place(*at)).collect()).collect()
+    }
+
+    /// Twice the areas of the rings of each polygon.
+    fn areas(given: &[&[[i64; 2]]]) -> Result<Vec<Vec<i128>>, String> {
+        let given = ways(given);
+        let made = assemble(given.iter().map(Vec::as_slice), &Budget::default())?;
+        Ok(made.iter().map(|polygon| polygon.iter().map(|ring| area(ring)).collect()).collect())
+    }
+
+    const SQUARE: &[[i64; 2]] = &[[0, 0], [10, 0], [10, 10], [0, 10], [0, 0]];
+
+    #[test]
+    fn rings_are_chained_from_ways_in_any_order_and_direction() {
+        let parts: &[&[[i64; 2]]] =
+            &[&[[10, 10], [10, 0]], &[[0, 0], [0, 10], [10, 10]], &[[10, 0], [5, 0], [0, 0]]];
+        assert_eq!(areas(parts), Ok(vec![vec![200]]));
+    }
+
+    #[test]
+    fn holes_islands_in_holes_and_rings_that_touch_are_told_apart() {
+        let hole: &[[i64; 2]] = &[[2, 2], [8, 2], [8, 8], [2, 8], [2, 2]];
+        let island: &[[i64; 2]] = &[[4, 4], [6, 4], [6, 6], [4, 6], [4, 4]];
+        assert_eq!(areas(&[SQUARE, hole]), Ok(vec![vec![200, -72]]));
+        assert_eq!(areas(&[island, hole, SQUARE]), Ok(vec![vec![200, -72], vec![8]]));
+        // A hole that touches the outer ring in a place, and two holes that touch each other.
+        let touching: &[[i64; 2]] = &[[0, 0], [4, 2], [2, 4], [0, 0]];
+        assert_eq!(areas(&[SQUARE, touching]), Ok(vec![vec![200, -12]]));
+        let second: &[[i64; 2]] = &[[8, 8], [9, 8], [8, 9], [8, 8]];
+        assert_eq!(areas(&[SQUARE, hole, second]), Ok(vec![vec![200, -1, -72]]));
+        // Two holes with a wall between them are one.
+        let left: &[[i64; 2]] = &[[2, 2], [5, 2], [5, 8], [2, 8], [2, 2]];
+        let right: &[[i64; 2]] = &[[5, 2], [8, 2], [8, 8], [5, 8], [5, 2]];
+        assert_eq!(areas(&[SQUARE, left, right]), Ok(vec![vec![200, -72]]));
+        // A hole that touches the outer ring in two places parts the polygon.
+        let across: &[[i64; 2]] = &[[0, 0], [6, 4], [10, 10], [4, 6], [0, 0]];
+        assert_eq!(areas(&[SQUARE, across]), Ok(vec![vec![80], vec![80]]));
+        // Two squares that touch in a place.
+        let other: &[[i64; 2]] = &[[10, 10], [12, 10], [12, 12], [10, 12], [10, 10]];
+        assert_eq!(areas(&[SQUARE, other]), Ok(vec![vec![200], vec![8]]));
+    }
+
+    #[test]
+    fn what_is_no_border_is_refused_with_the_place() {
+        let open: &[[i64; 2]] = &[[0, 0], [10, 0], [10, 10]];
+        assert_eq!(areas(&[open]).unwrap_err(), "has a border that ends at 0, 0");
+        let crossing: &[[i64; 2]] = &[[5, 5], [15, 5], [15, 15], [5, 15], [5, 5]];
+        assert!(areas(&[SQUARE, crossing]).unwrap_err().starts_with("has borders that cross near "));
+        let along: &[[i64; 2]] = &[[0, 0], [5, 0], [5, -5], [0, -5], [0, 0]];
+        assert!(areas(&[SQUARE, along]).unwrap_err().starts_with("has borders that cross near "));
+        for nothing in [&[] as &[[i64; 2]], &[[1, 1]], &[[1, 1], [1, 1]], &[[0, 0], [1, 0], [0, 0]]] {
+            assert_eq!(areas(&[nothing]).unwrap_err(), "has no area");
+        }
+        assert_eq!(areas(&[SQUARE, SQUARE]).unwrap_err(), "has no area");
+    }
+
+    #[test]
+    fn a_way_that_comes_to_a_place_again_becomes_several() {
+        let of = |places: &[[i64; 2]]| {
+            let places: Vec<Place> = places.iter().map(|at| Place(*at)).collect();
+            of_way(&places, &Budget::default()).map(|made| made.len())
+        };
+        assert_eq!(of(SQUARE), Ok(1));
+        assert_eq!(of(&[[0, 0], [2, 0], [4, 4], [6, 4], [4, 6], [4, 4], [0, 2], [0, 0]]), Ok(2));
+        assert_eq!(of(&[[0, 0], [1, 0], [2, 0], [0, 0]]).unwrap_err(), "has no area");
+    }
+}

@@ -1,0 +1,500 @@
+//! Extracts that are made here, damaged ones, and real ones beside numbers that another program computed.
+
+use std::path::{Path, PathBuf};
+use std::time::Duration;
+
+use crate::tags::{TagFilter, TagTest};
+use crate::{Attribute, FeatureTable, Geometry, GeometryKind, Layer, Source, SourceOptions};
+use burgeon_base::budget::Budget;
+use burgeon_base::error::Result;
+use burgeon_kit::random::Stream;
+
+fn varint(bytes: &mut Vec<u8>, mut number: u64) {
+    while number > 127 {
+        bytes.push((number & 127) as u8 | 128);
+        number >>= 7;
+    }
+    bytes.push(number as u8);
+}
+
+fn number(key: u64, number: u64) -> Vec<u8> {
+    let mut bytes = Vec::new();
+    varint(&mut bytes, key << 3);
+    varint(&mut bytes, number);
+    bytes
+}
+
+fn message(key: u64, content: &[u8]) -> Vec<u8> {
+    let mut bytes = Vec::new();
+    varint(&mut bytes, key << 3 | 2);
+    varint(&mut bytes, content.len() as u64);
+    [&bytes, content].concat()
+}
+
+fn zigzag(number: i64) -> u64 {
+    (number << 1 ^ number >> 63) as u64
+}
+
+fn numbers(key: u64, numbers: impl IntoIterator<Item = u64>) -> Vec<u8> {
+    let mut bytes = Vec::new();
+    numbers.into_iter().for_each(|number| varint(&mut bytes, number));
+    message(key, &bytes)
+}
+
+fn deltas(key: u64, all: &[i64]) -> Vec<u8> {
+    let mut last = 0;
+    numbers(key, all.iter().map(|number| zigzag(number.wrapping_sub(std::mem::replace(&mut last, *number)))))
+}
+
+fn blob(kind: &str, content: Vec<u8>) -> Vec<u8> {
+    let head = [message(1, kind.as_bytes()), number(3, content.len() as u64)].concat();
+    [&(head.len() as u32).to_be_bytes()[..], &head, &content].concat()
+}
+
+fn deflated(bytes: &[u8], claimed: usize) -> Vec<u8> {
+    let mut packed = Vec::with_capacity(bytes.len() + 1000);
+    let mut stream = flate2::Compress::new(flate2::Compression::default(), true);
+    stream.compress_vec(bytes, &mut packed, flate2::FlushCompress::Finish).unwrap();
+    [number(2, claimed as u64), message(3, &packed)].concat()
+}
+
+type TagSlice<'a> = &'a [(&'a str, &'a str)];
+
+/// A file as it is made: its texts, and what goes into its groups.
+#[derive(Default)]
+struct Extract {
+    texts: Vec<String>,
+    groups: Vec<Vec<u8>>,
+}
+
+impl Extract {
+    fn text(&mut self, text: &str) -> u64 {
+        let found = self.texts.iter().position(|known| known == text);
+        let at = found.unwrap_or_else(|| {
+            self.texts.push(text.to_owned());
+            self.texts.len() - 1
+        });
+        at as u64 + 1
+    }
+
+    fn tags(&mut self, tags: TagSlice<'_>) -> Vec<u8> {
+        let keys: Vec<u64> = tags.iter().map(|tag| self.text(tag.0)).collect();
+        let values: Vec<u64> = tags.iter().map(|tag| self.text(tag.1)).collect();
+        [numbers(2, keys), numbers(3, values)].concat()
+    }
+
+    /// Nodes with ids and places (ten-millionths of a degree) in one dense group; the last has tags.
+    fn nodes(mut self, nodes: &[(i64, i64, i64)], tags: TagSlice<'_>) -> Self {
+        let list = |get: fn(&(i64, i64, i64)) -> i64| nodes.iter().map(get).collect::<Vec<_>>();
+        let mut known: Vec<u64> = vec![0; nodes.len() - 1];
+        for (key, value) in tags {
+            known.extend([self.text(key), self.text(value)]);
+        }
+        known.push(0);
+        let dense = [
+            deltas(1, &list(|node| node.0)),
+            deltas(8, &list(|node| node.2)),
+            deltas(9, &list(|node| node.1)),
+            numbers(10, known),
+        ];
+        self.groups.push(message(2, &dense.concat()));
+        self
+    }
+
+    fn way(mut self, id: i64, nodes: &[i64], tags: TagSlice<'_>) -> Self {
+        let way = [number(1, id as u64), self.tags(tags), deltas(8, nodes)].concat();
+        self.groups.push(message(3, &way));
+        self
+    }
+
+    fn relation(mut self, id: i64, members: &[(u64, i64)], tags: TagSlice<'_>) -> Self {
+        let ids: Vec<i64> = members.iter().map(|member| member.1).collect();
+        let types = numbers(10, members.iter().map(|member| member.0));
+        let roles = numbers(8, members.iter().map(|_| 0));
+        let relation = [number(1, id as u64), self.tags(tags), roles, deltas(9, &ids), types].concat();
+        self.groups.push(message(4, &relation));
+        self
+    }
+
+    fn block(&self) -> Vec<u8> {
+        let texts: Vec<u8> = std::iter::once("")
+            .chain(self.texts.iter().map(String::as_str))
+            .flat_map(|text| message(1, text.as_bytes()))
+            .collect();
+        let groups: Vec<u8> = self.groups.iter().flat_map(|group| message(2, group)).collect();
+        [message(1, &texts), groups].concat()
+    }
+
+    fn bytes(&self) -> Vec<u8> {
+        let block = self.block();
+        [header(&[]), blob("OSMData", deflated(&block, block.len()))].concat()
+    }
+
+    fn read(&self, wanted: SourceOptions) -> Result<FeatureTable> {
+        read(&self.bytes(), wanted)
+    }
+}
+
+fn header(needed: &[&str]) -> Vec<u8> {
+    let all = ["OsmSchema-V0.6", "DenseNodes"].iter().chain(needed);
+    let content: Vec<u8> = all.flat_map(|needed| message(4, needed.as_bytes())).collect();
+    blob("OSMHeader", message(1, &content))
+}
+
+thread_local! {
+    /// Where a test writes its files.
+    static FOLDER: tempfile::TempDir = tempfile::tempdir().unwrap();
+}
+
+fn read(bytes: &[u8], wanted: SourceOptions) -> Result<FeatureTable> {
+    let path = FOLDER.with(|folder| folder.path().join("town.osm.pbf"));
+    std::fs::write(&path, bytes).unwrap();
+    Source::open_within(&path, "town.osm.pbf", &wanted)?.read("town.osm.pbf", &wanted)
+}
+
+fn layer(name: &str) -> SourceOptions {
+    SourceOptions { layer: Some(name.to_owned()), ..SourceOptions::default() }
+}
+
+fn tags(tests: &[(&str, TagTest)]) -> SourceOptions {
+    let tests = tests.iter().map(|(key, test)| ((*key).into(), test.clone())).collect();
+    SourceOptions { tags: Some(TagFilter { alternatives: vec![tests] }), ..SourceOptions::default() }
+}
+
+fn ids(table: &FeatureTable) -> String {
+    table.features.iter().map(|feature| feature.id.to_string()).collect::<Vec<_>>().join(" ")
+}
+
+/// A square of nodes around a place, with ids from the first on.
+fn square(first: i64, [x, y]: [i64; 2], half: i64) -> Vec<(i64, i64, i64)> {
+    let corners = [(-1, -1), (1, -1), (1, 1), (-1, 1)];
+    corners.iter().zip(first..).map(|((dx, dy), id)| (id, x + dx * half, y + dy * half)).collect()
+}
+
+fn ring(first: i64) -> Vec<i64> {
+    vec![first, first + 1, first + 2, first + 3, first]
+}
+
+const TOWN: [i64; 2] = [250_000_000, 600_000_000];
+
+/// A few buildings, a road, a tree, and a building with a yard that is a relation.
+fn town() -> Extract {
+    let mut nodes = square(1, TOWN, 1000);
+    nodes.extend(square(11, [TOWN[0] + 5000, TOWN[1]], 1000));
+    nodes.extend(square(21, [TOWN[0] + 5000, TOWN[1]], 300));
+    nodes.push((30, TOWN[0], TOWN[1] + 3000));
+    Extract::default()
+        .nodes(&nodes, &[("natural", "tree"), ("species", "Tilia")])
+        .way(
+            -7,
+            &ring(1),
+            &[
+                ("building", "house"),
+                ("height", "40'"),
+                ("building:levels", "3;4"),
+                ("building:colour", "red"),
+            ],
+        )
+        .way(8, &ring(11), &[])
+        .way(9, &ring(21), &[])
+        .way(10, &[1, 11, 99, 13, 14], &[("highway", "residential"), ("width", "wide")])
+        .way(11, &ring(1), &[("highway", "footway")])
+        .way(12, &[1, 2, 99, 3, 1], &[("building", "yes")])
+        .relation(
+            5,
+            &[(1, 9), (0, 30), (1, 8)],
+            &[("type", "multipolygon"), ("building", "yes"), ("building:part", "no")],
+        )
+        .relation(6, &[(1, 8), (1, 77)], &[("type", "multipolygon"), ("building", "yes")])
+        .relation(7, &[(2, 7)], &[("type", "multipolygon"), ("building", "yes")])
+}
+
+#[test]
+fn layers_have_what_their_tags_say_under_plain_names() {
+    let table = town().read(layer("buildings")).unwrap();
+    assert_eq!((table.layer.as_str(), table.shown.as_str()), ("buildings", "town.osm.pbf:buildings"));
+    assert_eq!(ids(&table), "way/-7 relation/5");
+    let told = |index: usize| {
+        let feature = &table.features[index];
+        let of = |(name, value): &(usize, Attribute)| format!("{} = {value:?}", table.names[*name]);
+        feature.attributes.iter().map(of).collect::<Vec<_>>().join("\n")
+    };
+    insta::assert_snapshot!(told(0), @r#"
+    building = Text("house")
+    building:levels = Text("3;4")
+    building:colour = Text("red")
+    height = Number(12.192)
+    levels = Number(3.0)
+    colour = Text("red")
+    kind = Text("house")
+    part = Boolean(false)
+    "#);
+    let Geometry::Polygon(rings) = &table.features[1].geometry else { panic!("a polygon") };
+    assert_eq!(rings.len(), 2);
+    let refused: Vec<&str> = table.refused.iter().map(|(_, error)| error.message()).collect();
+    insta::assert_snapshot!(refused.join("\n"), @r"
+    way/12 of town.osm.pbf:buildings lacks 1 of its 5 nodes
+    relation/6 of town.osm.pbf:buildings lacks way/77, which is a part of it
+    relation/7 of town.osm.pbf:buildings has no area
+    ");
+    let roads = town().read(layer("roads")).unwrap();
+    assert_eq!(ids(&roads), "way/10 way/10.2 way/11");
+    insta::assert_snapshot!(roads.notes.join("\n"), @r#"
+    town.osm.pbf:roads: 1 line ends where the extract does
+    town.osm.pbf:roads: 1 tag is no number and was left out, such as width = "wide" of way/10
+    "#);
+    let trees = town().read(layer("trees")).unwrap();
+    assert_eq!(
+        (ids(&trees).as_str(), trees.names.as_slice()),
+        ("node/30", &["natural", "species", "kind"].map(str::to_owned)[..])
+    );
+}
+
+#[test]
+fn tags_choose_and_kind_decides_what_closed_ways_are() {
+    let set = |key| (key, TagTest::Set);
+    let chosen = |wanted: SourceOptions| town().read(wanted).map(|table| ids(&table));
+    assert_eq!(chosen(tags(&[set("building"), set("height")])).unwrap(), "way/-7");
+    assert_eq!(chosen(tags(&[("building", TagTest::OneOf(vec!["yes".into()]))])).unwrap(), "relation/5");
+    assert_eq!(chosen(tags(&[set("highway")])).unwrap(), "way/10 way/10.2 way/11");
+    let kind = |kind| SourceOptions { kind: Some(kind), ..tags(&[set("highway")]) };
+    assert_eq!(chosen(kind(GeometryKind::Polygon)).unwrap(), "way/11");
+    assert_eq!(chosen(kind(GeometryKind::Line)).unwrap(), "way/10 way/10.2 way/11");
+    let both = SourceOptions { layer: Some("buildings".into()), ..tags(&[set("building:levels")]) };
+    assert_eq!(chosen(both).unwrap(), "way/-7");
+    assert_eq!(
+        chosen(tags(&[("building", TagTest::Unset), ("highway", TagTest::Unset)])).unwrap(),
+        "node/30 way/8 way/9"
+    );
+    let within = SourceOptions { within: Some([25.0, 60.0, 25.0, 60.0]), ..layer("buildings") };
+    assert_eq!(chosen(within).unwrap(), "way/-7");
+    let far = SourceOptions { within: Some([26.0, 60.0, 27.0, 61.0]), ..layer("roads") };
+    let errors = [
+        chosen(SourceOptions::default()),
+        chosen(layer("building")),
+        chosen(tags(&[set("aeroway")])),
+        chosen(SourceOptions { condition: Some("a > 1".into()), ..layer("roads") }),
+        chosen(SourceOptions { kind: Some(GeometryKind::Point), ..layer("roads") }),
+        chosen(layer("water")),
+        chosen(far),
+    ];
+    let told: Vec<String> = errors.into_iter().map(|error| error.unwrap_err().to_string()).collect();
+    insta::assert_snapshot!(told.join("\n\n"), @r#"
+    town.osm.pbf is an extract of OpenStreetMap, of which a layer is read
+      help: name a layer: "town.osm.pbf:buildings"; it has buildings, building_parts, roads, railways, squares, water, waterways, coastlines, green, landuse, trees, tree_rows, barriers, furniture; or choose by tags: source("town.osm.pbf", { tags = { building = true } })
+
+    town.osm.pbf has no layer called building
+      help: did you mean buildings?
+
+    no feature of town.osm.pbf has such tags
+      help: look up how mappers tag it: https://wiki.openstreetmap.org/wiki/Map_features
+
+    town.osm.pbf is OpenStreetMap, which takes no where
+      help: where is for GeoPackages; for an extract, tags choose: { tags = { building = true } }
+
+    town.osm.pbf:roads has geometries of kind line, none of kind point
+      help: name another layer, or leave kind out
+
+    town.osm.pbf:water has no features
+      help: check the file: burgeon sources FILE
+
+    no feature of town.osm.pbf:roads touches within = { 26, 60, 27, 61 }
+      help: it is { west, south, east, north } in the coordinates of the file, which burgeon sources FILE lists
+    "#);
+}
+
+#[test]
+fn what_is_damaged_is_an_error_with_its_place_and_never_a_panic() {
+    let good = town().bytes();
+    let (mut kept, mut refused) = (0, 0);
+    for at in 0..good.len() {
+        let mut changed = good.clone();
+        for byte in [1, 255] {
+            changed[at] = byte;
+            match read(&changed, layer("buildings")) {
+                Ok(_) => kept += 1,
+                Err(_) => refused += 1,
+            }
+        }
+        assert!(read(&good[..at], layer("buildings")).is_err(), "{at}");
+    }
+    assert!(kept > 2 && refused > 300, "{kept} {refused}");
+    // Bytes that are wrong behind a sound packing.
+    let block = town().block();
+    let (mut stream, mut kept) = (Stream::new(3), 0);
+    for _ in 0..700 {
+        let mut changed = block.clone();
+        for _ in 0..=stream.below(3) {
+            let at = stream.below(changed.len());
+            changed[at] = stream.below(256) as u8;
+        }
+        let bytes = [header(&[]), blob("OSMData", message(1, &changed))].concat();
+        for name in ["buildings", "roads", "trees"] {
+            let read = read(&bytes, layer(name)).and_then(|table| Layer::new(table, &mut None));
+            kept += usize::from(read.is_ok());
+        }
+    }
+    assert!(kept > 100, "{kept}");
+}
+
+#[test]
+fn bombs_and_what_is_not_known_are_refused_with_the_remedy() {
+    let told = |bytes: &[u8]| read(bytes, layer("buildings")).unwrap_err().to_string();
+    let zeros = vec![0; 20 << 20];
+    let data = |content: Vec<u8>| [header(&[]), blob("OSMData", content)].concat();
+    let huge = [&header(&[])[..], &u32::MAX.to_be_bytes()].concat();
+    let head = [message(1, b"OSMData"), number(3, u64::MAX)].concat();
+    let endless = [&header(&[])[..], &(head.len() as u32).to_be_bytes(), &head].concat();
+    let all = [
+        told(&data(deflated(&zeros, 1000))),
+        told(&data(deflated(&zeros[..1000], 30 << 20))),
+        told(&data(deflated(&zeros, 200 << 20))),
+        told(&huge),
+        told(&endless),
+        told(&data(message(7, b"zstd"))),
+        told(&header(&["HistoricalInformation"])),
+        told(&header(&["Locations\u{1b}"])),
+        told(&blob("OSMHeader", message(1, &[0xff]))),
+        told(&town().bytes()[header(&[]).len()..]),
+    ];
+    insta::assert_snapshot!(all.join("\n\n"), @r#"
+    town.osm.pbf cannot be read: the blob at byte 64 cannot be unpacked
+      help: the file is damaged or cut short; get it again
+
+    town.osm.pbf cannot be read: the blob at byte 62 claims to be larger than it can be
+      help: the file is damaged or cut short; get it again
+
+    town.osm.pbf cannot be read: the blob at byte 64 claims to be larger than it can be
+      help: the file is damaged or cut short; get it again
+
+    town.osm.pbf cannot be read: the blob at byte 47 has a header of 4294967295 bytes
+      help: the file is damaged or cut short; get it again
+
+    town.osm.pbf cannot be read: the blob at byte 47 has no size that can be
+      help: the file is damaged or cut short; get it again
+
+    town.osm.pbf is packed by Zstandard, which is not read
+      help: pack it anew: osmium cat IN.osm.pbf -o OUT.osm.pbf -f pbf,pbf_compression=zlib
+
+    town.osm.pbf holds the history of its features
+      help: take out the present: osmium time-filter IN.osh.pbf -o OUT.osm.pbf
+
+    town.osm.pbf needs "Locations\u{1b}", which is not known
+      help: write it anew: osmium cat IN.osm.pbf -o OUT.osm.pbf
+
+    town.osm.pbf cannot be read: its header ends too early
+      help: the file is damaged or cut short; get it again
+
+    town.osm.pbf is a binary file of no format that is known
+      help: data files are GeoJSON, GeoPackage, FlatGeobuf, GML and .osm.pbf; convert it: ogr2ogr out.gpkg FILE
+    "#);
+    let wanted =
+        SourceOptions { budget: Budget::within(Duration::from_secs(60), 1 << 20), ..layer("buildings") };
+    let error = read(&data(deflated(&zeros, zeros.len())), wanted).unwrap_err();
+    assert!(error.message().contains("memory"), "{error}");
+    let late = SourceOptions { budget: Budget::within(Duration::ZERO, 1 << 30), ..layer("buildings") };
+    assert!(read(&town().bytes(), late).unwrap_err().message().contains("longer"));
+}
+
+#[test]
+fn places_that_cannot_be_and_ways_of_one_node_are_refused_or_left_out() {
+    let mut nodes = square(1, TOWN, 1000);
+    nodes.extend(square(11, [i64::MAX / 200, 0], 5));
+    nodes.extend(square(21, [2_500_000_000_000, 0], 5));
+    nodes.extend(square(31, TOWN, 0));
+    let extract = Extract::default()
+        .nodes(&nodes, &[])
+        .way(1, &ring(1), &[("building", "yes")])
+        .way(2, &ring(11), &[("building", "yes")])
+        .way(3, &ring(21), &[("building", "yes")])
+        .way(4, &ring(31), &[("building", "yes")])
+        .way(5, &[1], &[("highway", "path"), ("building", "yes")])
+        .way(6, &[1, 1, 1, 1], &[("highway", "path"), ("building", "yes")])
+        .way(7, &[], &[("highway", "path")])
+        .way(1, &ring(1), &[("building", "yes")]);
+    let table = extract.read(layer("buildings")).unwrap();
+    assert_eq!((ids(&table).as_str(), table.refused.len()), ("way/1 way/1.2", 4));
+    let roads = extract.read(layer("roads")).unwrap_err();
+    assert_eq!(roads.message(), "way/5 of town.osm.pbf:roads has fewer than two places");
+}
+
+#[test]
+fn a_road_over_the_date_line_stays_together() {
+    let nodes = [(1, 1_799_900_000, -160_000_000), (2, -1_799_900_000, -160_000_000)];
+    let table =
+        Extract::default().nodes(&nodes, &[]).way(1, &[1, 2], &[("highway", "road")]).read(layer("roads"));
+    let layer = Layer::new(table.unwrap(), &mut None).unwrap();
+    assert!((layer.bounds[1][0] - layer.bounds[0][0] - 2140.0).abs() < 10.0, "{:?}", layer.bounds);
+}
+
+/// The file in the folder of shared data; tells that the test is skipped where there is none.
+fn shared(name: &str) -> Option<PathBuf> {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared/data").join(name);
+    let found = path.is_file().then_some(path);
+    if found.is_none() {
+        eprintln!("skipped: there is no ../shared/data/{name}");
+    }
+    found
+}
+
+/// The area within a polygon, in the units of its coordinates.
+fn area(geometry: &Geometry) -> f64 {
+    let Geometry::Polygon(rings) = geometry else { return 0.0 };
+    let ring = |ring: &Vec<glam::DVec3>| {
+        let of =
+            |pair: &[glam::DVec3]| (pair[0] - ring[0]).truncate().perp_dot((pair[1] - ring[0]).truncate());
+        ring.windows(2).map(of).sum::<f64>().abs() / 2.0
+    };
+    rings.iter().map(ring).fold(0.0, |sum, area| if sum == 0.0 { area } else { sum - area })
+}
+
+#[test]
+fn the_building_areas_of_real_extracts_are_those_of_another_program() {
+    // Layer, areas, those of relations, parts, holes, their area, and the sum of areas times ids modulo 1009, in 1e-10
+    // square degrees, of libosmium's areas.
+    let expected = [
+        ("Helsinki.osm.pbf", "buildings", [446, 61, 446, 72], 831_333.06, 441_096_665.4),
+        ("Helsinki.osm.pbf", "building_parts", [133, 12, 133, 16], 229_170.71, 106_939_563.8),
+        ("monaco-latest.osm.pbf", "buildings", [1207, 24, 1207, 28], 804_370.63, 433_582_487.2),
+        ("monaco-latest.osm.pbf", "building_parts", [14, 0, 14, 0], 11_638.07, 4_430_269.8),
+    ];
+    for (file, name, counts, total, weighted) in expected {
+        let Some(path) = shared(file) else { return };
+        let table = Source::open(&path, file).unwrap().read(file, &layer(name)).unwrap();
+        let rings = |feature: &crate::Feature| match &feature.geometry {
+            Geometry::Polygon(rings) => rings.len() - 1,
+            _ => 0,
+        };
+        let holes: usize = table.features.iter().map(rings).sum();
+        let of_relations =
+            table.features.iter().filter(|feature| feature.id.starts_with("relation/")).count();
+        assert_eq!([table.records, of_relations, table.features.len(), holes], counts, "{file}:{name}");
+        let of = |feature: &crate::Feature| area(&feature.geometry) * 1e10;
+        let sum: f64 = table.features.iter().map(of).sum();
+        let id = |feature: &crate::Feature| {
+            let (_, id) = feature.id.split_once('/').unwrap();
+            f64::from(id.split('.').next().unwrap().parse::<u32>().unwrap() % 1009)
+        };
+        let checked: f64 = table.features.iter().map(|feature| of(feature) * id(feature)).sum();
+        assert!(
+            (sum - total).abs() < 0.1 && (checked - weighted).abs() < 60.0,
+            "{file}:{name}: {sum} {checked}"
+        );
+    }
+}
+
+#[test]
+fn real_layers_have_as_many_features_as_those_that_were_made_of_them_elsewhere() {
+    // Trees and furniture are as many as in the GeoPackages beside them, but for a shelter; of roads, those that leave
+    // the extract are here too, and of greens some kinds more.
+    for (file, counts) in
+        [("Helsinki.osm.pbf", [649, 2046, 2577, 166]), ("monaco-latest.osm.pbf", [415, 981, 2379, 55])]
+    {
+        let Some(path) = shared(file) else { return };
+        let count = |name: &str| {
+            let table = Source::open(&path, file).unwrap().read(file, &layer(name)).unwrap();
+            table.records
+        };
+        assert_eq!(["trees", "furniture", "roads", "green"].map(count), counts, "{file}");
+    }
+}

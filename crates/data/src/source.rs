@@ -1,0 +1,230 @@
+//! Data files of any format, and what is wanted of them.
+
+use std::fmt;
+use std::fs::File;
+use std::io::{Read, Seek};
+use std::path::Path;
+use std::sync::Arc;
+
+use super::tags::TagFilter;
+use super::{FeatureTable, FlatGeobuf, GeoPackage, GeometryKind, GmlFile, OsmFile, geojson};
+use burgeon_base::budget::Budget;
+use burgeon_base::error::{Error, Limit, Result};
+use burgeon_base::text::{listed, shown};
+
+/// What is wanted of a data file.
+#[derive(Clone, Default)]
+pub struct SourceOptions {
+    /// The layer; the only one if `None`.
+    pub layer: Option<String>,
+    /// An SQL condition that features meet.
+    pub condition: Option<String>,
+    /// What the tags of features of OpenStreetMap are.
+    pub tags: Option<TagFilter>,
+    /// West, south, east and north of a box that features touch, in the coordinates of the file.
+    pub within: Option<[f64; 4]>,
+    /// The most features to read.
+    pub limit: Option<usize>,
+    /// The attribute that tells features apart.
+    pub id: Option<String>,
+    /// Reads only geometries of this kind.
+    pub kind: Option<GeometryKind>,
+    /// The EPSG code that holds in place of the file's.
+    pub crs: Option<u32>,
+    /// What reading may take.
+    pub budget: Arc<Budget>,
+}
+
+impl fmt::Debug for SourceOptions {
+    /// All that decides what is read.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { layer, condition, tags, within, limit, id, kind, crs, budget: _ } = self;
+        write!(f, "{layer:?} {condition:?} {tags:?} {within:?} {limit:?} {id:?} {kind:?} {crs:?}")
+    }
+}
+
+/// An open data file.
+pub enum Source {
+    /// A GeoJSON file, all of it.
+    GeoJson(Box<FeatureTable>),
+    /// A GeoPackage, a database of layers.
+    GeoPackage(GeoPackage),
+    /// A FlatGeobuf, one layer.
+    FlatGeobuf(Box<FlatGeobuf>),
+    /// A file of GML, with a layer for each type of its features.
+    Gml(Box<GmlFile>),
+    /// An extract of OpenStreetMap, with layers that tags choose.
+    Osm(OsmFile),
+}
+
+/// What to name in place of what is no data file.
+const NAME_ONE: &str = "name a .geojson, .gpkg, .fgb, .gml or .osm.pbf file";
+
+impl Source {
+    /// Opens the file at `path`, which messages call `name`. Its content tells what it is.
+    ///
+    /// Fails if it cannot be read, or is of no format that is known.
+    pub fn open(path: &Path, name: &str) -> Result<Self> {
+        Self::open_within(path, name, &SourceOptions::default())
+    }
+
+    /// The same, if it takes no more than the budget that is `wanted`.
+    pub fn open_within(path: &Path, name: &str, wanted: &SourceOptions) -> Result<Self> {
+        let cannot = |error: std::io::Error| match error.kind() {
+            std::io::ErrorKind::NotFound => {
+                Error::not_found("data file", name, [], format!("there is no data file {name}"))
+                    .help("check the path")
+            }
+            std::io::ErrorKind::IsADirectory => {
+                Error::file(path, format!("{name} is a folder")).help(format!("{NAME_ONE} in it"))
+            }
+            _ => Error::file(path, format!("cannot read {name}: {error}")).help(NAME_ONE),
+        };
+        let (mut file, meta) = burgeon_base::files::open(path).map_err(cannot)?;
+        let mut head = Vec::new();
+        (&mut file).take(1024).read_to_end(&mut head).map_err(cannot)?;
+        file.rewind().map_err(cannot)?;
+        wanted.budget.check()?;
+        if head.starts_with(b"SQLite format 3") {
+            return Ok(Self::GeoPackage(GeoPackage::open(path, name, wanted)?));
+        }
+        if FlatGeobuf::is_one(&head) {
+            return Ok(Self::FlatGeobuf(Box::new(FlatGeobuf::open(file, path, name, wanted)?)));
+        }
+        if OsmFile::is_one(&head) {
+            return Ok(Self::Osm(OsmFile::open(file, path, name, wanted)?));
+        }
+        if GmlFile::is_one(&head) {
+            return Ok(Self::Gml(Box::new(GmlFile::open(file, path, name, wanted)?)));
+        }
+        Self::geojson(file, meta.len(), path, (name, wanted), cannot)
+    }
+
+    /// Reads GeoJSON, all of it.
+    fn geojson(
+        file: File,
+        size: u64,
+        path: &Path,
+        (name, wanted): (&str, &SourceOptions),
+        cannot: impl Fn(std::io::Error) -> Error,
+    ) -> Result<Self> {
+        if size > geojson::LARGEST {
+            return Err(Error::limit(
+                Limit::Size,
+                format!("{name} is larger than {} MB", geojson::LARGEST / 1_000_000),
+            )
+            .help("convert it to a FlatGeobuf or a GeoPackage, of which a part can be read"));
+        }
+        let room = usize::try_from(size).unwrap_or(usize::MAX);
+        let _held = wanted.budget.hold(room)?;
+        let mut bytes = Vec::with_capacity(room);
+        file.take(size).read_to_end(&mut bytes).map_err(cannot)?;
+        let read = geojson::read(&bytes, path, name, wanted);
+        Ok(Self::GeoJson(Box::new(read.map_err(|error| error.about(name))?)))
+    }
+
+    /// What its format is called.
+    pub fn format(&self) -> &'static str {
+        match self {
+            Self::GeoJson(_) => "GeoJSON",
+            Self::GeoPackage(_) => "GeoPackage",
+            Self::FlatGeobuf(_) => "FlatGeobuf",
+            Self::Gml(_) => "GML",
+            Self::Osm(_) => "OpenStreetMap",
+        }
+    }
+
+    /// The names of its layers.
+    pub fn layers(&self) -> Vec<String> {
+        match self {
+            Self::GeoJson(table) => vec![table.layer.clone()],
+            Self::GeoPackage(package) => package.layers(),
+            Self::FlatGeobuf(file) => file.layers(),
+            Self::Gml(file) => file.layers(),
+            Self::Osm(file) => file.layers(),
+        }
+    }
+
+    /// Reads what is `wanted`, in the order of the file.
+    pub fn read(self, name: &str, wanted: &SourceOptions) -> Result<FeatureTable> {
+        let format = self.format();
+        if wanted.condition.is_some() && !matches!(self, Self::GeoPackage(_)) {
+            let instead = match self {
+                Self::Osm(_) => "for an extract, tags choose: { tags = { building = true } }",
+                _ => "take what you need out of source(...).features in Lua: source(chosen)",
+            };
+            return Err(Error::argument(format!("{name} is {format}, which takes no where"))
+                .help(format!("where is for GeoPackages; {instead}")));
+        }
+        if wanted.tags.is_some() && !matches!(self, Self::Osm(_)) {
+            return Err(Error::argument(format!("{name} is {format}, which takes no tags"))
+                .help("tags are for extracts of OpenStreetMap, .osm.pbf; leave them out"));
+        }
+        let mut table = match self {
+            Self::Osm(file) => file.read(wanted)?,
+            Self::GeoPackage(package) => {
+                let layer = choose(name, &package.layers(), wanted.layer.as_deref())?;
+                package.read(&layer, wanted)?
+            }
+            Self::FlatGeobuf(file) => {
+                choose(name, &file.layers(), wanted.layer.as_deref())?;
+                file.read(wanted)?
+            }
+            Self::Gml(file) => {
+                let layer = choose(name, &file.layers(), wanted.layer.as_deref())?;
+                file.read(&layer, wanted)?
+            }
+            Self::GeoJson(table) => {
+                choose(name, std::slice::from_ref(&table.layer), wanted.layer.as_deref())?;
+                *table
+            }
+        };
+        if format != "GeoPackage" {
+            table.identify(wanted.id.as_deref())?;
+        }
+        table.finished(wanted)
+    }
+}
+
+/// The error for a table without features.
+pub(super) fn nothing(table: &FeatureTable, wanted: &SourceOptions) -> Error {
+    let what = &table.shown;
+    if wanted.limit == Some(0) {
+        return Error::argument(format!("limit = 0 leaves no feature of {what}")).help("leave limit out");
+    }
+    if let Some(condition) = &wanted.condition {
+        return Error::data(format!("no feature of {what} meets where {condition}"))
+            .help("burgeon sources FILE lists attributes and their values");
+    }
+    if let (Some([west, south, east, north]), true) = (wanted.within, table.has_seen()) {
+        let place = format!("{{ {west}, {south}, {east}, {north} }}");
+        return Error::data(format!("no feature of {what} touches within = {place}"))
+            .help("it is { west, south, east, north } in the coordinates of the file, which burgeon sources FILE lists");
+    }
+    if wanted.tags.is_some() {
+        return Error::data(format!("no feature of {what} has such tags"))
+            .help("look up how mappers tag it: https://wiki.openstreetmap.org/wiki/Map_features");
+    }
+    if table.empty > 0 {
+        return Error::data(format!("{what} has no features with a geometry"));
+    }
+    Error::data(format!("{what} has no features"))
+}
+
+/// The layer of `name` that is meant.
+pub(crate) fn choose(name: &str, layers: &[String], wanted: Option<&str>) -> Result<String> {
+    let list = listed(layers.iter().map(String::as_str));
+    match (wanted, layers) {
+        (_, []) => Err(Error::data(format!("{name} has no layers of features"))
+            .help("it holds no features table; was it written as a GeoPackage of features?")),
+        (None, [only]) => Ok(only.clone()),
+        (None, _) => Err(Error::argument(format!("{name} has several layers"))
+            .help(format!("name one behind a colon: \"{name}:{}\"; it has {list}", shown(&layers[0])))),
+        (Some(wanted), _) if layers.iter().any(|layer| layer == wanted) => Ok(wanted.to_owned()),
+        (Some(wanted), _) => {
+            let message = format!("{name} has no layer called {}", shown(wanted));
+            Err(Error::not_found("layer", wanted, layers.iter().map(String::as_str), message)
+                .help(format!("it has {list}")))
+        }
+    }
+}

@@ -1,0 +1,6 @@
+//! A network of streets as scripts have it: `network` in scripts.
+
+mod draw;
+mod object;
+
+pub use object::Network;

@@ -1,0 +1,309 @@
+//! The type of object: its fields, and what rules ask and interpretations change.
+
+use glam::DVec2;
+use rustc_hash::FxHashMap;
+
+use burgeon_base::error::{Error, Result};
+use burgeon_base::warning::{Warning, WarningKind};
+use burgeon_data::Geometry;
+use burgeon_geometry::{Plan, Rings};
+use burgeon_kit::{Color, Vector, fields, methods, object};
+use burgeon_scene::Scene;
+use burgeon_streets::{
+    Constraints, DeadEndOptions, Fate, JunctionId, Obstacle, Obstacles, StreetAttributes, StreetGrowth,
+    StreetNetwork, SurfaceOptions,
+};
+
+/// What `network(...)` takes.
+#[fields("network")]
+pub struct NetworkOptions {
+    /// Where streets begin (m): junctions 1, 2, 3 and so on.
+    #[default(vec![Vector(glam::DVec3::ZERO)])]
+    pub starts: Vec<Vector>,
+    /// Widths of streets (m) from edge to edge of their sidewalks, by depth from 0 on; the last one holds for all that are deeper.
+    #[default(vec![20.0, 14.0, 11.0])]
+    pub widths: Vec<f64>,
+    /// How near (m) the end of a street comes to a junction or another street before it joins that.
+    #[default(25.0)]
+    pub snap: f64,
+    /// The least angle (degrees) between two streets at a junction.
+    #[default(45.0)]
+    pub min_angle: f64,
+    /// The least length (m) of a street between two junctions.
+    #[default(12.0)]
+    pub min_length: f64,
+    /// The least distance (m) between streets that do not meet.
+    #[default(6.0)]
+    pub clearance: f64,
+    /// The radius (m) of the corners of blocks.
+    #[default(4.0)]
+    pub corner: f64,
+    /// How far (degrees) a street may turn to pass an obstacle.
+    #[default(40.0)]
+    pub bend: f64,
+    /// The longest way (m) over water that a bridge may lead.
+    #[default(0.0)]
+    pub bridge: f64,
+    /// Areas that no street leads through: polygons.
+    #[default(Vec::new())]
+    pub obstacles: Vec<Rings>,
+    /// Areas that only bridges lead over: polygons.
+    #[default(Vec::new())]
+    pub water: Vec<Rings>,
+    /// The area that streets stay inside of; anywhere if it is left out.
+    pub limit: Option<Rings>,
+    /// The most pieces of streets.
+    #[default(400_000)]
+    pub most: u32,
+    /// Width (m) of sidewalks.
+    #[default(2.5)]
+    pub sidewalk: f64,
+    /// Height (m) of kerbs.
+    #[default(0.14)]
+    pub kerb: f64,
+    /// The radius (m) of circles to turn in at dead ends; 0 for none.
+    #[default(0.0)]
+    pub turning: f64,
+    /// Whether lines and crossings are painted on the streets.
+    #[default(true)]
+    pub markings: bool,
+    /// Colour of carriageways.
+    #[default(Color([0.095, 0.098, 0.105, 1.0]))]
+    pub asphalt: Color,
+    /// Colour of sidewalks.
+    #[default(Color([0.45, 0.44, 0.42, 1.0]))]
+    pub paving: Color,
+    /// Colour of the blocks between the streets; none is drawn if it is left out.
+    pub ground: Option<Color>,
+}
+
+/// A network of streets, which grows by what interpretation rules propose.
+///
+/// A street that is proposed is built, shortened, bent, joined to what is near its end, or refused; in the next step rules ask
+/// what became of it. No two streets cross without a junction, and none comes too near another. What was built stays for all
+/// steps.
+#[object(
+    "network",
+    options = NetworkOptions,
+    example = include_str!("../../scripts/network.lua"),
+    shows,
+    begin = restart,
+    end = finish,
+    take_warnings = drain_warnings
+)]
+pub struct Network {
+    pub(super) options: NetworkOptions,
+    pub(super) network: StreetNetwork,
+    /// What became of what was proposed in the last pass, by junction and heading.
+    growths: FxHashMap<(u32, u64), StreetGrowth>,
+    warnings: Vec<Warning>,
+    /// Whether it was told that no street was built.
+    is_told: bool,
+}
+
+#[methods("network")]
+impl Network {
+    /// Proposes a street from a junction: its heading (degrees from east, counter-clockwise), its length (m) and how often its
+    /// way has branched off.
+    pub fn grow(&mut self, junction: u32, heading: f64, length: f64, depth: u32) -> Result<()> {
+        let from = self.known(junction)?;
+        if !heading.is_finite() || !length.is_finite() || length <= 0.0 {
+            return Err(Error::argument(format!(
+                "network:grow: a street of {length} m towards {heading} degrees cannot be"
+            ))
+            .help("give a finite heading, and a length above 0"));
+        }
+        let to = self.network.at(from) + DVec2::from_angle(heading.to_radians()) * length;
+        let growth = self.network.grow(from, to, self.attributes(depth))?;
+        self.growths.insert((junction, heading.to_bits()), growth);
+        Ok(())
+    }
+
+    /// Proposes a street from a junction to a place (m).
+    pub fn lead(&mut self, junction: u32, to: Vector, depth: u32) -> Result<()> {
+        let from = self.known(junction)?;
+        self.network.grow(from, to.0.truncate(), self.attributes(depth))?;
+        Ok(())
+    }
+
+    /// Joins dead ends to the streets within a radius (m) to which the way along the streets is so many times longer.
+    pub fn join_dead_ends(&mut self, radius: Option<f64>, detour: Option<f64>) -> Result<()> {
+        let usual = DeadEndOptions::default();
+        let options =
+            DeadEndOptions { radius: radius.unwrap_or(usual.radius), detour: detour.unwrap_or(usual.detour) };
+        if !(0.0..=2000.0).contains(&options.radius) || !(1.0..=100.0).contains(&options.detour) {
+            return Err(Error::argument(
+                "network:join_dead_ends takes a radius from 0 to 2000, and a detour from 1 to 100",
+            ));
+        }
+        self.network.join_dead_ends(options);
+        Ok(())
+    }
+
+    /// Takes dead ends away, until none is left.
+    pub fn remove_dead_ends(&mut self) {
+        self.network.remove_dead_ends();
+    }
+
+    /// The junction where a street ends that was proposed, if others may go on from there; nil if it joined others or was refused.
+    pub fn reached(&self, junction: u32, heading: f64) -> Option<u32> {
+        let growth = self.growths.get(&(junction, heading.to_bits()))?;
+        matches!(growth.fate, Fate::Built | Fate::Bent | Fate::Shortened).then_some(growth.end + 1)
+    }
+
+    /// What became of a street that was proposed: "built", "bent", "shortened", "snapped" to a junction, "joined" to a street, or
+    /// why it was refused: "too short", "angle", "too near", "corners", "obstacle", "outside"; "unknown" if it was not proposed.
+    pub fn fate(&self, junction: u32, heading: f64) -> String {
+        match self.growths.get(&(junction, heading.to_bits())).map(|growth| growth.fate) {
+            None => "unknown".into(),
+            Some(Fate::Refused(why)) => why.name().into(),
+            Some(fate) => fate.name().into(),
+        }
+    }
+
+    /// Where a junction is (m).
+    pub fn place(&self, junction: u32) -> Result<glam::DVec3> {
+        Ok(self.network.at(self.known(junction)?).extend(0.0))
+    }
+
+    /// How many streets meet at a junction.
+    pub fn degree(&self, junction: u32) -> Result<u32> {
+        let degree = self.network.junctions()[self.known(junction)? as usize].degree();
+        Ok(u32::try_from(degree).unwrap_or(u32::MAX))
+    }
+
+    /// How many pieces of streets there are, from junction to junction.
+    pub fn size(&self) -> u32 {
+        u32::try_from(self.network.size()).unwrap_or(u32::MAX)
+    }
+
+    /// Distance (m) from a place to the middle of the nearest street; infinite without any.
+    pub fn distance(&self, place: Vector) -> f64 {
+        self.network.nearest(place.0.truncate()).map_or(f64::INFINITY, |(_, distance)| distance)
+    }
+
+    /// The blocks between the streets, inside of their sidewalks: polygons.
+    pub fn blocks(&self) -> Vec<Geometry> {
+        let blocks = self.network.blocks(self.surface_options()).into_iter();
+        blocks.map(|rings| Geometry::Polygon(rings.at_height(0.0))).collect()
+    }
+
+    /// How many dead ends there are.
+    pub fn dead_ends(&self) -> u32 {
+        u32::try_from(self.network.dead_ends().count()).unwrap_or(u32::MAX)
+    }
+}
+
+impl Network {
+    /// The network that a script describes; fails if its fields contradict one another.
+    pub fn new(options: NetworkOptions) -> Result<Self> {
+        if options.widths.is_empty() || options.widths.iter().any(|width| !(2.0..=200.0).contains(width)) {
+            return Err(Error::argument("network: widths must be one or more numbers from 2 to 200")
+                .help("write widths = { 20, 14 }"));
+        }
+        for (name, value, most) in [
+            ("sidewalk", options.sidewalk, 50.0),
+            ("kerb", options.kerb, 2.0),
+            ("turning", options.turning, 100.0),
+        ] {
+            if !(0.0..=most).contains(&value) {
+                return Err(Error::argument(format!(
+                    "network: {name} must be from 0 to {most}, not {value}"
+                )));
+            }
+        }
+        let constraints = Constraints {
+            snap: options.snap,
+            min_angle: options.min_angle,
+            min_length: options.min_length,
+            clearance: options.clearance,
+            corner: options.corner,
+            bend: options.bend,
+            bridge: options.bridge,
+            most: options.most as usize,
+        };
+        let mut warnings = Vec::new();
+        let mut areas = Vec::new();
+        let kinds = [(&options.obstacles, false, false), (&options.water, false, true)];
+        let limit: Vec<Rings> = options.limit.iter().cloned().collect();
+        for (rings, is_limit, can_be_bridged) in kinds.into_iter().chain([(&limit, true, false)]) {
+            for rings in rings {
+                match Plan::new(rings) {
+                    Ok(plan) => areas.push(Obstacle { area: plan.flat(), is_limit, can_be_bridged }),
+                    Err(error) => {
+                        let text =
+                            format!("network: left out an area that is no polygon: {}", error.message());
+                        warnings
+                            .push(Warning::new(WarningKind::Data, text).help("repair it, or leave it out"));
+                    }
+                }
+            }
+        }
+        let mut network =
+            StreetNetwork::new(constraints, Obstacles::new(areas)).map_err(|error| error.about("network"))?;
+        for start in &options.starts {
+            network.begin(start.0.truncate()).map_err(|error| error.about("network: starts"))?;
+        }
+        Ok(Self { options, network, growths: FxHashMap::default(), warnings, is_told: false })
+    }
+
+    /// The junction with this number, which counts from 1.
+    fn known(&self, junction: u32) -> Result<JunctionId> {
+        let count = self.network.junctions().len();
+        match junction.checked_sub(1) {
+            Some(id) if (id as usize) < count => Ok(id),
+            _ => Err(Error::argument(format!("there is no junction {junction}")).help(format!(
+                "junctions are numbered from 1 to {count}: network:reached tells where a street ends"
+            ))),
+        }
+    }
+
+    fn attributes(&self, depth: u32) -> StreetAttributes {
+        let widths = &self.options.widths;
+        StreetAttributes { width: widths[(depth as usize).min(widths.len() - 1)], depth, class: 0 }
+    }
+
+    pub(super) fn surface_options(&self) -> SurfaceOptions {
+        SurfaceOptions { sidewalk: self.options.sidewalk, turning: self.options.turning }
+    }
+
+    fn restart(&mut self) {
+        self.growths.clear();
+    }
+
+    /// Tells if a pass proposed streets and there is none.
+    fn finish(&mut self) -> Result<()> {
+        if self.network.size() > 0 || self.growths.is_empty() || self.is_told {
+            return Ok(());
+        }
+        self.is_told = true;
+        let count = self.growths.len();
+        let refusals = self.growths.values().filter_map(|growth| match growth.fate {
+            Fate::Refused(why) => Some(why.name()),
+            _ => None,
+        });
+        let mut reasons: Vec<&str> = refusals.collect();
+        reasons.sort_unstable();
+        reasons.dedup();
+        let text =
+            format!("network: no street was built of {count} that were proposed: {}", reasons.join(", "));
+        let help = "network:fate tells of each what became of it";
+        self.warnings.push(Warning::new(WarningKind::DrawsNothing, text).help(help));
+        Ok(())
+    }
+
+    fn drain_warnings(&mut self) -> Vec<Warning> {
+        std::mem::take(&mut self.warnings)
+    }
+}
+
+impl burgeon_kit::Show for Network {
+    fn triangles(&self) -> usize {
+        self.network.size() * 40
+    }
+
+    fn show(&self, scene: &mut Scene, name: &str, feature: Option<&str>) -> Result<()> {
+        self.draw()?.show(scene, name, feature);
+        Ok(())
+    }
+}

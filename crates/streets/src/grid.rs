@@ -1,0 +1,118 @@
+//! Places on a grid of whole steps, on which sides and crossings are decided exactly.
+
+use glam::DVec2;
+
+/// How many steps of the grid are a metre.
+const PER_METRE: f64 = 1024.0;
+/// The farthest (m) from the origin that a place may lie: products of two differences fit in 64 bits.
+pub const FARTHEST: f64 = 500_000.0;
+
+/// A place on the grid, whose steps are a 1024th of a metre.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct GridPlace {
+    x: i64,
+    y: i64,
+}
+
+impl GridPlace {
+    /// The nearest to `place` (m); `None` if that is not finite or farther than [`FARTHEST`].
+    pub fn nearest(place: DVec2) -> Option<Self> {
+        let within = place.is_finite() && place.abs().max_element() <= FARTHEST;
+        #[allow(clippy::cast_possible_truncation, reason = "within 2^30 steps")]
+        within.then(|| {
+            let steps = (place * PER_METRE).round();
+            Self { x: steps.x as i64, y: steps.y as i64 }
+        })
+    }
+
+    /// Where it lies (m), exactly.
+    #[allow(clippy::cast_precision_loss, reason = "within 2^30 steps")]
+    pub fn metres(self) -> DVec2 {
+        DVec2::new(self.x as f64, self.y as f64) / PER_METRE
+    }
+}
+
+/// On which side of the way from `a` to `b` a place lies: positive on the left, 0 on their line.
+pub(crate) fn side(a: GridPlace, b: GridPlace, place: GridPlace) -> i64 {
+    ((b.x - a.x) * (place.y - a.y) - (b.y - a.y) * (place.x - a.x)).signum()
+}
+
+/// Whether a place on the line of `a` and `b` is between them, or is one of them.
+fn is_between(a: GridPlace, b: GridPlace, place: GridPlace) -> bool {
+    let within = |a: i64, b: i64, at: i64| a.min(b) <= at && at <= a.max(b);
+    within(a.x, b.x, place.x) && within(a.y, b.y, place.y)
+}
+
+/// Whether two pieces have a place in common, their ends included.
+pub(crate) fn meet([a, b]: [GridPlace; 2], [c, d]: [GridPlace; 2]) -> bool {
+    let [of_c, of_d] = [c, d].map(|end| side(a, b, end));
+    let [of_a, of_b] = [a, b].map(|end| side(c, d, end));
+    if of_c * of_d < 0 && of_a * of_b < 0 {
+        return true;
+    }
+    (of_c == 0 && is_between(a, b, c))
+        || (of_d == 0 && is_between(a, b, d))
+        || (of_a == 0 && is_between(c, d, a))
+        || (of_b == 0 && is_between(c, d, b))
+}
+
+/// How far along the way from `a` to `b`, from 0 to 1, it meets the line of `c` and `d`; `None` if they are parallel.
+pub(crate) fn crossing([a, b]: [DVec2; 2], [c, d]: [DVec2; 2]) -> Option<f64> {
+    let (way, other) = (b - a, d - c);
+    let turn = way.perp_dot(other);
+    (turn != 0.0).then(|| (c - a).perp_dot(other) / turn)
+}
+
+/// Distance (m) from a place to the nearest of a piece, and how far along it that is, from 0 to 1.
+pub(crate) fn foot(place: DVec2, [a, b]: [DVec2; 2]) -> (f64, f64) {
+    let way = b - a;
+    let along = ((place - a).dot(way) / way.length_squared()).clamp(0.0, 1.0);
+    (place.distance(a + way * along), along)
+}
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+
+    use super::*;
+
+    fn place(x: i64, y: i64) -> GridPlace {
+        GridPlace { x, y }
+    }
+
+    #[test]
+    fn pieces_meet_where_they_touch_and_cross() {
+        let across = [place(0, 0), place(10, 10)];
+        assert!(meet(across, [place(0, 10), place(10, 0)]));
+        assert!(meet(across, [place(10, 10), place(20, 0)]), "end to end");
+        assert!(meet(across, [place(5, 5), place(20, 0)]), "an end on the other");
+        assert!(meet(across, [place(5, 5), place(20, 20)]), "on one line");
+        assert!(!meet(across, [place(11, 11), place(20, 20)]), "on one line, apart");
+        assert!(!meet(across, [place(0, 1), place(9, 10)]), "parallel");
+    }
+
+    #[test]
+    fn places_are_kept_to_half_a_step() {
+        let far = DVec2::new(499_999.123_4, -0.000_4);
+        let there = GridPlace::nearest(far).expect("near enough").metres();
+        assert!(there.distance(far) < 1.0 / PER_METRE);
+        assert_eq!(GridPlace::nearest(DVec2::new(f64::NAN, 0.0)), None);
+        assert_eq!(GridPlace::nearest(DVec2::new(0.0, 500_001.0)), None);
+    }
+
+    proptest! {
+        #[test]
+        fn sides_are_exact_at_any_distance(
+            a in (-(1_i64 << 29)..1 << 29, -(1_i64 << 29)..1 << 29),
+            b in (-(1_i64 << 29)..1 << 29, -(1_i64 << 29)..1 << 29),
+            c in (-(1_i64 << 29)..1 << 29, -(1_i64 << 29)..1 << 29),
+        ) {
+            let wide = |a: (i64, i64), b: (i64, i64), c: (i64, i64)| {
+                let [ax, ay, bx, by, cx, cy] = [a.0, a.1, b.0, b.1, c.0, c.1].map(i128::from);
+                ((bx - ax) * (cy - ay) - (by - ay) * (cx - ax)).signum()
+            };
+            let found = side(place(a.0, a.1), place(b.0, b.1), place(c.0, c.1));
+            prop_assert_eq!(i128::from(found), wide(a, b, c));
+        }
+    }
+}

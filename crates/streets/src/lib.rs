@@ -1,0 +1,44 @@
+//! Street networks, without rules or scripts: growth by proposals, faces, dead ends and what real networks are measured
+//! by.
+//!
+//! Comes in: streets that are proposed, obstacles, [`Constraints`]. Goes out: a planar [`StreetNetwork`] whose streets
+//! meet only at junctions, and what became of each proposal. It never draws a random number: who proposes decides.
+//!
+//! ```
+//! use burgeon_streets::{Constraints, Fate, Obstacles, StreetAttributes, StreetNetwork};
+//! use glam::DVec2;
+//!
+//! let mut network = StreetNetwork::new(Constraints::default(), Obstacles::default())?;
+//! let street = StreetAttributes { width: 12.0, depth: 0, class: 0 };
+//! let start = network.begin(DVec2::ZERO)?;
+//! network.grow(start, DVec2::new(200.0, 0.0), street)?;
+//! let aside = network.begin(DVec2::new(80.0, -120.0))?;
+//! let growth = network.grow(aside, DVec2::new(80.0, -10.0), street)?;
+//! assert_eq!(growth.fate, Fate::Joined);
+//! assert_eq!(network.at(growth.end), DVec2::new(80.0, 0.0));
+//! assert_eq!((network.size(), network.dead_ends().count()), (3, 3));
+//! # Ok::<(), burgeon_base::error::Error>(())
+//! ```
+
+mod constraints;
+mod corner;
+mod dead_ends;
+mod faces;
+mod grid;
+mod grow;
+mod measures;
+mod network;
+mod obstacles;
+mod surface;
+#[cfg(test)]
+mod tests;
+
+pub use constraints::{Constraints, Fate, Refusal};
+pub use dead_ends::DeadEndOptions;
+pub use faces::{Course, StreetFace};
+pub use grid::{FARTHEST, GridPlace};
+pub use grow::StreetGrowth;
+pub use measures::Measures;
+pub use network::{Junction, JunctionId, PieceId, StreetAttributes, StreetNetwork, StreetPiece};
+pub use obstacles::{Obstacle, Obstacles};
+pub use surface::{Carriageway, Sidewalk, StreetSurfaces, SurfaceOptions};

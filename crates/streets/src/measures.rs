@@ -1,0 +1,130 @@
+//! What networks are compared by.
+
+use crate::network::StreetNetwork;
+
+/// The measures of a network, as they are taken of real cities.
+///
+/// After: G. Boeing, "Urban spatial order: street network orientation, configuration, and entropy", 2019.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Measures {
+    /// Length (m) of all streets.
+    pub length: f64,
+    /// The mean of how many streets meet at a junction, where one only turns left out.
+    pub degree: f64,
+    /// The shares of dead ends, and of junctions of 3 and of 4 or more streets.
+    pub shares: [f64; 3],
+    /// The length of the streets over the straight distance between the junctions that they join, which is 1 at least.
+    pub circuity: f64,
+    /// How many of the faces that it could have it has, from 0 for a tree to about 1.
+    pub meshedness: f64,
+    /// How far its streets share directions, from 0 for none to 1 for a grid.
+    pub orientation_order: f64,
+    /// The median area (m²) of the faces.
+    pub block: f64,
+    /// The standard deviation of the logarithm, to the base of 10, of the areas of the faces.
+    pub block_spread: f64,
+}
+
+impl StreetNetwork {
+    /// Its measures. Junctions where a street only turns are a part of it, not junctions.
+    pub fn measures(&self) -> Measures {
+        let (length, straight, bins) = self.streets();
+        let degrees: Vec<usize> = self
+            .junctions
+            .iter()
+            .map(|junction| junction.degree())
+            .filter(|degree| ![0, 2].contains(degree))
+            .collect();
+        #[allow(clippy::cast_precision_loss, reason = "counts far below 2^53")]
+        let count = |of: &dyn Fn(usize) -> bool| degrees.iter().filter(|degree| of(**degree)).count() as f64;
+        let all = count(&|_| true).max(1.0);
+        #[allow(clippy::cast_precision_loss, reason = "counts far below 2^53")]
+        let (vertices, edges, parts) = {
+            let there = self.junctions.iter().filter(|junction| junction.degree() > 0).count();
+            (there as f64, self.size() as f64, self.components() as f64)
+        };
+        #[allow(clippy::cast_precision_loss, reason = "counts far below 2^53")]
+        let degree = degrees.iter().sum::<usize>() as f64 / all;
+        // Turns are neither vertices nor do they make edges.
+        #[allow(clippy::cast_precision_loss, reason = "counts far below 2^53")]
+        let turns = self.junctions.iter().filter(|junction| junction.degree() == 2).count() as f64;
+        let meshedness = (edges - vertices + parts) / (2.0 * (vertices - turns) - 5.0).max(1.0);
+        let mut areas: Vec<f64> = self.faces().iter().map(|face| self.area(&face.around)).collect();
+        areas.sort_by(f64::total_cmp);
+        #[allow(clippy::cast_precision_loss, reason = "counts far below 2^53")]
+        let block_spread = {
+            let logs: Vec<f64> = areas.iter().map(|area| area.log10()).collect();
+            let mean = logs.iter().sum::<f64>() / (logs.len() as f64).max(1.0);
+            (logs.iter().map(|log| (log - mean).powi(2)).sum::<f64>() / (logs.len() as f64).max(1.0)).sqrt()
+        };
+        Measures {
+            length,
+            degree,
+            shares: [count(&|n| n == 1) / all, count(&|n| n == 3) / all, count(&|n| n >= 4) / all],
+            circuity: if straight > 0.0 { length / straight } else { 1.0 },
+            meshedness,
+            orientation_order: order(&bins),
+            block: areas.get(areas.len() / 2).copied().unwrap_or(0.0),
+            block_spread,
+        }
+    }
+
+    /// The length of all streets (m), of the straight ways between their junctions, and how much of it leads where, in
+    /// 36 directions.
+    fn streets(&self) -> (f64, f64, [f64; 36]) {
+        let (mut length, mut straight, mut bins) = (0.0, 0.0, [0.0; 36]);
+        let mut seen = vec![false; self.pieces.len()];
+        // Ways from junction to junction first, then rings of turns alone.
+        let starts = |of: fn(usize) -> bool| {
+            let all = (0..).zip(&self.junctions);
+            all.filter(move |(_, junction)| of(junction.degree()))
+        };
+        for (from, junction) in
+            starts(|degree| degree != 2 && degree != 0).chain(starts(|degree| degree == 2))
+        {
+            for &first in &junction.pieces {
+                let (mut at, mut piece, mut way) = (from, first, 0.0);
+                while !std::mem::replace(&mut seen[piece as usize], true) {
+                    way += self.length(piece);
+                    at = self.across(piece, at);
+                    let arms = &self.junctions[at as usize].pieces;
+                    if arms.len() != 2 {
+                        break;
+                    }
+                    piece = if arms[0] == piece { arms[1] } else { arms[0] };
+                }
+                if way == 0.0 {
+                    continue;
+                }
+                length += way;
+                let straight_way = self.at(at) - self.at(from);
+                straight += straight_way.length();
+                if straight_way.length() > 0.0 {
+                    for way in [straight_way, -straight_way] {
+                        // North is 0, clockwise, with bins around the directions they are named by.
+                        let bearing = way.x.atan2(way.y).to_degrees().rem_euclid(360.0);
+                        #[allow(
+                            clippy::cast_possible_truncation,
+                            clippy::cast_sign_loss,
+                            reason = "from 0 to 36"
+                        )]
+                        let bin = ((bearing + 5.0) / 10.0).floor() as usize % 36;
+                        bins[bin] += 1.0;
+                    }
+                }
+            }
+        }
+        (length, straight, bins)
+    }
+}
+
+/// The orientation order of bins: 1 less the share of the entropy between that of a grid and of all directions.
+fn order(bins: &[f64; 36]) -> f64 {
+    let all: f64 = bins.iter().sum();
+    if all == 0.0 {
+        return 0.0;
+    }
+    let entropy: f64 = bins.iter().filter(|bin| **bin > 0.0).map(|bin| -(bin / all) * (bin / all).ln()).sum();
+    let (most, grid) = (36.0_f64.ln(), 4.0_f64.ln());
+    1.0 - ((entropy - grid) / (most - grid)).max(0.0).powi(2)
+}

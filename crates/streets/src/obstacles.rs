@@ -1,0 +1,157 @@
+//! Where streets cannot run: water, steep ground, buildings, and what lies outside of the ground they may take.
+
+use std::sync::Arc;
+
+use glam::DVec2;
+use rstar::primitives::{GeomWithData, Line as IndexLine};
+use rstar::{AABB, RTree};
+
+use crate::grid::{crossing, foot};
+use burgeon_geometry::Polygon;
+
+type ObstacleEdge = GeomWithData<IndexLine<[f64; 2]>, u32>;
+
+/// Areas (m) that streets keep out of.
+#[derive(Clone, Default)]
+pub struct Obstacles {
+    areas: Arc<[Obstacle]>,
+    edges: Arc<RTree<ObstacleEdge>>,
+}
+
+/// One area.
+#[derive(Debug, Clone)]
+pub struct Obstacle {
+    /// Its outline.
+    pub area: Polygon,
+    /// Whether streets stay inside of it instead of outside.
+    pub is_limit: bool,
+    /// Whether a bridge may lead over it.
+    pub can_be_bridged: bool,
+}
+
+impl Obstacles {
+    /// These areas.
+    pub fn new(areas: Vec<Obstacle>) -> Self {
+        let edges = (0..).zip(&areas).flat_map(|(number, obstacle): (u32, &Obstacle)| {
+            let pieces = obstacle.area.edges();
+            pieces.map(move |[a, b]| GeomWithData::new(IndexLine::new(a.to_array(), b.to_array()), number))
+        });
+        let edges = RTree::bulk_load(edges.collect());
+        Self { areas: areas.into(), edges: Arc::new(edges) }
+    }
+
+    /// Whether there are none.
+    pub fn is_empty(&self) -> bool {
+        self.areas.is_empty()
+    }
+
+    /// The obstacle that a place lies in, or that it lies outside of if it is a limit.
+    pub fn at(&self, place: DVec2) -> Option<&Obstacle> {
+        self.areas.iter().find(|obstacle| obstacle.area.contains(place) != obstacle.is_limit)
+    }
+
+    /// Where a way of a `width` (m) first comes to an obstacle: how far along it is, from 0 to 1, and what it is.
+    pub(crate) fn first_on(&self, [a, b]: [DVec2; 2], width: f64) -> Option<(f64, &Obstacle)> {
+        if self.is_empty() {
+            return None;
+        }
+        let length = a.distance(b);
+        let half = width / 2.0;
+        let around = AABB::from_corners((a.min(b) - half).to_array(), (a.max(b) + half).to_array());
+        let near = self.edges.locate_in_envelope_intersecting(&around);
+        let met = near.filter_map(|edge| {
+            let ends = [edge.geom().from, edge.geom().to].map(DVec2::from);
+            let along = first_within([a, b], ends, half)?;
+            Some((along, &self.areas[edge.data as usize]))
+        });
+        let first = met.min_by(|(a, _), (b, _)| a.total_cmp(b));
+        match self.at(a) {
+            Some(inside) if length > 0.0 => Some((0.0, inside)),
+            _ => first,
+        }
+    }
+
+    /// How far along a way it has left all obstacles behind that may be bridged, from 0 to 1; `None` if it never has.
+    pub(crate) fn beyond(&self, [a, b]: [DVec2; 2], width: f64) -> Option<f64> {
+        let half = width / 2.0;
+        let around = AABB::from_corners((a.min(b) - half).to_array(), (a.max(b) + half).to_array());
+        let near = self.edges.locate_in_envelope_intersecting(&around);
+        let mut last = 0.0_f64;
+        for edge in near {
+            let ends = [edge.geom().from, edge.geom().to].map(DVec2::from);
+            if let Some(back) = first_within([b, a], ends, half) {
+                if !self.areas[edge.data as usize].can_be_bridged {
+                    return None;
+                }
+                last = last.max(1.0 - back);
+            }
+        }
+        (last < 1.0 && self.at(b).is_none()).then_some(last)
+    }
+}
+
+/// How far along the way from `a` to `b`, from 0 to 1, it first comes within `distance` (m) of an edge.
+fn first_within([a, b]: [DVec2; 2], [c, d]: [DVec2; 2], distance: f64) -> Option<f64> {
+    let length = a.distance(b);
+    if length == 0.0 || foot(a, [c, d]).0 <= distance {
+        return (foot(a, [c, d]).0 <= distance).then_some(0.0);
+    }
+    let mut first = f64::INFINITY;
+    let mut meet = |along: f64| {
+        if (0.0..=1.0).contains(&along) {
+            first = first.min(along);
+        }
+    };
+    // The band around the edge: two lines beside it, and a circle at each end.
+    if let Some(normal) = (d - c).try_normalize().map(DVec2::perp) {
+        for side in [-distance, distance] {
+            let beside = [c + normal * side, d + normal * side];
+            if let Some(along) = crossing([a, b], beside)
+                && crossing(beside, [a, b]).is_some_and(|on| (0.0..=1.0).contains(&on))
+            {
+                meet(along);
+            }
+        }
+    }
+    let way = (b - a) / length;
+    for center in [c, d] {
+        let (middle, aside) = ((center - a).dot(way), (center - a).perp_dot(way).abs());
+        if aside <= distance {
+            meet((middle - (distance * distance - aside * aside).sqrt()) / length);
+        }
+    }
+    first.is_finite().then_some(first)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use burgeon_geometry::Rings;
+
+    fn pond(is_limit: bool) -> Obstacles {
+        let square = [(0.0, 0.0), (10.0, 0.0), (10.0, 10.0), (0.0, 10.0)].map(DVec2::from);
+        let area = Polygon::new(Rings(vec![square.to_vec()])).expect("a square");
+        Obstacles::new(vec![Obstacle { area, is_limit, can_be_bridged: true }])
+    }
+
+    #[test]
+    fn a_way_comes_to_an_area_by_half_its_width_before_it() {
+        let pond = pond(false);
+        let way = [DVec2::new(-10.0, 5.0), DVec2::new(30.0, 5.0)];
+        let (along, _) = pond.first_on(way, 4.0).expect("the pond");
+        assert!((along * 40.0 - 8.0).abs() < 1e-9);
+        assert!((pond.beyond(way, 4.0).expect("the other side") * 40.0 - 22.0).abs() < 1e-9);
+        // It passes 1 m beside it.
+        let way = [DVec2::new(-10.0, 11.0), DVec2::new(30.0, 11.0)];
+        assert!(pond.first_on(way, 1.8).is_none());
+        assert!(pond.first_on(way, 2.2).is_some());
+    }
+
+    #[test]
+    fn a_limit_is_left_where_it_ends() {
+        let island = pond(true);
+        let (along, _) = island.first_on([DVec2::splat(5.0), DVec2::new(25.0, 5.0)], 2.0).expect("the shore");
+        assert!((along * 20.0 - 4.0).abs() < 1e-9);
+        assert!(island.at(DVec2::splat(11.0)).is_some() && island.at(DVec2::splat(9.0)).is_none());
+    }
+}

@@ -1,0 +1,162 @@
+//! Networks at random, held against all that they promise by looking at every pair.
+
+use glam::DVec2;
+
+use super::*;
+use crate::grid::meet;
+
+/// A generator of numbers: xorshift.
+pub(crate) struct TestNumbers(pub(crate) u64);
+
+impl TestNumbers {
+    pub(crate) fn below(&mut self, limit: f64) -> f64 {
+        self.0 ^= self.0 << 13;
+        self.0 ^= self.0 >> 7;
+        self.0 ^= self.0 << 17;
+        (self.0 >> 11) as f64 / (1_u64 << 53) as f64 * limit
+    }
+}
+
+/// A network that grows from its tips, with side streets, until `size` pieces.
+pub(crate) fn grown(seed: u64, size: usize, constraints: Constraints, obstacles: Obstacles) -> StreetNetwork {
+    let mut random = TestNumbers(seed.wrapping_mul(0x9E37_79B9_7F4A_7C15) + 1);
+    let mut network = StreetNetwork::new(constraints, obstacles).expect("constraints");
+    let start = network.begin(DVec2::ZERO).expect("free ground");
+    let mut tips: std::collections::VecDeque<(u32, f64, u32)> =
+        (0..4).map(|way| (start, f64::from(way) * 90.0 + random.below(10.0), 0)).collect();
+    let mut tries = 0;
+    while network.size() < size && tries < size * 20 {
+        tries += 1;
+        let Some((from, heading, depth)) = tips.pop_front() else { break };
+        let heading = heading + random.below(20.0) - 10.0;
+        let length = 60.0 + random.below(60.0);
+        let to = network.at(from) + DVec2::from_angle(heading.to_radians()) * length;
+        let width = if depth == 0 { 18.0 } else { 11.0 };
+        let growth = network.grow(from, to, StreetAttributes { width, depth, class: 0 }).expect("room");
+        if matches!(growth.fate, Fate::Built | Fate::Bent | Fate::Shortened) {
+            tips.push_back((growth.end, heading, depth));
+            for side in [-90.0, 90.0] {
+                if random.below(1.0) < 0.4 {
+                    tips.push_back((growth.end, heading + side, depth + 1));
+                }
+            }
+        }
+    }
+    network
+}
+
+/// Asserts all that a network promises, by looking at every pair of pieces.
+pub(crate) fn check(network: &StreetNetwork) {
+    let pieces: Vec<u32> = network.pieces().map(|(id, _)| id).collect();
+    let least = network.constraints().min_angle;
+    for (index, &a) in pieces.iter().enumerate() {
+        assert!(network.length(a) >= network.constraints().min_length - 1e-3, "length {}", network.length(a));
+        for &b in &pieces[..index] {
+            let shared: Vec<u32> =
+                network.ends(a).into_iter().filter(|end| network.ends(b).contains(end)).collect();
+            match shared[..] {
+                [] => assert!(!meet(network.grid_line(a), network.grid_line(b)), "{a} and {b} cross"),
+                [junction] => {
+                    let angle = network.leaves(a, junction).angle_to(network.leaves(b, junction)).abs();
+                    assert!(angle.to_degrees() >= least, "{} degrees", angle.to_degrees());
+                }
+                _ => panic!("{a} and {b} join the same junctions"),
+            }
+        }
+    }
+    for &piece in &pieces {
+        let both: f64 = network.ends(piece).into_iter().map(|end| network.reach_at(end, piece)).sum();
+        assert!(both <= network.length(piece) + 0.01, "corners take {both} of {}", network.length(piece));
+    }
+    // Euler: faces and the outside.
+    let there = network.junctions().iter().filter(|junction| junction.degree() > 0).count();
+    let faces = network.faces();
+    assert_eq!(there + faces.len() + 1, network.size() + 1 + network.components());
+    let inside: f64 = faces.iter().map(|face| network.area(&face.around)).sum();
+    assert!(inside >= 0.0);
+}
+
+#[test]
+fn streets_meet_at_junctions_only_and_keep_their_angles() {
+    for seed in 1..=40 {
+        let network = grown(seed, 300, Constraints::default(), Obstacles::default());
+        assert!(network.size() >= 200, "{}", network.size());
+        check(&network);
+    }
+}
+
+#[test]
+fn dead_ends_are_joined_until_none_can_be() {
+    let options = DeadEndOptions::default();
+    let (mut before, mut after) = (0, 0);
+    for seed in 1..=20 {
+        let mut network = grown(seed, 300, Constraints::default(), Obstacles::default());
+        before += network.dead_ends().count();
+        network.join_dead_ends(options);
+        after += network.dead_ends().count();
+        assert_eq!(network.joinable_dead_ends(options), 0);
+        assert_eq!(network.components(), 1);
+        check(&network);
+        network.remove_dead_ends();
+        assert_eq!(network.dead_ends().count(), 0);
+        check(&network);
+    }
+    assert!(after * 2 < before, "{before} dead ends, {after} left");
+}
+
+#[test]
+fn the_same_proposals_give_the_same_network() {
+    let [a, b] = [7, 7].map(|seed| grown(seed, 200, Constraints::default(), Obstacles::default()));
+    let lines =
+        |network: &StreetNetwork| network.pieces().map(|(id, _)| network.line(id)).collect::<Vec<_>>();
+    assert_eq!(lines(&a), lines(&b));
+}
+
+fn twice_area(ring: &[DVec2]) -> f64 {
+    let Some(first) = ring.first() else { return 0.0 };
+    ring.iter().zip(ring.iter().cycle().skip(1)).map(|(a, b)| (*a - *first).perp_dot(*b - *first)).sum()
+}
+
+/// Asserts that surfaces neither overlap nor leave anything open: their areas add up to those of the faces, no triangle
+/// turns the other way, and every edge of a carriageway is that of another surface too.
+fn check_surfaces(network: &StreetNetwork, options: SurfaceOptions) {
+    let surfaces = network.surfaces(options);
+    let mut streets = 0.0;
+    for part in &surfaces.carriageways {
+        for (a, b) in part.outline.iter().zip(part.outline.iter().cycle().skip(1)) {
+            let twice = (*a - part.middle).perp_dot(*b - part.middle);
+            assert!(twice > 1e-6, "a triangle of {twice} at {} {a} {b}", part.middle);
+            streets += twice / 2.0;
+        }
+    }
+    let mut walks = 0.0;
+    let mut inside = 0.0;
+    for walk in &surfaces.sidewalks {
+        assert_eq!(walk.kerb.len(), walk.edge.len());
+        for index in 0..walk.kerb.len() {
+            let next = (index + 1) % walk.kerb.len();
+            let band = [walk.kerb[index], walk.kerb[next], walk.edge[next], walk.edge[index]];
+            let twice = twice_area(&band);
+            assert!(twice > -1e-6, "a band of {twice} at {band:?}");
+            walks += twice / 2.0;
+        }
+        let area = twice_area(&walk.edge) / 2.0;
+        assert!(!walk.is_around_block || area > 0.0, "a block of {area}");
+        inside += area;
+    }
+    // Blocks count with their areas, and what lies around networks with that of the networks, negative.
+    let all = streets + walks + inside;
+    assert!(all.abs() < 1e-6 * streets.max(1.0), "{streets} + {walks} + {inside} = {all}");
+}
+
+#[test]
+fn surfaces_fill_the_plane_without_overlaps() {
+    for seed in 1..=20 {
+        let mut network = grown(seed, 200, Constraints::default(), Obstacles::default());
+        for turning in [0.0, 11.0] {
+            check_surfaces(&network, SurfaceOptions { turning, ..SurfaceOptions::default() });
+        }
+        network.join_dead_ends(DeadEndOptions::default());
+        check_surfaces(&network, SurfaceOptions::default());
+    }
+}

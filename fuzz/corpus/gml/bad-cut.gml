@@ -1,0 +1,13 @@
+<?xml version="1.0" encoding="utf-8" ?>
+<ogr:FeatureCollection
+     gml:id="aFeatureCollection"
+     xmlns:xsi="http://www.w3.org/2001/XMLSchema-instance"
+     xsi:schemaLocation="http://ogr.maptools.org/ good-32.xsd"
+     xmlns:ogr="http://ogr.maptools.org/"
+     xmlns:gml="http://www.opengis.net/gml/3.2">
+  <gml:boundedBy><gml:Envelope srsName="urn:ogc:def:crs:EPSG::3067"><gml:lowerCorner>385400 6671500</gml:lowerCorner><gml:upperCorner>385640 6671540</gml:upperCorner></gml:Envelope></gml:boundedBy>
+                                                                                                                                                        
+  <ogr:featureMember>
+    <ogr:good_32 gml:id="good_32.0">
+      <gml:boundedBy><gml:Envelope srsName="urn:ogc:def:crs:EPSG::3067"><gml:lowerCorner>385400 6671500</gml:lowerCorner><gml:upperCorner>385440 6671540</gml:upperCorner></gml:Envelope></gml:boundedBy>
+      <ogr:geometryProperty><gml:Polygon srsName="urn:ogc:def:crs:EPSG::3067" gml:id="good_32.geom.0"><gml:exterior><gml:LinearRing><gml:posList>385400 6671500 385440 6671500 385440 6671540 385400 6671540 385400 6671500</gml:posList></gml:LinearRing></gml:exterior><gml:interior><gml:LinearRing><gml:posList>385410 6671510 385410 6671520 385420 6671520 385410 6671510</gml:pos

@@ -1,0 +1,142 @@
+//! Street networks: what cannot be, and what becomes of streets that are proposed.
+
+use insta::assert_snapshot;
+
+use crate::support::{printed, refused};
+use crate::warnings::warned;
+
+/// A network with these fields, of which one street is proposed.
+fn grown(fields: &str, proposal: &str) -> String {
+    format!(
+        "local A = module(\"A\")\nlocal s = lsystem({{ object = network({{ {fields} }}) }})\ns:axiom(A())\n\
+         s:interpret(\"A\", function(this)\n  {proposal}\nend)\ns:derive(0)"
+    )
+}
+
+#[test]
+fn fields_that_contradict_one_another_are_refused() {
+    assert_snapshot!(refused("network({ snap = 3, clearance = 6 })"), @r"
+    error: s.lua:1: network: snap (3 m) is less than clearance (6 m), so a street that ends between the two could neither join nor stay
+      | network({ snap = 3, clearance = 6 })
+      help: give a greater snap, or a smaller clearance
+    ");
+    assert_snapshot!(refused("network({ min_angle = 120 })"), @r"
+    error: s.lua:1: network: min_angle must be from 10 to 90, not 120
+      | network({ min_angle = 120 })
+    ");
+    assert_snapshot!(refused("network({ widths = {} })"), @r"
+    error: s.lua:1: network: widths must be one or more numbers from 2 to 200
+      | network({ widths = {} })
+      help: write widths = { 20, 14 }
+    ");
+    assert_snapshot!(refused("network({ widths = { 12, 1 } })"), @r"
+    error: s.lua:1: network: widths must be one or more numbers from 2 to 200
+      | network({ widths = { 12, 1 } })
+      help: write widths = { 20, 14 }
+    ");
+    assert_snapshot!(refused("network({ min_lenght = 3 })"), @r"
+    error: s.lua:1: network has no field called min_lenght
+      | network({ min_lenght = 3 })
+      help: did you mean min_length?
+    ");
+}
+
+#[test]
+fn a_street_does_not_begin_in_an_obstacle() {
+    assert_snapshot!(
+        refused("network({ obstacles = { { { -5, -5 }, { 5, -5 }, { 5, 5 }, { -5, 5 } } } })"), @r"
+    error: s.lua:1: network: starts: a street cannot begin at [0, 0], for an obstacle is there
+      | network({ obstacles = { { { -5, -5 }, { 5, -5 }, { 5, 5 }, { -5, 5 } } } })
+      help: begin elsewhere, or leave the obstacle out
+    ");
+    assert_snapshot!(refused("network({ starts = { { 0, 0 / 0 } } })"), @r"
+    error: s.lua:1: network: starts must be a list whose item 1 is a vector of finite numbers, not {0,nan}
+      | network({ starts = { { 0, 0 / 0 } } })
+    ");
+    assert_snapshot!(refused("network({ starts = { { 1e9, 0 } } })"), @r"
+    error: s.lua:1: network: starts: [1000000000, 0] is no place for a street
+      | network({ starts = { { 1e9, 0 } } })
+      help: places are finite, and within 500 km of the origin
+    ");
+}
+
+#[test]
+fn a_proposal_that_cannot_be_is_refused_with_its_line() {
+    assert_snapshot!(refused(&grown("", "this:grow(2, 0, 80, 0)")), @r"
+    error: s.lua:5: rule A (interpretation): there is no junction 2
+      | this:grow(2, 0, 80, 0)
+      module: A, step 0
+      help: junctions are numbered from 1 to 1: network:reached tells where a street ends
+    ");
+    assert_snapshot!(refused(&grown("", "this:grow(1, 0, 0, 0)")), @r"
+    error: s.lua:5: rule A (interpretation): network:grow: a street of 0 m towards 0 degrees cannot be
+      | this:grow(1, 0, 0, 0)
+      module: A, step 0
+      help: give a finite heading, and a length above 0
+    ");
+    assert_snapshot!(refused(&grown("", "this:grow(1, 0 / 0, 80, 0)")), @r"
+    error: s.lua:5: rule A (interpretation): network:grow: heading must be a finite number, not NaN
+      | this:grow(1, 0 / 0, 80, 0)
+      module: A, step 0
+    ");
+    assert_snapshot!(
+        refused(&grown("most = 3", "for way = 0, 3 do this:grow(1, way * 90, 80, 0) end")), @r"
+    error: s.lua:5: rule A (interpretation): the network has 3 pieces of streets
+      | for way = 0, 3 do this:grow(1, way * 90, 80, 0) end
+      module: A, step 0
+      help: let fewer streets grow, or raise the limit: network { most = ... }
+    ");
+    assert_snapshot!(refused(&grown("", "this:join_dead_ends(1e6)")), @r"
+    error: s.lua:5: rule A (interpretation): network:join_dead_ends takes a radius from 0 to 2000, and a detour from 1 to 100
+      | this:join_dead_ends(1e6)
+      module: A, step 0
+    ");
+}
+
+#[test]
+fn rules_learn_in_the_next_step_what_became_of_a_street() {
+    let script = r#"
+local A = module("A", "junction", "heading", "length")
+local pond = { { 200, -30 }, { 260, -30 }, { 260, 30 }, { 200, 30 } }
+local s = lsystem({ object = network({ starts = { { 0, 0 }, { 0, 300 }, { 150, 0 } }, obstacles = { pond }, bend = 0 }) })
+s:axiom(
+  A(1, 90, 100), A(2, 270, 300), A(1, 60, 100), A(1, 0, 120), A(3, 0, 100), A(2, 0, 5),
+  A(3, 90, 100), A(3, 180, 20), A(2, 45, 100)
+)
+s:interpret("A(junction, heading, length)", function(this, junction, heading, length)
+  this:grow(junction, heading, length, 1)
+end)
+s:rule("A(junction, heading, length)", function(this, junction, heading, length)
+  print(`{junction} {heading} {length}: {this:fate(junction, heading)} {this:reached(junction, heading)}`)
+  return nil
+end)
+s:derive(1)
+"#;
+    assert_snapshot!(printed(script).join("\n"), @r"
+    1 90 100: built 4
+    2 270 300: snapped nil
+    1 60 100: angle nil
+    1 0 120: built 5
+    3 0 100: shortened 6
+    2 0 5: too short nil
+    3 90 100: built 7
+    3 180 20: snapped nil
+    2 45 100: built 8
+    ");
+}
+
+#[test]
+fn a_network_of_which_no_street_is_built_says_why() {
+    assert_snapshot!(warned(&[&grown("", "this:grow(1, 0, 1e9, 0)")]), @r#"
+    local A = module("A")
+    local s = lsystem({ object = network({  }) })
+    s:axiom(A())
+    s:interpret("A", function(this)
+      this:grow(1, 0, 1e9, 0)
+    end)
+    s:derive(0)
+    warning: s.lua:2: network: no street was built of 1 that were proposed: outside
+      | local s = lsystem({ object = network({  }) })
+      help: network:fate tells of each what became of it
+    "#);
+}
