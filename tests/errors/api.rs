@@ -70,7 +70,8 @@ fn a_type_is_told_with_its_fields_and_methods_and_an_example() {
       where: string?
           An SQL condition, for GeoPackages.
       tags: { [string]: any }?
-          What tags of OpenStreetMap are: true for any value but no, "*" for any, false for none, a text, or a list of texts. All of them hold; of a list of such tables, one holds.
+          What tags of OpenStreetMap are: true for any value but no, "*" for any, false for none, a
+          text, or a list of texts. All of them hold; of a list of such tables, one holds.
       within: { number }?
           West, south, east and north of a box that features touch, in the coordinates of the file.
       limit: number?
@@ -83,6 +84,8 @@ fn a_type_is_told_with_its_fields_and_methods_and_an_example() {
           The EPSG code of the coordinates, in place of the file's.
       layer: string?
           The layer, if its name does not stand behind a colon.
+      table: string?
+          What query calls it, in place of its layer's name.
     "#);
 }
 

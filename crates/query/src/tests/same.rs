@@ -150,3 +150,65 @@ fn rows_come_in_one_order_whatever_is_left_open() {
     let pairs: Vec<String> = joined.rows.iter().map(|row| format!("{}{}", row[0], row[1])).collect();
     assert_eq!(pairs, ["11", "12", "21", "22"]);
 }
+
+#[test]
+fn statements_of_any_form_give_the_same_rows() {
+    use proptest::prelude::*;
+    use proptest::test_runner::{Config, TestRunner};
+    let folder = tempfile::tempdir().unwrap();
+    let database = database(folder.path(), 60);
+    let table = || prop_oneof![Just("houses"), Just("roads"), Just("lamps")];
+    let spatial = || {
+        prop_oneof![
+            Just("ST_Intersects(X, Y)"),
+            Just("ST_DWithin(X, Y, 7)"),
+            Just("ST_Distance(Y, X) < 9"),
+            Just("ST_Covers(X, Y)"),
+            Just("geometry_overlaps(X, Y)"),
+            Just("ST_Intersects(ST_Buffer(X, 4), Y)"),
+        ]
+    };
+    let plain = || {
+        prop_oneof![
+            Just("1 = 1"),
+            Just("a.fid <> b.fid"),
+            Just("a.fid < b.fid"),
+            Just("b.fid % 3 = 1"),
+            Just("a.fid = 7"),
+            Just("(a.fid < 9 OR b.fid > 30)"),
+            Just("b.geom IS NOT NULL"),
+        ]
+    };
+    let forms = prop_oneof![
+        Just("SELECT a.fid, b.fid, c.fid FROM A a JOIN B b ON P JOIN C c ON Q WHERE R"),
+        Just("SELECT a.fid, b.fid, c.fid FROM A a, B b, C c WHERE P AND Q AND R"),
+        Just("SELECT a.fid, b.fid, c.fid FROM A a LEFT JOIN B b ON P AND R JOIN C c ON Q"),
+        Just("SELECT a.fid, b.fid, c.fid FROM A a JOIN B b ON P AND R LEFT JOIN C c ON Q"),
+        Just("SELECT a.fid, b.fid FROM A a JOIN B b ON P WHERE R AND NOT EXISTS (SELECT 1 FROM C c WHERE Q)"),
+        Just("SELECT a.fid, (SELECT count(*) FROM C c WHERE Q) FROM A a, B b WHERE R AND P"),
+        Just(
+            "WITH n AS (SELECT * FROM C WHERE fid % 2 = 0) SELECT a.fid, b.fid, c.fid FROM A a JOIN B b ON P JOIN n c ON Q WHERE R"
+        ),
+        Just("SELECT a.fid, b.fid FROM A a JOIN (SELECT * FROM B) b ON P WHERE R"),
+    ];
+    let statement = (forms, [table(), table(), table()], spatial(), spatial(), plain());
+    let mut runner = TestRunner::new(Config { cases: 300, failure_persistence: None, ..Config::default() });
+    runner
+        .run(&statement, |(form, [a, b, c], p, q, r)| {
+            let p = p.replace('X', "a.geom").replace('Y', "b.geom");
+            let q = q.replace('X', "b.geom").replace('Y', "c.geom");
+            // The form's own letters go first, as conditions have letters, too.
+            let words = form.split(' ').map(|word| match word.trim_matches(['(', ')', ',']) {
+                "A" => word.replace('A', a),
+                "B" => word.replace('B', b),
+                "C" => word.replace('C', c),
+                "P" => word.replace('P', &p),
+                "Q" => word.replace('Q', &q),
+                "R" => word.replace('R', r),
+                _ => word.to_owned(),
+            });
+            both(&database, &words.collect::<Vec<_>>().join(" "), &[]);
+            Ok(())
+        })
+        .unwrap();
+}
