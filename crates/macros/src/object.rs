@@ -218,7 +218,7 @@ mod tests {
             (
                 "\"tower\", shines",
                 tower,
-                "object takes no shines: it takes begins_empty, crate, deprecates, draws, example, expands, first, gathers, given, \
+                "object takes no shines: it takes begins_empty, crate, deprecates, draws, example, expands, first, gathers, given, has, \
                  has_detail, loader, make, options, prefetches, reports, shows, and of what the engine calls begin, push, \
                  pop, end, seed, take_warnings",
             ),

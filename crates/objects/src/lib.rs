@@ -64,6 +64,6 @@ mod tests {
     #[test]
     fn no_type_is_left_out_for_its_name() {
         super::registry().check().expect("each has a name of its own");
-        assert_eq!(super::registry().kinds().count(), 13 + super::facade::kinds().len());
+        assert_eq!(super::registry().kinds().count(), 14 + super::facade::kinds().len());
     }
 }

@@ -186,10 +186,13 @@ impl Machine {
 
     /// What a Lua error means: the place and the remedy taken out of its text.
     pub(crate) fn translate(&self, error: mlua::Error) -> Error {
-        let out_of_memory = is_out_of_memory(&error);
+        let limit = self.session.options.limits.memory;
+        // Where memory is out there may be none to tell of it either.
+        let is_full = self.lua.used_memory() > limit / 2;
+        let out_of_memory = is_out_of_memory(&error) || is_full && is_error_of_a_handler(&error);
         let translated = translate(&error);
         let exhausted = protected::exhausted();
-        let limit = self.session.options.limits.memory / 1_000_000;
+        let limit = limit / 1_000_000;
         match self.session.stop.check() {
             Err(reason) => translated.because(&reason),
             Ok(()) if out_of_memory => {
@@ -250,6 +253,17 @@ fn is_out_of_memory(error: &mlua::Error) -> bool {
         }
         mlua::Error::MemoryError(_) => true,
         mlua::Error::RuntimeError(message) => message.contains(OUT_OF_MEMORY_IN_LUA),
+        _ => false,
+    }
+}
+
+/// Whether what was to tell of an error failed itself.
+fn is_error_of_a_handler(error: &mlua::Error) -> bool {
+    match error {
+        mlua::Error::CallbackError { cause, .. } | mlua::Error::WithContext { cause, .. } => {
+            is_error_of_a_handler(cause)
+        }
+        mlua::Error::RuntimeError(message) => message.contains("error in error handling"),
         _ => false,
     }
 }

@@ -5,7 +5,7 @@ use rustc_hash::{FxHashMap, FxHashSet};
 use super::block::{OsmBlock, TagNumbers, VisitResult, Visitor, WantedTags};
 use super::layers::{ReadyLayer, is_area};
 use super::places::Place;
-use super::shapes::{OsmShape, Record};
+use super::shapes::{OsmRecord, OsmShape};
 use super::wire::{Deltas, Varints};
 use crate::tags::TagFilter;
 use crate::{GeometryKind, SourceOptions};
@@ -45,7 +45,7 @@ pub(super) struct TagSearch<'c> {
     pub(super) budget: &'c Budget,
     /// Which texts of the block are keys of which a feature has one.
     pub(super) class: Option<Vec<usize>>,
-    pub(super) records: Vec<Record>,
+    pub(super) records: Vec<OsmRecord>,
 }
 
 /// Fails if reading is to end.
@@ -92,7 +92,7 @@ impl TagSearch<'_> {
             taken.push((text(key), text(value)));
         }
         self.budget.take(weight).map_err(|_| "takes too much")?;
-        self.records.push(Record { id, shape, tags: taken, alternative });
+        self.records.push(OsmRecord { id, shape, tags: taken, alternative });
         Ok(())
     }
 }

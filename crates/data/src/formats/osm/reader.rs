@@ -12,7 +12,7 @@ use super::choosing::{PlaceSearch, TagChoice, TagSearch, WaySearch};
 use super::layers::{LAYERS, ReadyLayer};
 use super::meaning::{TagValue, told};
 use super::places::Place;
-use super::shapes::{BuildResult, Record, build};
+use super::shapes::{BuildResult, OsmRecord, build};
 use crate::{Attribute, Crs, FeatureTable, SourceOptions};
 use burgeon_base::budget::Budget;
 use burgeon_base::error::{Error, Result};
@@ -74,14 +74,14 @@ impl OsmFile {
         let records = self.records(&choice, &wanted.budget)?;
         let ways = self.member_ways(&records, &wanted.budget)?;
         let places = self.places(&records, &ways, &wanted.budget)?;
-        let build = |record: &Record| build(record, &ways, &places, &wanted.budget);
+        let build = |record: &OsmRecord| build(record, &ways, &places, &wanted.budget);
         let built: Vec<BuildResult> = records.par_iter().map(build).collect();
         self.fill(&mut table, layer, records, built, wanted)?;
         Ok(table)
     }
 
     /// What is chosen, in the order of the file.
-    fn records(&self, choice: &TagChoice, budget: &Budget) -> Result<Vec<Record>> {
+    fn records(&self, choice: &TagChoice, budget: &Budget) -> Result<Vec<OsmRecord>> {
         let found = (0..self.blobs.len()).into_par_iter().map(|index| {
             self.blobs.block(index, budget, |bytes| {
                 let block = OsmBlock::open(bytes)?;
@@ -91,12 +91,12 @@ impl OsmFile {
                 Ok(choosing.records)
             })
         });
-        let found: Result<Vec<Vec<Record>>> = found.collect();
+        let found: Result<Vec<Vec<OsmRecord>>> = found.collect();
         Ok(found?.into_iter().flatten().collect())
     }
 
     /// The nodes of the ways that relations are made of.
-    fn member_ways(&self, records: &[Record], budget: &Budget) -> Result<FxHashMap<i64, Vec<i64>>> {
+    fn member_ways(&self, records: &[OsmRecord], budget: &Budget) -> Result<FxHashMap<i64, Vec<i64>>> {
         let wanted: FxHashSet<i64> = records.iter().flat_map(|record| record.shape.ways()).copied().collect();
         if wanted.is_empty() {
             return Ok(FxHashMap::default());
@@ -117,7 +117,7 @@ impl OsmFile {
     /// The places of all nodes that are needed.
     fn places(
         &self,
-        records: &[Record],
+        records: &[OsmRecord],
         ways: &FxHashMap<i64, Vec<i64>>,
         budget: &Budget,
     ) -> Result<FxHashMap<i64, Place>> {
@@ -166,7 +166,7 @@ impl OsmFile {
         &self,
         table: &mut FeatureTable,
         layer: Option<&ReadyLayer>,
-        records: Vec<Record>,
+        records: Vec<OsmRecord>,
         built: Vec<BuildResult>,
         wanted: &SourceOptions,
     ) -> Result<()> {
@@ -211,7 +211,7 @@ impl OsmFile {
         &self,
         table: &mut FeatureTable,
         layer: Option<&ReadyLayer>,
-        record: &Record,
+        record: &OsmRecord,
         mut unread: impl FnMut(&str, &str),
     ) -> Vec<(usize, Attribute)> {
         let value = |key: &str| {

@@ -11,7 +11,7 @@ use burgeon_base::budget::Budget;
 pub(super) type TagTexts = Vec<(String, String)>;
 
 /// What was chosen.
-pub(super) struct Record {
+pub(super) struct OsmRecord {
     /// Its number in OpenStreetMap.
     pub(super) id: i64,
     /// What its geometry is made of.
@@ -37,7 +37,7 @@ pub(super) enum OsmShape {
 /// What comes of a shape: its parts, and whether it lacks nodes.
 pub(super) type BuildResult = Result<(Vec<Geometry>, bool), String>;
 
-impl Record {
+impl OsmRecord {
     /// The feature's id, as OpenStreetMap's pages have it.
     pub(super) fn name(&self) -> String {
         let kind = match self.shape {
@@ -69,7 +69,7 @@ impl OsmShape {
 
 /// Makes geometries of a record.
 pub(super) fn build(
-    record: &Record,
+    record: &OsmRecord,
     ways: &FxHashMap<i64, Vec<i64>>,
     places: &FxHashMap<i64, Place>,
     budget: &Budget,
