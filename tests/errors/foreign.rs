@@ -269,8 +269,9 @@ fn sources_has_limits_and_lists_equal_ids_and_what_is_wrong_quickly() {
     assert!(begin.elapsed() < Duration::from_secs(20), "{:?}", begin.elapsed());
     let text = folder.burgeon(&["sources", "a.gpkg", "--time-limit", "0.001"]).failed();
     assert!(text.contains("reading took longer than 0.001 s") && text.contains("--time-limit"), "{text}");
-    let text = folder.burgeon(&["sources", "a.gpkg", "--memory-limit", "4"]).failed();
-    assert!(text.contains("more than 4 MB of memory") && text.contains("--memory-limit"), "{text}");
+    let folder = folder.with("many.gpkg", package(200_000));
+    let text = folder.burgeon(&["sources", "many.gpkg", "--memory-limit", "16"]).failed();
+    assert!(text.contains("more than 16 MB of memory") && text.contains("--memory-limit"), "{text}");
 }
 
 #[test]
