@@ -293,14 +293,15 @@ impl Writer {
             }
         }
         let others = name.options().filter(|field| field.name != "object");
-        let others: Vec<(String, String)> = others
-            .map(|field| (field.name.to_string(), field.luau.trim_end_matches('?').to_owned()))
-            .collect();
-        for (field, luau) in others {
+        // One form for all of them: Luau gives up on too many.
+        let others = others.map(|field| {
+            let luau = field.luau.trim_end_matches('?');
             // A text that is written in a table is any text to Luau.
-            let luau = if luau.starts_with('"') { "string".to_owned() } else { luau };
-            let _ = writeln!(out, "  & ((options: {{ read {field}: {luau} }}) -> System<any>)");
-        }
+            let luau = if luau.starts_with('"') { "string" } else { luau };
+            format!("{{ read {}: {luau} }}", field.name)
+        });
+        let others = others.collect::<Vec<_>>().join(" | ");
+        let _ = writeln!(out, "  & ((options: {others}) -> System<any>)");
         out.push_str("  & (() -> System<any>)\n\n");
     }
 
