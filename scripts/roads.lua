@@ -28,7 +28,7 @@ local roads = lsystem({
 roads:axiom(Tip(1, 8, 0), Tip(1, 98, 0), Tip(1, 188, 0), Tip(1, 278, 0), Clock(steps))
 
 -- Where a street goes on to, by the pattern of the town.
-local function onward(this, junction, heading)
+local function onward(this: Network, junction: number, heading: number): number
   if pattern == "raster" then
     return heading
   elseif pattern == "radial" then
@@ -41,7 +41,7 @@ local function onward(this, junction, heading)
   return heading + random(-bends, bends)
 end
 
-roads:rule("Tip(junction, heading, depth)", function(this, junction, heading, depth)
+roads:rule("Tip(junction, heading, depth)", function(this, junction: number, heading: number, depth: number)
   local at = this:reached(junction, heading)
   if not at then
     return nil
@@ -66,9 +66,12 @@ roads:rule("Clock(left)", {
   return Clock(left - 1)
 end)
 
-roads:interpret("Tip(junction, heading, depth)", function(this, junction, heading, depth)
-  this:grow(junction, heading, if depth == 0 then block * 1.25 else block, depth)
-end)
+roads:interpret(
+  "Tip(junction, heading, depth)",
+  function(this, junction: number, heading: number, depth: number)
+    this:grow(junction, heading, if depth == 0 then block * 1.25 else block, depth)
+  end
+)
 
 roads:interpret("Clock(left)", function(this, left)
   if left == 0 then

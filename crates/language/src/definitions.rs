@@ -292,16 +292,11 @@ impl Writer {
                 );
             }
         }
-        let others = name.options().filter(|field| field.name != "object");
-        // One form for all of them: Luau gives up on too many.
-        let others = others.map(|field| {
+        // Without an object only the seed says anything; Luau gives up on more forms.
+        for field in name.options().filter(|field| field.name == "seed") {
             let luau = field.luau.trim_end_matches('?');
-            // A text that is written in a table is any text to Luau.
-            let luau = if luau.starts_with('"') { "string" } else { luau };
-            format!("{{ read {}: {luau} }}", field.name)
-        });
-        let others = others.collect::<Vec<_>>().join(" | ");
-        let _ = writeln!(out, "  & ((options: {others}) -> System<any>)");
+            let _ = writeln!(out, "  & ((options: {{ read seed: {luau} }}) -> System<any>)");
+        }
         out.push_str("  & (() -> System<any>)\n\n");
     }
 
