@@ -136,6 +136,11 @@ impl StreetNetwork {
         self.pieces[piece as usize].ends
     }
 
+    /// What a piece is a piece of.
+    pub fn attributes(&self, piece: PieceId) -> StreetAttributes {
+        self.pieces[piece as usize].attributes
+    }
+
     /// The length (m) of a piece.
     pub fn length(&self, piece: PieceId) -> f64 {
         let [a, b] = self.line(piece);
