@@ -17,7 +17,8 @@ use super::Network;
 /// What `network:lots` takes.
 #[fields("network:lots")]
 pub struct LotSettings {
-    /// How blocks are divided: "boxes", by cuts across them, again and again.
+    /// How blocks are divided: "boxes", by cuts across them, again and again; "strips", along the streets around a court; or
+    /// "skeleton", along the streets without one.
     #[default("boxes".into())]
     pub kind: String,
     /// How wide (m) lots usually are along the street.

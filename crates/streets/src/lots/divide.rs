@@ -85,8 +85,15 @@ impl Block {
         }
         match options.pattern {
             LotPattern::Boxes => division.by_boxes(0),
+            LotPattern::Strips | LotPattern::Skeleton => {
+                // What has no skeleton on the grid is divided all the same.
+                if division.by_strips(self).is_none() {
+                    division.by_boxes(0);
+                }
+            }
         }
         division.merge_courts();
+        division.merge_small();
         division.lots(self)
     }
 }
@@ -114,6 +121,30 @@ impl Division<'_> {
             }
             let mut others = self.partition.neighbors(cell);
             others.retain(|(other, _)| is_court(self, *other));
+            let joined = others.into_iter().find_map(|(other, _)| self.partition.join(cell, other));
+            due.extend(joined);
+        }
+    }
+
+    /// Joins what can neither be a lot nor a court to the neighbour with the longest border to it.
+    fn merge_small(&mut self) {
+        let is_fine = |division: &Self, rings: &[Vec<CornerId>]| {
+            let fronts = division.partition.fronts(rings, None);
+            let area = division.partition.area(rings);
+            match division.purpose(rings, &fronts, area) {
+                LotUse::Court => area >= division.options.min_area * 0.5,
+                purpose => purpose == LotUse::Building,
+            }
+        };
+        let mut due: Vec<CellId> = self.partition.cells().map(|(cell, _)| cell).collect();
+        due.reverse();
+        while let Some(cell) = due.pop() {
+            let rings = self.partition.rings(cell);
+            if rings.is_empty() || is_fine(self, rings) {
+                continue;
+            }
+            let mut others = self.partition.neighbors(cell);
+            others.sort_by(|a, b| b.1.total_cmp(&a.1));
             let joined = others.into_iter().find_map(|(other, _)| self.partition.join(cell, other));
             due.extend(joined);
         }

@@ -8,11 +8,16 @@ pub enum LotPattern {
     /// By cuts across the smallest box, again and again.
     #[default]
     Boxes,
+    /// By strips of lots along the streets, around a court.
+    Strips,
+    /// By strips of lots along the streets, which meet behind.
+    Skeleton,
 }
 
 impl LotPattern {
     /// All of them with their names in scripts.
-    pub const ALL: [(&str, Self); 1] = [("boxes", Self::Boxes)];
+    pub const ALL: [(&str, Self); 3] =
+        [("boxes", Self::Boxes), ("strips", Self::Strips), ("skeleton", Self::Skeleton)];
 }
 
 /// What lots are to be like.

@@ -102,6 +102,50 @@ impl Partition {
         id
     }
 
+    /// Puts faces in the place of the first cell: they are of `places`, of which the first ones are its corners, in order.
+    /// Gives the cell of each face, or none if it has no area. `None` if they do not fill the cell without meeting.
+    pub(super) fn tile(&mut self, places: &[DVec2], faces: &[Vec<usize>]) -> Option<Vec<Option<CellId>>> {
+        let whole = self.area(self.rings(0));
+        let known = self.places.len();
+        let mut tiled = self.clone();
+        tiled.take(0);
+        for place in places.get(known..)? {
+            tiled.add(FinePlace::nearest(*place)?);
+        }
+        let mut cells = Vec::with_capacity(faces.len());
+        let mut sum = 0.0;
+        for face in faces {
+            let ring: Option<Vec<CornerId>> =
+                face.iter().map(|corner| CornerId::try_from(*corner).ok()).collect();
+            let ring = ring?;
+            let area = if ring.len() < 3 { 0.0 } else { tiled.ring_area(&ring) };
+            if area < NEAR * NEAR {
+                if area < -NEAR * NEAR {
+                    return None;
+                }
+                cells.push(None);
+                continue;
+            }
+            if edges(&ring).any(|edge| tiled.beside.contains_key(&edge))
+                || !fine::are_simple(&[tiled.ring_places(&ring)])
+            {
+                return None;
+            }
+            sum += area;
+            cells.push(Some(tiled.push(vec![ring])));
+        }
+        if (sum - whole).abs() > 2e-7 * whole {
+            return None;
+        }
+        *self = tiled;
+        Some(cells)
+    }
+
+    /// The cell on the left of an edge.
+    pub(super) fn beside(&self, edge: [CornerId; 2]) -> Option<CellId> {
+        self.beside.get(&edge).copied()
+    }
+
     /// The cells, in the order in which they came to be.
     pub(super) fn cells(&self) -> impl Iterator<Item = (CellId, &CellRings)> {
         (0..).zip(&self.cells).filter_map(|(id, cell)| Some((id, cell.as_ref()?)))

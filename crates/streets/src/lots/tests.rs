@@ -84,7 +84,8 @@ fn lots_of_polygons_at_random_are_disjoint_and_fill_them() {
         let size = [8.0, 40.0, 120.0, 500.0][number % 4];
         let rings = star(&mut random, size);
         let Some(block) = empty.block(None, &rings, 6.0) else { continue };
-        let options = LotOptions::new(8.0 + random.below(20.0), 15.0 + random.below(30.0));
+        let usual = LotOptions::new(8.0 + random.below(20.0), 15.0 + random.below(30.0));
+        let options = LotOptions { pattern: LotPattern::ALL[number / 4 % 3].1, ..usual };
         let lots = block.divide(&options, &mut || random.below(1.0));
         check(&block, &lots, &options);
         count += lots.len();
@@ -95,11 +96,12 @@ fn lots_of_polygons_at_random_are_disjoint_and_fill_them() {
 #[test]
 fn lots_of_networks_at_random_have_fronts_on_their_streets() {
     let mut count = 0;
-    for seed in 1..=40 {
+    for seed in 1..=30 {
         let network = grown(seed, 150, Constraints::default(), Obstacles::default());
         let mut random = TestNumbers(seed + 1000);
         for block in network.lot_blocks(SurfaceOptions::default()) {
-            let options = LotOptions::new(18.0, 28.0);
+            let pattern = LotPattern::ALL[seed as usize % 3].1;
+            let options = LotOptions { pattern, ..LotOptions::new(18.0, 28.0) };
             let lots = block.divide(&options, &mut || random.below(1.0));
             check(&block, &lots, &options);
             count += lots.iter().filter(|lot| lot.purpose == LotUse::Building).count();
