@@ -39,7 +39,7 @@ pub use dead_ends::DeadEndOptions;
 pub use faces::{Course, StreetFace};
 pub use grid::{FARTHEST, GridPlace};
 pub use grow::StreetGrowth;
-pub use lots::{Block, BlockSide, Lot, LotOptions, LotPattern, LotUse};
+pub use lots::{BlockSide, Lot, LotOptions, LotPattern, LotUse, StreetBlock};
 pub use measures::Measures;
 pub use network::{Junction, JunctionId, PieceId, StreetAttributes, StreetNetwork, StreetPiece};
 pub use obstacles::{Obstacle, Obstacles};

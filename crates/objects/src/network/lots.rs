@@ -8,7 +8,7 @@ use burgeon_data::Geometry;
 use burgeon_geometry::Rings;
 use burgeon_kit::rules::ModuleKey;
 use burgeon_kit::{Answer, Expectation, Parameter, Seed, Table, TableKey, Value, fields};
-use burgeon_streets::{Block, Lot, LotOptions, LotPattern, LotUse, PieceId, StreetNetwork};
+use burgeon_streets::{Lot, LotOptions, LotPattern, LotUse, PieceId, StreetBlock, StreetNetwork};
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 
@@ -167,7 +167,7 @@ impl Network {
         Ok(LotRecords(divided.flatten().collect()))
     }
 
-    fn block_record(&self, block: &Block) -> Value {
+    fn block_record(&self, block: &StreetBlock) -> Value {
         let area = block.rings.iter().map(|ring| area(ring)).sum::<f64>();
         let pieces = block.sides.iter().filter_map(|side| side.piece);
         let depth = pieces.map(|piece| depth_of(&self.network, piece)).min();
@@ -179,7 +179,7 @@ impl Network {
         ])
     }
 
-    fn lot_record(&self, block: &Block, lot: &Lot) -> Value {
+    fn lot_record(&self, block: &StreetBlock, lot: &Lot) -> Value {
         let line = |points: &[DVec2]| Geometry::Line(points.iter().map(|at| at.extend(0.0)).collect());
         let number = |value: Option<f64>| value.map_or(Value::Nil, Value::Number);
         let front = lot.fronts.first();

@@ -2,7 +2,7 @@
 
 use glam::DVec2;
 
-use super::block::Block;
+use super::block::StreetBlock;
 use super::measure::{FrontRun, extent};
 use super::options::{LotOptions, LotPattern};
 use super::partition::{CellId, CornerId, Cut, Partition};
@@ -70,7 +70,7 @@ pub(super) struct Division<'a> {
     random: &'a mut dyn FnMut() -> f64,
 }
 
-impl Block {
+impl StreetBlock {
     /// Divides it. `random` draws numbers from 0 to 1; all that is drawn is drawn here, so that a stream of the block's own
     /// makes its lots independent of all others.
     ///
@@ -150,7 +150,7 @@ impl Division<'_> {
         }
     }
 
-    fn lots(&self, block: &Block) -> Vec<Lot> {
+    fn lots(&self, block: &StreetBlock) -> Vec<Lot> {
         let cells = (1..).zip(self.partition.cells());
         cells.map(|(number, (_, rings))| self.lot(block, rings, number, None)).collect()
     }
@@ -167,7 +167,13 @@ impl Division<'_> {
         }
     }
 
-    fn lot(&self, block: &Block, rings: &[Vec<CornerId>], number: usize, purpose: Option<LotUse>) -> Lot {
+    fn lot(
+        &self,
+        block: &StreetBlock,
+        rings: &[Vec<CornerId>],
+        number: usize,
+        purpose: Option<LotUse>,
+    ) -> Lot {
         let mut fronts = self.partition.fronts(rings, None);
         fronts.sort_by(|a, b| b.length.total_cmp(&a.length));
         let area = self.partition.area(rings);

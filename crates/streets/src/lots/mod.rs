@@ -17,6 +17,6 @@ mod strips;
 #[cfg(test)]
 mod tests;
 
-pub use block::{Block, BlockSide};
+pub use block::{BlockSide, StreetBlock};
 pub use divide::{Lot, LotUse};
 pub use options::{LotOptions, LotPattern};

@@ -6,7 +6,7 @@
 
 use glam::DVec2;
 
-use super::block::Block;
+use super::block::StreetBlock;
 use super::divide::Division;
 use super::measure::FrontRun;
 use super::options::LotPattern;
@@ -19,7 +19,7 @@ const COURT: f64 = 0.35;
 
 impl Division<'_> {
     /// Divides a block; `None` if its skeleton cannot be had, and nothing was done.
-    pub(super) fn by_strips(&mut self, block: &Block) -> Option<()> {
+    pub(super) fn by_strips(&mut self, block: &StreetBlock) -> Option<()> {
         let polygon = Polygon::new(Rings::clone(&block.rings)).ok()?;
         let sides: Vec<Option<u32>> = block.edge_sides.iter().flatten().copied().collect();
         let paces: Vec<Pace> =
@@ -76,7 +76,7 @@ impl Division<'_> {
     }
 
     /// Gives the corner between a strip and each one beside it to the longer of the two.
-    fn settle_corners(&mut self, strips: &mut [Option<CellId>], index: usize, block: &Block) {
+    fn settle_corners(&mut self, strips: &mut [Option<CellId>], index: usize, block: &StreetBlock) {
         for other in index + 1..strips.len() {
             let (Some(a), Some(b)) = (strips[index], strips[other]) else { continue };
             let border = self.border(a, b);

@@ -14,7 +14,7 @@ fn places(lot: &Lot) -> Vec<Vec<FinePlace>> {
 }
 
 /// Asserts all that lots promise, exactly.
-pub(super) fn check(block: &Block, lots: &[Lot], options: &LotOptions) {
+pub(super) fn check(block: &StreetBlock, lots: &[Lot], options: &LotOptions) {
     let whole = Polygon::new(block.rings.clone()).expect("a block").area();
     let sum: f64 = lots.iter().map(|lot| lot.area).sum();
     assert!((sum - whole).abs() <= 1e-6 * whole.max(1.0), "{} m² of {whole} m² in {}", sum, block.id);
