@@ -30,6 +30,7 @@ mod lots;
 mod measures;
 mod network;
 mod obstacles;
+mod placement;
 mod surface;
 #[cfg(test)]
 mod tests;
@@ -43,4 +44,5 @@ pub use lots::{BlockSide, Lot, LotOptions, LotPattern, LotUse, StreetBlock};
 pub use measures::Measures;
 pub use network::{Junction, JunctionId, PieceId, StreetAttributes, StreetNetwork, StreetPiece};
 pub use obstacles::{Obstacle, Obstacles};
+pub use placement::{Site, SiteOptions, StreetSites};
 pub use surface::{Carriageway, Sidewalk, StreetSurfaces, SurfaceOptions};

@@ -3,5 +3,6 @@
 mod draw;
 mod lots;
 mod object;
+mod sites;
 
 pub use object::Network;

@@ -4,6 +4,7 @@ use glam::DVec2;
 use rustc_hash::FxHashMap;
 
 use super::lots::{BlockRecords, LotRecords, LotSettings};
+use super::sites::{SiteRecords, SiteSettings};
 use burgeon_base::error::{Error, Result};
 use burgeon_base::warning::{Warning, WarningKind};
 use burgeon_geometry::{Plan, Rings};
@@ -193,6 +194,13 @@ impl Network {
     /// on the front), where it is facing (degrees), its use, its block, and the depth and width of its street.
     pub fn lots(&self, options: Option<TableOf<LotSettings>>) -> Result<LotRecords> {
         self.lot_records(&options.unwrap_or_default().read()?)
+    }
+
+    /// Sites for buildings beside the streets, in a grid along both sides of each, where there is room, as features: each has an
+    /// id, a geometry (a rectangle), its area (m²), width and depth (m), its front (a line), its access (the middle of it), where
+    /// it is facing (degrees), its row behind the street, from 0, and the depth and width of its street.
+    pub fn sites(&self, options: Option<TableOf<SiteSettings>>) -> Result<SiteRecords> {
+        self.site_records(&options.unwrap_or_default().read()?)
     }
 
     /// How many dead ends there are.

@@ -143,8 +143,15 @@ impl Division<'_> {
             if rings.is_empty() || is_fine(self, rings) {
                 continue;
             }
+            // What has a front does not become a part of a court while it borders on a lot.
+            let has_front =
+                |cell: CellId| !self.partition.fronts(self.partition.rings(cell), None).is_empty();
+            let own = has_front(cell);
             let mut others = self.partition.neighbors(cell);
-            others.sort_by(|a, b| b.1.total_cmp(&a.1));
+            others.sort_by(|a, b| {
+                let differs = |cell: CellId| has_front(cell) != own;
+                differs(a.0).cmp(&differs(b.0)).then(b.1.total_cmp(&a.1))
+            });
             let joined = others.into_iter().find_map(|(other, _)| self.partition.join(cell, other));
             due.extend(joined);
         }

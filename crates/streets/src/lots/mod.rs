@@ -19,4 +19,5 @@ mod tests;
 
 pub use block::{BlockSide, StreetBlock};
 pub use divide::{Lot, LotUse};
+pub(crate) use fine::{FinePlace, meet as fine_meet, side as fine_side};
 pub use options::{LotOptions, LotPattern};
