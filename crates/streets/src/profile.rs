@@ -11,10 +11,10 @@ pub struct StreetProfiles {
     /// By junction (m).
     pub(crate) junctions: Vec<f64>,
     /// By piece: places along its way (m) from its first junction, with their heights (m).
-    pub(crate) pieces: Vec<Profile>,
+    pub(crate) pieces: Vec<PieceProfile>,
 }
 
-pub(crate) type Profile = SmallVec<[[f64; 2]; 2]>;
+pub(crate) type PieceProfile = SmallVec<[[f64; 2]; 2]>;
 
 impl StreetProfiles {
     /// The height (m) of a junction.

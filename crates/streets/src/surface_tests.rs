@@ -1,5 +1,7 @@
 //! Surfaces of networks at random: areas that add up, nothing twice, nothing open.
 
+use std::collections::BTreeMap;
+
 use glam::{DVec2, DVec3};
 use rustc_hash::FxHashMap;
 
@@ -160,7 +162,7 @@ fn markings_lie_on_carriageways_and_never_on_one_another() {
         let markings = network.markings(SurfaceOptions::default(), &flat, &kinds);
         let surfaces = network.surfaces(SurfaceOptions::default(), &flat);
         count += markings.len();
-        let mut by_piece: FxHashMap<PieceId, Vec<[DVec2; 2]>> = FxHashMap::default();
+        let mut by_piece: BTreeMap<PieceId, Vec<[DVec2; 2]>> = BTreeMap::new();
         for Marking { corners, piece } in markings {
             assert!(twice_area(&corners) > 1e-3, "{corners:?}");
             let middle = corners.iter().map(|at| at.truncate()).sum::<DVec2>() / 4.0;
