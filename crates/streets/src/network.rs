@@ -150,6 +150,11 @@ impl StreetNetwork {
         self.pieces[piece as usize].ends
     }
 
+    /// What a piece is a piece of.
+    pub fn attributes(&self, piece: PieceId) -> StreetAttributes {
+        self.pieces[piece as usize].attributes
+    }
+
     /// The length (m) of a piece.
     pub fn length(&self, piece: PieceId) -> f64 {
         let [a, b] = self.line(piece);
@@ -206,9 +211,9 @@ impl StreetNetwork {
         arms.map(|(piece, way)| (piece, self.attributes(piece).arm(way))).collect()
     }
 
-    /// What a piece is a piece of.
-    pub fn attributes(&self, piece: PieceId) -> StreetAttributes {
-        self.pieces[piece as usize].attributes
+    /// Half of the width (m) of a piece.
+    pub(crate) fn half(&self, piece: PieceId) -> f64 {
+        self.attributes(piece).width / 2.0
     }
 
     /// Adds a junction, or finds the one that is there.

@@ -2,6 +2,7 @@
 
 mod draw;
 mod kinds;
+mod lots;
 mod object;
 
 pub use object::Network;

@@ -4,11 +4,11 @@ use glam::DVec2;
 use rustc_hash::FxHashMap;
 
 use super::kinds::StreetOptions;
+use super::lots::{BlockRecords, LotRecords, LotSettings};
 use burgeon_base::error::{Error, Result};
 use burgeon_base::warning::{Warning, WarningKind};
-use burgeon_data::Geometry;
 use burgeon_geometry::{Plan, Rings};
-use burgeon_kit::{Color, Vector, fields, methods, object};
+use burgeon_kit::{Color, TableOf, Vector, fields, methods, object};
 use burgeon_scene::Scene;
 use burgeon_streets::{
     Constraints, DeadEndOptions, Fate, JunctionId, Obstacle, Obstacles, StreetAttributes, StreetGrowth,
@@ -182,10 +182,17 @@ impl Network {
         self.network.nearest(place.0.truncate()).map_or(f64::INFINITY, |(_, distance)| distance)
     }
 
-    /// The blocks between the streets, inside of their sidewalks: polygons.
-    pub fn blocks(&self) -> Vec<Geometry> {
-        let blocks = self.network.blocks(self.surface_options()).into_iter();
-        blocks.map(|rings| Geometry::Polygon(rings.at_height(0.0))).collect()
+    /// The blocks between the streets, inside of their sidewalks, as features: each has an id, a geometry, its area (m²) and the
+    /// least depth of the streets around it (street_depth).
+    pub fn blocks(&self) -> BlockRecords {
+        self.block_records()
+    }
+
+    /// Divides blocks into lots with a front on a street, as features: each has an id, a geometry, its area (m²), its front (a
+    /// line) and all its fronts, its width along the front and its depth behind it (m), whether it is a corner, its access (a place
+    /// on the front), where it is facing (degrees), its use, its block, and the depth and width of its street.
+    pub fn lots(&self, options: Option<TableOf<LotSettings>>) -> Result<LotRecords> {
+        self.lot_records(&options.unwrap_or_default().read()?)
     }
 
     /// How many dead ends there are.
