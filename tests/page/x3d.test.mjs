@@ -22,7 +22,7 @@ const require = createRequire(join(resolve(process.env.PLAYWRIGHT ?? root), "pac
 const x3dom = readFileSync(join(dirname(require.resolve("x3dom/package.json")), "x3dom.js"));
 
 /** Scripts with models that are placed, with textures, and with features of data. */
-const SCRIPTS = ["scripts/tower.lua", "scripts/herb.lua", "scripts/haussmann.lua", "examples/village.lua"];
+const SCRIPTS = ["scripts/tower.lua", "scripts/herb.lua", "scripts/town.lua", "examples/village.lua"];
 
 function written() {
   const given = process.env.X3D;
