@@ -1,6 +1,8 @@
 //! A network of streets as scripts have it: `network` in scripts.
 
 mod draw;
+mod kinds;
+mod lots;
 mod object;
 
 pub use object::Network;
