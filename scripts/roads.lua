@@ -18,7 +18,11 @@ local Clock = module("Clock", "left")
 
 local roads = lsystem({
   object = network({
-    widths = { 22, 15, 11 },
+    streets = {
+      { width = 27, lanes = 4, median = 3, sidewalk = 4.5 },
+      { width = 17, lanes = 2, parking = 2.2, sidewalk = 3 },
+      { width = 11, lanes = 2, sidewalk = 2 },
+    },
     snap = block * 0.35,
     min_angle = 50,
     ground = "#66774e",

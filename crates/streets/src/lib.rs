@@ -9,7 +9,7 @@
 //! use glam::DVec2;
 //!
 //! let mut network = StreetNetwork::new(Constraints::default(), Obstacles::default())?;
-//! let street = StreetAttributes { width: 12.0, depth: 0, class: 0 };
+//! let street = StreetAttributes { width: 12.0, ..StreetAttributes::default() };
 //! let start = network.begin(DVec2::ZERO)?;
 //! network.grow(start, DVec2::new(200.0, 0.0), street)?;
 //! let aside = network.begin(DVec2::new(80.0, -120.0))?;
@@ -26,12 +26,19 @@ mod dead_ends;
 mod faces;
 mod grid;
 mod grow;
+mod kinds;
 mod lots;
+mod marks;
 mod measures;
 mod network;
 mod obstacles;
 mod placement;
+mod profile;
+mod rows;
+mod shape;
 mod surface;
+#[cfg(test)]
+mod surface_tests;
 #[cfg(test)]
 mod tests;
 
@@ -40,9 +47,12 @@ pub use dead_ends::DeadEndOptions;
 pub use faces::{Course, StreetFace};
 pub use grid::{FARTHEST, GridPlace};
 pub use grow::StreetGrowth;
+pub use kinds::StreetKind;
 pub use lots::{BlockSide, Lot, LotOptions, LotPattern, LotUse, StreetBlock};
+pub use marks::Marking;
 pub use measures::Measures;
 pub use network::{Junction, JunctionId, PieceId, StreetAttributes, StreetNetwork, StreetPiece};
 pub use obstacles::{Obstacle, Obstacles};
 pub use placement::{Site, SiteOptions, StreetSites};
-pub use surface::{Carriageway, Sidewalk, StreetSurfaces, SurfaceOptions};
+pub use profile::StreetProfiles;
+pub use surface::{Median, Sidewalk, StreetSurface, StreetSurfaces, SurfaceOptions};

@@ -9,6 +9,7 @@ use rstar::{AABB, RTree};
 
 use crate::lots::{FinePlace, fine_meet, fine_side};
 use crate::network::{PieceId, StreetNetwork};
+use crate::profile::StreetProfiles;
 use crate::surface::SurfaceOptions;
 use burgeon_base::error::{Error, Result};
 
@@ -214,11 +215,11 @@ impl StreetNetwork {
 
 impl SiteIndex {
     fn new(network: &StreetNetwork, surface: SurfaceOptions) -> Self {
-        let surfaces = network.surfaces(surface);
+        let surfaces = network.surfaces(surface, &StreetProfiles::default());
         let edges =
             surfaces.sidewalks.iter().flat_map(|sidewalk| burgeon_geometry::planar::edges(&sidewalk.edge));
         let edges = edges.filter_map(|edge| {
-            let [a, b] = edge.map(FinePlace::nearest);
+            let [a, b] = edge.map(|end| FinePlace::nearest(end.truncate()));
             let (a, b) = (a?.metres(), b?.metres());
             (a != b).then(|| IndexLine::new(a.to_array(), b.to_array()))
         });

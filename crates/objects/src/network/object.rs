@@ -3,6 +3,7 @@
 use glam::DVec2;
 use rustc_hash::FxHashMap;
 
+use super::kinds::StreetOptions;
 use super::lots::{BlockRecords, LotRecords, LotSettings};
 use super::sites::{SiteRecords, SiteSettings};
 use burgeon_base::error::{Error, Result};
@@ -12,7 +13,7 @@ use burgeon_kit::{Color, TableOf, Vector, fields, methods, object};
 use burgeon_scene::Scene;
 use burgeon_streets::{
     Constraints, DeadEndOptions, Fate, JunctionId, Obstacle, Obstacles, StreetAttributes, StreetGrowth,
-    StreetNetwork, SurfaceOptions,
+    StreetKind, StreetNetwork, SurfaceOptions,
 };
 
 /// What `network(...)` takes.
@@ -21,9 +22,9 @@ pub struct NetworkOptions {
     /// Where streets begin (m): junctions 1, 2, 3 and so on.
     #[default(vec![Vector(glam::DVec3::ZERO)])]
     pub starts: Vec<Vector>,
-    /// Widths of streets (m) from edge to edge of their sidewalks, by depth from 0 on; the last one holds for all that are deeper.
-    #[default(vec![20.0, 14.0, 11.0])]
-    pub widths: Vec<f64>,
+    /// The kinds of streets, by depth from 0 on; the last one holds for all that are deeper.
+    #[default([20.0, 14.0, 11.0].map(StreetOptions::of_width).to_vec())]
+    pub streets: Vec<StreetOptions>,
     /// How near (m) the end of a street comes to a junction or another street before it joins that.
     #[default(25.0)]
     pub snap: f64,
@@ -56,9 +57,6 @@ pub struct NetworkOptions {
     /// The most pieces of streets.
     #[default(400_000)]
     pub most: u32,
-    /// Width (m) of sidewalks.
-    #[default(2.5)]
-    pub sidewalk: f64,
     /// Height (m) of kerbs.
     #[default(0.14)]
     pub kerb: f64,
@@ -94,6 +92,8 @@ pub struct NetworkOptions {
 )]
 pub struct Network {
     pub(super) options: NetworkOptions,
+    /// By depth.
+    pub(super) kinds: Vec<StreetKind>,
     pub(super) network: StreetNetwork,
     /// What became of what was proposed in the last pass, by junction and heading.
     growths: FxHashMap<(u32, u64), StreetGrowth>,
@@ -212,15 +212,15 @@ impl Network {
 impl Network {
     /// The network that a script describes; fails if its fields contradict one another.
     pub fn new(options: NetworkOptions) -> Result<Self> {
-        if options.widths.is_empty() || options.widths.iter().any(|width| !(2.0..=200.0).contains(width)) {
-            return Err(Error::argument("network: widths must be one or more numbers from 2 to 200")
-                .help("write widths = { 20, 14 }"));
+        let kinds: Vec<StreetKind> = options.streets.iter().map(StreetOptions::kind).collect();
+        if kinds.is_empty() {
+            return Err(Error::argument("network: streets has no kind of street")
+                .help("write streets = { { width = 20 }, { width = 14 } }"));
         }
-        for (name, value, most) in [
-            ("sidewalk", options.sidewalk, 50.0),
-            ("kerb", options.kerb, 2.0),
-            ("turning", options.turning, 100.0),
-        ] {
+        for (number, kind) in (1..).zip(&kinds) {
+            kind.check().map_err(|error| error.about(&format!("network: streets: kind {number}")))?;
+        }
+        for (name, value, most) in [("kerb", options.kerb, 2.0), ("turning", options.turning, 100.0)] {
             if !(0.0..=most).contains(&value) {
                 return Err(Error::argument(format!(
                     "network: {name} must be from 0 to {most}, not {value}"
@@ -239,9 +239,9 @@ impl Network {
         };
         let mut warnings = Vec::new();
         let mut areas = Vec::new();
-        let kinds = [(&options.obstacles, false, false), (&options.water, false, true)];
+        let area_kinds = [(&options.obstacles, false, false), (&options.water, false, true)];
         let limit: Vec<Rings> = options.limit.iter().cloned().collect();
-        for (rings, is_limit, can_be_bridged) in kinds.into_iter().chain([(&limit, true, false)]) {
+        for (rings, is_limit, can_be_bridged) in area_kinds.into_iter().chain([(&limit, true, false)]) {
             for rings in rings {
                 match Plan::new(rings) {
                     Ok(plan) => areas.push(Obstacle { area: plan.flat(), is_limit, can_be_bridged }),
@@ -259,7 +259,7 @@ impl Network {
         for start in &options.starts {
             network.begin(start.0.truncate()).map_err(|error| error.about("network: starts"))?;
         }
-        Ok(Self { options, network, growths: FxHashMap::default(), warnings, is_told: false })
+        Ok(Self { options, kinds, network, growths: FxHashMap::default(), warnings, is_told: false })
     }
 
     /// The junction with this number, which counts from 1.
@@ -274,12 +274,11 @@ impl Network {
     }
 
     fn attributes(&self, depth: u32) -> StreetAttributes {
-        let widths = &self.options.widths;
-        StreetAttributes { width: widths[(depth as usize).min(widths.len() - 1)], depth, class: 0 }
+        StreetKind::of(&self.kinds, depth).attributes(depth)
     }
 
     pub(super) fn surface_options(&self) -> SurfaceOptions {
-        SurfaceOptions { sidewalk: self.options.sidewalk, turning: self.options.turning }
+        SurfaceOptions { turning: self.options.turning }
     }
 
     fn restart(&mut self) {

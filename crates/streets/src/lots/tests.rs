@@ -145,12 +145,12 @@ fn sites_beside_streets_are_disjoint_and_on_no_street() {
             .iter()
             .map(|site| site.corners.map(|at| FinePlace::nearest(at).expect("near")).to_vec())
             .collect();
-        let surfaces = network.surfaces(SurfaceOptions::default());
+        let surfaces = network.surfaces(SurfaceOptions::default(), &crate::StreetProfiles::default());
         let borders: Vec<[FinePlace; 2]> = surfaces
             .sidewalks
             .iter()
             .flat_map(|sidewalk| burgeon_geometry::planar::edges(&sidewalk.edge).collect::<Vec<_>>())
-            .map(|edge| edge.map(|end| FinePlace::nearest(end).expect("near")))
+            .map(|edge| edge.map(|end| FinePlace::nearest(end.truncate()).expect("near")))
             .filter(|[a, b]| a != b)
             .collect();
         for (index, site) in found.sites.iter().enumerate() {
