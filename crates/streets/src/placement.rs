@@ -91,8 +91,8 @@ pub struct StreetSites {
     pub sites: Vec<Site>,
     /// How many places were tried.
     pub tried: u64,
-    /// How many of them met a street, and how many another site.
-    pub refused: [u64; 2],
+    /// How many of them met a street, how many another site, and how many an obstacle.
+    pub refused: [u64; 3],
     /// How many edges of streets and sites the indices gave for all of them.
     pub looked_at: u64,
 }
@@ -196,6 +196,8 @@ impl StreetNetwork {
                         found.refused[0] += 1;
                     } else if !index.is_apart(&corners, options.gap) {
                         found.refused[1] += 1;
+                    } else if self.obstacles().reach_into(&corners.map(FinePlace::metres)) {
+                        found.refused[2] += 1;
                     } else {
                         index.add(corners);
                         found.sites.push(Site {

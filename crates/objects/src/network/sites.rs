@@ -74,11 +74,13 @@ impl Network {
         let found = self.network.sites(self.surface_options(), &options, &mut stream);
         let found = found.map_err(|error| error.about("network:sites"))?;
         if found.sites.is_empty() && found.tried > 0 {
-            let [streets, sites] = found.refused;
+            let why = ["are in a street or reach into one", "come too near another", "meet an obstacle"];
+            let why = found.refused.iter().zip(why).filter(|(count, _)| **count > 0);
+            let why: Vec<String> = why.map(|(count, why)| format!("{count} {why}")).collect();
             let text = format!(
-                "network:sites: none of {} places has room for a site: {streets} are in a street or reach into one, {sites} \
-                 come too near another",
-                found.tried
+                "network:sites: none of {} places has room for a site: {}",
+                found.tried,
+                why.join(", ")
             );
             return Err(Error::argument(text).help("give smaller sizes, or a smaller setback"));
         }
