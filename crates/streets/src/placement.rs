@@ -69,7 +69,7 @@ impl SiteOptions {
 
 /// A place for a building.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Site {
+pub struct StreetSite {
     /// What it is called: the middle of its piece of a street, its side, its row and its place in it.
     pub id: String,
     /// Its corners (m), counter-clockwise, those of its front first.
@@ -88,7 +88,7 @@ pub struct Site {
 #[derive(Debug, Clone, Default)]
 pub struct StreetSites {
     /// In the order in which they were placed.
-    pub sites: Vec<Site>,
+    pub sites: Vec<StreetSite>,
     /// How many places were tried.
     pub tried: u64,
     /// How many of them met a street, how many another site, and how many an obstacle.
@@ -200,7 +200,7 @@ impl StreetNetwork {
                         found.refused[2] += 1;
                     } else {
                         index.add(corners);
-                        found.sites.push(Site {
+                        found.sites.push(StreetSite {
                             id: format!("{name}/{letter}{row}.{number}"),
                             corners: corners.map(FinePlace::metres),
                             piece,

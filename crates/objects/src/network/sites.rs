@@ -5,7 +5,7 @@ use burgeon_data::Geometry;
 use burgeon_geometry::Rings;
 use burgeon_kit::rules::ModuleKey;
 use burgeon_kit::{Answer, Parameter, Seed, Value, Vector, fields};
-use burgeon_streets::{Site, SiteOptions};
+use burgeon_streets::{SiteOptions, StreetSite};
 use glam::DVec3;
 
 use super::Network;
@@ -87,7 +87,7 @@ impl Network {
         Ok(SiteRecords(found.sites.iter().map(|site| self.site_record(site)).collect()))
     }
 
-    fn site_record(&self, site: &Site) -> Value {
+    fn site_record(&self, site: &StreetSite) -> Value {
         let street = self.network.attributes(site.piece);
         let [a, b, ..] = site.corners.map(|corner| corner.extend(0.0));
         let ring: Vec<DVec3> = site.corners.iter().map(|corner| corner.extend(0.0)).collect();
