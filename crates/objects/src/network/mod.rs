@@ -1,6 +1,9 @@
 //! A network of streets as scripts have it: `network` in scripts.
 
+mod answers;
 mod draw;
+mod existing;
 mod object;
+mod walk;
 
 pub use object::Network;
