@@ -312,6 +312,12 @@ local Clock = module("Clock", "left")
 
 -- How far (degrees) a main street turns when it is refused, one try after the other.
 local ASIDE = { 20, -40, 55, -70 }
+-- What streets are made of, by depth.
+local STREETS = {
+  { width = 24, lanes = 4, sidewalk = 4 },
+  { width = 16, lanes = 2, parking = 2.2, sidewalk = 3 },
+  { width = 11, lanes = 2, sidewalk = 2 },
+}
 -- How many steps a side street waits, so that main streets come first.
 local WAIT = 2
 
@@ -367,7 +373,7 @@ function roads.system(options: RoadOptions)
   local centres = options.centres or { { 0, 0 } }
   local headings = options.headings or { 8, 98, 188, 278 }
 
-  local fields: any = { widths = { 22, 15, 11 }, min_angle = 50, snap = 28, ground = "#66774e" }
+  local fields: any = { streets = STREETS, min_angle = 50, snap = 28, ground = "#66774e" }
   for name, value in (options.network or {}) :: any do
     fields[name] = value
   end

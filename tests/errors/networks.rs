@@ -24,20 +24,84 @@ fn fields_that_contradict_one_another_are_refused() {
     error: s.lua:1: network: min_angle must be from 10 to 90, not 120
       | network({ min_angle = 120 })
     ");
-    assert_snapshot!(refused("network({ widths = {} })"), @r"
-    error: s.lua:1: network: widths must be one or more numbers from 2 to 200
-      | network({ widths = {} })
-      help: write widths = { 20, 14 }
-    ");
-    assert_snapshot!(refused("network({ widths = { 12, 1 } })"), @r"
-    error: s.lua:1: network: widths must be one or more numbers from 2 to 200
-      | network({ widths = { 12, 1 } })
-      help: write widths = { 20, 14 }
-    ");
     assert_snapshot!(refused("network({ min_lenght = 3 })"), @r"
     error: s.lua:1: network has no field called min_lenght
       | network({ min_lenght = 3 })
       help: did you mean min_length?
+    ");
+}
+
+#[test]
+fn kinds_of_streets_whose_parts_do_not_fit_are_refused() {
+    let street =
+        |fields: &str| refused(&format!("network({{ streets = {{ {{ width = 14 }}, {{ {fields} }} }} }})"));
+    assert_snapshot!(refused("network({ streets = {} })"), @r"
+    error: s.lua:1: network: streets has no kind of street
+      | network({ streets = {} })
+      help: write streets = { { width = 20 }, { width = 14 } }
+    ");
+    assert_snapshot!(street("width = 0"), @r"
+    error: s.lua:1: network: streets: kind 2: width must be from 2 to 200 m, not 0
+      | network({ streets = { { width = 14 }, { width = 0 } } })
+    ");
+    assert_snapshot!(street("width = -3"), @r"
+    error: s.lua:1: network: streets: kind 2: width must be from 2 to 200 m, not -3
+      | network({ streets = { { width = 14 }, { width = -3 } } })
+    ");
+    assert_snapshot!(street("width = 0 / 0"), @r"
+    error: s.lua:1: network: streets must be a list whose item 2 is a kind of street (street: width must be a finite number, not NaN), not {width=nan}
+      | network({ streets = { { width = 14 }, { width = 0 / 0 } } })
+    ");
+    assert_snapshot!(street("width = 12, sidewalk = 6"), @r"
+    error: s.lua:1: network: streets: kind 2: sidewalk = 6 on both sides leaves 0.00 m of width = 12 for the carriageway
+      | network({ streets = { { width = 14 }, { width = 12, sidewalk = 6 } } })
+      help: leave at least 2 m between the sidewalks
+    ");
+    assert_snapshot!(street("width = 12, sidewalk = -1"), @r"
+    error: s.lua:1: network: streets: kind 2: sidewalk must be from 0 to 50 m, not -1
+      | network({ streets = { { width = 14 }, { width = 12, sidewalk = -1 } } })
+    ");
+    assert_snapshot!(street("width = 12, sidewalk = 2, lanes = 6"), @r"
+    error: s.lua:1: network: streets: kind 2: lanes = 6 does not fit: 8.00 m is left for them, 1.33 m for each
+      | network({ streets = { { width = 14 }, { width = 12, sidewalk = 2, lanes = 6 } } })
+      help: 4 fit, each at least 2 m wide
+    ");
+    assert_snapshot!(street("width = 12, lanes = 0"), @r"
+    error: s.lua:1: network: streets: kind 2: lanes must be from 1 to 24, not 0
+      | network({ streets = { { width = 14 }, { width = 12, lanes = 0 } } })
+    ");
+    assert_snapshot!(street("width = 12, median = 9"), @r"
+    error: s.lua:1: network: streets: kind 2: median = 9 does not fit into a carriageway of 7.20 m
+      | network({ streets = { { width = 14 }, { width = 12, median = 9 } } })
+      help: leave at least 2 m for a lane on each side of it
+    ");
+    assert_snapshot!(street("width = 24, median = 2, lanes = 3"), @r"
+    error: s.lua:1: network: streets: kind 2: lanes = 3 cannot be divided by a median into two directions
+      | network({ streets = { { width = 14 }, { width = 24, median = 2, lanes = 3 } } })
+      help: give an even number of lanes, or leave the median out
+    ");
+    assert_snapshot!(street("width = 12, parking = 3.5"), @r"
+    error: s.lua:1: network: streets: kind 2: parking = 3.5 on both sides leaves 0.20 m of a carriageway of 7.20 m
+      | network({ streets = { { width = 14 }, { width = 12, parking = 3.5 } } })
+      help: leave at least 2 m between the parking strips
+    ");
+    assert_snapshot!(street("width = 12, sidewalk = 0, trees = 9"), @r"
+    error: s.lua:1: network: streets: kind 2: trees need a sidewalk of 1 m, and this one has 0
+      | network({ streets = { { width = 14 }, { width = 12, sidewalk = 0, trees = 9 } } })
+      help: give a greater sidewalk, or leave them out
+    ");
+    assert_snapshot!(street("width = 12, lamps = 0.2"), @r"
+    error: s.lua:1: network: streets: kind 2: lamps must be from 1 to 1000 m, not 0.2
+      | network({ streets = { { width = 14 }, { width = 12, lamps = 0.2 } } })
+      help: that is their distance along the street; 0 for none
+    ");
+    assert_snapshot!(street("width = 12, lane = 2"), @r"
+    error: s.lua:1: network: streets must be a list whose item 2 is a kind of street (street has no field called lane), not {lane=2,width=12}
+      | network({ streets = { { width = 14 }, { width = 12, lane = 2 } } })
+    ");
+    assert_snapshot!(refused("network({ streets = { 14 } })"), @r"
+    error: s.lua:1: network: streets must be a list whose item 1 is a table of a street's fields: { width = 14, lanes = 2 }, not 14
+      | network({ streets = { 14 } })
     ");
 }
 

@@ -24,6 +24,27 @@ pub(crate) struct Arm {
     pub(crate) way: DVec2,
     /// Half of its width (m) to the outer edges of its sidewalks.
     pub(crate) half: f64,
+    /// Width (m) of its sidewalks.
+    pub(crate) walk: f64,
+}
+
+impl Arm {
+    /// How far (m) one of its lines lies from its middle.
+    pub(crate) fn aside(self, line: StreetLine) -> f64 {
+        match line {
+            StreetLine::Kerb => self.half - self.walk,
+            StreetLine::Edge => self.half,
+        }
+    }
+}
+
+/// The lines along both sides of a street, between which its sidewalks lie.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum StreetLine {
+    /// Between the carriageway and the sidewalk.
+    Kerb,
+    /// Between the sidewalk and the block.
+    Edge,
 }
 
 /// What a junction has between two neighbours among its streets, of which the second is the next one counter-clockwise.
@@ -39,8 +60,8 @@ pub(crate) struct Corner {
 
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum CornerShape {
-    /// A kerb of this radius (m) at the outer edges.
-    Round(f64),
+    /// The two lines turn with these radii (m).
+    Round { edge: f64, kerb: f64 },
     /// The edges meet.
     Sharp,
     /// From one width to the other.
@@ -55,23 +76,32 @@ impl Corner {
     /// Method: the edges meet at (next + half cos) / sin of the angle; a circle touches them its cotangent farther on.
     pub(crate) fn new(arms: [Arm; 2], radius: f64) -> Self {
         let angle = turn(arms[0].way, arms[1].way);
-        let [a, b] = arms.map(|arm| arm.half);
-        let is_even = (a - b).abs() < EVEN;
-        if !is_even && (angle - PI).abs() < TAPER {
-            let length = (a - b).abs() * TAPER_LENGTH;
+        let lines = [StreetLine::Edge, StreetLine::Kerb].map(|line| arms.map(|arm| arm.aside(line)));
+        let apart = lines.iter().map(|[a, b]| (a - b).abs()).fold(0.0, f64::max);
+        let is_even = apart < EVEN;
+        let bend = (angle - PI).abs();
+        if !is_even && bend < TAPER {
+            // Behind where the ends of the two could touch.
+            let clear = arms[0].half.max(arms[1].half) * (bend / 2.0).tan();
+            let length = (apart * TAPER_LENGTH).max(clear + LEAST);
             return Self { arms, angle, shape: CornerShape::Taper(length), reaches: [length; 2] };
         }
-        let (shape, more) = if angle < PI && !(is_even && PI - angle < MITRED) {
-            (CornerShape::Round(radius), radius / (angle / 2.0).tan())
-        } else {
-            (CornerShape::Sharp, 0.0)
-        };
-        // The farthest of the outer edges, and of any that lie inside of them: it changes evenly between.
-        let least = a.min(b);
-        let farthest = |a: f64, b: f64| meeting(angle, a, b).max(meeting(angle, a - least, b - least));
-        let reaches = [farthest(a, b), farthest(b, a)]
-            .map(|reach| (reach + more).max(if is_even { 0.0 } else { LEAST }));
-        Self { arms, angle, shape, reaches }
+        if angle < PI && !(is_even && bend < MITRED) {
+            // Kerbs turn the same way as edges do, so what lies between them is nowhere less than the lesser sidewalk.
+            let kerb = radius + arms[0].walk.min(arms[1].walk);
+            let mut reaches = [if is_even { 0.0 } else { LEAST }; 2];
+            for ([a, b], radius) in lines.into_iter().zip([radius, kerb]) {
+                let more = radius / (angle / 2.0).tan();
+                let both = [meeting(angle, a, b) + more, meeting(angle, b, a) + more];
+                reaches = [reaches[0].max(both[0]), reaches[1].max(both[1])];
+            }
+            return Self { arms, angle, shape: CornerShape::Round { edge: radius, kerb }, reaches };
+        }
+        let mut reaches = [if is_even { 0.0 } else { LEAST }; 2];
+        for [a, b] in lines {
+            reaches = [reaches[0].max(meeting(angle, a, b)), reaches[1].max(meeting(angle, b, a))];
+        }
+        Self { arms, angle, shape: CornerShape::Sharp, reaches }
     }
 
     /// What a street ends with: by a circle of a `radius` (m), which is no less than half of its width.
@@ -81,30 +111,30 @@ impl Corner {
         Self { arms: [arm; 2], angle: TAU, shape: CornerShape::Around(radius), reaches: [reach; 2] }
     }
 
+    /// The angle (radians) from its first street to its second.
+    pub(crate) fn angle(&self) -> f64 {
+        self.angle
+    }
+
     /// Whether it is a single point.
     pub(crate) fn is_sharp(&self) -> bool {
         matches!(self.shape, CornerShape::Sharp)
     }
 
-    /// Its points (m) from the first arm to the second, as seen from the junction, `inside` (m) of the outer edges.
-    /// There are as many for each `inside`.
-    pub(crate) fn points(&self, inside: f64) -> Vec<DVec2> {
+    /// The points (m) of a line around it, from the first arm to the second, as seen from the junction. There are as many
+    /// for both lines.
+    pub(crate) fn points(&self, line: StreetLine) -> Vec<DVec2> {
         let [first, second] = self.arms;
-        let (a, b) = (first.half - inside, second.half - inside);
+        let [a, b] = self.arms.map(|arm| arm.aside(line));
         let left = |arm: Arm, along: f64, half: f64| arm.way * along + arm.way.perp() * half;
         match self.shape {
-            CornerShape::Round(radius) => {
-                let along = meeting(self.angle, first.half, second.half) + radius / (self.angle / 2.0).tan();
-                let center = left(first, along, first.half + radius);
+            CornerShape::Round { edge, kerb } => {
+                let radius = if line == StreetLine::Edge { edge } else { kerb };
+                let along = meeting(self.angle, a, b) + radius / (self.angle / 2.0).tan();
+                let center = left(first, along, a + radius);
                 let swept = PI - self.angle;
                 let from = (-first.way.perp()).to_angle();
-                arc(
-                    center,
-                    radius + inside,
-                    from,
-                    -swept,
-                    pieces(swept, radius + first.half.min(second.half)),
-                )
+                arc(center, radius, from, -swept, pieces(swept, edge + first.half.min(second.half)))
             }
             CornerShape::Sharp => vec![left(first, meeting(self.angle, a, b), a)],
             CornerShape::Taper(length) => vec![left(first, length, a), left(second, length, -b)],
@@ -113,7 +143,7 @@ impl Corner {
                 let reach = self.reaches[0];
                 let (from, to) = (left(first, reach, a), left(first, reach, -a));
                 let is_circle = radius > first.half + EVEN;
-                let round = if is_circle { radius - inside } else { a };
+                let round = if is_circle { radius - (first.half - a) } else { a };
                 let start = from.to_angle();
                 let mut points = arc(
                     DVec2::ZERO,
@@ -166,7 +196,7 @@ mod tests {
     use super::*;
 
     fn arm(degrees: f64, half: f64) -> Arm {
-        Arm { way: DVec2::from_angle(degrees.to_radians()), half }
+        Arm { way: DVec2::from_angle(degrees.to_radians()), half, walk: 0.0 }
     }
 
     #[test]
@@ -180,27 +210,26 @@ mod tests {
 
     #[test]
     fn corners_lead_from_edge_to_edge() {
-        for first in [3.0, 6.0, 9.0] {
-            for second in [3.0, 6.0, 9.0] {
+        let sizes = [(3.0, 0.5), (3.0, 1.9), (6.0, 2.0), (9.0, 1.0), (9.0, 6.0)];
+        for first in sizes {
+            for second in sizes {
                 for degrees in (30..=330).step_by(5) {
-                    let arms = [arm(20.0, first), arm(20.0 + f64::from(degrees), second)];
+                    let arms = [(20.0, first), (20.0 + f64::from(degrees), second)];
+                    let arms = arms.map(|(at, (half, walk))| Arm { walk, ..arm(at, half) });
                     let corner = Corner::new(arms, 4.0);
-                    for inside in [0.0, 2.0] {
-                        let points = corner.points(inside);
-                        assert_eq!(points.len(), corner.points(0.0).len());
-                        let (from, to) = (points[0], points[points.len() - 1]);
-                        let aside = arms[0].way.perp_dot(from);
-                        assert!(
-                            (aside - (first - inside)).abs() < 0.02,
-                            "{degrees} {first} {second}: {aside}"
-                        );
-                        let aside = arms[1].way.perp_dot(to);
-                        assert!(
-                            (aside + second - inside).abs() < 0.02,
-                            "{degrees} {first} {second}: {aside}"
-                        );
-                        assert!(arms[0].way.dot(from) <= corner.reaches[0] + 1e-9);
-                        assert!(arms[1].way.dot(to) <= corner.reaches[1] + 1e-9);
+                    let count = corner.points(StreetLine::Edge).len();
+                    for line in [StreetLine::Kerb, StreetLine::Edge] {
+                        let points = corner.points(line);
+                        assert_eq!(points.len(), count);
+                        for (arm, end, side) in [(0, points[0], 1.0), (1, points[count - 1], -1.0)] {
+                            let aside = arms[arm].way.perp_dot(end) * side;
+                            let expected = arms[arm].aside(line);
+                            assert!(
+                                (aside - expected).abs() < 0.02,
+                                "{degrees} {first:?} {second:?}: {aside}, not {expected}"
+                            );
+                            assert!(arms[arm].way.dot(end) <= corner.reaches[arm] + 1e-9);
+                        }
                     }
                 }
             }
@@ -210,10 +239,10 @@ mod tests {
     #[test]
     fn a_street_ends_with_a_circle() {
         for radius in [0.0, 8.0] {
-            let corner = Corner::around(arm(0.0, 5.0), radius);
-            for inside in [0.0, 2.0] {
-                let points = corner.points(inside);
-                assert_eq!(points[0], DVec2::new(corner.reaches[0], 5.0 - inside));
+            let corner = Corner::around(Arm { walk: 2.0, ..arm(0.0, 5.0) }, radius);
+            for (line, aside) in [(StreetLine::Edge, 5.0), (StreetLine::Kerb, 3.0)] {
+                let points = corner.points(line);
+                assert_eq!(points[0], DVec2::new(corner.reaches[0], aside));
                 assert!(points.iter().any(|at| at.x < -2.9), "it goes around the end");
             }
         }

@@ -95,7 +95,7 @@ fn what_is_probed_is_what_is_built() {
     let mut random = TestNumbers(99);
     let (_, all) = obstacles(5, 20);
     let mut network = grown(5, 120, Constraints::default(), all);
-    let street = StreetAttributes { width: 11.0, depth: 1, class: 0 };
+    let street = StreetAttributes { width: 11.0, ..StreetAttributes::default() };
     for _ in 0..500 {
         let from = random.below(network.junctions().len() as f64) as u32;
         let to = network.at(from) + DVec2::from_angle(random.below(6.3)) * random.below(120.0);
@@ -113,7 +113,7 @@ fn what_is_probed_is_what_is_built() {
 }
 
 fn street(line: &[(f64, f64)], is_bridge: bool) -> ExistingStreet {
-    let attributes = StreetAttributes { width: 10.0, depth: 1, class: 0 };
+    let attributes = StreetAttributes { width: 10.0, ..StreetAttributes::default() };
     ExistingStreet { line: line.iter().copied().map(DVec2::from).collect(), attributes, is_bridge }
 }
 

@@ -52,19 +52,18 @@ impl StreetNetwork {
         let there = match end {
             StreetEnd::Junction(junction) => self.measured_arms(junction),
             StreetEnd::On(piece, place) => {
-                let (at, half) = (place.metres(), self.half(piece));
+                let at = place.metres();
                 let halves = self.ends(piece).map(|far| {
                     let to = self.at(far);
-                    let arm = Arm { way: (to - at).normalize_or_zero(), half };
+                    let arm = self.attributes(piece).arm((to - at).normalize_or_zero());
                     MeasuredArm { arm, length: at.distance(to), far: self.reach_at(far, piece) }
                 });
                 halves.into_iter().collect()
             }
             StreetEnd::Free(_) => Arms::new(),
         };
-        let half = attributes.width / 2.0;
-        let here_reach = self.test_corners(here, Arm { way, half })?;
-        let there_reach = self.test_corners(there, Arm { way: -way, half })?;
+        let here_reach = self.test_corners(here, attributes.arm(way))?;
+        let there_reach = self.test_corners(there, attributes.arm(-way))?;
         if here_reach + there_reach > length { Err(Refusal::Corners) } else { Ok(()) }
     }
 

@@ -9,7 +9,7 @@
 //! use glam::DVec2;
 //!
 //! let mut network = StreetNetwork::new(Constraints::default(), Obstacles::default())?;
-//! let street = StreetAttributes { width: 12.0, depth: 0, class: 0 };
+//! let street = StreetAttributes { width: 12.0, ..StreetAttributes::default() };
 //! let start = network.begin(DVec2::ZERO)?;
 //! network.grow(start, DVec2::new(200.0, 0.0), street)?;
 //! let aside = network.begin(DVec2::new(80.0, -120.0))?;
@@ -30,10 +30,18 @@ mod grow;
 #[cfg(test)]
 mod growth_tests;
 mod keeps;
+mod kinds;
+mod lots;
+mod marks;
 mod measures;
 mod network;
 mod obstacles;
+mod profile;
+mod rows;
+mod shape;
 mod surface;
+#[cfg(test)]
+mod surface_tests;
 #[cfg(test)]
 mod tests;
 
@@ -43,7 +51,11 @@ pub use existing::{ExistingLosses, ExistingStreet};
 pub use faces::{Course, StreetFace};
 pub use grid::{FARTHEST, GridPlace};
 pub use grow::{StreetGrowth, StreetProspect};
+pub use kinds::StreetKind;
+pub use lots::{Block, BlockSide, Lot, LotOptions, LotPattern, LotUse};
+pub use marks::Marking;
 pub use measures::Measures;
 pub use network::{Junction, JunctionId, PieceId, StreetAttributes, StreetNetwork, StreetPiece};
 pub use obstacles::{Obstacle, Obstacles};
-pub use surface::{Carriageway, Sidewalk, StreetSurfaces, SurfaceOptions};
+pub use profile::StreetProfiles;
+pub use surface::{Median, Sidewalk, StreetSurface, StreetSurfaces, SurfaceOptions};

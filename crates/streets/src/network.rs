@@ -17,10 +17,14 @@ pub type JunctionId = u32;
 pub type PieceId = u32;
 
 /// What a street is, the same all along.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct StreetAttributes {
     /// Width (m) from one outer edge of the sidewalks to the other.
     pub width: f64,
+    /// Width (m) of the sidewalk on each side.
+    pub sidewalk: f64,
+    /// Width (m) of the raised strip in its middle; 0 for none.
+    pub median: f64,
     /// How many times its way branched off: 0 for a main street.
     pub depth: u32,
     /// The number of the name that the script gave to streets of its kind.
@@ -33,6 +37,18 @@ pub struct Junction {
     pub(crate) place: GridPlace,
     /// The pieces that end here.
     pub(crate) pieces: SmallVec<[PieceId; 4]>,
+}
+
+impl StreetAttributes {
+    /// As it leaves a junction in a direction.
+    pub(crate) fn arm(self, way: DVec2) -> Arm {
+        Arm { way, half: self.width / 2.0, walk: self.sidewalk }
+    }
+
+    /// Width (m) of the carriageway.
+    pub fn carriageway(&self) -> f64 {
+        self.width - 2.0 * self.sidewalk
+    }
 }
 
 impl Junction {
@@ -74,7 +90,6 @@ pub struct StreetNetwork {
     piece_index: RTree<IndexItem<IndexLine<[f64; 2]>>>,
     junction_index: RTree<IndexItem<[f64; 2]>>,
     widest: f64,
-    narrowest: f64,
     /// How many neighbours were looked at, to show what the index saves.
     pub(crate) looked_at: u64,
 }
@@ -91,7 +106,6 @@ impl StreetNetwork {
             piece_index: RTree::new(),
             junction_index: RTree::new(),
             widest: 0.0,
-            narrowest: f64::INFINITY,
             looked_at: 0,
         })
     }
@@ -116,11 +130,6 @@ impl StreetNetwork {
         (0..).zip(&self.pieces).filter(|(_, piece)| piece.is_there)
     }
 
-    /// What is known of a piece.
-    pub fn piece(&self, piece: PieceId) -> &StreetPiece {
-        &self.pieces[piece as usize]
-    }
-
     /// How many pieces there are.
     pub fn size(&self) -> usize {
         self.piece_index.size()
@@ -139,6 +148,11 @@ impl StreetNetwork {
     /// The junctions that a piece leads from and to.
     pub fn ends(&self, piece: PieceId) -> [JunctionId; 2] {
         self.pieces[piece as usize].ends
+    }
+
+    /// What a piece is a piece of.
+    pub fn attributes(&self, piece: PieceId) -> StreetAttributes {
+        self.pieces[piece as usize].attributes
     }
 
     /// The length (m) of a piece.
@@ -194,12 +208,12 @@ impl StreetNetwork {
     /// The pieces at a junction, counter-clockwise, as its corners see them.
     pub(crate) fn corner_arms(&self, junction: JunctionId) -> SmallVec<[(PieceId, Arm); 6]> {
         let arms = self.arms(junction).into_iter();
-        arms.map(|(piece, way)| (piece, Arm { way, half: self.half(piece) })).collect()
+        arms.map(|(piece, way)| (piece, self.attributes(piece).arm(way))).collect()
     }
 
     /// Half of the width (m) of a piece.
     pub(crate) fn half(&self, piece: PieceId) -> f64 {
-        self.pieces[piece as usize].attributes.width / 2.0
+        self.attributes(piece).width / 2.0
     }
 
     /// Adds a junction, or finds the one that is there.
@@ -229,7 +243,6 @@ impl StreetNetwork {
         #[allow(clippy::cast_possible_truncation, reason = "pieces are limited far below")]
         let id = self.pieces.len() as PieceId;
         self.widest = self.widest.max(attributes.width);
-        self.narrowest = self.narrowest.min(attributes.width);
         self.pieces.push(StreetPiece { ends, attributes, is_there: true, is_bridge });
         for end in ends {
             self.junctions[end as usize].pieces.push(id);
@@ -281,11 +294,6 @@ impl StreetNetwork {
     /// The widest street (m) so far.
     pub(crate) fn widest(&self) -> f64 {
         self.widest
-    }
-
-    /// The narrowest street (m) so far.
-    pub(crate) fn narrowest(&self) -> f64 {
-        self.narrowest
     }
 
     /// The pieces whose boxes come within `margin` (m) of a box around `line`.

@@ -1,83 +1,84 @@
-//! The surfaces of streets: carriageways, sidewalks with kerbs, and the blocks between them.
+//! The surfaces of streets: carriageways, sidewalks with kerbs, medians, and the blocks between them.
 //!
 //! All of them share their corners, so nothing overlaps and nothing is left open: a sidewalk is the band between two
 //! lines with as many points, of which the inner one is the kerb of the carriageway and the outer one bounds the block.
 
-use glam::DVec2;
-use smallvec::SmallVec;
+use glam::{DVec2, DVec3};
 
-use crate::corner::{Arm, Corner};
+use crate::corner::StreetLine;
 use crate::faces::Course;
 use crate::network::{JunctionId, PieceId, StreetNetwork};
+use crate::profile::StreetProfiles;
+use crate::rows::{PieceRows, alongs_of};
+use crate::shape::{StreetShapes, is_same, without_repeats};
 use burgeon_geometry::Rings;
 
 /// How streets are made of their lines.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct SurfaceOptions {
-    /// Width (m) of sidewalks, on both sides; less on streets that are too narrow.
-    pub sidewalk: f64,
     /// The radius (m) of the circle to turn in at a dead end; none if it is less than half of the street.
     pub turning: f64,
-}
-
-impl Default for SurfaceOptions {
-    fn default() -> Self {
-        Self { sidewalk: 2.5, turning: 0.0 }
-    }
 }
 
 /// A band along the streets around a face, or around the outside.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Sidewalk {
     /// The edge of the carriageway (m), with the face on its left.
-    pub kerb: Vec<DVec2>,
+    pub kerb: Vec<DVec3>,
     /// The edge of the block (m): a point for each of the kerb.
-    pub edge: Vec<DVec2>,
+    pub edge: Vec<DVec3>,
     /// Whether it goes around an area that streets enclose, counter-clockwise.
     pub is_around_block: bool,
 }
 
-/// The carriageway of a piece between the corners of its junctions, or of a junction.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Carriageway {
-    /// Its outline (m), counter-clockwise.
-    pub outline: Vec<DVec2>,
-    /// A place (m) that sees all of the outline.
-    pub middle: DVec2,
+/// A surface out of triangles: the carriageway of a piece between its junctions or that of a junction, or a median.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct StreetSurface {
+    /// Its corners (m).
+    pub points: Vec<DVec3>,
+    /// Three of them each, counter-clockwise.
+    pub triangles: Vec<[u32; 3]>,
     /// The piece that it is of; none of a junction.
     pub piece: Option<PieceId>,
+}
+
+/// The raised strip in the middle of a piece.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Median {
+    /// Its top, at the height of the street.
+    pub top: StreetSurface,
+    /// Its kerb (m), with the median on its left; one that goes on in the next piece is open there.
+    pub kerbs: Vec<Vec<DVec3>>,
 }
 
 /// All surfaces of a network.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct StreetSurfaces {
     /// Where vehicles are.
-    pub carriageways: Vec<Carriageway>,
+    pub carriageways: Vec<StreetSurface>,
     /// Where people walk.
     pub sidewalks: Vec<Sidewalk>,
+    /// Between the two directions.
+    pub medians: Vec<Median>,
 }
 
 impl StreetNetwork {
-    /// The surfaces of its streets.
-    pub fn surfaces(&self, options: SurfaceOptions) -> StreetSurfaces {
+    /// The surfaces of its streets, at the heights of `profiles`.
+    pub fn surfaces(&self, options: SurfaceOptions, profiles: &StreetProfiles) -> StreetSurfaces {
+        let shapes = StreetShapes::new(self, options.turning);
         let mut surfaces = StreetSurfaces::default();
         for (piece, _) in self.pieces() {
-            let [from, to] = self.ends(piece);
-            let [[right, left], [far_left, far_right]] =
-                [from, to].map(|end| self.piece_end(end, piece, options));
-            surfaces.carriageways.push(Carriageway {
-                outline: vec![right, far_right, far_left, left],
-                middle: (right + left + far_left + far_right) / 4.0,
-                piece: Some(piece),
-            });
+            let rows = PieceRows::new(&shapes, profiles, piece);
+            surfaces.carriageways.push(rows.carriageway());
+            surfaces.medians.extend(rows.median());
         }
         #[allow(clippy::cast_possible_truncation, reason = "pieces are limited far below")]
         for junction in 0..self.junctions.len() as JunctionId {
-            surfaces.carriageways.extend(self.junction_surface(junction, options));
+            surfaces.carriageways.extend(junction_surface(&shapes, profiles, junction));
         }
         for way in self.ways() {
             let is_around_block = self.area(&way) > 0.0;
-            let [kerb, edge] = self.edges_of(&way, options);
+            let (kerb, edge) = sides(&shapes, profiles, &way).into_iter().unzip();
             surfaces.sidewalks.push(Sidewalk { kerb, edge, is_around_block });
         }
         surfaces
@@ -85,9 +86,17 @@ impl StreetNetwork {
 
     /// The blocks: for each face its rings (m), the outer one counter-clockwise first, inside of the sidewalks.
     pub fn blocks(&self, options: SurfaceOptions) -> Vec<Rings<DVec2>> {
+        let rings = self.blocks_at(options, &StreetProfiles::default());
+        rings.into_iter().map(|rings| rings.iter().map(|ring| flat(ring)).collect()).collect()
+    }
+
+    /// The same, at the heights of `profiles`.
+    pub fn blocks_at(&self, options: SurfaceOptions, profiles: &StreetProfiles) -> Vec<Vec<Vec<DVec3>>> {
+        let shapes = StreetShapes::new(self, options.turning);
         let ring = |way: &[Course]| {
-            let [_, mut edge] = self.edges_of(way, options);
-            without_repeats(&mut edge);
+            let sides = sides(&shapes, profiles, way);
+            let mut edge: Vec<DVec3> = sides.into_iter().map(|(_, edge)| edge).collect();
+            without_repeats(&mut edge, |a, b| is_same(a.truncate(), b.truncate()));
             edge
         };
         let faces = self.faces().into_iter();
@@ -95,140 +104,82 @@ impl StreetNetwork {
             .map(|face| std::iter::once(&face.around).chain(&face.islands).map(|way| ring(way)).collect())
             .collect()
     }
+}
 
-    /// The width (m) of the carriageway of a piece.
-    pub fn carriageway(&self, piece: PieceId, options: SurfaceOptions) -> f64 {
-        2.0 * (self.half(piece) - self.sidewalk(piece, options))
+fn flat(ring: &[DVec3]) -> Vec<DVec2> {
+    ring.iter().map(|at| at.truncate()).collect()
+}
+
+/// What lies between the ends of the streets at a junction: triangles around its middle.
+fn junction_surface(
+    shapes: &StreetShapes<'_>,
+    profiles: &StreetProfiles,
+    junction: JunctionId,
+) -> Option<StreetSurface> {
+    let shape = shapes.junction(junction);
+    if shape.arms.is_empty() || shape.is_mitred {
+        return None;
     }
-
-    /// How far (m) from one of its junctions the carriageway of a piece begins, behind all corners.
-    pub fn begins(&self, junction: JunctionId, piece: PieceId, options: SurfaceOptions) -> f64 {
-        self.arm_reach(junction, piece, options)
+    let mut outline = Vec::new();
+    for (index, arm) in shape.arms.iter().enumerate() {
+        let half = arm.arm.aside(StreetLine::Kerb);
+        outline.extend([-half, half].map(|aside| shapes.end(junction, arm.piece, aside)));
+        outline.extend(shapes.corner(junction, index, StreetLine::Kerb));
     }
+    without_repeats(&mut outline, is_same);
+    let middle = match &shape.arms[..] {
+        // The end of a street is half a circle, whose center lies on its edge.
+        [arm] => shapes.network.at(junction) - arm.arm.way * (arm.arm.aside(StreetLine::Kerb) / 4.0),
+        _ => shapes.network.at(junction),
+    };
+    let height = profiles.junction(junction);
+    let points = std::iter::once(middle).chain(outline.iter().copied()).map(|at| at.extend(height)).collect();
+    #[allow(clippy::cast_possible_truncation, reason = "some dozens of points")]
+    let count = outline.len() as u32;
+    let triangles = (0..count).map(|index| [0, 1 + index, 1 + (index + 1) % count]).collect();
+    Some(StreetSurface { points, triangles, piece: None })
+}
 
-    /// The width (m) of the sidewalks of a piece.
-    fn sidewalk(&self, _: PieceId, options: SurfaceOptions) -> f64 {
-        // Corners are round by one circle for both streets, so all sidewalks are as wide as the narrowest street lets them.
-        options.sidewalk.min(self.narrowest() / 2.0 * 0.45)
-    }
-
-    /// The corners of a junction, each from an arm to the next one counter-clockwise.
-    fn corners_at(&self, junction: JunctionId, options: SurfaceOptions) -> SmallVec<[(PieceId, Corner); 6]> {
-        let arms = self.corner_arms(junction);
-        if let [(piece, arm)] = arms[..] {
-            // The circle leaves the other end of the piece its corners, and its own circle.
-            let far = self.across(piece, junction);
-            let room = match self.junctions[far as usize].degree() {
-                1 => self.length(piece) * 0.45,
-                _ => (self.length(piece) - self.reach_at(far, piece)) * 0.9,
-            };
-            let radius = options.turning.min(room.hypot(arm.half));
-            return SmallVec::from_iter([(piece, Corner::around(arm, radius))]);
-        }
-        let next = |index: usize| arms[(index + 1) % arms.len()].1;
-        let corners = arms.iter().enumerate().map(|(index, (piece, arm))| {
-            let pair: [Arm; 2] = [*arm, next(index)];
-            (*piece, Corner::new(pair, self.constraints.corner))
-        });
-        corners.collect()
-    }
-
-    /// How far (m) from a junction the carriageway of one of its pieces begins.
-    fn arm_reach(&self, junction: JunctionId, piece: PieceId, options: SurfaceOptions) -> f64 {
-        let corners = self.corners_at(junction, options);
-        let Some(index) = corners.iter().position(|(arm, _)| *arm == piece) else { return 0.0 };
-        let before = (index + corners.len() - 1) % corners.len();
-        corners[index].1.reaches[0].max(corners[before].1.reaches[1])
-    }
-
-    /// Where the kerbs of a piece end at one of its junctions (m): on the right and on the left as it leaves.
-    fn piece_end(&self, junction: JunctionId, piece: PieceId, options: SurfaceOptions) -> [DVec2; 2] {
-        let corners = self.corners_at(junction, options);
-        let (at, inside) = (self.at(junction), self.sidewalk(piece, options));
-        if is_mitred(&corners)
-            && let Some(index) = corners.iter().position(|(arm, _)| *arm == piece)
-        {
-            return [1 - index, index].map(|corner| at + corners[corner].1.points(inside)[0]);
-        }
-        let way = self.leaves(piece, junction);
-        let aside = way.perp() * (self.half(piece) - inside);
-        let start = at + way * self.arm_reach(junction, piece, options);
-        [start - aside, start + aside]
-    }
-
-    fn junction_surface(&self, junction: JunctionId, options: SurfaceOptions) -> Option<Carriageway> {
-        let corners = self.corners_at(junction, options);
-        if corners.is_empty() || is_mitred(&corners) {
-            return None;
-        }
-        let middle = self.at(junction);
-        let mut outline = Vec::new();
-        for (piece, corner) in &corners {
-            let inside = self.sidewalk(*piece, options);
-            let half = self.half(*piece) - inside;
-            let way = self.leaves(*piece, junction);
-            let reach = self.arm_reach(junction, *piece, options);
-            outline.extend([-1.0, 1.0].map(|side| middle + way * reach + way.perp() * half * side));
-            outline.extend(corner.points(inside).into_iter().map(|at| middle + at));
-        }
-        without_repeats(&mut outline);
-        let middle = match corners[..] {
-            // The end of a street is half a circle, whose center lies on its edge.
-            [(piece, _)] => middle - self.leaves(piece, junction) * (self.half(piece) / 4.0),
-            _ => middle,
+/// The kerb around a way and the edge of what lies on its left, place by place.
+fn sides(shapes: &StreetShapes<'_>, profiles: &StreetProfiles, way: &[Course]) -> Vec<(DVec3, DVec3)> {
+    let network = shapes.network;
+    let mut pairs: Vec<(DVec2, DVec2, f64)> = Vec::new();
+    for course in way {
+        let (piece, from, to) = (course.piece, course.from, network.across(course.piece, course.from));
+        let arm = network.attributes(piece).arm(DVec2::ZERO);
+        let [kerb, edge] = [StreetLine::Kerb, StreetLine::Edge].map(|line| arm.aside(line));
+        // The face is on the left of the course.
+        let end = |junction, sign: f64| {
+            let [kerb, edge] = [kerb, edge].map(|aside| shapes.end(junction, piece, sign * aside));
+            (kerb, edge, profiles.junction(junction))
         };
-        Some(Carriageway { outline, middle, piece: None })
-    }
-
-    /// The kerb around a way, and the edge of what lies on its left.
-    fn edges_of(&self, way: &[Course], options: SurfaceOptions) -> [Vec<DVec2>; 2] {
-        let mut lines = [Vec::new(), Vec::new()];
-        for course in way {
-            let (piece, to) = (course.piece, self.across(course.piece, course.from));
-            let (from_at, to_at) = (self.at(course.from), self.at(to));
-            let along = (to_at - from_at).normalize_or_zero();
-            let [start, end] = [course.from, to].map(|junction| {
-                let corners = self.corners_at(junction, options);
-                (!is_mitred(&corners)).then(|| self.arm_reach(junction, piece, options))
-            });
-            let inside = self.sidewalk(piece, options);
-            // The face is on the left of the course, and the corner at its end leads from the next course to it.
-            let corners = self.corners_at(to, options);
-            let corner = corners.iter().position(|(arm, _)| *arm == piece).map(|index| {
-                let before = (index + corners.len() - 1) % corners.len();
-                corners[before].1
-            });
-            for (line, inside) in lines.iter_mut().zip([inside, 0.0]) {
-                let aside = along.perp() * (self.half(piece) - inside);
-                line.extend(start.map(|start| from_at + along * start + aside));
-                line.extend(end.map(|end| to_at - along * end + aside));
-                if let Some(corner) = &corner {
-                    line.extend(corner.points(inside).into_iter().rev().map(|at| to_at + at));
-                }
-            }
+        pairs.push(end(from, 1.0));
+        let (rows, _) = alongs_of(shapes, profiles, piece);
+        let [start, stop] = network.line(piece);
+        let (along, aside) = ((stop - start).normalize_or_zero(), network.leaves(piece, from).perp());
+        let between = |at: &f64| {
+            let middle = start + along * *at;
+            (middle + aside * kerb, middle + aside * edge, profiles.along(piece, *at))
+        };
+        if network.ends(piece)[0] == from {
+            pairs.extend(rows.iter().map(between));
+        } else {
+            pairs.extend(rows.iter().rev().map(between));
         }
-        let [kerb, edge] = lines;
-        // A pair is left out where both of its places repeat the pair before.
-        let mut pairs: Vec<(DVec2, DVec2)> = kerb.into_iter().zip(edge).collect();
-        let same =
-            |a: &(DVec2, DVec2), b: &(DVec2, DVec2)| a.0.distance(b.0) < 1e-6 && a.1.distance(b.1) < 1e-6;
-        pairs.dedup_by(|a, b| same(a, b));
-        while pairs.len() > 1 && same(&pairs[0], &pairs[pairs.len() - 1]) {
-            pairs.pop();
+        pairs.push(end(to, -1.0));
+        // The corner at its end leads from the next course to it.
+        let arms = &shapes.junction(to).arms;
+        if let (Some(index), false) =
+            (arms.iter().position(|arm| arm.piece == piece), shapes.junction(to).is_mitred)
+        {
+            let before = (index + arms.len() - 1) % arms.len();
+            let [kerb, edge] =
+                [StreetLine::Kerb, StreetLine::Edge].map(|line| shapes.corner(to, before, line));
+            let height = profiles.junction(to);
+            pairs.extend(kerb.into_iter().zip(edge).rev().map(|(kerb, edge)| (kerb, edge, height)));
         }
-        let (kerb, edge) = pairs.into_iter().unzip();
-        [kerb, edge]
     }
-}
-
-/// Whether a street only turns a little at a junction, where its pieces meet without a surface between them.
-fn is_mitred(corners: &[(PieceId, Corner)]) -> bool {
-    corners.len() == 2 && corners.iter().all(|(_, corner)| corner.is_sharp())
-}
-
-fn without_repeats(ring: &mut Vec<DVec2>) {
-    ring.dedup_by(|a, b| a.distance(*b) < 1e-6);
-    while ring.len() > 1 && ring[0].distance(ring[ring.len() - 1]) < 1e-6 {
-        ring.pop();
-    }
+    // A pair is left out where both of its places repeat the pair before.
+    without_repeats(&mut pairs, |a, b| is_same(a.0, b.0) && is_same(a.1, b.1));
+    pairs.into_iter().map(|(kerb, edge, height)| (kerb.extend(height), edge.extend(height))).collect()
 }

@@ -17,6 +17,22 @@ impl TestNumbers {
     }
 }
 
+/// The kinds of streets of a network that is grown from a seed.
+pub(crate) fn kind_of(seed: u64, depth: u32) -> StreetKind {
+    StreetKind::of(&kinds(seed), depth)
+}
+
+/// By depth.
+pub(crate) fn kinds(seed: u64) -> [StreetKind; 2] {
+    let kind = |width, sidewalk, median| StreetKind { width, sidewalk, median, ..StreetKind::default() };
+    match seed % 4 {
+        0 => [kind(18.0, 2.5, 0.0), kind(11.0, 2.5, 0.0)],
+        1 => [kind(24.0, 4.0, 2.5), kind(11.0, 1.5, 0.0)],
+        2 => [kind(18.0, 5.5, 0.0), kind(18.0, 2.0, 1.2)],
+        _ => [kind(20.0, 3.0, 3.0), kind(16.0, 0.0, 0.0)],
+    }
+}
+
 /// A network that grows from its tips, with side streets, until `size` pieces.
 pub(crate) fn grown(seed: u64, size: usize, constraints: Constraints, obstacles: Obstacles) -> StreetNetwork {
     let mut random = TestNumbers(seed.wrapping_mul(0x9E37_79B9_7F4A_7C15) + 1);
@@ -31,8 +47,7 @@ pub(crate) fn grown(seed: u64, size: usize, constraints: Constraints, obstacles:
         let heading = heading + random.below(20.0) - 10.0;
         let length = 60.0 + random.below(60.0);
         let to = network.at(from) + DVec2::from_angle(heading.to_radians()) * length;
-        let width = if depth == 0 { 18.0 } else { 11.0 };
-        let growth = network.grow(from, to, StreetAttributes { width, depth, class: 0 }).expect("room");
+        let growth = network.grow(from, to, kind_of(seed, depth).attributes(depth)).expect("room");
         if matches!(growth.fate, Fate::Built | Fate::Bent | Fate::Shortened) {
             tips.push_back((growth.end, heading, depth));
             for side in [-90.0, 90.0] {
@@ -110,53 +125,4 @@ fn the_same_proposals_give_the_same_network() {
     let lines =
         |network: &StreetNetwork| network.pieces().map(|(id, _)| network.line(id)).collect::<Vec<_>>();
     assert_eq!(lines(&a), lines(&b));
-}
-
-fn twice_area(ring: &[DVec2]) -> f64 {
-    let Some(first) = ring.first() else { return 0.0 };
-    ring.iter().zip(ring.iter().cycle().skip(1)).map(|(a, b)| (*a - *first).perp_dot(*b - *first)).sum()
-}
-
-/// Asserts that surfaces neither overlap nor leave anything open: their areas add up to those of the faces, no triangle
-/// turns the other way, and every edge of a carriageway is that of another surface too.
-fn check_surfaces(network: &StreetNetwork, options: SurfaceOptions) {
-    let surfaces = network.surfaces(options);
-    let mut streets = 0.0;
-    for part in &surfaces.carriageways {
-        for (a, b) in part.outline.iter().zip(part.outline.iter().cycle().skip(1)) {
-            let twice = (*a - part.middle).perp_dot(*b - part.middle);
-            assert!(twice > 1e-6, "a triangle of {twice} at {} {a} {b}", part.middle);
-            streets += twice / 2.0;
-        }
-    }
-    let mut walks = 0.0;
-    let mut inside = 0.0;
-    for walk in &surfaces.sidewalks {
-        assert_eq!(walk.kerb.len(), walk.edge.len());
-        for index in 0..walk.kerb.len() {
-            let next = (index + 1) % walk.kerb.len();
-            let band = [walk.kerb[index], walk.kerb[next], walk.edge[next], walk.edge[index]];
-            let twice = twice_area(&band);
-            assert!(twice > -1e-6, "a band of {twice} at {band:?}");
-            walks += twice / 2.0;
-        }
-        let area = twice_area(&walk.edge) / 2.0;
-        assert!(!walk.is_around_block || area > 0.0, "a block of {area}");
-        inside += area;
-    }
-    // Blocks count with their areas, and what lies around networks with that of the networks, negative.
-    let all = streets + walks + inside;
-    assert!(all.abs() < 1e-6 * streets.max(1.0), "{streets} + {walks} + {inside} = {all}");
-}
-
-#[test]
-fn surfaces_fill_the_plane_without_overlaps() {
-    for seed in 1..=20 {
-        let mut network = grown(seed, 200, Constraints::default(), Obstacles::default());
-        for turning in [0.0, 11.0] {
-            check_surfaces(&network, SurfaceOptions { turning, ..SurfaceOptions::default() });
-        }
-        network.join_dead_ends(DeadEndOptions::default());
-        check_surfaces(&network, SurfaceOptions::default());
-    }
 }

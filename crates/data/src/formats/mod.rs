@@ -3,6 +3,7 @@
 //! A program that is built without the feature `data` has `absent` in its place, which says so.
 
 mod blob;
+pub(crate) mod condition;
 mod flatgeobuf;
 mod geopackage;
 pub(crate) mod geotiff;

@@ -70,7 +70,7 @@ pub(super) fn open_ends(network: &StreetNetwork) -> Value {
             ("junction", number(end)),
             ("place", place(network.at(end))),
             ("heading", Value::Number((-way).to_angle().to_degrees())),
-            ("depth", Value::Number(f64::from(network.piece(piece).attributes.depth))),
+            ("depth", Value::Number(f64::from(network.attributes(piece).depth))),
         ])
     });
     ends.collect::<Vec<_>>().into_value()

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use burgeon_base::error::{Error, Result};
+use burgeon_base::error::Result;
 use burgeon_base::warning::{Warning, WarningKind};
 use burgeon_kit::{Expectation, Field, Lines, Parameter, Table, Value, fields};
 use burgeon_streets::{ExistingLosses, ExistingStreet, StreetAttributes, StreetNetwork};
@@ -16,8 +16,6 @@ pub struct ExistingLines {
     /// Its depth, as that of streets that grow: 0 for a main street.
     #[default(0)]
     pub depth: u32,
-    /// Width (m) from edge to edge of its sidewalks; that of its depth if it is left out.
-    pub width: Option<f64>,
     /// Whether it leads over or under others, and has no junction where it crosses them.
     pub bridge: bool,
 }
@@ -49,20 +47,14 @@ pub(super) fn add(
     network: &mut StreetNetwork,
     existing: &[ExistingLines],
     attributes: impl Fn(u32) -> StreetAttributes,
-) -> Result<Option<Warning>> {
+) -> Option<Warning> {
     let mut streets = Vec::new();
     let mut refused = 0;
-    for ExistingLines { lines, depth, width, bridge } in existing {
-        let usual = attributes(*depth);
-        let width = width.unwrap_or(usual.width);
-        if !(2.0..=200.0).contains(&width) {
-            return Err(Error::argument(format!("network: existing: a street is {width} m wide"))
-                .help("streets are 2 to 200 m wide: widths = { ... } says what those of a depth are"));
-        }
+    for ExistingLines { lines, depth, bridge } in existing {
         refused += lines.refused.as_ref().map_or(0, |(count, _)| *count);
         streets.extend(lines.lines.iter().map(|line| ExistingStreet {
             line: line.iter().copied().map(DVec3::truncate).collect(),
-            attributes: StreetAttributes { width, ..usual },
+            attributes: attributes(*depth),
             is_bridge: *bridge,
         }));
     }
@@ -79,9 +71,9 @@ pub(super) fn add(
         .filter(|(count, _)| *count > 0)
         .map(|(count, what)| format!("{count} {what}"))
         .collect();
-    Ok((!losses.is_empty()).then(|| {
+    (!losses.is_empty()).then(|| {
         let text = format!("network: existing: left out {} of its pieces", losses.join(", "));
         Warning::new(WarningKind::Data, text)
             .help("the rest is a network; mend the data, or leave them out of the list")
-    }))
+    })
 }

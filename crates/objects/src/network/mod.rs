@@ -3,6 +3,8 @@
 mod answers;
 mod draw;
 mod existing;
+mod kinds;
+mod lots;
 mod object;
 mod walk;
 

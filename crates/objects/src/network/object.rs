@@ -3,20 +3,20 @@
 use glam::DVec2;
 use rustc_hash::FxHashMap;
 
+use super::answers;
+use super::existing::{self, ExistingLines};
+use super::kinds::StreetOptions;
+use super::lots::{BlockRecords, LotRecords, LotSettings};
+use super::walk::NetworkWalk;
 use burgeon_base::error::{Error, Limit, Result};
 use burgeon_base::warning::{Warning, WarningKind};
-use burgeon_data::Geometry;
 use burgeon_geometry::{Plan, Rings};
-use burgeon_kit::{Color, Value, Vector, fields, methods, object};
+use burgeon_kit::{Color, TableOf, Value, Vector, fields, methods, object};
 use burgeon_scene::Scene;
 use burgeon_streets::{
     Constraints, DeadEndOptions, Fate, JunctionId, Obstacle, Obstacles, StreetAttributes, StreetGrowth,
-    StreetNetwork, SurfaceOptions,
+    StreetKind, StreetNetwork, SurfaceOptions,
 };
-
-use super::answers;
-use super::existing::{self, ExistingLines};
-use super::walk::NetworkWalk;
 
 /// What `network(...)` takes.
 #[fields("network")]
@@ -24,9 +24,9 @@ pub struct NetworkOptions {
     /// Where streets begin (m): junctions 1, 2, 3 and so on.
     #[default(vec![Vector(glam::DVec3::ZERO)])]
     pub starts: Vec<Vector>,
-    /// Widths of streets (m) from edge to edge of their sidewalks, by depth from 0 on; the last one holds for all that are deeper.
-    #[default(vec![20.0, 14.0, 11.0])]
-    pub widths: Vec<f64>,
+    /// The kinds of streets, by depth from 0 on; the last one holds for all that are deeper.
+    #[default([20.0, 14.0, 11.0].map(StreetOptions::of_width).to_vec())]
+    pub streets: Vec<StreetOptions>,
     /// How near (m) the end of a street comes to a junction or another street before it joins that.
     #[default(25.0)]
     pub snap: f64,
@@ -65,9 +65,6 @@ pub struct NetworkOptions {
     /// The most pieces of streets.
     #[default(400_000)]
     pub most: u32,
-    /// Width (m) of sidewalks.
-    #[default(2.5)]
-    pub sidewalk: f64,
     /// Height (m) of kerbs.
     #[default(0.14)]
     pub kerb: f64,
@@ -105,6 +102,8 @@ pub struct NetworkOptions {
 )]
 pub struct Network {
     pub(super) options: NetworkOptions,
+    /// By depth.
+    pub(super) kinds: Vec<StreetKind>,
     pub(super) network: StreetNetwork,
     /// What became of what was proposed in the last pass, by junction and heading.
     growths: FxHashMap<(u32, u64), StreetGrowth>,
@@ -238,10 +237,17 @@ impl Network {
         self.network.nearest(place.0.truncate()).map_or(f64::INFINITY, |(_, distance)| distance)
     }
 
-    /// The blocks between the streets, inside of their sidewalks: polygons.
-    pub fn blocks(&self) -> Vec<Geometry> {
-        let blocks = self.network.blocks(self.surface_options()).into_iter();
-        blocks.map(|rings| Geometry::Polygon(rings.at_height(0.0))).collect()
+    /// The blocks between the streets, inside of their sidewalks, as features: each has an id, a geometry, its area (m²) and the
+    /// least depth of the streets around it (street_depth).
+    pub fn blocks(&self) -> BlockRecords {
+        self.block_records()
+    }
+
+    /// Divides blocks into lots with a front on a street, as features: each has an id, a geometry, its area (m²), its front (a
+    /// line) and all its fronts, its width along the front and its depth behind it (m), whether it is a corner, its access (a place
+    /// on the front), where it is facing (degrees), its use, its block, and the depth and width of its street.
+    pub fn lots(&self, options: Option<TableOf<LotSettings>>) -> Result<LotRecords> {
+        self.lot_records(&options.unwrap_or_default().read()?)
     }
 
     /// How many dead ends there are.
@@ -253,15 +259,15 @@ impl Network {
 impl Network {
     /// The network that a script describes; fails if its fields contradict one another.
     pub fn new(options: NetworkOptions) -> Result<Self> {
-        if options.widths.is_empty() || options.widths.iter().any(|width| !(2.0..=200.0).contains(width)) {
-            return Err(Error::argument("network: widths must be one or more numbers from 2 to 200")
-                .help("write widths = { 20, 14 }"));
+        let kinds: Vec<StreetKind> = options.streets.iter().map(StreetOptions::kind).collect();
+        if kinds.is_empty() {
+            return Err(Error::argument("network: streets has no kind of street")
+                .help("write streets = { { width = 20 }, { width = 14 } }"));
         }
-        for (name, value, most) in [
-            ("sidewalk", options.sidewalk, 50.0),
-            ("kerb", options.kerb, 2.0),
-            ("turning", options.turning, 100.0),
-        ] {
+        for (number, kind) in (1..).zip(&kinds) {
+            kind.check().map_err(|error| error.about(&format!("network: streets: kind {number}")))?;
+        }
+        for (name, value, most) in [("kerb", options.kerb, 2.0), ("turning", options.turning, 100.0)] {
             if !(0.0..=most).contains(&value) {
                 return Err(Error::argument(format!(
                     "network: {name} must be from 0 to {most}, not {value}"
@@ -281,9 +287,9 @@ impl Network {
         };
         let mut warnings = Vec::new();
         let mut areas = Vec::new();
-        let kinds = [(&options.obstacles, false, false), (&options.water, false, true)];
+        let area_kinds = [(&options.obstacles, false, false), (&options.water, false, true)];
         let limit: Vec<Rings> = options.limit.iter().cloned().collect();
-        for (rings, is_limit, can_be_bridged) in kinds.into_iter().chain([(&limit, true, false)]) {
+        for (rings, is_limit, can_be_bridged) in area_kinds.into_iter().chain([(&limit, true, false)]) {
             for rings in rings {
                 match Plan::new(rings) {
                     Ok(plan) => areas.push(Obstacle { area: plan.flat(), is_limit, can_be_bridged }),
@@ -302,8 +308,8 @@ impl Network {
             network.begin(start.0.truncate()).map_err(|error| error.about("network: starts"))?;
         }
         warnings.extend(existing::add(&mut network, &options.existing, |depth| {
-            attributes(&options.widths, depth)
-        })?);
+            StreetKind::of(&kinds, depth).attributes(depth)
+        }));
         if network.size() > options.most as usize {
             let text = format!("network: existing has {} pieces of streets", network.size());
             let help =
@@ -311,7 +317,7 @@ impl Network {
             return Err(Error::limit(Limit::Size, text).help(help));
         }
         let walk = NetworkWalk::default();
-        Ok(Self { options, network, growths: FxHashMap::default(), walk, warnings, is_told: false })
+        Ok(Self { options, kinds, network, growths: FxHashMap::default(), walk, warnings, is_told: false })
     }
 
     /// The junction with this number, which counts from 1.
@@ -326,11 +332,11 @@ impl Network {
     }
 
     fn attributes(&self, depth: u32) -> StreetAttributes {
-        attributes(&self.options.widths, depth)
+        StreetKind::of(&self.kinds, depth).attributes(depth)
     }
 
     pub(super) fn surface_options(&self) -> SurfaceOptions {
-        SurfaceOptions { sidewalk: self.options.sidewalk, turning: self.options.turning }
+        SurfaceOptions { turning: self.options.turning }
     }
 
     /// Where a street begins and ends that a script proposes by `method`.
@@ -389,11 +395,6 @@ impl Network {
     fn drain_warnings(&mut self) -> Vec<Warning> {
         std::mem::take(&mut self.warnings)
     }
-}
-
-/// What streets of a depth are.
-fn attributes(widths: &[f64], depth: u32) -> StreetAttributes {
-    StreetAttributes { width: widths[(depth as usize).min(widths.len() - 1)], depth, class: 0 }
 }
 
 /// How dead ends are joined, as a script gave it to `method`.

@@ -1,0 +1,229 @@
+//! Blocks and lots as scripts get them: features, to be the source of a system.
+
+use std::sync::Arc;
+
+use burgeon_base::error::{Error, Result};
+use burgeon_base::text::listed;
+use burgeon_data::Geometry;
+use burgeon_geometry::Rings;
+use burgeon_kit::rules::ModuleKey;
+use burgeon_kit::{Answer, Expectation, Parameter, Seed, Table, TableKey, Value, fields};
+use burgeon_streets::{Block, Lot, LotOptions, LotPattern, LotUse, PieceId, StreetNetwork};
+use glam::{DVec2, DVec3};
+use rayon::prelude::*;
+
+use super::Network;
+
+/// What `network:lots` takes.
+#[fields("network:lots")]
+pub struct LotSettings {
+    /// How blocks are divided: "boxes", by cuts across them, again and again; "strips", along the streets around a court; or
+    /// "skeleton", along the streets without one.
+    #[default("boxes".into())]
+    pub kind: String,
+    /// How wide (m) lots usually are along the street.
+    #[default(18.0)]
+    pub width: f64,
+    /// How deep (m) they usually are behind the street.
+    #[default(28.0)]
+    pub depth: f64,
+    /// The least front (m) of a lot; half of the width if it is left out.
+    pub min_width: Option<f64>,
+    /// The area (m²) above which a lot is divided; 1.4 times the width by the depth if it is left out.
+    pub area: Option<f64>,
+    /// The least area (m²); 0.3 times the width by the depth if it is left out.
+    pub min_area: Option<f64>,
+    /// How many times a lot may be as long as wide.
+    #[default(4.0)]
+    pub elongation: f64,
+    /// How much sizes vary: from 0, not at all, to 1.
+    #[default(0.3)]
+    pub jitter: f64,
+    /// The share of the blocks that are parks, from 0 to 1.
+    #[default(0.0)]
+    pub parks: f64,
+    /// What to divide: blocks of network:blocks(), features or polygons; all blocks of the network if it is left out.
+    pub blocks: Option<Vec<BlockArea>>,
+    /// How near (m) to a street an edge of such an area is to be on it. Where there are no streets, all edges are on one.
+    #[default(6.0)]
+    pub reach: f64,
+    /// Whether parks, courts and what is too small for a building are given too.
+    #[default(false)]
+    pub all: bool,
+    /// What random numbers come from, with the id of each block.
+    #[default(Seed(0))]
+    pub seed: Seed,
+}
+
+/// An area to divide: a polygon, and its name if it is a feature.
+#[derive(Debug, Clone)]
+pub struct BlockArea {
+    id: Option<String>,
+    rings: Rings,
+}
+
+impl Parameter for BlockArea {
+    fn luau() -> String {
+        "Geometry | { [string]: any }".into()
+    }
+
+    fn from_value(value: Value) -> Result<Self, Expectation> {
+        if let Value::Table(table) = &value
+            && let Some(geometry) = table.get("geometry")
+        {
+            let id = match table.get("id") {
+                Some(Value::Text(id)) => Some(id.to_string()),
+                Some(Value::Number(id)) => Some(Value::Number(*id).to_string()),
+                _ => None,
+            };
+            return Ok(Self { id, rings: Rings::from_value(geometry.clone())? });
+        }
+        Ok(Self { id: None, rings: Rings::from_value(value)? })
+    }
+
+    fn into_value(self) -> Value {
+        let id = self.id.map_or(Value::Nil, |id| Value::Text(id.into()));
+        record([("id", id), ("geometry", polygon(&flat(&self.rings)))])
+    }
+}
+
+/// Blocks as scripts get them.
+pub struct BlockRecords(Vec<Value>);
+
+impl Answer for BlockRecords {
+    fn luau() -> String {
+        "{ { id: string, geometry: Geometry, area: number, street_depth: number? } }".into()
+    }
+
+    fn answer(self) -> Result<Value> {
+        Ok(self.0.into_value())
+    }
+}
+
+/// Lots as scripts get them.
+pub struct LotRecords(Vec<Value>);
+
+impl Answer for LotRecords {
+    fn luau() -> String {
+        "{ { id: string, geometry: Geometry, use: string, area: number, width: number, depth: number, front: Geometry, \
+         fronts: { Geometry }, front_length: number, corner: boolean, access: Vector, facing: number, block: string, \
+         street_depth: number?, street_width: number? } }"
+            .into()
+    }
+
+    fn answer(self) -> Result<Value> {
+        Ok(self.0.into_value())
+    }
+}
+
+impl LotSettings {
+    fn options(&self) -> Result<LotOptions> {
+        let known = LotPattern::ALL.iter().find(|(name, _)| *name == self.kind);
+        let Some((_, pattern)) = known else {
+            let names = || LotPattern::ALL.iter().map(|(name, _)| *name);
+            let message = format!("there is no kind of lots called {:?}", self.kind);
+            return Err(Error::not_found("kind", &self.kind, names(), message)
+                .help(format!("it is one of {}", listed(names()))));
+        };
+        let usual = LotOptions::new(self.width, self.depth);
+        let options = LotOptions {
+            pattern: *pattern,
+            min_width: self.min_width.unwrap_or(usual.min_width),
+            area: self.area.unwrap_or(usual.area),
+            min_area: self.min_area.unwrap_or(usual.min_area),
+            elongation: self.elongation,
+            jitter: self.jitter,
+            parks: self.parks,
+            ..usual
+        };
+        options.check()?;
+        Ok(options)
+    }
+}
+
+impl Network {
+    pub(super) fn block_records(&self) -> BlockRecords {
+        let blocks = self.network.lot_blocks(self.surface_options());
+        BlockRecords(blocks.iter().map(|block| self.block_record(block)).collect())
+    }
+
+    pub(super) fn lot_records(&self, settings: &LotSettings) -> Result<LotRecords> {
+        let options = settings.options().map_err(|error| error.about("network:lots"))?;
+        let blocks = match &settings.blocks {
+            None => self.network.lot_blocks(self.surface_options()),
+            Some(areas) => {
+                let block = |area: &BlockArea| {
+                    self.network.block(area.id.as_deref(), &flat(&area.rings), settings.reach)
+                };
+                areas.iter().filter_map(block).collect()
+            }
+        };
+        let divided = blocks.par_iter().map(|block| {
+            let mut stream = ModuleKey::seed(settings.seed.0).feature(&block.id).stream();
+            let mut lots = block.divide(&options, &mut || stream.uniform());
+            lots.retain(|lot| settings.all || lot.purpose == LotUse::Building);
+            lots.iter().map(|lot| self.lot_record(block, lot)).collect::<Vec<_>>()
+        });
+        Ok(LotRecords(divided.flatten().collect()))
+    }
+
+    fn block_record(&self, block: &Block) -> Value {
+        let area = block.rings.iter().map(|ring| area(ring)).sum::<f64>();
+        let pieces = block.sides.iter().filter_map(|side| side.piece);
+        let depth = pieces.map(|piece| depth_of(&self.network, piece)).min();
+        record([
+            ("id", Value::Text(block.id.as_str().into())),
+            ("geometry", polygon(&block.rings)),
+            ("area", Value::Number(area)),
+            ("street_depth", depth.map_or(Value::Nil, |depth| Value::Number(f64::from(depth)))),
+        ])
+    }
+
+    fn lot_record(&self, block: &Block, lot: &Lot) -> Value {
+        let line = |points: &[DVec2]| Geometry::Line(points.iter().map(|at| at.extend(0.0)).collect());
+        let number = |value: Option<f64>| value.map_or(Value::Nil, Value::Number);
+        let front = lot.fronts.first();
+        let attributes = lot.piece.map(|piece| self.network.attributes(piece));
+        let fronts: Vec<Geometry> = lot.fronts.iter().map(|front| line(front)).collect();
+        record([
+            ("id", Value::Text(format!("{}/{}", block.id, lot.number).into())),
+            ("geometry", polygon(&lot.rings)),
+            ("use", Value::Text(lot.purpose.name().into())),
+            ("area", Value::Number(lot.area)),
+            ("width", Value::Number(lot.width)),
+            ("depth", Value::Number(lot.depth)),
+            ("front", front.map_or(Value::Nil, |front| line(front).into_value())),
+            ("fronts", fronts.into_value()),
+            ("front_length", Value::Number(lot.front_length)),
+            ("corner", Value::Boolean(lot.is_corner)),
+            ("access", front.map_or(Value::Nil, |_| lot.access.extend(0.0).into_value())),
+            ("facing", number(front.map(|_| lot.facing.to_angle().to_degrees()))),
+            ("block", Value::Text(block.id.as_str().into())),
+            ("street_depth", number(attributes.map(|street| f64::from(street.depth)))),
+            ("street_width", number(attributes.map(|street| street.width))),
+        ])
+    }
+}
+
+fn depth_of(network: &StreetNetwork, piece: PieceId) -> u32 {
+    network.attributes(piece).depth
+}
+
+fn record<const COUNT: usize>(entries: [(&str, Value); COUNT]) -> Value {
+    let there = entries.into_iter().filter(|(_, value)| !matches!(value, Value::Nil));
+    let entries = there.map(|(name, value)| (TableKey::Name(name.into()), value)).collect();
+    Value::Table(Arc::new(Table { class: None, entries }))
+}
+
+fn polygon(rings: &Rings<DVec2>) -> Value {
+    Geometry::Polygon(rings.at_height(0.0)).into_value()
+}
+
+fn flat(rings: &Rings) -> Rings<DVec2> {
+    rings.iter().map(|ring| ring.iter().copied().map(DVec3::truncate).collect()).collect()
+}
+
+fn area(ring: &[DVec2]) -> f64 {
+    let Some(from) = ring.first() else { return 0.0 };
+    ring.windows(2).map(|pair| (pair[0] - *from).perp_dot(pair[1] - *from)).sum::<f64>() / 2.0
+}

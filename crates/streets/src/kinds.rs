@@ -1,0 +1,197 @@
+//! Kinds of streets: what lies across them, in metres.
+
+use burgeon_base::error::{Error, Result};
+
+use crate::network::StreetAttributes;
+
+/// The least width (m) of a lane.
+const LEAST_LANE: f64 = 2.0;
+/// Up to this width (m) a carriageway has one lane, if it is not told.
+const ONE_LANE: f64 = 4.6;
+/// The width (m) that two or more lanes get, if their number is not told.
+const USUAL_LANE: f64 = 3.2;
+/// The least width (m) of a sidewalk that trees or lamps stand on.
+const LEAST_VERGE: f64 = 1.0;
+
+/// What a street is made of.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct StreetKind {
+    /// Width (m) from one outer edge of the sidewalks to the other.
+    pub width: f64,
+    /// Width (m) of the sidewalk on each side.
+    pub sidewalk: f64,
+    /// The number of lanes for both directions; as many as fit, if it is not given.
+    pub lanes: Option<u32>,
+    /// Width (m) of the raised strip between the two directions; 0 for none.
+    pub median: f64,
+    /// Width (m) of the parking strip on each side; 0 for none.
+    pub parking: f64,
+    /// Distance (m) of trees along each side; 0 for none.
+    pub trees: f64,
+    /// Distance (m) of lamps along each side; 0 for none.
+    pub lamps: f64,
+}
+
+impl Default for StreetKind {
+    fn default() -> Self {
+        Self { width: 12.0, sidewalk: 2.5, lanes: None, median: 0.0, parking: 0.0, trees: 0.0, lamps: 0.0 }
+    }
+}
+
+impl StreetKind {
+    /// The kind of streets of a depth: the last one holds for all that are deeper.
+    pub fn of(kinds: &[Self], depth: u32) -> Self {
+        let last = kinds.len().saturating_sub(1);
+        kinds.get((depth as usize).min(last)).copied().unwrap_or_default()
+    }
+
+    /// What streets of this kind are in a network.
+    pub fn attributes(&self, depth: u32) -> StreetAttributes {
+        let Self { width, sidewalk, median, .. } = *self;
+        StreetAttributes { width, sidewalk, median, depth, class: 0 }
+    }
+
+    /// Width (m) between the kerbs.
+    pub fn carriageway(&self) -> f64 {
+        self.width - 2.0 * self.sidewalk
+    }
+
+    /// Width (m) that lanes have together.
+    fn driven(&self) -> f64 {
+        self.carriageway() - self.median - 2.0 * self.parking
+    }
+
+    /// The number of lanes for both directions.
+    pub fn lanes(&self) -> u32 {
+        self.lanes.unwrap_or_else(|| {
+            let driven = self.driven();
+            if driven < ONE_LANE && self.median == 0.0 {
+                return 1;
+            }
+            #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "at most some dozens")]
+            let pairs = (driven / 2.0 / USUAL_LANE).floor() as u32;
+            2 * pairs.max(1)
+        })
+    }
+
+    /// Fails if its parts do not fit, and names the field.
+    pub fn check(&self) -> Result<()> {
+        let named = [
+            ("width", self.width, 2.0, 200.0),
+            ("sidewalk", self.sidewalk, 0.0, 50.0),
+            ("median", self.median, 0.0, 100.0),
+            ("parking", self.parking, 0.0, 20.0),
+        ];
+        for (name, value, least, most) in named {
+            if !(least..=most).contains(&value) {
+                return Err(Error::argument(format!("{name} must be from {least} to {most} m, not {value}")));
+            }
+        }
+        for (name, value) in [("trees", self.trees), ("lamps", self.lamps)] {
+            if value != 0.0 && !(1.0..=1000.0).contains(&value) {
+                return Err(Error::argument(format!("{name} must be from 1 to 1000 m, not {value}"))
+                    .help("that is their distance along the street; 0 for none"));
+            }
+            if value > 0.0 && self.sidewalk < LEAST_VERGE {
+                return Err(Error::argument(format!(
+                    "{name} need a sidewalk of {LEAST_VERGE} m, and this one has {}",
+                    self.sidewalk
+                ))
+                .help("give a greater sidewalk, or leave them out"));
+            }
+        }
+        let Self { width, sidewalk, median, parking, .. } = *self;
+        let carriageway = self.carriageway();
+        if carriageway < LEAST_LANE {
+            return Err(Error::argument(format!(
+                "sidewalk = {sidewalk} on both sides leaves {carriageway:.2} m of width = {width} for the carriageway"
+            ))
+            .help(format!("leave at least {LEAST_LANE} m between the sidewalks")));
+        }
+        if self.median > 0.0 && self.median > carriageway - 2.0 * LEAST_LANE {
+            return Err(Error::argument(format!(
+                "median = {median} does not fit into a carriageway of {carriageway:.2} m"
+            ))
+            .help(format!("leave at least {LEAST_LANE} m for a lane on each side of it")));
+        }
+        let driven = self.driven();
+        if driven < LEAST_LANE {
+            return Err(Error::argument(format!(
+                "parking = {parking} on both sides leaves {driven:.2} m of a carriageway of {carriageway:.2} m"
+            ))
+            .help(format!("leave at least {LEAST_LANE} m between the parking strips")));
+        }
+        if self.lanes == Some(0) || self.lanes.is_some_and(|lanes| lanes > 24) {
+            return Err(Error::argument(format!("lanes must be from 1 to 24, not {}", self.lanes())));
+        }
+        if self.median > 0.0 && self.lanes() % 2 == 1 {
+            return Err(Error::argument(format!(
+                "lanes = {} cannot be divided by a median into two directions",
+                self.lanes()
+            ))
+            .help("give an even number of lanes, or leave the median out"));
+        }
+        let lane = driven / f64::from(self.lanes());
+        if lane < LEAST_LANE - 1e-9 {
+            let most = (driven / LEAST_LANE + 1e-9).floor();
+            return Err(Error::argument(format!(
+                "lanes = {} does not fit: {driven:.2} m is left for them, {lane:.2} m for each",
+                self.lanes()
+            ))
+            .help(format!("{most} fit, each at least {LEAST_LANE} m wide")));
+        }
+        Ok(())
+    }
+
+    /// The lines along a street.
+    pub(crate) fn lines(&self) -> Vec<LaneLine> {
+        let mut lines = Vec::new();
+        let mut line =
+            |aside: f64, width: f64, dash: Option<[f64; 2]>| lines.push(LaneLine { aside, width, dash });
+        let curb = self.carriageway() / 2.0 - self.parking;
+        let lanes = self.lanes();
+        let wide = self.driven() / f64::from(lanes);
+        let middle = lanes.div_ceil(2);
+        for boundary in 1..lanes {
+            let at = -curb + wide * f64::from(boundary) + if boundary > middle { self.median } else { 0.0 };
+            match boundary {
+                _ if boundary != middle => line(at, 0.12, Some([3.0, 6.0])),
+                _ if self.median > 0.0 => {}
+                _ if lanes == 2 => line(at, 0.12, Some([3.0, 3.0])),
+                _ => [-0.13, 0.13].into_iter().for_each(|aside| line(at + aside, 0.12, None)),
+            }
+        }
+        for side in [-1.0, 1.0] {
+            if self.median > 0.0 {
+                line(side * (self.median / 2.0 + 0.3), 0.12, None);
+            }
+            if self.parking > 0.0 {
+                line(side * curb, 0.1, None);
+            } else if lanes > 2 {
+                line(side * (curb - 0.35), 0.12, None);
+            }
+        }
+        lines
+    }
+
+    /// How far (m) to the left of its middle, on the side of those who come, the lanes begin and end.
+    pub(crate) fn left_lanes(&self) -> [f64; 2] {
+        let curb = self.carriageway() / 2.0 - self.parking;
+        let lanes = self.lanes();
+        let wide = self.driven() / f64::from(lanes);
+        // With an odd number the greater part goes out, to the right.
+        let begin = if self.median > 0.0 { self.median / 2.0 } else { curb - wide * f64::from(lanes / 2) };
+        [begin, curb]
+    }
+}
+
+/// A painted line along a street.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct LaneLine {
+    /// How far (m) to the left of the middle it is.
+    pub(crate) aside: f64,
+    /// m.
+    pub(crate) width: f64,
+    /// The lengths (m) of its dashes and of the gaps between; none if it is solid.
+    pub(crate) dash: Option<[f64; 2]>,
+}

@@ -1,0 +1,212 @@
+//! Blocks: what streets enclose, or areas of data, with the streets that they are on.
+
+use glam::DVec2;
+
+use super::fine::{self, FinePlace};
+use crate::network::{PieceId, StreetNetwork};
+use crate::surface::SurfaceOptions;
+use burgeon_geometry::{Plan, Polygon, Rings};
+
+/// A street turns by more than this (degrees) where another side of a block begins.
+const TURN: f64 = 35.0;
+/// A side does not turn away from its first edge by more than this (degrees).
+const BEND: f64 = 55.0;
+
+/// A side of a block: edges that follow one another along a street.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct BlockSide {
+    /// The piece of a street that most of it is on; none if nobody knows.
+    pub piece: Option<PieceId>,
+    /// Its length (m).
+    pub length: f64,
+}
+
+/// An area to divide into lots.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Block {
+    /// What it is called, wherever it stands in a list: the metres of its middle, unless it has a name.
+    pub id: String,
+    /// Its rings (m), the outer one first, counter-clockwise.
+    pub rings: Rings<DVec2>,
+    /// Its sides on streets.
+    pub sides: Vec<BlockSide>,
+    /// For each edge of each ring, the side that it is on.
+    pub(crate) edge_sides: Vec<Vec<Option<u32>>>,
+    /// For each edge of each ring, the piece of a street that it is on.
+    edge_pieces: Vec<Vec<Option<PieceId>>>,
+}
+
+impl Block {
+    /// The piece of a street that a place on one of its sides is on.
+    pub(super) fn piece_at(&self, side: u32, place: DVec2) -> Option<PieceId> {
+        let mut best = (f64::INFINITY, None);
+        for (ring, (sides, pieces)) in self.rings.iter().zip(self.edge_sides.iter().zip(&self.edge_pieces)) {
+            for (edge, (known, piece)) in burgeon_geometry::planar::edges(ring).zip(sides.iter().zip(pieces))
+            {
+                if *known == Some(side) {
+                    let (distance, _) = crate::grid::foot(place, edge);
+                    if distance < best.0 {
+                        best = (distance, *piece);
+                    }
+                }
+            }
+        }
+        best.1
+    }
+}
+
+/// What an edge is on.
+#[derive(Clone, Copy)]
+struct EdgeStreet {
+    piece: Option<PieceId>,
+    way: DVec2,
+}
+
+impl StreetNetwork {
+    /// The areas between the sidewalks, each with its sides on streets. Faces of which nothing is left are none.
+    pub fn lot_blocks(&self, options: SurfaceOptions) -> Vec<Block> {
+        let rings = self.blocks(options).into_iter();
+        let mut blocks: Vec<Block> =
+            rings.filter_map(|rings| self.block(None, &rings, f64::INFINITY)).collect();
+        // One around another may have the same middle.
+        let mut known = rustc_hash::FxHashMap::<String, u32>::default();
+        for block in &mut blocks {
+            let count = known.entry(block.id.clone()).or_default();
+            *count += 1;
+            if *count > 1 {
+                block.id = format!("{}#{count}", block.id);
+            }
+        }
+        blocks
+    }
+
+    /// The block that rings (m) enclose, whose edges within `reach` (m) of a street are on it; all are, if there are no
+    /// streets. Rings that meet are repaired; `None` if they enclose nothing.
+    pub fn block(&self, id: Option<&str>, rings: &Rings<DVec2>, reach: f64) -> Option<Block> {
+        let polygon = enclosed(rings)?;
+        let rings = Rings::from(&polygon);
+        let id = match id {
+            Some(id) => id.to_owned(),
+            None => {
+                let middle = middle(&polygon);
+                format!("{:.0}:{:.0}", middle.x + 0.0, middle.y + 0.0)
+                    .replace("-0:", "0:")
+                    .replace(":-0", ":0")
+            }
+        };
+        let mut sides = Vec::new();
+        let mut edge_pieces = Vec::new();
+        let edge_sides = rings.iter().enumerate();
+        let edge_sides = edge_sides
+            .map(|(number, ring)| {
+                let streets: Vec<Option<EdgeStreet>> = burgeon_geometry::planar::edges(ring)
+                    .map(|edge| {
+                        if self.size() > 0 {
+                            return self.street_beside(edge, reach);
+                        }
+                        // Nobody knows of streets in a courtyard.
+                        let way = (edge[1] - edge[0]).normalize_or_zero();
+                        (number == 0).then_some(EdgeStreet { piece: None, way })
+                    })
+                    .collect();
+                edge_pieces
+                    .push(streets.iter().map(|street| street.and_then(|street| street.piece)).collect());
+                sides_of(ring, &streets, &mut sides)
+            })
+            .collect();
+        Some(Block { id, rings, sides, edge_sides, edge_pieces })
+    }
+
+    /// The street that an edge is on: the one whose edge is nearest to its middle.
+    fn street_beside(&self, [a, b]: [DVec2; 2], reach: f64) -> Option<EdgeStreet> {
+        let middle = (a + b) / 2.0;
+        let along = (b - a).normalize_or_zero();
+        let beyond = |piece: PieceId| {
+            let (distance, _) = crate::grid::foot(middle, self.line(piece));
+            // Of streets that are as near, it is the one that it runs along.
+            let [from, to] = self.line(piece);
+            let turned = along.perp_dot((to - from).normalize_or_zero()).abs();
+            distance - self.half(piece) + turned * 0.5
+        };
+        let margin = self.widest() / 2.0 + reach.min(30.0);
+        let near = self.pieces_near([middle, middle], margin);
+        let near =
+            near.map(|piece| (beyond(piece), piece)).min_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+        let (distance, piece) = match near {
+            Some(found) => found,
+            None => {
+                let (piece, _) = self.nearest(middle).filter(|_| reach.is_infinite())?;
+                (0.0, piece)
+            }
+        };
+        let [from, to] = self.line(piece);
+        let way = (to - from).normalize_or_zero();
+        let way = if way.dot(along) < 0.0 { -way } else { way };
+        (distance <= reach + 0.5).then_some(EdgeStreet { piece: Some(piece), way })
+    }
+}
+
+/// What rings enclose: themselves where they keep apart.
+fn enclosed(rings: &Rings<DVec2>) -> Option<Polygon> {
+    let polygon = Polygon::new(rings.clone()).ok();
+    let places =
+        |ring: &Vec<DVec2>| ring.iter().map(|at| FinePlace::nearest(*at)).collect::<Option<Vec<_>>>();
+    let fine: Option<Vec<Vec<FinePlace>>> = rings.iter().map(places).collect();
+    if fine.is_some_and(|rings| fine::are_simple(&rings)) && polygon.is_some() {
+        return polygon;
+    }
+    // What runs the wrong way encloses nothing.
+    Polygon::new(Rings(vec![rings.first()?.clone()])).ok()?;
+    Some(Plan::new(&rings.at_height(0.0)).ok()?.flat())
+}
+
+/// The centre of mass (m) of what the outer ring encloses.
+fn middle(polygon: &Polygon) -> DVec2 {
+    let Some(outer) = polygon.outer() else { return DVec2::ZERO };
+    let from = outer[0];
+    let (mut sum, mut area) = (DVec2::ZERO, 0.0);
+    for pair in outer[1..].windows(2) {
+        let [a, b] = [pair[0] - from, pair[1] - from];
+        let twice = a.perp_dot(b);
+        sum += (a + b) * twice / 3.0;
+        area += twice;
+    }
+    from + sum / area
+}
+
+/// Joins edges on streets to sides; gives for each edge its side.
+fn sides_of(ring: &[DVec2], streets: &[Option<EdgeStreet>], sides: &mut Vec<BlockSide>) -> Vec<Option<u32>> {
+    let count = ring.len();
+    let length = |index: usize| ring[index].distance(ring[(index + 1) % count]);
+    let turn = |a: DVec2, b: DVec2| a.angle_to(b).abs().to_degrees();
+    let breaks = |index: usize| {
+        let (before, here) = (streets[(index + count - 1) % count], streets[index]);
+        match (before, here) {
+            (Some(before), Some(here)) => turn(before.way, here.way) > TURN,
+            _ => true,
+        }
+    };
+    let start = (0..count).find(|index| breaks(*index)).unwrap_or(0);
+    let mut found = vec![None; count];
+    let mut first = DVec2::ZERO;
+    // The longest edge of the present side, whose street is the side's.
+    let mut longest = 0.0;
+    for offset in 0..count {
+        let index = (start + offset) % count;
+        let Some(street) = streets[index] else { continue };
+        if offset == 0 || breaks(index) || turn(first, street.way) > BEND || sides.is_empty() {
+            sides.push(BlockSide { piece: street.piece, length: 0.0 });
+            first = street.way;
+            longest = 0.0;
+        }
+        let number = sides.len() - 1;
+        let side = &mut sides[number];
+        side.length += length(index);
+        if length(index) > longest {
+            longest = length(index);
+            side.piece = street.piece;
+        }
+        found[index] = u32::try_from(number).ok();
+    }
+    found
+}

@@ -1,0 +1,79 @@
+//! Lots by boxes: a cell is cut across the smallest box around it, again and again.
+//!
+//! Method: C. Vanegas and others, "Procedural generation of parcels in urban modeling", 2012, with the difference that a
+//! cut is only made where all that comes of it is good.
+
+use super::divide::Division;
+use super::partition::{CellId, CellRings, Cut};
+
+/// Where along a box a cut is tried, in turn.
+const SHARES: [f64; 5] = [0.5, 0.42, 0.58, 0.33, 0.67];
+
+impl Division<'_> {
+    /// Divides a cell and what comes of it, until all are small enough or cannot be cut.
+    pub(super) fn by_boxes(&mut self, cell: CellId) {
+        let mut due = vec![cell];
+        while let Some(cell) = due.pop() {
+            let rings = self.partition.rings(cell).to_vec();
+            if self.partition.area(&rings) <= self.options.area {
+                continue;
+            }
+            let found = self.across_box(cell, &rings).or_else(|| self.behind_front(cell, &rings));
+            if let Some(cut) = found {
+                let pieces = self.partition.commit(cut);
+                due.extend(pieces.into_iter().rev());
+            }
+        }
+    }
+
+    /// The cut across the box of a cell, or else along it, of which all pieces are good.
+    fn across_box(&mut self, cell: CellId, rings: &CellRings) -> Option<Cut> {
+        let around = self.partition.box_around(rings)?;
+        let jitter = (self.draw() - 0.5) * self.options.jitter;
+        let axes = [(around.along, around.size.x), (around.along.perp(), around.size.y)];
+        for (axis, length) in axes {
+            for share in SHARES {
+                let place = around.middle + axis * ((share + jitter * 0.5 - 0.5) * length);
+                let Some(cut) = self.partition.cut(cell, place, axis.perp()) else { continue };
+                if cut.pieces.iter().all(|piece| self.is_good(piece, &cut)) {
+                    return Some(cut);
+                }
+            }
+        }
+        None
+    }
+
+    /// The cut that leaves lots of the usual depth along the front, and a court behind them.
+    fn behind_front(&mut self, cell: CellId, rings: &CellRings) -> Option<Cut> {
+        let fronts = self.partition.fronts(rings, None);
+        let front = fronts.iter().max_by(|a, b| a.length.total_cmp(&b.length))?;
+        let way = front.way();
+        let inwards = way.perp();
+        let reach = super::measure::extent(self.partition.outline(rings), inwards)[1];
+        let start = super::measure::extent(front.points.iter().copied(), inwards)[1];
+        let depth = self.options.depth * (1.0 + (self.draw() - 0.5) * self.options.jitter);
+        if reach - start < depth * 1.6 {
+            return None;
+        }
+        let at = front.points[0] + inwards * (start + depth - front.points[0].dot(inwards));
+        let cut = self.partition.cut(cell, at, way)?;
+        let is_good = |piece: &CellRings| {
+            self.is_good(piece, &cut)
+                || (self.partition.fronts(piece, Some(&cut)).is_empty()
+                    && self.partition.area(piece) >= self.options.min_area)
+        };
+        let has_lot = cut.pieces.iter().any(|piece| self.is_good(piece, &cut));
+        (has_lot && cut.pieces.iter().all(is_good)).then_some(cut)
+    }
+
+    /// Whether a piece can be a lot.
+    fn is_good(&self, piece: &CellRings, cut: &Cut) -> bool {
+        let long = |around: super::measure::CellBox| {
+            around.elongation() <= self.options.elongation && around.size.y >= self.options.min_width
+        };
+        self.partition.area(piece) >= self.options.min_area
+            && piece.len() == 1
+            && self.has_access(piece, Some(cut))
+            && self.partition.box_around(piece).is_some_and(long)
+    }
+}

@@ -1,0 +1,198 @@
+//! A block that is being divided, and the lots that come of it.
+
+use glam::DVec2;
+
+use super::block::Block;
+use super::measure::{FrontRun, extent};
+use super::options::{LotOptions, LotPattern};
+use super::partition::{CellId, CornerId, Cut, Partition};
+use crate::network::PieceId;
+use burgeon_geometry::Rings;
+
+/// What a part of a block is for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum LotUse {
+    /// To be built on: it has access from a street.
+    Building,
+    /// A whole block without buildings.
+    Park,
+    /// Behind the lots, without access from a street.
+    Court,
+    /// Too small for a building, or without access.
+    Rest,
+}
+
+impl LotUse {
+    /// Its name in scripts.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Building => "building",
+            Self::Park => "park",
+            Self::Court => "court",
+            Self::Rest => "rest",
+        }
+    }
+}
+
+/// A part of a block.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Lot {
+    /// Which one of its block, from 1.
+    pub number: usize,
+    /// What it is for.
+    pub purpose: LotUse,
+    /// Its rings (m), the outer one counter-clockwise. They share their corners with those of its neighbours.
+    pub rings: Rings<DVec2>,
+    /// Its area (m²).
+    pub area: f64,
+    /// Where it is on streets (m), with the lot on the left: its front first.
+    pub fronts: Vec<Vec<DVec2>>,
+    /// The length (m) of its front.
+    pub front_length: f64,
+    /// The piece of a street that its front is on.
+    pub piece: Option<PieceId>,
+    /// The middle of its front (m).
+    pub access: DVec2,
+    /// The direction from its front to the street.
+    pub facing: DVec2,
+    /// How far it reaches (m) along its front.
+    pub width: f64,
+    /// How far it reaches (m) behind its front.
+    pub depth: f64,
+    /// Whether it is on two streets, or where one turns.
+    pub is_corner: bool,
+}
+
+/// A block on its way to lots.
+pub(super) struct Division<'a> {
+    pub(super) partition: Partition,
+    pub(super) options: &'a LotOptions,
+    random: &'a mut dyn FnMut() -> f64,
+}
+
+impl Block {
+    /// Divides it. `random` draws numbers from 0 to 1; all that is drawn is drawn here, so that a stream of the block's own
+    /// makes its lots independent of all others.
+    ///
+    /// The lots are disjoint and fill the block; those to be built on have a front of at least the least width.
+    pub fn divide(&self, options: &LotOptions, random: &mut dyn FnMut() -> f64) -> Vec<Lot> {
+        let is_park = random() < options.parks;
+        let Some(partition) = Partition::new(&self.rings, &self.edge_sides) else { return Vec::new() };
+        let mut division = Division { partition, options, random };
+        if is_park {
+            let rings = division.partition.rings(0).to_vec();
+            return vec![division.lot(self, &rings, 1, Some(LotUse::Park))];
+        }
+        match options.pattern {
+            LotPattern::Boxes => division.by_boxes(0),
+            LotPattern::Strips | LotPattern::Skeleton => {
+                // What has no skeleton on the grid is divided all the same.
+                if division.by_strips(self).is_none() {
+                    division.by_boxes(0);
+                }
+            }
+        }
+        division.merge_courts();
+        division.merge_small();
+        division.lots(self)
+    }
+}
+
+impl Division<'_> {
+    pub(super) fn draw(&mut self) -> f64 {
+        (self.random)()
+    }
+
+    /// Whether a piece has a front of at least the least width.
+    pub(super) fn has_access(&self, piece: &[Vec<CornerId>], cut: Option<&Cut>) -> bool {
+        self.partition.fronts(piece, cut).iter().any(|front| front.length >= self.options.min_width)
+    }
+
+    /// Joins neighbours without any access.
+    fn merge_courts(&mut self) {
+        let is_court = |division: &Self, cell: CellId| {
+            let rings = division.partition.rings(cell);
+            !rings.is_empty() && division.partition.fronts(rings, None).is_empty()
+        };
+        let mut due: Vec<CellId> = self.partition.cells().map(|(cell, _)| cell).collect();
+        while let Some(cell) = due.pop() {
+            if !is_court(self, cell) {
+                continue;
+            }
+            let mut others = self.partition.neighbors(cell);
+            others.retain(|(other, _)| is_court(self, *other));
+            let joined = others.into_iter().find_map(|(other, _)| self.partition.join(cell, other));
+            due.extend(joined);
+        }
+    }
+
+    /// Joins what can neither be a lot nor a court to the neighbour with the longest border to it.
+    fn merge_small(&mut self) {
+        let is_fine = |division: &Self, rings: &[Vec<CornerId>]| {
+            let fronts = division.partition.fronts(rings, None);
+            let area = division.partition.area(rings);
+            match division.purpose(rings, &fronts, area) {
+                LotUse::Court => area >= division.options.min_area * 0.5,
+                purpose => purpose == LotUse::Building,
+            }
+        };
+        let mut due: Vec<CellId> = self.partition.cells().map(|(cell, _)| cell).collect();
+        due.reverse();
+        while let Some(cell) = due.pop() {
+            let rings = self.partition.rings(cell);
+            if rings.is_empty() || is_fine(self, rings) {
+                continue;
+            }
+            let mut others = self.partition.neighbors(cell);
+            others.sort_by(|a, b| b.1.total_cmp(&a.1));
+            let joined = others.into_iter().find_map(|(other, _)| self.partition.join(cell, other));
+            due.extend(joined);
+        }
+    }
+
+    fn lots(&self, block: &Block) -> Vec<Lot> {
+        let cells = (1..).zip(self.partition.cells());
+        cells.map(|(number, (_, rings))| self.lot(block, rings, number, None)).collect()
+    }
+
+    fn purpose(&self, rings: &[Vec<CornerId>], fronts: &[FrontRun], area: f64) -> LotUse {
+        if fronts.is_empty() {
+            return LotUse::Court;
+        }
+        let has_access = fronts.iter().any(|front| front.length >= self.options.min_width);
+        if has_access && area >= self.options.min_area && !rings.is_empty() {
+            LotUse::Building
+        } else {
+            LotUse::Rest
+        }
+    }
+
+    fn lot(&self, block: &Block, rings: &[Vec<CornerId>], number: usize, purpose: Option<LotUse>) -> Lot {
+        let mut fronts = self.partition.fronts(rings, None);
+        fronts.sort_by(|a, b| b.length.total_cmp(&a.length));
+        let area = self.partition.area(rings);
+        let purpose = purpose.unwrap_or_else(|| self.purpose(rings, &fronts, area));
+        let way = fronts.first().map_or(DVec2::X, FrontRun::way);
+        let [along, behind] = [way, way.perp()].map(|axis| {
+            let [low, high] = extent(self.partition.outline(rings), axis);
+            high - low
+        });
+        let long = self.options.min_width * 0.5;
+        let is_corner = fronts.get(1).is_some_and(|second| second.length >= long);
+        let first = fronts.first();
+        Lot {
+            number,
+            purpose,
+            rings: rings.iter().map(|ring| ring.iter().map(|at| self.partition.at(*at)).collect()).collect(),
+            area,
+            front_length: first.map_or(0.0, |front| front.length),
+            piece: first.and_then(|front| block.piece_at(front.side, front.middle())),
+            access: first.map_or(DVec2::ZERO, FrontRun::middle),
+            facing: -way.perp(),
+            width: along,
+            depth: behind,
+            is_corner,
+            fronts: fronts.into_iter().map(|front| front.points).collect(),
+        }
+    }
+}

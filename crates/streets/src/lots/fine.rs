@@ -1,0 +1,110 @@
+//! Places on a grid of about a micrometre, on which the borders of lots are decided exactly.
+
+use glam::DVec2;
+
+use crate::grid::FARTHEST;
+
+/// How many steps of the grid are a metre: 2^20.
+const PER_METRE: f64 = 1_048_576.0;
+
+/// A place on the grid. Its metres are exact in 64 bits of floating point.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub(crate) struct FinePlace {
+    x: i64,
+    y: i64,
+}
+
+impl FinePlace {
+    /// The nearest to `place` (m); `None` if that is not finite or too far from the origin.
+    pub(crate) fn nearest(place: DVec2) -> Option<Self> {
+        let within = place.is_finite() && place.abs().max_element() <= FARTHEST + 10_000.0;
+        #[allow(clippy::cast_possible_truncation, reason = "within 2^40 steps")]
+        within.then(|| {
+            let steps = (place * PER_METRE).round();
+            Self { x: steps.x as i64, y: steps.y as i64 }
+        })
+    }
+
+    /// Where it lies (m), exactly.
+    #[allow(clippy::cast_precision_loss, reason = "within 2^40 steps")]
+    pub(crate) fn metres(self) -> DVec2 {
+        DVec2::new(self.x as f64, self.y as f64) / PER_METRE
+    }
+}
+
+/// On which side of the way from `a` to `b` a place lies: 1 on the left, 0 on their line, -1 on the right.
+#[allow(clippy::cast_precision_loss, reason = "differences are within 2^41 steps")]
+pub(crate) fn side(a: FinePlace, b: FinePlace, place: FinePlace) -> i32 {
+    let [ux, uy, vx, vy] = [b.x - a.x, b.y - a.y, place.x - a.x, place.y - a.y];
+    let (left, right) = (ux as f64 * vy as f64, uy as f64 * vx as f64);
+    let turn = left - right;
+    // Each product is rounded once, and so is the difference.
+    if turn.abs() > 4.0 * f64::EPSILON * (left.abs() + right.abs()) {
+        return if turn > 0.0 { 1 } else { -1 };
+    }
+    let exact = i128::from(ux) * i128::from(vy) - i128::from(uy) * i128::from(vx);
+    i32::from(exact > 0) - i32::from(exact < 0)
+}
+
+/// Whether a place on the line of `a` and `b` is between them, or is one of them.
+fn is_between(a: FinePlace, b: FinePlace, place: FinePlace) -> bool {
+    let within = |a: i64, b: i64, at: i64| a.min(b) <= at && at <= a.max(b);
+    within(a.x, b.x, place.x) && within(a.y, b.y, place.y)
+}
+
+/// Whether two edges have a place in common that is not an end of both.
+pub(crate) fn meet([a, b]: [FinePlace; 2], [c, d]: [FinePlace; 2]) -> bool {
+    let apart = |a: i64, b: i64, c: i64, d: i64| a.max(b) < c.min(d) || c.max(d) < a.min(b);
+    if apart(a.x, b.x, c.x, d.x) || apart(a.y, b.y, c.y, d.y) {
+        return false;
+    }
+    let shared = [(a, b, c, d), (a, b, d, c), (b, a, c, d), (b, a, d, c)];
+    if let Some((end, p, _, q)) = shared.into_iter().find(|(end, _, other, _)| end == other) {
+        return side(end, p, q) == 0 && (is_between(end, p, q) || is_between(end, q, p));
+    }
+    let [of_c, of_d] = [c, d].map(|end| side(a, b, end));
+    let [of_a, of_b] = [a, b].map(|end| side(c, d, end));
+    if of_c * of_d < 0 && of_a * of_b < 0 {
+        return true;
+    }
+    (of_c == 0 && is_between(a, b, c))
+        || (of_d == 0 && is_between(a, b, d))
+        || (of_a == 0 && is_between(c, d, a))
+        || (of_b == 0 && is_between(c, d, b))
+}
+
+/// Whether a place is inside a ring, whichever way that runs; on its border the answer may be either.
+pub(crate) fn is_inside(ring: &[FinePlace], place: FinePlace) -> bool {
+    let edges = (0..ring.len()).map(|index| [ring[index], ring[(index + 1) % ring.len()]]);
+    let crossed = edges.filter(|[a, b]| {
+        let upwards = a.y <= place.y && place.y < b.y;
+        let downwards = b.y <= place.y && place.y < a.y;
+        (upwards && side(*a, *b, place) > 0) || (downwards && side(*a, *b, place) < 0)
+    });
+    crossed.count() % 2 == 1
+}
+
+/// Whether no two edges of some rings meet but at the end of both, which only neighbours in a ring have in common.
+///
+/// Method: edges from left to right, each held against those that begin before it ends.
+pub(crate) fn are_simple(rings: &[Vec<FinePlace>]) -> bool {
+    let mut edges: Vec<[FinePlace; 2]> = Vec::new();
+    let mut corners: Vec<FinePlace> = Vec::new();
+    for ring in rings {
+        if ring.len() < 3 {
+            return false;
+        }
+        edges.extend((0..ring.len()).map(|index| [ring[index], ring[(index + 1) % ring.len()]]));
+        corners.extend(ring);
+    }
+    corners.sort_unstable();
+    if corners.windows(2).any(|pair| pair[0] == pair[1]) {
+        return false;
+    }
+    edges.sort_unstable_by_key(|[a, b]| a.x.min(b.x));
+    edges.iter().enumerate().all(|(index, edge)| {
+        let right = edge[0].x.max(edge[1].x);
+        let beside = edges[index + 1..].iter().take_while(|other| other[0].x.min(other[1].x) <= right);
+        beside.into_iter().all(|other| !meet(*edge, *other))
+    })
+}

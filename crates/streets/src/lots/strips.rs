@@ -1,0 +1,236 @@
+//! Lots by strips: along each side of a block runs a strip, which is cut across; behind the strips may be a court.
+//!
+//! Method: the faces of the straight skeleton, joined for each side, give the strips; where two meet at a corner, the
+//! longer one takes what lies behind the other (C. Vanegas and others, "Procedural generation of parcels in urban
+//! modeling", 2012).
+
+use glam::DVec2;
+
+use super::block::Block;
+use super::divide::Division;
+use super::measure::FrontRun;
+use super::options::LotPattern;
+use super::partition::{CellId, CornerId};
+use burgeon_geometry::skeleton::{Pace, Skeleton};
+use burgeon_geometry::{Polygon, Rings};
+
+/// A court is at least this part of the depth of lots wide, to both sides of its middle.
+const COURT: f64 = 0.35;
+
+impl Division<'_> {
+    /// Divides a block; `None` if its skeleton cannot be had, and nothing was done.
+    pub(super) fn by_strips(&mut self, block: &Block) -> Option<()> {
+        let polygon = Polygon::new(Rings::clone(&block.rings)).ok()?;
+        let sides: Vec<Option<u32>> = block.edge_sides.iter().flatten().copied().collect();
+        let paces: Vec<Pace> =
+            sides.iter().map(|side| if side.is_some() { Pace::default() } else { Pace::STILL }).collect();
+        let skeleton = Skeleton::new(&polygon, &paces).ok()?;
+        let places: Vec<DVec2> = skeleton.peaks.iter().map(|peak| peak.at).collect();
+        let cells = self.partition.tile(&places, &skeleton.faces)?;
+        let depth = self.strip_depth(skeleton.duration());
+        let mut strips: Vec<Option<CellId>> = vec![None; block.sides.len()];
+        for ((cell, side), face) in cells.into_iter().zip(sides).zip(&skeleton.faces) {
+            let (Some(cell), Some(side)) = (cell, side) else { continue };
+            let ends = [face[0], face[1]].map(|corner| places[corner]);
+            let front = self.before_court(cell, ends, depth);
+            let strip = &mut strips[side as usize];
+            *strip = match *strip {
+                Some(known) => self.partition.join(known, front).or(Some(known)),
+                None => Some(front),
+            };
+        }
+        for index in 0..strips.len() {
+            self.settle_corners(&mut strips, index, block);
+        }
+        for (side, strip) in (0..).zip(strips) {
+            if let Some(strip) = strip {
+                self.slice(strip, side);
+            }
+        }
+        Some(())
+    }
+
+    /// How deep (m) strips are in a block of which every place is within `half` (m) of its border.
+    fn strip_depth(&mut self, half: f64) -> f64 {
+        let usual = match self.options.pattern {
+            LotPattern::Skeleton => self.options.width * self.options.elongation * 0.75,
+            _ => self.options.depth,
+        };
+        if half > usual * (1.0 + COURT) { usual } else { f64::INFINITY }
+    }
+
+    /// Cuts off what lies behind `depth` (m) from an edge of the block; gives what is left.
+    fn before_court(&mut self, cell: CellId, [a, b]: [DVec2; 2], depth: f64) -> CellId {
+        let way = (b - a).normalize_or_zero();
+        if !depth.is_finite() {
+            return cell;
+        }
+        let Some(cut) = self.partition.cut(cell, a + way.perp() * depth, way) else { return cell };
+        let fronts: Vec<bool> =
+            cut.pieces.iter().map(|piece| !self.partition.fronts(piece, Some(&cut)).is_empty()).collect();
+        if fronts.iter().filter(|is_front| **is_front).count() != 1 {
+            return cell;
+        }
+        let pieces = self.partition.commit(cut);
+        pieces.into_iter().zip(fronts).find(|(_, is_front)| *is_front).map_or(cell, |(piece, _)| piece)
+    }
+
+    /// Gives the corner between a strip and each one beside it to the longer of the two.
+    fn settle_corners(&mut self, strips: &mut [Option<CellId>], index: usize, block: &Block) {
+        for other in index + 1..strips.len() {
+            let (Some(a), Some(b)) = (strips[index], strips[other]) else { continue };
+            let border = self.border(a, b);
+            let (Some(first), Some(last)) = (border.first(), border.last()) else { continue };
+            // One end of the border is a corner of the block, or near one; the other is inside.
+            let ends = [*first, *last];
+            let on_front = |corner: &CornerId| self.is_on_front(*corner, a) && self.is_on_front(*corner, b);
+            let (outer, inner) = match ends.map(|end| on_front(&end)) {
+                [true, false] => (ends[0], ends[1]),
+                [false, true] => (ends[1], ends[0]),
+                _ => continue,
+            };
+            let length = |side: usize| block.sides[side].length;
+            let (winner, loser) =
+                if length(index) >= length(other) { (index, other) } else { (other, index) };
+            if let Some([joined, left]) = self.give_corner(strips, [winner, loser], [outer, inner]) {
+                strips[winner] = Some(joined);
+                strips[loser] = Some(left);
+            }
+        }
+    }
+
+    /// Cuts the loser's strip across from the inner end of the border and joins the corner to the winner's; gives both.
+    fn give_corner(
+        &mut self,
+        strips: &[Option<CellId>],
+        [winner, loser]: [usize; 2],
+        [outer, inner]: [CornerId; 2],
+    ) -> Option<[CellId; 2]> {
+        let (taker, giver) = (strips[winner]?, strips[loser]?);
+        let side = u32::try_from(loser).ok()?;
+        let fronts = self.partition.fronts(self.partition.rings(giver), None);
+        let front =
+            fronts.iter().filter(|front| front.side == side).max_by(|a, b| a.length.total_cmp(&b.length))?;
+        let place = self.partition.at(inner);
+        let (way, along) = nearest_way(front, place)?;
+        // Where the street is too short nothing would be left of the strip.
+        let from_outer = along.min(front.length - along);
+        if front.length - from_outer < self.options.min_width {
+            return None;
+        }
+        let cut = self.partition.cut(giver, place, way.perp())?;
+        if cut.pieces.len() != 2 {
+            return None;
+        }
+        let corner = cut.pieces.iter().position(|piece| piece.iter().flatten().any(|at| *at == outer))?;
+        let rest = &cut.pieces[1 - corner];
+        let is_small =
+            self.partition.area(&cut.pieces[corner]) <= self.options.depth * self.options.depth * 1.5;
+        let keeps = self.partition.fronts(rest, Some(&cut)).iter().any(|run| run.side == side);
+        if !is_small || !keeps || rest.iter().flatten().any(|at| *at == outer) {
+            return None;
+        }
+        let pieces = self.partition.commit(cut);
+        let joined = self.partition.join(taker, pieces[corner])?;
+        Some([joined, pieces[1 - corner]])
+    }
+
+    /// The corners along which two cells meet, in the order of the first one's ring; none if they meet in several places.
+    fn border(&self, a: CellId, b: CellId) -> Vec<CornerId> {
+        let mut chain: Vec<CornerId> = Vec::new();
+        for ring in self.partition.rings(a) {
+            let count = ring.len();
+            let shared = |index: usize| {
+                self.partition.beside([ring[(index + 1) % count], ring[index % count]]) == Some(b)
+            };
+            let Some(start) = (0..count).find(|index| shared(*index) && !shared(index + count - 1)) else {
+                continue;
+            };
+            let run = (start..start + count).take_while(|index| shared(*index));
+            chain.extend(
+                std::iter::once(start).chain(run.map(|index| index + 1)).map(|index| ring[index % count]),
+            );
+        }
+        chain
+    }
+
+    /// Whether a corner of a cell ends one of its edges on a street.
+    fn is_on_front(&self, corner: CornerId, cell: CellId) -> bool {
+        let edges = self.partition.rings(cell).iter().flat_map(|ring| super::partition::edges(ring));
+        edges.into_iter().any(|edge| edge.contains(&corner) && self.partition.side(edge, None).is_some())
+    }
+
+    /// Cuts a strip across into lots of about the usual width.
+    fn slice(&mut self, strip: CellId, side: u32) {
+        let own = |division: &Self, cell: CellId| -> Option<FrontRun> {
+            let fronts = division.partition.fronts(division.partition.rings(cell), None).into_iter();
+            let fronts = fronts.filter(|front| front.side == side);
+            fronts.max_by(|a, b| a.length.total_cmp(&b.length))
+        };
+        let Some(front) = own(self, strip) else { return };
+        #[allow(
+            clippy::cast_possible_truncation,
+            clippy::cast_sign_loss,
+            reason = "lengths of streets over widths"
+        )]
+        let count = (front.length / self.options.width).round().max(1.0) as usize;
+        let mut due = vec![strip];
+        for number in 1..count {
+            let jitter = (self.draw() - 0.5) * self.options.jitter;
+            for shift in [0.0, 0.2, -0.2] {
+                let place = (number as f64 + jitter + shift) / count as f64 * front.length;
+                let Some((at, way)) = point_along(&front, place) else { continue };
+                let on = due.iter().position(|cell| {
+                    own(self, *cell)
+                        .is_some_and(|front| nearest_way(&front, at).is_some_and(|_| on_run(&front, at)))
+                });
+                let Some(index) = on else { continue };
+                let Some(cut) = self.partition.cut(due[index], at, way.perp()) else { continue };
+                let is_wide = |piece: &Vec<Vec<CornerId>>| {
+                    self.has_access(piece, Some(&cut)) && self.partition.area(piece) >= self.options.min_area
+                };
+                if cut.pieces.iter().all(is_wide) {
+                    let pieces = self.partition.commit(cut);
+                    due.splice(index..=index, pieces);
+                    break;
+                }
+            }
+        }
+    }
+}
+
+/// The direction of the edge of a front that is nearest to a place, and how far (m) along the front that is.
+fn nearest_way(front: &FrontRun, place: DVec2) -> Option<(DVec2, f64)> {
+    let mut passed = 0.0;
+    let mut best: Option<(f64, DVec2, f64)> = None;
+    for pair in front.points.windows(2) {
+        let length = pair[0].distance(pair[1]);
+        if length > 0.0 {
+            let (distance, part) = crate::grid::foot(place, [pair[0], pair[1]]);
+            if best.is_none_or(|(known, ..)| distance < known) {
+                best = Some((distance, (pair[1] - pair[0]) / length, passed + part * length));
+            }
+        }
+        passed += length;
+    }
+    best.map(|(_, way, along)| (way, along))
+}
+
+/// The place (m) so far along a front, and the direction there.
+fn point_along(front: &FrontRun, along: f64) -> Option<(DVec2, DVec2)> {
+    let mut left = along;
+    for pair in front.points.windows(2) {
+        let length = pair[0].distance(pair[1]);
+        if left <= length && length > 0.0 {
+            return Some((pair[0].lerp(pair[1], left / length), (pair[1] - pair[0]) / length));
+        }
+        left -= length;
+    }
+    None
+}
+
+/// Whether a place is on a front, and not at its ends.
+fn on_run(front: &FrontRun, place: DVec2) -> bool {
+    let near = |pair: &[DVec2]| crate::grid::foot(place, [pair[0], pair[1]]).0 < 1e-3;
+    front.points.windows(2).any(near)
+}

@@ -1,0 +1,309 @@
+//! The carriageway and the median of a piece: rows of places across it, and triangles from row to row.
+
+use std::f64::consts::FRAC_PI_2;
+
+use glam::{DVec2, DVec3};
+
+use crate::corner::StreetLine;
+use crate::network::PieceId;
+use crate::profile::StreetProfiles;
+use crate::shape::{ArmShape, StreetShapes};
+use crate::surface::{Median, StreetSurface};
+
+/// The chords of a quarter of the round end of a median.
+const NOSE: u32 = 4;
+/// How long (m) a median is at least, besides its round ends.
+const LEAST_MEDIAN: f64 = 4.0;
+/// How far (m) from the end of a piece a median ends, at a junction where people cross the street.
+pub(crate) const MEDIAN_MARGIN: f64 = 6.0;
+
+/// A piece as it lies between its junctions.
+pub(crate) struct PieceRows<'a> {
+    profiles: &'a StreetProfiles,
+    piece: PieceId,
+    start: DVec2,
+    way: DVec2,
+    rows: Vec<Row>,
+}
+
+/// Places (m) across a piece, on its right and on its left.
+#[derive(Debug, Clone, Copy)]
+struct Row {
+    sides: [DVec2; 2],
+    /// Those of the median, if there is one.
+    median: Option<[DVec2; 2]>,
+    height: f64,
+}
+
+/// Where the median of a piece begins or ends.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum MedianEnd {
+    /// It goes on in the next piece.
+    Through,
+    /// So far (m) along the way, round.
+    Round(f64),
+}
+
+/// From where to where there is a median in a piece; `None` without one.
+pub(crate) fn median_of(shapes: &StreetShapes<'_>, piece: PieceId) -> Option<[MedianEnd; 2]> {
+    let network = shapes.network;
+    let attributes = network.attributes(piece);
+    let (median, length) = (attributes.median, network.length(piece));
+    if median <= 0.0 {
+        return None;
+    }
+    let ends = network.ends(piece);
+    let mut found = [MedianEnd::Through; 2];
+    let mut stretch = [0.0, length];
+    for side in 0..2 {
+        let shape = shapes.junction(ends[side]);
+        let goes_on =
+            shape.arms.iter().all(|arm| (network.attributes(arm.piece).median - median).abs() < 1e-9);
+        let arm = shapes.arm(ends[side], piece)?;
+        let clear = arm.clear();
+        let from_end = if shape.is_mitred && goes_on {
+            clear
+        } else {
+            let tip = clear + if shape.arms.len() > 2 { MEDIAN_MARGIN } else { 1.0 };
+            found[side] = MedianEnd::Round(if side == 0 { tip } else { length - tip });
+            tip + median / 2.0
+        };
+        stretch[side] = if side == 0 { from_end } else { length - from_end };
+    }
+    // One that goes on has to go on for its neighbours too, so its length counts only where it ends.
+    let round = found.iter().filter(|end| **end != MedianEnd::Through).count();
+    let is_long = match round {
+        0 => true,
+        1 => stretch[1] - stretch[0] > 0.0,
+        _ => stretch[1] - stretch[0] >= LEAST_MEDIAN,
+    };
+    is_long.then_some(found)
+}
+
+/// Where along a piece (m) its rows lie, besides its ends, and from where to where its median has its full width.
+pub(crate) fn alongs_of(
+    shapes: &StreetShapes<'_>,
+    profiles: &StreetProfiles,
+    piece: PieceId,
+) -> (Vec<f64>, [f64; 2]) {
+    let network = shapes.network;
+    let (length, aside) = (network.length(piece), network.attributes(piece).median / 2.0);
+    let mut alongs: Vec<f64> = profiles.stations(piece).iter().map(|[along, _]| *along).collect();
+    // Where a median has its full width.
+    let mut stretch = [f64::INFINITY, f64::NEG_INFINITY];
+    if let Some(ends) = median_of(shapes, piece) {
+        stretch = [f64::NEG_INFINITY, f64::INFINITY];
+        for (side, end) in ends.into_iter().enumerate() {
+            if let MedianEnd::Round(tip) = end {
+                stretch[side] = if side == 0 { tip + aside } else { tip - aside };
+                alongs.push(stretch[side]);
+                // No station lies within the round end.
+                alongs.retain(|along| {
+                    let into = if side == 0 { along - tip } else { tip - along };
+                    *along == stretch[side] || !(-0.01..aside + 0.01).contains(&into)
+                });
+            }
+        }
+    }
+    alongs.sort_by(f64::total_cmp);
+    alongs.dedup_by(|a, b| (*a - *b).abs() < 1e-6);
+    let clear = network.ends(piece).map(|end| shapes.arm(end, piece).map_or(0.0, ArmShape::clear));
+    let inside = clear[0] + 1e-6..=length - clear[1] - 1e-6;
+    alongs.retain(|along| inside.contains(along));
+    (alongs, stretch)
+}
+
+impl<'a> PieceRows<'a> {
+    pub(crate) fn new(shapes: &StreetShapes<'_>, profiles: &'a StreetProfiles, piece: PieceId) -> Self {
+        let network = shapes.network;
+        let attributes = network.attributes(piece);
+        let [start, stop] = network.line(piece);
+        let way = (stop - start).normalize_or_zero();
+        let half = attributes.arm(way).aside(StreetLine::Kerb);
+        let aside = attributes.median / 2.0;
+        let ends = network.ends(piece);
+        let median = median_of(shapes, piece);
+        let (alongs, stretch) = alongs_of(shapes, profiles, piece);
+        let row = |along: f64| {
+            let at = start + way * along;
+            let across = |aside: f64| [at - way.perp() * aside, at + way.perp() * aside];
+            Row {
+                sides: across(half),
+                median: (stretch[0]..=stretch[1]).contains(&along).then(|| across(aside)),
+                height: profiles.along(piece, along),
+            }
+        };
+        let end = |side: usize| {
+            let sign = if side == 0 { 1.0 } else { -1.0 };
+            let across =
+                |aside: f64| [-aside, aside].map(|aside| shapes.end(ends[side], piece, sign * aside));
+            let through = median.is_some_and(|ends| ends[side] == MedianEnd::Through);
+            Row {
+                sides: across(half),
+                median: through.then(|| across(aside)),
+                height: profiles.junction(ends[side]),
+            }
+        };
+        let mut rows = vec![end(0)];
+        rows.extend(alongs.into_iter().map(row));
+        rows.push(end(1));
+        Self { profiles, piece, start, way, rows }
+    }
+
+    /// Where vehicles are.
+    pub(crate) fn carriageway(&self) -> StreetSurface {
+        let mut into = StreetSurface { piece: Some(self.piece), ..StreetSurface::default() };
+        for pair in self.rows.windows(2) {
+            let (from, to) = (pair[0], pair[1]);
+            let [right, left] = from.sides.map(|at| add(&mut into, at, from.height));
+            let [far_right, far_left] = to.sides.map(|at| add(&mut into, at, to.height));
+            match (from.median, to.median) {
+                (None, None) => quad(&mut into, [right, far_right, far_left, left]),
+                (Some(here), Some(there)) => {
+                    let [a, b] = here.map(|at| add(&mut into, at, from.height));
+                    let [c, d] = there.map(|at| add(&mut into, at, to.height));
+                    quad(&mut into, [right, far_right, c, a]);
+                    quad(&mut into, [b, d, far_left, left]);
+                }
+                (None, Some(there)) => {
+                    let nose = self.nose(there, -1.0, &mut into);
+                    let tip = nose.len() / 2;
+                    into.triangles.push([right, nose[tip], left]);
+                    // From the tip to the left and to the right.
+                    into.triangles.extend(nose[tip..].windows(2).map(|pair| [left, pair[0], pair[1]]));
+                    into.triangles.push([left, nose[nose.len() - 1], far_left]);
+                    into.triangles.extend(nose[..=tip].windows(2).map(|pair| [right, pair[0], pair[1]]));
+                    into.triangles.push([right, far_right, nose[0]]);
+                }
+                (Some(here), None) => {
+                    let nose = self.nose(here, 1.0, &mut into);
+                    let tip = nose.len() / 2;
+                    into.triangles.push([far_left, nose[tip], far_right]);
+                    into.triangles.extend(nose[tip..].windows(2).map(|pair| [far_left, pair[1], pair[0]]));
+                    into.triangles.push([left, nose[nose.len() - 1], far_left]);
+                    into.triangles.extend(nose[..=tip].windows(2).map(|pair| [far_right, pair[1], pair[0]]));
+                    into.triangles.push([right, far_right, nose[0]]);
+                }
+            }
+        }
+        into
+    }
+
+    /// The strip in the middle.
+    pub(crate) fn median(&self) -> Option<Median> {
+        let mut median = Median {
+            top: StreetSurface { piece: Some(self.piece), ..StreetSurface::default() },
+            kerbs: vec![],
+        };
+        let mut lines = [Vec::new(), Vec::new()];
+        let mut noses = [Vec::new(), Vec::new()];
+        for pair in self.rows.windows(2) {
+            match (pair[0].median, pair[1].median) {
+                (Some(here), Some(there)) => {
+                    let [a, b] = here.map(|at| add(&mut median.top, at, pair[0].height));
+                    let [c, d] = there.map(|at| add(&mut median.top, at, pair[1].height));
+                    quad(&mut median.top, [a, c, d, b]);
+                    if lines[0].is_empty() {
+                        lines = [0, 1].map(|side| vec![here[side].extend(pair[0].height)]);
+                    }
+                    for side in 0..2 {
+                        lines[side].push(there[side].extend(pair[1].height));
+                    }
+                }
+                (None, Some(there)) => {
+                    let nose = self.nose(there, -1.0, &mut median.top);
+                    // From the left around the tip to the right.
+                    median
+                        .top
+                        .triangles
+                        .extend((1..nose.len() - 1).map(|index| [nose[0], nose[index + 1], nose[index]]));
+                    noses[0] = nose.iter().rev().map(|at| median.top.points[*at as usize]).collect();
+                }
+                (Some(here), None) => {
+                    let nose = self.nose(here, 1.0, &mut median.top);
+                    median
+                        .top
+                        .triangles
+                        .extend((1..nose.len() - 1).map(|index| [nose[0], nose[index], nose[index + 1]]));
+                    noses[1] = nose.iter().map(|at| median.top.points[*at as usize]).collect();
+                }
+                (None, None) => {}
+            }
+        }
+        if median.top.triangles.is_empty() {
+            return None;
+        }
+        // Around it counter-clockwise: along its right, around the far end, back along its left, around the near end.
+        let [right, mut left] = lines;
+        left.reverse();
+        let [near, far] = noses;
+        let mut ring: Vec<DVec3> = Vec::new();
+        let mut open = Vec::new();
+        for (part, is_there) in [(right, true), (far.clone(), !far.is_empty()), (left, true)] {
+            if !is_there {
+                open.push(std::mem::take(&mut ring));
+            }
+            ring.extend(part);
+        }
+        if near.is_empty() {
+            open.push(ring);
+        } else {
+            ring.extend(near);
+            match open.first_mut() {
+                // It began in the middle of what the near end leads on to.
+                Some(first) => {
+                    ring.append(first);
+                    *first = ring;
+                }
+                None => {
+                    if let Some(first) = ring.first().copied() {
+                        ring.push(first);
+                    }
+                    open.push(ring);
+                }
+            }
+        }
+        for line in &mut open {
+            line.dedup_by(|a, b| a.distance(*b) < 1e-9);
+        }
+        median.kerbs = open;
+        Some(median)
+    }
+
+    /// The round end of a median whose full width two places are the ends of, from the right to the left; `ahead` tells to
+    /// which side it reaches.
+    fn nose(&self, [right, left]: [DVec2; 2], ahead: f64, into: &mut StreetSurface) -> Vec<u32> {
+        let (middle, radius) = ((right + left) / 2.0, right.distance(left) / 2.0);
+        let count = 2 * NOSE;
+        let at = |index: u32| match index {
+            0 => right,
+            _ if index == count => left,
+            _ => {
+                let angle = (f64::from(index) / f64::from(NOSE) - 1.0) * FRAC_PI_2;
+                middle + self.way * (angle.cos() * radius * ahead) + self.way.perp() * (angle.sin() * radius)
+            }
+        };
+        (0..=count)
+            .map(|index| {
+                let at = at(index);
+                let height = self.profiles.along(self.piece, (at - self.start).dot(self.way));
+                add(into, at, height)
+            })
+            .collect()
+    }
+}
+
+fn add(into: &mut StreetSurface, at: DVec2, height: f64) -> u32 {
+    let at = at.extend(height);
+    // Rows share their places with the row before.
+    let from = into.points.len().saturating_sub(2 * (2 * NOSE as usize + 1) + 8);
+    if let Some(known) = into.points[from..].iter().position(|known| *known == at) {
+        return u32::try_from(from + known).unwrap_or(u32::MAX);
+    }
+    into.points.push(at);
+    u32::try_from(into.points.len() - 1).unwrap_or(u32::MAX)
+}
+
+fn quad(into: &mut StreetSurface, [a, b, c, d]: [u32; 4]) {
+    into.triangles.extend([[a, b, c], [a, c, d]]);
+}

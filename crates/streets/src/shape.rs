@@ -1,0 +1,147 @@
+//! What streets look like at their junctions, found out once for all surfaces: corners, and where each street begins.
+
+use glam::DVec2;
+use smallvec::SmallVec;
+
+use crate::corner::{Arm, Corner, StreetLine};
+use crate::network::{JunctionId, PieceId, StreetNetwork};
+
+/// Places (m) that are nearer are one.
+const SAME: f64 = 1e-6;
+
+/// All junctions of a network, by number.
+pub(crate) struct StreetShapes<'a> {
+    pub(crate) network: &'a StreetNetwork,
+    junctions: Vec<JunctionShape>,
+}
+
+/// A junction.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct JunctionShape {
+    at: DVec2,
+    /// The streets that it joins, counter-clockwise.
+    pub(crate) arms: SmallVec<[ArmShape; 4]>,
+    /// Whether a street only turns a little here: its pieces meet without a surface between them.
+    pub(crate) is_mitred: bool,
+}
+
+/// A street at a junction.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct ArmShape {
+    pub(crate) piece: PieceId,
+    pub(crate) arm: Arm,
+    /// What lies between it and the next one counter-clockwise.
+    pub(crate) corner: Corner,
+    /// How far (m) from the junction it begins, behind its corners.
+    pub(crate) reach: f64,
+    /// How much farther (m) it begins for each metre to its left.
+    skew: f64,
+}
+
+impl ArmShape {
+    /// Behind how far (m) from the junction all of it begins.
+    pub(crate) fn clear(&self) -> f64 {
+        self.reach + self.skew.abs() * self.arm.half
+    }
+}
+
+impl<'a> StreetShapes<'a> {
+    /// The shapes of `network`; dead ends get a circle of the radius `turning` (m) as far as there is room.
+    pub(crate) fn new(network: &'a StreetNetwork, turning: f64) -> Self {
+        #[allow(clippy::cast_possible_truncation, reason = "pieces are limited far below")]
+        let count = network.junctions.len() as JunctionId;
+        let junctions = (0..count).map(|junction| JunctionShape::new(network, junction, turning)).collect();
+        Self { network, junctions }
+    }
+
+    pub(crate) fn junction(&self, junction: JunctionId) -> &JunctionShape {
+        &self.junctions[junction as usize]
+    }
+
+    /// A piece as it leaves a junction.
+    pub(crate) fn arm(&self, junction: JunctionId, piece: PieceId) -> Option<&ArmShape> {
+        self.junction(junction).arms.iter().find(|arm| arm.piece == piece)
+    }
+
+    /// Where a line of a piece ends at a junction (m), `aside` (m) to the left of its middle as it leaves.
+    pub(crate) fn end(&self, junction: JunctionId, piece: PieceId, aside: f64) -> DVec2 {
+        self.junction(junction).end(piece, aside)
+    }
+
+    /// The corner behind an arm of a junction, from that to the next one counter-clockwise.
+    pub(crate) fn corner(&self, junction: JunctionId, index: usize, line: StreetLine) -> Vec<DVec2> {
+        let shape = self.junction(junction);
+        let (arm, next) = (&shape.arms[index], &shape.arms[(index + 1) % shape.arms.len()]);
+        let mut points: Vec<DVec2> =
+            arm.corner.points(line).into_iter().map(|point| shape.at + point).collect();
+        // Where it begins and ends with its streets, all share one place.
+        let ends = [shape.end(arm.piece, arm.arm.aside(line)), shape.end(next.piece, -next.arm.aside(line))];
+        let last = points.len() - 1;
+        for (index, end) in [0, last].into_iter().zip(ends) {
+            if points[index].distance(end) < SAME {
+                points[index] = end;
+            }
+        }
+        points
+    }
+}
+
+impl JunctionShape {
+    fn new(network: &StreetNetwork, junction: JunctionId, turning: f64) -> Self {
+        let at = network.at(junction);
+        let arms = network.corner_arms(junction);
+        if let [(piece, arm)] = arms[..] {
+            // The circle leaves the other end of the piece its corners, and its own circle.
+            let far = network.across(piece, junction);
+            let room = match network.junctions[far as usize].degree() {
+                1 => network.length(piece) * 0.45,
+                _ => (network.length(piece) - network.reach_at(far, piece)) * 0.9,
+            };
+            let corner = Corner::around(arm, turning.min(room.hypot(arm.half)));
+            let arm = ArmShape { piece, arm, corner, reach: corner.reaches[0], skew: 0.0 };
+            return Self { at, arms: SmallVec::from_iter([arm]), is_mitred: false };
+        }
+        let count = arms.len();
+        let corners: SmallVec<[Corner; 4]> = (0..count)
+            .map(|index| {
+                Corner::new([arms[index].1, arms[(index + 1) % count].1], network.constraints.corner)
+            })
+            .collect();
+        let is_mitred = count == 2 && corners.iter().all(Corner::is_sharp);
+        let shapes = arms.iter().enumerate().map(|(index, &(piece, arm))| {
+            let (corner, before) = (corners[index], corners[(index + count - 1) % count]);
+            let (reach, skew) = if is_mitred {
+                (0.0, 1.0 / (corner.angle() / 2.0).tan())
+            } else {
+                (corner.reaches[0].max(before.reaches[1]), 0.0)
+            };
+            ArmShape { piece, arm, corner, reach, skew }
+        });
+        Self { at, arms: shapes.collect(), is_mitred }
+    }
+
+    fn end(&self, piece: PieceId, aside: f64) -> DVec2 {
+        // Both pieces of a mitre ask the first, so that they agree to the last digit.
+        let (arm, aside) = match &self.arms[..] {
+            [first, second] if self.is_mitred && second.piece == piece => (first, -aside),
+            arms => match arms.iter().find(|arm| arm.piece == piece) {
+                Some(arm) => (arm, aside),
+                None => return self.at,
+            },
+        };
+        self.at + arm.arm.way * (arm.reach + aside * arm.skew) + arm.arm.way.perp() * aside
+    }
+}
+
+/// Takes away points that repeat the one before, also across the end.
+pub(crate) fn without_repeats<T: Copy>(ring: &mut Vec<T>, is_same: impl Fn(T, T) -> bool) {
+    ring.dedup_by(|a, b| is_same(*a, *b));
+    while ring.len() > 1 && is_same(ring[0], ring[ring.len() - 1]) {
+        ring.pop();
+    }
+}
+
+/// Whether two places are one.
+pub(crate) fn is_same(a: DVec2, b: DVec2) -> bool {
+    a.distance(b) < SAME
+}
