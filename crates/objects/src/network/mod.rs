@@ -1,9 +1,12 @@
 //! A network of streets as scripts have it: `network` in scripts.
 
+mod answers;
 mod draw;
+mod existing;
 mod kinds;
 mod lots;
 mod object;
 mod sites;
+mod walk;
 
 pub use object::Network;
