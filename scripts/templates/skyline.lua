@@ -233,6 +233,9 @@ function skyline.box(lot: any, width: number, depth: number, front: number, side
       break
     end
     for _, away in { 0, 0.2, 0.5 } do
+      if d * width <= most then
+        break
+      end
       local y0 = back + away * d
       for _, x in { 0, 0.25 * width, -0.25 * width } do
         local left, right = free(pieces, x, y0 - margin, y0 + d + margin)
