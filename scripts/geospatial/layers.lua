@@ -52,8 +52,8 @@ local PAVEMENTS = [[
       'quad_segs=2')) as geom
     from roads where highway in ('primary', 'secondary', 'tertiary', 'unclassified', 'residential', 'service')),
   ground as (select ST_Buffer(ST_ConvexHull(ST_Collect(geom)), 10, 'quad_segs=1') as geom from buildings)
-  select ST_Intersection(c.geom, g.geom) as geom, 1 as code, 0 as level from carriageways c, ground g
-  union all select ST_Difference(g.geom, c.geom), 2, 0.15 from carriageways c, ground g]]
+  select ST_Buffer(ST_Intersection(c.geom, g.geom), -0.05, 'join=mitre') as geom, 1 as code, 0 as level from carriageways c, ground g
+  union all select ST_Buffer(ST_Difference(g.geom, c.geom), -0.05, 'join=mitre'), 2, 0.15 from carriageways c, ground g]]
 
 return {
   -- Who has not counted the floors has mostly left out those of sheds.

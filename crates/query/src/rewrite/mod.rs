@@ -5,6 +5,7 @@
 
 #[cfg(feature = "postgis")]
 mod guard;
+mod chosen;
 mod joins;
 mod nearest;
 mod operators;
@@ -17,5 +18,6 @@ mod statement;
 pub(crate) use guard::check;
 #[cfg(feature = "postgis")]
 pub(crate) use parse::placeholder_ranges;
+pub(crate) use chosen::ChosenRows;
 pub(crate) use parse::{find_word, second_statement};
 pub(crate) use statement::{Catalogue, Dialect, Rewritten, TableInfo, rewrite};
