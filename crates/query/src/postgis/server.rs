@@ -114,7 +114,13 @@ impl Server {
         config.options(&format!(
             "-c statement_timeout={limit} -c default_transaction_read_only=on -c extra_float_digits=3"
         ));
-        Self { address: address.clone(), config, idle: Mutex::default(), known: OnceLock::new(), seen: Mutex::default() }
+        Self {
+            address: address.clone(),
+            config,
+            idle: Mutex::default(),
+            known: OnceLock::new(),
+            seen: Mutex::default(),
+        }
     }
 
     /// Its address.

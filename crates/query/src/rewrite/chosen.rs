@@ -5,9 +5,9 @@ use std::ops::ControlFlow;
 
 use sqlparser::ast::{Query, SetExpr, TableFactor, VisitMut, VisitorMut};
 
+use super::Catalogue;
 use super::parse::{SyntaxTree, parse};
 use super::scope::{quoted, table};
-use super::Catalogue;
 
 /// What is seen of tables, as a statement: by their names in small letters.
 pub(crate) type ChosenRows = BTreeMap<String, String>;
@@ -28,7 +28,9 @@ impl VisitorMut for ChosenVisitor<'_> {
     type Break = ();
 
     fn post_visit_table_factor(&mut self, factor: &mut TableFactor) -> ControlFlow<()> {
-        let TableFactor::Table { name, alias, args: None, .. } = factor else { return ControlFlow::Continue(()) };
+        let TableFactor::Table { name, alias, args: None, .. } = factor else {
+            return ControlFlow::Continue(());
+        };
         let known = table(name, self.tables);
         let seen = known.and_then(|known| Some((known, self.chosen.get(&known.name.to_ascii_lowercase())?)));
         let Some((known, select)) = seen else { return ControlFlow::Continue(()) };

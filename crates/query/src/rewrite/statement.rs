@@ -3,8 +3,8 @@
 use std::collections::BTreeMap;
 use std::ops::ControlFlow;
 
-use super::parse::{SyntaxTree, parse};
 use super::chosen::{self, ChosenRows};
+use super::parse::{SyntaxTree, parse};
 use super::{joins, nearest, operators, order, scope};
 use sqlparser::ast::{Query, Select, SelectItem, SetExpr, VisitMut, VisitorMut};
 
