@@ -24,6 +24,9 @@ mod constraints;
 mod corner;
 mod dead_ends;
 mod faces;
+mod fit;
+#[cfg(test)]
+mod fit_tests;
 mod grid;
 mod grow;
 mod kinds;
@@ -40,10 +43,12 @@ mod surface;
 mod surface_tests;
 #[cfg(test)]
 mod tests;
+mod verge;
 
 pub use constraints::{Constraints, Fate, Refusal};
 pub use dead_ends::DeadEndOptions;
 pub use faces::{Course, StreetFace};
+pub use fit::{SlopeOptions, StreetFit};
 pub use grid::{FARTHEST, GridPlace};
 pub use grow::StreetGrowth;
 pub use kinds::StreetKind;
@@ -54,3 +59,4 @@ pub use network::{Junction, JunctionId, PieceId, StreetAttributes, StreetNetwork
 pub use obstacles::{Obstacle, Obstacles};
 pub use profile::StreetProfiles;
 pub use surface::{Median, Sidewalk, StreetSurface, StreetSurfaces, SurfaceOptions};
+pub use verge::{VergePlace, VergeThing};
