@@ -58,5 +58,5 @@ pub use measures::Measures;
 pub use network::{Junction, JunctionId, PieceId, StreetAttributes, StreetNetwork, StreetPiece};
 pub use obstacles::{Obstacle, Obstacles};
 pub use profile::StreetProfiles;
-pub use surface::{Median, Sidewalk, StreetSurface, StreetSurfaces, SurfaceOptions};
+pub use surface::{Median, Sidewalk, StreetFooting, StreetSurface, StreetSurfaces, SurfaceOptions};
 pub use verge::{VergePlace, VergeThing};

@@ -2,6 +2,7 @@
 
 mod draw;
 mod kinds;
+mod land;
 mod lots;
 mod object;
 
