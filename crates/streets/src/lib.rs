@@ -38,6 +38,7 @@ mod obstacles;
 mod profile;
 mod rows;
 mod shape;
+mod spans;
 mod surface;
 #[cfg(test)]
 mod surface_tests;
@@ -58,5 +59,6 @@ pub use measures::Measures;
 pub use network::{Junction, JunctionId, PieceId, StreetAttributes, StreetNetwork, StreetPiece};
 pub use obstacles::{Obstacle, Obstacles};
 pub use profile::StreetProfiles;
+pub use spans::StreetSpan;
 pub use surface::{Median, Sidewalk, StreetFooting, StreetSurface, StreetSurfaces, SurfaceOptions};
 pub use verge::{VergePlace, VergeThing};

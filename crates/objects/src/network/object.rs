@@ -11,7 +11,7 @@ use super::lots::{BlockRecords, LotRecords, LotSettings};
 use crate::Terrain;
 use burgeon_base::error::{Error, Result};
 use burgeon_base::warning::{Warning, WarningKind};
-use burgeon_geometry::{Plan, Rings};
+use burgeon_geometry::{Plan, Polygon, Rings};
 use burgeon_kit::{Color, TableOf, Vector, fields, methods, object};
 use burgeon_scene::Scene;
 use burgeon_streets::{
@@ -105,6 +105,8 @@ pub struct Network {
     /// By depth.
     pub(super) kinds: Vec<StreetKind>,
     pub(super) network: StreetNetwork,
+    /// Areas that bridges lead over.
+    pub(super) water: Arc<[Polygon]>,
     /// How high its streets lie, with the version of the network that this is of.
     pub(super) fit: OnceLock<(u64, Arc<StreetFit>)>,
     /// What became of what was proposed in the last pass, by junction and heading.
@@ -213,8 +215,8 @@ impl Network {
         self.height_at(place.0)
     }
 
-    /// Places along the streets for a "tree" or a "lamp", as far apart as the kinds of streets say: where (m), the direction
-    /// towards the street (degrees), and how often the street's way has branched off.
+    /// Places along the streets for a "tree" or a "lamp", as far apart as the kinds of streets say: features with a place (m), the
+    /// direction from there towards the street (degrees), and how often the street's way has branched off.
     pub fn verge(&self, what: String) -> Result<VergeRecords> {
         self.verge_of(&what)
     }
@@ -259,13 +261,18 @@ impl Network {
             most: options.most as usize,
         };
         let mut warnings = Vec::new();
-        let mut areas = Vec::new();
+        let (mut areas, mut waters) = (Vec::new(), Vec::new());
         let area_kinds = [(&options.obstacles, false, false), (&options.water, false, true)];
         let limit: Vec<Rings> = options.limit.iter().cloned().collect();
         for (rings, is_limit, can_be_bridged) in area_kinds.into_iter().chain([(&limit, true, false)]) {
             for rings in rings {
                 match Plan::new(rings) {
-                    Ok(plan) => areas.push(Obstacle { area: plan.flat(), is_limit, can_be_bridged }),
+                    Ok(plan) => {
+                        if can_be_bridged {
+                            waters.push(plan.flat());
+                        }
+                        areas.push(Obstacle { area: plan.flat(), is_limit, can_be_bridged });
+                    }
                     Err(error) => {
                         let text =
                             format!("network: left out an area that is no polygon: {}", error.message());
@@ -285,6 +292,7 @@ impl Network {
             kinds,
             network,
             fit: OnceLock::new(),
+            water: waters.into(),
             growths: FxHashMap::default(),
             warnings,
             is_told: false,
