@@ -14,7 +14,7 @@ use burgeon_streets::{Sidewalk, StreetSurface};
 /// How high (m) paint lies over the street.
 const PAINT: f64 = 0.02;
 /// How far (m) the sides of streets reach down into the ground.
-const SKIRT: f64 = 1.5;
+const SKIRT: f64 = 6.0;
 /// The colour of paint.
 const WHITE: Color = Color([0.78, 0.78, 0.76, 1.0]);
 
@@ -41,7 +41,7 @@ impl Network {
             draw_sidewalk(part, sidewalk, kerb);
         }
         if self.options.on.is_some() {
-            // The ground beside lies lower by what it can be off.
+            // The ground beside lies lower by what it can be off, and by more where another street is lower.
             let skirt = |pair: [DVec3; 2], part: &mut Part| {
                 upright(part, pair.map(|at| at + DVec3::Z * (kerb - SKIRT)), SKIRT);
             };

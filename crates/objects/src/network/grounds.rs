@@ -42,7 +42,7 @@ impl Network {
                     let middle = (a + b) / 2.0;
                     if outline.edges().all(|edge| distance(middle, edge) > ON) {
                         let depth = kerb - level + BANK;
-                        upright(part, [b, a].map(|at| at.extend(kerb - depth)), depth);
+                        upright(part, [a, b].map(|at| at.extend(kerb - depth)), depth);
                     }
                 }
             }
