@@ -91,7 +91,7 @@ fn the_gallery_shows_every_script_and_no_other() {
 fn quarter() -> Vec<PathBuf> {
     let mut paths = lua_files("scripts/geospatial");
     paths.retain(|path| {
-        !["details", "models", "town"].iter().any(|part| path.ends_with(format!("{part}.lua")))
+        !["details", "layers", "models", "town"].iter().any(|part| path.ends_with(format!("{part}.lua")))
     });
     paths
 }

@@ -1,45 +1,61 @@
 --!strict
 -- Prismatic buildings from nothing but their polygon, the number of floors and the kind of roof.
 -- burgeon run scripts/geospatial/buildings.lua --data examples/data -o buildings.glb
+local details = require("details")
+local layers = require("layers")
+
 local Building = module("Building", "geom", "floors", "roof")
-local Volume = module("Volume", "ring", "height", "roof")
-local Block, Gutter = module("Block", "ring", "height"), module("Gutter", "ring", "height")
-local Roof, Terrace = module("Roof", "ring", "height", "roof"), module("Terrace", "ring", "height")
+local Volume = module("Volume", "geom", "height", "roof")
+local Block, Gutter = module("Block", "geom", "height"), module("Gutter", "geom", "height")
+local Roof, Terrace = module("Roof", "geom", "height", "roof"), module("Terrace", "geom", "height")
+local Hips = module("Hips", "geom", "height")
 local Sides, Top = module("Sides", "ring", "height", "points", "faces"), module("Top", "place")
 local Pyramid = module("Pyramid", "ring", "x", "y", "height", "rise", "faces")
 
-source("quarter/buildings.geojson")
-
-local storey = param("storey", { default = 3, min = 2.4, max = 5, unit = "m", text = "How high a floor is" })
+local storey = details.storey
 local rise = param("rise", { default = 2.5, min = 0.5, max = 8, unit = "m", text = "How high roofs are" })
 
+-- Whether a polygon has no corner that leads inwards, so that a pyramid can stand on it.
+local function is_convex(geom): boolean
+  return geom:area() > 0.99 * geom:convex_hull():area()
+end
+
 local town = lsystem({ object = extruder({ smooth = false, roughness = 0.9 }) })
-town:axiom(query("select geom, floors, roof from buildings", Building))
+town:axiom(query(layers.buildings, Building))
 
 town:rule("Building(geom, floors, roof)", {
   when = function(_, _, floors)
     return floors > 0
   end,
 }, function(_, geom, floors, roof)
-  return Volume(geom:exterior_ring(), floors * storey, roof)
+  return Volume(geom, floors * storey, roof)
 end)
-town:rule("Volume(ring, height, roof)", function(_, ring, height, roof)
-  return { Block(ring, height) }, { Roof(ring, height, roof) }, { Gutter(ring, height) }
+town:rule("Volume(geom, height, roof)", function(_, geom, height, roof)
+  return { Block(geom, height) }, { Roof(geom, height, roof) }, { Gutter(geom, height) }
 end)
-town:rule("Roof(ring, height, roof)", {
+town:rule("Roof(geom, height, roof)", {
   when = function(_, _, _, roof)
     return roof == 1
   end,
-}, function(_, ring, height)
-  return Terrace(ring, height)
+}, function(_, geom, height)
+  return Terrace(geom, height)
 end)
-town:rule("Roof(ring, height, roof)", {
+town:rule("Roof(geom, height, roof)", {
+  when = function(_, geom, _, roof)
+    return roof > 1 and is_convex(geom)
+  end,
+}, function(_, geom, height)
+  local ring = geom:exterior_ring()
+  local points = ring:num_points() - 1
+  return Sides(ring, height, points, `{points},1,0`), Top(geom:centroid())
+end)
+-- Elsewhere hips lead inwards from all walls.
+town:rule("Roof(geom, height, roof)", {
   when = function(_, _, _, roof)
     return roof > 1
   end,
-}, function(_, ring, height)
-  local points = ring:num_points() - 1
-  return Sides(ring, height, points, `{points},1,0`), Top(ring:centroid())
+}, function(_, geom, height)
+  return Hips(geom, height)
 end)
 -- A triangle for each edge, from its two corners to the top, which has the number 0.
 town:rule("Sides(ring, height, points, faces)", {
@@ -57,20 +73,28 @@ town:rule("Sides(ring, height, points, faces) > Top(place)", {
   return Pyramid(ring, place:x(), place:y(), height, rise, faces)
 end)
 
-town:interpret("Block(ring, height)", function(this, ring, height)
-  this:color("#d9cfbd"):polygon(ring):jump({ 0, 0, 0 }):extrude(height)
+town:interpret("Block(geom, height)", function(this, geom, height)
+  this:color("#d9cfbd"):polygon(geom):jump({ 0, 0, 0 }):extrude(height)
 end)
-town:interpret("Gutter(ring, height)", function(this, ring, height)
-  this:color("#b8ad9a"):polygon(polygon(ring.points):buffer(0.3, { join = "mitre" }))
+town:interpret("Gutter(geom, height)", function(this, geom, height)
+  this:color("#b8ad9a"):polygon(geom:buffer(0.3, { join = "mitre" }))
   this:jump({ 0, 0, height - 0.35 }):extrude(0.3)
 end)
-town:interpret("Terrace(ring, height)", function(this, ring, height)
-  local floor = polygon(ring.points)
-  this:color("#8d8a84"):polygon(floor):jump({ 0, 0, height }):extrude(0.1)
-  local parapet = floor:difference(floor:buffer(-0.35, { join = "mitre" }))
+town:interpret("Terrace(geom, height)", function(this, geom, height)
+  this:color("#8d8a84"):polygon(geom):jump({ 0, 0, height }):extrude(0.1)
+  local parapet = geom:difference(geom:buffer(-0.35, { join = "mitre" }))
   for _, part in parapet:geometries() do
     this:color("#c9bfae"):polygon(part):jump({ 0, 0, height }):extrude(0.8)
   end
+end)
+town:interpret("Hips(geom, height)", function(this, geom, height)
+  local highest = 0
+  for _, ridge in geom:skeleton_faces() do
+    for _, corner in ridge.rings[1] do
+      highest = math.max(highest, corner[3])
+    end
+  end
+  details.roof(this:color("#a2563d"), geom, height, rise / highest)
 end)
 town:interpret("Pyramid(ring, x, y, height, rise, faces)", function(this, ring, x, y, height, rise, faces)
   local points, sides = {}, {}

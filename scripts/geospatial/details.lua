@@ -5,12 +5,52 @@ local details = {}
 details.storey =
   param("storey", { default = 3, min = 2.4, max = 5, unit = "m", text = "How high a floor is" })
 
-type Style = { wall: string, roof: string, trim: string, shutter: string, bay: number, balcony: boolean }
+type Style = {
+  wall: string,
+  roof: string,
+  trim: string,
+  shutter: string,
+  bay: number,
+  balcony: boolean,
+  slope: number,
+}
 local STYLES: { Style } = {
-  { wall = "#cdb894", roof = "#8b4a36", trim = "#e6dcc6", shutter = "#5d6f5f", bay = 3.0, balcony = false },
-  { wall = "#d8a987", roof = "#9c5540", trim = "#efe3d2", shutter = "#58677f", bay = 2.7, balcony = false },
-  { wall = "#d9d0bd", roof = "#5d666e", trim = "#efeadf", shutter = "#8d949a", bay = 2.6, balcony = true },
-  { wall = "#c9ccca", roof = "#6d6f70", trim = "#e4e5e2", shutter = "#4c5358", bay = 3.4, balcony = true },
+  {
+    wall = "#cdb894",
+    roof = "#8b4a36",
+    trim = "#e6dcc6",
+    shutter = "#5d6f5f",
+    bay = 3.0,
+    balcony = false,
+    slope = 0.75,
+  },
+  {
+    wall = "#d8a987",
+    roof = "#9c5540",
+    trim = "#efe3d2",
+    shutter = "#58677f",
+    bay = 2.7,
+    balcony = false,
+    slope = 0.8,
+  },
+  {
+    wall = "#d9d0bd",
+    roof = "#5d666e",
+    trim = "#efeadf",
+    shutter = "#8d949a",
+    bay = 2.6,
+    balcony = true,
+    slope = 0.45,
+  },
+  {
+    wall = "#c9ccca",
+    roof = "#6d6f70",
+    trim = "#e4e5e2",
+    shutter = "#4c5358",
+    bay = 3.4,
+    balcony = true,
+    slope = 0.3,
+  },
 }
 local GLASS = { color = "#49565f", roughness = 0.15, metallic = 0.2 }
 local RAIL = "#2e3033"
@@ -19,7 +59,18 @@ local function style_of(style: number): Style
   return STYLES[style] or STYLES[1]
 end
 
--- A storey for each floor, a cornice and a roof that leans inwards.
+-- A hip roof from the eaves up: a plane above each wall, which rises by `slope` for each metre that it leads inwards.
+function details.roof(this: any, geom: any, eaves: number, slope: number)
+  for _, face in geom:skeleton_faces() do
+    local corners, order = {}, {}
+    for index, at in face.rings[1] do
+      corners[index], order[index] = { at[1], at[2], eaves + at[3] * slope }, index
+    end
+    this:jump({ 0, 0, 0 }):mesh(corners, { order })
+  end
+end
+
+-- A wall around all floors, a cornice and a roof.
 function details.volume(this: any, geom: any, floors: number, style: number)
   local look, height = style_of(style), floors * details.storey
   this:color(look.wall):polygon(geom):jump({ 0, 0, 0 }):extrude(height)
@@ -28,18 +79,7 @@ function details.volume(this: any, geom: any, floors: number, style: number)
     :polygon(geom:buffer(0.3, { join = "mitre" }))
     :jump({ 0, 0, height - 0.25 })
     :extrude(0.35)
-  local low = geom
-  for step = 1, 3 do
-    local high = geom:inset(step * 0.9)
-    if high:is_empty() then
-      break
-    end
-    for _, part in high:geometries() do
-      this:color(look.roof):polygon(part):jump({ 0, 0, height }):extrude(step * 0.55 + 0.1)
-    end
-    low = high
-  end
-  return low
+  details.roof(this:color(look.roof), geom, height + 0.1, look.slope)
 end
 
 -- Windows in every floor of a wall, as many as have room; doors and shop windows on the ground.

@@ -2,6 +2,7 @@
 -- Windows and balconies on the walls with no other building within 3 m, and bare walls where neighbours stand.
 -- burgeon run scripts/geospatial/facades.lua --data examples/data -o facades.glb
 local details = require("details")
+local layers = require("layers")
 
 local Building = module("Building", "geom", "id", "floors", "style")
 local Outline = module("Outline", "line", "id", "floors", "style")
@@ -10,10 +11,8 @@ local Candidate, Zone = module("Candidate", "line", "id", "floors", "style"), mo
 local Facade, Volume =
   module("Facade", "line", "floors", "style"), module("Volume", "geom", "floors", "style")
 
-source("quarter/buildings.geojson")
-
 local town = lsystem({ object = extruder({ smooth = false, roughness = 0.9 }) })
-town:axiom(query("select geom, id, floors, style from buildings where floors > 0", Building))
+town:axiom(query(layers.buildings, Building))
 
 town:rule("Building(geom, id, floors, style)", function(_, geom, id, floors, style)
   return Volume(geom, floors, style), Outline(geom:exterior_ring(), id, floors, style), fragment(Wall)
@@ -25,10 +24,7 @@ town:rule("Wall(line, id, floors, style)", function(_, line, id, floors, style)
 end)
 town:rule("Candidate(line, id, floors, style) > Zone(geom, other)", {
   when = function(_, _, _, _, _, geom)
-    return #query(
-        "select id from buildings where id <> $id and ST_Intersects(geom, $geom)",
-        { geom = geom }
-      ) == 0
+    return #query(layers.neighbors, { geom = geom }) == 0
   end,
 }, function(_, line, _, floors, style)
   return Facade(line, floors, style)

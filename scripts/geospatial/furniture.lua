@@ -1,6 +1,7 @@
 --!strict
 -- Street furniture whose direction the data knows: benches that look away from their lawn.
 -- burgeon run scripts/geospatial/furniture.lua --data examples/data -o furniture.glb
+local layers = require("layers")
 local models = require("models")
 -- The ground on which all stands.
 require("pavements")
@@ -8,12 +9,8 @@ require("pavements")
 local Furniture = module("Furniture", "place", "code", "model", "direction")
 local Standing = module("Standing", "place", "code", "model", "direction")
 
-source("quarter/furniture.geojson")
-
 local street = lsystem({ object = extruder() })
-street:axiom(
-  query("select geom as place, code, model, direction from furniture where direction is not null", Furniture)
-)
+street:axiom(query(layers.turned, Furniture))
 street:rule("Furniture(place, code, model, direction)", function(_, place, code, model, direction)
   return Standing(place, code, model, direction)
 end)

@@ -2,6 +2,7 @@
 -- A garden laid out by nothing but its border: lawns in circles, eight ways that meet in the middle, flower beds with a
 -- tree of their own on every large lawn, and trees all over the grass.
 -- burgeon run scripts/geospatial/garden.lua --data examples/data -o garden.glb
+local layers = require("layers")
 local models = require("models")
 
 local way = param("way", { default = 4, min = 1, max = 8, unit = "m", text = "Half the width of the ways" })
@@ -13,12 +14,11 @@ local Side, Gate = module("Side", "line", "x", "y"), module("Gate", "place", "x"
 local Crossway, Radial = module("Crossway", "geom"), module("Radial", "geom")
 local Garden, FlowerCandidate = module("Garden", "geom"), module("FlowerCandidate", "geom")
 local Bed, ParkTree = module("Bed", "geom", "flowers"), module("ParkTree", "place", "species", "height")
-local Lawn, Planting = module("Lawn", "geom"), module("Planting", "geom", "count")
-
-source("quarter/parks.geojson")
+local Lawn, Grass = module("Lawn", "geom"), module("Grass", "geom")
+local Planting = module("Planting", "geom", "count")
 
 local park = lsystem({ object = extruder({ smooth = false, roughness = 1 }) })
-park:axiom(query("select geom from parks", Area))
+park:axiom(query(layers.parks, Area))
 
 park:rule("Area(geom)", function(_, geom)
   return Plan(geom, math.sqrt(geom:area() / (2 * math.pi)))
@@ -27,9 +27,9 @@ park:rule("Plan(geom, radius)", function(_, geom, radius)
   local middle = geom:centroid()
   return Lawn(geom),
     Circle(geom:difference(middle:buffer(radius))),
-    Circle(middle:buffer(radius - 8):difference(middle:buffer(radius / 2))),
+    Circle(middle:buffer(radius - 8):difference(middle:buffer(radius / 2)):intersection(geom)),
     Ways(geom:oriented_envelope(), middle:x(), middle:y()),
-    Garden(middle:buffer(radius / 4))
+    Garden(middle:buffer(radius / 4):intersection(geom))
 end)
 
 -- A way from the middle to each corner of what is around the garden, and to the middle of each side.
@@ -64,8 +64,12 @@ park:rule("FlowerCandidate(geom)", {
     return geom:area() > 500
   end,
 }, function(_, geom)
-  local middle = geom:point_on_surface()
-  return Bed(middle:buffer(5), math.floor(random(1, 5))), ParkTree(middle, 6, random(15, 20))
+  local middle = geom:centroid()
+  if not geom:contains(middle) then
+    middle = geom:point_on_surface()
+  end
+  local bed = middle:buffer(8):intersection(geom:inset(1.5))
+  return Bed(bed, math.floor(random(1, 5))), ParkTree(middle, 6, random(15, 20))
 end)
 park:rule("FlowerCandidate", function()
   return nil
@@ -75,7 +79,7 @@ park:rule("Radial(a) < Radial(b)", function()
 end)
 -- The grass between the beds has a tree for every 200 m2, once the garden is laid out.
 park:rule("Garden(geom) > Bed(bed, _)", function(_, geom, bed)
-  return Planting(geom:difference(bed:buffer(3)), math.round(geom:area() / 200))
+  return Grass(geom), Planting(geom:difference(bed:buffer(3)), math.round(geom:area() / 200))
 end)
 park:rule("Planting(geom, count)", {
   when = function(_, _, count)
@@ -100,11 +104,8 @@ local function grass(this, geom)
   level(this, geom, 0, 0.2)
 end
 park:interpret("Garden(geom)", grass)
-park:interpret("Planting(geom, count)", function(this, geom)
-  grass(this, geom:buffer(0))
-end)
+park:interpret("Grass(geom)", grass)
 park:interpret("Bed(geom, flowers)", function(this, geom, flowers)
-  grass(this, geom:buffer(3))
   this:material({ texture = `textures/flowers{flowers}.png`, texture_size = { 2, 2 }, roughness = 1 })
   level(this, geom, 0.2, 0.5)
 end)
@@ -112,4 +113,5 @@ park:interpret("ParkTree(place, species, height)", function(this, place, species
   this:jump(place:place() + vec(0, 0, 0.2)):place(models.trees[species], height)
 end)
 park:interpret("Radial(geom)", function() end)
+park:interpret("Planting(geom, count)", function() end)
 park:derive()

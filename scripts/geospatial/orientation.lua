@@ -1,6 +1,7 @@
 --!strict
 -- Street furniture without a direction turns to the road that is nearest: bus stops and lamps face the street.
 -- burgeon run scripts/geospatial/orientation.lua --data examples/data -o orientation.glb
+local layers = require("layers")
 local models = require("models")
 -- The ground on which all stands.
 require("pavements")
@@ -11,15 +12,12 @@ local Centreline, RoadSeg = module("Centreline", "geom"), module("RoadSeg", "geo
 local Road = module("Road", "geom", "distance")
 local Turned = module("Turned", "place", "code", "direction")
 
-source("quarter/furniture.geojson")
-source("quarter/roads.geojson")
-
 local street = lsystem({ object = extruder() })
-street:axiom(query("select geom as place, code from furniture where direction is null", Piece))
+street:axiom(query(layers.furniture, Piece))
 
--- All centrelines come behind the item, in segments.
+-- The centrelines about it come behind the item, in segments.
 street:rule("Piece(place, code)", function(_, place, code)
-  return Item(place, code), query("select geom from roads", Centreline), fragment(RoadSeg), End()
+  return Item(place, code), query(layers.roads, Centreline), fragment(RoadSeg), End()
 end)
 -- One after the other, each tells how far it is from the item; of two the nearer one stays.
 street:rule("Item(place, code) < RoadSeg(geom)", function(_, place, _, geom)

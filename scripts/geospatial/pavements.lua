@@ -1,11 +1,11 @@
 --!strict
 -- Pavements from a layer of polygons, each levelled and laid by its code: carriageways, slabs, crossings, cobbles.
 -- burgeon run scripts/geospatial/pavements.lua --data examples/data -o pavements.glb
+local layers = require("layers")
+
 local Pavement = module("Pavement", "geom", "code", "level")
 local Counting = module("Counting", "geom", "code", "level", "length", "points", "corners")
 local Laid = module("Laid", "geom", "code", "level", "length", "corners")
-
-source("quarter/pavements.geojson")
 
 local ASPHALT, SLABS, CROSSING, COBBLES = 1, 2, 3, 4
 local PAVING = {
@@ -17,8 +17,20 @@ local PAVING = {
 local DEPTH = 0.4
 
 local streets = lsystem({ object = extruder({ smooth = false }) })
-streets:axiom(query("select geom, code, level from pavements", Pavement))
+streets:axiom(query(layers.pavements, Pavement))
 
+-- Areas of several parts are laid part by part.
+streets:rule("Pavement(geom, code, level)", {
+  when = function(_, geom)
+    return geom:num_geometries() > 1
+  end,
+}, function(_, geom, code, level)
+  local parts = {}
+  for _, part in geom:geometries() do
+    table.insert(parts, Pavement(part, code, level))
+  end
+  return table.unpack(parts)
+end)
 -- The texture is fitted to the longer side of what is around the polygon, and its corners are counted one a step.
 streets:rule("Pavement(geom, code, level)", function(_, geom, code, level)
   local length = math.max(geom:envelope_width(), geom:envelope_height())

@@ -1,17 +1,18 @@
 --!strict
 -- Buildings whose frontages each show a photo: the most that one rule can do for a street.
 -- burgeon run scripts/geospatial/photos.lua --data examples/data -o photos.glb
-local Building = module("Building", "geom", "floors", "image", "roof")
+local details = require("details")
+local layers = require("layers")
+
+local Building = module("Building", "geom", "floors", "style", "roof")
 local Facade, Photo = module("Facade", "line", "image", "floors"), module("Photo", "line", "image", "height")
 local Roof = module("Roof", "geom", "height", "roof")
 
-source("quarter/buildings.geojson")
-
-local storey = param("storey", { default = 3, min = 2.4, max = 5, unit = "m", text = "How high a floor is" })
+local storey = details.storey
 
 local town = lsystem({ object = extruder({ smooth = false, roughness = 0.95 }) })
 -- In the data a style stands for a photo.
-town:axiom(query("select geom, floors, style as image, roof from buildings where floors > 0", Building))
+town:axiom(query(layers.buildings, Building))
 town:rule("Building(geom, floors, image, roof)", function(_, geom, floors, image, roof)
   return Roof(geom, floors * storey, roof), Facade(geom:exterior_ring(), image, floors), fragment(Facade)
 end)
@@ -40,14 +41,11 @@ town:interpret("Roof(geom, height, roof)", function(this, geom, height, roof)
     :polygon(geom:buffer(0.25, { join = "mitre" }))
     :jump({ 0, 0, height - 0.2 })
     :extrude(0.3)
-  for step = 1, if roof > 1 then 4 else 1 do
-    for _, part in geom:inset(step * 0.8):geometries() do
-      this
-        :material({ color = if roof > 1 then "#92513c" else "#8b8880" })
-        :polygon(part)
-        :jump({ 0, 0, height })
-        :extrude(step * 0.5 + 0.1)
-    end
+  if roof > 1 then
+    this:material({ color = "#92513c" })
+    details.roof(this, geom, height + 0.1, 0.6)
+  else
+    this:material({ color = "#8b8880" }):polygon(geom:inset(0.4)):jump({ 0, 0, height }):extrude(0.15)
   end
 end)
 town:derive()

@@ -2,6 +2,7 @@
 -- Lawns, flower beds, the trees that the data knows, and others that stand anywhere on the grass between the flowers:
 -- one for every 60 m2.
 -- burgeon run scripts/geospatial/vegetation.lua --data examples/data -o vegetation.glb
+local layers = require("layers")
 local models = require("models")
 -- The ground on which all stands.
 require("pavements")
@@ -12,18 +13,10 @@ local Lawn, Planting = module("Lawn", "geom"), module("Planting", "geom", "count
 local Grove, Bed = module("Grove", "geom"), module("Bed", "geom", "flowers")
 local Planted = module("Planted", "place", "species", "height", "radius")
 
-source("quarter/grass.geojson")
-source("quarter/flowerbeds.geojson")
-source("quarter/trees.geojson")
-
 local LEVEL = 0.15
 
 local green = lsystem({ object = extruder({ smooth = false, roughness = 1 }) })
-green:axiom(
-  query("select geom from grass", Garden),
-  query("select geom, flowers from flowerbeds", Bed),
-  query("select geom as place, species, height, radius from trees", Tree)
-)
+green:axiom(query(layers.grass, Garden), query(layers.flowerbeds, Bed), query(layers.trees, Tree))
 
 green:rule("Tree(place, species, height, radius)", {
   when = function(_, _, species)
@@ -34,7 +27,9 @@ green:rule("Tree(place, species, height, radius)", {
 end)
 -- The grass is what the flowers leave.
 green:rule("Garden(geom)", function(_, geom)
-  local flowers = query("select ST_Union(geom) as geom from flowerbeds where ST_Intersects(geom, $geom)")[1]
+  local beds =
+    `select ST_Union(geom) as geom from ({layers.flowerbeds}) as beds where ST_Intersects(geom, $geom)`
+  local flowers = query(beds)[1]
   local free = if flowers and flowers.geom then geom:difference(flowers.geom) else geom
   return Lawn(geom), Grove(free)
 end)
@@ -55,11 +50,15 @@ end)
 
 green:interpret("Lawn(geom)", function(this, geom)
   this:material({ texture = "textures/grass.png", texture_size = { 4, 4 }, roughness = 1 })
-  this:polygon(geom):jump({ 0, 0, LEVEL - 0.4 }):extrude(0.45)
+  for _, part in geom:geometries() do
+    this:polygon(part):jump({ 0, 0, LEVEL - 0.4 }):extrude(0.45)
+  end
 end)
 green:interpret("Bed(geom, flowers)", function(this, geom, flowers)
   this:material({ texture = `textures/flowers{flowers}.png`, texture_size = { 2, 2 }, roughness = 1 })
-  this:polygon(geom):jump({ 0, 0, LEVEL }):extrude(0.3)
+  for _, part in geom:geometries() do
+    this:polygon(part):jump({ 0, 0, LEVEL }):extrude(0.3)
+  end
 end)
 green:interpret("Planted(place, species, height, radius)", function(this, place, species, height)
   this:jump(place:place() + vec(0, 0, LEVEL)):place(models.trees[species], height)

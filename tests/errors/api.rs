@@ -68,7 +68,7 @@ fn a_type_is_told_with_its_fields_and_methods_and_an_example() {
 
     Fields
       where: string?
-          An SQL condition, for GeoPackages.
+          An SQL condition on attributes.
       tags: { [string]: any }?
           What tags of OpenStreetMap are: true for any value but no, "*" for any, false for none, a
           text, or a list of texts. All of them hold; of a list of such tables, one holds.

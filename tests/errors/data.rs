@@ -327,10 +327,10 @@ fn a_condition_that_is_no_sql_or_no_question_is_told() {
       | source("town.gpkg:buildings", { where = "load_extension('x')" })
       help: write an SQL condition on the layer's columns, such as where = "height > 10"
     "#);
-    assert_snapshot!(told(r#"source("village.geojson", { where = "height > 1" })"#), @r#"
-    error: in/s.lua:2: village.geojson is GeoJSON, which takes no where
-      | source("village.geojson", { where = "height > 1" })
-      help: where is for GeoPackages; take what you need out of source(...).features in Lua: source(chosen)
+    assert_snapshot!(told(r#"source("village.geojson", { where = "heigt > 1" })"#), @r#"
+    error: in/s.lua:2: where "heigt > 1" of village.geojson: no such column: heigt
+      | source("village.geojson", { where = "heigt > 1" })
+      help: write an SQL condition on the layer's columns, such as where = "height > 10"
     "#);
 }
 
@@ -491,10 +491,10 @@ fn extracts_of_openstreetmap() {
       | source("town.osm.pbf:houses")
       help: it has buildings, building_parts, roads, railways, squares, water, waterways, coastlines, green, landuse, trees, tree_rows, barriers, furniture; or choose by tags: source("town.osm.pbf", { tags = { building = true } })
     "#);
-    assert_snapshot!(told(r#"source("town.osm.pbf:buildings", { where = "height > 10" })"#), @r#"
-    error: in/s.lua:2: town.osm.pbf is OpenStreetMap, which takes no where
-      | source("town.osm.pbf:buildings", { where = "height > 10" })
-      help: where is for GeoPackages; for an extract, tags choose: { tags = { building = true } }
+    assert_snapshot!(told(r#"source("town.osm.pbf:buildings", { where = "floors > 10" })"#), @r#"
+    error: in/s.lua:2: where "floors > 10" of town.osm.pbf:buildings: no such column: floors
+      | source("town.osm.pbf:buildings", { where = "floors > 10" })
+      help: write an SQL condition on the layer's columns, such as where = "height > 10"
     "#);
     assert_snapshot!(told(r#"source("town.osm.pbf", { tags = "building" })"#), @r#"
     error: in/s.lua:2: source: tags must be a table, not a string

@@ -305,7 +305,7 @@ fn what_stands_beside_streets_is_asked_for_by_name() {
     let script = grown(kinds, "this:grow(1, 0, 100, 0)")
         + r#".objects[1]
 local function told(places)
-  return #places, places[1].geometry.points[1], places[1].heading, places[1].street_depth
+  return #places, places[1].place.y, places[1].heading, places[1].street_depth
 end
 "#;
     let script = script.replace("s:derive(0).objects", "local roads = s:derive(0).objects");

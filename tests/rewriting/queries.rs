@@ -326,6 +326,17 @@ fn a_chain_that_grows_without_end_by_queries_is_stopped() {
     assert!(error.to_string().contains("query("), "{error}");
 }
 
+/// How the first module that is drawn came to be.
+fn picked(script: &str) -> Vec<burgeon::results::Ancestor> {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("main.lua");
+    std::fs::write(&path, format!("{HEAD}{script}")).expect("a file");
+    let run = burgeon::run(&path, options()).expect("it runs");
+    let asked = burgeon::trace::Pick { instance: 0, part: 0, triangle: 0 };
+    let picked = burgeon::trace::pick(&path, &options(), &run.scene, asked).expect("it is known");
+    picked.drawn.expect("a module drew it").path
+}
+
 #[test]
 fn a_picked_module_tells_the_question_its_values_and_the_number_of_rows() {
     let script = r#"
@@ -338,13 +349,7 @@ fn a_picked_module_tells_the_question_its_values_and_the_number_of_rows() {
         s:interpret("B(n)", function(this, n) this:extrude(n) end)
         s:derive()
         "#;
-    let folder = tempfile::tempdir().expect("a folder");
-    let path = folder.path().join("main.lua");
-    std::fs::write(&path, format!("{HEAD}{script}")).expect("a file");
-    let run = burgeon::run(&path, options()).expect("it runs");
-    let asked = burgeon::trace::Pick { instance: 0, part: 0, triangle: 0 };
-    let picked = burgeon::trace::pick(&path, &options(), &run.scene, asked).expect("it is known");
-    let path = picked.drawn.expect("a module drew it").path;
+    let path = picked(script);
     let told: Vec<_> = path
         .iter()
         .map(|ancestor| {
@@ -369,5 +374,26 @@ fn a_picked_module_tells_the_question_its_values_and_the_number_of_rows() {
             ),
             (2, item.replace("Item", "B"), by("Item(n)", 11), None),
         ]
+    );
+}
+
+#[test]
+fn a_picked_module_tells_what_guards_and_successors_asked() {
+    let script = r#"
+        local s = lsystem({ object = extruder({ sides = 6, smooth = false }) })
+        s:axiom(A(3))
+        s:rule("A(n)", { when = function(this, n) return #query("fid, n where n < $n") > 2 end }, function() return nil end)
+        s:rule("A(n)", { when = function(this, n) return #query("fid, n where n < $n") == 2 end }, function(this, n)
+          return B(#query("fid, n where n < $n", { n = 2 }))
+        end)
+        s:interpret("B(n)", function(this, n) this:extrude(n) end)
+        s:derive()
+        "#;
+    let asked: Vec<_> =
+        picked(script).into_iter().map(|ancestor| (ancestor.module.text, ancestor.asked)).collect();
+    let questions = ["fid, n where n < $n with $n = 3: 2 rows", "fid, n where n < $n with $n = 2: 1 row"];
+    assert_eq!(
+        asked,
+        [("A(3)".to_owned(), Vec::new()), ("B(1)".to_owned(), questions.map(str::to_owned).to_vec()),]
     );
 }

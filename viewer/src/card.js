@@ -125,6 +125,9 @@ export class Card {
         {},
         make('code', { class: 'is', text: short(it.module), title: it.module }),
         make('div', { class: 'by' }, make('span', { text: madeBy(it), title: it.answer ?? '' }), this.#place(it)),
+        ...(it.asked ?? []).map((asked) =>
+          make('div', { class: 'by' }, make('span', { class: 'asked', text: `asked ${short(asked)}`, title: asked })),
+        ),
       ),
     );
   }

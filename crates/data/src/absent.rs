@@ -71,6 +71,18 @@ impl OsmFile {
     }
 }
 
+pub(crate) mod condition {
+    use super::{FeatureTable, Result, SourceOptions, left_out};
+
+    pub(crate) fn meeting(
+        _table: &FeatureTable,
+        _condition: &str,
+        _wanted: &SourceOptions,
+    ) -> Result<Vec<usize>> {
+        left_out()
+    }
+}
+
 pub(crate) mod projection {
     use super::{Error, Result, left_out};
 
@@ -88,7 +100,7 @@ pub(crate) mod projection {
         }
     }
 
-    pub(crate) fn known(_code: u32) -> Result<Option<(u16, &'static str)>> {
+    pub(crate) fn known(_code: u32) -> Result<Option<(u16, String)>> {
         left_out()
     }
 }

@@ -6,6 +6,7 @@ use std::io::{Read, Seek};
 use std::path::Path;
 use std::sync::Arc;
 
+use super::formats::condition;
 use super::tags::TagFilter;
 use super::{FeatureTable, FlatGeobuf, GeoPackage, GeometryKind, GmlFile, OsmFile, geojson};
 use burgeon_base::budget::Budget;
@@ -40,6 +41,17 @@ impl fmt::Debug for SourceOptions {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Self { layer, condition, tags, within, limit, id, kind, crs, budget: _ } = self;
         write!(f, "{layer:?} {condition:?} {tags:?} {within:?} {limit:?} {id:?} {kind:?} {crs:?}")
+    }
+}
+
+impl SourceOptions {
+    /// What is read of a file of a `format` before a condition is asked. GeoPackages ask it themselves; of others it comes
+    /// afterwards, and how many features are wanted counts those that meet it.
+    fn without_condition(&self, format: &str) -> Self {
+        match &self.condition {
+            Some(_) if format != "GeoPackage" => Self { condition: None, limit: None, ..self.clone() },
+            _ => self.clone(),
+        }
     }
 }
 
@@ -97,7 +109,7 @@ impl Source {
         if GmlFile::is_one(&head) {
             return Ok(Self::Gml(Box::new(GmlFile::open(file, path, name, wanted)?)));
         }
-        Self::geojson(file, meta.len(), path, (name, wanted), cannot)
+        Self::geojson(file, meta.len(), path, (name, &wanted.without_condition("GeoJSON")), cannot)
     }
 
     /// Reads GeoJSON, all of it.
@@ -148,18 +160,11 @@ impl Source {
     /// Reads what is `wanted`, in the order of the file.
     pub fn read(self, name: &str, wanted: &SourceOptions) -> Result<FeatureTable> {
         let format = self.format();
-        if wanted.condition.is_some() && !matches!(self, Self::GeoPackage(_)) {
-            let instead = match self {
-                Self::Osm(_) => "for an extract, tags choose: { tags = { building = true } }",
-                _ => "take what you need out of source(...).features in Lua: source(chosen)",
-            };
-            return Err(Error::argument(format!("{name} is {format}, which takes no where"))
-                .help(format!("where is for GeoPackages; {instead}")));
-        }
         if wanted.tags.is_some() && !matches!(self, Self::Osm(_)) {
             return Err(Error::argument(format!("{name} is {format}, which takes no tags"))
                 .help("tags are for extracts of OpenStreetMap, .osm.pbf; leave them out"));
         }
+        let (asked, wanted) = (wanted, &wanted.without_condition(format));
         let mut table = match self {
             Self::Osm(file) => file.read(wanted)?,
             Self::GeoPackage(package) => {
@@ -181,8 +186,12 @@ impl Source {
         };
         if format != "GeoPackage" {
             table.identify(wanted.id.as_deref())?;
+            if let Some(condition) = &asked.condition {
+                let kept = condition::meeting(&table, condition, asked)?;
+                table.keep(&kept, asked.limit);
+            }
         }
-        table.finished(wanted)
+        table.finished(asked)
     }
 }
 

@@ -286,6 +286,19 @@ impl FeatureTable {
         Ok(())
     }
 
+    /// Keeps the features with these numbers, which come in order, and at most `limit` of them.
+    pub(super) fn keep(&mut self, kept: &[usize], limit: Option<usize>) {
+        let mut kept = kept.iter().take(limit.unwrap_or(usize::MAX)).copied().peekable();
+        let mut number = 0;
+        self.features.retain(|_| {
+            number += 1;
+            kept.next_if_eq(&(number - 1)).is_some()
+        });
+        let starts = |pair: &&[Feature]| !Arc::ptr_eq(&pair[0].attributes, &pair[1].attributes);
+        self.records =
+            usize::from(!self.features.is_empty()) + self.features.windows(2).filter(starts).count();
+    }
+
     /// The table with what is wanted of it: a coordinate system in place of its own, one kind of geometry, so many
     /// features. Fails if nothing is left.
     pub fn finished(mut self, wanted: &SourceOptions) -> Result<Self> {

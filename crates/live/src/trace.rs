@@ -154,6 +154,7 @@ fn tell_made(state: &ServerState, shown: &PresentModel, made: &engine::ModuleOri
             line,
             ordinal: ancestor.ordinal,
             answer: answer.map(|answer| answer.text.clone()),
+            asked: ancestor.asked.clone(),
         }
     });
     let [before, at, after] = made.around.clone();

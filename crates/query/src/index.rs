@@ -5,7 +5,7 @@
 
 use geo::{BoundingRect, Coord, CoordsIter, Intersects, Line, LinesIter};
 use rstar::primitives::{GeomWithData, Rectangle};
-use rstar::{AABB, PointDistance, RTree, RTreeObject};
+use rstar::{AABB, Envelope, PointDistance, RTree, RTreeObject};
 use rustc_hash::FxHashMap;
 
 use crate::{blob, plane};
@@ -55,6 +55,8 @@ struct RowLines {
     tree: RTree<RowSegment>,
     /// The geometry of each row that is an area.
     areas: Vec<Option<geo::Geometry<f64>>>,
+    /// Whether there is one.
+    has_areas: bool,
 }
 
 /// The lines of all rows, and the geometry of each that is an area.
@@ -118,7 +120,11 @@ impl IndexBuilder {
             boxes: RTree::bulk_load(self.boxes),
             keys: self.keys,
             without: self.without,
-            lines: self.lines.map(|(segments, areas)| RowLines { tree: RTree::bulk_load(segments), areas }),
+            lines: self.lines.map(|(segments, areas)| RowLines {
+                tree: RTree::bulk_load(segments),
+                has_areas: areas.iter().any(Option::is_some),
+                areas,
+            }),
             slack: 1e-12 * self.greatest,
         }
     }
@@ -164,9 +170,26 @@ impl SpatialIndex {
 
     /// The key of the row that is nearest to a geometry; of equal ones the least.
     pub(crate) fn nearest_one(&self, from: &geo::Geometry<f64>) -> Option<i64> {
-        let rows = self.measured(from, 1);
-        let best = rows.into_iter().min_by(|a, b| a.1.total_cmp(&b.1).then(a.0.cmp(&b.0)));
-        best.map(|row| row.0).or_else(|| self.without.first().copied())
+        let asked = self.lines.as_ref().zip(NearestFrom::new(from));
+        let best = asked.and_then(|(lines, from)| {
+            let first = lines.tree.nearest_neighbor(&from.middle())?;
+            let mut best = (from.distance(&first.line, f64::INFINITY), self.keys[first.row as usize]);
+            for segment in lines.tree.locate_in_envelope_intersecting(&from.around(best.0 + self.slack)) {
+                let far = from.distance(&segment.line, best.0);
+                let key = self.keys[segment.row as usize];
+                if far < best.0 || far <= best.0 && key < best.1 {
+                    best = (far, key);
+                }
+            }
+            for row in self.rows_around(lines, &from) {
+                let key = self.keys[row as usize];
+                if best.0 > 0.0 || key < best.1 {
+                    best = (0.0, key);
+                }
+            }
+            Some(best.1)
+        });
+        best.or_else(|| self.without.first().copied())
     }
 
     /// The least of all keys.
@@ -183,17 +206,11 @@ impl SpatialIndex {
 
     /// The rows that can be among the `count` nearest, with their distances.
     fn measured(&self, from: &geo::Geometry<f64>, count: usize) -> Vec<(i64, f64)> {
-        let (Some(RowLines { tree, areas }), Some(bounds)) = (&self.lines, from.bounding_rect()) else {
-            return Vec::new();
-        };
-        let own = lines(from);
-        let area = is_area(from).then_some(from);
-        let distance = |segment: &RowSegment| distance(&own, area, &segment.line);
+        let (Some(lines), Some(from)) = (&self.lines, NearestFrom::new(from)) else { return Vec::new() };
         // No row is farther than the lines that are nearest to the middle.
-        let middle: [f64; 2] = bounds.center().into();
         let mut found: Vec<(u32, f64)> = Vec::new();
-        for segment in tree.nearest_neighbor_iter(&middle) {
-            let far = distance(segment);
+        for segment in lines.tree.nearest_neighbor_iter(&from.middle()) {
+            let far = from.distance(&segment.line, f64::INFINITY);
             match found.iter_mut().find(|(row, _)| *row == segment.row) {
                 Some((_, known)) => *known = known.min(far),
                 None => found.push((segment.row, far)),
@@ -202,44 +219,104 @@ impl SpatialIndex {
                 break;
             }
         }
-        let mut bound = match found.len() < count {
+        let bound = match found.len() < count {
             true => f64::INFINITY,
-            false => found.iter().map(|(_, far)| *far).fold(0.0, f64::max),
+            false => found.iter().map(|(_, far)| *far).fold(0.0, f64::max) + self.slack,
         };
         let mut nearest: FxHashMap<u32, f64> = FxHashMap::default();
         let mut best = |row: u32, far: f64| {
             let known = nearest.entry(row).or_insert(f64::INFINITY);
             *known = known.min(far);
         };
-        let (low, high) = (bounds.min(), bounds.max());
-        let reach = if bound.is_finite() { bound + self.slack } else { f64::MAX / 4.0 };
-        let around = AABB::from_corners([low.x - reach, low.y - reach], [high.x + reach, high.y + reach]);
-        let own_box = AABB::from_corners([low.x, low.y], [high.x, high.y]);
-        for segment in tree.locate_in_envelope_intersecting(&around) {
-            let apart = box_distance(&own_box, &segment.envelope());
-            if apart > bound + self.slack {
-                continue;
-            }
-            let far = distance(segment);
-            if far <= bound + self.slack {
+        for segment in lines.tree.locate_in_envelope_intersecting(&from.around(bound)) {
+            let far = from.distance(&segment.line, bound);
+            if far <= bound {
                 best(segment.row, far);
-                if count == 1 {
-                    bound = bound.min(far);
-                }
             }
         }
-        // Areas reach to what lies in them.
-        if let Some(corner) = from.coords_iter().next() {
-            for row in self.boxes.locate_in_envelope_intersecting(&AABB::from_point(corner.into())) {
-                let area = areas.get(row.data as usize).and_then(Option::as_ref);
-                if area.is_some_and(|area| area.intersects(&geo::Point(corner))) {
-                    best(row.data, 0.0);
-                }
-            }
+        for row in self.rows_around(lines, &from) {
+            best(row, 0.0);
         }
         let mut found: Vec<(u32, f64)> = nearest.into_iter().collect();
         found.sort_unstable_by_key(|row| row.0);
         found.into_iter().map(|(row, far)| (self.keys[row as usize], far)).collect()
+    }
+
+    /// The rows whose areas reach to a corner of what lies in them.
+    fn rows_around<'a>(
+        &'a self,
+        lines: &'a RowLines,
+        from: &NearestFrom<'a>,
+    ) -> impl Iterator<Item = u32> + 'a {
+        let corner = from.geometry.coords_iter().next();
+        let near = corner.filter(|_| lines.has_areas).map(|corner| {
+            let rows = self.boxes.locate_in_envelope_intersecting(&AABB::from_point(corner.into()));
+            rows.map(|row| row.data).filter(move |row| {
+                let area = lines.areas.get(*row as usize).and_then(Option::as_ref);
+                area.is_some_and(|area| area.intersects(&geo::Point(corner)))
+            })
+        });
+        near.into_iter().flatten()
+    }
+}
+
+/// A geometry from which distances are measured.
+struct NearestFrom<'a> {
+    geometry: &'a geo::Geometry<f64>,
+    /// Its lines.
+    lines: Vec<Line<f64>>,
+    /// Whether what lies within them belongs to it.
+    is_area: bool,
+    bounds: AABB<[f64; 2]>,
+}
+
+impl<'a> NearestFrom<'a> {
+    /// Nothing if it is empty.
+    fn new(geometry: &'a geo::Geometry<f64>) -> Option<Self> {
+        let bounds = geometry.bounding_rect()?;
+        let bounds = AABB::from_corners(bounds.min().into(), bounds.max().into());
+        Some(Self { geometry, lines: lines(geometry), is_area: is_area(geometry), bounds })
+    }
+
+    fn middle(&self) -> [f64; 2] {
+        self.bounds.center()
+    }
+
+    /// The box of all that is at most `reach` away.
+    fn around(&self, reach: f64) -> AABB<[f64; 2]> {
+        let reach = if reach.is_finite() { reach } else { f64::MAX / 4.0 };
+        let ([west, south], [east, north]) = (self.bounds.lower(), self.bounds.upper());
+        AABB::from_corners([west - reach, south - reach], [east + reach, north + reach])
+    }
+
+    /// How far a line is; where that is more than `most`, any number that is more.
+    fn distance(&self, line: &Line<f64>, most: f64) -> f64 {
+        let own = boxed(line);
+        if square_box_distance(&self.bounds, &own) > most * most {
+            return f64::INFINITY;
+        }
+        // What is as far as that counts, too.
+        let mut least = most * most * (1.0 + 4.0 * f64::EPSILON);
+        let mut found = f64::INFINITY;
+        for each in &self.lines {
+            let apart = square_box_distance(&boxed(each), &own);
+            if apart <= least {
+                if apart == 0.0 && each.intersects(line) {
+                    return 0.0;
+                }
+                let near = square_distance(each, line.start)
+                    .min(square_distance(each, line.end))
+                    .min(square_distance(line, each.start))
+                    .min(square_distance(line, each.end));
+                found = found.min(near);
+                least = least.min(near);
+            }
+        }
+        let start: [f64; 2] = line.start.into();
+        let within = self.is_area
+            && self.bounds.contains_point(&start)
+            && self.geometry.intersects(&geo::Point(line.start));
+        if within { 0.0 } else { found.sqrt() }
     }
 }
 
@@ -271,34 +348,15 @@ fn lines(geometry: &geo::Geometry<f64>) -> Vec<Line<f64>> {
     }
 }
 
-/// How far a line is from lines, and from the area that they bound.
-fn distance(own: &[Line<f64>], area: Option<&geo::Geometry<f64>>, line: &Line<f64>) -> f64 {
-    let mut least = f64::INFINITY;
-    for each in own {
-        let apart = box_distance(&boxed(each), &boxed(line));
-        if apart * apart < least {
-            if apart == 0.0 && each.intersects(line) {
-                return 0.0;
-            }
-            least = least
-                .min(square_distance(each, line.start))
-                .min(square_distance(each, line.end))
-                .min(square_distance(line, each.start))
-                .min(square_distance(line, each.end));
-        }
-    }
-    if area.is_some_and(|area| area.intersects(&geo::Point(line.start))) { 0.0 } else { least.sqrt() }
-}
-
 fn boxed(line: &Line<f64>) -> AABB<[f64; 2]> {
     AABB::from_corners(line.start.into(), line.end.into())
 }
 
-/// How far two boxes are from each other.
-fn box_distance(a: &AABB<[f64; 2]>, b: &AABB<[f64; 2]>) -> f64 {
+/// The square of the distance of two boxes.
+fn square_box_distance(a: &AABB<[f64; 2]>, b: &AABB<[f64; 2]>) -> f64 {
     let apart =
         |axis: usize| (b.lower()[axis] - a.upper()[axis]).max(a.lower()[axis] - b.upper()[axis]).max(0.0);
-    apart(0).hypot(apart(1))
+    apart(0) * apart(0) + apart(1) * apart(1)
 }
 
 /// The square of the distance of a point from a line.

@@ -40,6 +40,36 @@ impl Geometry {
         Ok(with_heights(Self::gathered(lines), &[self]))
     }
 
+    /// The faces of its straight skeleton, one for each edge of its areas: polygons that begin with the edge and turn left.
+    /// Their heights are how far (m) inwards from that edge they reach, so that they are a hip roof with a slope of 1.
+    /// Fails as [`Geometry::straight_skeleton`] does.
+    ///
+    /// ```
+    /// use burgeon_spatial::Geometry;
+    ///
+    /// let hall = Geometry::from_wkt("POLYGON ((0 0, 12 0, 12 8, 0 8, 0 0))")?;
+    /// let faces = hall.skeleton_faces()?;
+    /// assert_eq!(faces.len(), 4);
+    /// assert_eq!(faces.iter().map(Geometry::area).sum::<f64>(), 96.0);
+    /// assert_eq!(faces[0].to_wkt(), "POLYGON Z ((0 0 0, 12 0 0, 8 4 4, 4 4 4, 0 0 0))");
+    /// # Ok::<(), burgeon_base::error::Error>(())
+    /// ```
+    pub fn skeleton_faces(&self) -> Result<Vec<Self>> {
+        let (plane, polygons) = self.plans("skeleton_faces")?;
+        let mut made = Vec::new();
+        for polygon in polygons {
+            let skeleton = Skeleton::new(&polygon, &vec![Pace::default(); polygon.size()])?;
+            made.extend(skeleton.faces.iter().map(|face| {
+                let corner = |peak: &usize| {
+                    let peak = &skeleton.peaks[*peak];
+                    plane.back(peak.at).truncate().extend(peak.time)
+                };
+                Self::Polygon(Rings(vec![face.iter().map(corner).collect()]))
+            }));
+        }
+        Ok(made)
+    }
+
     /// What is left of its areas when their borders move inwards by `distance` (m), or outwards if that is negative, with
     /// corners that stay corners as far as they turn by less than 60 degrees; empty if nothing is left. Fails if it has
     /// no areas, or the distance is not finite.

@@ -60,7 +60,7 @@ impl StreetNetwork {
         let over = || (0..=count).map(|index| f64::from(index) * LOOK).filter(|along| is_over(*along));
         let middle = |along: f64| (start + way * along).extend(profiles.along(piece, along));
         let (mut shores, mut piers) = (Vec::new(), Vec::new());
-        if let (Some(first), Some(last)) = (over().next(), over().last()) {
+        if let (Some(first), Some(last)) = (over().next(), over().next_back()) {
             shores = vec![middle(first), middle(last)];
             let bays = ((last - first) / BAY).ceil().max(1.0);
             #[allow(

@@ -3,6 +3,7 @@
 //! A program that is built without the feature `data` has `absent` in its place, which says so.
 
 mod blob;
+pub(crate) mod condition;
 mod flatgeobuf;
 mod geopackage;
 pub(crate) mod geotiff;
@@ -13,6 +14,7 @@ pub(crate) mod output;
 mod packed;
 pub(crate) mod png;
 pub(crate) mod projection;
+mod registry;
 pub(crate) mod zipped;
 
 pub use flatgeobuf::FlatGeobuf;

@@ -29,6 +29,7 @@ pub(crate) struct Scratch {
     pub(super) bindings: Bindings,
     chains: Vec<u32>,
     keys: Vec<ModuleKey>,
+    places: Vec<u32>,
     pub(super) arranged: ModuleOrder,
 }
 
@@ -88,6 +89,10 @@ impl Batch<'_> {
             let key = |index: &u32| self.chain.keys[scratch.active[*index as usize].module as usize];
             scratch.keys.extend(members.iter().map(key));
         }
+        scratch.places.clear();
+        if self.plan.notes_questions {
+            scratch.places.extend(members.iter().map(|index| scratch.active[*index as usize].module));
+        }
         scratch.arguments.clear();
         if arity > 0 {
             self.gather_arguments(rule, members, scratch);
@@ -98,6 +103,7 @@ impl Batch<'_> {
             arguments: &scratch.arguments,
             chains: &scratch.chains,
             keys: &scratch.keys,
+            places: &scratch.places,
             weighted: declared.weight.is_some(),
         }
     }

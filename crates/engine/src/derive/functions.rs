@@ -22,6 +22,8 @@ pub(super) struct Applications<'a> {
     pub chains: &'a [u32],
     /// The random key of each; empty where nothing draws.
     pub keys: &'a [ModuleKey],
+    /// The place of each in the chain of the step; empty where it is not noted what they ask.
+    pub places: &'a [u32],
     /// Whether the choice among weighted rules has taken the first number of each stream.
     pub weighted: bool,
 }
@@ -62,6 +64,9 @@ impl LuaFunctions<'_> {
     /// Hands the machine what its functions are to be run for.
     fn prepare(&self, applications: &Applications<'_>) -> Result<()> {
         let current = &self.machine.current;
+        if !applications.places.is_empty() {
+            current.places.replace(applications.places.to_vec());
+        }
         if !applications.chains.is_empty() {
             let mut chains = current.chains.borrow_mut();
             chains.clear();

@@ -139,8 +139,8 @@ impl<'a> Growth<'a> {
             self.stepper.step((self.machine, self.threads), &self.derivation.declared, chain, step)?;
         self.times.rewriting += begin.elapsed();
         if self.derivation.traced.is_some() {
-            let applied = outcome.applied;
-            self.steps.push(Step { number: step, chain: before, applied, answers: Vec::new() });
+            let (applied, asked) = (outcome.applied, self.machine.session.rows.take_noted());
+            self.steps.push(Step { number: step, chain: before, applied, answers: Vec::new(), asked });
         }
         Ok((outcome.chain, StepChange { ran: outcome.ran, changed: outcome.changed }))
     }
@@ -159,7 +159,8 @@ impl<'a> Growth<'a> {
         let resolved = resolve((self.machine, self.threads), &self.derivation.plan, &chain, step)?;
         let Some(Resolution { chain: made, applied, answers }) = resolved else { return Ok(chain) };
         if self.derivation.traced.is_some() {
-            self.steps.push(Step { number: step, chain: self.noted(&chain), applied, answers });
+            let before = self.noted(&chain);
+            self.steps.push(Step { number: step, chain: before, applied, answers, asked: Vec::new() });
         }
         self.stepper.reuse(chain);
         self.times.rewriting += begin.elapsed();

@@ -22,6 +22,8 @@ pub(crate) struct DerivationPlan {
     pub batch: usize,
     /// Whether it is noted which rules and modules make what.
     pub traced: bool,
+    /// Whether it is noted what rules have asked of data, and for which module.
+    pub notes_questions: bool,
     /// Whether the time of each interpretation rule is measured.
     pub profiled: bool,
 }
@@ -107,6 +109,7 @@ impl Derivation {
             chains: axiom.features.len(),
             batch: options.batch.max(1),
             traced: traced.is_some(),
+            notes_questions: traced.is_some_and(|traced| traced.chain.is_some()),
             profiled: options.profile,
         });
         let declared = system.prepare(machine)?;

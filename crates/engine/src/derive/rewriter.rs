@@ -53,6 +53,7 @@ impl<'a> SystemRewriter<'a> {
             batch: rules.batch,
             // How many modules each became has to be known.
             traced: true,
+            notes_questions: false,
             profiled: false,
         });
         let declared = self.machine.library.systems.borrow()[index].prepare(self.machine)?;

@@ -49,6 +49,8 @@ pub(crate) struct WorkState {
     pub chains: RefCell<Vec<u32>>,
     /// The random key of each application in the batch.
     pub keys: RefCell<Vec<ModuleKey>>,
+    /// The place in the chain of each application in the batch, where it is noted what they ask of data.
+    pub places: RefCell<Vec<u32>>,
     /// How many numbers of its stream an application's weighted choice has used already.
     pub used: Cell<usize>,
     /// The most random numbers that one application has drawn lately.
@@ -72,6 +74,7 @@ impl WorkState {
             objects: RefCell::default(),
             chains: RefCell::default(),
             keys: RefCell::default(),
+            places: RefCell::default(),
             used: Cell::new(0),
             drawn: Cell::new(0),
             kind: RefCell::default(),

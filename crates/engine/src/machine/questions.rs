@@ -45,26 +45,31 @@ pub(super) fn add_questions(lua: &Lua, host: &Table, current: &Rc<WorkState>) ->
     let (state, tables) = (Rc::clone(current), RefCell::<RowTables>::default());
     host.set(
         "rows",
-        lua.create_function(move |lua, (sql, values, at_top): (LuaString, LuaValue, bool)| {
-            let values = match to_value(&values, false).map_err(mlua::Error::external)? {
-                Value::Table(values) => Some(values),
-                _ => None,
-            };
-            let question = Question::new(sql.to_string_lossy().into(), values);
-            let rows = state.session.ask(&question, at_top).map_err(mlua::Error::external)?;
-            let mut tables = tables.borrow_mut();
-            let address = Arc::as_ptr(&rows) as usize;
-            if let Some((_, known)) = tables.known.get(&address) {
-                return Ok(known.clone());
-            }
-            let table = row_tables(lua, &rows)?;
-            if tables.values > MOST {
-                *tables = RowTables::default();
-            }
-            tables.values += rows.values.len() + 1;
-            tables.known.insert(address, (rows, table.clone()));
-            Ok(table)
-        })?,
+        lua.create_function(
+            move |lua, (sql, values, at_top, asker): (LuaString, LuaValue, bool, Option<usize>)| {
+                let values = match to_value(&values, false).map_err(mlua::Error::external)? {
+                    Value::Table(values) => Some(values),
+                    _ => None,
+                };
+                let question = Question::new(sql.to_string_lossy().into(), values);
+                let rows = state.session.ask(&question, at_top).map_err(mlua::Error::external)?;
+                if let Some(place) = asker.and_then(|asker| state.places.borrow().get(asker).copied()) {
+                    state.session.rows.note(place as usize, &question, rows.len());
+                }
+                let mut tables = tables.borrow_mut();
+                let address = Arc::as_ptr(&rows) as usize;
+                if let Some((_, known)) = tables.known.get(&address) {
+                    return Ok(known.clone());
+                }
+                let table = row_tables(lua, &rows)?;
+                if tables.values > MOST {
+                    *tables = RowTables::default();
+                }
+                tables.values += rows.values.len() + 1;
+                tables.known.insert(address, (rows, table.clone()));
+                Ok(table)
+            },
+        )?,
     )
 }
 

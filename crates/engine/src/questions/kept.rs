@@ -19,6 +19,8 @@ type Slot = Arc<OnceLock<Result<Arc<Rows>>>>;
 #[derive(Default)]
 pub(crate) struct KeptRows {
     known: Mutex<FxHashMap<Question, KeptAnswer>>,
+    /// The places of modules whose rules have asked in the step at hand, and what; in words.
+    noted: Mutex<Vec<(usize, String)>>,
     values: AtomicUsize,
 }
 
@@ -54,6 +56,21 @@ impl KeptRows {
             Ok(Arc::new(rows))
         });
         rows.clone()
+    }
+
+    /// Notes for the step at hand what a rule has asked for the module at `place`, and how many rows it got.
+    pub(crate) fn note(&self, place: usize, question: &Question, rows: usize) {
+        let text = format!("{question}: {rows} row{}", if rows == 1 { "" } else { "s" });
+        self.noted.lock().unwrap_or_else(PoisonError::into_inner).push((place, text));
+    }
+
+    /// What was noted in the step at hand, by place; of each in the order in which it was asked.
+    pub(crate) fn take_noted(&self) -> Vec<(usize, String)> {
+        let mut noted = std::mem::take(&mut *self.noted.lock().unwrap_or_else(PoisonError::into_inner));
+        noted.sort_by_key(|(place, _)| *place);
+        // Several guards often ask the same.
+        noted.dedup();
+        noted
     }
 
     /// Forgets answers once they are many. Nobody is asking.

@@ -35,6 +35,8 @@ pub(crate) struct Step {
     pub applied: Vec<(u16, u32)>,
     /// What took the places of modules that stood for others, in the order of the chain.
     pub answers: Vec<PendingAnswer>,
+    /// What guards and successors have asked of data for the symbol at a place, and how many rows they got; by place.
+    pub asked: Vec<(usize, String)>,
 }
 
 /// A rule as people see it.
@@ -69,6 +71,9 @@ pub struct Ancestor {
     /// What it came of where it took the place of a module that stood for others, such as a query with its values and
     /// the number of its rows, and the line that made that module.
     pub answer: Option<RuleName>,
+    /// What its rules asked of data as it was made, with values and the number of rows: first the guards, and then the
+    /// successor.
+    pub asked: Vec<String>,
     /// Its number among the modules that came of the same application, from 0.
     pub ordinal: usize,
 }
@@ -193,7 +198,10 @@ impl Trace {
                     let answer = step.answers.iter().find(|answer| answer.symbol == parent);
                     let answer = answer
                         .map(|answer| RuleName { text: answer.text.clone(), place: answer.place.clone() });
-                    path.push(Ancestor { step: step.number, module, rule, answer, ordinal: before.count() });
+                    let asked = step.asked.iter().filter(|(symbol, _)| *symbol == parent);
+                    let asked = asked.map(|(_, text)| text.clone()).collect();
+                    let ordinal = before.count();
+                    path.push(Ancestor { step: step.number, module, rule, answer, asked, ordinal });
                 }
             }
             here = parent;
@@ -201,7 +209,8 @@ impl Trace {
         let first = self.steps.first().map_or(&self.chain, |step| &step.chain);
         if let Some(module) = self.module_of(first, here).filter(|_| !stands_for_rows(first, here)) {
             let before = first.symbols[..here].iter().filter(|symbol| **symbol > END).count();
-            path.push(Ancestor { step: 0, module, rule: None, answer: None, ordinal: before });
+            let (rule, answer, asked) = (None, None, Vec::new());
+            path.push(Ancestor { step: 0, module, rule, answer, asked, ordinal: before });
         }
         path.reverse();
         path

@@ -330,6 +330,12 @@ impl GeometryObject {
         self.geometry().straight_skeleton()
     }
 
+    /// The faces of its straight skeleton, one for each edge of its areas, whose heights are how far (m) inwards from it
+    /// they reach: a hip roof with a slope of 1.
+    pub fn skeleton_faces(&self) -> Result<Vec<Geometry>> {
+        self.geometry().skeleton_faces()
+    }
+
     /// What is left of its areas when their borders move inwards by `distance` (m), or outwards if that is negative.
     pub fn inset(&self, distance: f64) -> Result<Geometry> {
         self.geometry().inset(distance)

@@ -300,7 +300,7 @@ pub static SOURCE: LazyLock<Name> = LazyLock::new(|| {
                 options(
                     "{ ... }?",
                     [
-                        field("where", "string?", "nil", "An SQL condition, for GeoPackages."),
+                        field("where", "string?", "nil", "An SQL condition on attributes."),
                         field(
                             "tags",
                             "{ [string]: any }?",

@@ -90,6 +90,9 @@ pub struct StepMessage {
     /// The query or the fragmentation whose place it took, with values and the number of rows; none where a rule made it.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub answer: Option<String>,
+    /// What its rules asked of data as it was made, with values and the number of rows.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub asked: Vec<String>,
 }
 
 /// A piece of a chain as text.

@@ -99,6 +99,12 @@ impl FunctionCall<'_> {
         )
     }
 
+    /// Why a geometry is none that the function takes.
+    pub(super) fn wrong_geometry(&self, index: usize, wanted: &str) -> String {
+        let (name, takes) = (self.function.name, self.function.takes);
+        format!("argument {} must be {wanted}: {name}{takes}", index + 1)
+    }
+
     /// A geometry.
     pub(super) fn geometry(&self, index: usize) -> Result<Arc<GeometryArgument>, String> {
         match self.context.get_raw(index) {

@@ -6,6 +6,7 @@
 mod aggregates;
 mod argument;
 mod call;
+mod numbers;
 mod registry;
 mod simple;
 mod table;

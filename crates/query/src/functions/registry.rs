@@ -7,7 +7,7 @@ use rusqlite::functions::FunctionFlags;
 
 use crate::connection::ConnectionState;
 
-use super::{FUNCTIONS, SpatialFunction, aggregates, call};
+use super::{FUNCTIONS, SpatialFunction, aggregates, call, numbers};
 
 /// Functions of SQLite that statements may call: those that give the same each time, and reach nothing.
 const ALLOWED: [&str; 97] = [
@@ -147,6 +147,7 @@ pub(crate) fn register(connection: &Connection, state: &Arc<ConnectionState>) ->
     }
     call::register_index(connection, state)?;
     aggregates::register(connection, state)?;
+    numbers::register(connection)?;
     for (name, greater) in [("greatest", true), ("least", false)] {
         connection.create_scalar_function(name, -1, flags, move |context| call::extreme(context, greater))?;
     }
@@ -169,6 +170,34 @@ mod tests {
             assert!(function.least <= function.most && !function.doc.is_empty(), "{}", function.name);
             assert!(function.takes.starts_with('(') && function.takes.ends_with(')'), "{}", function.name);
         }
+    }
+
+    #[test]
+    fn every_function_that_may_be_called_is_there() {
+        let connection = Connection::open_in_memory().unwrap();
+        super::super::numbers::register(&connection).unwrap();
+        let mut statement =
+            connection.prepare("SELECT DISTINCT lower(name) FROM pragma_function_list").unwrap();
+        let there: rusqlite::Result<Vec<String>> =
+            statement.query_map([], |row| row.get(0)).unwrap().collect();
+        let there = there.unwrap();
+        // Words of the language, and what is added elsewhere.
+        let others = ["greatest", "least", "rarray", "if", "json_each", "->", "->>"];
+        let lacking: Vec<_> = ALLOWED
+            .iter()
+            .filter(|name| !there.contains(&(**name).to_owned()) && !others.contains(name))
+            .collect();
+        assert!(lacking.is_empty(), "{lacking:?}");
+        let found = |sql: &str| connection.query_row(sql, [], |row| row.get::<_, Option<f64>>(0)).unwrap();
+        assert_eq!(
+            found("SELECT degrees(pi()) + ceil(1.2) + floor(-0.5) + power(2, 3) + mod(7, 4)"),
+            Some(192.0)
+        );
+        assert_eq!(found("SELECT 7 / ceil(2) + log(100) + log(2, 8)"), Some(8.0));
+        assert_eq!(
+            [found("SELECT sqrt(-1)"), found("SELECT ln(NULL)"), found("SELECT mod(1, 0)")],
+            [None; 3]
+        );
     }
 
     #[test]

@@ -343,6 +343,14 @@ pub static FUNCTIONS: &[SpatialFunction] = &[
     function("ST_GeometryType", (1, 1), ONE, "text", "Its kind, such as `ST_Polygon`.", |call| {
         Ok(FunctionResult::Text(kind(&call.geometry(0)?.geometry).to_owned()))
     }),
+    function(
+        "ST_IsValid",
+        (1, 1),
+        ONE,
+        "boolean",
+        "Whether its rings neither cross nor overlap, and holes lie inside.",
+        |call| Ok(FunctionResult::Boolean(call.geometry(0)?.geometry.is_valid())),
+    ),
     function("ST_IsEmpty", (1, 1), ONE, "boolean", "Whether it has no points.", |call| {
         Ok(FunctionResult::Boolean(call.geometry(0)?.geometry.is_empty()))
     }),
@@ -371,6 +379,22 @@ pub static FUNCTIONS: &[SpatialFunction] = &[
         |call| {
             let options = if call.len() == 3 { buffer_options(call)? } else { BufferOptions::default() };
             let made = call.geometry(0)?.geometry.buffer(call.number(1)?, &options);
+            made.map(FunctionResult::Geometry).map_err(|error| error.message().to_owned())
+        },
+    ),
+    function(
+        "ST_OffsetCurve",
+        (2, 3),
+        "(line, distance [, options])",
+        "geometry",
+        "The line beside a line: to its left, or to its right where the distance is negative. Options are those of ST_Buffer.",
+        |call| {
+            let options = if call.len() == 3 { buffer_options(call)? } else { BufferOptions::default() };
+            let (line, distance) = (call.geometry(0)?, call.number(1)?);
+            if line.geometry.is_empty() || line.geometry.dimension() != 1 {
+                return Err(call.wrong_geometry(0, "a line"));
+            }
+            let made = line.geometry.offset(distance, &options);
             made.map(FunctionResult::Geometry).map_err(|error| error.message().to_owned())
         },
     ),
@@ -573,6 +597,14 @@ pub static FUNCTIONS: &[SpatialFunction] = &[
             let Geometry::Line(points) = &parsed.geometry else { return Err("it takes a line".into()) };
             Ok(substring(points, from, to))
         },
+    ),
+    function(
+        "ST_MakeValid",
+        (1, 1),
+        ONE,
+        "geometry",
+        "The valid geometry that is most like it; itself if it is valid.",
+        made!(make_valid),
     ),
     function(
         "ST_Simplify",

@@ -73,7 +73,7 @@ const LAYERS: [(&str, &str); 3] = [
 ];
 
 /// Statements that both take.
-const STATEMENTS: [&str; 34] = [
+const STATEMENTS: [&str; 36] = [
     "SELECT * FROM houses",
     "SELECT fid, name, height, levels, part FROM houses WHERE levels > 2",
     "SELECT a.fid, b.fid AS other FROM houses a JOIN houses b ON ST_Intersects(a.geom, b.geom) AND a.fid < b.fid",
@@ -103,6 +103,8 @@ const STATEMENTS: [&str; 34] = [
     "SELECT fid, name FROM houses ORDER BY name LIMIT 6",
     "SELECT fid, name FROM houses ORDER BY name DESC LIMIT 6",
     "SELECT fid, name IS NULL AS none, part, NOT part AS whole FROM houses WHERE name LIKE 'house 1%' OR name IS NULL",
+    "SELECT fid, round(ST_Length(ST_OffsetCurve(geom, 0.5, 'join=mitre'))) AS left, ST_Distance(ST_OffsetCurve(geom, -2), geom) AS far FROM roads",
+    "SELECT fid, ST_IsValid(geom) AS valid, round(ST_Area(ST_MakeValid(ST_GeomFromText('POLYGON ((0 0, 4 4, 4 0, 0 4, 0 0))')))) AS area FROM houses LIMIT 3",
     "SELECT fid FROM houses WHERE name = $t",
     "SELECT fid FROM houses WHERE fid <> $id AND levels = $n",
     "SELECT fid, coalesce(name, 'nobody') AS name, round(height + 0.1) AS height, upper(name) AS loud FROM houses",

@@ -37,7 +37,7 @@ pub struct GeoPackage {
 /// SQLite looks for an interrupt only between the steps of a query, of which one may take long: a sort, or a function
 /// over long texts. When the budget is used up, the query is interrupted; if it does not end soon, it is left to itself,
 /// and ends behind the step that it is at.
-fn watched<T: Send + 'static>(
+pub(in crate::formats) fn watched<T: Send + 'static>(
     connection: Connection,
     budget: &Arc<Budget>,
     work: impl FnOnce(Connection) -> Result<T> + Send + 'static,
@@ -84,36 +84,7 @@ impl GeoPackage {
 
     fn with(mut connection: Connection, name: String, budget: &Arc<Budget>) -> Result<Self> {
         let error = |error: rusqlite::Error| broken(&name, &error);
-        connection.set_db_config(DbConfig::SQLITE_DBCONFIG_DEFENSIVE, true).map_err(error)?;
-        connection.set_db_config(DbConfig::SQLITE_DBCONFIG_TRUSTED_SCHEMA, false).map_err(error)?;
-        // A misspelt name in quotes is an error, not a text.
-        connection.set_db_config(DbConfig::SQLITE_DBCONFIG_DQS_DML, false).map_err(error)?;
-        let memory = i32::try_from(budget.memory()).unwrap_or(i32::MAX);
-        for (limit, most) in [
-            (Limit::SQLITE_LIMIT_LENGTH, LONGEST.min(memory)),
-            (Limit::SQLITE_LIMIT_SQL_LENGTH, 1_000_000),
-            (Limit::SQLITE_LIMIT_LIKE_PATTERN_LENGTH, 1000),
-            (Limit::SQLITE_LIMIT_ATTACHED, 0),
-            (Limit::SQLITE_LIMIT_WORKER_THREADS, 0),
-        ] {
-            connection.set_limit(limit, most).map_err(error)?;
-        }
-        // What is sorted stays in memory, where it is counted.
-        connection.pragma_update(None, "temp_store", "MEMORY").map_err(error)?;
-        limit_heap(budget.memory());
-        let clock = Arc::clone(budget);
-        connection.progress_handler(1000, Some(move || clock.check().is_err())).map_err(error)?;
-        connection
-            .authorizer(Some(|context: rusqlite::hooks::AuthContext<'_>| match context.action {
-                AuthAction::Select | AuthAction::Read { .. } | AuthAction::Recursive => Authorization::Allow,
-                AuthAction::Function { function_name } if function_name != "load_extension" => {
-                    Authorization::Allow
-                }
-                // Asks for the columns of a table, and changes nothing.
-                AuthAction::Pragma { pragma_name: "table_info", .. } => Authorization::Allow,
-                _ => Authorization::Deny,
-            }))
-            .map_err(error)?;
+        guard(&mut connection, budget).map_err(error)?;
         let layers = described(&connection).map_err(|error| match error {
             rusqlite::Error::SqliteFailure(_, Some(text)) if text.starts_with("no such table") => {
                 Error::data(format!("{name} is an SQLite database, but no GeoPackage"))
@@ -204,6 +175,36 @@ impl GeoPackage {
         }
         Ok(table)
     }
+}
+
+/// Lets a connection do nothing but read, within the budget.
+pub(in crate::formats) fn guard(connection: &mut Connection, budget: &Arc<Budget>) -> rusqlite::Result<()> {
+    connection.set_db_config(DbConfig::SQLITE_DBCONFIG_DEFENSIVE, true)?;
+    connection.set_db_config(DbConfig::SQLITE_DBCONFIG_TRUSTED_SCHEMA, false)?;
+    // A misspelt name in quotes is an error, not a text.
+    connection.set_db_config(DbConfig::SQLITE_DBCONFIG_DQS_DML, false)?;
+    let memory = i32::try_from(budget.memory()).unwrap_or(i32::MAX);
+    for (limit, most) in [
+        (Limit::SQLITE_LIMIT_LENGTH, LONGEST.min(memory)),
+        (Limit::SQLITE_LIMIT_SQL_LENGTH, 1_000_000),
+        (Limit::SQLITE_LIMIT_LIKE_PATTERN_LENGTH, 1000),
+        (Limit::SQLITE_LIMIT_ATTACHED, 0),
+        (Limit::SQLITE_LIMIT_WORKER_THREADS, 0),
+    ] {
+        connection.set_limit(limit, most)?;
+    }
+    // What is sorted stays in memory, where it is counted.
+    connection.pragma_update(None, "temp_store", "MEMORY")?;
+    limit_heap(budget.memory());
+    let clock = Arc::clone(budget);
+    connection.progress_handler(1000, Some(move || clock.check().is_err()))?;
+    connection.authorizer(Some(|context: rusqlite::hooks::AuthContext<'_>| match context.action {
+        AuthAction::Select | AuthAction::Read { .. } | AuthAction::Recursive => Authorization::Allow,
+        AuthAction::Function { function_name } if function_name != "load_extension" => Authorization::Allow,
+        // Asks for the columns of a table, and changes nothing.
+        AuthAction::Pragma { pragma_name: "table_info", .. } => Authorization::Allow,
+        _ => Authorization::Deny,
+    }))
 }
 
 /// Limits the memory (bytes) that SQLite takes in this process for everything but what is read.
@@ -388,7 +389,7 @@ impl LayerColumns {
     }
 }
 
-fn quoted(name: &str) -> String {
+pub(in crate::formats) fn quoted(name: &str) -> String {
     format!("\"{}\"", name.replace('"', "\"\""))
 }
 
@@ -417,7 +418,7 @@ fn broken(name: &str, error: &rusqlite::Error) -> Error {
 }
 
 /// The error of a query, which is the condition's fault if there is one.
-fn refused(shown: &str, wanted: &SourceOptions, error: &rusqlite::Error) -> Error {
+pub(in crate::formats) fn refused(shown: &str, wanted: &SourceOptions, error: &rusqlite::Error) -> Error {
     let text = words(error);
     match &wanted.condition {
         Some(condition) if !text.contains("malformed") => {

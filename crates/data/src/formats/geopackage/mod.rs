@@ -10,3 +10,4 @@ mod database;
 mod tests;
 
 pub use database::{GeoPackage, TableShape};
+pub(super) use database::{guard, quoted, refused, watched};

@@ -269,6 +269,10 @@ fn tags_choose_and_kind_decides_what_closed_ways_are() {
     let within = SourceOptions { within: Some([25.0, 60.0, 25.0, 60.0]), ..layer("buildings") };
     assert_eq!(chosen(within).unwrap(), "way/-7");
     let far = SourceOptions { within: Some([26.0, 60.0, 27.0, 61.0]), ..layer("roads") };
+    let met_by =
+        |condition: &str, limit| SourceOptions { condition: Some(condition.into()), limit, ..layer("roads") };
+    assert_eq!(chosen(met_by("highway = 'residential'", None)).unwrap(), "way/10 way/10.2");
+    assert_eq!(chosen(met_by("id = 'way/11' or kind like 'resi%'", Some(1))).unwrap(), "way/10");
     let errors = [
         chosen(SourceOptions::default()),
         chosen(layer("building")),
@@ -289,8 +293,8 @@ fn tags_choose_and_kind_decides_what_closed_ways_are() {
     no feature of town.osm.pbf has such tags
       help: look up how mappers tag it: https://wiki.openstreetmap.org/wiki/Map_features
 
-    town.osm.pbf is OpenStreetMap, which takes no where
-      help: where is for GeoPackages; for an extract, tags choose: { tags = { building = true } }
+    where "a > 1" of town.osm.pbf:roads: no such column: a
+      help: write an SQL condition on the layer's columns, such as where = "height > 10"
 
     town.osm.pbf:roads has geometries of kind line, none of kind point
       help: name another layer, or leave kind out
