@@ -311,8 +311,8 @@ end
     let script = script.replace("s:derive(0).objects", "local roads = s:derive(0).objects");
     let asked = "print(told(roads:verge(\"tree\")))\nprint(told(roads:verge(\"lamp\")))";
     assert_snapshot!(printed(&format!("{script}{asked}")).join("\n"), @r"
-    20	table	-90	0
-    10	table	-90	0
+    20	5.5	-90	0
+    10	5	-90	0
     ");
     assert_snapshot!(refused(&format!("{script}roads:verge(\"bench\")")), @r#"
     error: s.lua:11: there is nothing called "bench" beside streets
