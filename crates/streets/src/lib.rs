@@ -23,9 +23,13 @@
 mod constraints;
 mod corner;
 mod dead_ends;
+mod existing;
 mod faces;
 mod grid;
 mod grow;
+#[cfg(test)]
+mod growth_tests;
+mod keeps;
 mod kinds;
 mod lots;
 mod marks;
@@ -43,9 +47,10 @@ mod tests;
 
 pub use constraints::{Constraints, Fate, Refusal};
 pub use dead_ends::DeadEndOptions;
+pub use existing::{ExistingLosses, ExistingStreet};
 pub use faces::{Course, StreetFace};
 pub use grid::{FARTHEST, GridPlace};
-pub use grow::StreetGrowth;
+pub use grow::{StreetGrowth, StreetProspect};
 pub use kinds::StreetKind;
 pub use lots::{Block, BlockSide, Lot, LotOptions, LotPattern, LotUse};
 pub use marks::Marking;

@@ -1,8 +1,11 @@
 //! A network of streets as scripts have it: `network` in scripts.
 
+mod answers;
 mod draw;
+mod existing;
 mod kinds;
 mod lots;
 mod object;
+mod walk;
 
 pub use object::Network;

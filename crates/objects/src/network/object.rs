@@ -3,12 +3,15 @@
 use glam::DVec2;
 use rustc_hash::FxHashMap;
 
+use super::answers;
+use super::existing::{self, ExistingLines};
 use super::kinds::StreetOptions;
 use super::lots::{BlockRecords, LotRecords, LotSettings};
-use burgeon_base::error::{Error, Result};
+use super::walk::NetworkWalk;
+use burgeon_base::error::{Error, Limit, Result};
 use burgeon_base::warning::{Warning, WarningKind};
 use burgeon_geometry::{Plan, Rings};
-use burgeon_kit::{Color, TableOf, Vector, fields, methods, object};
+use burgeon_kit::{Color, TableOf, Value, Vector, fields, methods, object};
 use burgeon_scene::Scene;
 use burgeon_streets::{
     Constraints, DeadEndOptions, Fate, JunctionId, Obstacle, Obstacles, StreetAttributes, StreetGrowth,
@@ -53,6 +56,12 @@ pub struct NetworkOptions {
     pub water: Vec<Rings>,
     /// The area that streets stay inside of; anywhere if it is left out.
     pub limit: Option<Rings>,
+    /// Whether a street may end before an obstacle, in place of being refused.
+    #[default(true)]
+    pub shorten: bool,
+    /// Streets that are there before any grows: a list of { lines = ..., depth = ..., bridge = ... }.
+    #[default(Vec::new())]
+    pub existing: Vec<ExistingLines>,
     /// The most pieces of streets.
     #[default(400_000)]
     pub most: u32,
@@ -86,6 +95,8 @@ pub struct NetworkOptions {
     example = include_str!("../../scripts/network.lua"),
     shows,
     begin = restart,
+    push = open_branch,
+    pop = close_branch,
     end = finish,
     take_warnings = drain_warnings
 )]
@@ -96,6 +107,7 @@ pub struct Network {
     pub(super) network: StreetNetwork,
     /// What became of what was proposed in the last pass, by junction and heading.
     growths: FxHashMap<(u32, u64), StreetGrowth>,
+    walk: NetworkWalk,
     warnings: Vec<Warning>,
     /// Whether it was told that no street was built.
     is_told: bool,
@@ -106,14 +118,7 @@ impl Network {
     /// Proposes a street from a junction: its heading (degrees from east, counter-clockwise), its length (m) and how often its
     /// way has branched off.
     pub fn grow(&mut self, junction: u32, heading: f64, length: f64, depth: u32) -> Result<()> {
-        let from = self.known(junction)?;
-        if !heading.is_finite() || !length.is_finite() || length <= 0.0 {
-            return Err(Error::argument(format!(
-                "network:grow: a street of {length} m towards {heading} degrees cannot be"
-            ))
-            .help("give a finite heading, and a length above 0"));
-        }
-        let to = self.network.at(from) + DVec2::from_angle(heading.to_radians()) * length;
+        let (from, to) = self.proposed("grow", junction, heading, length)?;
         let growth = self.network.grow(from, to, self.attributes(depth))?;
         self.growths.insert((junction, heading.to_bits()), growth);
         Ok(())
@@ -126,17 +131,37 @@ impl Network {
         Ok(())
     }
 
+    /// Walks ahead from where the way is by a street of a length (m), if that is not refused, and goes on from where it ends.
+    ///
+    /// A way begins at the first start, towards the east; a branch begins where it leaves, and its depth is one more. What
+    /// is refused ends its way.
+    pub fn walk(&mut self, length: f64) -> Result<()> {
+        if length <= 0.0 {
+            return Err(Error::argument(format!("network:walk: a street of {length} m cannot be"))
+                .help("give a length above 0"));
+        }
+        let attributes = self.attributes(self.walk.depth());
+        if let Some((junction, heading, growth)) = self.walk.ahead(&mut self.network, length, attributes)? {
+            self.growths.insert((junction + 1, heading.to_bits()), growth);
+        }
+        Ok(())
+    }
+
+    /// Turns the way by an angle (degrees), counter-clockwise.
+    pub fn turn(&mut self, angle: f64) {
+        self.walk.turn(angle);
+    }
+
+    /// Lets the way go on from a junction towards a heading (degrees from east, counter-clockwise).
+    pub fn stand(&mut self, junction: u32, heading: f64) -> Result<()> {
+        let at = self.known(junction)?;
+        self.walk.stand(at, heading);
+        Ok(())
+    }
+
     /// Joins dead ends to the streets within a radius (m) to which the way along the streets is so many times longer.
     pub fn join_dead_ends(&mut self, radius: Option<f64>, detour: Option<f64>) -> Result<()> {
-        let usual = DeadEndOptions::default();
-        let options =
-            DeadEndOptions { radius: radius.unwrap_or(usual.radius), detour: detour.unwrap_or(usual.detour) };
-        if !(0.0..=2000.0).contains(&options.radius) || !(1.0..=100.0).contains(&options.detour) {
-            return Err(Error::argument(
-                "network:join_dead_ends takes a radius from 0 to 2000, and a detour from 1 to 100",
-            ));
-        }
-        self.network.join_dead_ends(options);
+        self.network.join_dead_ends(dead_end_options("join_dead_ends", radius, detour)?);
         Ok(())
     }
 
@@ -151,14 +176,44 @@ impl Network {
         matches!(growth.fate, Fate::Built | Fate::Bent | Fate::Shortened).then_some(growth.end + 1)
     }
 
+    /// The junction where a street ends that was proposed, whatever it joined; nil if it was refused.
+    pub fn arrived(&self, junction: u32, heading: f64) -> Option<u32> {
+        let growth = self.growths.get(&(junction, heading.to_bits()))?;
+        (!matches!(growth.fate, Fate::Refused(_))).then_some(growth.end + 1)
+    }
+
     /// What became of a street that was proposed: "built", "bent", "shortened", "snapped" to a junction, "joined" to a street, or
     /// why it was refused: "too short", "angle", "too near", "corners", "obstacle", "outside"; "unknown" if it was not proposed.
     pub fn fate(&self, junction: u32, heading: f64) -> String {
-        match self.growths.get(&(junction, heading.to_bits())).map(|growth| growth.fate) {
-            None => "unknown".into(),
-            Some(Fate::Refused(why)) => why.name().into(),
-            Some(fate) => fate.name().into(),
-        }
+        let growth = self.growths.get(&(junction, heading.to_bits()));
+        growth.map_or("unknown", |growth| answers::fate(growth.fate)).into()
+    }
+
+    /// What would become of a street, as the network is now: a table with its `fate`, whether it would be `built`, the `place`
+    /// (m) where it would end, and the `junction` if one is there.
+    pub fn probe(&self, junction: u32, heading: f64, length: f64, depth: u32) -> Result<Value> {
+        let (from, to) = self.proposed("probe", junction, heading, length)?;
+        Ok(answers::prospect(self.network.probe(from, to, self.attributes(depth))))
+    }
+
+    /// The dead ends: a list of tables with `junction`, `place` (m), the `heading` (degrees) that leads on, and `depth`.
+    pub fn open_ends(&self) -> Value {
+        answers::open_ends(&self.network)
+    }
+
+    /// How many dead ends `join_dead_ends` would join with the same radius (m) and detour.
+    pub fn joinable(&self, radius: Option<f64>, detour: Option<f64>) -> Result<u32> {
+        let options = dead_end_options("joinable", radius, detour)?;
+        Ok(u32::try_from(self.network.joinable_dead_ends(options)).unwrap_or(u32::MAX))
+    }
+
+    /// The measures that networks are compared by: a table with `length` (m), the mean `degree` of junctions, the shares
+    /// `dead_ends`, `three_way` and `four_way` (4 or more), `circuity` (1 is straight), `meshedness` (0 is a tree),
+    /// `orientation_order` (1 is a grid, 0 all directions), of blocks the median area `block` (m²), its `block_spread` (the
+    /// standard deviation of log10) and `block_shape` (area over that of the circle around it, median), and the median
+    /// `segment` (m) between junctions.
+    pub fn measures(&self) -> Value {
+        answers::measures(&self.network.measures())
     }
 
     /// Where a junction is (m).
@@ -227,6 +282,7 @@ impl Network {
             corner: options.corner,
             bend: options.bend,
             bridge: options.bridge,
+            shorten: options.shorten,
             most: options.most as usize,
         };
         let mut warnings = Vec::new();
@@ -251,7 +307,17 @@ impl Network {
         for start in &options.starts {
             network.begin(start.0.truncate()).map_err(|error| error.about("network: starts"))?;
         }
-        Ok(Self { options, kinds, network, growths: FxHashMap::default(), warnings, is_told: false })
+        warnings.extend(existing::add(&mut network, &options.existing, |depth| {
+            StreetKind::of(&kinds, depth).attributes(depth)
+        }));
+        if network.size() > options.most as usize {
+            let text = format!("network: existing has {} pieces of streets", network.size());
+            let help =
+                format!("give fewer, or raise the limit of {}: network {{ most = ... }}", options.most);
+            return Err(Error::limit(Limit::Size, text).help(help));
+        }
+        let walk = NetworkWalk::default();
+        Ok(Self { options, kinds, network, growths: FxHashMap::default(), walk, warnings, is_told: false })
     }
 
     /// The junction with this number, which counts from 1.
@@ -273,8 +339,36 @@ impl Network {
         SurfaceOptions { turning: self.options.turning }
     }
 
+    /// Where a street begins and ends that a script proposes by `method`.
+    fn proposed(
+        &self,
+        method: &str,
+        junction: u32,
+        heading: f64,
+        length: f64,
+    ) -> Result<(JunctionId, DVec2)> {
+        let from = self.known(junction)?;
+        if length <= 0.0 {
+            return Err(Error::argument(format!(
+                "network:{method}: a street of {length} m towards {heading} degrees cannot be"
+            ))
+            .help("give a finite heading, and a length above 0"));
+        }
+        Ok((from, self.network.at(from) + DVec2::from_angle(heading.to_radians()) * length))
+    }
+
     fn restart(&mut self) {
         self.growths.clear();
+        self.walk.restart();
+    }
+
+    fn open_branch(&mut self) {
+        self.walk.open_branch();
+    }
+
+    fn close_branch(&mut self) -> Result<()> {
+        self.walk.close_branch();
+        Ok(())
     }
 
     /// Tells if a pass proposed streets and there is none.
@@ -301,6 +395,19 @@ impl Network {
     fn drain_warnings(&mut self) -> Vec<Warning> {
         std::mem::take(&mut self.warnings)
     }
+}
+
+/// How dead ends are joined, as a script gave it to `method`.
+fn dead_end_options(method: &str, radius: Option<f64>, detour: Option<f64>) -> Result<DeadEndOptions> {
+    let usual = DeadEndOptions::default();
+    let options =
+        DeadEndOptions { radius: radius.unwrap_or(usual.radius), detour: detour.unwrap_or(usual.detour) };
+    if !(0.0..=2000.0).contains(&options.radius) || !(1.0..=100.0).contains(&options.detour) {
+        return Err(Error::argument(format!(
+            "network:{method} takes a radius from 0 to 2000, and a detour from 1 to 100"
+        )));
+    }
+    Ok(options)
 }
 
 impl burgeon_kit::Show for Network {
