@@ -40,22 +40,74 @@ fn asked(what: &str) -> String {
 
 #[test]
 fn lots_that_cannot_be_are_refused() {
-    assert_snapshot!(refused(&asked("streets:lots({ width = 0 })")), @"");
-    assert_snapshot!(refused(&asked("streets:lots({ area = 200, min_area = 150 })")), @"");
-    assert_snapshot!(refused(&asked("streets:lots({ width = 8, min_width = 12 })")), @"");
-    assert_snapshot!(refused(&asked("streets:lots({ kind = \"strip\" })")), @"");
-    assert_snapshot!(refused(&asked("streets:lots({ widht = 8 })")), @"");
-    assert_snapshot!(refused(&asked("streets:lots({ blocks = { 3 } })")), @"");
-    assert_snapshot!(refused(&asked("streets:lots({ width = 400, depth = 400 })")), @"");
+    assert_snapshot!(refused(&asked("streets:lots({ width = 0 })")), @r"
+    error: s.lua:26: network:lots: width must be from 1 to 500 m, not 0
+      | streets:lots({ width = 0 })
+    ");
+    assert_snapshot!(refused(&asked("streets:lots({ area = 200, min_area = 150 })")), @r"
+    error: s.lua:26: network:lots: area (200 m²) is less than twice min_area (150 m²), so a lot above it could not be divided
+      | streets:lots({ area = 200, min_area = 150 })
+      help: give a greater area, or a smaller min_area
+    ");
+    assert_snapshot!(refused(&asked("streets:lots({ width = 8, min_width = 12 })")), @r"
+    error: s.lua:26: network:lots: min_width (12 m) is more than width (8 m)
+      | streets:lots({ width = 8, min_width = 12 })
+      help: give a greater width, or a smaller min_width
+    ");
+    assert_snapshot!(refused(&asked("streets:lots({ kind = \"strip\" })")), @r#"
+    error: s.lua:26: network:lots: there is no kind of lots called "strip"
+      | streets:lots({ kind = "strip" })
+      help: did you mean strips?
+    "#);
+    assert_snapshot!(refused(&asked("streets:lots({ widht = 8 })")), @r"
+    error: s.lua:26: network:lots has no field called widht
+      | streets:lots({ widht = 8 })
+      help: did you mean width?
+    ");
+    assert_snapshot!(refused(&asked("streets:lots({ blocks = { 3 } })")), @r"
+    error: s.lua:26: network:lots: blocks must be a list whose item 1 is a polygon: feature.geometry, or { { { x, y }, { x, y }, { x, y } }, hole, ... }, not 3
+      | streets:lots({ blocks = { 3 } })
+    ");
+    assert_snapshot!(refused(&asked("streets:lots({ width = 400, depth = 400 })")), @r"
+    error: s.lua:26: network:lots: none of 9 blocks has room for a lot with 200 m of front and 48000 m²: the greatest has 7833 m²
+      | streets:lots({ width = 400, depth = 400 })
+      help: give a smaller width and depth, or fewer parks
+    ");
 }
 
 #[test]
 fn sites_that_cannot_be_are_refused() {
-    assert_snapshot!(refused(&asked("streets:sites({ sizes = {} })")), @"");
-    assert_snapshot!(refused(&asked("streets:sites({ along = 0 })")), @"");
-    assert_snapshot!(refused(&asked("streets:sites({ setback = 30, distance = 10 })")), @"");
-    assert_snapshot!(refused(&asked("streets:sites({ sizes = { { 300, 300 } } })")), @"");
-    assert_snapshot!(refused(&asked("streets:sites({ along = 0.5, away = 0.5, distance = 2000, sizes = { { 8, 8 } } }) for i = 1, 10 do streets:sites({ along = 0.5, away = 0.5, distance = 2000 }) end")), @"");
+    assert_snapshot!(refused(&asked("streets:sites({ sizes = {} })")), @r"
+    error: s.lua:26: network:sites: sizes must be one or more pairs of numbers from 1 to 500
+      | streets:sites({ sizes = {} })
+      help: write sizes = { { 24, 18 }, { 12, 10 } }
+    ");
+    assert_snapshot!(refused(&asked("streets:sites({ along = 0 })")), @r"
+    error: s.lua:26: network:sites: along must be from 0.5 to 1000, not 0
+      | streets:sites({ along = 0 })
+    ");
+    assert_snapshot!(refused(&asked("streets:sites({ setback = 30, distance = 10 })")), @r"
+    error: s.lua:26: network:sites: setback (30 m) is more than distance (10 m), so no site could be beside a street
+      | streets:sites({ setback = 30, distance = 10 })
+      help: give a smaller setback, or a greater distance
+    ");
+    // Four streets of 60 m leave no room for such a hall between them.
+    let cross = format!(
+        "local Go = module(\"Go\")\nlocal s = lsystem({{ object = network() }}) s:axiom(Go())\n\
+         s:interpret(\"Go\", function(this) for way = 0, 270, 90 do this:grow(1, way, 60, 0) end end)\n\
+         s:derive(0).objects[1]:sites({})",
+        "{ sizes = { { 200, 200 } } }"
+    );
+    assert_snapshot!(refused(&cross), @r"
+    error: s.lua:4: network:sites: none of 176 places has room for a site: 176 are in a street or reach into one
+      | s:derive(0).objects[1]:sites({ sizes = { { 200, 200 } } })
+      help: give smaller sizes, or a smaller setback
+    ");
+    assert_snapshot!(refused(&asked("streets:sites({ along = 0.5, away = 0.5, distance = 2000 })")), @r"
+    error: s.lua:26: network:sites: 40289760 places along the streets would be tried
+      | streets:sites({ along = 0.5, away = 0.5, distance = 2000 })
+      help: give greater distances along and away
+    ");
 }
 
 #[test]
@@ -95,7 +147,7 @@ assert(math.abs(area) < 0.01, `{area}`)
 print(parks > 0 and parks < 9)
 "#,
     ));
-    assert_eq!(said.trim(), "true");
+    assert_eq!(said, ["true"]);
 }
 
 /// What a script prints that needs the templates.
@@ -211,7 +263,7 @@ for _, kind in { "boxes", "strips", "skeleton" } do
         end
         table.insert(rings, flat)
       end
-      local plan = polygon(table.unpack(rings))
+      local plan = polygon(rings)
       assert(plan:is_valid(), `{form}: {plan:validity()}`)
       assert(part.lot.geometry:covers(plan), `{form} of {part.id} leaves its lot`)
       assert(part.lot.geometry:boundary():distance(plan) > 0.99, form)

@@ -63,7 +63,7 @@ pub use marks::Marking;
 pub use measures::Measures;
 pub use network::{Junction, JunctionId, PieceId, StreetAttributes, StreetNetwork, StreetPiece};
 pub use obstacles::{Obstacle, Obstacles};
-pub use placement::{Site, SiteOptions, StreetSites};
+pub use placement::{SiteOptions, StreetSite, StreetSites};
 pub use profile::StreetProfiles;
 pub use surface::{Median, Sidewalk, StreetFooting, StreetSurface, StreetSurfaces, SurfaceOptions};
 pub use verge::{VergePlace, VergeThing};

@@ -69,7 +69,7 @@ impl SiteOptions {
 
 /// A place for a building.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Site {
+pub struct StreetSite {
     /// What it is called: the middle of its piece of a street, its side, its row and its place in it.
     pub id: String,
     /// Its corners (m), counter-clockwise, those of its front first.
@@ -88,11 +88,11 @@ pub struct Site {
 #[derive(Debug, Clone, Default)]
 pub struct StreetSites {
     /// In the order in which they were placed.
-    pub sites: Vec<Site>,
+    pub sites: Vec<StreetSite>,
     /// How many places were tried.
     pub tried: u64,
-    /// How many of them met a street, and how many another site.
-    pub refused: [u64; 2],
+    /// How many of them met a street, how many another site, and how many an obstacle.
+    pub refused: [u64; 3],
     /// How many edges of streets and sites the indices gave for all of them.
     pub looked_at: u64,
 }
@@ -196,9 +196,11 @@ impl StreetNetwork {
                         found.refused[0] += 1;
                     } else if !index.is_apart(&corners, options.gap) {
                         found.refused[1] += 1;
+                    } else if self.obstacles().reach_into(&corners.map(FinePlace::metres)) {
+                        found.refused[2] += 1;
                     } else {
                         index.add(corners);
-                        found.sites.push(Site {
+                        found.sites.push(StreetSite {
                             id: format!("{name}/{letter}{row}.{number}"),
                             corners: corners.map(FinePlace::metres),
                             piece,

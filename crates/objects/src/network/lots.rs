@@ -161,6 +161,12 @@ impl Network {
         let divided = blocks.par_iter().map(|block| {
             let mut stream = ModuleKey::seed(settings.seed.0).feature(&block.id).stream();
             let mut lots = block.divide(&options, &mut || stream.uniform());
+            for lot in &mut lots {
+                let is_free = || !self.network.obstacles().reach_into(&lot.rings[0]);
+                if lot.purpose == LotUse::Building && !is_free() {
+                    lot.purpose = LotUse::Blocked;
+                }
+            }
             lots.retain(|lot| settings.all || lot.purpose == LotUse::Building);
             lots.iter().map(|lot| self.lot_record(block, lot)).collect::<Vec<_>>()
         });

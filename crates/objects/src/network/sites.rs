@@ -5,7 +5,7 @@ use burgeon_data::Geometry;
 use burgeon_geometry::Rings;
 use burgeon_kit::rules::ModuleKey;
 use burgeon_kit::{Answer, Parameter, Seed, Value, Vector, fields};
-use burgeon_streets::{Site, SiteOptions};
+use burgeon_streets::{SiteOptions, StreetSite};
 use glam::DVec3;
 
 use super::Network;
@@ -74,18 +74,20 @@ impl Network {
         let found = self.network.sites(self.surface_options(), &options, &mut stream);
         let found = found.map_err(|error| error.about("network:sites"))?;
         if found.sites.is_empty() && found.tried > 0 {
-            let [streets, sites] = found.refused;
+            let why = ["are in a street or reach into one", "come too near another", "meet an obstacle"];
+            let why = found.refused.iter().zip(why).filter(|(count, _)| **count > 0);
+            let why: Vec<String> = why.map(|(count, why)| format!("{count} {why}")).collect();
             let text = format!(
-                "network:sites: none of {} places has room for a site: {streets} are in a street or reach into one, {sites} \
-                 come too near another",
-                found.tried
+                "network:sites: none of {} places has room for a site: {}",
+                found.tried,
+                why.join(", ")
             );
             return Err(Error::argument(text).help("give smaller sizes, or a smaller setback"));
         }
         Ok(SiteRecords(found.sites.iter().map(|site| self.site_record(site)).collect()))
     }
 
-    fn site_record(&self, site: &Site) -> Value {
+    fn site_record(&self, site: &StreetSite) -> Value {
         let street = self.network.attributes(site.piece);
         let [a, b, ..] = site.corners.map(|corner| corner.extend(0.0));
         let ring: Vec<DVec3> = site.corners.iter().map(|corner| corner.extend(0.0)).collect();

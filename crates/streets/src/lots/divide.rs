@@ -20,6 +20,8 @@ pub enum LotUse {
     Court,
     /// Too small for a building, or without access.
     Rest,
+    /// An obstacle reaches into it.
+    Blocked,
 }
 
 impl LotUse {
@@ -30,6 +32,7 @@ impl LotUse {
             Self::Park => "park",
             Self::Court => "court",
             Self::Rest => "rest",
+            Self::Blocked => "blocked",
         }
     }
 }
