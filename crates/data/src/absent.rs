@@ -100,7 +100,7 @@ pub(crate) mod projection {
         }
     }
 
-    pub(crate) fn known(_code: u32) -> Result<Option<(u16, &'static str)>> {
+    pub(crate) fn known(_code: u32) -> Result<Option<(u16, String)>> {
         left_out()
     }
 }

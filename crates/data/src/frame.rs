@@ -1,7 +1,5 @@
 //! Coordinate systems, and the one projection and origin in which all sources of a run meet.
 
-use std::borrow::Cow;
-
 use glam::DVec3;
 use rayon::prelude::*;
 
@@ -22,7 +20,7 @@ pub struct Crs {
     /// Its number in the registry.
     pub code: Option<u16>,
     name: String,
-    definition: Cow<'static, str>,
+    definition: String,
 }
 
 impl Crs {
@@ -34,7 +32,7 @@ impl Crs {
             let message = format!("the coordinate system EPSG:{code} is not known");
             Error::not_found("coordinate system", code, [], message).help(REMEDY)
         })?;
-        Ok(Self { code: Some(code), name: format!("EPSG:{code}"), definition: Cow::Borrowed(definition) })
+        Ok(Self { code: Some(code), name: format!("EPSG:{code}"), definition })
     }
 
     /// The transverse Mercator projection around a middle, a longitude and a latitude (degrees) of WGS 84, from where
@@ -43,9 +41,9 @@ impl Crs {
         Self {
             code: None,
             name: format!("transverse Mercator around {longitude:?}, {latitude:?}"),
-            definition: Cow::Owned(format!(
+            definition: format!(
                 "+proj=tmerc +lat_0={latitude:?} +lon_0={longitude:?} +k=1 +x_0=0 +y_0=0 +datum=WGS84 +units=m +no_defs"
-            )),
+            ),
         }
     }
 
@@ -170,7 +168,7 @@ impl ReferenceFrame {
             };
             let middle = degrees.map(|angle| (angle * 10.0).round() / 10.0);
             let crs = Crs::around(middle);
-            (crs.name(), crs.definition.into_owned(), Some(middle))
+            (crs.name(), crs.definition, Some(middle))
         };
         let cannot = |why| Error::argument(format!("{name} cannot be used: {why}")).help(REMEDY);
         let projection = Projection::new(&definition, cannot)?;

@@ -21,6 +21,8 @@ pub struct Constraints {
     pub bend: f64,
     /// The longest way (m) over an obstacle that a street may bridge.
     pub bridge: f64,
+    /// Whether a street may end before an obstacle.
+    pub shorten: bool,
     /// The most pieces of streets.
     pub most: usize,
 }
@@ -35,6 +37,7 @@ impl Default for Constraints {
             corner: 4.0,
             bend: 40.0,
             bridge: 0.0,
+            shorten: true,
             most: 1_000_000,
         }
     }
@@ -43,7 +46,8 @@ impl Default for Constraints {
 impl Constraints {
     /// Fails where they contradict one another, and says how.
     pub fn check(&self) -> Result<()> {
-        let Self { snap, min_angle, min_length, clearance, corner, bend, bridge, most: _ } = *self;
+        let Self { snap, min_angle, min_length, clearance, corner, bend, bridge, shorten: _, most: _ } =
+            *self;
         let named = [
             ("snap", snap, 0.0, 10_000.0),
             ("min_angle", min_angle, 10.0, 90.0),

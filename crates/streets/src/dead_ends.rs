@@ -126,7 +126,7 @@ impl StreetNetwork {
             let to = self.place_of(*end).metres();
             let line = [here, to];
             self.obstacles.first_on(line, attributes.width).is_none()
-                && self.test(from, *end, attributes).is_ok()
+                && self.test(from, *end, attributes, &mut 0).is_ok()
                 && self.is_detour(from, *end, here.distance(to) * options.detour)
         });
         found.map(|(_, _, end)| end)

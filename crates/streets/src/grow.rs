@@ -9,13 +9,10 @@ use glam::DVec2;
 use smallvec::SmallVec;
 
 use crate::constraints::{Constraints, Fate, Refusal};
-use crate::corner::{Arm, turn};
-use crate::grid::{GridPlace, crossing, foot, meet};
+use crate::grid::{GridPlace, crossing, foot};
 use crate::network::{JunctionId, PieceId, StreetAttributes, StreetNetwork};
 use burgeon_base::error::{Error, Limit, Result};
 
-/// Junctions may come out nearer by this angle (degrees) than was asked, for a piece that is divided turns a little.
-const TURN_OF_DIVISION: f64 = 0.05;
 /// By how much (degrees) a street turns more at each try to pass an obstacle.
 const BEND_STEP: f64 = 5.0;
 
@@ -26,6 +23,17 @@ pub struct StreetGrowth {
     pub fate: Fate,
     /// Where it ends; where it would have begun if it was refused.
     pub end: JunctionId,
+}
+
+/// What would become of a street, if it were proposed now.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct StreetProspect {
+    /// What would become of it.
+    pub fate: Fate,
+    /// Where it would end (m); where it would have begun if it would be refused.
+    pub place: DVec2,
+    /// The junction that it would end at, if that is there already.
+    pub junction: Option<JunctionId>,
 }
 
 /// Where a street could end.
@@ -89,34 +97,86 @@ impl StreetNetwork {
             return Err(Error::limit(Limit::Size, format!("the network has {most} pieces of streets"))
                 .help("let fewer streets grow, or raise the limit: network { most = ... }"));
         }
-        let refused = |refusal| StreetGrowth { fate: Fate::Refused(refusal), end: from };
+        let mut looked_at = 0;
+        let planned = self.plan(from, to, attributes, &mut looked_at);
+        self.looked_at += looked_at;
+        Ok(match planned {
+            Ok(PlannedStreet { end, fate, is_bridge }) => {
+                StreetGrowth { fate, end: self.build(from, end, attributes, is_bridge) }
+            }
+            Err(refusal) => StreetGrowth { fate: Fate::Refused(refusal), end: from },
+        })
+    }
+
+    /// What would become of a street from a junction to a place, without building it.
+    pub fn probe(&self, from: JunctionId, to: DVec2, attributes: StreetAttributes) -> StreetProspect {
+        match self.plan(from, to, attributes, &mut 0) {
+            Ok(PlannedStreet { end, fate, .. }) => {
+                let junction = if let StreetEnd::Junction(junction) = end { Some(junction) } else { None };
+                StreetProspect { fate, place: self.place_of(end).metres(), junction }
+            }
+            Err(refusal) => {
+                StreetProspect { fate: Fate::Refused(refusal), place: self.at(from), junction: None }
+            }
+        }
+    }
+
+    /// What the constraints leave of a street; counts in `looked_at` the neighbours that were asked about.
+    fn plan(
+        &self,
+        from: JunctionId,
+        to: DVec2,
+        attributes: StreetAttributes,
+        looked_at: &mut u64,
+    ) -> std::result::Result<PlannedStreet, Refusal> {
         if GridPlace::nearest(to).is_none() {
-            return Ok(refused(Refusal::Outside));
+            return Err(Refusal::Outside);
         }
         let start = self.at(from);
         let mut first = None;
-        for (target, fate, is_bridge) in self.around_obstacles(start, to, attributes.width) {
+        for (target, of_way, may_bridge) in self.around_obstacles(start, to, attributes.width) {
             let candidates = match target {
-                Ok(target) => self.candidates(from, target, attributes),
+                Ok(target) => self.candidates(from, target, attributes, looked_at),
                 Err(refusal) => {
                     first.get_or_insert(refusal);
                     continue;
                 }
             };
             for (end, of_end) in candidates {
-                match self.test(from, end, attributes) {
-                    Ok(()) => {
-                        let end = self.build(from, end, attributes, is_bridge);
-                        let fate = if of_end == Fate::Built { fate } else { of_end };
-                        return Ok(StreetGrowth { fate, end });
-                    }
+                // What it is snapped to may lie behind an obstacle, even where the way as proposed is free.
+                let planned =
+                    self.passes_obstacles(from, end, attributes.width, may_bridge).and_then(|is_bridge| {
+                        self.test(from, end, attributes, looked_at)?;
+                        let fate = if of_end == Fate::Built { of_way } else { of_end };
+                        Ok(PlannedStreet { end, fate, is_bridge })
+                    });
+                match planned {
+                    Ok(planned) => return Ok(planned),
                     Err(refusal) => {
                         first.get_or_insert(refusal);
                     }
                 }
             }
         }
-        Ok(refused(first.unwrap_or(Refusal::TooShort)))
+        Err(first.unwrap_or(Refusal::TooShort))
+    }
+
+    /// Whether a street keeps out of all obstacles (`false`), or bridges what lies in its way (`true`); fails if neither.
+    fn passes_obstacles(
+        &self,
+        from: JunctionId,
+        end: StreetEnd,
+        width: f64,
+        may_bridge: bool,
+    ) -> std::result::Result<bool, Refusal> {
+        let line = [self.at(from), self.place_of(end).metres()];
+        let Some((along, obstacle)) = self.obstacles.first_on(line, width) else { return Ok(false) };
+        let length = line[0].distance(line[1]);
+        let bridges = |beyond: f64| (beyond - along) * length <= self.constraints.bridge;
+        if may_bridge && along > 0.0 && self.obstacles.beyond(line, width).is_some_and(bridges) {
+            return Ok(true);
+        }
+        Err(if obstacle.is_limit { Refusal::Outside } else { Refusal::Obstacle })
     }
 
     /// Joins two ends without looking for others; tells why not if a constraint is broken.
@@ -126,12 +186,11 @@ impl StreetNetwork {
         end: StreetEnd,
         attributes: StreetAttributes,
     ) -> std::result::Result<JunctionId, Refusal> {
-        let line = [self.at(from), self.place_of(end).metres()];
-        if self.obstacles.first_on(line, attributes.width).is_some() {
-            return Err(Refusal::Obstacle);
-        }
-        self.test(from, end, attributes)?;
-        Ok(self.build(from, end, attributes, false))
+        self.passes_obstacles(from, end, attributes.width, false)?;
+        let mut looked_at = 0;
+        let tested = self.test(from, end, attributes, &mut looked_at);
+        self.looked_at += looked_at;
+        tested.map(|()| self.build(from, end, attributes, false))
     }
 
     fn build(
@@ -158,7 +217,7 @@ impl StreetNetwork {
             return ways;
         };
         let refusal = if obstacle.is_limit { Refusal::Outside } else { Refusal::Obstacle };
-        let Constraints { bend, bridge, min_length, .. } = self.constraints;
+        let Constraints { bend, bridge, min_length, shorten, .. } = self.constraints;
         let (way, length) = (to - from, from.distance(to));
         if bridge > 0.0 && obstacle.can_be_bridged && length > 0.0 {
             let far = from + way / length * (along * length + bridge + min_length);
@@ -182,7 +241,7 @@ impl StreetNetwork {
             angle += BEND_STEP;
         }
         let short = along * length - 1.0;
-        if short >= min_length {
+        if shorten && short >= min_length {
             ways.push((Ok(from + way * (short / length)), Fate::Shortened, false));
         }
         ways.push((Err(refusal), Fate::Refused(refusal), false));
@@ -191,10 +250,11 @@ impl StreetNetwork {
 
     /// Where a street to `to` could end, the best first.
     fn candidates(
-        &mut self,
+        &self,
         from: JunctionId,
         to: DVec2,
         attributes: StreetAttributes,
+        looked_at: &mut u64,
     ) -> SmallVec<[(StreetEnd, Fate); 8]> {
         let start = self.at(from);
         let snap = self.constraints.snap;
@@ -223,9 +283,9 @@ impl StreetNetwork {
         let half = attributes.width / 2.0;
         let until = start + way * reach.min(1.0);
         let mut junctions: SmallVec<[(f64, JunctionId); 8]> = SmallVec::new();
-        let mut looked_at = near.len() as u64;
+        *looked_at += near.len() as u64;
         for junction in self.junctions_near([start, until], snap) {
-            looked_at += 1;
+            *looked_at += 1;
             if junction == from || self.junctions[junction as usize].pieces.is_empty() {
                 continue;
             }
@@ -233,13 +293,12 @@ impl StreetNetwork {
             let (aside, along) = foot(place, [start, until]);
             let too_near = aside < self.constraints.clearance + half + self.widest_at(junction) / 2.0;
             let end = place.distance(until);
-            if end <= snap {
+            if end < snap {
                 junctions.push((along + end / snap * 0.25, junction));
             } else if too_near {
                 junctions.push((along, junction));
             }
         }
-        self.looked_at += looked_at;
         junctions.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
         ends.extend(
             junctions.iter().take(6).map(|(_, junction)| (StreetEnd::Junction(*junction), Fate::Snapped)),
@@ -285,185 +344,15 @@ impl StreetNetwork {
             StreetEnd::On(_, place) | StreetEnd::Free(place) => place,
         }
     }
-
-    /// Whether a street from a junction to an end keeps all constraints.
-    pub(crate) fn test(
-        &self,
-        from: JunctionId,
-        end: StreetEnd,
-        attributes: StreetAttributes,
-    ) -> std::result::Result<(), Refusal> {
-        let places = [self.junctions[from as usize].place, self.place_of(end)];
-        let line = places.map(GridPlace::metres);
-        let length = line[0].distance(line[1]);
-        if length < self.constraints.min_length {
-            return Err(Refusal::TooShort);
-        }
-        let divided = match end {
-            StreetEnd::On(piece, place) => {
-                if self.ends(piece).contains(&from) {
-                    return Err(Refusal::Angle);
-                }
-                if !self.can_divide(piece, place) {
-                    return Err(Refusal::TooShort);
-                }
-                Some(piece)
-            }
-            StreetEnd::Junction(junction) => {
-                if junction == from {
-                    return Err(Refusal::TooShort);
-                }
-                None
-            }
-            StreetEnd::Free(_) => None,
-        };
-        self.test_distances(from, end, divided, places, attributes.width)?;
-        let way = (line[1] - line[0]) / length;
-        let here = self.measured_arms(from);
-        let there = match end {
-            StreetEnd::Junction(junction) => self.measured_arms(junction),
-            StreetEnd::On(piece, place) => {
-                let at = place.metres();
-                let halves = self.ends(piece).map(|far| {
-                    let to = self.at(far);
-                    let arm = self.attributes(piece).arm((to - at).normalize_or_zero());
-                    MeasuredArm { arm, length: at.distance(to), far: self.reach_at(far, piece) }
-                });
-                halves.into_iter().collect()
-            }
-            StreetEnd::Free(_) => Arms::new(),
-        };
-        let here_reach = self.test_corners(here, attributes.arm(way))?;
-        let there_reach = self.test_corners(there, attributes.arm(-way))?;
-        if here_reach + there_reach > length { Err(Refusal::Corners) } else { Ok(()) }
-    }
-
-    /// Whether nothing that the street does not join is too near it.
-    fn test_distances(
-        &self,
-        from: JunctionId,
-        end: StreetEnd,
-        divided: Option<PieceId>,
-        places: [GridPlace; 2],
-        width: f64,
-    ) -> std::result::Result<(), Refusal> {
-        let line = places.map(GridPlace::metres);
-        let to = if let StreetEnd::Junction(junction) = end { Some(junction) } else { None };
-        let most = self.constraints.clearance + width / 2.0 + self.widest() / 2.0;
-        for piece in self.pieces_near(line, most) {
-            let ends = self.ends(piece);
-            let of_end = to.is_some_and(|to| ends.contains(&to));
-            if ends.contains(&from) || of_end {
-                // Streets of one junction part by their angle; two do not lead to the same two junctions.
-                if ends.contains(&from) && of_end {
-                    return Err(Refusal::Angle);
-                }
-                continue;
-            }
-            if divided == Some(piece) {
-                continue;
-            }
-            if meet(places, self.grid_line(piece)) {
-                return Err(Refusal::TooNear);
-            }
-            let apart =
-                self.constraints.clearance + (width + self.pieces[piece as usize].attributes.width) / 2.0;
-            let other = self.line(piece);
-            let nearest = [
-                foot(line[0], other).0,
-                foot(line[1], other).0,
-                foot(other[0], line).0,
-                foot(other[1], line).0,
-            ];
-            if nearest.into_iter().any(|distance| distance < apart) {
-                return Err(Refusal::TooNear);
-            }
-        }
-        Ok(())
-    }
-
-    /// The streets at a junction.
-    fn measured_arms(&self, junction: JunctionId) -> Arms {
-        let arms = self.corner_arms(junction).into_iter();
-        let measured = arms.map(|(piece, arm)| {
-            let far = self.reach_at(self.across(piece, junction), piece);
-            MeasuredArm { arm, length: self.length(piece), far }
-        });
-        measured.collect()
-    }
-
-    /// How much of a piece (m) the corners of one of its junctions take.
-    pub(crate) fn reach_at(&self, junction: JunctionId, piece: PieceId) -> f64 {
-        let arms = self.corner_arms(junction);
-        let index = arms.iter().position(|(arm, _)| *arm == piece);
-        let arms: SmallVec<[Arm; 6]> = arms.into_iter().map(|(_, arm)| arm).collect();
-        index.map_or(0.0, |index| self.reaches(&arms)[index])
-    }
-
-    /// Tests the angles and the corners of a junction to which an arm comes; gives how much of that its corners take.
-    fn test_corners(&self, mut arms: Arms, new: Arm) -> std::result::Result<f64, Refusal> {
-        let least = (self.constraints.min_angle + TURN_OF_DIVISION).to_radians();
-        let too_sharp = |known: &MeasuredArm| {
-            let angle = turn(new.way, known.arm.way);
-            angle.min(std::f64::consts::TAU - angle) < least
-        };
-        if arms.iter().any(too_sharp) {
-            return Err(Refusal::Angle);
-        }
-        arms.push(MeasuredArm { arm: new, length: f64::INFINITY, far: 0.0 });
-        arms.sort_by(|a, b| a.arm.way.to_angle().total_cmp(&b.arm.way.to_angle()));
-        let bare: SmallVec<[Arm; 6]> = arms.iter().map(|known| known.arm).collect();
-        let mut own = 0.0;
-        for (known, reach) in arms.iter().zip(self.reaches(&bare)) {
-            if known.length.is_infinite() {
-                own = reach;
-            } else if reach + known.far > known.length {
-                return Err(Refusal::Corners);
-            }
-        }
-        Ok(own)
-    }
-
-    /// Whether both halves of a piece that is divided there are long enough, and turn so little that all angles at its
-    /// ends stay, and nothing comes to lie on them.
-    pub(crate) fn can_divide(&self, piece: PieceId, place: GridPlace) -> bool {
-        let ends = self.ends(piece);
-        if self.junction_at(place).is_some() {
-            return false;
-        }
-        let at = place.metres();
-        let least = self.constraints.min_angle.to_radians();
-        ends.into_iter().all(|end| {
-            let to = self.at(end);
-            let way = (at - to).normalize_or_zero();
-            let angles = self.junctions[end as usize].pieces.iter().filter(|arm| **arm != piece).map(|arm| {
-                let angle = turn(way, self.leaves(*arm, end));
-                angle.min(std::f64::consts::TAU - angle)
-            });
-            let half = [place, self.junctions[end as usize].place];
-            let crosses = || {
-                self.pieces_near(half.map(GridPlace::metres), 0.01).any(|other| {
-                    other != piece && !self.ends(other).contains(&end) && meet(half, self.grid_line(other))
-                })
-            };
-            at.distance(to) >= self.constraints.min_length
-                && angles.fold(4.0, f64::min) >= least
-                && !crosses()
-        })
-    }
 }
 
-/// Where a street may lead, what that makes of it, and whether it is a bridge.
-type ProposedWay = (std::result::Result<DVec2, Refusal>, Fate, bool);
-
-type Arms = SmallVec<[MeasuredArm; 6]>;
-
-/// A street at a junction.
+/// A street that keeps all constraints.
 #[derive(Debug, Clone, Copy)]
-struct MeasuredArm {
-    arm: Arm,
-    /// Its length (m) to the next junction.
-    length: f64,
-    /// How much of that (m) the corners at the other end take.
-    far: f64,
+struct PlannedStreet {
+    end: StreetEnd,
+    fate: Fate,
+    is_bridge: bool,
 }
+
+/// Where a street may lead, what that makes of it, and whether it may be a bridge.
+type ProposedWay = (std::result::Result<DVec2, Refusal>, Fate, bool);

@@ -23,34 +23,49 @@
 mod constraints;
 mod corner;
 mod dead_ends;
+mod existing;
 mod faces;
+mod fit;
+#[cfg(test)]
+mod fit_tests;
 mod grid;
 mod grow;
+#[cfg(test)]
+mod growth_tests;
+mod keeps;
 mod kinds;
 mod lots;
 mod marks;
 mod measures;
 mod network;
 mod obstacles;
+mod placement;
 mod profile;
 mod rows;
 mod shape;
+mod spans;
 mod surface;
 #[cfg(test)]
 mod surface_tests;
 #[cfg(test)]
 mod tests;
+mod verge;
 
 pub use constraints::{Constraints, Fate, Refusal};
 pub use dead_ends::DeadEndOptions;
+pub use existing::{ExistingLosses, ExistingStreet};
 pub use faces::{Course, StreetFace};
+pub use fit::{SlopeOptions, StreetFit};
 pub use grid::{FARTHEST, GridPlace};
-pub use grow::StreetGrowth;
+pub use grow::{StreetGrowth, StreetProspect};
 pub use kinds::StreetKind;
-pub use lots::{Block, BlockSide, Lot, LotOptions, LotPattern, LotUse};
+pub use lots::{BlockSide, Lot, LotOptions, LotPattern, LotUse, StreetBlock};
 pub use marks::Marking;
 pub use measures::Measures;
 pub use network::{Junction, JunctionId, PieceId, StreetAttributes, StreetNetwork, StreetPiece};
 pub use obstacles::{Obstacle, Obstacles};
+pub use placement::{SiteOptions, StreetSite, StreetSites};
 pub use profile::StreetProfiles;
-pub use surface::{Median, Sidewalk, StreetSurface, StreetSurfaces, SurfaceOptions};
+pub use spans::StreetSpan;
+pub use surface::{Median, Sidewalk, StreetFooting, StreetSurface, StreetSurfaces, SurfaceOptions};
+pub use verge::{VergePlace, VergeThing};

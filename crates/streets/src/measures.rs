@@ -1,5 +1,9 @@
 //! What networks are compared by.
 
+use std::f64::consts::PI;
+
+use glam::DVec2;
+
 use crate::network::StreetNetwork;
 
 /// The measures of a network, as they are taken of real cities.
@@ -23,12 +27,17 @@ pub struct Measures {
     pub block: f64,
     /// The standard deviation of the logarithm, to the base of 10, of the areas of the faces.
     pub block_spread: f64,
+    /// The median of the areas of the faces over those of the smallest circles around them, from 0 to 1.
+    pub block_shape: f64,
+    /// The median length (m) of the streets between junctions.
+    pub segment: f64,
 }
 
 impl StreetNetwork {
     /// Its measures. Junctions where a street only turns are a part of it, not junctions.
     pub fn measures(&self) -> Measures {
-        let (length, straight, bins) = self.streets();
+        let StreetRuns { lengths, straight, bins } = self.runs();
+        let length = lengths.iter().sum();
         let degrees: Vec<usize> = self
             .junctions
             .iter()
@@ -49,8 +58,13 @@ impl StreetNetwork {
         #[allow(clippy::cast_precision_loss, reason = "counts far below 2^53")]
         let turns = self.junctions.iter().filter(|junction| junction.degree() == 2).count() as f64;
         let meshedness = (edges - vertices + parts) / (2.0 * (vertices - turns) - 5.0).max(1.0);
-        let mut areas: Vec<f64> = self.faces().iter().map(|face| self.area(&face.around)).collect();
-        areas.sort_by(f64::total_cmp);
+        let (mut areas, mut shapes) = (Vec::new(), Vec::new());
+        for face in self.faces() {
+            let corners = self.corners(&face.around);
+            let area = self.area(&face.around);
+            areas.push(area);
+            shapes.push(area / (PI * circle_around(&corners).1.powi(2)));
+        }
         #[allow(clippy::cast_precision_loss, reason = "counts far below 2^53")]
         let block_spread = {
             let logs: Vec<f64> = areas.iter().map(|area| area.log10()).collect();
@@ -64,15 +78,16 @@ impl StreetNetwork {
             circuity: if straight > 0.0 { length / straight } else { 1.0 },
             meshedness,
             orientation_order: order(&bins),
-            block: areas.get(areas.len() / 2).copied().unwrap_or(0.0),
+            block: median(areas),
             block_spread,
+            block_shape: median(shapes),
+            segment: median(lengths),
         }
     }
 
-    /// The length of all streets (m), of the straight ways between their junctions, and how much of it leads where, in
-    /// 36 directions.
-    fn streets(&self) -> (f64, f64, [f64; 36]) {
-        let (mut length, mut straight, mut bins) = (0.0, 0.0, [0.0; 36]);
+    /// Its streets from junction to junction.
+    fn runs(&self) -> StreetRuns {
+        let (mut lengths, mut straight, mut bins) = (Vec::new(), 0.0, [0.0; 36]);
         let mut seen = vec![false; self.pieces.len()];
         // Ways from junction to junction first, then rings of turns alone.
         let starts = |of: fn(usize) -> bool| {
@@ -96,7 +111,7 @@ impl StreetNetwork {
                 if way == 0.0 {
                     continue;
                 }
-                length += way;
+                lengths.push(way);
                 let straight_way = self.at(at) - self.at(from);
                 straight += straight_way.length();
                 if straight_way.length() > 0.0 {
@@ -114,7 +129,7 @@ impl StreetNetwork {
                 }
             }
         }
-        (length, straight, bins)
+        StreetRuns { lengths, straight, bins }
     }
 }
 
@@ -127,4 +142,72 @@ fn order(bins: &[f64; 36]) -> f64 {
     let entropy: f64 = bins.iter().filter(|bin| **bin > 0.0).map(|bin| -(bin / all) * (bin / all).ln()).sum();
     let (most, grid) = (36.0_f64.ln(), 4.0_f64.ln());
     1.0 - ((entropy - grid) / (most - grid)).max(0.0).powi(2)
+}
+
+/// The streets of a network from one junction to the next.
+struct StreetRuns {
+    /// How long (m) each is.
+    lengths: Vec<f64>,
+    /// The sum (m) of the straight ways between their ends.
+    straight: f64,
+    /// How many lead where, in 36 directions.
+    bins: [f64; 36],
+}
+
+/// The middle one of some numbers; 0 of none.
+fn median(mut numbers: Vec<f64>) -> f64 {
+    numbers.sort_by(f64::total_cmp);
+    numbers.get(numbers.len() / 2).copied().unwrap_or(0.0)
+}
+
+/// The middle and the radius (m) of the smallest circle around some places.
+///
+/// Method: E. Welzl, "Smallest enclosing disks (balls and ellipsoids)", 1991, by loops.
+fn circle_around(places: &[DVec2]) -> (DVec2, f64) {
+    let outside =
+        |(middle, radius): (DVec2, f64), place: DVec2| middle.distance(place) > radius * (1.0 + 1e-12);
+    let mut circle = (places.first().copied().unwrap_or(DVec2::ZERO), 0.0);
+    for (first, &a) in places.iter().enumerate() {
+        if !outside(circle, a) {
+            continue;
+        }
+        circle = (a, 0.0);
+        for (second, &b) in places[..first].iter().enumerate() {
+            if !outside(circle, b) {
+                continue;
+            }
+            circle = (a.midpoint(b), a.distance(b) / 2.0);
+            for &c in &places[..second] {
+                if outside(circle, c) {
+                    circle = circle_through(a, b, c).unwrap_or(circle);
+                }
+            }
+        }
+    }
+    circle
+}
+
+/// The circle through three places; `None` if they lie on a line.
+fn circle_through(a: DVec2, b: DVec2, c: DVec2) -> Option<(DVec2, f64)> {
+    let (b, c) = (b - a, c - a);
+    let twice = 2.0 * b.perp_dot(c);
+    let middle = DVec2::new(
+        c.y * b.length_squared() - b.y * c.length_squared(),
+        b.x * c.length_squared() - c.x * b.length_squared(),
+    ) / twice;
+    middle.is_finite().then(|| (a + middle, middle.length()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_smallest_circle_touches_what_it_has_to() {
+        let square = [(0.0, 0.0), (2.0, 0.0), (2.0, 2.0), (0.0, 2.0), (1.0, 1.0)].map(DVec2::from);
+        let (middle, radius) = circle_around(&square);
+        assert!(middle.distance(DVec2::ONE) < 1e-12 && (radius - 2.0_f64.sqrt()).abs() < 1e-12);
+        let flat = [(0.0, 0.0), (4.0, 0.5), (8.0, 0.0)].map(DVec2::from);
+        assert!((circle_around(&flat).1 - 4.0).abs() < 1e-12);
+    }
 }

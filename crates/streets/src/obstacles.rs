@@ -3,11 +3,12 @@
 use std::sync::Arc;
 
 use glam::DVec2;
-use rstar::primitives::{GeomWithData, Line as IndexLine};
+use rstar::primitives::{GeomWithData, Line as IndexLine, Rectangle};
 use rstar::{AABB, RTree};
 
 use crate::grid::{crossing, foot};
-use burgeon_geometry::Polygon;
+use burgeon_geometry::planar::contains;
+use burgeon_geometry::{Polygon, planar};
 
 type ObstacleEdge = GeomWithData<IndexLine<[f64; 2]>, u32>;
 
@@ -15,6 +16,8 @@ type ObstacleEdge = GeomWithData<IndexLine<[f64; 2]>, u32>;
 #[derive(Clone, Default)]
 pub struct Obstacles {
     areas: Arc<[Obstacle]>,
+    /// The boxes of the areas that are no limits.
+    boxes: Arc<RTree<GeomWithData<Rectangle<[f64; 2]>, u32>>>,
     edges: Arc<RTree<ObstacleEdge>>,
 }
 
@@ -37,7 +40,15 @@ impl Obstacles {
             pieces.map(move |[a, b]| GeomWithData::new(IndexLine::new(a.to_array(), b.to_array()), number))
         });
         let edges = RTree::bulk_load(edges.collect());
-        Self { areas: areas.into(), edges: Arc::new(edges) }
+        let boxes = (0..).zip(&areas).filter(|(_, obstacle)| !obstacle.is_limit);
+        let boxes = boxes.filter_map(|(number, obstacle): (u32, &Obstacle)| {
+            let points = || obstacle.area.points();
+            let (low, high) = (points().reduce(DVec2::min)?, points().reduce(DVec2::max)?);
+            let of_all = Rectangle::from_corners(low.to_array(), high.to_array());
+            Some(GeomWithData::new(of_all, number))
+        });
+        let boxes = RTree::bulk_load(boxes.collect());
+        Self { areas: areas.into(), boxes: Arc::new(boxes), edges: Arc::new(edges) }
     }
 
     /// Whether there are none.
@@ -47,7 +58,26 @@ impl Obstacles {
 
     /// The obstacle that a place lies in, or that it lies outside of if it is a limit.
     pub fn at(&self, place: DVec2) -> Option<&Obstacle> {
-        self.areas.iter().find(|obstacle| obstacle.area.contains(place) != obstacle.is_limit)
+        let around = self.boxes.locate_all_at_point(&place.to_array()).map(|found| found.data);
+        let inside = around.filter(|number| self.areas[*number as usize].area.contains(place)).min();
+        inside.map(|number| &self.areas[number as usize]).or_else(|| {
+            self.areas.iter().find(|obstacle| obstacle.is_limit && !obstacle.area.contains(place))
+        })
+    }
+
+    /// Whether an area inside of a ring (m) has a place in common with an obstacle, or leaves a limit.
+    pub fn reach_into(&self, ring: &[DVec2]) -> bool {
+        let Some(first) = ring.first().filter(|_| !self.is_empty()) else { return false };
+        if self.at(*first).is_some() {
+            return true;
+        }
+        let [low, high] = ring.iter().fold([*first; 2], |[low, high], at| [low.min(*at), high.max(*at)]);
+        let around = AABB::from_corners(low.to_array(), high.to_array());
+        let mut near = self.edges.locate_in_envelope_intersecting(&around);
+        near.any(|edge| {
+            let ends = [edge.geom().from, edge.geom().to].map(DVec2::from);
+            contains(ring, ends[0]) || planar::edges(ring).any(|side| first_within(side, ends, 0.0).is_some())
+        })
     }
 
     /// Where a way of a `width` (m) first comes to an obstacle: how far along it is, from 0 to 1, and what it is.
@@ -62,12 +92,12 @@ impl Obstacles {
         let met = near.filter_map(|edge| {
             let ends = [edge.geom().from, edge.geom().to].map(DVec2::from);
             let along = first_within([a, b], ends, half)?;
-            Some((along, &self.areas[edge.data as usize]))
+            Some((along, &self.areas[edge.data as usize], edge.data))
         });
-        let first = met.min_by(|(a, _), (b, _)| a.total_cmp(b));
+        let first = met.min_by(|(a, _, of_a), (b, _, of_b)| a.total_cmp(b).then(of_a.cmp(of_b)));
         match self.at(a) {
             Some(inside) if length > 0.0 => Some((0.0, inside)),
-            _ => first,
+            _ => first.map(|(along, obstacle, _)| (along, obstacle)),
         }
     }
 

@@ -14,6 +14,7 @@ pub(crate) mod output;
 mod packed;
 pub(crate) mod png;
 pub(crate) mod projection;
+mod registry;
 pub(crate) mod zipped;
 
 pub use flatgeobuf::FlatGeobuf;

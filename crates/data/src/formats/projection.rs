@@ -3,6 +3,7 @@
 use proj4rs::Proj;
 use proj4rs::transform::transform;
 
+use super::registry::entry;
 use burgeon_base::error::{Error, Result};
 
 /// A projection, or longitude and latitude.
@@ -22,14 +23,13 @@ impl Projection {
 }
 
 /// The number and the definition of a coordinate system, if the registry has it.
-pub(crate) fn known(code: u32) -> Result<Option<(u16, &'static str)>> {
-    let found = u16::try_from(code).ok().and_then(crs_definitions::from_code);
-    Ok(found.map(|found| (found.code, found.proj4)))
+pub(crate) fn known(code: u32) -> Result<Option<(u16, String)>> {
+    Ok(entry(code)?.map(|found| (found.code, found.proj)))
 }
 
 /// The definition of a coordinate system in well-known text, if the registry has it.
-pub(crate) fn definition(code: u16) -> Result<Option<&'static str>> {
-    Ok(crs_definitions::from_code(code).map(|found| found.wkt))
+pub(crate) fn definition(code: u16) -> Result<Option<String>> {
+    Ok(entry(u32::from(code))?.map(|found| found.text))
 }
 
 #[cfg(test)]
@@ -40,7 +40,7 @@ mod tests {
     fn projections_are_within_a_millimetre_of_another_programs() {
         let projection = |code: u32| {
             let (_, definition) = known(code).unwrap().unwrap();
-            Projection::new(definition, Error::data).unwrap()
+            Projection::new(&definition, Error::data).unwrap()
         };
         let degrees = projection(4326);
         let mut counts = std::collections::BTreeMap::new();

@@ -1,18 +1,26 @@
 //! The type of object: its fields, and what rules ask and interpretations change.
 
+use std::sync::{Arc, OnceLock};
+
 use glam::DVec2;
 use rustc_hash::FxHashMap;
 
+use super::answers;
+use super::existing::{self, ExistingLines};
 use super::kinds::StreetOptions;
+use super::land::VergeRecords;
 use super::lots::{BlockRecords, LotRecords, LotSettings};
-use burgeon_base::error::{Error, Result};
+use super::sites::{SiteRecords, SiteSettings};
+use super::walk::NetworkWalk;
+use crate::Terrain;
+use burgeon_base::error::{Error, Limit, Result};
 use burgeon_base::warning::{Warning, WarningKind};
-use burgeon_geometry::{Plan, Rings};
-use burgeon_kit::{Color, TableOf, Vector, fields, methods, object};
+use burgeon_geometry::{Plan, Polygon, Rings};
+use burgeon_kit::{Color, TableOf, Value, Vector, fields, methods, object};
 use burgeon_scene::Scene;
 use burgeon_streets::{
-    Constraints, DeadEndOptions, Fate, JunctionId, Obstacle, Obstacles, StreetAttributes, StreetGrowth,
-    StreetKind, StreetNetwork, SurfaceOptions,
+    Constraints, DeadEndOptions, Fate, JunctionId, Obstacle, Obstacles, StreetAttributes, StreetFit,
+    StreetGrowth, StreetKind, StreetNetwork, SurfaceOptions,
 };
 
 /// What `network(...)` takes.
@@ -53,9 +61,22 @@ pub struct NetworkOptions {
     pub water: Vec<Rings>,
     /// The area that streets stay inside of; anywhere if it is left out.
     pub limit: Option<Rings>,
+    /// Whether a street may end before an obstacle, in place of being refused.
+    #[default(true)]
+    pub shorten: bool,
+    /// Streets that are there before any grows: a list of { lines = ..., depth = ..., bridge = ... }.
+    #[default(Vec::new())]
+    pub existing: Vec<ExistingLines>,
     /// The most pieces of streets.
     #[default(400_000)]
     pub most: u32,
+    /// The ground that streets lie on: a terrain that was derived before.
+    pub on: Option<Arc<Terrain>>,
+    /// The greatest slope (%) of streets on the ground; they cut into it and are raised over it to keep that.
+    #[default(10.0)]
+    pub max_slope: f64,
+    /// The height (m) of the water that bridges lead over; that of the terrain's water if it is left out.
+    pub water_level: Option<f64>,
     /// Height (m) of kerbs.
     #[default(0.14)]
     pub kerb: f64,
@@ -86,6 +107,8 @@ pub struct NetworkOptions {
     example = include_str!("../../scripts/network.lua"),
     shows,
     begin = restart,
+    push = open_branch,
+    pop = close_branch,
     end = finish,
     take_warnings = drain_warnings
 )]
@@ -94,8 +117,13 @@ pub struct Network {
     /// By depth.
     pub(super) kinds: Vec<StreetKind>,
     pub(super) network: StreetNetwork,
+    /// Areas that bridges lead over.
+    pub(super) water: Arc<[Polygon]>,
+    /// How high its streets lie, with the version of the network that this is of.
+    pub(super) fit: OnceLock<(u64, Arc<StreetFit>)>,
     /// What became of what was proposed in the last pass, by junction and heading.
     growths: FxHashMap<(u32, u64), StreetGrowth>,
+    walk: NetworkWalk,
     warnings: Vec<Warning>,
     /// Whether it was told that no street was built.
     is_told: bool,
@@ -106,14 +134,7 @@ impl Network {
     /// Proposes a street from a junction: its heading (degrees from east, counter-clockwise), its length (m) and how often its
     /// way has branched off.
     pub fn grow(&mut self, junction: u32, heading: f64, length: f64, depth: u32) -> Result<()> {
-        let from = self.known(junction)?;
-        if !heading.is_finite() || !length.is_finite() || length <= 0.0 {
-            return Err(Error::argument(format!(
-                "network:grow: a street of {length} m towards {heading} degrees cannot be"
-            ))
-            .help("give a finite heading, and a length above 0"));
-        }
-        let to = self.network.at(from) + DVec2::from_angle(heading.to_radians()) * length;
+        let (from, to) = self.proposed("grow", junction, heading, length)?;
         let growth = self.network.grow(from, to, self.attributes(depth))?;
         self.growths.insert((junction, heading.to_bits()), growth);
         Ok(())
@@ -126,17 +147,37 @@ impl Network {
         Ok(())
     }
 
+    /// Walks ahead from where the way is by a street of a length (m), if that is not refused, and goes on from where it ends.
+    ///
+    /// A way begins at the first start, towards the east; a branch begins where it leaves, and its depth is one more. What
+    /// is refused ends its way.
+    pub fn walk(&mut self, length: f64) -> Result<()> {
+        if length <= 0.0 {
+            return Err(Error::argument(format!("network:walk: a street of {length} m cannot be"))
+                .help("give a length above 0"));
+        }
+        let attributes = self.attributes(self.walk.depth());
+        if let Some((junction, heading, growth)) = self.walk.ahead(&mut self.network, length, attributes)? {
+            self.growths.insert((junction + 1, heading.to_bits()), growth);
+        }
+        Ok(())
+    }
+
+    /// Turns the way by an angle (degrees), counter-clockwise.
+    pub fn turn(&mut self, angle: f64) {
+        self.walk.turn(angle);
+    }
+
+    /// Lets the way go on from a junction towards a heading (degrees from east, counter-clockwise).
+    pub fn stand(&mut self, junction: u32, heading: f64) -> Result<()> {
+        let at = self.known(junction)?;
+        self.walk.stand(at, heading);
+        Ok(())
+    }
+
     /// Joins dead ends to the streets within a radius (m) to which the way along the streets is so many times longer.
     pub fn join_dead_ends(&mut self, radius: Option<f64>, detour: Option<f64>) -> Result<()> {
-        let usual = DeadEndOptions::default();
-        let options =
-            DeadEndOptions { radius: radius.unwrap_or(usual.radius), detour: detour.unwrap_or(usual.detour) };
-        if !(0.0..=2000.0).contains(&options.radius) || !(1.0..=100.0).contains(&options.detour) {
-            return Err(Error::argument(
-                "network:join_dead_ends takes a radius from 0 to 2000, and a detour from 1 to 100",
-            ));
-        }
-        self.network.join_dead_ends(options);
+        self.network.join_dead_ends(dead_end_options("join_dead_ends", radius, detour)?);
         Ok(())
     }
 
@@ -151,14 +192,44 @@ impl Network {
         matches!(growth.fate, Fate::Built | Fate::Bent | Fate::Shortened).then_some(growth.end + 1)
     }
 
+    /// The junction where a street ends that was proposed, whatever it joined; nil if it was refused.
+    pub fn arrived(&self, junction: u32, heading: f64) -> Option<u32> {
+        let growth = self.growths.get(&(junction, heading.to_bits()))?;
+        (!matches!(growth.fate, Fate::Refused(_))).then_some(growth.end + 1)
+    }
+
     /// What became of a street that was proposed: "built", "bent", "shortened", "snapped" to a junction, "joined" to a street, or
     /// why it was refused: "too short", "angle", "too near", "corners", "obstacle", "outside"; "unknown" if it was not proposed.
     pub fn fate(&self, junction: u32, heading: f64) -> String {
-        match self.growths.get(&(junction, heading.to_bits())).map(|growth| growth.fate) {
-            None => "unknown".into(),
-            Some(Fate::Refused(why)) => why.name().into(),
-            Some(fate) => fate.name().into(),
-        }
+        let growth = self.growths.get(&(junction, heading.to_bits()));
+        growth.map_or("unknown", |growth| answers::fate(growth.fate)).into()
+    }
+
+    /// What would become of a street, as the network is now: a table with its `fate`, whether it would be `built`, the `place`
+    /// (m) where it would end, and the `junction` if one is there.
+    pub fn probe(&self, junction: u32, heading: f64, length: f64, depth: u32) -> Result<Value> {
+        let (from, to) = self.proposed("probe", junction, heading, length)?;
+        Ok(answers::prospect(self.network.probe(from, to, self.attributes(depth))))
+    }
+
+    /// The dead ends: a list of tables with `junction`, `place` (m), the `heading` (degrees) that leads on, and `depth`.
+    pub fn open_ends(&self) -> Value {
+        answers::open_ends(&self.network)
+    }
+
+    /// How many dead ends `join_dead_ends` would join with the same radius (m) and detour.
+    pub fn joinable(&self, radius: Option<f64>, detour: Option<f64>) -> Result<u32> {
+        let options = dead_end_options("joinable", radius, detour)?;
+        Ok(u32::try_from(self.network.joinable_dead_ends(options)).unwrap_or(u32::MAX))
+    }
+
+    /// The measures that networks are compared by: a table with `length` (m), the mean `degree` of junctions, the shares
+    /// `dead_ends`, `three_way` and `four_way` (4 or more), `circuity` (1 is straight), `meshedness` (0 is a tree),
+    /// `orientation_order` (1 is a grid, 0 all directions), of blocks the median area `block` (m²), its `block_spread` (the
+    /// standard deviation of log10) and `block_shape` (area over that of the circle around it, median), and the median
+    /// `segment` (m) between junctions.
+    pub fn measures(&self) -> Value {
+        answers::measures(&self.network.measures())
     }
 
     /// Where a junction is (m).
@@ -195,6 +266,24 @@ impl Network {
         self.lot_records(&options.unwrap_or_default().read()?)
     }
 
+    /// Height (m) of the sidewalks of the street that is nearest to a place, where it is nearest: houses beside it stand there.
+    pub fn height(&self, place: Vector) -> Result<f64> {
+        self.height_at(place.0)
+    }
+
+    /// Places along the streets for a "tree" or a "lamp", as far apart as the kinds of streets say: features with a place (m), the
+    /// direction from there towards the street (degrees), and how often the street's way has branched off.
+    pub fn verge(&self, what: String) -> Result<VergeRecords> {
+        self.verge_of(&what)
+    }
+
+    /// Sites for buildings beside the streets, in a grid along both sides of each, where there is room, as features: each has an
+    /// id, a geometry (a rectangle), its area (m²), width and depth (m), its front (a line), its access (the middle of it), where
+    /// it is facing (degrees), its row behind the street, from 0, and the depth and width of its street.
+    pub fn sites(&self, options: Option<TableOf<SiteSettings>>) -> Result<SiteRecords> {
+        self.site_records(&options.unwrap_or_default().read()?)
+    }
+
     /// How many dead ends there are.
     pub fn dead_ends(&self) -> u32 {
         u32::try_from(self.network.dead_ends().count()).unwrap_or(u32::MAX)
@@ -212,10 +301,15 @@ impl Network {
         for (number, kind) in (1..).zip(&kinds) {
             kind.check().map_err(|error| error.about(&format!("network: streets: kind {number}")))?;
         }
-        for (name, value, most) in [("kerb", options.kerb, 2.0), ("turning", options.turning, 100.0)] {
-            if !(0.0..=most).contains(&value) {
+        let named = [
+            ("kerb", options.kerb, 0.0, 2.0),
+            ("turning", options.turning, 0.0, 100.0),
+            ("max_slope", options.max_slope, 0.1, 100.0),
+        ];
+        for (name, value, least, most) in named {
+            if !(least..=most).contains(&value) {
                 return Err(Error::argument(format!(
-                    "network: {name} must be from 0 to {most}, not {value}"
+                    "network: {name} must be from {least} to {most}, not {value}"
                 )));
             }
         }
@@ -227,16 +321,22 @@ impl Network {
             corner: options.corner,
             bend: options.bend,
             bridge: options.bridge,
+            shorten: options.shorten,
             most: options.most as usize,
         };
         let mut warnings = Vec::new();
-        let mut areas = Vec::new();
+        let (mut areas, mut waters) = (Vec::new(), Vec::new());
         let area_kinds = [(&options.obstacles, false, false), (&options.water, false, true)];
         let limit: Vec<Rings> = options.limit.iter().cloned().collect();
         for (rings, is_limit, can_be_bridged) in area_kinds.into_iter().chain([(&limit, true, false)]) {
             for rings in rings {
                 match Plan::new(rings) {
-                    Ok(plan) => areas.push(Obstacle { area: plan.flat(), is_limit, can_be_bridged }),
+                    Ok(plan) => {
+                        if can_be_bridged {
+                            waters.push(plan.flat());
+                        }
+                        areas.push(Obstacle { area: plan.flat(), is_limit, can_be_bridged });
+                    }
                     Err(error) => {
                         let text =
                             format!("network: left out an area that is no polygon: {}", error.message());
@@ -251,7 +351,26 @@ impl Network {
         for start in &options.starts {
             network.begin(start.0.truncate()).map_err(|error| error.about("network: starts"))?;
         }
-        Ok(Self { options, kinds, network, growths: FxHashMap::default(), warnings, is_told: false })
+        warnings.extend(existing::add(&mut network, &options.existing, |depth| {
+            StreetKind::of(&kinds, depth).attributes(depth)
+        }));
+        if network.size() > options.most as usize {
+            let text = format!("network: existing has {} pieces of streets", network.size());
+            let help =
+                format!("give fewer, or raise the limit of {}: network {{ most = ... }}", options.most);
+            return Err(Error::limit(Limit::Size, text).help(help));
+        }
+        Ok(Self {
+            options,
+            kinds,
+            network,
+            fit: OnceLock::new(),
+            water: waters.into(),
+            growths: FxHashMap::default(),
+            walk: NetworkWalk::default(),
+            warnings,
+            is_told: false,
+        })
     }
 
     /// The junction with this number, which counts from 1.
@@ -273,12 +392,43 @@ impl Network {
         SurfaceOptions { turning: self.options.turning }
     }
 
+    /// Where a street begins and ends that a script proposes by `method`.
+    fn proposed(
+        &self,
+        method: &str,
+        junction: u32,
+        heading: f64,
+        length: f64,
+    ) -> Result<(JunctionId, DVec2)> {
+        let from = self.known(junction)?;
+        if length <= 0.0 {
+            return Err(Error::argument(format!(
+                "network:{method}: a street of {length} m towards {heading} degrees cannot be"
+            ))
+            .help("give a finite heading, and a length above 0"));
+        }
+        Ok((from, self.network.at(from) + DVec2::from_angle(heading.to_radians()) * length))
+    }
+
     fn restart(&mut self) {
         self.growths.clear();
+        self.walk.restart();
+    }
+
+    fn open_branch(&mut self) {
+        self.walk.open_branch();
+    }
+
+    fn close_branch(&mut self) -> Result<()> {
+        self.walk.close_branch();
+        Ok(())
     }
 
     /// Tells if a pass proposed streets and there is none.
     fn finish(&mut self) -> Result<()> {
+        if self.fit.get().is_some_and(|(version, _)| *version != self.network.version()) {
+            self.fit = OnceLock::new();
+        }
         if self.network.size() > 0 || self.growths.is_empty() || self.is_told {
             return Ok(());
         }
@@ -303,6 +453,19 @@ impl Network {
     }
 }
 
+/// How dead ends are joined, as a script gave it to `method`.
+fn dead_end_options(method: &str, radius: Option<f64>, detour: Option<f64>) -> Result<DeadEndOptions> {
+    let usual = DeadEndOptions::default();
+    let options =
+        DeadEndOptions { radius: radius.unwrap_or(usual.radius), detour: detour.unwrap_or(usual.detour) };
+    if !(0.0..=2000.0).contains(&options.radius) || !(1.0..=100.0).contains(&options.detour) {
+        return Err(Error::argument(format!(
+            "network:{method} takes a radius from 0 to 2000, and a detour from 1 to 100"
+        )));
+    }
+    Ok(options)
+}
+
 impl burgeon_kit::Show for Network {
     fn triangles(&self) -> usize {
         self.network.size() * 40
@@ -311,5 +474,17 @@ impl burgeon_kit::Show for Network {
     fn show(&self, scene: &mut Scene, name: &str, feature: Option<&str>) -> Result<()> {
         self.draw()?.show(scene, name, feature);
         Ok(())
+    }
+}
+
+/// A network of a script, to be asked by others.
+impl burgeon_kit::ObjectParameter for Network {
+    const LUAU: &str = "Network";
+    const EXPECTED: &str = "a network that was derived: roads:derive().objects[1]";
+}
+
+impl std::fmt::Debug for Network {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "network of {} pieces", self.network.size())
     }
 }

@@ -5,7 +5,7 @@ use glam::DVec2;
 use super::fine::{self, FinePlace};
 use super::*;
 use crate::tests::{TestNumbers, grown};
-use crate::{Constraints, Obstacles, StreetNetwork, SurfaceOptions};
+use crate::{Constraints, Obstacles, SiteOptions, StreetNetwork, SurfaceOptions};
 use burgeon_geometry::{Polygon, Rings};
 
 fn places(lot: &Lot) -> Vec<Vec<FinePlace>> {
@@ -14,7 +14,7 @@ fn places(lot: &Lot) -> Vec<Vec<FinePlace>> {
 }
 
 /// Asserts all that lots promise, exactly.
-pub(super) fn check(block: &Block, lots: &[Lot], options: &LotOptions) {
+pub(super) fn check(block: &StreetBlock, lots: &[Lot], options: &LotOptions) {
     let whole = Polygon::new(block.rings.clone()).expect("a block").area();
     let sum: f64 = lots.iter().map(|lot| lot.area).sum();
     assert!((sum - whole).abs() <= 1e-6 * whole.max(1.0), "{} m² of {whole} m² in {}", sum, block.id);
@@ -95,9 +95,9 @@ fn lots_of_polygons_at_random_are_disjoint_and_fill_them() {
 
 #[test]
 fn lots_of_networks_at_random_have_fronts_on_their_streets() {
-    let mut count = 0;
-    for seed in 1..=30 {
-        let network = grown(seed, 150, Constraints::default(), Obstacles::default());
+    let (mut count, mut long) = (0, 0);
+    for seed in 1..=150 {
+        let network = grown(seed, 30 + seed as usize % 40, Constraints::default(), Obstacles::default());
         let mut random = TestNumbers(seed + 1000);
         for block in network.lot_blocks(SurfaceOptions::default()) {
             let pattern = LotPattern::ALL[seed as usize % 3].1;
@@ -106,6 +106,8 @@ fn lots_of_networks_at_random_have_fronts_on_their_streets() {
             check(&block, &lots, &options);
             count += lots.iter().filter(|lot| lot.purpose == LotUse::Building).count();
             for lot in lots.iter().filter(|lot| lot.purpose == LotUse::Building) {
+                let ratio = (lot.width / lot.depth).max(lot.depth / lot.width);
+                long += usize::from(ratio > options.elongation * 1.5);
                 let piece = lot.piece.expect("a street");
                 let (distance, _) = crate::grid::foot(lot.access, network.line(piece));
                 assert!(distance <= network.half(piece) + 6.0, "{distance} m from the street");
@@ -113,4 +115,140 @@ fn lots_of_networks_at_random_have_fronts_on_their_streets() {
         }
     }
     assert!(count > 5000, "{count} lots");
+    assert!(long * 200 < count, "{long} of {count} lots are too long");
+}
+
+/// Numbers that follow from the id of a block.
+fn stream_of(id: &str) -> TestNumbers {
+    TestNumbers(id.bytes().fold(7_u64, |sum, byte| sum.wrapping_mul(31) + u64::from(byte)) | 1)
+}
+
+#[test]
+fn great_tiny_and_hollow_areas_are_divided_too() {
+    let empty = StreetNetwork::new(Constraints::default(), Obstacles::default()).expect("a network");
+    let square = |x: f64, y: f64, size: f64| {
+        [(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)]
+            .map(|(u, v)| DVec2::new(x + u * size, y + v * size))
+            .to_vec()
+    };
+    let hole = |x: f64, y: f64, size: f64| square(x, y, size).into_iter().rev().collect::<Vec<_>>();
+    let angle =
+        [(0.0, 0.0), (300.0, 0.0), (300.0, 40.0), (50.0, 60.0), (40.0, 280.0), (0.0, 300.0)].map(DVec2::from);
+    let cases = [
+        (vec![square(400_000.0, -300_000.0, 1000.0)], 100),
+        (vec![square(0.0, 0.0, 1000.0), hole(300.0, 420.0, 200.0)], 100),
+        (vec![square(0.0, 0.0, 100.0), hole(20.0, 20.0, 30.0), hole(60.0, 50.0, 25.0)], 4),
+        (vec![angle.to_vec()], 20),
+        (vec![square(5.0, 5.0, 3.0)], 0),
+    ];
+    for (rings, least) in cases {
+        for (_, pattern) in LotPattern::ALL {
+            let block = empty.block(None, &Rings(rings.clone()), 6.0).expect("an area");
+            let options = LotOptions { pattern, ..LotOptions::new(15.0, 25.0) };
+            let mut stream = stream_of(&block.id);
+            let lots = block.divide(&options, &mut || stream.below(1.0));
+            check(&block, &lots, &options);
+            let count = lots.iter().filter(|lot| lot.purpose == LotUse::Building).count();
+            assert!(count >= least, "{count} lots of {} by {pattern:?}", block.id);
+        }
+    }
+}
+
+#[test]
+fn a_street_elsewhere_leaves_the_lots_of_a_block_as_they_were() {
+    let lots_of = |network: &StreetNetwork| {
+        let blocks = network.lot_blocks(SurfaceOptions::default());
+        let all = blocks.iter().map(|block| {
+            let mut stream = stream_of(&block.id);
+            let options = LotOptions { pattern: LotPattern::Strips, ..LotOptions::new(15.0, 25.0) };
+            (block.id.clone(), block.divide(&options, &mut || stream.below(1.0)))
+        });
+        all.collect::<std::collections::BTreeMap<_, _>>()
+    };
+    let mut changed = 0;
+    for seed in 1..=20 {
+        let mut network = grown(seed, 120, Constraints::default(), Obstacles::default());
+        let before = lots_of(&network);
+        let pieces: Vec<u32> = network.pieces().map(|(piece, _)| piece).collect();
+        network.remove(pieces[pieces.len() / 2]);
+        let after = lots_of(&network);
+        let gone = before.keys().filter(|id| !after.contains_key(*id)).count();
+        let same =
+            before.iter().filter(|(id, lots)| after.get(*id).is_some_and(|now| same_lots(now, lots))).count();
+        // The blocks on both sides of it, and those at the junctions that are none any more.
+        assert!(
+            before.len() - same <= 6,
+            "{} of {} blocks have other lots",
+            before.len() - same,
+            before.len()
+        );
+        changed += gone;
+    }
+    assert!(changed > 10, "{changed} blocks gone");
+}
+
+/// Whether lots are where they were, whatever the numbers of their streets.
+fn same_lots(a: &[Lot], b: &[Lot]) -> bool {
+    a.len() == b.len() && a.iter().zip(b).all(|(a, b)| a.rings == b.rings && a.number == b.number)
+}
+
+#[test]
+fn sites_beside_streets_are_disjoint_and_on_no_street() {
+    let mut count = 0;
+    for seed in 1..=25 {
+        let network = grown(seed, 120, Constraints::default(), Obstacles::default());
+        let mut random = TestNumbers(seed);
+        let options = SiteOptions {
+            sizes: vec![
+                DVec2::new(24.0, 18.0),
+                DVec2::new(14.0 + random.below(6.0), 12.0),
+                DVec2::new(10.0, 9.0),
+            ],
+            along: 5.0 + random.below(10.0),
+            away: 16.0,
+            distance: random.below(50.0) + 3.0,
+            setback: random.below(3.0),
+            gap: [0.0, 2.5][seed as usize % 2],
+            shrink: 0.5,
+        };
+        let mut stream = |name: &str| -> Box<dyn FnMut() -> f64> {
+            let mut own =
+                TestNumbers(name.bytes().fold(7_u64, |sum, byte| sum.wrapping_mul(31) + u64::from(byte)) | 1);
+            Box::new(move || own.below(1.0))
+        };
+        let found = network.sites(SurfaceOptions::default(), &options, &mut stream).expect("options");
+        let placed: Vec<Vec<FinePlace>> = found
+            .sites
+            .iter()
+            .map(|site| site.corners.map(|at| FinePlace::nearest(at).expect("near")).to_vec())
+            .collect();
+        let surfaces = network.surfaces(SurfaceOptions::default(), &crate::StreetProfiles::default());
+        let borders: Vec<[FinePlace; 2]> = surfaces
+            .sidewalks
+            .iter()
+            .flat_map(|sidewalk| burgeon_geometry::planar::edges(&sidewalk.edge).collect::<Vec<_>>())
+            .map(|edge| edge.map(|end| FinePlace::nearest(end.truncate()).expect("near")))
+            .filter(|[a, b]| a != b)
+            .collect();
+        for (index, site) in found.sites.iter().enumerate() {
+            for other in &placed[..index] {
+                assert!(!crate::placement::overlap(&placed[index], other), "sites overlap");
+            }
+            for edge in 0..4 {
+                let edge = [placed[index][edge], placed[index][(edge + 1) % 4]];
+                assert!(
+                    borders.iter().all(|border| !fine::meet(edge, *border)),
+                    "a site reaches into a street"
+                );
+            }
+            let middle = (site.corners[0] + site.corners[2]) / 2.0;
+            for (piece, _) in network.pieces() {
+                let (distance, _) = crate::grid::foot(middle, network.line(piece));
+                assert!(distance > network.half(piece), "a site is in a street");
+            }
+        }
+        count += found.sites.len();
+        assert!(found.looked_at < found.tried * 40, "{} for {} places", found.looked_at, found.tried);
+    }
+    assert!(count > 3000, "{count} sites");
 }

@@ -1,0 +1,65 @@
+//! The EPSG's registry of coordinate systems, packed as `build.rs` leaves it: a line for each, in blocks.
+
+use std::io::Read;
+use std::ops::Range;
+
+use flate2::read::DeflateDecoder;
+
+use burgeon_base::error::{Error, Result};
+
+/// The blocks, each behind the other.
+static PACKED: &[u8] = include_bytes!(concat!(env!("OUT_DIR"), "/registry.deflate"));
+
+/// The first number in each block, and where that is.
+static BLOCKS: &[(u16, Range<usize>)] = include!(concat!(env!("OUT_DIR"), "/registry.rs"));
+
+/// A coordinate system of the registry.
+pub(super) struct RegistryEntry {
+    /// Its number.
+    pub(super) code: u16,
+    /// Its definition in PROJ's words.
+    pub(super) proj: String,
+    /// Its definition in well-known text.
+    pub(super) text: String,
+}
+
+/// The coordinate system with a number, if the registry has it.
+pub(super) fn entry(code: u32) -> Result<Option<RegistryEntry>> {
+    let Ok(code) = u16::try_from(code) else { return Ok(None) };
+    let behind = BLOCKS.partition_point(|(first, _)| *first <= code);
+    let Some((_, place)) = behind.checked_sub(1).and_then(|block| BLOCKS.get(block)) else { return Ok(None) };
+    let mut lines = String::new();
+    DeflateDecoder::new(&PACKED[place.clone()]).read_to_string(&mut lines).map_err(|error| {
+        Error::data(format!("the registry of coordinate systems cannot be read: {error}"))
+    })?;
+    Ok(lines.lines().find_map(|line| {
+        let mut parts = line.splitn(3, '\t');
+        let found = parts.next()?.parse().ok().filter(|found| *found == code)?;
+        Some(RegistryEntry { code: found, proj: parts.next()?.into(), text: parts.next()?.into() })
+    }))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_packed_registry_has_every_entry_of_the_published_one() {
+        let mut count = 0;
+        for code in 0..=u16::MAX {
+            let published = crs_definitions::from_code(code);
+            // Each block is opened for each of its numbers, so a part of them has to do.
+            if published.is_none() && code % 64 != 0 {
+                continue;
+            }
+            let entry = entry(u32::from(code)).unwrap();
+            assert_eq!(
+                entry.map(|found| (found.code, found.proj, found.text)),
+                published.map(|found| (found.code, found.proj4.to_owned(), found.wkt.to_owned())),
+            );
+            count += usize::from(published.is_some());
+        }
+        assert!(count > 6000, "{count}");
+        assert!(entry(70_000).unwrap().is_none());
+    }
+}

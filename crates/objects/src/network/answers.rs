@@ -1,0 +1,77 @@
+//! What a network answers in tables.
+
+use std::sync::Arc;
+
+use burgeon_kit::{Parameter, Table, TableKey, Value, Vector};
+use burgeon_streets::{Fate, JunctionId, Measures, StreetNetwork, StreetProspect};
+use glam::DVec2;
+
+/// A table of named values.
+fn named<const N: usize>(entries: [(&str, Value); N]) -> Value {
+    let entries = entries.into_iter().map(|(name, value)| (TableKey::Name(name.into()), value));
+    Value::Table(Arc::new(Table { class: None, entries: entries.collect() }))
+}
+
+fn place(at: DVec2) -> Value {
+    Vector(at.extend(0.0)).into_value()
+}
+
+fn number(junction: JunctionId) -> Value {
+    Value::Number(f64::from(junction) + 1.0)
+}
+
+/// The word for what became of a street, or why it was refused.
+pub(super) fn fate(fate: Fate) -> &'static str {
+    match fate {
+        Fate::Refused(why) => why.name(),
+        fate => fate.name(),
+    }
+}
+
+/// What would become of a street.
+pub(super) fn prospect(prospect: StreetProspect) -> Value {
+    let junction = prospect.junction.map_or(Value::Nil, number);
+    named([
+        ("fate", Value::Text(fate(prospect.fate).into())),
+        ("built", Value::Boolean(!matches!(prospect.fate, Fate::Refused(_)))),
+        ("place", place(prospect.place)),
+        ("junction", junction),
+    ])
+}
+
+/// The measures, by name.
+pub(super) fn measures(measures: &Measures) -> Value {
+    let [dead_ends, three_way, four_way] = measures.shares;
+    named(
+        [
+            ("length", measures.length),
+            ("degree", measures.degree),
+            ("dead_ends", dead_ends),
+            ("three_way", three_way),
+            ("four_way", four_way),
+            ("circuity", measures.circuity),
+            ("meshedness", measures.meshedness),
+            ("orientation_order", measures.orientation_order),
+            ("block", measures.block),
+            ("block_spread", measures.block_spread),
+            ("block_shape", measures.block_shape),
+            ("segment", measures.segment),
+        ]
+        .map(|(name, value)| (name, Value::Number(value))),
+    )
+}
+
+/// The dead ends: their junctions, where they are, where they lead on to, and the depth of their streets.
+pub(super) fn open_ends(network: &StreetNetwork) -> Value {
+    let ends = network.dead_ends().map(|end| {
+        let arms = network.arms(end);
+        let (piece, way) = arms[0];
+        named([
+            ("junction", number(end)),
+            ("place", place(network.at(end))),
+            ("heading", Value::Number((-way).to_angle().to_degrees())),
+            ("depth", Value::Number(f64::from(network.attributes(piece).depth))),
+        ])
+    });
+    ends.collect::<Vec<_>>().into_value()
+}

@@ -1,0 +1,79 @@
+//! Streets that are there before a network grows, as scripts give them.
+
+use std::sync::Arc;
+
+use burgeon_base::error::Result;
+use burgeon_base::warning::{Warning, WarningKind};
+use burgeon_kit::{Expectation, Field, Lines, Parameter, Table, Value, fields};
+use burgeon_streets::{ExistingLosses, ExistingStreet, StreetAttributes, StreetNetwork};
+use glam::DVec3;
+
+/// One of the streets that are `existing` in `network { ... }`.
+#[fields("a street of network { existing = ... }")]
+pub struct ExistingLines {
+    /// Its lines (m): a source, features, geometries or lists of points.
+    pub lines: Lines,
+    /// Its depth, as that of streets that grow: 0 for a main street.
+    #[default(0)]
+    pub depth: u32,
+    /// Whether it leads over or under others, and has no junction where it crosses them.
+    pub bridge: bool,
+}
+
+impl Parameter for ExistingLines {
+    fn luau() -> String {
+        "{ [string]: any }".into()
+    }
+
+    fn fields() -> Vec<Field> {
+        Self::fields()
+    }
+
+    fn from_value(value: Value) -> Result<Self, Expectation> {
+        match value {
+            Value::Table(table) => Self::from_table(&table)
+                .map_err(|error| Expectation::new(format!("a street ({})", error.message()))),
+            _ => Err(Expectation::new("a table of a street's fields, such as { lines = ..., depth = 1 }")),
+        }
+    }
+
+    fn into_value(self) -> Value {
+        Value::Table(Arc::new(Table::default()))
+    }
+}
+
+/// Adds streets to a network; gives what is to be told of those that were left out.
+pub(super) fn add(
+    network: &mut StreetNetwork,
+    existing: &[ExistingLines],
+    attributes: impl Fn(u32) -> StreetAttributes,
+) -> Option<Warning> {
+    let mut streets = Vec::new();
+    let mut refused = 0;
+    for ExistingLines { lines, depth, bridge } in existing {
+        refused += lines.refused.as_ref().map_or(0, |(count, _)| *count);
+        streets.extend(lines.lines.iter().map(|line| ExistingStreet {
+            line: line.iter().copied().map(DVec3::truncate).collect(),
+            attributes: attributes(*depth),
+            is_bridge: *bridge,
+        }));
+    }
+    let ExistingLosses { outside, repeated, over, tangled } = network.add_existing(&streets);
+    let losses = [
+        (refused, "without a line"),
+        (outside, "too far away: within 500 km of the origin there is room"),
+        (repeated, "that others repeat"),
+        (over, "of bridges that cross other streets, for a network is planar"),
+        (tangled, "that lie among too many others"),
+    ];
+    let losses: Vec<String> = losses
+        .into_iter()
+        .filter(|(count, _)| *count > 0)
+        .map(|(count, what)| format!("{count} {what}"))
+        .collect();
+    (!losses.is_empty()).then(|| {
+        let text = format!("network: existing: left out {} of its pieces", losses.join(", "));
+        Warning::new(WarningKind::Data, text)
+            .help("the rest is a network; mend the data, or leave them out of the list")
+    })
+}
