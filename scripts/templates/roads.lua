@@ -373,7 +373,7 @@ function roads.system(options: RoadOptions)
   local centres = options.centres or { { 0, 0 } }
   local headings = options.headings or { 8, 98, 188, 278 }
 
-  local fields: any = { streets = STREETS, min_angle = 50, snap = 28, ground = "#66774e" }
+  local fields: any = { streets = STREETS, min_angle = 50, snap = 28 }
   for name, value in (options.network or {}) :: any do
     fields[name] = value
   end

@@ -25,6 +25,9 @@ mod corner;
 mod dead_ends;
 mod existing;
 mod faces;
+mod fit;
+#[cfg(test)]
+mod fit_tests;
 mod grid;
 mod grow;
 #[cfg(test)]
@@ -40,16 +43,19 @@ mod placement;
 mod profile;
 mod rows;
 mod shape;
+mod spans;
 mod surface;
 #[cfg(test)]
 mod surface_tests;
 #[cfg(test)]
 mod tests;
+mod verge;
 
 pub use constraints::{Constraints, Fate, Refusal};
 pub use dead_ends::DeadEndOptions;
 pub use existing::{ExistingLosses, ExistingStreet};
 pub use faces::{Course, StreetFace};
+pub use fit::{SlopeOptions, StreetFit};
 pub use grid::{FARTHEST, GridPlace};
 pub use grow::{StreetGrowth, StreetProspect};
 pub use kinds::StreetKind;
@@ -60,4 +66,6 @@ pub use network::{Junction, JunctionId, PieceId, StreetAttributes, StreetNetwork
 pub use obstacles::{Obstacle, Obstacles};
 pub use placement::{SiteOptions, StreetSite, StreetSites};
 pub use profile::StreetProfiles;
-pub use surface::{Median, Sidewalk, StreetSurface, StreetSurfaces, SurfaceOptions};
+pub use spans::StreetSpan;
+pub use surface::{Median, Sidewalk, StreetFooting, StreetSurface, StreetSurfaces, SurfaceOptions};
+pub use verge::{VergePlace, VergeThing};
