@@ -19,6 +19,7 @@ mod foreign;
 mod geometries;
 mod hostile;
 mod limits;
+mod lots;
 mod mods;
 mod neighbors;
 mod networks;

@@ -7,7 +7,8 @@ use rstar::primitives::{GeomWithData, Line as IndexLine, Rectangle};
 use rstar::{AABB, RTree};
 
 use crate::grid::{crossing, foot};
-use burgeon_geometry::Polygon;
+use burgeon_geometry::planar::contains;
+use burgeon_geometry::{Polygon, planar};
 
 type ObstacleEdge = GeomWithData<IndexLine<[f64; 2]>, u32>;
 
@@ -61,6 +62,21 @@ impl Obstacles {
         let inside = around.filter(|number| self.areas[*number as usize].area.contains(place)).min();
         inside.map(|number| &self.areas[number as usize]).or_else(|| {
             self.areas.iter().find(|obstacle| obstacle.is_limit && !obstacle.area.contains(place))
+        })
+    }
+
+    /// Whether an area inside of a ring (m) has a place in common with an obstacle, or leaves a limit.
+    pub fn reach_into(&self, ring: &[DVec2]) -> bool {
+        let Some(first) = ring.first().filter(|_| !self.is_empty()) else { return false };
+        if self.at(*first).is_some() {
+            return true;
+        }
+        let [low, high] = ring.iter().fold([*first; 2], |[low, high], at| [low.min(*at), high.max(*at)]);
+        let around = AABB::from_corners(low.to_array(), high.to_array());
+        let mut near = self.edges.locate_in_envelope_intersecting(&around);
+        near.any(|edge| {
+            let ends = [edge.geom().from, edge.geom().to].map(DVec2::from);
+            contains(ring, ends[0]) || planar::edges(ring).any(|side| first_within(side, ends, 0.0).is_some())
         })
     }
 

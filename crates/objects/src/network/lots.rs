@@ -8,7 +8,7 @@ use burgeon_data::Geometry;
 use burgeon_geometry::Rings;
 use burgeon_kit::rules::ModuleKey;
 use burgeon_kit::{Answer, Expectation, Parameter, Seed, Table, TableKey, Value, fields};
-use burgeon_streets::{Block, Lot, LotOptions, LotPattern, LotUse, PieceId, StreetNetwork};
+use burgeon_streets::{Lot, LotOptions, LotPattern, LotUse, PieceId, StreetBlock, StreetNetwork};
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 
@@ -161,25 +161,41 @@ impl Network {
         let divided = blocks.par_iter().map(|block| {
             let mut stream = ModuleKey::seed(settings.seed.0).feature(&block.id).stream();
             let mut lots = block.divide(&options, &mut || stream.uniform());
+            for lot in &mut lots {
+                let is_free = || !self.network.obstacles().reach_into(&lot.rings[0]);
+                if lot.purpose == LotUse::Building && !is_free() {
+                    lot.purpose = LotUse::Blocked;
+                }
+            }
             lots.retain(|lot| settings.all || lot.purpose == LotUse::Building);
             lots.iter().map(|lot| self.lot_record(block, lot)).collect::<Vec<_>>()
         });
-        Ok(LotRecords(divided.flatten().collect()))
+        let records: Vec<Value> = divided.flatten().collect();
+        if records.is_empty() && settings.blocks.is_none() && !blocks.is_empty() {
+            let greatest = blocks.iter().map(area_of).fold(0.0, f64::max);
+            let text = format!(
+                "network:lots: none of {} blocks has room for a lot with {} m of front and {} m²: the greatest has {greatest:.0} m²",
+                blocks.len(),
+                options.min_width,
+                options.min_area
+            );
+            return Err(Error::argument(text).help("give a smaller width and depth, or fewer parks"));
+        }
+        Ok(LotRecords(records))
     }
 
-    fn block_record(&self, block: &Block) -> Value {
-        let area = block.rings.iter().map(|ring| area(ring)).sum::<f64>();
+    fn block_record(&self, block: &StreetBlock) -> Value {
         let pieces = block.sides.iter().filter_map(|side| side.piece);
         let depth = pieces.map(|piece| depth_of(&self.network, piece)).min();
         record([
             ("id", Value::Text(block.id.as_str().into())),
             ("geometry", polygon(&block.rings)),
-            ("area", Value::Number(area)),
+            ("area", Value::Number(area_of(block))),
             ("street_depth", depth.map_or(Value::Nil, |depth| Value::Number(f64::from(depth)))),
         ])
     }
 
-    fn lot_record(&self, block: &Block, lot: &Lot) -> Value {
+    fn lot_record(&self, block: &StreetBlock, lot: &Lot) -> Value {
         let line = |points: &[DVec2]| Geometry::Line(points.iter().map(|at| at.extend(0.0)).collect());
         let number = |value: Option<f64>| value.map_or(Value::Nil, Value::Number);
         let front = lot.fronts.first();
@@ -209,7 +225,7 @@ fn depth_of(network: &StreetNetwork, piece: PieceId) -> u32 {
     network.attributes(piece).depth
 }
 
-fn record<const COUNT: usize>(entries: [(&str, Value); COUNT]) -> Value {
+pub(super) fn record<const COUNT: usize>(entries: [(&str, Value); COUNT]) -> Value {
     let there = entries.into_iter().filter(|(_, value)| !matches!(value, Value::Nil));
     let entries = there.map(|(name, value)| (TableKey::Name(name.into()), value)).collect();
     Value::Table(Arc::new(Table { class: None, entries }))
@@ -221,6 +237,10 @@ fn polygon(rings: &Rings<DVec2>) -> Value {
 
 fn flat(rings: &Rings) -> Rings<DVec2> {
     rings.iter().map(|ring| ring.iter().copied().map(DVec3::truncate).collect()).collect()
+}
+
+fn area_of(block: &StreetBlock) -> f64 {
+    block.rings.iter().map(|ring| area(ring)).sum()
 }
 
 fn area(ring: &[DVec2]) -> f64 {

@@ -6,6 +6,7 @@ mod existing;
 mod kinds;
 mod lots;
 mod object;
+mod sites;
 mod walk;
 
 pub use object::Network;

@@ -7,6 +7,7 @@ use super::answers;
 use super::existing::{self, ExistingLines};
 use super::kinds::StreetOptions;
 use super::lots::{BlockRecords, LotRecords, LotSettings};
+use super::sites::{SiteRecords, SiteSettings};
 use super::walk::NetworkWalk;
 use burgeon_base::error::{Error, Limit, Result};
 use burgeon_base::warning::{Warning, WarningKind};
@@ -248,6 +249,13 @@ impl Network {
     /// on the front), where it is facing (degrees), its use, its block, and the depth and width of its street.
     pub fn lots(&self, options: Option<TableOf<LotSettings>>) -> Result<LotRecords> {
         self.lot_records(&options.unwrap_or_default().read()?)
+    }
+
+    /// Sites for buildings beside the streets, in a grid along both sides of each, where there is room, as features: each has an
+    /// id, a geometry (a rectangle), its area (m²), width and depth (m), its front (a line), its access (the middle of it), where
+    /// it is facing (degrees), its row behind the street, from 0, and the depth and width of its street.
+    pub fn sites(&self, options: Option<TableOf<SiteSettings>>) -> Result<SiteRecords> {
+        self.site_records(&options.unwrap_or_default().read()?)
     }
 
     /// How many dead ends there are.

@@ -23,7 +23,7 @@ pub struct BlockSide {
 
 /// An area to divide into lots.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Block {
+pub struct StreetBlock {
     /// What it is called, wherever it stands in a list: the metres of its middle, unless it has a name.
     pub id: String,
     /// Its rings (m), the outer one first, counter-clockwise.
@@ -36,7 +36,7 @@ pub struct Block {
     edge_pieces: Vec<Vec<Option<PieceId>>>,
 }
 
-impl Block {
+impl StreetBlock {
     /// The piece of a street that a place on one of its sides is on.
     pub(super) fn piece_at(&self, side: u32, place: DVec2) -> Option<PieceId> {
         let mut best = (f64::INFINITY, None);
@@ -64,9 +64,9 @@ struct EdgeStreet {
 
 impl StreetNetwork {
     /// The areas between the sidewalks, each with its sides on streets. Faces of which nothing is left are none.
-    pub fn lot_blocks(&self, options: SurfaceOptions) -> Vec<Block> {
+    pub fn lot_blocks(&self, options: SurfaceOptions) -> Vec<StreetBlock> {
         let rings = self.blocks(options).into_iter();
-        let mut blocks: Vec<Block> =
+        let mut blocks: Vec<StreetBlock> =
             rings.filter_map(|rings| self.block(None, &rings, f64::INFINITY)).collect();
         // One around another may have the same middle.
         let mut known = rustc_hash::FxHashMap::<String, u32>::default();
@@ -82,7 +82,7 @@ impl StreetNetwork {
 
     /// The block that rings (m) enclose, whose edges within `reach` (m) of a street are on it; all are, if there are no
     /// streets. Rings that meet are repaired; `None` if they enclose nothing.
-    pub fn block(&self, id: Option<&str>, rings: &Rings<DVec2>, reach: f64) -> Option<Block> {
+    pub fn block(&self, id: Option<&str>, rings: &Rings<DVec2>, reach: f64) -> Option<StreetBlock> {
         let polygon = enclosed(rings)?;
         let rings = Rings::from(&polygon);
         let id = match id {
@@ -114,7 +114,7 @@ impl StreetNetwork {
                 sides_of(ring, &streets, &mut sides)
             })
             .collect();
-        Some(Block { id, rings, sides, edge_sides, edge_pieces })
+        Some(StreetBlock { id, rings, sides, edge_sides, edge_pieces })
     }
 
     /// The street that an edge is on: the one whose edge is nearest to its middle.

@@ -4,6 +4,8 @@
 //! cut is only made where all that comes of it is good.
 
 use super::divide::Division;
+use super::measure::{CellBox, extent};
+use super::options::LotPattern;
 use super::partition::{CellId, CellRings, Cut};
 
 /// Where along a box a cut is tried, in turn.
@@ -18,7 +20,10 @@ impl Division<'_> {
             if self.partition.area(&rings) <= self.options.area {
                 continue;
             }
-            let found = self.across_box(cell, &rings).or_else(|| self.behind_front(cell, &rings));
+            let mut found = self.across_box(cell, &rings);
+            if found.is_none() && self.options.pattern != LotPattern::Skeleton {
+                found = self.behind_front(cell, &rings);
+            }
             if let Some(cut) = found {
                 let pieces = self.partition.commit(cut);
                 due.extend(pieces.into_iter().rev());
@@ -29,13 +34,20 @@ impl Division<'_> {
     /// The cut across the box of a cell, or else along it, of which all pieces are good.
     fn across_box(&mut self, cell: CellId, rings: &CellRings) -> Option<Cut> {
         let around = self.partition.box_around(rings)?;
-        let jitter = (self.draw() - 0.5) * self.options.jitter;
-        let axes = [(around.along, around.size.x), (around.along.perp(), around.size.y)];
-        for (axis, length) in axes {
-            for share in SHARES {
-                let place = around.middle + axis * ((share + jitter * 0.5 - 0.5) * length);
+        let jitter = (self.draw() - 0.5) * self.options.jitter * 0.5;
+        let least = (around.elongation() * 0.8).max(self.options.elongation);
+        for (axis, length) in [(around.along, around.size.x), (around.along.perp(), around.size.y)] {
+            let middle = around.middle.dot(axis);
+            let shares = SHARES.iter().map(|share| middle + (share + jitter - 0.5) * length);
+            // What lies around streets is to fall apart through them first.
+            let holes = rings[1..].iter().map(|hole| {
+                let [low, high] = extent(hole.iter().map(|corner| self.partition.at(*corner)), axis);
+                low + (high - low) * (0.5 + jitter)
+            });
+            for along in holes.chain(shares).collect::<Vec<_>>() {
+                let place = around.middle + axis * (along - middle);
                 let Some(cut) = self.partition.cut(cell, place, axis.perp()) else { continue };
-                if cut.pieces.iter().all(|piece| self.is_good(piece, &cut)) {
+                if cut.pieces.iter().all(|piece| self.is_good(piece, &cut, least)) {
                     return Some(cut);
                 }
             }
@@ -49,31 +61,32 @@ impl Division<'_> {
         let front = fronts.iter().max_by(|a, b| a.length.total_cmp(&b.length))?;
         let way = front.way();
         let inwards = way.perp();
-        let reach = super::measure::extent(self.partition.outline(rings), inwards)[1];
-        let start = super::measure::extent(front.points.iter().copied(), inwards)[1];
+        let reach = extent(self.partition.outline(rings), inwards)[1];
+        let start = extent(front.points.iter().copied(), inwards)[1];
         let depth = self.options.depth * (1.0 + (self.draw() - 0.5) * self.options.jitter);
         if reach - start < depth * 1.6 {
             return None;
         }
         let at = front.points[0] + inwards * (start + depth - front.points[0].dot(inwards));
         let cut = self.partition.cut(cell, at, way)?;
-        let is_good = |piece: &CellRings| {
-            self.is_good(piece, &cut)
-                || (self.partition.fronts(piece, Some(&cut)).is_empty()
-                    && self.partition.area(piece) >= self.options.min_area)
+        let least = f64::INFINITY;
+        let is_court = |piece: &CellRings| {
+            self.partition.fronts(piece, Some(&cut)).is_empty()
+                && self.partition.area(piece) >= self.options.min_area
         };
-        let has_lot = cut.pieces.iter().any(|piece| self.is_good(piece, &cut));
-        (has_lot && cut.pieces.iter().all(is_good)).then_some(cut)
+        let has_lot = cut.pieces.iter().any(|piece| self.is_good(piece, &cut, least));
+        let all = |piece: &CellRings| self.is_good(piece, &cut, least) || is_court(piece);
+        (has_lot && cut.pieces.iter().all(all)).then_some(cut)
     }
 
-    /// Whether a piece can be a lot.
-    fn is_good(&self, piece: &CellRings, cut: &Cut) -> bool {
-        let long = |around: super::measure::CellBox| {
-            around.elongation() <= self.options.elongation && around.size.y >= self.options.min_width
-        };
-        self.partition.area(piece) >= self.options.min_area
-            && piece.len() == 1
+    /// Whether a piece can be a lot that is not more than so many times as long as wide, or many lots.
+    fn is_good(&self, piece: &CellRings, cut: &Cut, elongation: f64) -> bool {
+        let area = self.partition.area(piece);
+        let fits =
+            |around: CellBox| around.elongation() <= elongation && around.size.y >= self.options.min_width;
+        area >= self.options.min_area
+            && (piece.len() == 1 || area > self.options.area)
             && self.has_access(piece, Some(cut))
-            && self.partition.box_around(piece).is_some_and(long)
+            && self.partition.box_around(piece).is_some_and(fits)
     }
 }

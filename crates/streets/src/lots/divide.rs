@@ -2,7 +2,7 @@
 
 use glam::DVec2;
 
-use super::block::Block;
+use super::block::StreetBlock;
 use super::measure::{FrontRun, extent};
 use super::options::{LotOptions, LotPattern};
 use super::partition::{CellId, CornerId, Cut, Partition};
@@ -20,6 +20,8 @@ pub enum LotUse {
     Court,
     /// Too small for a building, or without access.
     Rest,
+    /// An obstacle reaches into it.
+    Blocked,
 }
 
 impl LotUse {
@@ -30,6 +32,7 @@ impl LotUse {
             Self::Park => "park",
             Self::Court => "court",
             Self::Rest => "rest",
+            Self::Blocked => "blocked",
         }
     }
 }
@@ -70,7 +73,7 @@ pub(super) struct Division<'a> {
     random: &'a mut dyn FnMut() -> f64,
 }
 
-impl Block {
+impl StreetBlock {
     /// Divides it. `random` draws numbers from 0 to 1; all that is drawn is drawn here, so that a stream of the block's own
     /// makes its lots independent of all others.
     ///
@@ -143,14 +146,21 @@ impl Division<'_> {
             if rings.is_empty() || is_fine(self, rings) {
                 continue;
             }
+            // What has a front does not become a part of a court while it borders on a lot.
+            let has_front =
+                |cell: CellId| !self.partition.fronts(self.partition.rings(cell), None).is_empty();
+            let own = has_front(cell);
             let mut others = self.partition.neighbors(cell);
-            others.sort_by(|a, b| b.1.total_cmp(&a.1));
+            others.sort_by(|a, b| {
+                let differs = |cell: CellId| has_front(cell) != own;
+                differs(a.0).cmp(&differs(b.0)).then(b.1.total_cmp(&a.1))
+            });
             let joined = others.into_iter().find_map(|(other, _)| self.partition.join(cell, other));
             due.extend(joined);
         }
     }
 
-    fn lots(&self, block: &Block) -> Vec<Lot> {
+    fn lots(&self, block: &StreetBlock) -> Vec<Lot> {
         let cells = (1..).zip(self.partition.cells());
         cells.map(|(number, (_, rings))| self.lot(block, rings, number, None)).collect()
     }
@@ -167,7 +177,13 @@ impl Division<'_> {
         }
     }
 
-    fn lot(&self, block: &Block, rings: &[Vec<CornerId>], number: usize, purpose: Option<LotUse>) -> Lot {
+    fn lot(
+        &self,
+        block: &StreetBlock,
+        rings: &[Vec<CornerId>],
+        number: usize,
+        purpose: Option<LotUse>,
+    ) -> Lot {
         let mut fronts = self.partition.fronts(rings, None);
         fronts.sort_by(|a, b| b.length.total_cmp(&a.length));
         let area = self.partition.area(rings);

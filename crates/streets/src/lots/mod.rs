@@ -17,6 +17,7 @@ mod strips;
 #[cfg(test)]
 mod tests;
 
-pub use block::{Block, BlockSide};
+pub use block::{BlockSide, StreetBlock};
 pub use divide::{Lot, LotUse};
+pub(crate) use fine::{FinePlace, meet as fine_meet, side as fine_side};
 pub use options::{LotOptions, LotPattern};

@@ -6,11 +6,11 @@
 
 use glam::DVec2;
 
-use super::block::Block;
+use super::block::StreetBlock;
 use super::divide::Division;
 use super::measure::FrontRun;
 use super::options::LotPattern;
-use super::partition::{CellId, CornerId};
+use super::partition::{CellId, CellRings, CornerId};
 use burgeon_geometry::skeleton::{Pace, Skeleton};
 use burgeon_geometry::{Polygon, Rings};
 
@@ -19,7 +19,7 @@ const COURT: f64 = 0.35;
 
 impl Division<'_> {
     /// Divides a block; `None` if its skeleton cannot be had, and nothing was done.
-    pub(super) fn by_strips(&mut self, block: &Block) -> Option<()> {
+    pub(super) fn by_strips(&mut self, block: &StreetBlock) -> Option<()> {
         let polygon = Polygon::new(Rings::clone(&block.rings)).ok()?;
         let sides: Vec<Option<u32>> = block.edge_sides.iter().flatten().copied().collect();
         let paces: Vec<Pace> =
@@ -39,12 +39,18 @@ impl Division<'_> {
                 None => Some(front),
             };
         }
-        for index in 0..strips.len() {
-            self.settle_corners(&mut strips, index, block);
-        }
+        self.settle_corners(&mut strips, block);
         for (side, strip) in (0..).zip(strips) {
             if let Some(strip) = strip {
                 self.slice(strip, side);
+            }
+        }
+        // What lies on a short side of its strip may reach far behind it.
+        let cells = self.partition.cells();
+        let great = cells.filter(|(_, rings)| self.partition.area(rings) > self.options.area * 1.3);
+        for cell in great.map(|(cell, _)| cell).collect::<Vec<_>>() {
+            if self.has_access(self.partition.rings(cell), None) {
+                self.by_boxes(cell);
             }
         }
         Some(())
@@ -75,64 +81,71 @@ impl Division<'_> {
         pieces.into_iter().zip(fronts).find(|(_, is_front)| *is_front).map_or(cell, |(piece, _)| piece)
     }
 
-    /// Gives the corner between a strip and each one beside it to the longer of the two.
-    fn settle_corners(&mut self, strips: &mut [Option<CellId>], index: usize, block: &Block) {
-        for other in index + 1..strips.len() {
-            let (Some(a), Some(b)) = (strips[index], strips[other]) else { continue };
-            let border = self.border(a, b);
-            let (Some(first), Some(last)) = (border.first(), border.last()) else { continue };
-            // One end of the border is a corner of the block, or near one; the other is inside.
-            let ends = [*first, *last];
-            let on_front = |corner: &CornerId| self.is_on_front(*corner, a) && self.is_on_front(*corner, b);
-            let (outer, inner) = match ends.map(|end| on_front(&end)) {
-                [true, false] => (ends[0], ends[1]),
-                [false, true] => (ends[1], ends[0]),
-                _ => continue,
-            };
-            let length = |side: usize| block.sides[side].length;
-            let (winner, loser) =
-                if length(index) >= length(other) { (index, other) } else { (other, index) };
-            if let Some([joined, left]) = self.give_corner(strips, [winner, loser], [outer, inner]) {
-                strips[winner] = Some(joined);
-                strips[loser] = Some(left);
+    /// Gives the corner between two strips to the longer of their sides, for each two that meet.
+    fn settle_corners(&mut self, strips: &mut [Option<CellId>], block: &StreetBlock) {
+        for index in 0..strips.len() {
+            let Some(strip) = strips[index] else { continue };
+            let beside: Vec<CellId> =
+                self.partition.neighbors(strip).into_iter().map(|(cell, _)| cell).collect();
+            let others: Vec<usize> = (index + 1..strips.len())
+                .filter(|other| strips[*other].is_some_and(|cell| beside.contains(&cell)))
+                .collect();
+            for other in others {
+                let length = |side: usize| block.sides[side].length;
+                let pair = if length(index) >= length(other) { [index, other] } else { [other, index] };
+                if let Some([joined, left]) = self.give_corner(strips, pair) {
+                    strips[pair[0]] = joined;
+                    strips[pair[1]] = left;
+                }
             }
         }
     }
 
-    /// Cuts the loser's strip across from the inner end of the border and joins the corner to the winner's; gives both.
+    /// Cuts the loser's strip across from the inner end of the border and joins the corner to the winner's; gives both. Where
+    /// too little would be left, the winner takes all of it.
     fn give_corner(
         &mut self,
         strips: &[Option<CellId>],
         [winner, loser]: [usize; 2],
-        [outer, inner]: [CornerId; 2],
-    ) -> Option<[CellId; 2]> {
+    ) -> Option<[Option<CellId>; 2]> {
         let (taker, giver) = (strips[winner]?, strips[loser]?);
+        let border = self.border(giver, taker);
+        let ends = [*border.first()?, *border.last()?];
+        // One end of the border is a corner of the block, or near one; the other is inside.
+        let on_front = |corner: CornerId| self.is_on_front(corner, giver) && self.is_on_front(corner, taker);
+        let [outer, inner] = match ends.map(on_front) {
+            [true, false] => ends,
+            [false, true] => [ends[1], ends[0]],
+            _ => return None,
+        };
         let side = u32::try_from(loser).ok()?;
         let fronts = self.partition.fronts(self.partition.rings(giver), None);
-        let front =
-            fronts.iter().filter(|front| front.side == side).max_by(|a, b| a.length.total_cmp(&b.length))?;
+        let own = fronts.iter().filter(|front| front.side == side);
+        let front = own.max_by(|a, b| a.length.total_cmp(&b.length))?;
         let place = self.partition.at(inner);
         let (way, along) = nearest_way(front, place)?;
-        // Where the street is too short nothing would be left of the strip.
-        let from_outer = along.min(front.length - along);
-        if front.length - from_outer < self.options.min_width {
-            return None;
+        let begins = front.points[0].distance(self.partition.at(outer)) < front.length / 2.0;
+        let left = if begins { front.length - along } else { along };
+        let most = self.options.depth * self.options.depth * 1.5;
+        if left < self.options.min_width {
+            let is_small = self.partition.area(self.partition.rings(giver)) <= most;
+            return is_small
+                .then(|| self.partition.join(taker, giver))
+                .flatten()
+                .map(|all| [Some(all), None]);
         }
         let cut = self.partition.cut(giver, place, way.perp())?;
-        if cut.pieces.len() != 2 {
-            return None;
-        }
         let corner = cut.pieces.iter().position(|piece| piece.iter().flatten().any(|at| *at == outer))?;
-        let rest = &cut.pieces[1 - corner];
-        let is_small =
-            self.partition.area(&cut.pieces[corner]) <= self.options.depth * self.options.depth * 1.5;
+        let [a, b] = &cut.pieces[..] else { return None };
+        let rest = if corner == 0 { b } else { a };
+        let is_small = self.partition.area(&cut.pieces[corner]) <= most;
         let keeps = self.partition.fronts(rest, Some(&cut)).iter().any(|run| run.side == side);
         if !is_small || !keeps || rest.iter().flatten().any(|at| *at == outer) {
             return None;
         }
         let pieces = self.partition.commit(cut);
-        let joined = self.partition.join(taker, pieces[corner])?;
-        Some([joined, pieces[1 - corner]])
+        let joined = self.partition.join(taker, pieces[corner]).unwrap_or(taker);
+        Some([Some(joined), Some(pieces[1 - corner])])
     }
 
     /// The corners along which two cells meet, in the order of the first one's ring; none if they meet in several places.
@@ -162,36 +175,27 @@ impl Division<'_> {
 
     /// Cuts a strip across into lots of about the usual width.
     fn slice(&mut self, strip: CellId, side: u32) {
-        let own = |division: &Self, cell: CellId| -> Option<FrontRun> {
-            let fronts = division.partition.fronts(division.partition.rings(cell), None).into_iter();
-            let fronts = fronts.filter(|front| front.side == side);
-            fronts.max_by(|a, b| a.length.total_cmp(&b.length))
-        };
-        let Some(front) = own(self, strip) else { return };
-        #[allow(
-            clippy::cast_possible_truncation,
-            clippy::cast_sign_loss,
-            reason = "lengths of streets over widths"
-        )]
-        let count = (front.length / self.options.width).round().max(1.0) as usize;
         let mut due = vec![strip];
-        for number in 1..count {
+        while let Some(cell) = due.pop() {
+            let fronts = self.partition.fronts(self.partition.rings(cell), None).into_iter();
+            let own = fronts.filter(|front| front.side == side);
+            let Some(front) = own.max_by(|a, b| a.length.total_cmp(&b.length)) else { continue };
+            let count = (front.length / self.options.width).round();
+            if count < 2.0 {
+                continue;
+            }
+            let half = (count / 2.0).floor();
             let jitter = (self.draw() - 0.5) * self.options.jitter;
-            for shift in [0.0, 0.2, -0.2] {
-                let place = (number as f64 + jitter + shift) / count as f64 * front.length;
+            for shift in [0.0, 0.25, -0.25, 0.4, -0.4] {
+                let place = (half + jitter + shift) / count * front.length;
                 let Some((at, way)) = point_along(&front, place) else { continue };
-                let on = due.iter().position(|cell| {
-                    own(self, *cell)
-                        .is_some_and(|front| nearest_way(&front, at).is_some_and(|_| on_run(&front, at)))
-                });
-                let Some(index) = on else { continue };
-                let Some(cut) = self.partition.cut(due[index], at, way.perp()) else { continue };
-                let is_wide = |piece: &Vec<Vec<CornerId>>| {
+                let Some(cut) = self.partition.cut(cell, at, way.perp()) else { continue };
+                let is_wide = |piece: &CellRings| {
                     self.has_access(piece, Some(&cut)) && self.partition.area(piece) >= self.options.min_area
                 };
                 if cut.pieces.iter().all(is_wide) {
                     let pieces = self.partition.commit(cut);
-                    due.splice(index..=index, pieces);
+                    due.extend(pieces.into_iter().rev());
                     break;
                 }
             }
@@ -227,10 +231,4 @@ fn point_along(front: &FrontRun, along: f64) -> Option<(DVec2, DVec2)> {
         left -= length;
     }
     None
-}
-
-/// Whether a place is on a front, and not at its ends.
-fn on_run(front: &FrontRun, place: DVec2) -> bool {
-    let near = |pair: &[DVec2]| crate::grid::foot(place, [pair[0], pair[1]]).0 < 1e-3;
-    front.points.windows(2).any(near)
 }

@@ -5,7 +5,7 @@ use glam::DVec2;
 use super::fine::{self, FinePlace};
 use super::*;
 use crate::tests::{TestNumbers, grown};
-use crate::{Constraints, Obstacles, StreetNetwork, SurfaceOptions};
+use crate::{Constraints, Obstacles, SiteOptions, StreetNetwork, SurfaceOptions};
 use burgeon_geometry::{Polygon, Rings};
 
 fn places(lot: &Lot) -> Vec<Vec<FinePlace>> {
@@ -14,7 +14,7 @@ fn places(lot: &Lot) -> Vec<Vec<FinePlace>> {
 }
 
 /// Asserts all that lots promise, exactly.
-pub(super) fn check(block: &Block, lots: &[Lot], options: &LotOptions) {
+pub(super) fn check(block: &StreetBlock, lots: &[Lot], options: &LotOptions) {
     let whole = Polygon::new(block.rings.clone()).expect("a block").area();
     let sum: f64 = lots.iter().map(|lot| lot.area).sum();
     assert!((sum - whole).abs() <= 1e-6 * whole.max(1.0), "{} m² of {whole} m² in {}", sum, block.id);
@@ -113,4 +113,65 @@ fn lots_of_networks_at_random_have_fronts_on_their_streets() {
         }
     }
     assert!(count > 5000, "{count} lots");
+}
+
+#[test]
+fn sites_beside_streets_are_disjoint_and_on_no_street() {
+    let mut count = 0;
+    for seed in 1..=25 {
+        let network = grown(seed, 120, Constraints::default(), Obstacles::default());
+        let mut random = TestNumbers(seed);
+        let options = SiteOptions {
+            sizes: vec![
+                DVec2::new(24.0, 18.0),
+                DVec2::new(14.0 + random.below(6.0), 12.0),
+                DVec2::new(10.0, 9.0),
+            ],
+            along: 5.0 + random.below(10.0),
+            away: 16.0,
+            distance: random.below(50.0) + 3.0,
+            setback: random.below(3.0),
+            gap: [0.0, 2.5][seed as usize % 2],
+            shrink: 0.5,
+        };
+        let mut stream = |name: &str| -> Box<dyn FnMut() -> f64> {
+            let mut own =
+                TestNumbers(name.bytes().fold(7_u64, |sum, byte| sum.wrapping_mul(31) + u64::from(byte)) | 1);
+            Box::new(move || own.below(1.0))
+        };
+        let found = network.sites(SurfaceOptions::default(), &options, &mut stream).expect("options");
+        let placed: Vec<Vec<FinePlace>> = found
+            .sites
+            .iter()
+            .map(|site| site.corners.map(|at| FinePlace::nearest(at).expect("near")).to_vec())
+            .collect();
+        let surfaces = network.surfaces(SurfaceOptions::default(), &crate::StreetProfiles::default());
+        let borders: Vec<[FinePlace; 2]> = surfaces
+            .sidewalks
+            .iter()
+            .flat_map(|sidewalk| burgeon_geometry::planar::edges(&sidewalk.edge).collect::<Vec<_>>())
+            .map(|edge| edge.map(|end| FinePlace::nearest(end.truncate()).expect("near")))
+            .filter(|[a, b]| a != b)
+            .collect();
+        for (index, site) in found.sites.iter().enumerate() {
+            for other in &placed[..index] {
+                assert!(!crate::placement::overlap(&placed[index], other), "sites overlap");
+            }
+            for edge in 0..4 {
+                let edge = [placed[index][edge], placed[index][(edge + 1) % 4]];
+                assert!(
+                    borders.iter().all(|border| !fine::meet(edge, *border)),
+                    "a site reaches into a street"
+                );
+            }
+            let middle = (site.corners[0] + site.corners[2]) / 2.0;
+            for (piece, _) in network.pieces() {
+                let (distance, _) = crate::grid::foot(middle, network.line(piece));
+                assert!(distance > network.half(piece), "a site is in a street");
+            }
+        }
+        count += found.sites.len();
+        assert!(found.looked_at < found.tried * 40, "{} for {} places", found.looked_at, found.tried);
+    }
+    assert!(count > 3000, "{count} sites");
 }

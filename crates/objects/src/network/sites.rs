@@ -1,0 +1,108 @@
+//! Sites beside streets as scripts get them: features, to be the source of a system.
+
+use burgeon_base::error::{Error, Result};
+use burgeon_data::Geometry;
+use burgeon_geometry::Rings;
+use burgeon_kit::rules::ModuleKey;
+use burgeon_kit::{Answer, Parameter, Seed, Value, Vector, fields};
+use burgeon_streets::{SiteOptions, StreetSite};
+use glam::DVec3;
+
+use super::Network;
+use super::lots::record;
+
+/// What `network:sites` takes.
+#[fields("network:sites")]
+pub struct SiteSettings {
+    /// Width along the street and depth (m) of sites, by the depth of the street from 0 on; the last one holds for all deeper ones.
+    #[default(vec![Vector(DVec3::new(24.0, 20.0, 0.0)), Vector(DVec3::new(16.0, 14.0, 0.0)), Vector(DVec3::new(10.0, 10.0, 0.0))])]
+    pub sizes: Vec<Vector>,
+    /// From one place to the next along a street (m).
+    #[default(6.0)]
+    pub along: f64,
+    /// From one row of places to the next one behind it (m).
+    #[default(18.0)]
+    pub away: f64,
+    /// From the edge of the street to the nearest front (m).
+    #[default(2.0)]
+    pub setback: f64,
+    /// From the edge of the street to the farthest front (m).
+    #[default(24.0)]
+    pub distance: f64,
+    /// The least distance (m) between sites.
+    #[default(3.0)]
+    pub gap: f64,
+    /// The least share that is left of one side, which is as much shorter at random, except for the smallest of the sizes.
+    #[default(0.5)]
+    pub shrink: f64,
+    /// What random numbers come from, with the place of each street.
+    #[default(Seed(0))]
+    pub seed: Seed,
+}
+
+/// Sites as scripts get them.
+pub struct SiteRecords(Vec<Value>);
+
+impl Answer for SiteRecords {
+    fn luau() -> String {
+        "{ { id: string, geometry: Geometry, area: number, width: number, depth: number, front: Geometry, access: Vector, \
+         facing: number, row: number, street_depth: number, street_width: number } }"
+            .into()
+    }
+
+    fn answer(self) -> Result<Value> {
+        Ok(self.0.into_value())
+    }
+}
+
+impl Network {
+    pub(super) fn site_records(&self, settings: &SiteSettings) -> Result<SiteRecords> {
+        let options = SiteOptions {
+            sizes: settings.sizes.iter().map(|size| size.0.truncate()).collect(),
+            along: settings.along,
+            away: settings.away,
+            distance: settings.distance,
+            setback: settings.setback,
+            gap: settings.gap,
+            shrink: settings.shrink,
+        };
+        let seed = ModuleKey::seed(settings.seed.0);
+        let mut stream = |name: &str| -> Box<dyn FnMut() -> f64> {
+            let mut stream = seed.feature(name).stream();
+            Box::new(move || stream.uniform())
+        };
+        let found = self.network.sites(self.surface_options(), &options, &mut stream);
+        let found = found.map_err(|error| error.about("network:sites"))?;
+        if found.sites.is_empty() && found.tried > 0 {
+            let why = ["are in a street or reach into one", "come too near another", "meet an obstacle"];
+            let why = found.refused.iter().zip(why).filter(|(count, _)| **count > 0);
+            let why: Vec<String> = why.map(|(count, why)| format!("{count} {why}")).collect();
+            let text = format!(
+                "network:sites: none of {} places has room for a site: {}",
+                found.tried,
+                why.join(", ")
+            );
+            return Err(Error::argument(text).help("give smaller sizes, or a smaller setback"));
+        }
+        Ok(SiteRecords(found.sites.iter().map(|site| self.site_record(site)).collect()))
+    }
+
+    fn site_record(&self, site: &StreetSite) -> Value {
+        let street = self.network.attributes(site.piece);
+        let [a, b, ..] = site.corners.map(|corner| corner.extend(0.0));
+        let ring: Vec<DVec3> = site.corners.iter().map(|corner| corner.extend(0.0)).collect();
+        record([
+            ("id", Value::Text(site.id.as_str().into())),
+            ("geometry", Geometry::Polygon(Rings(vec![ring])).into_value()),
+            ("area", Value::Number(site.size.element_product())),
+            ("width", Value::Number(site.size.x)),
+            ("depth", Value::Number(site.size.y)),
+            ("front", Geometry::Line(vec![a, b]).into_value()),
+            ("access", ((a + b) / 2.0).into_value()),
+            ("facing", Value::Number(site.facing.to_angle().to_degrees())),
+            ("row", Value::Number(f64::from(site.row))),
+            ("street_depth", Value::Number(f64::from(street.depth))),
+            ("street_width", Value::Number(street.width)),
+        ])
+    }
+}

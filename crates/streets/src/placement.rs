@@ -1,0 +1,315 @@
+//! Sites for buildings beside streets: places in a grid along both sides of each piece, where there is room.
+//!
+//! Method: V. Vlaanderen Oldenzeel, "Procedural city generation using an L-system", 2020: every place of the grid is held
+//! against streets and against what was placed before, each by an index; here all tests are exact.
+
+use glam::DVec2;
+use rstar::primitives::{GeomWithData, Line as IndexLine, Rectangle};
+use rstar::{AABB, RTree};
+
+use crate::lots::{FinePlace, fine_meet, fine_side};
+use crate::network::{PieceId, StreetNetwork};
+use crate::profile::StreetProfiles;
+use crate::surface::SurfaceOptions;
+use burgeon_base::error::{Error, Result};
+
+/// The most places that are looked at.
+const MOST_PLACES: f64 = 20_000_000.0;
+
+/// Where sites are tried.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SiteOptions {
+    /// Width along the street and depth (m) of sites, by the depth of the street; the last one holds for all deeper ones.
+    pub sizes: Vec<DVec2>,
+    /// From one place to the next along a street (m).
+    pub along: f64,
+    /// From one row of places to the next one behind it (m).
+    pub away: f64,
+    /// From the edge of the street to the farthest front (m).
+    pub distance: f64,
+    /// From the edge of the street to the nearest front (m).
+    pub setback: f64,
+    /// The least distance (m) between sites.
+    pub gap: f64,
+    /// The least share that is left of one side, which is as much shorter at random, except for the smallest size.
+    pub shrink: f64,
+}
+
+impl SiteOptions {
+    /// Fails if no site could be like that, and says why.
+    pub fn check(&self) -> Result<()> {
+        let sides = self.sizes.iter().flat_map(|size| size.to_array());
+        if self.sizes.is_empty() || !sides.into_iter().all(|side| (1.0..=500.0).contains(&side)) {
+            return Err(Error::argument("sizes must be one or more pairs of numbers from 1 to 500")
+                .help("write sizes = { { 24, 18 }, { 12, 10 } }"));
+        }
+        let ranges = [
+            ("along", self.along, 0.5, 1000.0),
+            ("away", self.away, 0.5, 1000.0),
+            ("distance", self.distance, 0.0, 2000.0),
+            ("setback", self.setback, 0.0, 500.0),
+            ("gap", self.gap, 0.0, 500.0),
+            ("shrink", self.shrink, 0.1, 1.0),
+        ];
+        for (name, value, low, high) in ranges {
+            if !(low..=high).contains(&value) {
+                return Err(Error::argument(format!("{name} must be from {low} to {high}, not {value}")));
+            }
+        }
+        if self.setback > self.distance {
+            let text = format!(
+                "setback ({} m) is more than distance ({} m), so no site could be beside a street",
+                self.setback, self.distance
+            );
+            return Err(Error::argument(text).help("give a smaller setback, or a greater distance"));
+        }
+        Ok(())
+    }
+}
+
+/// A place for a building.
+#[derive(Debug, Clone, PartialEq)]
+pub struct StreetSite {
+    /// What it is called: the middle of its piece of a street, its side, its row and its place in it.
+    pub id: String,
+    /// Its corners (m), counter-clockwise, those of its front first.
+    pub corners: [DVec2; 4],
+    /// The piece of a street that it is beside.
+    pub piece: PieceId,
+    /// The row behind the street, from 0.
+    pub row: u32,
+    /// Its width and depth (m).
+    pub size: DVec2,
+    /// The direction from its front to the street.
+    pub facing: DVec2,
+}
+
+/// Sites, and what it took to find them.
+#[derive(Debug, Clone, Default)]
+pub struct StreetSites {
+    /// In the order in which they were placed.
+    pub sites: Vec<StreetSite>,
+    /// How many places were tried.
+    pub tried: u64,
+    /// How many of them met a street, how many another site, and how many an obstacle.
+    pub refused: [u64; 3],
+    /// How many edges of streets and sites the indices gave for all of them.
+    pub looked_at: u64,
+}
+
+type Corners = [FinePlace; 4];
+
+/// What has been placed so far, and the edges of streets.
+struct SiteIndex {
+    edges: RTree<IndexLine<[f64; 2]>>,
+    placed: RTree<GeomWithData<Rectangle<[f64; 2]>, usize>>,
+    corners: Vec<Corners>,
+    looked_at: u64,
+}
+
+impl StreetNetwork {
+    /// Sites beside its streets: those of the least depth first. `stream` gives the random numbers, from 0 to 1, of the
+    /// piece with a name, so that they depend on nothing else.
+    pub fn sites(
+        &self,
+        surface: SurfaceOptions,
+        options: &SiteOptions,
+        stream: &mut dyn FnMut(&str) -> Box<dyn FnMut() -> f64>,
+    ) -> Result<StreetSites> {
+        options.check()?;
+        let rows = self.rows(options);
+        let length: f64 = self.pieces().map(|(piece, _)| self.length(piece)).sum();
+        let places = length / options.along * 2.0 * f64::from(rows);
+        if places > MOST_PLACES {
+            let text = format!("{places:.0} places along the streets would be tried");
+            return Err(Error::argument(text).help("give greater distances along and away"));
+        }
+        let mut index = SiteIndex::new(self, surface);
+        let mut pieces: Vec<PieceId> = self.pieces().map(|(piece, _)| piece).collect();
+        let order = |piece: &PieceId| {
+            let [a, b] = self.grid_line(*piece);
+            (self.attributes(*piece).depth, a.min(b), a.max(b))
+        };
+        pieces.sort_by_key(order);
+        let mut found = StreetSites::default();
+        for piece in pieces {
+            self.sites_beside(piece, options, rows, &mut index, &mut found, stream);
+        }
+        found.looked_at = index.looked_at;
+        Ok(found)
+    }
+
+    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "distances are limited")]
+    fn rows(&self, options: &SiteOptions) -> u32 {
+        ((options.distance - options.setback) / options.away).floor() as u32 + 1
+    }
+
+    fn sites_beside(
+        &self,
+        piece: PieceId,
+        options: &SiteOptions,
+        rows: u32,
+        index: &mut SiteIndex,
+        found: &mut StreetSites,
+        stream: &mut dyn FnMut(&str) -> Box<dyn FnMut() -> f64>,
+    ) {
+        let [from, to] = self.line(piece);
+        let middle = (from + to) / 2.0;
+        let name = format!("{:.1}:{:.1}", middle.x + 0.0, middle.y + 0.0);
+        let mut random = stream(&name);
+        let depth = self.attributes(piece).depth as usize;
+        let known = options.sizes[depth.min(options.sizes.len() - 1)];
+        let smallest = options.sizes.iter().map(|size| size.element_product()).fold(f64::INFINITY, f64::min);
+        let may_shrink = known.element_product() > smallest;
+        // The same for both directions of a piece, which nobody sees.
+        let way = (to - from).normalize_or_zero();
+        let way = if way.x < 0.0 || (way.x == 0.0 && way.y < 0.0) { -way } else { way };
+        #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "places are limited")]
+        let count = (self.length(piece) / options.along).floor() as u32 + 1;
+        for row in 0..rows {
+            for (side, letter) in [(1.0, 'l'), (-1.0, 'r')] {
+                let aside = way.perp() * side;
+                for number in 0..count {
+                    let mut size = known;
+                    let (which, share) = (random(), options.shrink + (1.0 - options.shrink) * random());
+                    if may_shrink {
+                        size[usize::from(which < 0.5)] *= share;
+                    }
+                    let along = (f64::from(number) - f64::from(count - 1) / 2.0) * options.along;
+                    let edge = self.half(piece) + options.setback + f64::from(row) * options.away;
+                    let foot = middle + way * along;
+                    let front = foot + aside * edge;
+                    found.tried += 1;
+                    let half = way * side * (size.x / 2.0);
+                    // With the site on the left of its front.
+                    let corners = [
+                        front - half,
+                        front + half,
+                        front + half + aside * size.y,
+                        front - half + aside * size.y,
+                    ];
+                    let corners = corners.map(FinePlace::nearest);
+                    let [Some(a), Some(b), Some(c), Some(d)] = corners else { continue };
+                    let corners = [a, b, c, d];
+                    let inside = front + aside * (size.y / 2.0);
+                    if !index.is_off_streets(&corners, [foot, inside]) {
+                        found.refused[0] += 1;
+                    } else if !index.is_apart(&corners, options.gap) {
+                        found.refused[1] += 1;
+                    } else if self.obstacles().reach_into(&corners.map(FinePlace::metres)) {
+                        found.refused[2] += 1;
+                    } else {
+                        index.add(corners);
+                        found.sites.push(StreetSite {
+                            id: format!("{name}/{letter}{row}.{number}"),
+                            corners: corners.map(FinePlace::metres),
+                            piece,
+                            row,
+                            size,
+                            facing: -aside,
+                        });
+                    }
+                }
+            }
+        }
+    }
+}
+
+impl SiteIndex {
+    fn new(network: &StreetNetwork, surface: SurfaceOptions) -> Self {
+        let surfaces = network.surfaces(surface, &StreetProfiles::default());
+        let edges =
+            surfaces.sidewalks.iter().flat_map(|sidewalk| burgeon_geometry::planar::edges(&sidewalk.edge));
+        let edges = edges.filter_map(|edge| {
+            let [a, b] = edge.map(|end| FinePlace::nearest(end.truncate()));
+            let (a, b) = (a?.metres(), b?.metres());
+            (a != b).then(|| IndexLine::new(a.to_array(), b.to_array()))
+        });
+        Self {
+            edges: RTree::bulk_load(edges.collect()),
+            placed: RTree::new(),
+            corners: Vec::new(),
+            looked_at: 0,
+        }
+    }
+
+    /// Whether no edge of a street comes into a site, and only the one that it is beside lies between it and its street.
+    fn is_off_streets(&mut self, corners: &Corners, way: [DVec2; 2]) -> bool {
+        let [low, high] = around(corners);
+        let envelope = AABB::from_corners(low.min(way[0]).to_array(), high.max(way[0]).to_array());
+        let [Some(foot), Some(inside)] = way.map(FinePlace::nearest) else { return false };
+        let mut between = 0;
+        for line in self.edges.locate_in_envelope_intersecting(&envelope) {
+            self.looked_at += 1;
+            let [Some(a), Some(b)] = [line.from, line.to].map(|at| FinePlace::nearest(DVec2::from(at)))
+            else {
+                return false;
+            };
+            if reaches([a, b], corners) {
+                return false;
+            }
+            between += u32::from(fine_meet([foot, inside], [a, b]));
+        }
+        between == 1
+    }
+
+    /// Whether a site keeps its distance from all that were placed.
+    fn is_apart(&mut self, corners: &Corners, gap: f64) -> bool {
+        let wide = if gap > 0.0 { widened(corners, gap) } else { Some(*corners) };
+        let Some(wide) = wide else { return false };
+        let [low, high] = around(&wide);
+        let envelope = AABB::from_corners(low.to_array(), high.to_array());
+        for item in self.placed.locate_in_envelope_intersecting(&envelope) {
+            self.looked_at += 1;
+            if overlap(&wide, &self.corners[item.data]) {
+                return false;
+            }
+        }
+        true
+    }
+
+    fn add(&mut self, corners: Corners) {
+        let [low, high] = around(&corners);
+        let rectangle = Rectangle::from_corners(low.to_array(), high.to_array());
+        self.placed.insert(GeomWithData::new(rectangle, self.corners.len()));
+        self.corners.push(corners);
+    }
+}
+
+fn around(corners: &Corners) -> [DVec2; 2] {
+    let first = corners[0].metres();
+    corners.iter().fold([first; 2], |[low, high], at| [low.min(at.metres()), high.max(at.metres())])
+}
+
+/// A rectangle with so much more (m) on every side.
+fn widened(corners: &Corners, gap: f64) -> Option<Corners> {
+    let [a, b, c, d] = corners.map(FinePlace::metres);
+    let (x, y) = ((b - a).normalize_or_zero() * gap, (d - a).normalize_or_zero() * gap);
+    let wide = [a - x - y, b + x - y, c + x + y, d - x + y].map(FinePlace::nearest);
+    let [Some(a), Some(b), Some(c), Some(d)] = wide else { return None };
+    Some([a, b, c, d])
+}
+
+fn sides(corners: &Corners) -> [[FinePlace; 2]; 4] {
+    std::array::from_fn(|index| [corners[index], corners[(index + 1) % 4]])
+}
+
+/// Whether an edge has a place in common with what is inside of corners that are counter-clockwise and convex, or with its border.
+fn reaches(edge: [FinePlace; 2], corners: &Corners) -> bool {
+    let outside = sides(corners).into_iter().any(|[a, b]| edge.iter().all(|end| fine_side(a, b, *end) < 0));
+    let beside = |sign: i32| corners.iter().all(|corner| fine_side(edge[0], edge[1], *corner) == sign);
+    !outside && !beside(1) && !beside(-1)
+}
+
+/// Whether two convex areas, counter-clockwise, have a place in common that is not on the border of both.
+///
+/// Method: if not, a side of one of them has all of the other on its outer side (separating axes), exactly.
+pub(crate) fn overlap(a: &[FinePlace], b: &[FinePlace]) -> bool {
+    let separates = |one: &[FinePlace], other: &[FinePlace]| {
+        (0..one.len()).any(|index| {
+            let (from, to) = (one[index], one[(index + 1) % one.len()]);
+            other.iter().all(|place| fine_side(from, to, *place) <= 0)
+        })
+    };
+    !separates(a, b) && !separates(b, a)
+}

@@ -1,0 +1,439 @@
+--!strict
+-- How high buildings are and what plans they have: heights by the depth of the street, by noise, by the distance to centres
+-- or by a mix; detached houses below a height and skyscrapers among the tallest; plans that stay inside their lot.
+-- A lot is one of network:lots or network:sites. Random numbers follow from the id of the lot and a seed, so that a building
+-- depends on no other.
+local skyline = {}
+
+-- The random numbers (0 to 1) of a name: a function that draws the next.
+function skyline.stream(name: string, seed: number?): () -> number
+  local state = bit32.bxor(2166136261, (seed or 0) * 40503)
+  for place = 1, #name do
+    -- Halves, so that products are exact.
+    state = bit32.bxor(state, string.byte(name, place))
+    local low, high = bit32.band(state, 0xFFFF), bit32.rshift(state, 16)
+    state = bit32.band(low * 16777619 % 4294967296 + bit32.lshift(high * 403 % 65536, 16), 0xFFFFFFFF)
+  end
+  if state == 0 then
+    state = 1
+  end
+  return function()
+    state = bit32.bxor(state, bit32.lshift(state, 13))
+    state = bit32.bxor(state, bit32.rshift(state, 17))
+    state = bit32.bxor(state, bit32.lshift(state, 5))
+    return state / 4294967296
+  end
+end
+
+export type Heights = {
+  -- What decides: "depth" of the street, "noise", "centres", "presets", or a mix: { depth = 0.7, noise = 0.3 }.
+  by: (string | { [string]: number })?,
+  -- The lowest and the highest usual height (m).
+  low: number?,
+  high: number?,
+  -- Deeper streets have buildings so many times as high as those of the next main one.
+  falloff: number?,
+  -- The share of a height that is random for the highest; it shrinks with the height, to nothing for the lowest.
+  spread: number?,
+  -- Three heights (m), one of which is drawn.
+  presets: { number }?,
+  -- Places (m) and the distance (m) at which heights have halved.
+  centres: { { number } }?,
+  reach: number?,
+  -- The size (m) of the hills of noise, and its seed.
+  grain: number?,
+  seed: number?,
+  -- All heights are so many times as great.
+  scale: number?,
+  -- Below this height (m) stands a detached house.
+  detached: number?,
+  -- At least so high (m), a building may be a skyscraper, so many times as high.
+  tall: number?,
+  chance: number?,
+  tower: number?,
+}
+
+export type Building = {
+  kind: string,
+  height: number,
+  -- What was decided without any random share (m).
+  base: number,
+  -- Width along the street and depth (m).
+  width: number,
+  depth: number,
+}
+
+export type Plan = { { number } }
+-- A part of a building from one height (m) to another.
+export type Tier = { plan: Plan, holes: { Plan }?, from: number, to: number }
+
+local USUAL = {
+  by = { depth = 1 },
+  low = 6,
+  high = 36,
+  falloff = 0.55,
+  spread = 0.5,
+  presets = { 6, 14, 30 },
+  centres = { { 0, 0 } },
+  reach = 300,
+  grain = 220,
+  seed = 1,
+  scale = 1,
+  detached = 10.5,
+  tall = 30,
+  chance = 0.12,
+  tower = 2.6,
+}
+
+local RULES: { [string]: (lot: any, of: any, draw: () -> number) -> number } = {}
+
+-- From 0, the lowest, to 1, the highest.
+function RULES.depth(lot, of)
+  return of.falloff ^ (lot.street_depth or 0)
+end
+
+function RULES.noise(lot, of)
+  local at = lot.access
+  return 0.5 + 0.5 * noise(at.x / of.grain, at.y / of.grain, 0, of.seed)
+end
+
+function RULES.centres(lot, of)
+  local nearest = math.huge
+  for _, centre in of.centres do
+    nearest = math.min(nearest, math.sqrt((lot.access.x - centre[1]) ^ 2 + (lot.access.y - centre[2]) ^ 2))
+  end
+  return 0.5 ^ (nearest / of.reach)
+end
+
+function RULES.presets(_, of, draw)
+  local height = of.presets[math.min(#of.presets, 1 + math.floor(draw() * #of.presets))]
+  return (height - of.low) / math.max(of.high - of.low, 1e-9)
+end
+
+-- The height of a building on a lot, what kind it is, and how wide and deep it wants to be.
+function skyline.building(lot: any, options: Heights?, drawn: (() -> number)?): Building
+  local draw = drawn or skyline.stream(lot.id)
+  local of: any = table.clone(USUAL :: any)
+  for name, value in (options or {}) :: any do
+    if (USUAL :: any)[name] == nil then
+      error(`skyline: there is no option called {name}`)
+    end
+    of[name] = value
+  end
+  local mix: { [string]: number } = if type(of.by) == "string" then { [of.by] = 1 } else of.by
+  local share, weights = 0, 0
+  for _, name in { "depth", "noise", "centres", "presets" } do
+    local weight = mix[name]
+    if weight then
+      share += weight * RULES[name](lot, of, draw)
+      weights += weight
+    end
+  end
+  if weights <= 0 then
+    error('skyline: by has no rule: give "depth", "noise", "centres" or "presets", or a mix of them')
+  end
+  share /= weights
+  local base = (of.low + (of.high - of.low) * share) * of.scale
+  -- The random share is as great a part of the height as the height is of the highest.
+  local height = base * (1 + (draw() - 0.5) * of.spread * math.clamp(share, 0, 1))
+  local kind = if height < of.detached then "detached" else "block"
+  local shorter, side, high, more = 0.5 + 0.5 * draw(), draw(), draw(), draw()
+  if kind == "detached" then
+    return { kind = kind, height = height, base = base, width = 11, depth = 9 }
+  end
+  if height >= of.tall and high < of.chance then
+    kind, height = "tower", height * of.tower * (0.7 + 0.3 * more)
+  end
+  local width = 12 + height * 0.28
+  local depth = 11 + height * 0.22
+  if side < 0.5 then
+    width *= shorter
+  else
+    depth *= shorter
+  end
+  return { kind = kind, height = height, base = base, width = width, depth = depth }
+end
+
+-- A lot as seen from the middle of its front: x along the street, y away from it.
+local function frame(lot: any): (number, number, number, number)
+  local facing = math.rad(lot.facing)
+  return lot.access.x, lot.access.y, -math.sin(facing), math.cos(facing)
+end
+
+-- The rings of a lot in its frame: pieces { x1, y1, x2, y2 }.
+local function border(lot: any): { { number } }
+  local ox, oy, ax, ay = frame(lot)
+  local pieces = {}
+  for _, ring in lot.geometry.rings do
+    local last = ring[#ring]
+    for _, point in ring do
+      local x1, y1 = last[1] - ox, last[2] - oy
+      local x2, y2 = point[1] - ox, point[2] - oy
+      table.insert(pieces, {
+        x1 * ax + y1 * ay,
+        y1 * ax - x1 * ay,
+        x2 * ax + y2 * ay,
+        y2 * ax - x2 * ay,
+      })
+      last = point
+    end
+  end
+  return pieces
+end
+
+-- Whether a place is inside of a border.
+local function inside(pieces: { { number } }, x: number, y: number): boolean
+  local odd = false
+  for _, piece in pieces do
+    if (piece[2] > y) ~= (piece[4] > y) then
+      local t = (y - piece[2]) / (piece[4] - piece[2])
+      if piece[1] + t * (piece[3] - piece[1]) > x then
+        odd = not odd
+      end
+    end
+  end
+  return odd
+end
+
+-- How far it is free to the left and to the right of `x` between the heights y0 and y1; nil if it is not free there.
+local function free(pieces: { { number } }, x: number, y0: number, y1: number): (number?, number)
+  local left, right = -math.huge, math.huge
+  for _, piece in pieces do
+    local px, py, qx, qy = piece[1], piece[2], piece[3], piece[4]
+    if math.max(py, qy) > y0 and math.min(py, qy) < y1 then
+      local from, to = px, qx
+      if py ~= qy then
+        local slope = (qx - px) / (qy - py)
+        from = px + (math.clamp(y0, math.min(py, qy), math.max(py, qy)) - py) * slope
+        to = px + (math.clamp(y1, math.min(py, qy), math.max(py, qy)) - py) * slope
+      end
+      local low, high = math.min(from, to), math.max(from, to)
+      if low <= x and high >= x then
+        return nil, 0
+      elseif high < x then
+        left = math.max(left, high)
+      else
+        right = math.min(right, low)
+      end
+    end
+  end
+  return left, right
+end
+
+-- The greatest box of up to `width` by `depth` (m) behind the front of a lot, at least `front` (m) from it and `side` (m) from
+-- its border, in the lot's frame: { x0, y0, x1, y1 }. Nil if there is no room for one of 4 m.
+function skyline.box(lot: any, width: number, depth: number, front: number, side: number): { number }?
+  local pieces = border(lot)
+  local margin = math.max(side, 0.02)
+  local back = math.max(front, margin + 0.01)
+  local best: { number }?, most = nil, 0
+  for _, size in { 1, 0.85, 0.7, 0.55, 0.42, 0.32 } do
+    local d = depth * size
+    if d < 4 or (best and d * width <= most) then
+      break
+    end
+    for _, away in { 0, 0.2, 0.5 } do
+      local y0 = back + away * d
+      for _, x in { 0, 0.25 * width, -0.25 * width } do
+        local left, right = free(pieces, x, y0 - margin, y0 + d + margin)
+        if left and inside(pieces, x, y0 + d / 2) then
+          local w = math.min(width, right - left - 2 * margin - 1e-6)
+          if w >= 4 and w * d > most then
+            -- As near to the middle of the front as there is room.
+            local x0 = math.clamp(-w / 2, left + margin, right - margin - w)
+            best, most = { x0, y0, x0 + w, y0 + d }, w * d
+          end
+          break
+        end
+      end
+    end
+  end
+  return best
+end
+
+-- Points of a lot's frame as places (m).
+local function placed(lot: any, points: Plan): Plan
+  local ox, oy, ax, ay = frame(lot)
+  local ring = {}
+  for _, point in points do
+    table.insert(ring, { ox + point[1] * ax - point[2] * ay, oy + point[1] * ay + point[2] * ax })
+  end
+  return ring
+end
+
+local function rectangle(x0: number, y0: number, x1: number, y1: number): Plan
+  return { { x0, y0 }, { x1, y0 }, { x1, y1 }, { x0, y1 } }
+end
+
+-- The forms of plans: each takes a box { x0, y0, x1, y1 }, how thick wings are (m) and a number from 0 to 1, and gives an
+-- outline and holes.
+local FORMS: { [string]: (box: { number }, wing: number, draw: number) -> (Plan, { Plan }?) } = {}
+
+function FORMS.box(b)
+  return rectangle(b[1], b[2], b[3], b[4])
+end
+
+FORMS["L"] = function(b, wing, draw)
+  local x0, y0, x1, y1 = b[1], b[2], b[3], b[4]
+  if draw < 0.5 then
+    return {
+      { x0, y0 },
+      { x1, y0 },
+      { x1, y0 + wing },
+      { x0 + wing, y0 + wing },
+      { x0 + wing, y1 },
+      { x0, y1 },
+    }
+  end
+  return { { x0, y0 }, { x1, y0 }, { x1, y1 }, { x1 - wing, y1 }, { x1 - wing, y0 + wing }, { x0, y0 + wing } }
+end
+
+FORMS["T"] = function(b, wing, draw)
+  local x0, y0, x1, y1 = b[1], b[2], b[3], b[4]
+  local middle = x0 + wing / 2 + (x1 - x0 - wing) * (0.3 + 0.4 * draw)
+  local l, r = middle - wing / 2, middle + wing / 2
+  local behind = y0 + wing
+  return {
+    { x0, y0 },
+    { x1, y0 },
+    { x1, behind },
+    { r, behind },
+    { r, y1 },
+    { l, y1 },
+    { l, behind },
+    { x0, behind },
+  }
+end
+
+FORMS["U"] = function(b, wing)
+  local x0, y0, x1, y1 = b[1], b[2], b[3], b[4]
+  local l, r, behind = x0 + wing, x1 - wing, y0 + wing
+  return { { x0, y0 }, { x1, y0 }, { x1, y1 }, { r, y1 }, { r, behind }, { l, behind }, { l, y1 }, { x0, y1 } }
+end
+
+FORMS["court"] = function(b, wing)
+  local x0, y0, x1, y1 = b[1], b[2], b[3], b[4]
+  local yard = rectangle(x0 + wing, y0 + wing, x1 - wing, y1 - wing)
+  return rectangle(x0, y0, x1, y1), { { yard[4], yard[3], yard[2], yard[1] } }
+end
+
+skyline.forms = { "box", "L", "T", "U", "court", "stepped" }
+
+export type Plans = {
+  -- One of skyline.forms; drawn by the size of the box if it is left out.
+  form: string?,
+  -- The least distance (m) to the front and to the rest of the border.
+  front: number?,
+  side: number?,
+  -- How thick wings are (m).
+  wing: number?,
+}
+
+-- The form that suits a box of this size.
+local function suits(width: number, depth: number, wing: number, draw: number): string
+  local fitting = { "box" }
+  if width > 1.8 * wing and depth > 1.6 * wing then
+    table.insert(fitting, "L")
+    table.insert(fitting, "T")
+  end
+  if width > 2.6 * wing and depth > 1.6 * wing then
+    table.insert(fitting, "U")
+  end
+  if width > 2.7 * wing and depth > 2.7 * wing then
+    table.insert(fitting, "court")
+  end
+  return fitting[math.min(#fitting, 1 + math.floor(draw * #fitting))]
+end
+
+-- The parts of a building on a lot, from below; none if the lot has no room for it. They are inside of the lot.
+function skyline.plan(lot: any, building: Building, options: Plans?, drawn: (() -> number)?): { Tier }
+  local next = drawn or skyline.stream(lot.id .. " plan")
+  local of = options or {}
+  local front, side = of.front or 2, of.side or 1.5
+  local draw, other = next(), next()
+  local box = skyline.box(lot, building.width, building.depth, front, side)
+  if not box then
+    return {}
+  end
+  local width, depth = box[3] - box[1], box[4] - box[2]
+  local wing = math.min(of.wing or 7, width, depth)
+  local form = of.form
+  if not form then
+    form = if building.kind == "tower" then "stepped" else suits(width, depth, wing, draw)
+  end
+  local height = building.height
+  if form == "stepped" then
+    local tiers, from, inset = {}, 0, 0
+    for number, part in { 0.4, 0.75, 1 } do
+      local to = height * part
+      local w, d = width - 2 * inset, depth - 2 * inset
+      if w < 5 or d < 5 then
+        tiers[#tiers].to = height
+        break
+      end
+      local plan = rectangle(box[1] + inset, box[2] + inset, box[3] - inset, box[4] - inset)
+      table.insert(tiers, { plan = placed(lot, plan), from = from, to = to })
+      from = to
+      inset += math.min(width, depth) * (0.06 + 0.06 * (if number == 1 then draw else other))
+    end
+    return tiers
+  end
+  local make = FORMS[form]
+  if not make then
+    error(`skyline: there is no form called {form}: it is one of {table.concat(skyline.forms, ", ")}`)
+  end
+  -- Wings leave at least a third of the box open.
+  local thin = math.min(wing, 0.36 * width, 0.6 * depth)
+  if form == "court" then
+    thin = math.min(thin, 0.36 * depth)
+  end
+  local outline, holes = make(box, thin, other)
+  local tier: Tier = { plan = placed(lot, outline), from = 0, to = height }
+  if holes then
+    local there: { Plan } = {}
+    for _, hole in holes do
+      table.insert(there, placed(lot, hole))
+    end
+    tier.holes = there
+  end
+  return { tier }
+end
+
+-- The buildings of lots as features, the parts of each from below, to be the source of a system of footprints. Each has an id,
+-- its geometry (at the height where it begins), its height, the kind and height of its building, its lot, and tier, from 1.
+function skyline.buildings(lots: { any }, heights: Heights?, plans: Plans?, seed: number?): { any }
+  local features = {}
+  for _, lot in lots do
+    local draw = skyline.stream(lot.id, seed)
+    local building = skyline.building(lot, heights, draw)
+    for number, tier in skyline.plan(lot, building, plans, draw) do
+      local rings = {}
+      for _, ring in { tier.plan, table.unpack(tier.holes or {}) } do
+        local high = {}
+        for _, point in ring do
+          table.insert(high, { point[1], point[2], tier.from })
+        end
+        table.insert(rings, high)
+      end
+      table.insert(features, {
+        id = `{lot.id}.{number}`,
+        geometry = { rings = rings },
+        height = tier.to - tier.from,
+        tier = number,
+        kind = building.kind,
+        total = building.height,
+        lot = lot,
+      })
+    end
+  end
+  return features
+end
+
+-- The whole lot as a plan up to `depth` (m) behind its front, for rows of buildings that touch: two of them are `gap` (m) apart.
+function skyline.row(lot: any, depth: number, gap: number?): any
+  local wide = lot.width + lot.depth + 10
+  local band = polygon(placed(lot, rectangle(-wide, -wide, wide, depth)))
+  return lot.geometry:inset((gap or 0.04) / 2):intersection(band)
+end
+
+return skyline

@@ -1,0 +1,282 @@
+//! Blocks, lots and sites: what cannot be, what they promise in scripts, and how high buildings on them are.
+
+use std::path::Path;
+
+use insta::assert_snapshot;
+
+use crate::support::{Folder, printed, refused};
+
+/// A network of nine blocks, and what is asked of it as `streets`.
+const GRID: &str = r#"local Lead = module("Lead", "from", "x", "y", "depth")
+local starts = {}
+for x = 0, 3 do
+  for y = 0, 3 do
+    table.insert(starts, { x * 120, y * 90 })
+  end
+end
+local roads = lsystem({ object = network({ starts = starts, snap = 6 }) })
+local ways = {}
+for x = 0, 3 do
+  for y = 0, 3 do
+    local from = x * 4 + y + 1
+    if x < 3 then
+      table.insert(ways, Lead(from, (x + 1) * 120, y * 90, y % 2))
+    end
+    if y < 3 then
+      table.insert(ways, Lead(from, x * 120, (y + 1) * 90, 1 + x % 2))
+    end
+  end
+end
+roads:axiom(table.unpack(ways))
+roads:interpret("Lead(from, x, y, depth)", function(this, from, x, y, depth)
+  this:lead(from, { x, y }, depth)
+end)
+local streets = roads:derive(0).objects[1]
+"#;
+
+fn asked(what: &str) -> String {
+    format!("{GRID}{what}")
+}
+
+#[test]
+fn lots_that_cannot_be_are_refused() {
+    assert_snapshot!(refused(&asked("streets:lots({ width = 0 })")), @r"
+    error: s.lua:26: network:lots: width must be from 1 to 500 m, not 0
+      | streets:lots({ width = 0 })
+    ");
+    assert_snapshot!(refused(&asked("streets:lots({ area = 200, min_area = 150 })")), @r"
+    error: s.lua:26: network:lots: area (200 m²) is less than twice min_area (150 m²), so a lot above it could not be divided
+      | streets:lots({ area = 200, min_area = 150 })
+      help: give a greater area, or a smaller min_area
+    ");
+    assert_snapshot!(refused(&asked("streets:lots({ width = 8, min_width = 12 })")), @r"
+    error: s.lua:26: network:lots: min_width (12 m) is more than width (8 m)
+      | streets:lots({ width = 8, min_width = 12 })
+      help: give a greater width, or a smaller min_width
+    ");
+    assert_snapshot!(refused(&asked("streets:lots({ kind = \"strip\" })")), @r#"
+    error: s.lua:26: network:lots: there is no kind of lots called "strip"
+      | streets:lots({ kind = "strip" })
+      help: did you mean strips?
+    "#);
+    assert_snapshot!(refused(&asked("streets:lots({ widht = 8 })")), @r"
+    error: s.lua:26: network:lots has no field called widht
+      | streets:lots({ widht = 8 })
+      help: did you mean width?
+    ");
+    assert_snapshot!(refused(&asked("streets:lots({ blocks = { 3 } })")), @r"
+    error: s.lua:26: network:lots: blocks must be a list whose item 1 is a polygon: feature.geometry, or { { { x, y }, { x, y }, { x, y } }, hole, ... }, not 3
+      | streets:lots({ blocks = { 3 } })
+    ");
+    assert_snapshot!(refused(&asked("streets:lots({ width = 400, depth = 400 })")), @r"
+    error: s.lua:26: network:lots: none of 9 blocks has room for a lot with 200 m of front and 48000 m²: the greatest has 7833 m²
+      | streets:lots({ width = 400, depth = 400 })
+      help: give a smaller width and depth, or fewer parks
+    ");
+}
+
+#[test]
+fn sites_that_cannot_be_are_refused() {
+    assert_snapshot!(refused(&asked("streets:sites({ sizes = {} })")), @r"
+    error: s.lua:26: network:sites: sizes must be one or more pairs of numbers from 1 to 500
+      | streets:sites({ sizes = {} })
+      help: write sizes = { { 24, 18 }, { 12, 10 } }
+    ");
+    assert_snapshot!(refused(&asked("streets:sites({ along = 0 })")), @r"
+    error: s.lua:26: network:sites: along must be from 0.5 to 1000, not 0
+      | streets:sites({ along = 0 })
+    ");
+    assert_snapshot!(refused(&asked("streets:sites({ setback = 30, distance = 10 })")), @r"
+    error: s.lua:26: network:sites: setback (30 m) is more than distance (10 m), so no site could be beside a street
+      | streets:sites({ setback = 30, distance = 10 })
+      help: give a smaller setback, or a greater distance
+    ");
+    // Four streets of 60 m leave no room for such a hall between them.
+    let cross = format!(
+        "local Go = module(\"Go\")\nlocal s = lsystem({{ object = network() }}) s:axiom(Go())\n\
+         s:interpret(\"Go\", function(this) for way = 0, 270, 90 do this:grow(1, way, 60, 0) end end)\n\
+         s:derive(0).objects[1]:sites({})",
+        "{ sizes = { { 200, 200 } } }"
+    );
+    assert_snapshot!(refused(&cross), @r"
+    error: s.lua:4: network:sites: none of 176 places has room for a site: 176 are in a street or reach into one
+      | s:derive(0).objects[1]:sites({ sizes = { { 200, 200 } } })
+      help: give smaller sizes, or a smaller setback
+    ");
+    assert_snapshot!(refused(&asked("streets:sites({ along = 0.5, away = 0.5, distance = 2000 })")), @r"
+    error: s.lua:26: network:sites: 40289760 places along the streets would be tried
+      | streets:sites({ along = 0.5, away = 0.5, distance = 2000 })
+      help: give greater distances along and away
+    ");
+}
+
+#[test]
+fn lots_of_a_block_do_not_depend_on_the_other_blocks() {
+    let said = printed(&asked(
+        r#"
+local every = {}
+for _, kind in { "boxes", "strips", "skeleton" } do
+  local known = {}
+  for _, lot in streets:lots({ kind = kind, seed = 4 }) do
+    known[lot.id] = lot
+  end
+  local same, count = 0, 0
+  for _, block in streets:blocks() do
+    for _, lot in streets:lots({ kind = kind, seed = 4, blocks = { block } }) do
+      count += 1
+      if known[lot.id] and known[lot.id].geometry:wkt() == lot.geometry:wkt() and known[lot.id].block == block.id then
+        same += 1
+      end
+    end
+  end
+  local all = 0
+  for _ in known do
+    all += 1
+  end
+  assert(same == count and count == all, `{kind}: {same} of {count} of {all}`)
+end
+local parks, area = 0, 0
+for _, block in streets:blocks() do
+  area += block.area
+end
+for _, lot in streets:lots({ parks = 0.5, all = true, kind = "strips", depth = 20, width = 12 }) do
+  parks += if lot.use == "park" then 1 else 0
+  area -= lot.area
+end
+assert(math.abs(area) < 0.01, `{area}`)
+print(parks > 0 and parks < 9)
+"#,
+    ));
+    assert_eq!(said, ["true"]);
+}
+
+/// What a script prints that needs the templates.
+fn told(script: &str) -> String {
+    let source = Path::new(env!("CARGO_MANIFEST_DIR")).join("scripts/templates/skyline.lua");
+    let folder = Folder::new()
+        .with("templates/skyline.lua", std::fs::read(source).unwrap())
+        .with("s.lua", asked(script));
+    folder.burgeon(&["run", "s.lua"]).done().stderr
+}
+
+#[test]
+fn heights_fall_with_the_depth_of_the_street_and_vary_with_the_height() {
+    let said = told(
+        r#"
+local skyline = require("templates/skyline")
+local function ranks(values)
+  local order, rank = {}, {}
+  for index in values do
+    table.insert(order, index)
+  end
+  table.sort(order, function(a, b) return values[a] < values[b] end)
+  local first = 1
+  while first <= #order do
+    local last = first
+    while last < #order and values[order[last + 1]] == values[order[first]] do
+      last += 1
+    end
+    for place = first, last do
+      rank[order[place]] = (first + last) / 2
+    end
+    first = last + 1
+  end
+  return rank
+end
+local function correlation(a, b)
+  local x, y, n = ranks(a), ranks(b), #a
+  local mean = (n + 1) / 2
+  local xy, xx, yy = 0, 0, 0
+  for index = 1, n do
+    xy += (x[index] - mean) * (y[index] - mean)
+    xx += (x[index] - mean) ^ 2
+    yy += (y[index] - mean) ^ 2
+  end
+  return xy / math.sqrt(xx * yy)
+end
+local depths, heights, kinds, spans = {}, {}, {}, {}
+for number = 1, 3000 do
+  local depth = number % 5
+  local lot = { id = tostring(number), street_depth = depth, access = vec(0, 0, 0) }
+  local building = skyline.building(lot, { chance = 0 })
+  depths[number], heights[number] = depth, building.height
+  kinds[building.kind] = (kinds[building.kind] or 0) + 1
+  local span = spans[depth] or { math.huge, 0 }
+  spans[depth] = { math.min(span[1], building.height), math.max(span[2], building.height) }
+end
+local found = correlation(depths, heights)
+assert(found < -0.9, `Spearman {found}`)
+for depth = 1, 4 do
+  local main, side = spans[depth - 1], spans[depth]
+  assert(main[2] - main[1] > side[2] - side[1], "the random share grows with the height")
+end
+assert(kinds.detached > 500 and kinds.block > 500)
+-- The tallest, and they alone, may be skyscrapers; low houses all have one size.
+local towers = 0
+for number = 1, 3000 do
+  local lot = { id = tostring(number), street_depth = number % 5, access = vec(0, 0, 0) }
+  local building = skyline.building(lot, { chance = 0.2 })
+  if building.kind == "tower" then
+    towers += 1
+    assert(number % 5 == 0)
+  elseif building.kind == "detached" then
+    assert(building.width == 11 and building.depth == 9)
+  else
+    local wide, deep = building.width / (12 + building.height * 0.28), building.depth / (11 + building.height * 0.22)
+    assert(math.max(wide, deep) > 1 - 1e-9 and math.min(wide, deep) >= 0.5)
+  end
+end
+assert(towers > 20, `{towers}`)
+for _, by in { "noise", "centres", "presets", { depth = 1, noise = 1 } } do
+  local low, high = math.huge, 0
+  for number = 1, 300 do
+    local lot = { id = tostring(number), street_depth = 1, access = vec(number * 7, number % 17 * 40, 0) }
+    local building = skyline.building(lot, { by = by })
+    low, high = math.min(low, building.height), math.max(high, building.height)
+  end
+  assert(low > 0 and high > low * 1.3, "heights differ")
+end
+print("fine")
+"#,
+    );
+    assert!(said.contains("fine"), "{said}");
+}
+
+#[test]
+fn plans_of_all_forms_stay_in_their_lots() {
+    let said = told(
+        r#"
+local skyline = require("templates/skyline")
+local count, forms = 0, {}
+for _, kind in { "boxes", "strips", "skeleton" } do
+  for _, form in { "any", table.unpack(skyline.forms) } do
+    local lots = streets:lots({ kind = kind, width = 26, depth = 34 })
+    local plans = if form == "any" then nil else { form = form, side = 1 }
+    local parts = skyline.buildings(lots, { low = 20 }, plans, 7)
+    assert(#parts >= #lots * 0.8, `{#parts} parts on {#lots} lots`)
+    for _, part in parts do
+      local rings = {}
+      for _, ring in part.geometry.rings do
+        local flat = {}
+        for _, point in ring do
+          table.insert(flat, { point[1], point[2] })
+        end
+        table.insert(rings, flat)
+      end
+      local plan = polygon(rings)
+      assert(plan:is_valid(), `{form}: {plan:validity()}`)
+      assert(part.lot.geometry:covers(plan), `{form} of {part.id} leaves its lot`)
+      assert(part.lot.geometry:boundary():distance(plan) > 0.99, form)
+      count += 1
+    end
+  end
+  for _, lot in streets:lots({ kind = kind, width = 14, depth = 30 }) do
+    local row = skyline.row(lot, 12)
+    assert(row:is_empty() or lot.geometry:covers(row))
+  end
+end
+print(`fine {count > 500}`)
+"#,
+    );
+    assert!(said.contains("fine true"), "{said}");
+}
