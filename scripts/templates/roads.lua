@@ -131,14 +131,14 @@ function roads.organic(options: { [string]: any }?): Pattern
     end,
     length = function(x, y, _, depth)
       -- Quarters are closer here and wider there.
-      local wide = math.exp(1.3 * noise(x / (block * 4), y / (block * 4), 7.5, field))
+      local wide = math.clamp(math.exp(1.3 * noise(x / (block * 4), y / (block * 4), 7.5, field)), 0.4, 1.8)
       return block * wide * (if depth == 0 then 1 else random(0.55, 1.35))
     end,
     side = number("roads.organic: branching", of.branching, 0.9, 0, 1),
     both = 0.03,
     cross = number("roads.organic: cross", of.cross, 0.03, 0, 1),
     skew = number("roads.organic: skew", of.skew, 18, 0, 40),
-    stop = number("roads.organic: stop", of.stop, 0.42, 0, 1),
+    stop = number("roads.organic: stop", of.stop, 0.5, 0, 1),
     gap = number("roads.organic: gap", of.gap, 0, 0, 0.6),
     every = number("roads.organic: every", of.every, 4, 0, 100),
   }
@@ -767,7 +767,11 @@ function roads.word(options: { [string]: any })
     end
   end
 
-  local fields: any = { streets = STREETS, min_angle = 50, snap = 25, ground = "#66774e" }
+  -- What branches off at a small angle is allowed to.
+  local leaves = if split == "plain" then bend else branch
+  local sharpest = math.min(leaves % 180, 180 - leaves % 180)
+  local sharp = math.clamp(sharpest, 15, 50)
+  local fields: any = { streets = STREETS, min_angle = sharp, snap = 25, ground = "#66774e" }
   for name, value in options.network or {} do
     fields[name] = value
   end

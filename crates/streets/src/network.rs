@@ -90,6 +90,8 @@ pub struct StreetNetwork {
     piece_index: RTree<IndexItem<IndexLine<[f64; 2]>>>,
     junction_index: RTree<IndexItem<[f64; 2]>>,
     widest: f64,
+    /// How often pieces were added or taken away.
+    version: u64,
     /// How many neighbours were looked at, to show what the index saves.
     pub(crate) looked_at: u64,
 }
@@ -106,6 +108,7 @@ impl StreetNetwork {
             piece_index: RTree::new(),
             junction_index: RTree::new(),
             widest: 0.0,
+            version: 0,
             looked_at: 0,
         })
     }
@@ -153,6 +156,16 @@ impl StreetNetwork {
     /// What a piece is a piece of.
     pub fn attributes(&self, piece: PieceId) -> StreetAttributes {
         self.pieces[piece as usize].attributes
+    }
+
+    /// Whether a piece leads over an obstacle.
+    pub fn is_bridge(&self, piece: PieceId) -> bool {
+        self.pieces[piece as usize].is_bridge
+    }
+
+    /// A number that changes whenever pieces are added or taken away.
+    pub fn version(&self) -> u64 {
+        self.version
     }
 
     /// The length (m) of a piece.
@@ -243,6 +256,7 @@ impl StreetNetwork {
         #[allow(clippy::cast_possible_truncation, reason = "pieces are limited far below")]
         let id = self.pieces.len() as PieceId;
         self.widest = self.widest.max(attributes.width);
+        self.version += 1;
         self.pieces.push(StreetPiece { ends, attributes, is_there: true, is_bridge });
         for end in ends {
             self.junctions[end as usize].pieces.push(id);
@@ -253,25 +267,17 @@ impl StreetNetwork {
 
     /// Takes a piece away; a junction that nothing leads to any more goes with it.
     pub fn remove(&mut self, piece: PieceId) {
-        if !self.pieces[piece as usize].is_there {
+        if !std::mem::replace(&mut self.pieces[piece as usize].is_there, false) {
             return;
         }
-        self.detach(piece);
+        self.piece_index.remove(&self.indexed(piece));
         for end in self.pieces[piece as usize].ends {
-            let junction = &self.junctions[end as usize];
+            let junction = &mut self.junctions[end as usize];
+            junction.pieces.retain(|known| *known != piece);
             if junction.pieces.is_empty() {
                 let metres = junction.place().to_array();
                 self.junction_index.remove(&GeomWithData::new(metres, end));
             }
-        }
-    }
-
-    /// Takes a piece away that is there, but not its junctions.
-    pub(crate) fn detach(&mut self, piece: PieceId) {
-        self.pieces[piece as usize].is_there = false;
-        self.piece_index.remove(&self.indexed(piece));
-        for end in self.pieces[piece as usize].ends {
-            self.junctions[end as usize].pieces.retain(|known| *known != piece);
         }
     }
 
