@@ -30,7 +30,7 @@ local low, high = town.bounds.min, town.bounds.max
 local middle = { (low[1] + high[1]) / 2, (low[2] + high[2]) / 2 }
 roads.grow({
   pattern = if pattern == "radial" then roads.radial({ middle = middle }) else (roads :: any)[pattern](),
-  network = { existing = existing, starts = {} },
+  network = { existing = existing, starts = {}, min_angle = 35, snap = 14, ground = "#66774e" },
   onto = true,
   extent = function(x: number, y: number): boolean
     return x > low[1] - reach and x < high[1] + reach and y > low[2] - reach and y < high[2] + reach

@@ -18,5 +18,6 @@ local system = roads.word({
   branch = branch,
   split = split,
   lengths = { 110, 90, 75, 60 },
+  network = { ground = "#66774e" },
 })
 system:derive(iterations)

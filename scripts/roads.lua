@@ -61,5 +61,6 @@ local ways: { [string]: () -> any } = {
 local options = ways[pattern]()
 options.extent = extent
 options.dead_ends = dead_ends
+options.network = { ground = "#66774e" }
 options.steps = math.ceil(extent / 25)
 roads.grow(options)

@@ -399,7 +399,7 @@ function roads.system(options: RoadOptions)
   local centres = options.centres or { { 0, 0 } }
   local headings = options.headings or { 8, 98, 188, 278 }
 
-  local fields: any = { streets = STREETS, min_angle = 50, snap = 16, ground = "#66774e" }
+  local fields: any = { streets = STREETS, min_angle = 50, snap = 16 }
   for name, value in (options.network or {}) :: any do
     fields[name] = value
   end
@@ -771,7 +771,7 @@ function roads.word(options: { [string]: any })
   local leaves = if split == "plain" then bend else branch
   local sharpest = math.min(leaves % 180, 180 - leaves % 180)
   local sharp = math.clamp(sharpest, 15, 50)
-  local fields: any = { streets = STREETS, min_angle = sharp, snap = 25, ground = "#66774e" }
+  local fields: any = { streets = STREETS, min_angle = sharp, snap = 25 }
   for name, value in options.network or {} do
     fields[name] = value
   end

@@ -317,10 +317,10 @@ FORMS["court"] = function(b, wing)
   return rectangle(x0, y0, x1, y1), { { yard[4], yard[3], yard[2], yard[1] } }
 end
 
-skyline.forms = { "box", "L", "T", "U", "court", "stepped" }
+skyline.forms = { "box", "L", "T", "U", "court", "stepped", "row" }
 
 export type Plans = {
-  -- One of skyline.forms; drawn by the size of the box if it is left out.
+  -- One of skyline.forms; drawn by the size of the box if it is left out. A "row" touches its neighbours.
   form: string?,
   -- The least distance (m) to the front and to the rest of the border.
   front: number?,
@@ -345,12 +345,32 @@ local function suits(width: number, depth: number, wing: number, draw: number): 
   return fitting[math.min(#fitting, 1 + math.floor(draw * #fitting))]
 end
 
+-- The whole lot as a plan up to `depth` (m) behind its front, for rows of buildings that touch: two of them are `gap` (m) apart.
+function skyline.row(lot: any, depth: number, gap: number?): any
+  local wide = lot.width + lot.depth + 10
+  local band = polygon(placed(lot, rectangle(-wide, -wide, wide, depth)))
+  return lot.geometry:inset((gap or 0.04) / 2):intersection(band)
+end
+
 -- The parts of a building on a lot, from below; none if the lot has no room for it. They are inside of the lot.
 function skyline.plan(lot: any, building: Building, options: Plans?, drawn: (() -> number)?): { Tier }
   local next = drawn or skyline.stream(lot.id .. " plan")
   local of = options or {}
   local front, side = of.front or 2, of.side or 1.5
   local draw, other = next(), next()
+  if of.form == "row" then
+    local best, most = nil, 0
+    for _, part in skyline.row(lot, math.max(building.depth, 6)):geometries() do
+      if part:area() > most then
+        best, most = part, part:area()
+      end
+    end
+    if not best or most < 16 then
+      return {}
+    end
+    local holes: { Plan } = table.move(best.rings, 2, #best.rings, 1, {})
+    return { { plan = best.rings[1], holes = holes, from = 0, to = building.height } }
+  end
   local box = skyline.box(lot, building.width, building.depth, front, side)
   if not box then
     return {}
@@ -427,13 +447,6 @@ function skyline.buildings(lots: { any }, heights: Heights?, plans: Plans?, seed
     end
   end
   return features
-end
-
--- The whole lot as a plan up to `depth` (m) behind its front, for rows of buildings that touch: two of them are `gap` (m) apart.
-function skyline.row(lot: any, depth: number, gap: number?): any
-  local wide = lot.width + lot.depth + 10
-  local band = polygon(placed(lot, rectangle(-wide, -wide, wide, depth)))
-  return lot.geometry:inset((gap or 0.04) / 2):intersection(band)
 end
 
 return skyline

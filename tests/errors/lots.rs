@@ -254,7 +254,8 @@ for _, kind in { "boxes", "strips", "skeleton" } do
     local plans = if form == "any" then nil else { form = form, side = 1 }
     local parts = skyline.buildings(lots, { low = 20 }, plans, 7)
     assert(#parts >= #lots * 0.8, `{#parts} parts on {#lots} lots`)
-    for _, part in parts do
+    local plans_of = {}
+    for number, part in parts do
       local rings = {}
       for _, ring in part.geometry.rings do
         local flat = {}
@@ -266,8 +267,14 @@ for _, kind in { "boxes", "strips", "skeleton" } do
       local plan = polygon(rings)
       assert(plan:is_valid(), `{form}: {plan:validity()}`)
       assert(part.lot.geometry:covers(plan), `{form} of {part.id} leaves its lot`)
-      assert(part.lot.geometry:boundary():distance(plan) > 0.99, form)
+      assert(form == "row" or part.lot.geometry:boundary():distance(plan) > 0.99, form)
       count += 1
+      for other = 1, number - 1 do
+        if parts[other].lot ~= part.lot then
+          assert(not plan:overlaps(plans_of[other]), `{form}: plans overlap`)
+        end
+      end
+      table.insert(plans_of, plan)
     end
   end
   for _, lot in streets:lots({ kind = kind, width = 14, depth = 30 }) do

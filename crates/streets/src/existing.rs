@@ -95,7 +95,9 @@ impl StreetNetwork {
                         if let Fate::Refused(why) = growth.fate {
                             // Two lines side by side are one street, which goes on where the second does.
                             match self.anchor(to) {
-                                Some(beyond) if why == Refusal::TooNear || why == Refusal::Angle => from = beyond,
+                                Some(beyond) if why == Refusal::TooNear || why == Refusal::Angle => {
+                                    from = beyond
+                                }
                                 _ => {}
                             }
                             if !self.is_along(to) {
@@ -128,9 +130,9 @@ impl StreetNetwork {
     /// `None` if an obstacle is there.
     fn anchor(&mut self, place: DVec2) -> Option<JunctionId> {
         let reach = self.constraints.snap.max(self.constraints.min_length);
-        let near = self.junctions_near([place; 2], reach).map(|junction| {
-            (self.at(junction).distance(place), junction)
-        });
+        let near = self
+            .junctions_near([place; 2], reach)
+            .map(|junction| (self.at(junction).distance(place), junction));
         let near = near.filter(|(distance, _)| *distance <= reach);
         if let Some((_, junction)) = near.min_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1))) {
             return Some(junction);

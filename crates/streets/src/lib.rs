@@ -25,6 +25,9 @@ mod corner;
 mod dead_ends;
 mod existing;
 mod faces;
+mod fit;
+#[cfg(test)]
+mod fit_tests;
 mod grid;
 mod grow;
 #[cfg(test)]
@@ -45,11 +48,13 @@ mod surface;
 mod surface_tests;
 #[cfg(test)]
 mod tests;
+mod verge;
 
 pub use constraints::{Constraints, Fate, Refusal};
 pub use dead_ends::DeadEndOptions;
 pub use existing::{ExistingLosses, ExistingStreet};
 pub use faces::{Course, StreetFace};
+pub use fit::{SlopeOptions, StreetFit};
 pub use grid::{FARTHEST, GridPlace};
 pub use grow::{StreetGrowth, StreetProspect};
 pub use kinds::StreetKind;
@@ -60,4 +65,5 @@ pub use network::{Junction, JunctionId, PieceId, StreetAttributes, StreetNetwork
 pub use obstacles::{Obstacle, Obstacles};
 pub use placement::{SiteOptions, StreetSite, StreetSites};
 pub use profile::StreetProfiles;
-pub use surface::{Median, Sidewalk, StreetSurface, StreetSurfaces, SurfaceOptions};
+pub use surface::{Median, Sidewalk, StreetFooting, StreetSurface, StreetSurfaces, SurfaceOptions};
+pub use verge::{VergePlace, VergeThing};

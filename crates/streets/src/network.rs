@@ -270,6 +270,7 @@ impl StreetNetwork {
         if !std::mem::replace(&mut self.pieces[piece as usize].is_there, false) {
             return;
         }
+        self.version += 1;
         self.piece_index.remove(&self.indexed(piece));
         for end in self.pieces[piece as usize].ends {
             let junction = &mut self.junctions[end as usize];

@@ -107,8 +107,8 @@ pub(crate) fn alongs_of(
     }
     alongs.sort_by(f64::total_cmp);
     alongs.dedup_by(|a, b| (*a - *b).abs() < 1e-6);
-    let clear = network.ends(piece).map(|end| shapes.arm(end, piece).map_or(0.0, ArmShape::clear));
-    let inside = clear[0] + 1e-6..=length - clear[1] - 1e-6;
+    let begin = network.ends(piece).map(|end| shapes.arm(end, piece).map_or(0.0, ArmShape::first_row));
+    let inside = begin[0]..=length - begin[1];
     alongs.retain(|along| inside.contains(along));
     (alongs, stretch)
 }

@@ -41,7 +41,20 @@ pub(crate) struct ArmShape {
 impl ArmShape {
     /// Behind how far (m) from the junction all of it begins.
     pub(crate) fn clear(&self) -> f64 {
-        self.reach + self.skew.abs() * self.arm.half
+        if self.skew == 0.0 { self.reach } else { self.reach + self.skew.abs() * self.arm.half + BEHIND_SKEW }
+    }
+}
+
+/// How far (m) behind a skew end all of a piece counts as begun.
+const BEHIND_SKEW: f64 = 0.05;
+/// Behind the end of a piece (m) from which on there is another row.
+const NEXT_ROW: f64 = 1e-6;
+
+impl ArmShape {
+    /// From how far (m) from the junction on it may have rows across, besides that of its end.
+    pub(crate) fn first_row(&self) -> f64 {
+        // A skew end is not yet the first of them.
+        if self.skew == 0.0 { self.reach + NEXT_ROW } else { self.clear() - NEXT_ROW }
     }
 }
 

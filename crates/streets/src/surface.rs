@@ -106,6 +106,60 @@ impl StreetNetwork {
     }
 }
 
+/// What part of the ground a piece or a junction lies on.
+#[derive(Debug, Clone, PartialEq)]
+pub struct StreetFooting {
+    /// The middle of a piece (m), or the outline of a junction.
+    pub line: Vec<DVec3>,
+    /// The width (m) of a piece; 0 of a junction.
+    pub width: f64,
+    /// The piece that it is of; none of a junction.
+    pub piece: Option<PieceId>,
+}
+
+impl StreetNetwork {
+    /// What its streets lie on, their sidewalks included.
+    pub fn footings(&self, options: SurfaceOptions, profiles: &StreetProfiles) -> Vec<StreetFooting> {
+        let shapes = StreetShapes::new(self, options.turning);
+        let mut footings = Vec::new();
+        for (piece, known) in self.pieces() {
+            let [start, stop] = self.line(piece);
+            let way = (stop - start).normalize_or_zero();
+            let [first, last] = known.ends.map(|end| profiles.junction(end));
+            let mut line = vec![start.extend(first)];
+            let between = profiles.stations(piece).iter();
+            line.extend(between.map(|[along, height]| (start + way * *along).extend(*height)));
+            line.push(stop.extend(last));
+            line.dedup_by(|a, b| is_same(a.truncate(), b.truncate()));
+            footings.push(StreetFooting { line, width: known.attributes.width, piece: Some(piece) });
+        }
+        #[allow(clippy::cast_possible_truncation, reason = "pieces are limited far below")]
+        for junction in 0..self.junctions.len() as JunctionId {
+            let shape = shapes.junction(junction);
+            if shape.arms.is_empty() || shape.is_mitred {
+                continue;
+            }
+            let mut line = outline(&shapes, junction, StreetLine::Edge);
+            let height = profiles.junction(junction);
+            let line = line.drain(..).map(|at| at.extend(height)).collect();
+            footings.push(StreetFooting { line, width: 0.0, piece: None });
+        }
+        footings
+    }
+}
+
+/// The line around a junction (m), counter-clockwise.
+fn outline(shapes: &StreetShapes<'_>, junction: JunctionId, line: StreetLine) -> Vec<DVec2> {
+    let mut outline = Vec::new();
+    for (index, arm) in shapes.junction(junction).arms.iter().enumerate() {
+        let half = arm.arm.aside(line);
+        outline.extend([-half, half].map(|aside| shapes.end(junction, arm.piece, aside)));
+        outline.extend(shapes.corner(junction, index, line));
+    }
+    without_repeats(&mut outline, is_same);
+    outline
+}
+
 fn flat(ring: &[DVec3]) -> Vec<DVec2> {
     ring.iter().map(|at| at.truncate()).collect()
 }
@@ -120,13 +174,7 @@ fn junction_surface(
     if shape.arms.is_empty() || shape.is_mitred {
         return None;
     }
-    let mut outline = Vec::new();
-    for (index, arm) in shape.arms.iter().enumerate() {
-        let half = arm.arm.aside(StreetLine::Kerb);
-        outline.extend([-half, half].map(|aside| shapes.end(junction, arm.piece, aside)));
-        outline.extend(shapes.corner(junction, index, StreetLine::Kerb));
-    }
-    without_repeats(&mut outline, is_same);
+    let outline = outline(shapes, junction, StreetLine::Kerb);
     let middle = match &shape.arms[..] {
         // The end of a street is half a circle, whose center lies on its edge.
         [arm] => shapes.network.at(junction) - arm.arm.way * (arm.arm.aside(StreetLine::Kerb) / 4.0),

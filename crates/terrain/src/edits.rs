@@ -11,7 +11,9 @@ use glam::DVec2;
 use rustc_hash::FxHasher;
 use serde::{Deserialize, Serialize};
 
+use super::bed::GroundBed;
 use super::block::Area;
+use super::local_edits::LocalEdits;
 use super::view::DEEPEST;
 use super::world::World;
 use burgeon_base::error::{Error, Result};
@@ -48,11 +50,34 @@ pub enum Edit {
         /// How deep (m) it is in the middle.
         depth: f64,
     },
+    /// The ground is nowhere lower than a bed, and rises towards it from beside.
+    Embank {
+        /// What lies on it.
+        bed: GroundBed,
+    },
+    /// The ground is nowhere higher than a bed, and falls towards it from beside.
+    Excavate {
+        /// What lies in it.
+        bed: GroundBed,
+    },
 }
 
 impl Edit {
+    /// The same, higher by `lift` (m).
+    #[must_use]
+    pub fn raised(mut self, lift: f64) -> Self {
+        match &mut self {
+            Self::Flatten { height, .. } => *height += lift,
+            Self::Cut { path: line, .. }
+            | Self::Embank { bed: GroundBed { line, .. } }
+            | Self::Excavate { bed: GroundBed { line, .. } } => line.iter_mut().for_each(|at| at[2] += lift),
+            Self::Dig { .. } => {}
+        }
+        self
+    }
+
     /// The corners (m) of the box that it reaches.
-    fn bounds(&self) -> (DVec2, DVec2) {
+    pub(super) fn bounds(&self) -> (DVec2, DVec2) {
         let (points, reach): (Vec<DVec2>, f64) = match self {
             Self::Flatten { outline, margin, .. } => {
                 (outline.iter().map(|at| DVec2::from(*at)).collect(), *margin)
@@ -61,20 +86,17 @@ impl Edit {
                 (path.iter().map(|[x, y, _]| DVec2::new(*x, *y)).collect(), width / 2.0 + margin)
             }
             Self::Dig { path, width, .. } => (path.iter().map(|at| DVec2::from(*at)).collect(), width / 2.0),
+            Self::Embank { bed } | Self::Excavate { bed } => {
+                (bed.line.iter().map(|[x, y, _]| DVec2::new(*x, *y)).collect(), bed.reach())
+            }
         };
         let low = points.iter().fold(DVec2::INFINITY, |low, at| low.min(*at));
         let high = points.iter().fold(DVec2::NEG_INFINITY, |high, at| high.max(*at));
         (low - reach, high + reach)
     }
 
-    /// The height (m) at `place` (m), where it was `height` (m); the same outside of what it reaches.
-    pub(super) fn at(&self, place: DVec2, height: f64) -> f64 {
-        let (low, high) = self.bounds();
-        if place.cmpge(low).all() && place.cmple(high).all() { self.change(place, height) } else { height }
-    }
-
     /// The height (m) at `place` (m), where it was `height` (m).
-    fn change(&self, place: DVec2, height: f64) -> f64 {
+    pub(super) fn change(&self, place: DVec2, height: f64) -> f64 {
         match self {
             Self::Flatten { outline, height: level, margin } => {
                 let distance = if contains(outline, place) { 0.0 } else { to_line(outline, place, true).0 };
@@ -94,6 +116,12 @@ impl Edit {
                 let across = (1.0 - distance / (width / 2.0)).clamp(0.0, 1.0);
                 height - depth * across * across * (3.0 - 2.0 * across)
             }
+            Self::Embank { bed } => {
+                bed.beside(place).map_or(height, |(beyond, level)| height.max(level - beyond * bed.slope))
+            }
+            Self::Excavate { bed } => {
+                bed.beside(place).map_or(height, |(beyond, level)| height.min(level + beyond * bed.slope))
+            }
         }
     }
 
@@ -109,6 +137,11 @@ impl Edit {
             Self::Dig { path, width, depth } => {
                 (path.iter().flatten().copied().chain([*depth]).collect(), 2 * 2 + 1, vec![*width])
             }
+            Self::Embank { bed } | Self::Excavate { bed } => {
+                let least = if bed.is_area { 3 * 3 } else { 2 * 3 };
+                let numbers = bed.line.iter().flatten().copied().collect();
+                (numbers, least, vec![bed.width, bed.slope, bed.margin])
+            }
         };
         if points.iter().chain(&sizes).any(|number| !number.is_finite()) {
             return Some("a number of it is not finite");
@@ -116,11 +149,14 @@ impl Edit {
         if points.len() < least {
             return Some(match self {
                 Self::Flatten { .. } => "its outline has fewer than three points",
+                Self::Embank { bed } | Self::Excavate { bed } if bed.is_area => {
+                    "its outline has fewer than three points"
+                }
                 _ => "its path has fewer than two points",
             });
         }
         if sizes.iter().any(|size| *size < 0.0) {
-            return Some("its width or margin is below 0");
+            return Some("its width, margin or slope is below 0");
         }
         if matches!(self, Self::Dig { width, .. } if *width == 0.0) {
             return Some("its width is 0");
@@ -146,6 +182,9 @@ struct EditRecord {
     /// A number for what it is.
     #[serde(skip)]
     mark: u64,
+    /// The corners (m) of the box that it reaches.
+    #[serde(skip)]
+    bounds: (DVec2, DVec2),
     #[serde(flatten)]
     edit: Edit,
 }
@@ -196,7 +235,7 @@ impl Edits {
         let cell = smallest(world, low, high);
         let mut hasher = FxHasher::default();
         (self.count, serde_json::to_string(&edit).unwrap_or_default()).hash(&mut hasher);
-        let kept = EditRecord { order: self.count, mark: hasher.finish(), edit };
+        let kept = EditRecord { order: self.count, mark: hasher.finish(), bounds: (low, high), edit };
         self.cells.entry(cell).or_default().push(kept);
         self.count += 1;
         Ok(())
@@ -204,20 +243,16 @@ impl Edits {
 
     /// Changes the heights (m) of the cells of `area` at `level`.
     pub(super) fn apply(&self, world: &World, level: u32, area: Area, heights: &mut [f64]) {
-        for kept in self.met(world, level, area) {
-            let (from, to) = kept.edit.bounds();
-            for ((x, y), height) in area.cells().zip(heights.iter_mut()) {
-                let place = world.middle(level, x, y);
-                if place.cmpge(from).all() && place.cmple(to).all() {
-                    *height = kept.edit.change(place, *height);
-                }
-            }
+        let local = self.reaching(world, level, area);
+        for ((x, y), height) in area.cells().zip(heights.iter_mut()) {
+            *height = local.at(world.middle(level, x, y), *height);
         }
     }
 
-    /// What changes the cells of `area` at `level`, in order.
-    pub(super) fn reaching(&self, world: &World, level: u32, area: Area) -> Vec<Edit> {
-        self.met(world, level, area).into_iter().map(|kept| kept.edit.clone()).collect()
+    /// What changes the cells of `area` at `level`.
+    pub(super) fn reaching(&self, world: &World, level: u32, area: Area) -> LocalEdits {
+        let (low, high) = bounds(world, level, area);
+        LocalEdits::new(self.met(world, level, area).into_iter().map(|kept| kept.edit.clone()), low, high)
     }
 
     /// A number for all that changes the cells of `area` at `level`; 0 where nothing does.
@@ -231,13 +266,9 @@ impl Edits {
         if self.is_empty() || area.is_empty() {
             return Vec::new();
         }
-        let half = world.cell(level) / 2.0;
-        let (west, north) = area.at(0);
-        let (east, south) = area.at(area.len() - 1);
-        let (a, b) = (world.middle(level, west, north), world.middle(level, east, south));
-        let (low, high) = (a.min(b) - half, a.max(b) + half);
+        let (low, high) = bounds(world, level, area);
         let reaches = |kept: &&EditRecord| {
-            let (from, to) = kept.edit.bounds();
+            let (from, to) = kept.bounds;
             from.cmple(high).all() && to.cmpge(low).all()
         };
         let mut met: Vec<&EditRecord> = self.cells.values().flatten().filter(reaches).collect();
@@ -280,6 +311,18 @@ impl Edits {
     }
 }
 
+/// The corners (m) of the box around the cells of `area` at `level`.
+fn bounds(world: &World, level: u32, area: Area) -> (DVec2, DVec2) {
+    if area.is_empty() {
+        return (world.corner, world.corner);
+    }
+    let half = world.cell(level) / 2.0;
+    let (west, north) = area.at(0);
+    let (east, south) = area.at(area.len() - 1);
+    let (a, b) = (world.middle(level, west, north), world.middle(level, east, south));
+    (a.min(b) - half, a.max(b) + half)
+}
+
 impl WorldStamp {
     fn of(world: &World) -> Self {
         let key = world.key.map(|key| format!("{:016x}", key.0));
@@ -319,13 +362,13 @@ fn fade(distance: f64, margin: f64) -> f64 {
     part * part * (3.0 - 2.0 * part)
 }
 
-fn mix(a: f64, b: f64, part: f64) -> f64 {
+pub(super) fn mix(a: f64, b: f64, part: f64) -> f64 {
     // What acts fully leaves exactly its own height.
     if part >= 1.0 { b } else { a + (b - a) * part }
 }
 
 /// The distance (m) of `place` from a line, the piece of it that is nearest, and how far (0 to 1) along that piece.
-fn to_line(points: &[[f64; 2]], place: DVec2, closed: bool) -> (f64, usize, f64) {
+pub(super) fn to_line(points: &[[f64; 2]], place: DVec2, closed: bool) -> (f64, usize, f64) {
     let count = if closed { points.len() } else { points.len().saturating_sub(1) };
     let mut best = (f64::INFINITY, 0, 0.0);
     for piece in 0..count {

@@ -5,6 +5,7 @@
 //!
 //! Source: Fitzpatrick, "Procedurally Generated Surfaces Using L-Systems".
 
+mod bed;
 mod block;
 mod cells;
 mod edits;
@@ -12,6 +13,7 @@ pub mod fit;
 pub mod globe;
 mod ground;
 mod height_source;
+mod local_edits;
 mod mesh;
 mod noise;
 mod river;
@@ -24,6 +26,7 @@ mod tile;
 mod view;
 mod world;
 
+pub use bed::GroundBed;
 pub use block::{Area, Block};
 pub use cells::Cells;
 pub use edits::{Edit, Edits};

@@ -4,7 +4,7 @@ use glam::DVec2;
 use rayon::prelude::*;
 
 use super::block::{Area, Block};
-use super::edits::Edit;
+use super::local_edits::LocalEdits;
 use super::world::World;
 use burgeon_kit::rules::Symbol;
 
@@ -36,7 +36,7 @@ pub struct Tile {
     /// of the cells.
     corners: Vec<f64>,
     /// What has been changed of measured ground, in order.
-    changes: Vec<Edit>,
+    changes: LocalEdits,
 }
 
 impl Tile {
@@ -60,12 +60,12 @@ impl Tile {
             let first = cells.area.index(own.x, y);
             symbols.extend_from_slice(&cells.symbols[first..first + own.columns]);
         }
-        let (corners, changes) = (Vec::new(), Vec::new());
+        let (corners, changes) = (Vec::new(), LocalEdits::default());
         Self { place, detail, mark: 0, area: wanted, heights, symbols, corners, changes }
     }
 
     /// Lays its cells over what was measured, and changes what comes out.
-    pub(super) fn lay(&mut self, world: &World, changes: Vec<Edit>) {
+    pub(super) fn lay(&mut self, world: &World, changes: LocalEdits) {
         self.changes = changes;
         let own = Self::own(self.place, self.detail);
         let (level, across) = (self.level(), own.columns + 1);
@@ -81,7 +81,7 @@ impl Tile {
     /// The height (m) of measured ground at `place` (m), where the surface of the cells is `laid` (m) high.
     pub(super) fn changed(&self, place: DVec2, world: &World, laid: f64) -> f64 {
         let ground = world.ground(place, laid);
-        self.changes.iter().fold(ground, |height, edit| edit.at(place, height))
+        self.changes.at(place, ground)
     }
 
     /// The number of heights that it was expanded for.

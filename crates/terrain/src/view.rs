@@ -84,6 +84,12 @@ impl View {
         Ok(ViewCells { level, window, details })
     }
 
+    /// The length (m) of the sides of the smallest cells that it shows of `world`.
+    pub fn smallest(&self, world: &World) -> Result<f64> {
+        let deepest = self.rings.iter().map(|ring| ring.levels).max().unwrap_or(0);
+        Ok(world.cell(self.level(world)? + deepest))
+    }
+
     /// The level of its tiles.
     #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "the range is checked")]
     fn level(&self, world: &World) -> Result<u32> {

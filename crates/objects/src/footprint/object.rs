@@ -111,7 +111,7 @@ impl Footprint {
         self.lay(&kind, material)
     }
 
-    /// Raises walls: { height, templates, photo, color, material, expand }.
+    /// Raises walls: { height, templates, photo, bay, color, material, expand }.
     pub fn walls(&mut self, options: Option<TableOf<Walls>>) -> Result<()> {
         let options = options.unwrap_or_default().read()?;
         self.raise(&options)

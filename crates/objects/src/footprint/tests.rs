@@ -278,6 +278,38 @@ fn a_photo_covers_each_frontage_once() {
 }
 
 #[test]
+fn a_photo_with_bays_shows_whole_ones_on_each_frontage() {
+    let photo = table(&[
+        ("texture", Value::Text("front.png".into())),
+        ("texture_size", vec![10.0, 12.0].into_value()),
+    ]);
+    let geometry = plan(&[&[(0., 0.), (12., 0.), (12., 0.6), (0., 0.6)]]);
+    let mut house = Footprint::new(FootprintOptions { geometry, ..FootprintOptions::default() })
+        .expect("a clean footprint");
+    house.begin();
+    let walls = |bay: Vec<f64>, photo: Option<Value>| {
+        let bay = ("bay", bay.into_value());
+        let all = [Some(("height", Value::Number(7.0))), Some(bay), photo.map(|photo| ("photo", photo))];
+        given(&all.into_iter().flatten().collect::<Vec<_>>())
+    };
+    house.walls(walls(vec![2.5, 3.0], Some(Value::Table(photo)))).expect("walls");
+    let textured = |part: &&Part| house.drawing.material_of(part.material).texture.is_some();
+    let part = house.drawing.parts().iter().find(textured).expect("walls with the photo");
+    let mut sizes = Vec::new();
+    for corners in part.uvs.chunks(4) {
+        let (first, size) = (corners[0], corners[2] - corners[0]);
+        assert!((first.x / 2.5).fract() == 0.0 && first.x < 10.0 && first.y == 0.0, "{first}");
+        sizes.push(size.to_array());
+    }
+    // 12 m are nearest to five bays, 0.6 m still show one, and 7 m are two storeys.
+    assert_eq!(sizes, [[12.5, 6.0], [2.5, 6.0], [12.5, 6.0], [2.5, 6.0]]);
+    for (bay, photo) in [(vec![2.5, 3.0], None), (vec![2.5], Some(())), (vec![0.0, 3.0], Some(()))] {
+        let photo = photo.map(|()| Value::Table(table(&[("texture", Value::Text("front.png".into()))])));
+        assert!(house.walls(walls(bay, photo)).is_err());
+    }
+}
+
+#[test]
 fn a_ring_with_a_bad_point_is_refused_by_the_number_of_the_point() {
     let point = |x: f64, y: f64| vec![x, y].into_value();
     let ring = vec![point(0.0, 0.0), point(4.0, 0.0), point(4.0, f64::NAN)];

@@ -25,12 +25,38 @@ pub struct Walls {
     pub templates: Option<Templates>,
     /// A material whose image covers each frontage once, as a photo of the building does.
     pub photo: Option<MaterialOptions>,
+    /// Width and height (m) of one bay of the photo, which then repeats in whole bays, as many as suit a frontage best;
+    /// blind frontages stay plain.
+    pub bay: Vec<f64>,
     /// Colour of plain walls.
     pub color: Option<Color>,
     /// Material of plain walls, in place of the colour.
     pub material: Option<MaterialOptions>,
     /// Whether models on the walls become faces of the building, and not instances.
     pub expand: bool,
+}
+
+impl Walls {
+    /// Width and height (m) of a bay of the photo; fails if there is none to repeat.
+    fn bay(&self) -> Result<Option<DVec2>> {
+        let refused =
+            |why: &str, remedy: &str| Error::argument(format!("footprint:walls: {why}")).help(remedy);
+        match (&self.bay[..], &self.photo) {
+            ([], _) => Ok(None),
+            (_, None) => {
+                Err(refused("bay is of a photo, and there is none", "give photo = { texture = ... } too"))
+            }
+            (&[width, height], Some(photo))
+                if width >= 0.1 && height >= 0.1 && !photo.texture_size.is_empty() =>
+            {
+                Ok(Some(DVec2::new(width, height)))
+            }
+            _ => Err(refused(
+                "bay must be { width, height } in metres, at least 0.1, of a photo with a texture_size",
+                "write bay = { 2.5, 3 } and photo = { texture = ..., texture_size = { 10, 12 } }",
+            )),
+        }
+    }
 }
 
 /// Plain walls that have been asked for but not drawn, since more may follow above them.
@@ -80,6 +106,7 @@ impl Footprint {
         if self.detail == 0 {
             return Ok(());
         }
+        let bay = options.bay()?;
         let template = options.templates.as_ref().and_then(Templates::first);
         let plain = match (&options.material, options.color, template) {
             (None, None, Some(template)) => self.drawing.material(template.material()),
@@ -95,11 +122,7 @@ impl Footprint {
         }
         match (&options.templates, &options.photo) {
             (None, None) => self.draw_plain(plain, from, to),
-            (None, Some(photo)) => {
-                let photo = photo.material()?;
-                self.draw_photo(&photo, from, to);
-                Ok(())
-            }
+            (None, Some(photo)) => self.draw_photo(&photo.material()?, bay, plain, from, to),
             (Some(templates), None) => self.draw_facades(templates, plain, options.expand, from, to),
             (Some(_), Some(_)) => {
                 Err(Error::argument("footprint:walls: there are both templates and a photo")
@@ -130,18 +153,36 @@ impl Footprint {
         Ok(())
     }
 
-    fn draw_photo(&mut self, photo: &Material, from: f64, to: f64) {
+    fn draw_photo(
+        &mut self,
+        photo: &Material,
+        bay: Option<DVec2>,
+        plain: usize,
+        from: f64,
+        to: f64,
+    ) -> Result<()> {
         let part = self.drawing.material(photo);
-        for frontage in self.frontages(from, to) {
+        let whole = photo.texture.as_ref().map_or(DVec2::ONE, |texture| DVec2::from(texture.size));
+        for (edge, frontage) in self.frontages(from, to).iter().enumerate() {
             let (right, up) = (DVec3::new(frontage.size.x, 0.0, 0.0), DVec3::new(0.0, frontage.size.y, 0.0));
             let face = FacadeFace::new(DVec3::ZERO, right, up).of(None, true, SurfaceMeaning::Wall);
-            frontage.draw(
-                self.drawing.surface(part, SurfaceMeaning::Wall),
-                &face,
-                &FaceMesh::of(&face),
-                photo,
-            );
+            let shown = match bay {
+                None => [DVec2::ZERO, whole],
+                Some(_) if self.keywords_of(edge).contains(&BLIND) => {
+                    frontage.fill(self.drawing.surface(plain, SurfaceMeaning::Wall))?;
+                    continue;
+                }
+                Some(bay) => {
+                    // Each frontage begins with a bay of its own, so that windows differ from one to the next.
+                    let chance = Stream::new(self.seed ^ mixed(self.raised, edge)).uniform();
+                    let first = (chance * (whole / bay).round()).floor() * bay * DVec2::X;
+                    [first, (frontage.size / bay).round().max(DVec2::ONE) * bay]
+                }
+            };
+            let part = self.drawing.surface(part, SurfaceMeaning::Wall);
+            frontage.draw(part, &face, &FaceMesh::of(&face), shown);
         }
+        Ok(())
     }
 
     fn draw_facades(
@@ -247,7 +288,8 @@ impl Footprint {
         joiner.join(&laid.faces, &of_faces, |number, mesh| {
             let face = &laid.faces[number];
             let part = self.drawing.surface(of_faces[number], face.meaning);
-            frontage.draw(part, face, mesh, material_of(face));
+            let size = material_of(face).texture.as_ref().map_or([1.0; 2], |texture| texture.size);
+            frontage.draw(part, face, mesh, [DVec2::ZERO, size.into()]);
         });
     }
 
@@ -317,12 +359,12 @@ impl Frontage {
         face.map_or(Ok(()), |face| fill(part, &[face], self.axes.x_axis, origin))
     }
 
-    /// Adds `mesh`, which is like `face`, with its texture coordinates (m).
-    fn draw(&self, part: &mut Part, face: &FacadeFace<'_>, mesh: &FaceMesh, material: &Material) {
+    /// Adds `mesh`, which is like `face`, with its texture coordinates (m); a face that an image is stretched over shows of it
+    /// what begins at the first place of `shown` and is as large as the second says (m).
+    fn draw(&self, part: &mut Part, face: &FacadeFace<'_>, mesh: &FaceMesh, shown: [DVec2; 2]) {
         let Ok(base) = u32::try_from(part.positions.len()) else { return };
         let normal = (self.axes * face.right.cross(face.up)).normalize_or_zero().as_vec3();
-        let (size, lies) =
-            (material.texture.as_ref().map_or([1.0; 2], |texture| texture.size), face.up.y == 0.0);
+        let ([first, size], lies) = (shown, face.up.y == 0.0);
         part.make_room(mesh.corners.len(), mesh.triangles.len());
         for &given in &mesh.corners {
             let mut corner = given;
@@ -333,7 +375,7 @@ impl Frontage {
             }
             let uv = if face.stretched {
                 let part = |way: DVec3| (given - face.at).dot(way) / way.length_squared();
-                DVec2::new(part(face.right) * size[0], part(face.up) * size[1])
+                first + DVec2::new(part(face.right), part(face.up)) * size
             } else if lies {
                 self.passed + DVec2::new(corner.x, corner.y + corner.z)
             } else {

@@ -7,10 +7,12 @@ use burgeon_base::error::Result;
 use burgeon_geometry::{Polygon, Rings};
 use burgeon_kit::{Color, Drawing};
 use burgeon_scene::{Material, Normal, Part};
-use burgeon_streets::{Sidewalk, StreetProfiles, StreetSurface};
+use burgeon_streets::{Sidewalk, StreetSurface};
 
 /// How high (m) paint lies over the street.
 const PAINT: f64 = 0.02;
+/// How far (m) the sides of streets reach down into the ground.
+const SKIRT: f64 = 1.5;
 /// The colour of paint.
 const WHITE: Color = Color([0.78, 0.78, 0.76, 1.0]);
 
@@ -18,8 +20,9 @@ impl Network {
     /// Everything that it shows.
     pub(super) fn draw(&self) -> Result<Drawing> {
         let mut drawing = Drawing::default();
-        let (options, profiles) = (self.surface_options(), StreetProfiles::default());
-        let surfaces = self.network.surfaces(options, &profiles);
+        let (options, fit) = (self.surface_options(), self.fit()?);
+        let profiles = &fit.profiles;
+        let surfaces = self.network.surfaces(options, profiles);
         let mut paint = |color: Color| {
             let material = Material { base_color: color.0, roughness: 0.92, ..Material::default() };
             drawing.material(&material)
@@ -35,6 +38,17 @@ impl Network {
         for sidewalk in &surfaces.sidewalks {
             draw_sidewalk(part, sidewalk, kerb);
         }
+        if self.options.on.is_some() {
+            // The ground beside lies lower by what it can be off.
+            let skirt = |pair: [DVec3; 2], part: &mut Part| {
+                upright(part, pair.map(|at| at + DVec3::Z * (kerb - SKIRT)), SKIRT);
+            };
+            for edge in surfaces.sidewalks.iter().map(|walk| &walk.edge) {
+                for (a, b) in edge.iter().zip(edge.iter().cycle().skip(1)) {
+                    skirt([*b, *a], part);
+                }
+            }
+        }
         for line in surfaces.medians.iter().flat_map(|median| &median.kerbs) {
             for pair in line.windows(2) {
                 upright(part, [pair[0], pair[1]], kerb);
@@ -46,7 +60,7 @@ impl Network {
         }
         if let Some(ground) = ground {
             let part = drawing.part(ground);
-            for rings in self.network.blocks_at(options, &profiles) {
+            for rings in self.network.blocks_at(options, profiles) {
                 let polygon: Polygon<DVec3> = Polygon::new(Rings(rings))?;
                 let points: Vec<DVec3> = polygon.points().collect();
                 let first = add_points(part, &points, kerb);
@@ -58,7 +72,7 @@ impl Network {
         }
         if self.options.markings {
             let part = drawing.part(white);
-            for marking in self.network.markings(options, &profiles, &self.kinds) {
+            for marking in self.network.markings(options, profiles, &self.kinds) {
                 let first = add_points(part, &marking.corners, PAINT);
                 part.triangles.extend([[0, 1, 2], [0, 2, 3]].map(|face| face.map(|corner| corner + first)));
             }

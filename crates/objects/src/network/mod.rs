@@ -4,6 +4,7 @@ mod answers;
 mod draw;
 mod existing;
 mod kinds;
+mod land;
 mod lots;
 mod object;
 mod sites;

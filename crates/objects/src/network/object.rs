@@ -1,22 +1,26 @@
 //! The type of object: its fields, and what rules ask and interpretations change.
 
+use std::sync::{Arc, OnceLock};
+
 use glam::DVec2;
 use rustc_hash::FxHashMap;
 
 use super::answers;
 use super::existing::{self, ExistingLines};
 use super::kinds::StreetOptions;
+use super::land::VergeRecords;
 use super::lots::{BlockRecords, LotRecords, LotSettings};
 use super::sites::{SiteRecords, SiteSettings};
 use super::walk::NetworkWalk;
+use crate::Terrain;
 use burgeon_base::error::{Error, Result};
 use burgeon_base::warning::{Warning, WarningKind};
 use burgeon_geometry::{Plan, Rings};
 use burgeon_kit::{Color, TableOf, Value, Vector, fields, methods, object};
 use burgeon_scene::Scene;
 use burgeon_streets::{
-    Constraints, DeadEndOptions, Fate, JunctionId, Obstacle, Obstacles, StreetAttributes, StreetGrowth,
-    StreetKind, StreetNetwork, SurfaceOptions,
+    Constraints, DeadEndOptions, Fate, JunctionId, Obstacle, Obstacles, StreetAttributes, StreetFit,
+    StreetGrowth, StreetKind, StreetNetwork, SurfaceOptions,
 };
 
 /// What `network(...)` takes.
@@ -66,6 +70,13 @@ pub struct NetworkOptions {
     /// The most pieces of streets.
     #[default(400_000)]
     pub most: u32,
+    /// The ground that streets lie on: a terrain that was derived before.
+    pub on: Option<Arc<Terrain>>,
+    /// The greatest slope (%) of streets on the ground; they cut into it and are raised over it to keep that.
+    #[default(10.0)]
+    pub max_slope: f64,
+    /// The height (m) of the water that bridges lead over; that of the terrain's water if it is left out.
+    pub water_level: Option<f64>,
     /// Height (m) of kerbs.
     #[default(0.14)]
     pub kerb: f64,
@@ -106,6 +117,8 @@ pub struct Network {
     /// By depth.
     pub(super) kinds: Vec<StreetKind>,
     pub(super) network: StreetNetwork,
+    /// How high its streets lie, with the version of the network that this is of.
+    pub(super) fit: OnceLock<(u64, Arc<StreetFit>)>,
     /// What became of what was proposed in the last pass, by junction and heading.
     growths: FxHashMap<(u32, u64), StreetGrowth>,
     walk: NetworkWalk,
@@ -258,6 +271,17 @@ impl Network {
         self.site_records(&options.unwrap_or_default().read()?)
     }
 
+    /// Height (m) of the sidewalks of the street that is nearest to a place, where it is nearest: houses beside it stand there.
+    pub fn height(&self, place: Vector) -> Result<f64> {
+        self.height_at(place.0)
+    }
+
+    /// Places along the streets for a "tree" or a "lamp", as far apart as the kinds of streets say: where (m), the direction
+    /// towards the street (degrees), and how often the street's way has branched off.
+    pub fn verge(&self, what: String) -> Result<VergeRecords> {
+        self.verge_of(&what)
+    }
+
     /// How many dead ends there are.
     pub fn dead_ends(&self) -> u32 {
         u32::try_from(self.network.dead_ends().count()).unwrap_or(u32::MAX)
@@ -275,10 +299,15 @@ impl Network {
         for (number, kind) in (1..).zip(&kinds) {
             kind.check().map_err(|error| error.about(&format!("network: streets: kind {number}")))?;
         }
-        for (name, value, most) in [("kerb", options.kerb, 2.0), ("turning", options.turning, 100.0)] {
-            if !(0.0..=most).contains(&value) {
+        let named = [
+            ("kerb", options.kerb, 0.0, 2.0),
+            ("turning", options.turning, 0.0, 100.0),
+            ("max_slope", options.max_slope, 0.1, 100.0),
+        ];
+        for (name, value, least, most) in named {
+            if !(least..=most).contains(&value) {
                 return Err(Error::argument(format!(
-                    "network: {name} must be from 0 to {most}, not {value}"
+                    "network: {name} must be from {least} to {most}, not {value}"
                 )));
             }
         }
@@ -319,7 +348,16 @@ impl Network {
             StreetKind::of(&kinds, depth).attributes(depth)
         })?);
         let walk = NetworkWalk::default();
-        Ok(Self { options, kinds, network, growths: FxHashMap::default(), walk, warnings, is_told: false })
+        Ok(Self {
+            options,
+            kinds,
+            network,
+            fit: OnceLock::new(),
+            growths: FxHashMap::default(),
+            walk,
+            warnings,
+            is_told: false,
+        })
     }
 
     /// The network itself.
@@ -380,6 +418,9 @@ impl Network {
 
     /// Tells if a pass proposed streets and there is none.
     fn finish(&mut self) -> Result<()> {
+        if self.fit.get().is_some_and(|(version, _)| *version != self.network.version()) {
+            self.fit = OnceLock::new();
+        }
         if self.network.size() > 0 || self.growths.is_empty() || self.is_told {
             return Ok(());
         }
@@ -425,5 +466,17 @@ impl burgeon_kit::Show for Network {
     fn show(&self, scene: &mut Scene, name: &str, feature: Option<&str>) -> Result<()> {
         self.draw()?.show(scene, name, feature);
         Ok(())
+    }
+}
+
+/// A network of a script, to be asked by others.
+impl burgeon_kit::ObjectParameter for Network {
+    const LUAU: &str = "Network";
+    const EXPECTED: &str = "a network that was derived: roads:derive().objects[1]";
+}
+
+impl std::fmt::Debug for Network {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "network of {} pieces", self.network.size())
     }
 }

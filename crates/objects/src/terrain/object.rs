@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use super::river::River;
 use super::{EditFile, GroundCover, Plants, RuleLayers, Water, build};
-use crate::Elevation;
+use crate::{Elevation, Network};
 use burgeon_base::error::{Error, Result};
 use burgeon_base::warning::{Warning, WarningKind};
 use burgeon_kit::rules::ModuleKey;
@@ -48,6 +48,11 @@ pub struct TerrainOptions {
     pub elevation: Option<Elevation>,
     /// Changes of the ground that were kept: edits("ground.json").
     pub edits: Option<EditFile>,
+    /// Streets that lie on it: the ground is cut and filled, so that it meets them with slopes and is nowhere above them.
+    pub under: Option<Arc<Network>>,
+    /// Whether it is shown; one that is not can still be asked, and streets can lie on it.
+    #[default(true)]
+    pub shown: bool,
     /// What lies on it, from the bottom to the top.
     pub covers: Vec<GroundCover>,
     /// The height (m) of an underside: then it has sides and is closed.
@@ -93,6 +98,8 @@ pub struct Terrain {
     kept: Arc<Edits>,
     /// Whether that file has been read: its world is known only once there is a seed.
     kept_read: bool,
+    /// Whether there is room for the streets on it.
+    has_room: bool,
     /// These, and what the present pass has changed.
     edits: Arc<Edits>,
     pub(super) key: ModuleKey,
@@ -222,6 +229,7 @@ impl Terrain {
             kept: Arc::default(),
             edits: Arc::default(),
             kept_read: false,
+            has_room: false,
             key: ModuleKey::default(),
             sketched: false,
             begun: false,
@@ -299,6 +307,27 @@ impl Terrain {
 
     fn change(&mut self, edit: Edit) -> Result<()> {
         Arc::make_mut(&mut self.edits).add(self.ground.world(), edit)
+    }
+
+    /// The height (m) of its standing water.
+    pub(crate) fn water_level(&self) -> Option<f64> {
+        self.options.water.as_ref().map(|water| water.level + self.options.position.0.z)
+    }
+
+    /// Makes room for the streets on it, once.
+    fn make_room(&mut self, view: &View) -> Result<()> {
+        let Some(streets) = self.options.under.as_ref().filter(|_| !self.has_room) else { return Ok(()) };
+        let world = self.ground.world();
+        let cell = view.smallest(world)?;
+        let lift = self.options.position.0.z;
+        for edit in streets.bed(cell, self.options.error.unwrap_or(cell / 10.0))? {
+            Arc::make_mut(&mut self.kept)
+                .add(world, edit.raised(-lift))
+                .map_err(|error| error.about("terrain: under"))?;
+        }
+        self.warnings.extend(streets.steep()?);
+        (self.edits, self.has_room) = (Arc::clone(&self.kept), true);
+        Ok(())
     }
 
     /// Reads the changes that were kept, once.
@@ -395,6 +424,7 @@ impl Expand for Terrain {
             self.ground = self.plain.clone();
         }
         self.read_edits()?;
+        self.make_room(&view)?;
         self.plain.edit(&self.kept);
         self.plain.focus(eye, &view, divide)?;
         self.ground = self.plain.clone();
@@ -415,6 +445,6 @@ impl Expand for Terrain {
 
 impl Show for Terrain {
     fn show(&self, scene: &mut Scene, name: &str, feature: Option<&str>) -> Result<()> {
-        self.draw(scene, name, feature)
+        if self.options.shown { self.draw(scene, name, feature) } else { Ok(()) }
     }
 }

@@ -95,9 +95,9 @@ fn lots_of_polygons_at_random_are_disjoint_and_fill_them() {
 
 #[test]
 fn lots_of_networks_at_random_have_fronts_on_their_streets() {
-    let mut count = 0;
-    for seed in 1..=30 {
-        let network = grown(seed, 150, Constraints::default(), Obstacles::default());
+    let (mut count, mut long) = (0, 0);
+    for seed in 1..=150 {
+        let network = grown(seed, 30 + seed as usize % 40, Constraints::default(), Obstacles::default());
         let mut random = TestNumbers(seed + 1000);
         for block in network.lot_blocks(SurfaceOptions::default()) {
             let pattern = LotPattern::ALL[seed as usize % 3].1;
@@ -106,6 +106,8 @@ fn lots_of_networks_at_random_have_fronts_on_their_streets() {
             check(&block, &lots, &options);
             count += lots.iter().filter(|lot| lot.purpose == LotUse::Building).count();
             for lot in lots.iter().filter(|lot| lot.purpose == LotUse::Building) {
+                let ratio = (lot.width / lot.depth).max(lot.depth / lot.width);
+                long += usize::from(ratio > options.elongation * 1.5);
                 let piece = lot.piece.expect("a street");
                 let (distance, _) = crate::grid::foot(lot.access, network.line(piece));
                 assert!(distance <= network.half(piece) + 6.0, "{distance} m from the street");
@@ -113,6 +115,81 @@ fn lots_of_networks_at_random_have_fronts_on_their_streets() {
         }
     }
     assert!(count > 5000, "{count} lots");
+    assert!(long * 200 < count, "{long} of {count} lots are too long");
+}
+
+/// Numbers that follow from the id of a block.
+fn stream_of(id: &str) -> TestNumbers {
+    TestNumbers(id.bytes().fold(7_u64, |sum, byte| sum.wrapping_mul(31) + u64::from(byte)) | 1)
+}
+
+#[test]
+fn great_tiny_and_hollow_areas_are_divided_too() {
+    let empty = StreetNetwork::new(Constraints::default(), Obstacles::default()).expect("a network");
+    let square = |x: f64, y: f64, size: f64| {
+        [(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)]
+            .map(|(u, v)| DVec2::new(x + u * size, y + v * size))
+            .to_vec()
+    };
+    let hole = |x: f64, y: f64, size: f64| square(x, y, size).into_iter().rev().collect::<Vec<_>>();
+    let angle =
+        [(0.0, 0.0), (300.0, 0.0), (300.0, 40.0), (50.0, 60.0), (40.0, 280.0), (0.0, 300.0)].map(DVec2::from);
+    let cases = [
+        (vec![square(400_000.0, -300_000.0, 1000.0)], 100),
+        (vec![square(0.0, 0.0, 1000.0), hole(300.0, 420.0, 200.0)], 100),
+        (vec![square(0.0, 0.0, 100.0), hole(20.0, 20.0, 30.0), hole(60.0, 50.0, 25.0)], 4),
+        (vec![angle.to_vec()], 20),
+        (vec![square(5.0, 5.0, 3.0)], 0),
+    ];
+    for (rings, least) in cases {
+        for (_, pattern) in LotPattern::ALL {
+            let block = empty.block(None, &Rings(rings.clone()), 6.0).expect("an area");
+            let options = LotOptions { pattern, ..LotOptions::new(15.0, 25.0) };
+            let mut stream = stream_of(&block.id);
+            let lots = block.divide(&options, &mut || stream.below(1.0));
+            check(&block, &lots, &options);
+            let count = lots.iter().filter(|lot| lot.purpose == LotUse::Building).count();
+            assert!(count >= least, "{count} lots of {} by {pattern:?}", block.id);
+        }
+    }
+}
+
+#[test]
+fn a_street_elsewhere_leaves_the_lots_of_a_block_as_they_were() {
+    let lots_of = |network: &StreetNetwork| {
+        let blocks = network.lot_blocks(SurfaceOptions::default());
+        let all = blocks.iter().map(|block| {
+            let mut stream = stream_of(&block.id);
+            let options = LotOptions { pattern: LotPattern::Strips, ..LotOptions::new(15.0, 25.0) };
+            (block.id.clone(), block.divide(&options, &mut || stream.below(1.0)))
+        });
+        all.collect::<std::collections::BTreeMap<_, _>>()
+    };
+    let mut changed = 0;
+    for seed in 1..=20 {
+        let mut network = grown(seed, 120, Constraints::default(), Obstacles::default());
+        let before = lots_of(&network);
+        let pieces: Vec<u32> = network.pieces().map(|(piece, _)| piece).collect();
+        network.remove(pieces[pieces.len() / 2]);
+        let after = lots_of(&network);
+        let gone = before.keys().filter(|id| !after.contains_key(*id)).count();
+        let same =
+            before.iter().filter(|(id, lots)| after.get(*id).is_some_and(|now| same_lots(now, lots))).count();
+        // The blocks on both sides of it, and those at the junctions that are none any more.
+        assert!(
+            before.len() - same <= 6,
+            "{} of {} blocks have other lots",
+            before.len() - same,
+            before.len()
+        );
+        changed += gone;
+    }
+    assert!(changed > 10, "{changed} blocks gone");
+}
+
+/// Whether lots are where they were, whatever the numbers of their streets.
+fn same_lots(a: &[Lot], b: &[Lot]) -> bool {
+    a.len() == b.len() && a.iter().zip(b).all(|(a, b)| a.rings == b.rings && a.number == b.number)
 }
 
 #[test]

@@ -1,0 +1,156 @@
+//! A network on the ground: how high its streets lie, what the ground becomes under them, and what stands beside them.
+
+use std::sync::Arc;
+
+use glam::DVec3;
+
+use super::Network;
+use burgeon_base::error::{Error, Result};
+use burgeon_base::warning::{Warning, WarningKind};
+use burgeon_kit::{Answer, Parameter, Table, TableKey, Value, Vector};
+use burgeon_streets::{PieceId, SlopeOptions, StreetFit, StreetFooting, VergeThing};
+use burgeon_terrain::{Edit, GroundBed};
+
+/// How far (m) the ground stays below a carriageway at least.
+const BELOW: f64 = 0.05;
+/// How steep (m/m) the ground beside a street is at most.
+const BATTER: f64 = 2.0 / 3.0;
+/// How far (m) beside a street the ground changes at most.
+const FARTHEST: f64 = 80.0;
+/// How many cells a height of the ground depends on, on each side.
+const CELLS: f64 = 2.2;
+/// By how much (m) a street that lies on the ground may lie above or below it, before that is told.
+const DEEP: f64 = 8.0;
+/// How far (m) above water streets lie, and how far bridges.
+const DRY: [f64; 2] = [0.8, 3.0];
+
+/// Places beside streets, as scripts get them.
+pub struct VergeRecords(Vec<Value>);
+
+impl Answer for VergeRecords {
+    fn luau() -> String {
+        "{ { place: Vector, heading: number, street_depth: number } }".into()
+    }
+
+    fn answer(self) -> Result<Value> {
+        Ok(self.0.into_value())
+    }
+}
+
+impl Network {
+    /// How high its streets lie.
+    pub(super) fn fit(&self) -> Result<Arc<StreetFit>> {
+        let version = self.network.version();
+        if let Some((known, fit)) = self.fit.get()
+            && *known == version
+        {
+            return Ok(Arc::clone(fit));
+        }
+        let fit = Arc::new(self.laid()?);
+        // One of an earlier network stays until the pass ends.
+        let _ = self.fit.set((version, Arc::clone(&fit)));
+        Ok(fit)
+    }
+
+    fn laid(&self) -> Result<StreetFit> {
+        let Some(ground) = &self.options.on else { return Ok(StreetFit::default()) };
+        let water = self.water_level();
+        let slopes = SlopeOptions {
+            max_slope: self.options.max_slope / 100.0,
+            least: DRY.map(|above| water.map(|level| level + above)),
+        };
+        let height = |at: glam::DVec2| ground.height(Vector(at.extend(0.0))).ok();
+        self.network.lay(self.surface_options(), slopes, height).map_err(|at| {
+            Error::argument(format!(
+                "network: on: there is no ground at ({:.1}, {:.1}), where a street is",
+                at.x, at.y
+            ))
+            .help(
+                "make the terrain greater, derive it before, or keep streets on it: network { limit = ... }",
+            )
+        })
+    }
+
+    /// The height (m) of the water that bridges lead over.
+    pub(super) fn water_level(&self) -> Option<f64> {
+        self.options.water_level.or_else(|| self.options.on.as_ref()?.water_level())
+    }
+
+    /// The changes of ground with cells of a size (m), whose triangles are off by `error` (m) at most, so that it lies below
+    /// the streets and meets them with slopes.
+    pub(crate) fn bed(&self, cell: f64, error: f64) -> Result<Vec<Edit>> {
+        let fit = self.fit()?;
+        let slope = self.options.max_slope / 100.0;
+        // Between cells the ground is straight, where a street bends.
+        let sink = BELOW + error + 0.6 * slope * cell;
+        let beds: Vec<(GroundBed, Option<PieceId>)> = self
+            .network
+            .footings(self.surface_options(), &fit.profiles)
+            .into_iter()
+            .map(|StreetFooting { line, width, piece }| {
+                let depth = piece.and_then(|piece| fit.depths.get(piece as usize)).copied();
+                let margin = ((depth.unwrap_or(DEEP) + sink + 4.0) / BATTER).min(FARTHEST);
+                let line = line.iter().map(|at| [at.x, at.y, at.z - sink]).collect();
+                let width = width + 2.0 * CELLS * cell;
+                (GroundBed { line, width, is_area: piece.is_none(), slope: BATTER, margin }, piece)
+            })
+            .collect();
+        let is_bridge = |piece: &Option<PieceId>| piece.is_some_and(|piece| self.network.is_bridge(piece));
+        let raised = beds.iter().filter(|(_, piece)| !is_bridge(piece));
+        // All of them are raised before any is lowered: the ground is nowhere above a street.
+        let mut edits: Vec<Edit> = raised.map(|(bed, _)| Edit::Embank { bed: bed.clone() }).collect();
+        edits.extend(beds.into_iter().map(|(bed, _)| Edit::Excavate { bed }));
+        Ok(edits)
+    }
+
+    /// What to tell of streets that would be steeper if they lay on the ground.
+    pub(crate) fn steep(&self) -> Result<Option<Warning>> {
+        let fit = self.fit()?;
+        let deep = fit.depths.iter().filter(|depth| **depth > DEEP).count();
+        let deepest = fit.depths.iter().copied().fold(0.0, f64::max);
+        Ok((deep > 0).then(|| {
+            let text = format!(
+                "network: {deep} of {} pieces of streets lie more than {DEEP} m above or below the ground, up to {deepest:.1} m, \
+                 so that none is steeper than max_slope = {} %",
+                self.network.size(),
+                self.options.max_slope
+            );
+            Warning::new(WarningKind::Doubtful, text)
+                .help("give a greater max_slope, or keep streets off steep ground: network { obstacles = ... }")
+        }))
+    }
+
+    /// The height (m) of the sidewalks of the street nearest to a place, where it is nearest.
+    pub(super) fn height_at(&self, place: DVec3) -> Result<f64> {
+        let Some((piece, _)) = self.network.nearest(place.truncate()) else { return Ok(0.0) };
+        let fit = self.fit()?;
+        Ok(fit.profiles.near(&self.network, piece, place.truncate()) + self.options.kerb)
+    }
+
+    /// Places for something beside the streets.
+    pub(super) fn verge_of(&self, what: &str) -> Result<VergeRecords> {
+        let thing = match what {
+            "tree" => VergeThing::Tree,
+            "lamp" => VergeThing::Lamp,
+            _ => {
+                let message = format!("there is nothing called {what:?} beside streets");
+                return Err(Error::not_found("thing", what, ["tree", "lamp"], message)
+                    .help("ask for \"tree\" or \"lamp\""));
+            }
+        };
+        let fit = self.fit()?;
+        let places = self.network.verge(self.surface_options(), &fit.profiles, &self.kinds, thing);
+        let record = |found: &burgeon_streets::VergePlace| {
+            let depth = self.network.attributes(found.piece).depth;
+            let fields = [
+                ("place", (found.place + DVec3::Z * self.options.kerb).into_value()),
+                ("heading", found.heading.into_value()),
+                ("street_depth", depth.into_value()),
+            ];
+            let entries =
+                fields.into_iter().map(|(name, value)| (TableKey::Name(name.into()), value)).collect();
+            Value::Table(Arc::new(Table { class: None, entries }))
+        };
+        Ok(VergeRecords(places.iter().map(record).collect()))
+    }
+}

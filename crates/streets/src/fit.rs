@@ -1,0 +1,203 @@
+//! Streets laid on the ground, nowhere steeper than a slope.
+//!
+//! Junctions are level, and pieces are level across, so only the slope along them is to be bounded. The greatest heights
+//! that keep the slope and lie nowhere above the ground anywhere in reach, and the least that lie nowhere below it,
+//! both keep the slope; so does their mean, which cuts as much as it fills.
+//!
+//! Method: the two Lipschitz extensions of E. J. McShane, "Extension of range of functions", 1934, by Dijkstra's shortest paths.
+
+use std::cmp::Ordering;
+use std::collections::BinaryHeap;
+
+use glam::DVec2;
+use smallvec::SmallVec;
+
+use crate::network::StreetNetwork;
+use crate::profile::StreetProfiles;
+use crate::shape::{ArmShape, StreetShapes};
+use crate::surface::SurfaceOptions;
+
+/// How far apart (m) the places along a piece are whose heights are chosen.
+const STEP: f64 = 20.0;
+/// How often heights are mixed with those beside them before the slope is bounded.
+const ROUNDS: usize = 4;
+/// How many places across a street the ground is asked at.
+const ACROSS: [f64; 3] = [-0.5, 0.0, 0.5];
+
+/// How streets are laid on the ground.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SlopeOptions {
+    /// The greatest slope (m/m).
+    pub max_slope: f64,
+    /// The least height (m) of streets on dry land, and of bridges.
+    pub least: [Option<f64>; 2],
+}
+
+/// Streets laid on the ground.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct StreetFit {
+    /// How high they lie.
+    pub profiles: StreetProfiles,
+    /// How far (m) pieces lie above or below the ground, where that is the most; by piece.
+    pub depths: Vec<f64>,
+}
+
+/// A place whose height is chosen.
+struct FitPlace {
+    /// The height (m) of the ground.
+    ground: f64,
+    least: f64,
+    /// The places beside it, and how far (m) they are, as far as the street may slope there.
+    beside: SmallVec<[(u32, f64); 2]>,
+}
+
+impl StreetNetwork {
+    /// Heights of its streets on the ground, which `ground` gives for a place (m); gives the first place without ground if
+    /// there is one.
+    pub fn lay(
+        &self,
+        options: SurfaceOptions,
+        slopes: SlopeOptions,
+        ground: impl Fn(DVec2) -> Option<f64>,
+    ) -> Result<StreetFit, DVec2> {
+        let shapes = StreetShapes::new(self, options.turning);
+        let mut places: Vec<FitPlace> = Vec::with_capacity(self.junctions.len());
+        for junction in &self.junctions {
+            let ground = if junction.pieces.is_empty() { Some(0.0) } else { ground(junction.place()) };
+            let ground = ground.ok_or_else(|| junction.place())?;
+            places.push(FitPlace { ground, least: f64::NEG_INFINITY, beside: SmallVec::new() });
+        }
+        let mut chains: Vec<(u32, Vec<f64>)> = vec![(0, Vec::new()); self.pieces.len()];
+        for (piece, known) in self.pieces() {
+            let [start, stop] = self.line(piece);
+            let (length, way) = (start.distance(stop), (stop - start).normalize_or_zero());
+            let clear = known.ends.map(|end| shapes.arm(end, piece).map_or(0.0, ArmShape::clear));
+            let room = (length - clear[0] - clear[1]).max(0.0);
+            #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "pieces are short")]
+            let inner = (room / STEP).floor() as u32;
+            let step = room / f64::from(inner + 1);
+            #[allow(clippy::cast_possible_truncation, reason = "limited by the number of pieces")]
+            let first = places.len() as u32;
+            let least = slopes.least[usize::from(known.is_bridge)].unwrap_or(f64::NEG_INFINITY);
+            for end in known.ends {
+                let place = &mut places[end as usize];
+                place.least = place.least.max(least);
+            }
+            let mut alongs = vec![clear[0]];
+            let mut before = known.ends[0];
+            for index in 0..=inner {
+                let along = clear[0] + step * f64::from(index + 1);
+                let next = if index == inner { known.ends[1] } else { first + index };
+                if index < inner {
+                    let at = start + way * along;
+                    let across = ACROSS.map(|part| at + way.perp() * (part * known.attributes.width));
+                    let found = across.into_iter().filter_map(&ground);
+                    let (sum, count) =
+                        found.fold((0.0, 0.0), |(sum, count), height| (sum + height, count + 1.0));
+                    if count == 0.0 {
+                        return Err(at);
+                    }
+                    let ground = sum / count;
+                    places.push(FitPlace { ground, least, beside: SmallVec::new() });
+                }
+                places[before as usize].beside.push((next, step));
+                places[next as usize].beside.push((before, step));
+                alongs.push(along);
+                before = next;
+            }
+            chains[piece as usize] = (first, alongs);
+        }
+        let heights = bounded(&places, slopes.max_slope);
+        let mut fit = StreetFit::default();
+        fit.profiles.junctions = heights[..self.junctions.len()].to_vec();
+        for (piece, (known, (first, alongs))) in self.pieces.iter().zip(chains).enumerate() {
+            let mut deepest = 0.0_f64;
+            let last = alongs.len().saturating_sub(1);
+            let profile = alongs.iter().zip(0_u32..).map(|(along, index)| {
+                let place = match index as usize {
+                    0 => known.ends[0],
+                    index if index == last => known.ends[1],
+                    _ => first + index - 1,
+                } as usize;
+                deepest = deepest.max((heights[place] - places[place].ground).abs());
+                [*along, heights[place]]
+            });
+            fit.profiles.pieces.push(profile.collect());
+            debug_assert_eq!(fit.profiles.pieces.len(), piece + 1);
+            fit.depths.push(deepest);
+        }
+        Ok(fit)
+    }
+}
+
+/// Heights of `places` whose slope is nowhere more than `slope` (m/m).
+fn bounded(places: &[FitPlace], slope: f64) -> Vec<f64> {
+    let mut heights: Vec<f64> = places.iter().map(|place| place.ground.max(place.least)).collect();
+    for _ in 0..ROUNDS {
+        heights = places
+            .iter()
+            .zip(&heights)
+            .map(|(place, height)| {
+                if place.beside.is_empty() {
+                    return *height;
+                }
+                #[allow(clippy::cast_precision_loss, reason = "few streets meet")]
+                let count = place.beside.len() as f64;
+                let around =
+                    place.beside.iter().map(|(beside, _)| heights[*beside as usize]).sum::<f64>() / count;
+                (height + around) / 2.0
+            })
+            .collect();
+    }
+    let below = spread(places, &heights, slope);
+    let turned: Vec<f64> = heights.iter().map(|height| -height).collect();
+    let above = spread(places, &turned, slope);
+    let mean: Vec<f64> = below.iter().zip(&above).map(|(below, above)| (below - above) / 2.0).collect();
+    // What has to be no lower than something stays so: the higher of two that keep the slope keeps it.
+    let least: Vec<f64> = places.iter().map(|place| -place.least).collect();
+    let least = spread(places, &least, slope);
+    mean.iter().zip(&least).map(|(mean, least)| mean.max(-least)).collect()
+}
+
+/// For each place the least of all `heights`, each raised by `slope` times the way (m) from where it is.
+fn spread(places: &[FitPlace], heights: &[f64], slope: f64) -> Vec<f64> {
+    let mut best = heights.to_vec();
+    let mut due: BinaryHeap<SpreadItem> =
+        (0..).zip(heights).map(|(place, height)| SpreadItem(*height, place)).collect();
+    while let Some(SpreadItem(height, place)) = due.pop() {
+        if height > best[place as usize] || height == f64::INFINITY {
+            continue;
+        }
+        for (beside, length) in &places[place as usize].beside {
+            let raised = height + slope * length;
+            if raised < best[*beside as usize] {
+                best[*beside as usize] = raised;
+                due.push(SpreadItem(raised, *beside));
+            }
+        }
+    }
+    best
+}
+
+/// A place that has been reached at a height (m); the lowest is the greatest.
+struct SpreadItem(f64, u32);
+
+impl PartialEq for SpreadItem {
+    fn eq(&self, other: &Self) -> bool {
+        self.cmp(other) == Ordering::Equal
+    }
+}
+
+impl Eq for SpreadItem {}
+
+impl PartialOrd for SpreadItem {
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+        Some(self.cmp(other))
+    }
+}
+
+impl Ord for SpreadItem {
+    fn cmp(&self, other: &Self) -> Ordering {
+        other.0.total_cmp(&self.0).then(other.1.cmp(&self.1))
+    }
+}

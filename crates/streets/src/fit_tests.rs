@@ -1,0 +1,128 @@
+//! Streets on hills at random: slopes, level junctions, surfaces that still meet.
+
+use glam::DVec2;
+
+use super::*;
+use crate::surface_tests::check_surfaces;
+use crate::tests::{TestNumbers, grown, kinds};
+
+/// Hills of a few waves, of which the steepest slope is given (m/m).
+fn hills(seed: u64, steep: f64) -> impl Fn(DVec2) -> Option<f64> {
+    let mut random = TestNumbers(seed * 7 + 3);
+    let mut wave = |length: f64| {
+        (DVec2::from_angle(random.below(6.3)) / length, random.below(6.3), length * steep / 2.0)
+    };
+    let waves = [wave(40.0), wave(90.0), wave(160.0), wave(400.0)];
+    move |at| Some(waves.iter().map(|(way, phase, height)| (at.dot(*way) + phase).sin() * height / 2.0).sum())
+}
+
+#[test]
+fn no_street_is_steeper_than_it_may_be() {
+    for seed in 1..=40 {
+        let network = grown(seed, 120, Constraints::default(), Obstacles::default());
+        let max_slope = [0.03, 0.06, 0.1, 0.15][seed as usize % 4];
+        let options = SurfaceOptions { turning: if seed % 2 == 0 { 11.0 } else { 0.0 } };
+        let slopes = SlopeOptions { max_slope, least: [None; 2] };
+        let fit = network.lay(options, slopes, hills(seed, 0.4)).expect("ground everywhere");
+        let surfaces = network.surfaces(options, &fit.profiles);
+        let mut steepest = 0.0_f64;
+        for surface in &surfaces.carriageways {
+            for corners in &surface.triangles {
+                let [a, b, c] = corners.map(|corner| surface.points[corner as usize]);
+                let normal = (b - a).cross(c - a).normalize();
+                steepest = steepest.max(normal.truncate().length() / normal.z);
+                // Level across: the steepest way is along the street.
+                if let (Some(piece), true) = (surface.piece, normal.z < 0.9999) {
+                    let [from, to] = network.line(piece);
+                    let across = normal.truncate().normalize().perp_dot((to - from).normalize()).abs();
+                    assert!(across < 0.01, "seed {seed}: {across} across");
+                }
+            }
+        }
+        assert!(steepest <= max_slope + 1e-6, "seed {seed}: {steepest} > {max_slope}");
+        assert!(steepest > max_slope * 0.9, "seed {seed}: {steepest} uses what it may of {max_slope}");
+        if seed % 4 == 0 {
+            check_surfaces(&network, options, &fit.profiles);
+        }
+    }
+}
+
+#[test]
+fn streets_on_gentle_ground_lie_on_it() {
+    for seed in 1..=10 {
+        let network = grown(seed, 120, Constraints::default(), Obstacles::default());
+        let slopes = SlopeOptions { max_slope: 0.12, least: [None; 2] };
+        let plane = |at: DVec2| Some(at.x * 0.05 - at.y * 0.03 + 7.0);
+        let fit = network.lay(SurfaceOptions::default(), slopes, plane).expect("ground everywhere");
+        let deepest = fit.depths.iter().copied().fold(0.0, f64::max);
+        assert!(deepest < 2.5, "{deepest}");
+    }
+}
+
+#[test]
+fn bridges_and_shores_are_no_lower_than_they_may_be() {
+    for seed in 1..=10 {
+        let mut network = grown(seed, 120, Constraints::default(), Obstacles::default());
+        let bridge = network.pieces().map(|(id, _)| id).nth(20).expect("many pieces");
+        network.pieces[bridge as usize].is_bridge = true;
+        let slopes = SlopeOptions { max_slope: 0.08, least: [Some(0.5), Some(4.0)] };
+        let fit =
+            network.lay(SurfaceOptions::default(), slopes, hills(seed, 0.3)).expect("ground everywhere");
+        for (piece, known) in network.pieces() {
+            let least = if known.is_bridge { 4.0 } else { 0.5 };
+            for [_, height] in fit.profiles.stations(piece) {
+                assert!(*height >= least - 1e-9, "{height}");
+            }
+        }
+    }
+}
+
+#[test]
+fn what_stands_beside_streets_stands_on_sidewalks() {
+    let flat = StreetProfiles::default();
+    let (mut trees, mut lamps) = (0, 0);
+    for seed in 1..=20 {
+        let network = grown(seed, 120, Constraints::default(), Obstacles::default());
+        let mut kinds = kinds(seed);
+        for kind in kinds.iter_mut().filter(|kind| kind.sidewalk >= 1.0) {
+            (kind.trees, kind.lamps) = (9.0, 16.0);
+        }
+        let options = SurfaceOptions { turning: 11.0 };
+        let [of_trees, of_lamps] =
+            [VergeThing::Tree, VergeThing::Lamp].map(|thing| network.verge(options, &flat, &kinds, thing));
+        (trees, lamps) = (trees + of_trees.len(), lamps + of_lamps.len());
+        let surfaces = network.surfaces(options, &flat);
+        for (index, found) in of_trees.iter().chain(&of_lamps).enumerate() {
+            let place = found.place.truncate();
+            let [a, b] = network.line(found.piece);
+            let aside = (b - a).normalize().perp_dot(place - a).abs();
+            let attributes = network.attributes(found.piece);
+            if aside > 1e-9 {
+                assert!(aside > attributes.carriageway() / 2.0 && aside < attributes.width / 2.0, "{aside}");
+                let toward = DVec2::from_angle(found.heading.to_radians());
+                assert!((b - a).normalize().perp_dot(place - a + toward).abs() < aside);
+            }
+            // No other street is there.
+            for (piece, other) in network.pieces().filter(|(piece, _)| *piece != found.piece) {
+                let (distance, on) = crate::grid::foot(place, network.line(piece));
+                let beside = (0.001..0.999).contains(&on);
+                assert!(
+                    !beside || distance > other.attributes.width / 2.0 - 1e-9,
+                    "seed {seed}: {index} is on {piece}"
+                );
+            }
+            for surface in &surfaces.carriageways {
+                for corners in &surface.triangles {
+                    let corners = corners.map(|corner| surface.points[corner as usize].truncate());
+                    let inside = (0..3)
+                        .all(|at| (corners[(at + 1) % 3] - corners[at]).perp_dot(place - corners[at]) > 0.0);
+                    assert!(!inside, "seed {seed}: {index} is on a carriageway");
+                }
+            }
+        }
+        for tree in &of_trees {
+            assert!(of_lamps.iter().all(|lamp| lamp.place.distance(tree.place) > 1.0));
+        }
+    }
+    assert!(trees > 5000 && lamps > 3000, "{trees} trees, {lamps} lamps");
+}

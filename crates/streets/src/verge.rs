@@ -1,0 +1,114 @@
+//! What stands along streets: places for trees and lamps, behind the kerbs and off junctions and crossings.
+
+use glam::DVec3;
+
+use crate::kinds::StreetKind;
+use crate::marks::piece_ends;
+use crate::network::{PieceId, StreetNetwork};
+use crate::profile::StreetProfiles;
+use crate::rows::{MedianEnd, median_of};
+use crate::shape::StreetShapes;
+use crate::surface::SurfaceOptions;
+
+/// How far (m) from the end of a piece the first thing stands, and from a crossing.
+const MARGIN: f64 = 3.0;
+/// How far (m) behind the kerb trees and lamps stand at most, and as a part of the sidewalk.
+const TREE: [f64; 2] = [1.1, 0.4];
+const LAMP: [f64; 2] = [0.5, 0.25];
+/// A median of less (m) has no trees.
+const LEAST_MEDIAN: f64 = 1.5;
+/// How near (m) a tree comes to a lamp.
+const APART: f64 = 2.0;
+
+/// What stands along streets.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum VergeThing {
+    /// A tree.
+    Tree,
+    /// A lamp.
+    Lamp,
+}
+
+/// A place beside a street.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct VergePlace {
+    /// Where it is (m), at the height of the carriageway.
+    pub place: DVec3,
+    /// The direction (degrees from east, counter-clockwise) from there to the middle of the street; of those in the
+    /// middle, the one along it.
+    pub heading: f64,
+    /// The piece that it is beside.
+    pub piece: PieceId,
+}
+
+impl StreetNetwork {
+    /// The places of trees or lamps along its streets, which are of these kinds by depth.
+    pub fn verge(
+        &self,
+        options: SurfaceOptions,
+        profiles: &StreetProfiles,
+        kinds: &[StreetKind],
+        thing: VergeThing,
+    ) -> Vec<VergePlace> {
+        let shapes = StreetShapes::new(self, options.turning);
+        let mut places = Vec::new();
+        for (piece, known) in self.pieces() {
+            let kind = StreetKind::of(kinds, known.attributes.depth);
+            if known.is_bridge && thing == VergeThing::Tree {
+                continue;
+            }
+            let [start, stop] = self.line(piece);
+            let (way, length) = ((stop - start).normalize_or_zero(), start.distance(stop));
+            let ends = piece_ends(&shapes, piece);
+            let margin = |side: usize| {
+                ends[side].clear.max(ends[side].lines) + if ends[side].goes_on { 0.0 } else { MARGIN }
+            };
+            let stretch = [margin(0), length - margin(1)];
+            let mut add = |along: f64, aside: f64, toward: f64| {
+                let at = start + way * along + way.perp() * aside;
+                let heading = (way.to_angle() + toward).to_degrees();
+                places.push(VergePlace { place: at.extend(profiles.along(piece, along)), heading, piece });
+            };
+            let lamps = evenly(stretch, kind.lamps);
+            let right = std::f64::consts::FRAC_PI_2;
+            let behind = |[most, part]: [f64; 2]| kind.carriageway() / 2.0 + most.min(part * kind.sidewalk);
+            match thing {
+                VergeThing::Lamp => {
+                    for along in lamps {
+                        add(along, behind(LAMP), -right);
+                        add(along, -behind(LAMP), right);
+                    }
+                }
+                VergeThing::Tree => {
+                    let is_free = |along: &f64| lamps.iter().all(|lamp| (lamp - along).abs() >= APART);
+                    for along in evenly(stretch, kind.trees).into_iter().filter(is_free) {
+                        add(along, behind(TREE), -right);
+                        add(along, -behind(TREE), right);
+                    }
+                    if let (true, Some(ends)) = (kind.median >= LEAST_MEDIAN, median_of(&shapes, piece)) {
+                        let tip = |side: usize, through: f64| match ends[side] {
+                            MedianEnd::Through => through,
+                            MedianEnd::Round(tip) => tip + if side == 0 { MARGIN } else { -MARGIN },
+                        };
+                        for along in evenly([tip(0, 0.0), tip(1, length)], kind.trees) {
+                            add(along, 0.0, 0.0);
+                        }
+                    }
+                }
+            }
+        }
+        places
+    }
+}
+
+/// Places between two, evenly and about so far apart (m), with half of that at each end; none for 0.
+fn evenly([from, to]: [f64; 2], apart: f64) -> Vec<f64> {
+    if apart <= 0.0 || to - from < apart / 2.0 {
+        return Vec::new();
+    }
+    let count = ((to - from) / apart).floor().max(1.0);
+    let step = (to - from) / count;
+    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "pieces are short")]
+    let count = count as u32;
+    (0..count).map(|index| from + step * (f64::from(index) + 0.5)).collect()
+}

@@ -1,0 +1,325 @@
+--!strict
+-- The quarters of a city: where they lie, how their streets run, how their blocks are divided and what is built there.
+local roads = require("templates/roads")
+local skyline = require("templates/skyline")
+local quarters = {}
+
+-- Photos of some bays and four storeys: the size (m) of a bay, how many there are, and from 0 to 1 how light their wall is.
+local FACADES = {
+  stone = { texture = "windows_stone", bay = { 2.6, 3.3 }, count = 4, light = 0.72 },
+  brick = { texture = "windows_brick", bay = { 2.7, 3.0 }, count = 4, light = 0.55 },
+  flats = { texture = "windows_flats", bay = { 3.0, 2.9 }, count = 4, light = 0.8 },
+  office = { texture = "windows_office", bay = { 1.5, 3.6 }, count = 8, light = 0.35 },
+  tower = { texture = "windows_tower", bay = { 1.8, 3.3 }, count = 6, light = 0.78 },
+}
+
+type Look = { facade: string, tints: { string }, roof: any }
+local LOOKS: { [string]: Look } = {
+  old = {
+    facade = "stone",
+    tints = { "#f4e6cc", "#f2d9b8", "#e9d2c0", "#f7efe0", "#dfe0cf", "#efcfae" },
+    roof = { kind = "gable", slope = 38, color = "#9a5a43" },
+  },
+  blocks = {
+    facade = "stone",
+    tints = { "#fbf6ea", "#f3e9d8", "#efe6da", "#f7f1e6" },
+    roof = { kind = "mansard", height = 3.6, color = "#66707a" },
+  },
+  rows = {
+    facade = "brick",
+    tints = { "#c98a6f", "#b97a62", "#d3a183", "#c9ad98", "#b3705a" },
+    roof = { kind = "gable", slope = 35, color = "#6a5f5a" },
+  },
+  flats = {
+    facade = "flats",
+    tints = { "#ffffff", "#f4ead9", "#e6ecec", "#f3e3d2" },
+    roof = { kind = "flat", border = 0.6, border_width = 0.3, color = "#a09d96" },
+  },
+  office = {
+    facade = "office",
+    tints = { "#ffffff", "#dfe9ef", "#cfd9dd", "#e9e2d6" },
+    roof = { kind = "flat", border = 0.8, border_width = 0.3, color = "#8c8f90" },
+  },
+  tower = {
+    facade = "tower",
+    tints = { "#f6f1e8", "#d9d6cf", "#c7cdd2", "#e3d3bf", "#d3c8bb" },
+    roof = { kind = "flat", border = 0.8, border_width = 0.3, color = "#97958f" },
+  },
+  villa = {
+    facade = "brick",
+    tints = { "#f6efe2", "#efe0c8", "#e2cdb6", "#fffaf0", "#cfa58c" },
+    roof = { kind = "hip", slope = 32, overhang = 0.5, color = "#8d4f3b" },
+  },
+}
+
+-- One of a list, drawn by a lot's own numbers.
+local function one<T>(list: { T }, draw: number): T
+  return list[math.min(#list, 1 + math.floor(draw * #list))]
+end
+
+-- A building of rows that touch, as high as `low` to `high` (m) by whole storeys of 3.1 m.
+local function row(lots, depth: number, low: number, high: number, look: string, style: string): { any }
+  local features = {}
+  for _, lot in lots do
+    local draw = skyline.stream(lot.id, 7)
+    local plan = skyline.row(lot, depth)
+    local height = 3.1 * math.floor((low + (high - low) * draw()) / 3.1 + 0.5)
+    for number, part in plan:geometries() do
+      if part:area() > 30 then
+        table.insert(features, {
+          id = `{lot.id}.{number}`,
+          geometry = part,
+          height = height,
+          tier = 1,
+          total = height,
+          kind = look,
+          look = look,
+          style = style,
+          lot = lot,
+        })
+      end
+    end
+  end
+  return features
+end
+
+-- Slabs and towers of flats, which stand free: as long as their lot lets them be.
+local function flats(lots): { any }
+  local features = {}
+  for _, lot in lots do
+    local draw = skyline.stream(lot.id, 5)
+    local building = skyline.building(lot, {
+      by = { noise = 0.6, depth = 0.4 },
+      low = 11,
+      high = 30,
+      detached = 0,
+      tall = 24,
+      chance = 0.12,
+      tower = 1.8,
+    }, draw)
+    if building.kind ~= "tower" then
+      building.width, building.depth = 60, 14 + 24 * draw()
+    end
+    local height = 2.9 * math.floor(building.height / 2.9 + 0.5)
+    for number, tier in skyline.plan(lot, building, { front = 5, side = 5, wing = 12 }, draw) do
+      local rings = { tier.plan }
+      for _, hole in tier.holes or {} do
+        table.insert(rings, hole)
+      end
+      local shape = { rings = {} }
+      for _, ring in rings do
+        local high = {}
+        for _, point in ring do
+          table.insert(high, { point[1], point[2], tier.from })
+        end
+        table.insert(shape.rings, high)
+      end
+      table.insert(features, {
+        id = `{lot.id}.{number}`,
+        geometry = shape,
+        height = math.min(tier.to, height) - tier.from,
+        tier = number,
+        total = height,
+        kind = building.kind,
+        look = "flats",
+        style = "modern_block",
+        lot = lot,
+      })
+    end
+  end
+  return features
+end
+
+-- Free-standing buildings by the rules of the skyline; those of each kind look as `looks` says.
+local function standing(
+  lots,
+  heights,
+  plans,
+  looks: { [string]: string },
+  styles: { [string]: string }
+): { any }
+  local features = skyline.buildings(lots, heights, plans)
+  for _, feature in features do
+    feature.look = looks[feature.kind]
+    feature.style = styles[feature.kind]
+  end
+  return features
+end
+
+export type Quarter = {
+  ground: string,
+  lots: { [string]: any },
+  buildings: (lots: { any }, highest: number, extent: number) -> { any },
+}
+
+quarters.kinds = {
+  centre = {
+    ground = "#aaa79f",
+    lots = { kind = "boxes", width = 34, depth = 36, jitter = 0.4, parks = 0.04 },
+    buildings = function(lots, highest, extent)
+      return standing(lots, {
+        by = { centres = 0.7, depth = 0.3 },
+        low = 17,
+        high = highest,
+        reach = extent * 0.16,
+        detached = 0,
+        tall = highest * 0.62,
+        chance = 0.35,
+        tower = 2.1,
+      }, { front = 1, side = 1.2 }, { block = "office", tower = "tower", detached = "flats" }, {
+        block = "glass_office",
+      })
+    end,
+  },
+  old = {
+    ground = "#a39d90",
+    lots = { kind = "strips", width = 9, depth = 15, min_width = 5.5, jitter = 0.5, parks = 0.03 },
+    buildings = function(lots)
+      return row(lots, 12, 9, 16, "old", "porto")
+    end,
+  },
+  blocks = {
+    ground = "#8f9678",
+    lots = { kind = "strips", width = 18, depth = 17, min_width = 9, jitter = 0.3, parks = 0.06 },
+    buildings = function(lots)
+      return row(lots, 13.5, 15, 23, "blocks", "haussmann")
+    end,
+  },
+  flats = {
+    ground = "#7f9060",
+    lots = { kind = "boxes", width = 46, depth = 40, jitter = 0.3, parks = 0.08 },
+    buildings = flats,
+  },
+  rows = {
+    ground = "#7d8d59",
+    lots = { kind = "strips", width = 6.6, depth = 24, min_width = 5, jitter = 0.1, parks = 0.05 },
+    buildings = function(lots)
+      return row(lots, 10, 6, 9.4, "rows", "terrace_house")
+    end,
+  },
+  villas = {
+    ground = "#76894f",
+    lots = { kind = "boxes", width = 20, depth = 26, jitter = 0.35, parks = 0.04 },
+    buildings = function(lots)
+      return standing(
+        lots,
+        {
+          low = 5.8,
+          high = 6.6,
+          detached = 30,
+          tall = 100,
+        },
+        { front = 5, side = 2.5 },
+        { detached = "villa", block = "villa", tower = "villa" },
+        { detached = "villa" }
+      )
+    end,
+  },
+} :: { [string]: Quarter }
+
+-- Where quarters lie: { at, kind, pattern }.
+function quarters.places(extent: number): { any }
+  local turned = random(0, 360)
+  local places = {
+    {
+      at = { 0, extent * 0.05 },
+      kind = "centre",
+      pattern = roads.raster({ block = 105, width = 80, angle = turned }),
+    },
+  }
+  local function around(share: number, angle: number, kind: string, pattern)
+    local way = math.rad(turned + angle)
+    local at = { math.cos(way) * extent * share, math.sin(way) * extent * share }
+    table.insert(places, { at = at, kind = kind, pattern = pattern })
+  end
+  around(0.42, 20, "old", roads.organic({ block = 58, bends = 30 }))
+  around(0.42, 110, "blocks", roads.radial({ middle = { 0, extent * 0.05 }, block = 85 }))
+  around(0.4, 200, "blocks", roads.organic({ block = 88 }))
+  around(0.44, 290, "flats", roads.raster({ block = 120, width = 100, angle = turned + 30 }))
+  around(0.8, 50, "rows", roads.raster({ block = 120, width = 62, angle = turned + 55 }))
+  around(0.8, 125, "villas", roads.organic({ block = 85, bends = 34 }))
+  around(0.8, 195, "rows", roads.raster({ block = 110, width = 64, angle = turned - 20 }))
+  around(0.8, 265, "flats", roads.organic({ block = 110 }))
+  around(0.8, 335, "villas", roads.organic({ block = 90, bends = 30 }))
+  return places
+end
+
+-- The pattern of streets at each place.
+function quarters.pattern(places)
+  return roads.districts(places)
+end
+
+-- The kind of the quarter that a place lies in.
+function quarters.at(places, at: any): string
+  local best, least = places[1], math.huge
+  for _, place in places do
+    local away = (at:x() - place.at[1]) ^ 2 + (at:y() - place.at[2]) ^ 2
+    if away < least then
+      best, least = place, away
+    end
+  end
+  return best.kind
+end
+
+local Area = module("Area", "rings", "from", "to", "color")
+
+-- Draws polygons between two heights (m).
+function quarters.areas(geometries: { any }, from: number, to: number, color: string)
+  local features = {}
+  for _, geometry in geometries do
+    for _, part in geometry:geometries() do
+      table.insert(features, { id = `{color} {#features}`, geometry = part })
+    end
+  end
+  if #features == 0 then
+    return
+  end
+  local system = lsystem({ object = extruder({ smooth = false, roughness = 1 }) })
+  system:axiom(source(features), function(feature)
+    return Area(feature.geometry, from, to, color)
+  end)
+  system:interpret("Area(shape, from, to, color)", function(this, shape, from, to, color)
+    this:color(color):polygon(shape):jump({ 0, 0, from }):extrude(to - from)
+  end)
+  system:derive(0)
+end
+
+local Block = module("Block", "look", "tint", "height", "is_top")
+
+-- Buildings without facades of their own: photos of windows in whole bays, and a roof.
+function quarters.distant(buildings: { any })
+  if #buildings == 0 then
+    return
+  end
+  local tops: { [string]: number } = {}
+  for _, building in buildings do
+    local whole = building.lot.id
+    tops[whole] = math.max(tops[whole] or 0, building.tier)
+  end
+  local system = lsystem({ object = footprint, interpret = "last" })
+  system:axiom(source(buildings), function(feature)
+    local look = feature.look
+    local draw = skyline.stream(feature.lot.id, 3)
+    local tint = one(LOOKS[look].tints, draw())
+    return footprint(feature.geometry),
+      Block(look, tint, feature.height, feature.tier == tops[feature.lot.id])
+  end)
+  system:interpret("Block(look, tint, height, is_top)", function(this, look, tint, height, is_top)
+    local chosen = LOOKS[look]
+    local facade = FACADES[chosen.facade]
+    local bay = facade.bay
+    local photo = {
+      texture = `templates/textures/{facade.texture}.png`,
+      texture_size = { bay[1] * facade.count, bay[2] * 4 },
+      color = tint,
+      roughness = 0.85,
+    }
+    -- Walls without windows are as dark as the photo's.
+    local plain = mix("#000000", tint, facade.light)
+    this:walls({ height = height, photo = photo, bay = bay, color = plain })
+    this:roof(if is_top then chosen.roof else { kind = "flat", color = "#96938d" })
+  end)
+  system:derive(0)
+end
+
+return quarters
