@@ -390,12 +390,14 @@ function roads.system(options: RoadOptions)
   local people = options.population
   local deepest = number("roads.system: deepest", options.deepest, 4, 0, 20)
   local steps = number("roads.system: steps", options.steps, 24, 1, 10000)
-  local join = number("roads.system: join", options.join, 40, 0, 2000)
   local detour = number("roads.system: detour", options.detour, 2.5, 1, 100)
   local dead_ends = options.dead_ends or "keep"
   if dead_ends ~= "keep" and dead_ends ~= "remove" then
     error(`roads.system: dead_ends is "keep" or "remove", not "{dead_ends}"`, 2)
   end
+  -- What is removed should rather have been joined, or not have stopped.
+  local keeps = dead_ends == "keep"
+  local join = number("roads.system: join", options.join, if keeps then 40 else 130, 0, 2000)
   local centres = options.centres or { { 0, 0 } }
   local headings = options.headings or { 8, 98, 188, 278 }
 
@@ -444,7 +446,7 @@ function roads.system(options: RoadOptions)
     end
     local pattern = pattern_at(x, y)
     local much = if people then math.clamp(people(x, y), 0, 1) else 1
-    if depth > 0 and much <= 0.02 or depth > 1 and random() < pattern.stop then
+    if depth > 0 and much <= 0.02 or keeps and depth > 1 and random() < pattern.stop then
       return {}
     end
     local function tip(aim: number, deep: number, count: number)

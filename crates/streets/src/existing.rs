@@ -6,14 +6,18 @@
 use std::collections::BTreeMap;
 
 use glam::DVec2;
+use rustc_hash::FxHashMap;
 
 use crate::constraints::{Fate, Refusal};
 use crate::grid::{GridPlace, foot};
+use crate::grow::StreetEnd;
 use crate::network::{JunctionId, StreetAttributes, StreetNetwork};
 use burgeon_base::error::Result;
 
 /// How far (m) a line may lie from a street that stands for it.
 const TOLERANCE: f64 = 2.0;
+/// How much longer than a piece the way along the streets may be that stands for it.
+const DETOUR: f64 = 2.0;
 /// How many streets one piece may cross.
 const CROSSINGS: usize = 20;
 
@@ -46,22 +50,28 @@ impl StreetNetwork {
     /// Fails if the network has as many pieces as it may have.
     pub fn add_existing(&mut self, streets: &[ExistingStreet]) -> Result<ExistingLosses> {
         let mut losses = ExistingLosses::default();
-        let mut order: Vec<&ExistingStreet> = streets.iter().collect();
+        let mut known = Vec::new();
+        for street in streets {
+            let places = street.line.iter().copied().filter(|at| GridPlace::nearest(*at).is_some());
+            let line: Vec<DVec2> = places.collect();
+            losses.outside += street.line.len() - line.len();
+            if line.len() > 1 {
+                known.push(ExistingStreet { line, ..street.clone() });
+            }
+        }
+        let mut order = joined(known);
         order.sort_by_key(|street| (street.is_bridge, street.attributes.depth));
-        for street in order {
-            let known = street.line.iter().copied().filter(|at| GridPlace::nearest(*at).is_some());
-            let known: Vec<DVec2> = known.collect();
-            losses.outside += street.line.len() - known.len();
-            let line = self.simplified(&known);
+        for street in &order {
+            let line = self.simplified(&street.line);
             if let [first, rest @ ..] = &line[..] {
-                self.lay(*first, rest, street, &mut losses)?;
+                self.lay_existing(*first, rest, street, &mut losses)?;
             }
         }
         Ok(losses)
     }
 
     /// Lays a street along some places.
-    fn lay(
+    fn lay_existing(
         &mut self,
         first: DVec2,
         rest: &[DVec2],
@@ -72,6 +82,7 @@ impl StreetNetwork {
             *losses.refused.entry(Refusal::Obstacle).or_default() += 1;
             return Ok(());
         };
+        let mut missed = 0;
         for &to in rest {
             for _ in 0..CROSSINGS {
                 if self.at(from).distance(to) <= self.constraints.snap.max(self.constraints.min_length) {
@@ -93,18 +104,25 @@ impl StreetNetwork {
                     }
                     growth => {
                         if let Fate::Refused(why) = growth.fate {
-                            // Two lines side by side are one street, which goes on where the second does.
-                            match self.anchor(to) {
-                                Some(beyond) if why == Refusal::TooNear || why == Refusal::Angle => {
-                                    from = beyond
+                            // Two lines side by side are one street, which goes on where the second does. What has
+                            // no room up to here may have it up to the next place.
+                            let beyond = self.anchor(to).filter(|beyond| {
+                                let least = self.at(from).distance(to) * DETOUR + self.constraints.snap;
+                                !self.is_detour(from, StreetEnd::Junction(*beyond), least)
+                            });
+                            match beyond {
+                                Some(beyond) => from = beyond,
+                                None => {
+                                    *losses.refused.entry(why).or_default() += 1;
+                                    missed += 1;
+                                    if missed > 1 {
+                                        from = self.anchor(to).unwrap_or(from);
+                                    }
                                 }
-                                _ => {}
-                            }
-                            if !self.is_along(to) {
-                                *losses.refused.entry(why).or_default() += 1;
                             }
                         } else {
                             from = growth.end;
+                            missed = 0;
                         }
                         break;
                     }
@@ -119,11 +137,6 @@ impl StreetNetwork {
         let prospect = self.probe(from, to, attributes);
         matches!(prospect.fate, Fate::Joined | Fate::Snapped)
             && prospect.place.distance(to) > self.constraints.snap
-    }
-
-    /// Whether a street is so near to a place that it stands for one there.
-    fn is_along(&self, place: DVec2) -> bool {
-        self.nearest(place).is_some_and(|(_, distance)| distance <= self.constraints.snap)
     }
 
     /// The junction that a place is meant to be: one within the least length or `snap`, one on a street there, or a new one;
@@ -175,4 +188,54 @@ impl StreetNetwork {
         kept.push(last);
         kept
     }
+}
+
+/// The streets, where those that go on in one another are one: surveys divide them wherever a name or a surface changes.
+fn joined(streets: Vec<ExistingStreet>) -> Vec<ExistingStreet> {
+    let ends_of = |street: &ExistingStreet| {
+        [street.line[0], street.line[street.line.len() - 1]].map(GridPlace::nearest)
+    };
+    // Every place that a street begins, ends or leads through, and the streets that end there.
+    let mut ends: FxHashMap<Option<GridPlace>, Vec<usize>> = FxHashMap::default();
+    let mut through: FxHashMap<Option<GridPlace>, usize> = FxHashMap::default();
+    for (index, street) in streets.iter().enumerate() {
+        for end in ends_of(street) {
+            ends.entry(end).or_default().push(index);
+        }
+        for at in &street.line {
+            *through.entry(GridPlace::nearest(*at)).or_default() += 1;
+        }
+    }
+    let next = |of: &ExistingStreet, index: usize, end: Option<GridPlace>| -> Option<usize> {
+        let [a, b] = ends.get(&end)?[..] else { return None };
+        let other = if a == index { b } else { a };
+        let same = streets[other].attributes == of.attributes && streets[other].is_bridge == of.is_bridge;
+        (a != b && same && through.get(&end) == Some(&2)).then_some(other)
+    };
+    let mut is_used = vec![false; streets.len()];
+    let mut all = Vec::new();
+    for (index, street) in streets.iter().enumerate() {
+        if std::mem::replace(&mut is_used[index], true) {
+            continue;
+        }
+        let mut line = street.line.clone();
+        for _ in 0..2 {
+            let mut at = index;
+            loop {
+                let end = line.last().and_then(|end| GridPlace::nearest(*end));
+                let Some(other) = next(street, at, end).filter(|other| !is_used[*other]) else { break };
+                is_used[other] = true;
+                let more = &streets[other].line;
+                if ends_of(&streets[other])[0] == end {
+                    line.extend(&more[1..]);
+                } else {
+                    line.extend(more.iter().rev().skip(1));
+                }
+                at = other;
+            }
+            line.reverse();
+        }
+        all.push(ExistingStreet { line, ..street.clone() });
+    }
+    all
 }
