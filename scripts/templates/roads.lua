@@ -73,11 +73,19 @@ local function check(name: string, given: { [string]: any }, known: { [string]: 
   end
 end
 
--- The number that an option has; refuses what is out of its range.
-local function number(name: string, value: any, usual: number, least: number, greatest: number): number
+-- The number that an option has; refuses what is out of its range, in the line of whoever called the caller. (What takes
+-- more arguments is not inlined, so that its caller can be told.)
+local function number(
+  name: string,
+  value: any,
+  usual: number,
+  least: number,
+  greatest: number,
+  ...: number
+): number
   local given = if value == nil then usual else value
   if type(given) ~= "number" or not (given >= least and given <= greatest) then
-    error(`{name} must be a number from {least} to {greatest}, not {given}`, 3)
+    error(`{name} must be a number from {least} to {greatest}, not {given}`, (...) or 3)
   end
   return given
 end
@@ -652,7 +660,7 @@ local SYMBOLS = "F builds a street, + and - turn clockwise and back, [ and ] hol
 local LONGEST = 500000
 
 -- A word as a list of characters and, for each branch, a list; refuses what cannot be read.
-local function parsed(what: string, word: string, productions: { [string]: any }): { any }
+local function parsed(what: string, word: string, productions: { [string]: any }, ...: any): { any }
   local open: { { any } } = { {} }
   for place = 1, #word do
     local name = string.sub(word, place, place)
@@ -661,7 +669,7 @@ local function parsed(what: string, word: string, productions: { [string]: any }
     elseif name == "]" then
       local branch = table.remove(open)
       if #open == 0 then
-        error(`roads.word: {what} "{word}" has a ] at {place} that closes no [`, 4)
+        error(`roads.word: {what} "{word}" has a ] at {place} that closes no [`, 3)
       end
       table.insert(open[#open], branch)
     elseif string.find("F+-X", name, 1, true) or productions[name] then
@@ -669,12 +677,12 @@ local function parsed(what: string, word: string, productions: { [string]: any }
     elseif not string.find(name, "%s") then
       error(
         `roads.word: {what} "{word}" has {name} at {place}, which is no symbol: {SYMBOLS}, and so do symbols with a production`,
-        4
+        3
       )
     end
   end
   if #open > 1 then
-    error(`roads.word: {what} "{word}" has {#open - 1} [ without a ]`, 4)
+    error(`roads.word: {what} "{word}" has {#open - 1} [ without a ]`, 3)
   end
   return open[1]
 end
@@ -692,8 +700,8 @@ local function counted(tree: { any }, counts: { [string]: number })
 end
 
 -- An angle (degrees) that does not lead a road back onto itself.
-local function angle(name: string, value: any, usual: number): number
-  local given = number(`roads.word: {name}`, value, usual, -360, 360)
+local function angle(name: string, value: any, usual: number, ...: any): number
+  local given = number(`roads.word: {name}`, value, usual, -360, 360, 4)
   if given % 180 == 0 then
     error(`roads.word: a {name} of {given} degrees leads a road onto itself; give one between 0 and 180`, 3)
   end

@@ -84,3 +84,46 @@ fn ten_seeds_are_ten_towns() {
         assert!(towns.len() >= 9, "{pattern}: {towns:?}");
     }
 }
+
+/// What a line of a script that uses the library is refused with.
+fn refused(line: &str) -> String {
+    let folder = tempfile::tempdir().expect("a folder");
+    let templates = folder.path().join("templates");
+    std::fs::create_dir(&templates).expect("a folder");
+    let library = concat!(env!("CARGO_MANIFEST_DIR"), "/scripts/templates/roads.lua");
+    std::fs::copy(library, templates.join("roads.lua")).expect("the library");
+    let path = folder.path().join("s.lua");
+    std::fs::write(&path, format!("local roads = require(\"templates/roads\")\n{line}")).expect("room");
+    let Err(error) = burgeon::run(&path, burgeon::options()) else { panic!("{line} is refused") };
+    let text = error.to_string().replace(&*folder.path().to_string_lossy(), "");
+    text.lines().next().unwrap_or_default().trim_start_matches('/').to_owned()
+}
+
+#[test]
+fn grammars_that_cannot_be_are_refused_in_the_line_that_gives_them() {
+    let cases = [
+        ("roads.word({ axiom = 'F[+F' })", "the axiom \"F[+F\" has 1 [ without a ]"),
+        ("roads.word({ axiom = 'F+F]' })", "has a ] at 4 that closes no ["),
+        (
+            "roads.word({ productions = { X = 'FYF' } })",
+            "the production of X, \"FYF\" has Y at 2, which is no symbol",
+        ),
+        ("roads.word({ branch = 180 })", "a branch of 180 degrees leads a road onto itself"),
+        ("roads.word({ bend = 0 })", "a bend of 0 degrees leads a road onto itself"),
+        ("roads.word({ bend = 0 / 0 })", "roads.word: bend must be a number from -360 to 360, not nan"),
+        (
+            "roads.word({ productions = { X = 'XXXX' }, iterations = 30 })",
+            "after 10 of 30 iterations the word may have 1048576",
+        ),
+        ("roads.word({ productions = { ['['] = 'F' } })", "a production of [ cannot be"),
+        ("roads.word({ lengths = { 0 } })", "the length for depth 0 must be a number from 1 to 10000, not 0"),
+        ("roads.word({ split = 'no' })", "split is \"symmetric\", \"alternate\" or \"plain\", not \"no\""),
+        ("roads.system({ patern = 3 })", "roads.system has no option patern; it has centres"),
+        ("roads.organic({ block = 2 })", "roads.organic: block must be a number from 20 to 500, not 2"),
+        ("roads.districts({})", "roads.districts takes one district or more"),
+    ];
+    for (line, expected) in cases {
+        let text = refused(line);
+        assert!(text.contains(expected) && text.contains("s.lua:2"), "{line}: {text}");
+    }
+}
