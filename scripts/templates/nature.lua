@@ -174,4 +174,31 @@ function nature.trees(features)
   wood:derive(0)
 end
 
+local Pole, Lamp = module("Pole"), module("Lamp", "turned")
+
+-- Lamps at places beside streets, `height` (m) high, whose arms reach over the street: nature.lamps(roads:verge("lamp")).
+function nature.lamps(features, height: number?)
+  if #features == 0 then
+    return
+  end
+  local high = height or 7
+  local pole = lsystem({ object = extruder({ smooth = false, roughness = 0.5 }) })
+  pole:axiom(Pole())
+  pole:interpret("Pole()", function(this)
+    this:color("#3d4144"):rectangle(0.34, 0.34):jump({ 0, 0, 0 }):extrude(0.5)
+    this:rectangle(0.14, 0.14):jump({ 0, 0, 0.5 }):extrude(high - 0.5)
+    this:rectangle(1.7, 0.09):jump({ 0.8, 0, high - 0.1 }):extrude(0.09)
+    this:color("#e9e2c8"):rectangle(0.62, 0.24):jump({ 1.55, 0, high - 0.18 }):extrude(0.1)
+  end)
+  local lamp = parts.kept(pole:derive(0))
+  local row = lsystem({ object = turtle() })
+  row:axiom(source(features), function(feature)
+    return turtle({ position = feature.geometry.points[1] }), Lamp(feature.heading)
+  end)
+  row:interpret("Lamp(turned)", function(this, turned)
+    this:roll(turned):place(lamp)
+  end)
+  row:derive(0)
+end
+
 return nature

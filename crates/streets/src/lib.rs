@@ -43,6 +43,7 @@ mod placement;
 mod profile;
 mod rows;
 mod shape;
+mod spans;
 mod surface;
 #[cfg(test)]
 mod surface_tests;
@@ -65,5 +66,6 @@ pub use network::{Junction, JunctionId, PieceId, StreetAttributes, StreetNetwork
 pub use obstacles::{Obstacle, Obstacles};
 pub use placement::{SiteOptions, StreetSite, StreetSites};
 pub use profile::StreetProfiles;
+pub use spans::StreetSpan;
 pub use surface::{Median, Sidewalk, StreetFooting, StreetSurface, StreetSurfaces, SurfaceOptions};
 pub use verge::{VergePlace, VergeThing};

@@ -3,7 +3,7 @@
 use std::ops::{Add, Deref};
 
 use geo::buffer::{BufferStyle, LineJoin};
-use geo::{Buffer, LineString, Simplify};
+use geo::{BooleanOps, Buffer, LineString, Simplify};
 use glam::{DVec2, DVec3};
 
 use super::convert::open;
@@ -216,6 +216,29 @@ impl Polygon {
         let style = BufferStyle::new(-distance).line_join(LineJoin::Miter(1.0));
         let parts = geo::Polygon::from(self).buffer_with_style(style);
         parts.iter().filter_map(|part| Self::try_from(part).ok()).collect()
+    }
+
+    /// What is left of it outside of `others`; none if they cover it.
+    ///
+    /// Method: boolean operations on polygons (i_overlay, through `geo`).
+    ///
+    /// ```
+    /// use burgeon_geometry::{Polygon, Rings};
+    /// use glam::DVec2;
+    ///
+    /// let square = |at: f64, side: f64| {
+    ///     let ring = [(at, at), (at + side, at), (at + side, at + side), (at, at + side)].map(DVec2::from);
+    ///     Polygon::new(Rings(vec![ring.to_vec()]))
+    /// };
+    /// let left = square(0.0, 4.0)?.without(&[square(3.0, 4.0)?, square(1.0, 1.0)?]);
+    /// assert_eq!((left.len(), left[0].holes().len()), (1, 1));
+    /// assert!((left[0].area() - 14.0).abs() < 1e-6);
+    /// # Ok::<(), burgeon_base::error::Error>(())
+    /// ```
+    pub fn without(&self, others: &[Self]) -> Vec<Self> {
+        let others = geo::MultiPolygon::new(others.iter().map(geo::Polygon::from).collect());
+        let left = geo::Polygon::from(self).difference(&others);
+        left.iter().filter_map(|part| Self::try_from(part).ok()).collect()
     }
 
     /// Its rings without points that are within `distance` (m) of the line between others; they may meet.

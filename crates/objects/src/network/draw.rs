@@ -2,9 +2,11 @@
 
 use glam::{DVec2, DVec3};
 
+use super::bridge::draw_span;
+use super::grounds::{WATER, WATER_LEVEL, draw_water};
 use super::object::Network;
+use crate::surface::plain_material;
 use burgeon_base::error::Result;
-use burgeon_geometry::{Polygon, Rings};
 use burgeon_kit::{Color, Drawing};
 use burgeon_scene::{Material, Normal, Part};
 use burgeon_streets::{Sidewalk, StreetSurface};
@@ -12,7 +14,7 @@ use burgeon_streets::{Sidewalk, StreetSurface};
 /// How high (m) paint lies over the street.
 const PAINT: f64 = 0.02;
 /// How far (m) the sides of streets reach down into the ground.
-const SKIRT: f64 = 1.5;
+const SKIRT: f64 = 6.0;
 /// The colour of paint.
 const WHITE: Color = Color([0.78, 0.78, 0.76, 1.0]);
 
@@ -39,7 +41,7 @@ impl Network {
             draw_sidewalk(part, sidewalk, kerb);
         }
         if self.options.on.is_some() {
-            // The ground beside lies lower by what it can be off.
+            // The ground beside lies lower by what it can be off, and by more where another street is lower.
             let skirt = |pair: [DVec3; 2], part: &mut Part| {
                 upright(part, pair.map(|at| at + DVec3::Z * (kerb - SKIRT)), SKIRT);
             };
@@ -54,20 +56,20 @@ impl Network {
                 upright(part, [pair[0], pair[1]], kerb);
             }
         }
+        let part = drawing.part(paving);
+        for span in self.network.spans(options, profiles) {
+            draw_span(part, &span, kerb, self.water_level().unwrap_or(WATER_LEVEL))?;
+        }
         let part = drawing.part(ground.unwrap_or(paving));
         for median in &surfaces.medians {
             add_surface(part, &median.top, kerb);
         }
         if let Some(ground) = ground {
             let part = drawing.part(ground);
-            for rings in self.network.blocks_at(options, profiles) {
-                let polygon: Polygon<DVec3> = Polygon::new(Rings(rings))?;
-                let points: Vec<DVec3> = polygon.points().collect();
-                let first = add_points(part, &points, kerb);
-                for corners in polygon.flat().triangles()? {
-                    #[allow(clippy::cast_possible_truncation, reason = "a block has few corners")]
-                    part.triangles.push(corners.map(|corner| corner as u32 + first));
-                }
+            let water = self.draw_ground(part, &fit)?;
+            if water.is_some() {
+                let index = drawing.material(&plain_material(WATER, 0.15, 0.0));
+                draw_water(drawing.part(index), &self.water, water)?;
             }
         }
         if self.options.markings {
@@ -105,7 +107,7 @@ fn draw_sidewalk(part: &mut Part, sidewalk: &Sidewalk, kerb: f64) {
 }
 
 /// A kerb whose top is on the left of its way, seen from the right.
-fn upright(part: &mut Part, [a, b]: [DVec3; 2], height: f64) {
+pub(super) fn upright(part: &mut Part, [a, b]: [DVec3; 2], height: f64) {
     let Some(out) = (a - b).truncate().try_normalize().map(DVec2::perp) else { return };
     if height <= 0.0 {
         return;
@@ -119,12 +121,12 @@ fn upright(part: &mut Part, [a, b]: [DVec3; 2], height: f64) {
     part.triangles.extend([[0, 1, 2], [0, 2, 3]].map(|face| face.map(|corner| corner + first)));
 }
 
-fn next_vertex(part: &Part) -> u32 {
+pub(super) fn next_vertex(part: &Part) -> u32 {
     u32::try_from(part.positions.len()).unwrap_or(u32::MAX)
 }
 
 /// Adds points, higher by `lift` (m), that look up; gives the number of the first.
-fn add_points(part: &mut Part, points: &[DVec3], lift: f64) -> u32 {
+pub(super) fn add_points(part: &mut Part, points: &[DVec3], lift: f64) -> u32 {
     let first = next_vertex(part);
     for at in points {
         part.positions.push((*at + DVec3::Z * lift).as_vec3());

@@ -7,6 +7,7 @@ use glam::DVec3;
 use super::Network;
 use burgeon_base::error::{Error, Result};
 use burgeon_base::warning::{Warning, WarningKind};
+use burgeon_data::Geometry;
 use burgeon_kit::{Answer, Parameter, Table, TableKey, Value, Vector};
 use burgeon_streets::{PieceId, SlopeOptions, StreetFit, StreetFooting, VergeThing};
 use burgeon_terrain::{Edit, GroundBed};
@@ -29,7 +30,7 @@ pub struct VergeRecords(Vec<Value>);
 
 impl Answer for VergeRecords {
     fn luau() -> String {
-        "{ { place: Vector, heading: number, street_depth: number } }".into()
+        "{ { id: string, geometry: Geometry, place: Vector, heading: number, street_depth: number } }".into()
     }
 
     fn answer(self) -> Result<Value> {
@@ -142,8 +143,11 @@ impl Network {
         let places = self.network.verge(self.surface_options(), &fit.profiles, &self.kinds, thing);
         let record = |found: &burgeon_streets::VergePlace| {
             let depth = self.network.attributes(found.piece).depth;
+            let place = found.place + DVec3::Z * self.options.kerb;
             let fields = [
-                ("place", (found.place + DVec3::Z * self.options.kerb).into_value()),
+                ("id", Value::Text(format!("{what} {:.2} {:.2}", place.x, place.y).into())),
+                ("geometry", Geometry::Point(Some(place)).into_value()),
+                ("place", place.into_value()),
                 ("heading", found.heading.into_value()),
                 ("street_depth", depth.into_value()),
             ];

@@ -1,8 +1,10 @@
 //! A network of streets as scripts have it: `network` in scripts.
 
 mod answers;
+mod bridge;
 mod draw;
 mod existing;
+mod grounds;
 mod kinds;
 mod land;
 mod lots;

@@ -15,7 +15,7 @@ use super::walk::NetworkWalk;
 use crate::Terrain;
 use burgeon_base::error::{Error, Result};
 use burgeon_base::warning::{Warning, WarningKind};
-use burgeon_geometry::{Plan, Rings};
+use burgeon_geometry::{Plan, Polygon, Rings};
 use burgeon_kit::{Color, TableOf, Value, Vector, fields, methods, object};
 use burgeon_scene::Scene;
 use burgeon_streets::{
@@ -117,6 +117,8 @@ pub struct Network {
     /// By depth.
     pub(super) kinds: Vec<StreetKind>,
     pub(super) network: StreetNetwork,
+    /// Areas that bridges lead over.
+    pub(super) water: Arc<[Polygon]>,
     /// How high its streets lie, with the version of the network that this is of.
     pub(super) fit: OnceLock<(u64, Arc<StreetFit>)>,
     /// What became of what was proposed in the last pass, by junction and heading.
@@ -264,22 +266,22 @@ impl Network {
         self.lot_records(&options.unwrap_or_default().read()?)
     }
 
-    /// Sites for buildings beside the streets, in a grid along both sides of each, where there is room, as features: each has an
-    /// id, a geometry (a rectangle), its area (m²), width and depth (m), its front (a line), its access (the middle of it), where
-    /// it is facing (degrees), its row behind the street, from 0, and the depth and width of its street.
-    pub fn sites(&self, options: Option<TableOf<SiteSettings>>) -> Result<SiteRecords> {
-        self.site_records(&options.unwrap_or_default().read()?)
-    }
-
     /// Height (m) of the sidewalks of the street that is nearest to a place, where it is nearest: houses beside it stand there.
     pub fn height(&self, place: Vector) -> Result<f64> {
         self.height_at(place.0)
     }
 
-    /// Places along the streets for a "tree" or a "lamp", as far apart as the kinds of streets say: where (m), the direction
-    /// towards the street (degrees), and how often the street's way has branched off.
+    /// Places along the streets for a "tree" or a "lamp", as far apart as the kinds of streets say: features with a place (m), the
+    /// direction from there towards the street (degrees), and how often the street's way has branched off.
     pub fn verge(&self, what: String) -> Result<VergeRecords> {
         self.verge_of(&what)
+    }
+
+    /// Sites for buildings beside the streets, in a grid along both sides of each, where there is room, as features: each has an
+    /// id, a geometry (a rectangle), its area (m²), width and depth (m), its front (a line), its access (the middle of it), where
+    /// it is facing (degrees), its row behind the street, from 0, and the depth and width of its street.
+    pub fn sites(&self, options: Option<TableOf<SiteSettings>>) -> Result<SiteRecords> {
+        self.site_records(&options.unwrap_or_default().read()?)
     }
 
     /// How many dead ends there are.
@@ -323,13 +325,18 @@ impl Network {
             most: options.most as usize,
         };
         let mut warnings = Vec::new();
-        let mut areas = Vec::new();
+        let (mut areas, mut waters) = (Vec::new(), Vec::new());
         let area_kinds = [(&options.obstacles, false, false), (&options.water, false, true)];
         let limit: Vec<Rings> = options.limit.iter().cloned().collect();
         for (rings, is_limit, can_be_bridged) in area_kinds.into_iter().chain([(&limit, true, false)]) {
             for rings in rings {
                 match Plan::new(rings) {
-                    Ok(plan) => areas.push(Obstacle { area: plan.flat(), is_limit, can_be_bridged }),
+                    Ok(plan) => {
+                        if can_be_bridged {
+                            waters.push(plan.flat());
+                        }
+                        areas.push(Obstacle { area: plan.flat(), is_limit, can_be_bridged });
+                    }
                     Err(error) => {
                         let text =
                             format!("network: left out an area that is no polygon: {}", error.message());
@@ -347,14 +354,14 @@ impl Network {
         warnings.extend(existing::add(&mut network, &options.existing, |depth| {
             StreetKind::of(&kinds, depth).attributes(depth)
         })?);
-        let walk = NetworkWalk::default();
         Ok(Self {
             options,
             kinds,
             network,
             fit: OnceLock::new(),
+            water: waters.into(),
             growths: FxHashMap::default(),
-            walk,
+            walk: NetworkWalk::default(),
             warnings,
             is_told: false,
         })

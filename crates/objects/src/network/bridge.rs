@@ -1,0 +1,86 @@
+//! Bridges as a network shows them: a deck with parapets, and what carries it.
+
+use glam::{DVec2, DVec3};
+
+use burgeon_base::error::Result;
+use burgeon_geometry::face;
+use burgeon_scene::Part;
+use burgeon_streets::StreetSpan;
+
+/// How thick (m) a deck is.
+const DECK: f64 = 1.1;
+/// Height and thickness (m) of parapets.
+const PARAPET: [f64; 2] = [1.05, 0.3];
+/// Thickness (m) of piers along the street, and how much narrower than it (m) they are on each side.
+const PIER: [f64; 2] = [1.4, 1.2];
+/// Thickness (m) of what carries a bridge at the shores.
+const ABUTMENT: f64 = 3.0;
+/// How far (m) below the water all that stands in it reaches.
+const FOOT: f64 = 2.0;
+
+/// Draws a bridge, whose kerbs are so high (m), over water at a level (m).
+pub(super) fn draw_span(part: &mut Part, span: &StreetSpan, kerb: f64, water: f64) -> Result<()> {
+    let [right, left] = &span.sides;
+    let low = |at: DVec3| at - DVec3::Z * DECK;
+    let top = |at: DVec3| at + DVec3::Z * kerb;
+    for index in 1..right.len() {
+        let (a, b, c, d) = (right[index - 1], right[index], left[index], left[index - 1]);
+        face(part, &[low(a), low(b), top(b), top(a)])?;
+        face(part, &[low(c), low(d), top(d), top(c)])?;
+        face(part, &[low(a), low(d), low(c), low(b)])?;
+    }
+    let last = right.len() - 1;
+    face(part, &[low(left[0]), low(right[0]), right[0], left[0]])?;
+    face(part, &[low(right[last]), low(left[last]), left[last], right[last]])?;
+    let inward = span.way.perp() * PARAPET[1];
+    parapet(part, right, inward, kerb)?;
+    let back: Vec<DVec3> = left.iter().rev().copied().collect();
+    parapet(part, &back, -inward, kerb)?;
+    let half = right[0].truncate().distance(left[0].truncate()) / 2.0;
+    for pier in &span.piers {
+        block(part, *pier, span.way, [PIER[0] / 2.0, half - PIER[1]], [water - FOOT, pier.z - DECK])?;
+    }
+    for (index, shore) in span.shores.iter().enumerate() {
+        let aside = span.way * (ABUTMENT / 2.0 - 0.2) * if index == 0 { -1.0 } else { 1.0 };
+        let middle = *shore + aside.extend(0.0);
+        block(part, middle, span.way, [ABUTMENT / 2.0, half], [water - FOOT, shore.z - DECK])?;
+    }
+    Ok(())
+}
+
+/// A wall along an edge, whose other side lies `inward` (m) of that: on the left as it goes.
+fn parapet(part: &mut Part, edge: &[DVec3], inward: DVec2, kerb: f64) -> Result<()> {
+    let inward = inward.extend(0.0);
+    let raised = |at: DVec3, up: f64| at + DVec3::Z * (kerb + up);
+    for pair in edge.windows(2) {
+        let [a, b] = [pair[0], pair[1]];
+        let [c, d] = [b + inward, a + inward];
+        face(part, &[raised(a, 0.0), raised(b, 0.0), raised(b, PARAPET[0]), raised(a, PARAPET[0])])?;
+        face(part, &[raised(c, 0.0), raised(d, 0.0), raised(d, PARAPET[0]), raised(c, PARAPET[0])])?;
+        face(part, &[a, b, c, d].map(|at| raised(at, PARAPET[0])))?;
+    }
+    let (first, last) = (edge[0], edge[edge.len() - 1]);
+    for [a, b] in [[first + inward, first], [last, last + inward]] {
+        face(part, &[raised(a, 0.0), raised(b, 0.0), raised(b, PARAPET[0]), raised(a, PARAPET[0])])?;
+    }
+    Ok(())
+}
+
+/// A block around a middle, so far (m) along a way and beside it on each side, from one height (m) to another.
+fn block(part: &mut Part, middle: DVec3, way: DVec2, half: [f64; 2], [low, high]: [f64; 2]) -> Result<()> {
+    if high <= low || half[1] <= 0.0 {
+        return Ok(());
+    }
+    let (along, aside) = (way * half[0], way.perp() * half[1]);
+    let middle = middle.truncate();
+    let ring =
+        [middle - along - aside, middle + along - aside, middle + along + aside, middle - along + aside];
+    let at = |height: f64| ring.map(|corner| corner.extend(height));
+    let (bottom, top) = (at(low), at(high));
+    for index in 0..4 {
+        let next = (index + 1) % 4;
+        face(part, &[bottom[index], bottom[next], top[next], top[index]])?;
+    }
+    face(part, &top)?;
+    face(part, &[bottom[0], bottom[3], bottom[2], bottom[1]])
+}
