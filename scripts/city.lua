@@ -150,14 +150,11 @@ if with_trees then
   for _, lot in green do
     for number = 1, math.min(60, math.floor(lot.area / 90)) do
       local at = lot.geometry:random_point(random(), random())
-      table.insert(
-        trees,
-        {
-          id = `{lot.id} {number}`,
-          geometry = { points = { vec(at:x(), at:y(), 0) } },
-          height = random(6, 13),
-        }
-      )
+      table.insert(trees, {
+        id = `{lot.id} {number}`,
+        geometry = { points = { vec(at:x(), at:y(), 0) } },
+        height = random(6, 13),
+      })
     end
   end
   -- Woods in the country around.

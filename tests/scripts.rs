@@ -8,6 +8,7 @@ use std::path::{Path, PathBuf};
 
 use burgeon::picture::Picture;
 use burgeon::script::RunOptions;
+use burgeon::sources::{Layer, ReferenceFrame, Source, SourceOptions};
 use burgeon::{Run, export};
 
 const README: &str = include_str!("../README.md");
@@ -67,15 +68,13 @@ fn the_gallery_shows_every_script_and_no_other() {
     assert_eq!(named(README, "](scripts/", ".lua)"), shipped);
     let mut shown = named(&guide(), "](docs/pictures/", ".png)");
     assert!(shown.remove("quay"));
-    let in_book = named(&guide().replace("](docs/book/src/", "]("), "](pictures/", ".png)");
-    assert_eq!(in_book, ["castle", "live", "roofs", "variations", "village"].map(str::to_owned).into());
+    let mut in_book = named(&guide().replace("](docs/book/src/", "]("), "](pictures/", ".png)");
     for path in quarter() {
-        let name = format!("geospatial/{}", path.file_stem().unwrap().to_string_lossy());
-        assert!(guide().contains(&format!("/scripts/{name}.lua")), "{name}");
-        if shown.remove(&name) {
-            assert!(root().join(format!("docs/pictures/{name}.png")).is_file(), "{name} has no picture");
-        }
+        let name = path.file_stem().unwrap().to_string_lossy();
+        assert!(guide().contains(&format!("| `{name}.lua` |")), "{name}");
+        assert!(in_book.remove(&format!("geospatial/{name}")), "{name} has no picture");
     }
+    assert_eq!(in_book, ["castle", "live", "roofs", "variations", "village"].map(str::to_owned).into());
     let types: Vec<PathBuf> = lua_files("examples/types");
     assert!(
         types.iter().all(|path| shown.remove(&*path.file_stem().unwrap().to_string_lossy())),
@@ -108,6 +107,43 @@ fn the_scripts_of_a_quarter_ask_its_data_and_make_the_same_with_any_number_of_th
         assert!(first.warnings.is_empty(), "{shown}: {}", first.warnings[0]);
         assert!(glb(&first, folder.path()) == glb(&run(&script, 3), folder.path()), "{shown}");
     }
+}
+
+/// A layer of the quarter in the metres of `frame`, which the first one decides.
+fn quarter_layer(name: &str, frame: &mut Option<ReferenceFrame>) -> Layer {
+    let path = root().join(format!("examples/data/quarter/{name}.geojson"));
+    let table = Source::open(&path, name).and_then(|source| source.read(name, &SourceOptions::default()));
+    Layer::new(table.unwrap(), frame).unwrap()
+}
+
+#[test]
+fn every_piece_of_furniture_without_a_direction_looks_to_the_nearest_point_of_all_roads() {
+    let mut frame = None;
+    let [_, roads, furniture] =
+        ["buildings", "roads", "furniture"].map(|name| quarter_layer(name, &mut frame));
+    let run = run(&root().join("scripts/geospatial/orientation.lua"), 2);
+    let column = furniture.names.iter().position(|name| name == "direction").unwrap();
+    let mut count = 0;
+    for item in &furniture.features {
+        if item.attributes.iter().any(|(name, _)| *name == column) {
+            continue;
+        }
+        let near = roads.features.iter().filter_map(|road| {
+            let [from, to] = item.geometry.nearest_points(&road.geometry)?;
+            Some((to - from).truncate())
+        });
+        let wanted = near.min_by(|a, b| a.length().total_cmp(&b.length())).unwrap().normalize();
+        let at = item.geometry.points().next().unwrap().truncate();
+        let stands = run.scene.instances.iter().find(|instance| {
+            let moved = instance.transform.translation;
+            moved.z > 0.1 && (moved.truncate() - at).length() < 0.01
+        });
+        let stands = stands.unwrap_or_else(|| panic!("{} is not there", item.id));
+        let looks = stands.transform.transform_vector3(glam::DVec3::X).truncate();
+        assert!(looks.dot(wanted) > 1.0 - 1e-6, "{}: {looks}, not {wanted}", item.id);
+        count += 1;
+    }
+    assert_eq!(count, 65);
 }
 
 #[test]

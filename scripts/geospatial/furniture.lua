@@ -3,8 +3,8 @@
 -- burgeon run scripts/geospatial/furniture.lua --data examples/data -o furniture.glb
 local layers = require("layers")
 local models = require("models")
--- The ground on which all stands.
-require("pavements")
+-- The ground on which all stands, and the lawns.
+require("vegetation")
 
 local Furniture = module("Furniture", "place", "code", "model", "direction")
 local Standing = module("Standing", "place", "code", "model", "direction")
@@ -15,6 +15,6 @@ street:rule("Furniture(place, code, model, direction)", function(_, place, code,
   return Standing(place, code, model, direction)
 end)
 street:interpret("Standing(place, code, model, direction)", function(this, place, code, _, direction)
-  this:jump(place:place() + vec(0, 0, 0.15)):roll(direction):place(models.furniture[code])
+  models.stand(this, place, code, direction)
 end)
 street:derive()

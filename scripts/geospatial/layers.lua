@@ -47,18 +47,18 @@ end
 -- A carriageway is what lies within some metres of a road, and slabs are what is left around the buildings.
 local PAVEMENTS = [[
   with carriageways as (
-    select ST_Union(ST_Buffer(geom, case highway
+    select ST_Buffer(ST_Simplify(ST_Union(ST_Buffer(geom, case highway
       when 'primary' then 6 when 'secondary' then 5 when 'tertiary' then 4.5 when 'service' then 2.5 else 3.5 end,
-      'quad_segs=2')) as geom
+      'quad_segs=2')), 0.1), -0.05, 'quad_segs=1') as geom
     from roads where highway in ('primary', 'secondary', 'tertiary', 'unclassified', 'residential', 'service')),
   ground as (select ST_Buffer(ST_ConvexHull(ST_Collect(geom)), 10, 'quad_segs=1') as geom from buildings)
   select ST_Intersection(c.geom, g.geom) as geom, 1 as code, 0 as level from carriageways c, ground g
-  union all select ST_Difference(g.geom, c.geom), 2, 0.15 from carriageways c, ground g]]
+  union all select ST_Buffer(ST_Difference(g.geom, c.geom), -0.05, 'quad_segs=1'), 2, 0.15 from carriageways c, ground g]]
 
 return {
-  -- Who has not counted the floors has mostly left out those of sheds.
+  -- Where nobody has counted the floors, what is small is a shed.
   buildings = [[
-    select geom, id, fid % 4 + 1 as style, case when roof_shape = 'flat' then 1 else 2 end as roof,
+    select ST_GeometryN(geom, 1) as geom, id, fid % 4 + 1 as style, case when roof_shape = 'flat' then 1 else 2 end as roof,
       case when levels is not null then ceil(cast(levels as real)) when ST_Area(geom) < 90 then 1 else 5 end as floors
     from buildings]],
   neighbors = "select id from buildings where id <> $id and ST_Intersects(geom, $geom)",

@@ -74,6 +74,13 @@ models.furniture = {
   }),
 }
 
+-- A piece of furniture that looks in a direction (degrees), whichever way the one before it looked.
+function models.stand(this: any, place: any, code: number, direction: number)
+  local angle = math.rad(direction)
+  this:jump(place:place() + vec(0, 0, 0.15))
+  this:direction({ 0, 0, 1 }, { math.sin(angle), -math.cos(angle), 0 }):place(models.furniture[code])
+end
+
 -- A tree of height 1 m and with a crown of radius 0.5 m: what is placed is scaled by its height.
 local function tree(color: string, seed: number, slender: number): any
   local system = lsystem({ object = turtle({ color = "#66543f", width = 0.045, sides = 7 }) })

@@ -42,7 +42,9 @@ street:rule("Road(a, distance) > Road(b, nearest)", {
 end)
 -- The road that is left decides.
 street:rule("Item(place, code) > Road(geom, distance) End", function(_, place, code, geom)
-  return Turned(place, code, line(place:place(), geom:nearest_point(place):place()):direction())
+  local toward = line(place:place(), geom:nearest_point(place):place()):direction()
+  -- What stands on the road itself looks across it.
+  return Turned(place, code, toward or (geom:direction() or 0) - 90)
 end)
 street:rule("Turned(place, code, direction) < Road(geom, distance)", function()
   return nil
@@ -52,6 +54,6 @@ street:rule("Turned(place, code, direction) < End", function()
 end)
 
 street:interpret("Turned(place, code, direction)", function(this, place, code, direction)
-  this:jump(place:place() + vec(0, 0, 0.15)):roll(direction):place(models.furniture[code])
+  models.stand(this, place, code, direction)
 end)
 street:derive()

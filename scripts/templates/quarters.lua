@@ -235,10 +235,10 @@ function quarters.places(extent: number): { any }
   around(0.42, 20, "old", roads.organic({ block = 58, bends = 30 }))
   around(0.42, 110, "blocks", roads.radial({ middle = { 0, extent * 0.05 }, block = 85 }))
   around(0.4, 200, "blocks", roads.organic({ block = 88 }))
-  around(0.44, 290, "flats", roads.raster({ block = 120, width = 100, angle = turned + 30 }))
-  around(0.8, 50, "rows", roads.raster({ block = 120, width = 62, angle = turned + 55 }))
+  around(0.44, 290, "flats", roads.raster({ block = 120, width = 100, angle = (turned + 30) % 360 }))
+  around(0.8, 50, "rows", roads.raster({ block = 120, width = 62, angle = (turned + 55) % 360 }))
   around(0.8, 125, "villas", roads.organic({ block = 85, bends = 34 }))
-  around(0.8, 195, "rows", roads.raster({ block = 110, width = 64, angle = turned - 20 }))
+  around(0.8, 195, "rows", roads.raster({ block = 110, width = 64, angle = (turned - 20) % 360 }))
   around(0.8, 265, "flats", roads.organic({ block = 110 }))
   around(0.8, 335, "villas", roads.organic({ block = 90, bends = 30 }))
   return places
@@ -284,7 +284,7 @@ function quarters.areas(geometries: { any }, from: number, to: number, color: st
   system:derive(0)
 end
 
-local Block = module("Block", "look", "tint", "height", "is_top")
+local Block = module("Block", "plan", "look", "tint", "height", "is_top")
 
 -- Buildings without facades of their own: photos of windows in whole bays, and a roof.
 function quarters.distant(buildings: { any })
@@ -302,9 +302,9 @@ function quarters.distant(buildings: { any })
     local draw = skyline.stream(feature.lot.id, 3)
     local tint = one(LOOKS[look].tints, draw())
     return footprint(feature.geometry),
-      Block(look, tint, feature.height, feature.tier == tops[feature.lot.id])
+      Block(feature.geometry, look, tint, feature.height, feature.tier == tops[feature.lot.id])
   end)
-  system:interpret("Block(look, tint, height, is_top)", function(this, look, tint, height, is_top)
+  system:interpret("Block(plan, look, tint, height, is_top)", function(this, plan, look, tint, height, is_top)
     local chosen = LOOKS[look]
     local facade = FACADES[chosen.facade]
     local bay = facade.bay

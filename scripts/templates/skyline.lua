@@ -120,7 +120,7 @@ function skyline.building(lot: any, options: Heights?, drawn: (() -> number)?): 
     end
     of[name] = value
   end
-  local mix: { [string]: number } = if type(of.by) == "string" then { [of.by] = 1 } else of.by
+  local mix: any = if type(of.by) == "string" then { [of.by] = 1 } else of.by
   local share, weights = 0, 0
   for _, name in { "depth", "noise", "centres", "presets" } do
     local weight = mix[name]
@@ -163,18 +163,19 @@ end
 -- The rings of a lot in its frame: pieces { x1, y1, x2, y2 }.
 local function border(lot: any): { { number } }
   local ox, oy, ax, ay = frame(lot)
-  local pieces = {}
+  local pieces: { { number } } = {}
   for _, ring in lot.geometry.rings do
     local last = ring[#ring]
     for _, point in ring do
       local x1, y1 = last[1] - ox, last[2] - oy
       local x2, y2 = point[1] - ox, point[2] - oy
-      table.insert(pieces, {
+      local piece: { number } = {
         x1 * ax + y1 * ay,
         y1 * ax - x1 * ay,
         x2 * ax + y2 * ay,
         y2 * ax - x2 * ay,
-      })
+      }
+      table.insert(pieces, piece)
       last = point
     end
   end
@@ -233,6 +234,9 @@ function skyline.box(lot: any, width: number, depth: number, front: number, side
       break
     end
     for _, away in { 0, 0.2, 0.5 } do
+      if d * width <= most then
+        break
+      end
       local y0 = back + away * d
       for _, x in { 0, 0.25 * width, -0.25 * width } do
         local left, right = free(pieces, x, y0 - margin, y0 + d + margin)
@@ -254,9 +258,10 @@ end
 -- Points of a lot's frame as places (m).
 local function placed(lot: any, points: Plan): Plan
   local ox, oy, ax, ay = frame(lot)
-  local ring = {}
+  local ring: Plan = {}
   for _, point in points do
-    table.insert(ring, { ox + point[1] * ax - point[2] * ay, oy + point[1] * ay + point[2] * ax })
+    local place: { number } = { ox + point[1] * ax - point[2] * ay, oy + point[1] * ay + point[2] * ax }
+    table.insert(ring, place)
   end
   return ring
 end
@@ -269,11 +274,11 @@ end
 -- outline and holes.
 local FORMS: { [string]: (box: { number }, wing: number, draw: number) -> (Plan, { Plan }?) } = {}
 
-function FORMS.box(b)
-  return rectangle(b[1], b[2], b[3], b[4])
+function FORMS.box(b: { number }, _: number, _: number): (Plan, { Plan }?)
+  return rectangle(b[1], b[2], b[3], b[4]), nil
 end
 
-FORMS["L"] = function(b, wing, draw)
+function FORMS.L(b: { number }, wing: number, draw: number): (Plan, { Plan }?)
   local x0, y0, x1, y1 = b[1], b[2], b[3], b[4]
   if draw < 0.5 then
     return {
@@ -283,12 +288,14 @@ FORMS["L"] = function(b, wing, draw)
       { x0 + wing, y0 + wing },
       { x0 + wing, y1 },
       { x0, y1 },
-    }
+    },
+      nil
   end
-  return { { x0, y0 }, { x1, y0 }, { x1, y1 }, { x1 - wing, y1 }, { x1 - wing, y0 + wing }, { x0, y0 + wing } }
+  return { { x0, y0 }, { x1, y0 }, { x1, y1 }, { x1 - wing, y1 }, { x1 - wing, y0 + wing }, { x0, y0 + wing } },
+    nil
 end
 
-FORMS["T"] = function(b, wing, draw)
+function FORMS.T(b: { number }, wing: number, draw: number): (Plan, { Plan }?)
   local x0, y0, x1, y1 = b[1], b[2], b[3], b[4]
   local middle = x0 + wing / 2 + (x1 - x0 - wing) * (0.3 + 0.4 * draw)
   local l, r = middle - wing / 2, middle + wing / 2
@@ -302,16 +309,18 @@ FORMS["T"] = function(b, wing, draw)
     { l, y1 },
     { l, behind },
     { x0, behind },
-  }
+  },
+    nil
 end
 
-FORMS["U"] = function(b, wing)
+function FORMS.U(b: { number }, wing: number, _: number): (Plan, { Plan }?)
   local x0, y0, x1, y1 = b[1], b[2], b[3], b[4]
   local l, r, behind = x0 + wing, x1 - wing, y0 + wing
-  return { { x0, y0 }, { x1, y0 }, { x1, y1 }, { r, y1 }, { r, behind }, { l, behind }, { l, y1 }, { x0, y1 } }
+  return { { x0, y0 }, { x1, y0 }, { x1, y1 }, { r, y1 }, { r, behind }, { l, behind }, { l, y1 }, { x0, y1 } },
+    nil
 end
 
-FORMS["court"] = function(b, wing)
+function FORMS.court(b: { number }, wing: number, _: number): (Plan, { Plan }?)
   local x0, y0, x1, y1 = b[1], b[2], b[3], b[4]
   local yard = rectangle(x0 + wing, y0 + wing, x1 - wing, y1 - wing)
   return rectangle(x0, y0, x1, y1), { { yard[4], yard[3], yard[2], yard[1] } }
@@ -355,7 +364,7 @@ end
 -- The parts of a building on a lot, from below; none if the lot has no room for it. They are inside of the lot.
 function skyline.plan(lot: any, building: Building, options: Plans?, drawn: (() -> number)?): { Tier }
   local next = drawn or skyline.stream(lot.id .. " plan")
-  local of = options or {}
+  local of: Plans = options or {}
   local front, side = of.front or 2, of.side or 1.5
   local draw, other = next(), next()
   if of.form == "row" then
@@ -377,13 +386,14 @@ function skyline.plan(lot: any, building: Building, options: Plans?, drawn: (() 
   end
   local width, depth = box[3] - box[1], box[4] - box[2]
   local wing = math.min(of.wing or 7, width, depth)
-  local form = of.form
-  if not form then
+  local form: string = of.form or ""
+  if form == "" then
     form = if building.kind == "tower" then "stepped" else suits(width, depth, wing, draw)
   end
   local height = building.height
   if form == "stepped" then
-    local tiers, from, inset = {}, 0, 0
+    local tiers: { Tier } = {}
+    local from, inset = 0, 0
     for number, part in { 0.4, 0.75, 1 } do
       local to = height * part
       local w, d = width - 2 * inset, depth - 2 * inset
@@ -392,7 +402,8 @@ function skyline.plan(lot: any, building: Building, options: Plans?, drawn: (() 
         break
       end
       local plan = rectangle(box[1] + inset, box[2] + inset, box[3] - inset, box[4] - inset)
-      table.insert(tiers, { plan = placed(lot, plan), from = from, to = to })
+      local tier: Tier = { plan = placed(lot, plan), from = from, to = to }
+      table.insert(tiers, tier)
       from = to
       inset += math.min(width, depth) * (0.06 + 0.06 * (if number == 1 then draw else other))
     end

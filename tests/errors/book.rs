@@ -89,6 +89,9 @@ fn every_link_and_every_picture_of_the_book_leads_somewhere() {
                 sources().join(name).parent().unwrap().join(file)
             };
             assert!(page.is_file() || page.is_dir(), "{name}: {link}");
+            // What lies elsewhere is not in the book that is built.
+            let within = page.canonicalize().unwrap().starts_with(sources().canonicalize().unwrap());
+            assert!(within, "{name}: {link} leads out of the book");
             if !place.is_empty() {
                 assert!(anchors(&std::fs::read_to_string(&page).unwrap()).contains(place), "{name}: {link}");
             }

@@ -3,7 +3,9 @@
 //! Each reads the same pages in memory, and the files beside them; none can write. What a statement may do is asked by
 //! SQLite before it runs: reading, and calling functions of a list.
 
+use std::cell::Cell;
 use std::collections::BTreeMap;
+use std::hash::BuildHasher as _;
 use std::panic::{AssertUnwindSafe, RefUnwindSafe, UnwindSafe};
 use std::sync::{Arc, Mutex, PoisonError, RwLock};
 
@@ -11,6 +13,7 @@ use rusqlite::config::DbConfig;
 use rusqlite::hooks::{AuthAction, AuthContext, Authorization};
 use rusqlite::limits::Limit;
 use rusqlite::{Connection, OpenFlags};
+use rustc_hash::FxBuildHasher;
 
 use crate::functions::{self, GeometryArgument};
 use crate::index::SpatialIndex;
@@ -47,7 +50,7 @@ pub(crate) struct ConnectionState {
     budget: Mutex<Arc<Budget>>,
     /// The indexes that there are.
     pub indexes: Arc<Indexes>,
-    /// The geometries that were read last: those of an outer loop are asked for again and again.
+    /// The geometries that were read last: those of an outer loop are asked for again and again, and of neighbours.
     recent: Mutex<RecentGeometries>,
     /// Whether what comes is Burgeon's own.
     trusted: Mutex<bool>,
@@ -56,10 +59,39 @@ pub(crate) struct ConnectionState {
 impl UnwindSafe for ConnectionState {}
 impl RefUnwindSafe for ConnectionState {}
 
+/// How many small geometries are remembered, each in a place that its bytes decide.
+const SMALL_GEOMETRIES: usize = 256;
+
+/// The longest blob (bytes) of a small geometry.
+const LONGEST_SMALL: usize = 2048;
+
+/// A blob and what was read of it.
+type KeptGeometry = Option<(Vec<u8>, Arc<GeometryArgument>)>;
+
 #[derive(Default)]
 struct RecentGeometries {
-    kept: [Option<(Vec<u8>, Arc<GeometryArgument>)>; 2],
+    /// The last two that are large.
+    large: [KeptGeometry; 2],
     next: usize,
+    small: Vec<KeptGeometry>,
+}
+
+impl RecentGeometries {
+    /// Where a blob is kept, if it is.
+    fn place(&mut self, bytes: &[u8]) -> &mut KeptGeometry {
+        if bytes.len() <= LONGEST_SMALL {
+            self.small.resize(SMALL_GEOMETRIES, None);
+            let hash = FxBuildHasher.hash_one(bytes);
+            #[allow(clippy::cast_possible_truncation, reason = "any of its bits will do")]
+            return &mut self.small[hash as usize % SMALL_GEOMETRIES];
+        }
+        let known = self.large.iter().position(|it| it.as_ref().is_some_and(|(known, _)| known == bytes));
+        let place = known.unwrap_or_else(|| {
+            self.next = (self.next + 1) % self.large.len();
+            self.next
+        });
+        &mut self.large[place]
+    }
 }
 
 impl ConnectionState {
@@ -76,13 +108,12 @@ impl ConnectionState {
     /// The geometry in a blob. Fails with the reason.
     pub(crate) fn geometry(&self, bytes: &[u8]) -> Result<Arc<GeometryArgument>, String> {
         let mut recent = self.recent.lock().unwrap_or_else(PoisonError::into_inner);
-        if let Some((_, parsed)) = recent.kept.iter().flatten().find(|(known, _)| known == bytes) {
+        let place = recent.place(bytes);
+        if let Some((_, parsed)) = place.as_ref().filter(|(known, _)| known == bytes) {
             return Ok(Arc::clone(parsed));
         }
         let parsed = Arc::new(GeometryArgument::read(bytes, &self.budget())?);
-        let place = recent.next;
-        recent.kept[place] = Some((bytes.to_vec(), Arc::clone(&parsed)));
-        recent.next = (place + 1) % recent.kept.len();
+        *place = Some((bytes.to_vec(), Arc::clone(&parsed)));
         Ok(parsed)
     }
 }
@@ -95,6 +126,8 @@ pub(crate) struct DatabaseLink {
     pub state: Arc<ConnectionState>,
     /// Which state of the tables it has seen.
     pub generation: usize,
+    /// Whether SQLite makes indexes of its own now.
+    makes_indexes: Cell<Option<bool>>,
 }
 
 /// A file that is read as it is: its name in statements, and its address.
@@ -163,15 +196,19 @@ impl DatabaseLink {
         rusqlite::vtab::array::load_module(&connection)?;
         lock(&mut connection, &state)?;
         connection.set_prepared_statement_cache_capacity(STATEMENTS);
-        Ok(Self { connection, state, generation })
+        Ok(Self { connection, state, generation, makes_indexes: Cell::new(None) })
     }
 
     /// Lets SQLite make indexes of its own for a statement, or not: where rows are looked up by keys they only hinder.
     pub(crate) fn set_automatic_index(&self, on: bool) -> rusqlite::Result<()> {
+        if self.makes_indexes.get() == Some(on) {
+            return Ok(());
+        }
         let trust = |trusted| *self.state.trusted.lock().unwrap_or_else(PoisonError::into_inner) = trusted;
         trust(true);
         let done = self.connection.pragma_update(None, "automatic_index", on);
         trust(false);
+        self.makes_indexes.set(done.is_ok().then_some(on));
         done
     }
 }

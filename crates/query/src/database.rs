@@ -261,7 +261,7 @@ impl Database {
             return Ok(known);
         }
         let catalogue = self.tables.read().unwrap_or_else(PoisonError::into_inner).catalogue.clone();
-        let rewritten = rewrite::rewrite(sql, &catalogue, Dialect::Sqlite);
+        let rewritten = rewrite::rewrite(sql, &catalogue, &rewrite::ChosenRows::new(), Dialect::Sqlite);
         for (name, nearest) in rewritten.iter().flat_map(|rewritten| &rewritten.indexes) {
             self.index(name, *nearest, link, &catalogue, budget)?;
         }

@@ -7,6 +7,7 @@ use super::*;
 use burgeon_base::budget::Budget;
 use burgeon_spatial::Geometry;
 
+mod odd;
 mod plans;
 #[cfg(feature = "postgis")]
 mod postgis;

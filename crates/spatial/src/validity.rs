@@ -1,11 +1,13 @@
 //! Whether geometries are what their kinds promise, and what can be made of those that are not.
 
+use burgeon_geometry::Rings;
 use geo::Validation;
 use geo::bool_ops::FillRule;
 use glam::DVec3;
 
 use super::Geometry;
 use super::edges::with_heights;
+use super::measure::twice_area;
 use super::overlay::filled;
 use super::plane::Plane;
 
@@ -36,6 +38,11 @@ impl Geometry {
                 short = Some("a line has no length".to_owned());
             }
         });
+        super::plane::collect_polygons(self, &mut |rings: &Rings| {
+            if rings.iter().any(|ring| !ring.is_empty() && !(twice_area(ring).abs() > 0.0)) {
+                short = Some("a ring has no area".to_owned());
+            }
+        });
         let plane = Plane::of(&[self]);
         short.or_else(|| plane.geo(self).check_validation().err().map(|reason| reason.to_string()))
     }
@@ -55,7 +62,9 @@ impl Geometry {
         let plane = Plane::of(&[self]);
         let made = match self {
             Self::Polygon(_) | Self::MultiPolygon(_) => {
-                plane.areas(&filled(&plane.polygons(self), FillRule::EvenOdd))
+                let areas = plane.areas(&filled(&plane.polygons(self), FillRule::EvenOdd));
+                // Of rings without an area their lines are left.
+                if areas.is_empty() { self.boundary().dissolved().make_valid() } else { areas }
             }
             Self::Line(line) => Self::Point(line.first().copied()),
             Self::Collection(members) => Self::Collection(members.iter().map(Self::make_valid).collect()),

@@ -11,7 +11,7 @@ use burgeon_base::text::{listed, shown};
 use burgeon_data::{Attribute, Crs, FeatureTable, SourceOptions};
 
 impl Server {
-    /// Reads what is `wanted` of a layer, in the order of its keys, as [`Source::read`](burgeon_data::Source::read) does.
+    /// Reads what is `wanted` of a layer, whose table statements see no more of, in the order of its keys, as [`Source::read`](burgeon_data::Source::read) does.
     ///
     /// Fails if there is no such table, and if it has no geometries.
     pub fn read(&self, wanted: &SourceOptions) -> Result<FeatureTable> {
@@ -49,15 +49,21 @@ impl Server {
         for name in &own {
             sql += &format!(", {}", quoted(name));
         }
-        sql += &format!(" FROM {}", quoted(&table.name));
+        let mut rows = format!(" FROM {}", quoted(&table.name));
         if let Some(condition) = &wanted.condition {
             // The line's end ends a comment.
-            sql += &format!(" WHERE (\n{condition}\n)");
+            rows += &format!(" WHERE (\n{condition}\n)");
         }
+        let limited = match (wanted.limit, wanted.kind, wanted.within) {
+            (Some(limit), None, None) => Some(limit),
+            _ => None,
+        };
         if let Some(key) = key {
-            sql += &format!(" ORDER BY {}", quoted(key));
+            sql = format!("{sql}{rows} ORDER BY {}", quoted(key));
+        } else {
+            sql += &rows;
         }
-        if let (Some(limit), None, None) = (wanted.limit, wanted.kind, wanted.within) {
+        if let Some(limit) = limited {
             sql += &format!(" LIMIT {limit}");
         }
         crate::rewrite::check(&sql, &known.catalogue).map_err(|error| error.about(&label))?;
@@ -78,7 +84,12 @@ impl Server {
             srid => Crs::epsg(srid),
         };
         let names = own.iter().map(|name| (*name).clone()).collect();
-        features(&answer, FeatureTable::of_layer(layer, &label, crs, names, wanted), wanted)
+        let features = features(&answer, FeatureTable::of_layer(layer, &label, crs, names, wanted), wanted)?;
+        let ordered = key.map_or_else(String::new, |key| format!(" ORDER BY {}", quoted(key)));
+        let part = limited.map_or_else(String::new, |limit| format!("{ordered} LIMIT {limit}"));
+        let all = wanted.condition.is_none() && limited.is_none();
+        self.see(&table.name, (!all).then(|| format!("SELECT *{rows}{part}")));
+        Ok(features)
     }
 }
 

@@ -1,6 +1,6 @@
 //! A server: its connections, its tables, and what is asked of it.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fmt;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{RecvTimeoutError, channel};
@@ -18,9 +18,10 @@ use super::numbered::{NumberedStatement, ParameterTypes, numbered};
 use crate::cell::{Cell, QueryAnswer};
 use crate::errors;
 use crate::place::Move;
-use crate::rewrite::{self, Catalogue, Dialect, TableInfo, find_word};
+use crate::rewrite::{self, Catalogue, ChosenRows, Dialect, TableInfo, find_word};
 use burgeon_base::budget::Budget;
 use burgeon_base::error::{Error, Result};
+use burgeon_base::text::shown;
 use burgeon_data::{Crs, ReferenceFrame};
 
 /// How long a connection may take to come about.
@@ -54,6 +55,8 @@ pub struct Server {
     config: Config,
     idle: Mutex<Vec<ServerConnection>>,
     known: OnceLock<ServerTables>,
+    /// What is seen of tables that were read, by their names in small letters: statements, or nothing where it is all.
+    seen: Mutex<BTreeMap<String, BTreeSet<Option<String>>>>,
 }
 
 /// A connection and the statements that it has prepared.
@@ -111,7 +114,13 @@ impl Server {
         config.options(&format!(
             "-c statement_timeout={limit} -c default_transaction_read_only=on -c extra_float_digits=3"
         ));
-        Self { address: address.clone(), config, idle: Mutex::default(), known: OnceLock::new() }
+        Self {
+            address: address.clone(),
+            config,
+            idle: Mutex::default(),
+            known: OnceLock::new(),
+            seen: Mutex::default(),
+        }
     }
 
     /// Its address.
@@ -147,7 +156,8 @@ impl Server {
             }
             None => Move::nowhere(),
         };
-        let rewritten = rewrite::rewrite(sql, &known.catalogue, Dialect::Postgis);
+        let chosen = self.chosen(sql)?;
+        let rewritten = rewrite::rewrite(sql, &known.catalogue, &chosen, Dialect::Postgis);
         let (asked, ordered) = rewritten.map_or((sql.to_owned(), false), |it| (it.sql, it.ordered));
         let given = |name: &str| errors::parameter(sql, Some(&format!("${name}")), parameters).cloned();
         let mut answer = self.asked(&asked, srid, &given, &place, budget).map_err(|failure| {
@@ -162,6 +172,28 @@ impl Server {
             answer.sort();
         }
         Ok(Arc::new(answer))
+    }
+
+    /// Lets statements see no more of a table than what was read of it.
+    pub(super) fn see(&self, table: &str, select: Option<String>) {
+        let mut seen = self.seen.lock().unwrap_or_else(PoisonError::into_inner);
+        seen.entry(table.to_ascii_lowercase()).or_default().insert(select);
+    }
+
+    /// What a statement sees of the tables that it names. Fails if several parts of one were read.
+    fn chosen(&self, sql: &str) -> Result<ChosenRows> {
+        let seen = self.seen.lock().unwrap_or_else(PoisonError::into_inner);
+        let mut chosen = ChosenRows::new();
+        for (table, parts) in seen.iter().filter(|(table, _)| find_word(sql, table).is_some()) {
+            let mut parts = parts.iter();
+            if let (Some(select), None) = (parts.next(), parts.next()) {
+                chosen.extend(select.clone().map(|select| (table.clone(), select)));
+            } else {
+                return Err(Error::argument(format!("there are two tables called {}", shown(table)))
+                    .help("read the table once: say which rows are wanted in the query"));
+            }
+        }
+        Ok(chosen)
     }
 
     /// What the server has, asked once.

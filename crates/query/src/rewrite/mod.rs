@@ -3,6 +3,7 @@
 //! Comes in: a statement and the tables that there are. Goes out: the statement that the database is asked. What is added
 //! follows from what is there already, or settles what was left open, so that the rows stay the same.
 
+mod chosen;
 #[cfg(feature = "postgis")]
 mod guard;
 mod joins;
@@ -13,6 +14,7 @@ mod parse;
 mod scope;
 mod statement;
 
+pub(crate) use chosen::ChosenRows;
 #[cfg(feature = "postgis")]
 pub(crate) use guard::check;
 #[cfg(feature = "postgis")]

@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 use std::ops::ControlFlow;
 
+use super::chosen::{self, ChosenRows};
 use super::parse::{SyntaxTree, parse};
 use super::{joins, nearest, operators, order, scope};
 use sqlparser::ast::{Query, Select, SelectItem, SetExpr, VisitMut, VisitorMut};
@@ -66,10 +67,17 @@ pub(crate) struct Rewritten {
 }
 
 /// Rewrites a statement for who is asked; `None` if it cannot be read here, which does not mean that it is wrong.
-pub(crate) fn rewrite(sql: &str, catalogue: &Catalogue, dialect: Dialect) -> Option<Rewritten> {
+///
+/// Of tables among `chosen`, no more is seen than these statements give.
+pub(crate) fn rewrite(
+    sql: &str,
+    catalogue: &Catalogue,
+    chosen: &ChosenRows,
+    dialect: Dialect,
+) -> Option<Rewritten> {
     with_stack(|| {
         let mut tree = parse(sql).ok()?;
-        Some(rewritten(&mut tree, catalogue, dialect))
+        Some(rewritten(&mut tree, catalogue, chosen, dialect))
     })
     .flatten()
 }
@@ -83,7 +91,12 @@ pub(super) fn with_stack<T: Send>(work: impl FnOnce() -> T + Send) -> Option<T> 
 }
 
 /// Rewrites what was parsed.
-pub(crate) fn rewritten(parsed: &mut SyntaxTree, catalogue: &Catalogue, dialect: Dialect) -> Rewritten {
+fn rewritten(
+    parsed: &mut SyntaxTree,
+    catalogue: &Catalogue,
+    chosen: &ChosenRows,
+    dialect: Dialect,
+) -> Rewritten {
     let booleans = booleans(&parsed.query);
     if dialect == Dialect::Sqlite {
         operators::translate(&mut parsed.query);
@@ -93,6 +106,7 @@ pub(crate) fn rewritten(parsed: &mut SyntaxTree, catalogue: &Catalogue, dialect:
     let mut visitor = IndexVisitor { tables: &tables, dialect, indexes: Vec::new() };
     let _ = VisitMut::visit(&mut *parsed.query, &mut visitor);
     let indexes = visitor.indexes;
+    chosen::put_in(&mut parsed.query, &tables, chosen);
     Rewritten { indexed: !indexes.is_empty(), indexes, ordered, booleans, sql: parsed.query.to_string() }
 }
 

@@ -298,6 +298,25 @@ fn layers(server: &Server) {
     assert_eq!(table.features[1].id, "2");
     let some = read(Some("houses"), Some("height > 10 AND part"), Some(7)).unwrap();
     assert_eq!(some.features.len(), 7);
+    // Two parts of one table cannot both be meant.
+    let error = server.query("SELECT count(*) AS n FROM houses", &[], None, &budget()).unwrap_err();
+    assert_eq!(error.message(), "there are two tables called houses");
+    let server = &Server::new(&address().unwrap(), None);
+    let count = |sql: &str| match server.query(sql, &[], None, &budget()).unwrap().rows.as_slice() {
+        [row] => row.clone(),
+        rows => panic!("{rows:?}"),
+    };
+    let all = count("SELECT count(*) AS n FROM houses WHERE height > 10 AND part");
+    let condition = Some("height > 10 AND part -- a part");
+    let wanted = burgeon_data::SourceOptions {
+        layer: Some("houses".into()),
+        condition: condition.map(str::to_owned),
+        ..burgeon_data::SourceOptions::default()
+    };
+    server.read(&wanted).unwrap();
+    assert_eq!(count("SELECT count(*) AS n FROM houses"), all);
+    assert_eq!(count("SELECT count(*) AS n FROM Houses h JOIN houses o ON h.fid = o.fid"), all);
+    assert_eq!(count("SELECT count(*) AS n FROM roads r WHERE 5 < (SELECT count(*) FROM houses)").len(), 1);
     for (layer, condition) in [
         (None, None),
         (Some("house"), None),

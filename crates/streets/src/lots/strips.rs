@@ -28,17 +28,14 @@ impl Division<'_> {
         let places: Vec<DVec2> = skeleton.peaks.iter().map(|peak| peak.at).collect();
         let cells = self.partition.tile(&places, &skeleton.faces)?;
         let depth = self.strip_depth(skeleton.duration());
-        let mut strips: Vec<Option<CellId>> = vec![None; block.sides.len()];
+        let mut parts: Vec<Vec<CellId>> = vec![Vec::new(); block.sides.len()];
         for ((cell, side), face) in cells.into_iter().zip(sides).zip(&skeleton.faces) {
-            let (Some(cell), Some(side)) = (cell, side) else { continue };
-            let ends = [face[0], face[1]].map(|corner| places[corner]);
-            let front = self.before_court(cell, ends, depth);
-            let strip = &mut strips[side as usize];
-            *strip = match *strip {
-                Some(known) => self.partition.join(known, front).or(Some(known)),
-                None => Some(front),
-            };
+            if let (Some(cell), Some(side)) = (cell, side) {
+                let ends = [face[0], face[1]].map(|corner| places[corner]);
+                parts[side as usize].push(self.before_court(cell, ends, depth));
+            }
         }
+        let mut strips: Vec<Option<CellId>> = parts.into_iter().map(|parts| self.strip(parts)).collect();
         self.settle_corners(&mut strips, block);
         for (side, strip) in (0..).zip(strips) {
             if let Some(strip) = strip {
@@ -54,6 +51,23 @@ impl Division<'_> {
             }
         }
         Some(())
+    }
+
+    /// Joins the cells of a side, in whichever order they touch.
+    fn strip(&mut self, mut parts: Vec<CellId>) -> Option<CellId> {
+        let mut strip = (!parts.is_empty()).then(|| parts.remove(0))?;
+        let mut left = usize::MAX;
+        while parts.len() < left {
+            left = parts.len();
+            parts.retain(|part| match self.partition.join(strip, *part) {
+                Some(joined) => {
+                    strip = joined;
+                    false
+                }
+                None => true,
+            });
+        }
+        Some(strip)
     }
 
     /// How deep (m) strips are in a block of which every place is within `half` (m) of its border.

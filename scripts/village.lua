@@ -1,0 +1,161 @@
+--!strict
+-- A village on rolling ground: lanes that follow its contours, cut into it and raised over it, houses and barns beside them,
+-- a church, gardens, hedgerows and woods.
+-- burgeon run scripts/village.lua -o village.glb
+local build = require("templates/build")
+local nature = require("templates/nature")
+local roads = require("templates/roads")
+
+local extent = param("extent", { default = 210, min = 120, max = 600, unit = "m", text = "From the middle" })
+local hills =
+  param("hills", { default = 26, min = 0, max = 80, unit = "m", text = "How high the ground rises" })
+local with_trees = param("trees", { default = true })
+
+-- The ground: once to be asked, and once with the lanes that lie on it.
+local size = extent * 3
+local rolling =
+  { "Land", "Land", "Land", "Land", change = { { -1, 1 }, { -1, 1 }, { -1, 1 }, { -1, 1 } }, decay = 0.46 }
+local form = math.floor(random() * 1000000)
+local function ground(lanes: Network?): Terrain
+  local land = lsystem({
+    object = terrain({
+      size = size,
+      levels = 8,
+      decay = hills,
+      rules = { Land = rolling },
+      under = lanes,
+      shown = lanes ~= nil,
+      base = -hills - 25,
+      covers = {
+        { color = "#7f8d55" },
+        { color = "#93a05e", on = { patches = 0.8, scale = 130 } },
+        { color = "#b0a868", on = { patches = 0.9, scale = 210 } },
+        { color = "#8b7d5d", on = { slope = { 24, 34 } } },
+      },
+    }),
+    seed = form,
+  })
+  return land:derive().objects[1] :: Terrain
+end
+
+local bare = ground()
+local function height(x: number, y: number): number
+  return bare:height(vec(x, y, 0))
+end
+local lanes = roads.grow({
+  pattern = roads.contours(height, { block = 62, branching = 0.5, steepest = 5 }),
+  extent = extent,
+  steps = math.ceil(extent / 16),
+  deepest = 2,
+  join = 90,
+  network = {
+    on = bare,
+    max_slope = 11,
+    turning = 6,
+    streets = { { width = 9.4, lanes = 2, sidewalk = 1.3 }, { width = 6.2, lanes = 1, sidewalk = 0.7 } },
+    snap = 20,
+    corner = 3,
+    markings = false,
+    paving = "#a39a86",
+  },
+}).objects[1] :: Network
+local land = ground(lanes)
+
+-- A ring on the ground.
+local function laid(ring: any): any
+  local high = {}
+  for _, point in ring do
+    table.insert(high, { point[1], point[2], land:height(vec(point[1], point[2], 0)) })
+  end
+  return { rings = { high } }
+end
+
+-- The church stands beside the middle; houses and barns where there is room.
+local HOUSES = { "half_timbered", "villa", "half_timbered", "chalet", "terrace_house" }
+local sites = lanes:sites({
+  sizes = { { 13, 10 }, { 11, 8.5 }, { 9, 8 } },
+  along = 7,
+  away = 26,
+  distance = 44,
+  setback = 4,
+  gap = 5,
+})
+local church: any, least = nil, math.huge
+for _, site in sites do
+  local off = math.abs(math.sqrt(site.access.x ^ 2 + site.access.y ^ 2) - 40)
+  if site.row == 0 and off < least then
+    church, least = site, off
+  end
+end
+local houses, gardens = {}, {}
+for _, site in sites do
+  local ring = site.geometry.rings[1]
+  local away = math.sqrt(site.access.x ^ 2 + site.access.y ^ 2)
+  if site.access:distance(church.access) < 26 then
+    continue
+  elseif random() < 0.93 - 0.45 * away / extent then
+    local is_barn = site.row > 0 or (away > extent * 0.6 and random() < 0.35)
+    table.insert(houses, {
+      id = site.id,
+      geometry = laid(ring),
+      style = if is_barn then "chalet" else HOUSES[1 + math.floor(random() * #HOUSES)],
+      levels = if is_barn then 1 else 2,
+    })
+    table.insert(gardens, site)
+  end
+end
+if church then
+  local facing = math.rad(church.facing)
+  local out, along = vec(math.cos(facing), math.sin(facing), 0), vec(-math.sin(facing), math.cos(facing), 0)
+  local ring = {}
+  for _, corner in { { 0, -6 }, { 0, 6 }, { -24, 6 }, { -24, -6 } } do
+    table.insert(ring, church.access + out * (corner[1] - 6) + along * corner[2])
+  end
+  table.insert(houses, { id = "church", geometry = laid(ring), style = "church", levels = 1 })
+end
+
+local village = build.system()
+village:axiom(source(houses), function(house)
+  local style = build.style(house.style, 1 + math.floor(random() * 60))
+  return footprint(house.geometry), build.Building(style, house.levels, 0, "")
+end)
+village:derive()
+
+-- Fruit trees behind the houses, rows of trees along the lanes outside, and woods on the hills.
+if with_trees then
+  local trees: { any } = {}
+  local function plant(x: number, y: number, tall: number)
+    local place = vec(x, y, land:height(vec(x, y, 0)) - 0.1)
+    table.insert(trees, { id = `tree {#trees}`, geometry = { points = { place } }, height = tall })
+  end
+  local function is_free(x: number, y: number): boolean
+    if lanes:distance(vec(x, y, 0)) < 8 then
+      return false
+    end
+    for _, site in gardens do
+      if math.abs(site.access.x - x) + math.abs(site.access.y - y) < 17 then
+        return false
+      end
+    end
+    return not church or church.access:distance(vec(x, y, 0)) > 36
+  end
+  for _, site in gardens do
+    local back = math.rad(site.facing + 180)
+    for number = 1, 3 do
+      local x = site.access.x + math.cos(back) * (site.depth + 12) + random(-9, 9)
+      local y = site.access.y + math.sin(back) * (site.depth + 12) + random(-9, 9)
+      if random() < 0.7 and is_free(x, y) then
+        plant(x, y, random(3.5, 6))
+      end
+    end
+  end
+  local half = size / 2 - 6
+  for number = 1, 2600 do
+    local x, y = random(-half, half), random(-half, half)
+    local wood = noise(x / 150, y / 150, 0.5, form)
+    if wood > 0.12 and lanes:distance(vec(x, y, 0)) > 46 and is_free(x, y) then
+      plant(x, y, random(8, 15))
+    end
+  end
+  nature.trees(trees)
+end
