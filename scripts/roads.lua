@@ -31,7 +31,7 @@ local ways: { [string]: () -> any } = {
     return { pattern = roads.organic() }
   end,
   raster = function()
-    return { pattern = roads.raster({ angle = 12 }), headings = { 12, 102, 192, 282 } }
+    return { pattern = roads.raster({ angle = 12 }), headings = { 12, 102, 192, 282 }, join = 140 }
   end,
   radial = function()
     return { pattern = roads.radial(), headings = { 0, 60, 120, 180, 240, 300 } }

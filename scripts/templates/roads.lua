@@ -18,6 +18,10 @@ export type Pattern = {
   cross: number,
   -- How far (degrees) side streets turn from square.
   skew: number,
+  -- How likely a small side street ends at a junction.
+  stop: number,
+  -- The share of places that side streets leave out, the same from both ends.
+  gap: number,
   -- Every so many junctions a main street divides; 0 for never.
   every: number,
 }
@@ -69,11 +73,19 @@ local function check(name: string, given: { [string]: any }, known: { [string]: 
   end
 end
 
--- The number that an option has; refuses what is out of its range.
-local function number(name: string, value: any, usual: number, least: number, greatest: number): number
+-- The number that an option has; refuses what is out of its range, in the line of whoever called the caller. (What takes
+-- more arguments is not inlined, so that its caller can be told.)
+local function number(
+  name: string,
+  value: any,
+  usual: number,
+  least: number,
+  greatest: number,
+  ...: number
+): number
   local given = if value == nil then usual else value
   if type(given) ~= "number" or not (given >= least and given <= greatest) then
-    error(`{name} must be a number from {least} to {greatest}, not {given}`, 3)
+    error(`{name} must be a number from {least} to {greatest}, not {given}`, (...) or 3)
   end
   return given
 end
@@ -102,6 +114,8 @@ local PATTERN = {
   branching = "number",
   cross = "number",
   skew = "number",
+  stop = "number",
+  gap = "number",
   every = "number",
   middle = "table",
   steepest = "number",
@@ -114,7 +128,7 @@ function roads.organic(options: { [string]: any }?): Pattern
   local of = options or {}
   check("roads.organic", of, PATTERN)
   local block = number("roads.organic: block", of.block, 80, 20, 500)
-  local bends = number("roads.organic: bends", of.bends, 24, 0, 60)
+  local bends = number("roads.organic: bends", of.bends, 32, 0, 60)
   local field = math.floor(random() * 1000000)
   return {
     toward = function(x, y, heading, _, depth)
@@ -125,14 +139,16 @@ function roads.organic(options: { [string]: any }?): Pattern
     end,
     length = function(x, y, _, depth)
       -- Quarters are closer here and wider there.
-      local wide = 1 + 0.5 * noise(x / (block * 4), y / (block * 4), 7.5, field)
+      local wide = math.clamp(math.exp(1.3 * noise(x / (block * 4), y / (block * 4), 7.5, field)), 0.4, 1.8)
       return block * wide * (if depth == 0 then 1 else random(0.55, 1.35))
     end,
-    side = number("roads.organic: branching", of.branching, 0.75, 0, 1),
-    both = 0.1,
-    cross = number("roads.organic: cross", of.cross, 0.06, 0, 1),
+    side = number("roads.organic: branching", of.branching, 0.9, 0, 1),
+    both = 0.03,
+    cross = number("roads.organic: cross", of.cross, 0.03, 0, 1),
     skew = number("roads.organic: skew", of.skew, 18, 0, 40),
-    every = number("roads.organic: every", of.every, 6, 0, 100),
+    stop = number("roads.organic: stop", of.stop, 0.5, 0, 1),
+    gap = number("roads.organic: gap", of.gap, 0, 0, 0.6),
+    every = number("roads.organic: every", of.every, 4, 0, 100),
   }
 end
 
@@ -152,11 +168,13 @@ function roads.raster(options: { [string]: any }?): Pattern
       local along = math.abs(between(angle, heading)) % 180
       return if along < 45 or along > 135 then block else width
     end,
-    side = number("roads.raster: branching", of.branching, 0.85, 0, 1),
-    both = 0.6,
+    side = number("roads.raster: branching", of.branching, 1, 0, 1),
+    both = 1,
     cross = number("roads.raster: cross", of.cross, 0.9, 0, 1),
     skew = 0,
-    every = number("roads.raster: every", of.every, 4, 0, 100),
+    stop = number("roads.raster: stop", of.stop, 0, 0, 1),
+    gap = number("roads.raster: gap", of.gap, 0.4, 0, 0.6),
+    every = number("roads.raster: every", of.every, 6, 0, 100),
   }
 end
 
@@ -190,10 +208,12 @@ function roads.radial(options: { [string]: any }?): Pattern
       end
       return block
     end,
-    side = number("roads.radial: branching", of.branching, 0.9, 0, 1),
-    both = 0.8,
+    side = number("roads.radial: branching", of.branching, 0.95, 0, 1),
+    both = 0.9,
     cross = number("roads.radial: cross", of.cross, 0.5, 0, 1),
     skew = 0,
+    stop = number("roads.radial: stop", of.stop, 0, 0, 1),
+    gap = number("roads.radial: gap", of.gap, 0.22, 0, 0.6),
     every = number("roads.radial: every", of.every, 3, 0, 100),
   }
 end
@@ -235,6 +255,8 @@ function roads.contours(height: (x: number, y: number) -> number, options: { [st
     both = 0.15,
     cross = number("roads.contours: cross", of.cross, 0.2, 0, 1),
     skew = 0,
+    stop = number("roads.contours: stop", of.stop, 0.15, 0, 1),
+    gap = number("roads.contours: gap", of.gap, 0, 0, 0.6),
     every = number("roads.contours: every", of.every, 5, 0, 100),
   }
 end
@@ -270,6 +292,8 @@ function roads.populous(people: (x: number, y: number) -> number, options: { [st
     both = 0.25,
     cross = number("roads.populous: cross", of.cross, 0.25, 0, 1),
     skew = number("roads.populous: skew", of.skew, 6, 0, 40),
+    stop = number("roads.populous: stop", of.stop, 0.1, 0, 1),
+    gap = number("roads.populous: gap", of.gap, 0, 0, 0.6),
     every = number("roads.populous: every", of.every, 5, 0, 100),
   }
 end
@@ -318,8 +342,18 @@ local STREETS = {
   { width = 16, lanes = 2, parking = 2.2, sidewalk = 3 },
   { width = 11, lanes = 2, sidewalk = 2 },
 }
+-- How likely a main street leads out of town; side streets never do.
+local LEADS_OUT = 0.4
 -- How many steps a side street waits, so that main streets come first.
 local WAIT = 2
+
+-- A number from 0 to 1 that looks drawn, and is the same for a place (m) within some metres.
+local function drawn(x: number, y: number, seed: number): number
+  local mixed =
+    bit32.bxor(math.floor(x / 8 + 0.5) * 73856093 % 2 ^ 32, math.floor(y / 8 + 0.5) * 19349663 % 2 ^ 32, seed)
+  mixed = bit32.bxor(mixed, bit32.rshift(mixed, 13)) % 65536
+  return mixed * 40503 % 65536 / 65536
+end
 
 -- The pairs of centres that highways join: those in whose circle no third one lies.
 local function joined(centres: { { number } }): { { number } }
@@ -362,18 +396,20 @@ function roads.system(options: RoadOptions)
       return x * x + y * y < extent * extent
     end
   local people = options.population
-  local deepest = number("roads.system: deepest", options.deepest, 3, 0, 20)
+  local deepest = number("roads.system: deepest", options.deepest, 4, 0, 20)
   local steps = number("roads.system: steps", options.steps, 24, 1, 10000)
-  local join = number("roads.system: join", options.join, 130, 0, 2000)
   local detour = number("roads.system: detour", options.detour, 2.5, 1, 100)
   local dead_ends = options.dead_ends or "keep"
   if dead_ends ~= "keep" and dead_ends ~= "remove" then
     error(`roads.system: dead_ends is "keep" or "remove", not "{dead_ends}"`, 2)
   end
+  -- What is removed should rather have been joined, or not have stopped.
+  local keeps = dead_ends == "keep"
+  local join = number("roads.system: join", options.join, if keeps then 40 else 130, 0, 2000)
   local centres = options.centres or { { 0, 0 } }
   local headings = options.headings or { 8, 98, 188, 278 }
 
-  local fields: any = { streets = STREETS, min_angle = 50, snap = 28 }
+  local fields: any = { streets = STREETS, min_angle = 50, snap = 16 }
   for name, value in (options.network or {}) :: any do
     fields[name] = value
   end
@@ -384,6 +420,31 @@ function roads.system(options: RoadOptions)
   end
   local system = lsystem({ object = network(fields) })
 
+  local field = math.floor(random() * 1000000)
+  -- The tip of a street that leaves a junction; nil where the pattern leaves it out.
+  local function start(
+    pattern: Pattern,
+    at: number,
+    x: number,
+    y: number,
+    heading: number,
+    depth: number,
+    run: number
+  ): any
+    local length = pattern.length(x, y, heading, depth)
+    local aim = pattern.toward(x, y, heading, length, depth)
+    local east, north = math.cos(math.rad(aim)) * length, math.sin(math.rad(aim)) * length
+    if not inside(x + east, y + north) and (depth > 0 or random() > LEADS_OUT) then
+      return nil
+    elseif depth > 0 then
+      -- Both ends find the same number for what lies between them.
+      if drawn(x + east / 2, y + north / 2, field) < pattern.gap then
+        return nil
+      end
+    end
+    return Tip(at, aim, length, depth, run, 0)
+  end
+
   -- The modules that go on from a junction that a street has come to.
   local function onward(this: Network, at: number, heading: number, depth: number, run: number)
     local place = this:place(at)
@@ -393,19 +454,20 @@ function roads.system(options: RoadOptions)
     end
     local pattern = pattern_at(x, y)
     local much = if people then math.clamp(people(x, y), 0, 1) else 1
-    if much <= 0.02 and depth > 0 then
+    if depth > 0 and much <= 0.02 or keeps and depth > 1 and random() < pattern.stop then
       return {}
     end
     local function tip(aim: number, deep: number, count: number)
-      local length = pattern.length(x, y, aim, deep)
-      return Tip(at, pattern.toward(x, y, aim, length, deep), length, deep, count, 0)
+      return start(pattern, at, x, y, aim, deep, count)
     end
     local divides = depth == 0 and pattern.every > 0 and run >= pattern.every
     local modules = { tip(heading, depth, if divides then 0 else run + 1) }
     local first = if random() < 0.5 then 90 else -90
     if divides then
       table.insert(modules, tip(heading + first, 0, 0))
-      table.insert(modules, tip(heading - first, 0, 0))
+      if random() < pattern.both then
+        table.insert(modules, tip(heading - first, 0, 0))
+      end
     elseif depth < deepest and random() < pattern.side * much then
       table.insert(modules, Bud(at, heading + first + random(-pattern.skew, pattern.skew), depth + 1, WAIT))
       if random() < pattern.both then
@@ -440,9 +502,7 @@ function roads.system(options: RoadOptions)
     local pattern = pattern_at(place.x, place.y)
     local modules = {}
     for _, heading in headings do
-      local length = pattern.length(place.x, place.y, heading, 0)
-      local aim = pattern.toward(place.x, place.y, heading, length, 0)
-      table.insert(modules, Tip(junction, aim, length, 0, 0, 0))
+      table.insert(modules, start(pattern, junction, place.x, place.y, heading, 0, 0))
     end
     return table.unpack(modules)
   end)
@@ -452,9 +512,8 @@ function roads.system(options: RoadOptions)
     for _, open in this:open_ends() do
       if inside(open.place.x, open.place.y) then
         local pattern = pattern_at(open.place.x, open.place.y)
-        local length = pattern.length(open.place.x, open.place.y, open.heading, open.depth)
-        local aim = pattern.toward(open.place.x, open.place.y, open.heading, length, open.depth)
-        table.insert(modules, Tip(open.junction, aim, length, open.depth, 0, 0))
+        local tip = start(pattern, open.junction, open.place.x, open.place.y, open.heading, open.depth, 0)
+        table.insert(modules, tip)
       end
     end
     return table.unpack(modules)
@@ -479,7 +538,7 @@ function roads.system(options: RoadOptions)
       if crossed then
         local place = this:place(crossed)
         local cross = pattern_at(place.x, place.y).cross
-        if inside(place.x, place.y) and random() < (if depth == 0 then math.max(cross, 0.4) else cross) then
+        if inside(place.x, place.y) and random() < (if depth == 0 then math.max(cross, 0.2) else cross) then
           local further = pattern_at(place.x, place.y).length(place.x, place.y, heading, depth)
           return Tip(crossed, heading, further, depth, run, #ASIDE)
         end
@@ -498,8 +557,11 @@ function roads.system(options: RoadOptions)
       end
       local place = this:place(junction)
       local pattern = pattern_at(place.x, place.y)
-      local length = pattern.length(place.x, place.y, heading, depth)
-      return Tip(junction, pattern.toward(place.x, place.y, heading, length, depth), length, depth, 0, 0)
+      -- Somebody else may have joined it while it waited.
+      if this:degree(junction) > 2 and random() > pattern.both then
+        return nil
+      end
+      return start(pattern, junction, place.x, place.y, heading, depth, 0)
     end
   )
 
@@ -569,6 +631,221 @@ end
 -- Grows a network by a pattern: `roads.system`, derived.
 function roads.grow(options: RoadOptions)
   return roads.system(options):derive(options.steps or 24)
+end
+
+-- Roads that are written as a word of characters, which productions rewrite.
+-- A symbol of a word: its character, the side that the next branch leaves to, and how often its road has branched off.
+local Letter = module("Letter", "name", "side", "depth")
+-- Turns to a side, 1 for left, at a branch.
+local Branch = module("Branch", "side")
+-- Tidies up.
+local Tidy = module("Tidy")
+
+local WORD = {
+  axiom = "string",
+  productions = "table",
+  iterations = "number",
+  bend = "number",
+  branch = "number",
+  split = "string",
+  lengths = "table",
+  heading = "number",
+  network = "table",
+  join = "number",
+  detour = "number",
+  dead_ends = "string",
+}
+local SYMBOLS = "F builds a street, + and - turn clockwise and back, [ and ] hold a branch, X only rewrites"
+-- The most symbols that a word may have.
+local LONGEST = 500000
+
+-- A word as a list of characters and, for each branch, a list; refuses what cannot be read.
+local function parsed(what: string, word: string, productions: { [string]: any }, ...: any): { any }
+  local open: { { any } } = { {} }
+  for place = 1, #word do
+    local name = string.sub(word, place, place)
+    if name == "[" then
+      table.insert(open, {})
+    elseif name == "]" then
+      local branch = table.remove(open)
+      if #open == 0 then
+        error(`roads.word: {what} "{word}" has a ] at {place} that closes no [`, 3)
+      end
+      table.insert(open[#open], branch)
+    elseif string.find("F+-X", name, 1, true) or productions[name] then
+      table.insert(open[#open], name)
+    elseif not string.find(name, "%s") then
+      error(
+        `roads.word: {what} "{word}" has {name} at {place}, which is no symbol: {SYMBOLS}, and so do symbols with a production`,
+        3
+      )
+    end
+  end
+  if #open > 1 then
+    error(`roads.word: {what} "{word}" has {#open - 1} [ without a ]`, 3)
+  end
+  return open[1]
+end
+
+-- How often each symbol is in a word.
+local function counted(tree: { any }, counts: { [string]: number })
+  for _, item in tree do
+    if type(item) == "table" then
+      counted(item, counts)
+    else
+      counts[item] = (counts[item] or 0) + 1
+    end
+  end
+  return counts
+end
+
+-- An angle (degrees) that does not lead a road back onto itself.
+local function angle(name: string, value: any, usual: number, ...: any): number
+  local given = number(`roads.word: {name}`, value, usual, -360, 360, 4)
+  if given % 180 == 0 then
+    error(`roads.word: a {name} of {given} degrees leads a road onto itself; give one between 0 and 180`, 3)
+  end
+  return given
+end
+
+-- A system whose network is built by a word, which `productions` rewrite `iterations` times: { X = "F[X]FX" }, or a list
+-- of words of which one is drawn. F builds a street as long as `lengths` has it for its depth (m), + and - turn by `bend`
+-- (degrees), [ remembers the place and the heading and leaves by `branch` (degrees), ] goes back there; what has no
+-- production is copied. Branches leave by `split`: "symmetric" to the left, while the road itself turns as far to the
+-- right; "alternate" to the left and to the right in turns; "plain" as + and - within them say.
+function roads.word(options: { [string]: any })
+  check("roads.word", options, WORD)
+  local productions: { [string]: any } = options.productions or { X = { "F[X]F+X", "F[X]F-X", "F[X]FX" } }
+  local iterations = number("roads.word: iterations", options.iterations, 6, 0, 30)
+  local bend = angle("bend", options.bend, 20)
+  local branch = angle("branch", options.branch, 90)
+  local split = options.split or "alternate"
+  if not table.find({ "symmetric", "alternate", "plain" }, split) then
+    error(`roads.word: split is "symmetric", "alternate" or "plain", not "{split}"`, 2)
+  end
+  local lengths = options.lengths or { 110, 85, 70 }
+  if #lengths == 0 then
+    error("roads.word: lengths has no length; write lengths = { 110, 85 }", 2)
+  end
+  for depth, length in lengths do
+    number(`roads.word: the length for depth {depth - 1}`, length, 80, 1, 10000)
+  end
+  local join = number("roads.word: join", options.join, 120, 0, 2000)
+  local detour = number("roads.word: detour", options.detour, 2, 1, 100)
+  local dead_ends = options.dead_ends or "keep"
+  if dead_ends ~= "keep" and dead_ends ~= "remove" then
+    error(`roads.word: dead_ends is "keep" or "remove", not "{dead_ends}"`, 2)
+  end
+
+  local trees: { [string]: { { any } } } = {}
+  local growth: { [string]: { [string]: number } } = {}
+  for name, words in productions do
+    if type(name) ~= "string" or #name ~= 1 or name == "[" or name == "]" then
+      error(`roads.word: a production of {name} cannot be: one character but a bracket is rewritten`, 2)
+    end
+    trees[name], growth[name] = {}, {}
+    for _, word in if type(words) == "table" then words else { words } do
+      local tree = parsed(`the production of {name},`, word, productions)
+      table.insert(trees[name], tree)
+      for symbol, count in counted(tree, {}) do
+        growth[name][symbol] = math.max(growth[name][symbol] or 0, count)
+      end
+    end
+    if #trees[name] == 0 then
+      error(`roads.word: {name} has an empty list of productions`, 2)
+    end
+  end
+  local axiom = parsed("the axiom", options.axiom or "X", productions)
+
+  -- How long the word becomes at most is known before it is written.
+  local counts = counted(axiom, {})
+  for step = 1, iterations do
+    local after: { [string]: number } = {}
+    local all = 0
+    for symbol, count in counts do
+      for each, times in growth[symbol] or { [symbol] = 1 } do
+        after[each] = (after[each] or 0) + count * times
+        all += count * times
+      end
+    end
+    counts = after
+    if all > LONGEST then
+      error(
+        `roads.word: after {step} of {iterations} iterations the word may have {all} symbols, and the limit is {LONGEST}; iterate less often, or shorten the productions`,
+        2
+      )
+    end
+  end
+
+  -- What branches off at a small angle is allowed to.
+  local leaves = if split == "plain" then bend else branch
+  local sharpest = math.min(leaves % 180, 180 - leaves % 180)
+  local sharp = math.clamp(sharpest, 15, 50)
+  local fields: any = { streets = STREETS, min_angle = sharp, snap = 25 }
+  for name, value in options.network or {} do
+    fields[name] = value
+  end
+  local system = lsystem({ object = network(fields), interpret = "last" })
+
+  -- The modules of a word.
+  local function modules(tree: { any }, side: number, depth: number): { any }
+    local list: { any } = {}
+    for _, item in tree do
+      if type(item) == "table" then
+        local inner = modules(item, -side, depth + 1)
+        if split ~= "plain" then
+          table.insert(inner, 1, Branch(side))
+        end
+        table.insert(list, inner)
+        if split == "alternate" then
+          side = -side
+        elseif split == "symmetric" then
+          table.insert(list, Branch(-side))
+        end
+      else
+        table.insert(list, Letter(item, side, depth))
+      end
+    end
+    return list
+  end
+
+  local chain = modules(axiom, 1, 0)
+  table.insert(chain, 1, Branch(0))
+  table.insert(chain, Tidy())
+  system:axiom(table.unpack(chain))
+  system:rule("Letter(name, side, depth)", function(_, name: string, side: number, depth: number)
+    local words = trees[name]
+    if not words then
+      return Letter(name, side, depth)
+    end
+    local drawn = if #words > 1 then math.min(#words, 1 + math.floor(random() * #words)) else 1
+    return table.unpack(modules(words[drawn], side, depth))
+  end)
+
+  local heading = number("roads.word: heading", options.heading, 90, -360, 360)
+  system:interpret(
+    "Letter(name, side, depth)",
+    function(this: Network, name: string, _: number, depth: number)
+      if name == "F" then
+        this:walk(lengths[math.min(depth + 1, #lengths)])
+      elseif name == "+" then
+        this:turn(-bend)
+      elseif name == "-" then
+        this:turn(bend)
+      end
+    end
+  )
+  system:interpret("Branch(side)", function(this: Network, side: number)
+    -- The first of all says where the road begins to lead.
+    this:turn(if side == 0 then heading else side * branch)
+  end)
+  system:interpret("Tidy", function(this: Network)
+    this:join_dead_ends(join, detour)
+    if dead_ends == "remove" then
+      this:remove_dead_ends()
+    end
+  end)
+  return system
 end
 
 return roads

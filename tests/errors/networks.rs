@@ -205,6 +205,95 @@ fn a_network_of_which_no_street_is_built_says_why() {
     "#);
 }
 
+#[test]
+fn streets_are_probed_and_walked_and_those_that_are_there_are_grown_onto() {
+    let script = r#"
+local F, Turn90 = module("F", "length"), module("Turn90")
+local known = { { lines = { { { 0, 300 }, { 400, 300 } }, { { 200, 300 }, { 200, 420 } } }, depth = 1 } }
+local s = lsystem({ object = network({ existing = known, shorten = false, obstacles = { { { 300, -50 }, { 360, -50 }, { 360, 50 }, { 300, 50 } } }, bend = 0 }), interpret = "last" })
+s:axiom(F(100), { Turn90(), F(80), F(80), F(130) }, F(100), F(100))
+s:interpret("F(length)", function(this, length)
+  this:walk(length)
+end)
+s:interpret("Turn90", function(this)
+  this:turn(90)
+end)
+local roads = s:derive(0).objects[1]
+local function told(street)
+  return `{street.fate} {street.built} at {street.place.x}, {street.place.y}, junction {street.junction}`
+end
+print(roads:size(), roads:dead_ends(), roads:degree(1))
+print(told(roads:probe(1, 180, 100, 0)))
+print(told(roads:probe(1, 180, 5, 0)))
+print(told(roads:probe(1, 90, 290, 0)))
+for _, open in roads:open_ends() do
+  print(`{open.place.x}, {open.place.y} to {math.floor(open.heading + 0.5)}, depth {open.depth}`)
+end
+local of = roads:measures()
+print(of.length, of.dead_ends, of.segment, of.block)
+"#;
+    assert_snapshot!(printed(script).join("\n"), @r"
+    9	5	1
+    built true at -100, 0, junction nil
+    too short false at 0, 0, junction nil
+    snapped true at 0, 300, junction 2
+    0, 0 to -180, depth 0
+    0, 300 to -180, depth 1
+    400, 300 to 0, depth 1
+    200, 420 to 90, depth 1
+    200, 0 to 0, depth 0
+    1020	0.625	100	0
+    ");
+}
+
+#[test]
+fn existing_streets_that_cannot_be_are_told() {
+    assert_snapshot!(refused("network({ existing = { { lines = { { 0, 0 }, { 90, 0 } }, dept = 1 } } })"), @r"
+    error: s.lua:1: network: existing must be a list whose item 1 is a street (a street of network { existing = ... } has no field called dept), not {dept=1,lines={{0,0},{90,0}}}
+      | network({ existing = { { lines = { { 0, 0 }, { 90, 0 } }, dept = 1 } } })
+    ");
+    assert_snapshot!(refused("network({ existing = { { lines = 3 } } })"), @r"
+    error: s.lua:1: network: existing must be a list whose item 1 is a street (a street of network { existing = ... }: lines must be a source of lines, a list of lines, or a list of points, not 3), not {lines=3}
+      | network({ existing = { { lines = 3 } } })
+    ");
+    assert_snapshot!(refused("network({ most = 1, existing = { { lines = { { 0, 0 }, { 90, 0 }, { 90, 90 } } } } })"), @r"
+    error: s.lua:1: the network has 1 pieces of streets
+      | network({ most = 1, existing = { { lines = { { 0, 0 }, { 90, 0 }, { 90, 90 } } } } })
+      help: let fewer streets grow, or raise the limit: network { most = ... }
+    ");
+    let sharp = "existing = { { lines = { { { 0, 0 }, { 200, 0 } }, { { 0, 0 }, { 200, 50 } } } } }";
+    assert_snapshot!(warned(&[&grown(sharp, "this:grow(1, 180, 90, 0)")]), @r#"
+    local A = module("A")
+    local s = lsystem({ object = network({ existing = { { lines = { { { 0, 0 }, { 200, 0 } }, { { 0, 0 }, { 200, 50 } } } } } }) })
+    s:axiom(A())
+    s:interpret("A", function(this)
+      this:grow(1, 180, 90, 0)
+    end)
+    s:derive(0)
+    warning: s.lua:2: network: existing: pieces were left out: 1 refused (angle)
+      | local s = lsystem({ object = network({ existing = { { lines = { { { 0, 0 }, { 200, 0 } }, { { 0, 0 }, { 200, 50 } } } } } }) })
+      help: they keep their place where min_angle, clearance, min_length and snap are less
+    "#);
+    assert_snapshot!(refused(&grown("", "this:walk(0)")), @r"
+    error: s.lua:5: rule A (interpretation): network:walk: a street of 0 m cannot be
+      | this:walk(0)
+      module: A, step 0
+      help: give a length above 0
+    ");
+    assert_snapshot!(refused(&grown("", "this:probe(1, 0, -4, 0)")), @r"
+    error: s.lua:5: rule A (interpretation): network:probe: a street of -4 m towards 0 degrees cannot be
+      | this:probe(1, 0, -4, 0)
+      module: A, step 0
+      help: give a finite heading, and a length above 0
+    ");
+    assert_snapshot!(refused(&grown("", "this:stand(9, 0)")), @r"
+    error: s.lua:5: rule A (interpretation): there is no junction 9
+      | this:stand(9, 0)
+      module: A, step 0
+      help: junctions are numbered from 1 to 1: network:reached tells where a street ends
+    ");
+}
+
 /// Streets on hills, and the hills with room for them: with what is to be printed of both.
 fn on_hills(seed: u32, fields: &str, asked: &str) -> String {
     format!(

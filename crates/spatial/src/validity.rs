@@ -39,7 +39,7 @@ impl Geometry {
             }
         });
         super::plane::collect_polygons(self, &mut |rings: &Rings| {
-            if rings.iter().any(|ring| !ring.is_empty() && !(twice_area(ring).abs() > 0.0)) {
+            if rings.iter().any(|ring| !ring.is_empty() && twice_area(ring) == 0.0) {
                 short = Some("a ring has no area".to_owned());
             }
         });

@@ -133,7 +133,7 @@ impl StreetNetwork {
     }
 
     /// Whether the way along the network is longer than `least` (m).
-    fn is_detour(&self, from: JunctionId, end: StreetEnd, least: f64) -> bool {
+    pub(crate) fn is_detour(&self, from: JunctionId, end: StreetEnd, least: f64) -> bool {
         let goals: SmallVec<[(JunctionId, f64); 2]> = match end {
             StreetEnd::Junction(junction) => SmallVec::from_slice(&[(junction, 0.0)]),
             StreetEnd::On(piece, place) => {

@@ -1,5 +1,7 @@
 //! What growth promises beside obstacles, on streets that are there, and before anything is built.
 
+use std::collections::BTreeMap;
+
 use glam::DVec2;
 use proptest::prelude::*;
 
@@ -121,41 +123,43 @@ fn street(line: &[(f64, f64)], is_bridge: bool) -> ExistingStreet {
 fn existing_streets_meet_at_junctions_where_they_cross_and_touch() {
     let mut network = StreetNetwork::new(Constraints::default(), Obstacles::default()).expect("defaults");
     let streets = [
-        street(&[(50.0, -100.0), (50.0, 100.0)], true),
-        street(&[(0.0, 0.0), (100.0, 0.0), (200.0, 10.0)], false),
-        street(&[(20.0, -50.0), (20.0, 50.0)], false),
+        street(&[(100.0, -200.0), (100.0, 200.0)], true),
+        street(&[(0.0, 0.0), (200.0, 0.0), (203.0, 0.5), (400.0, 30.0)], false),
+        street(&[(40.0, -100.0), (40.0, 100.0)], false),
         // Touches the first, nearly.
-        street(&[(80.0, 40.0), (80.0, 0.1)], false),
-        street(&[(0.0, 0.0), (100.0, 0.0)], false),
-        street(&[(0.0, f64::NAN), (100.0, 0.0)], false),
+        street(&[(160.0, 80.0), (160.0, 0.1)], false),
+        // Runs beside it.
+        street(&[(0.0, 5.0), (200.0, 5.0)], false),
+        street(&[(0.0, f64::NAN), (0.0, 200.0)], false),
     ];
-    let losses = network.add_existing(&streets);
-    // The one that repeats is in three parts by then.
-    let expected = ExistingLosses { outside: 1, repeated: 3, over: 1, tangled: 0 };
-    assert_eq!(losses, expected);
+    let losses = network.add_existing(&streets).expect("room");
+    assert_eq!((losses.outside, losses.over), (1, 1));
+    assert_eq!(losses.refused, BTreeMap::new());
     assert_eq!((network.size(), network.components(), network.dead_ends().count()), (7, 1, 5));
+    check(&network);
     // The same again is nothing new.
-    network.add_existing(&streets);
+    network.add_existing(&streets).expect("room");
     assert_eq!(network.size(), 7);
     let end = network.dead_ends().next().expect("an end");
     assert!(network.grow(end, DVec2::new(-80.0, 0.0), street(&[], false).attributes).is_ok());
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(300))]
+    #![proptest_config(ProptestConfig::with_cases(150))]
 
     #[test]
-    fn existing_streets_at_random_are_planar(
-        lines in prop::collection::vec(prop::collection::vec((-60_i32..60, -60_i32..60), 2..5), 1..25),
-        scale in prop::sample::select(vec![0.01, 0.37, 1.0, 11.3]),
+    fn existing_streets_at_random_keep_what_others_do(
+        lines in prop::collection::vec(prop::collection::vec((-60_i32..60, -60_i32..60), 0..5), 1..25),
+        scale in prop::sample::select(vec![0.01, 0.37, 1.0, 5.3, 11.3]),
+        snap in prop::sample::select(vec![0.0, 8.0, 25.0]),
     ) {
-        let mut network = StreetNetwork::new(Constraints::default(), Obstacles::default()).expect("defaults");
+        let constraints = Constraints { snap, ..Constraints::default() };
+        let mut network = StreetNetwork::new(constraints, Obstacles::default()).expect("constraints");
         let streets: Vec<ExistingStreet> = lines.iter().map(|line| {
-            let line: Vec<(f64, f64)> = line.iter().map(|(x, y)| (f64::from(*x) * scale, f64::from(*y) * scale)).collect();
-            street(&line, false)
+            let places = line.iter().map(|(x, y)| (f64::from(*x) * scale, f64::from(*y) * scale));
+            street(&places.collect::<Vec<_>>(), lines.len() % 3 == 0)
         }).collect();
-        let losses = network.add_existing(&streets);
-        prop_assert_eq!(losses.tangled, 0);
+        network.add_existing(&streets).expect("room");
         let pieces: Vec<u32> = network.pieces().map(|(id, _)| id).collect();
         for (index, &a) in pieces.iter().enumerate() {
             for &b in &pieces[..index] {
@@ -165,7 +169,6 @@ proptest! {
                 prop_assert!(shares == 1 || !meets, "{:?} {:?}", network.line(a), network.line(b));
             }
         }
-        // Euler, which a crossing or an overlap would break.
         let there = network.junctions().iter().filter(|junction| junction.degree() > 0).count();
         prop_assert_eq!(there + network.faces().len(), network.size() + network.components());
     }

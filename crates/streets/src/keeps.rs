@@ -159,7 +159,7 @@ impl StreetNetwork {
         Ok(after[place])
     }
 
-    /// Whether both halves of a piece that is divided there are long enough, and turn so little that all angles at its
+    /// Whether both halves of a piece that is divided there are long enough, also for the corners at its ends, and turn so little that all angles at its
     /// ends stay, and nothing comes to lie on them.
     pub(crate) fn can_divide(&self, piece: PieceId, place: GridPlace) -> bool {
         let ends = self.ends(piece);
@@ -181,7 +181,7 @@ impl StreetNetwork {
                     other != piece && !self.ends(other).contains(&end) && meet(half, self.grid_line(other))
                 })
             };
-            at.distance(to) >= self.constraints.min_length
+            at.distance(to) >= self.constraints.min_length.max(self.reach_at(end, piece))
                 && angles.fold(4.0, f64::min) >= least
                 && !crosses()
         })

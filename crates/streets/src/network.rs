@@ -267,26 +267,18 @@ impl StreetNetwork {
 
     /// Takes a piece away; a junction that nothing leads to any more goes with it.
     pub fn remove(&mut self, piece: PieceId) {
-        if !self.pieces[piece as usize].is_there {
+        if !std::mem::replace(&mut self.pieces[piece as usize].is_there, false) {
             return;
         }
-        self.detach(piece);
+        self.version += 1;
+        self.piece_index.remove(&self.indexed(piece));
         for end in self.pieces[piece as usize].ends {
-            let junction = &self.junctions[end as usize];
+            let junction = &mut self.junctions[end as usize];
+            junction.pieces.retain(|known| *known != piece);
             if junction.pieces.is_empty() {
                 let metres = junction.place().to_array();
                 self.junction_index.remove(&GeomWithData::new(metres, end));
             }
-        }
-    }
-
-    /// Takes a piece away that is there, but not its junctions.
-    pub(crate) fn detach(&mut self, piece: PieceId) {
-        self.version += 1;
-        self.pieces[piece as usize].is_there = false;
-        self.piece_index.remove(&self.indexed(piece));
-        for end in self.pieces[piece as usize].ends {
-            self.junctions[end as usize].pieces.retain(|known| *known != piece);
         }
     }
 

@@ -47,7 +47,7 @@ pub(super) fn add(
     network: &mut StreetNetwork,
     existing: &[ExistingLines],
     attributes: impl Fn(u32) -> StreetAttributes,
-) -> Option<Warning> {
+) -> Result<Option<Warning>> {
     let mut streets = Vec::new();
     let mut refused = 0;
     for ExistingLines { lines, depth, bridge } in existing {
@@ -58,22 +58,21 @@ pub(super) fn add(
             is_bridge: *bridge,
         }));
     }
-    let ExistingLosses { outside, repeated, over, tangled } = network.add_existing(&streets);
-    let losses = [
-        (refused, "without a line"),
-        (outside, "too far away: within 500 km of the origin there is room"),
-        (repeated, "that others repeat"),
-        (over, "of bridges that cross other streets, for a network is planar"),
-        (tangled, "that lie among too many others"),
+    let ExistingLosses { outside, over, refused: by_reason } = network.add_existing(&streets)?;
+    let mut losses = vec![
+        (refused, "without a line".to_owned()),
+        (outside, "with places that are none within 500 km".to_owned()),
+        (over, "of bridges that cross other streets".to_owned()),
     ];
+    losses.extend(by_reason.into_iter().map(|(why, count)| (count, format!("refused ({why})"))));
     let losses: Vec<String> = losses
         .into_iter()
         .filter(|(count, _)| *count > 0)
         .map(|(count, what)| format!("{count} {what}"))
         .collect();
-    (!losses.is_empty()).then(|| {
-        let text = format!("network: existing: left out {} of its pieces", losses.join(", "));
+    Ok((!losses.is_empty()).then(|| {
+        let text = format!("network: existing: pieces were left out: {}", losses.join(", "));
         Warning::new(WarningKind::Data, text)
-            .help("the rest is a network; mend the data, or leave them out of the list")
-    })
+            .help("they keep their place where min_angle, clearance, min_length and snap are less")
+    }))
 }

@@ -13,7 +13,7 @@ use super::lots::{BlockRecords, LotRecords, LotSettings};
 use super::sites::{SiteRecords, SiteSettings};
 use super::walk::NetworkWalk;
 use crate::Terrain;
-use burgeon_base::error::{Error, Limit, Result};
+use burgeon_base::error::{Error, Result};
 use burgeon_base::warning::{Warning, WarningKind};
 use burgeon_geometry::{Plan, Polygon, Rings};
 use burgeon_kit::{Color, TableOf, Value, Vector, fields, methods, object};
@@ -353,13 +353,7 @@ impl Network {
         }
         warnings.extend(existing::add(&mut network, &options.existing, |depth| {
             StreetKind::of(&kinds, depth).attributes(depth)
-        }));
-        if network.size() > options.most as usize {
-            let text = format!("network: existing has {} pieces of streets", network.size());
-            let help =
-                format!("give fewer, or raise the limit of {}: network {{ most = ... }}", options.most);
-            return Err(Error::limit(Limit::Size, text).help(help));
-        }
+        })?);
         Ok(Self {
             options,
             kinds,
@@ -371,6 +365,11 @@ impl Network {
             warnings,
             is_told: false,
         })
+    }
+
+    /// The network itself.
+    pub fn streets(&self) -> &StreetNetwork {
+        &self.network
     }
 
     /// The junction with this number, which counts from 1.

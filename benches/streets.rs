@@ -1,0 +1,82 @@
+//! Streets: 200 seeds of each pattern, checked and measured beside real cities, and 100,000 pieces grown by a script.
+//! `cargo bench --bench streets [-- SEEDS]`.
+
+#![allow(clippy::print_stdout, reason = "a bench prints its figures")]
+
+use std::time::Instant;
+
+#[path = "../tests/streets/check.rs"]
+mod check;
+
+use burgeon::script::RunOptions;
+use check::{PATTERNS, check, grown};
+
+/// What a pattern is compared by: its name and its value of a network.
+const CITIES: [(&str, [f64; 8]); 4] = [
+    ("Vancouver", [3.22, 0.08, 0.56, 0.36, 1.03, 0.30, f64::NAN, f64::NAN]),
+    ("London", [2.56, 0.25, 0.67, 0.07, 1.06, 0.14, f64::NAN, f64::NAN]),
+    ("Helsinki", [3.23, 0.08, 0.53, 0.39, 1.09, 0.22, 0.42, 7000.0]),
+    ("Monaco", [2.80, 0.14, 0.78, 0.08, 1.21, 0.21, 0.06, 1660.0]),
+];
+
+/// A town of 100,000 pieces.
+const LARGE: &str = r#"
+local Tip = module("Tip", "junction", "heading", "depth")
+local roads = lsystem({ object = network({ markings = false }) })
+roads:axiom(Tip(1, 0, 0), Tip(1, 90, 0), Tip(1, 180, 0), Tip(1, 270, 0))
+roads:rule("Tip(junction, heading, depth)", function(this, junction, heading, depth)
+  local at = this:reached(junction, heading)
+  if not at or this:size() > 100000 then
+    return nil
+  elseif random() < 0.5 then
+    return Tip(at, heading + random(-8, 8), depth)
+  end
+  return Tip(at, heading + random(-8, 8), depth), Tip(at, heading + 90, 1), Tip(at, heading - 90, 1)
+end)
+roads:interpret("Tip(junction, heading, depth)", function(this, junction, heading, depth)
+  this:grow(junction, heading, 80, depth)
+end)
+roads:derive(400)
+"#;
+
+fn main() {
+    let seeds = std::env::args().skip(1).find_map(|word| word.parse().ok()).unwrap_or(200);
+    println!("{:12} degree  ends  3-way  4-way  circ.  mesh.  order  block (m²)  pieces", "");
+    let row = |name: &str, of: [f64; 8], pieces: f64| {
+        let [degree, ends, three, four, circuity, meshedness, order, block] = of;
+        println!(
+            "{name:12} {degree:6.2} {ends:5.2} {three:6.2} {four:6.2} {circuity:6.2} {meshedness:6.2} {order:6.2} {block:11.0} {pieces:7.0}"
+        );
+    };
+    for (name, of) in CITIES {
+        row(name, of, f64::NAN);
+    }
+    for (pattern, radius) in PATTERNS {
+        let begin = Instant::now();
+        let (mut sums, mut pieces) = ([0.0; 8], 0.0);
+        for seed in 1..=seeds {
+            let grown = grown("roads.lua", seed, &[("pattern", pattern), ("extent", "350")]);
+            check(&grown, radius, &format!("{pattern}, seed {seed}"));
+            let of = grown.streets().measures();
+            let [ends, three, four] = of.shares;
+            let all =
+                [of.degree, ends, three, four, of.circuity, of.meshedness, of.orientation_order, of.block];
+            sums = std::array::from_fn(|index| sums[index] + all[index]);
+            pieces += grown.size() as f64;
+        }
+        row(pattern, sums.map(|sum| sum / seeds as f64), pieces / seeds as f64);
+        println!("{:12} {seeds} seeds kept all in {:.1} s", "", begin.elapsed().as_secs_f64());
+    }
+    let path = std::env::temp_dir().join(format!("burgeon bench streets {}.lua", std::process::id()));
+    std::fs::write(&path, LARGE).expect("the temporary folder can be written to");
+    let begin = Instant::now();
+    let run = burgeon::run(&path, RunOptions { lod: 0, ..burgeon::options() });
+    let all = begin.elapsed().as_secs_f64();
+    std::fs::remove_file(&path).ok();
+    let run = run.expect("the town grows");
+    let size = {
+        let object: std::sync::Arc<dyn std::any::Any + Send + Sync> = run.systems[0].objects[0].clone();
+        object.downcast::<burgeon::objects::Network>().expect("a network").size()
+    };
+    println!("{size} pieces by a script: {all:.2} s with the scene: {:?}", run.times);
+}

@@ -1,0 +1,129 @@
+//! Networks that the patterns of the library grow: what each keeps with any seed, and what they are like together.
+//!
+//! `cargo bench --bench streets` looks at 200 seeds of each.
+
+mod check;
+
+use check::{PATTERNS, check, grown};
+
+/// The mean of each measure over some seeds of a pattern: degree, shares of dead ends, of 3 and of 4 streets, circuity,
+/// meshedness, orientation order.
+fn means(pattern: &str, seeds: u64) -> [f64; 7] {
+    let mut sums = [0.0; 7];
+    for seed in 1..=seeds {
+        let grown = grown("roads.lua", seed, &[("pattern", pattern), ("extent", "600")]);
+        let of = grown.streets().measures();
+        let [ends, three, four] = of.shares;
+        let all = [of.degree, ends, three, four, of.circuity, of.meshedness, of.orientation_order];
+        sums = std::array::from_fn(|index| sums[index] + all[index] / seeds as f64);
+    }
+    sums
+}
+
+#[test]
+fn every_pattern_keeps_what_networks_promise_with_any_seed() {
+    for (pattern, radius) in PATTERNS {
+        for seed in 1..=6 {
+            let grown = grown("roads.lua", seed, &[("pattern", pattern), ("extent", "250")]);
+            check(&grown, radius, &format!("{pattern}, seed {seed}"));
+        }
+    }
+}
+
+#[test]
+fn words_keep_what_networks_promise_with_any_angles() {
+    for (seed, (bend, branch, split)) in (1..).zip([
+        ("20", "90", "alternate"),
+        ("20", "20", "symmetric"),
+        ("35", "60", "plain"),
+        ("45", "90", "symmetric"),
+    ]) {
+        let word = if split == "plain" { "F[+X]F-X|F[-X]FX" } else { "F[X]F+X|F[X]F-X|F[X]FX" };
+        let set = [("bend", bend), ("branch", branch), ("split", split), ("iterations", "6"), ("word", word)];
+        let grown = grown("charroads.lua", seed, &set);
+        assert!(grown.streets().size() > 10, "{split}: {}", grown.streets().size());
+        assert_eq!(grown.joinable(Some(120.0), Some(2.0)).expect("a radius"), 0);
+        assert_eq!(grown.streets().components(), 1);
+    }
+}
+
+#[test]
+fn wandering_streets_are_like_those_of_old_cities_and_rasters_like_those_of_new_ones() {
+    // London and Monaco, with room for what few streets and few seeds change.
+    let [degree, ends, three, four, circuity, meshedness, order] = means("organic", 6);
+    assert!((2.5..2.95).contains(&degree), "degree {degree}");
+    assert!((0.1..0.27).contains(&ends), "dead ends {ends}");
+    assert!((0.62..0.8).contains(&three), "3-way {three}");
+    assert!((0.04..0.15).contains(&four), "4-way {four}");
+    assert!((1.03..1.21).contains(&circuity), "circuity {circuity}");
+    assert!((0.12..0.24).contains(&meshedness), "meshedness {meshedness}");
+    assert!((0.0..0.2).contains(&order), "orientation order {order}");
+    // Vancouver; the order of Chicago.
+    let [degree, ends, three, four, circuity, meshedness, order] = means("raster", 6);
+    assert!((3.0..3.45).contains(&degree), "degree {degree}");
+    assert!((0.02..0.15).contains(&ends), "dead ends {ends}");
+    assert!((0.42..0.65).contains(&three), "3-way {three}");
+    assert!((0.25..0.5).contains(&four), "4-way {four}");
+    assert!((1.0..1.15).contains(&circuity), "circuity {circuity}");
+    assert!((0.22..0.38).contains(&meshedness), "meshedness {meshedness}");
+    assert!((0.75..=1.0).contains(&order), "orientation order {order}");
+}
+
+#[test]
+fn ten_seeds_are_ten_towns() {
+    for (pattern, _) in PATTERNS {
+        let mut towns: Vec<String> = (1..=10)
+            .map(|seed| {
+                let grown = grown("roads.lua", seed, &[("pattern", pattern), ("extent", "200")]);
+                let of = grown.streets().measures();
+                format!("{} {:.0} {:.3} {:.0}", grown.streets().size(), of.length, of.degree, of.block)
+            })
+            .collect();
+        towns.sort();
+        towns.dedup();
+        assert!(towns.len() >= 9, "{pattern}: {towns:?}");
+    }
+}
+
+/// What a line of a script that uses the library is refused with.
+fn refused(line: &str) -> String {
+    let folder = tempfile::tempdir().expect("a folder");
+    let templates = folder.path().join("templates");
+    std::fs::create_dir(&templates).expect("a folder");
+    let library = concat!(env!("CARGO_MANIFEST_DIR"), "/scripts/templates/roads.lua");
+    std::fs::copy(library, templates.join("roads.lua")).expect("the library");
+    let path = folder.path().join("s.lua");
+    std::fs::write(&path, format!("local roads = require(\"templates/roads\")\n{line}")).expect("room");
+    let Err(error) = burgeon::run(&path, burgeon::options()) else { panic!("{line} is refused") };
+    let text = error.to_string().replace(&*folder.path().to_string_lossy(), "");
+    text.lines().next().unwrap_or_default().trim_start_matches('/').to_owned()
+}
+
+#[test]
+fn grammars_that_cannot_be_are_refused_in_the_line_that_gives_them() {
+    let cases = [
+        ("roads.word({ axiom = 'F[+F' })", "the axiom \"F[+F\" has 1 [ without a ]"),
+        ("roads.word({ axiom = 'F+F]' })", "has a ] at 4 that closes no ["),
+        (
+            "roads.word({ productions = { X = 'FYF' } })",
+            "the production of X, \"FYF\" has Y at 2, which is no symbol",
+        ),
+        ("roads.word({ branch = 180 })", "a branch of 180 degrees leads a road onto itself"),
+        ("roads.word({ bend = 0 })", "a bend of 0 degrees leads a road onto itself"),
+        ("roads.word({ bend = 0 / 0 })", "roads.word: bend must be a number from -360 to 360, not nan"),
+        (
+            "roads.word({ productions = { X = 'XXXX' }, iterations = 30 })",
+            "after 10 of 30 iterations the word may have 1048576",
+        ),
+        ("roads.word({ productions = { ['['] = 'F' } })", "a production of [ cannot be"),
+        ("roads.word({ lengths = { 0 } })", "the length for depth 0 must be a number from 1 to 10000, not 0"),
+        ("roads.word({ split = 'no' })", "split is \"symmetric\", \"alternate\" or \"plain\", not \"no\""),
+        ("roads.system({ patern = 3 })", "roads.system has no option patern; it has centres"),
+        ("roads.organic({ block = 2 })", "roads.organic: block must be a number from 20 to 500, not 2"),
+        ("roads.districts({})", "roads.districts takes one district or more"),
+    ];
+    for (line, expected) in cases {
+        let text = refused(line);
+        assert!(text.contains(expected) && text.contains("s.lua:2"), "{line}: {text}");
+    }
+}
