@@ -1,5 +1,6 @@
 //! Streets on hills at random: slopes, level junctions, surfaces that still meet.
 
+use burgeon_geometry::{Polygon, Rings};
 use glam::DVec2;
 
 use super::*;
@@ -125,4 +126,39 @@ fn what_stands_beside_streets_stands_on_sidewalks() {
         }
     }
     assert!(trees > 5000 && lamps > 3000, "{trees} trees, {lamps} lamps");
+}
+
+#[test]
+fn bridges_stand_in_the_water_that_they_lead_over() {
+    let mut found = 0;
+    for seed in 1..=40_u32 {
+        let (low, high) = (60.0 + f64::from(seed % 7), 95.0 + f64::from(seed % 5) * 9.0);
+        let river =
+            [(-900.0, low), (900.0, low + 20.0), (900.0, high + 20.0), (-900.0, high)].map(DVec2::from);
+        let area = Polygon::new(Rings(vec![river.to_vec()])).expect("a river");
+        let water = Obstacle { area: area.clone(), is_limit: false, can_be_bridged: true };
+        let constraints = Constraints { bridge: 120.0, ..Constraints::default() };
+        let network = grown(u64::from(seed), 120, constraints, Obstacles::new(vec![water]));
+        let options = SurfaceOptions::default();
+        check_surfaces(&network, options, &StreetProfiles::default());
+        let bridges = network.pieces().filter(|(_, piece)| piece.is_bridge).count();
+        let spans = network.spans(options, &StreetProfiles::default());
+        assert_eq!(spans.len(), bridges);
+        found += bridges;
+        for span in spans {
+            let [right, left] = &span.sides;
+            assert_eq!(right.len(), left.len());
+            assert!(right.windows(2).all(|pair| span.way.dot((pair[1] - pair[0]).truncate()) > 0.0));
+            let [from, to] = network.line(span.piece);
+            if area.contains((from + to) / 2.0) {
+                assert_eq!(span.shores.len(), 2, "seed {seed}");
+            }
+            let half = network.attributes(span.piece).width / 2.0;
+            for pier in &span.piers {
+                let beside = [-half, 0.0, half].map(|aside| pier.truncate() + span.way.perp() * aside);
+                assert!(beside.iter().any(|at| area.contains(*at)), "seed {seed}: {pier}");
+            }
+        }
+    }
+    assert!(found > 40, "{found} bridges");
 }

@@ -17,6 +17,8 @@ const STOP: [f64; 2] = [4.5, 4.9];
 /// Where lines begin (m) behind a crossing, and behind a junction without one.
 const LINES: f64 = 5.3;
 const LINES_ALONE: f64 = 0.6;
+/// How long (m) lines are at least.
+const LEAST_LINES: f64 = 5.0;
 /// Width (m) of a stripe of a crossing, and of the gap beside it.
 const STRIPE: f64 = 0.5;
 /// The length (m) of a place to park, and the width of the line between two.
@@ -123,7 +125,7 @@ impl<'a> Painter<'a> {
             }
         }
         let [from, to] = [self.ends[0].lines, self.length - self.ends[1].lines];
-        if to - from < 2.0 {
+        if to - from < LEAST_LINES {
             return;
         }
         let has_median = median_of(self.shapes, self.piece);

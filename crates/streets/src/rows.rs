@@ -14,6 +14,8 @@ use crate::surface::{Median, StreetSurface};
 const NOSE: u32 = 4;
 /// How long (m) a median is at least, besides its round ends.
 const LEAST_MEDIAN: f64 = 4.0;
+/// How long (m) it is, with half of its width, where it comes from the next piece.
+const LEAST_NOSE: f64 = 0.6;
 /// How far (m) from the end of a piece a median ends, at a junction where people cross the street.
 pub(crate) const MEDIAN_MARGIN: f64 = 6.0;
 
@@ -47,37 +49,35 @@ pub(crate) enum MedianEnd {
 /// From where to where there is a median in a piece; `None` without one.
 pub(crate) fn median_of(shapes: &StreetShapes<'_>, piece: PieceId) -> Option<[MedianEnd; 2]> {
     let network = shapes.network;
-    let attributes = network.attributes(piece);
-    let (median, length) = (attributes.median, network.length(piece));
+    let median = network.attributes(piece).median;
     if median <= 0.0 {
         return None;
     }
-    let ends = network.ends(piece);
-    let mut found = [MedianEnd::Through; 2];
-    let mut stretch = [0.0, length];
-    for side in 0..2 {
-        let shape = shapes.junction(ends[side]);
-        let goes_on =
-            shape.arms.iter().all(|arm| (network.attributes(arm.piece).median - median).abs() < 1e-9);
-        let arm = shapes.arm(ends[side], piece)?;
-        let clear = arm.clear();
-        let from_end = if shape.is_mitred && goes_on {
-            clear
-        } else {
-            let tip = clear + if shape.arms.len() > 2 { MEDIAN_MARGIN } else { 1.0 };
-            found[side] = MedianEnd::Round(if side == 0 { tip } else { length - tip });
-            tip + median / 2.0
-        };
-        stretch[side] = if side == 0 { from_end } else { length - from_end };
-    }
-    // One that goes on has to go on for its neighbours too, so its length counts only where it ends.
-    let round = found.iter().filter(|end| **end != MedianEnd::Through).count();
-    let is_long = match round {
-        0 => true,
-        1 => stretch[1] - stretch[0] > 0.0,
-        _ => stretch[1] - stretch[0] >= LEAST_MEDIAN,
+    let (length, ends) = (network.length(piece), network.ends(piece));
+    let goes_on = ends.map(|end| {
+        let shape = shapes.junction(end);
+        let same = |piece| (network.attributes(piece).median - median).abs() < 1e-9;
+        // Both of the pieces or none, so each has to have room for the other end.
+        let fits = |piece| shapes.room(piece) >= median / 2.0 + LEAST_NOSE;
+        shape.is_mitred && shape.arms.iter().all(|arm| same(arm.piece) && fits(arm.piece))
+    });
+    // One that comes from the next piece ends where there is room for its end, however near the junction that is.
+    let room = match goes_on {
+        [false, false] => f64::INFINITY,
+        _ => shapes.room(piece) - median / 2.0 - LEAST_NOSE / 2.0,
     };
-    is_long.then_some(found)
+    let tips = [0, 1].map(|side| {
+        let margin = if shapes.junction(ends[side]).arms.len() > 2 { MEDIAN_MARGIN } else { 1.0 };
+        shapes.arm(ends[side], piece).map_or(0.0, ArmShape::clear) + margin.min(room)
+    });
+    if goes_on == [false; 2] && length - tips[0] - tips[1] - median < LEAST_MEDIAN {
+        return None;
+    }
+    Some([0, 1].map(|side| match (goes_on[side], side) {
+        (true, _) => MedianEnd::Through,
+        (false, 0) => MedianEnd::Round(tips[0]),
+        (false, _) => MedianEnd::Round(length - tips[1]),
+    }))
 }
 
 /// Where along a piece (m) its rows lie, besides its ends, and from where to where its median has its full width.

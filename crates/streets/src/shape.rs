@@ -76,6 +76,12 @@ impl<'a> StreetShapes<'a> {
         self.junction(junction).arms.iter().find(|arm| arm.piece == piece)
     }
 
+    /// How long (m) a piece is with all of its width.
+    pub(crate) fn room(&self, piece: PieceId) -> f64 {
+        let clear = |end| self.arm(end, piece).map_or(0.0, ArmShape::clear);
+        self.network.length(piece) - self.network.ends(piece).map(clear).iter().sum::<f64>()
+    }
+
     /// Where a line of a piece ends at a junction (m), `aside` (m) to the left of its middle as it leaves.
     pub(crate) fn end(&self, junction: JunctionId, piece: PieceId, aside: f64) -> DVec2 {
         self.junction(junction).end(piece, aside)

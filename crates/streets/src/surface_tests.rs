@@ -56,7 +56,8 @@ pub(crate) fn check_surfaces(network: &StreetNetwork, options: SurfaceOptions, p
 
 /// Asserts that each edge of a carriageway or a median is walked once in each direction, or is a kerb.
 fn check_edges(surfaces: &StreetSurfaces) {
-    let key = |at: DVec3| (at * 1e4).round().as_i64vec3();
+    // Not a multiple of the steps of the grid, so that no place lies on a border between two numbers.
+    let key = |at: DVec3| (at * 9871.3).round().as_i64vec3();
     let mut balance: FxHashMap<_, i32> = FxHashMap::default();
     let mut walk = |from: DVec3, to: DVec3| {
         let (from, to) = (key(from), key(to));

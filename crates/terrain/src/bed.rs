@@ -43,3 +43,58 @@ impl GroundBed {
         (beyond <= self.margin).then_some((beyond, height))
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use burgeon_kit::random::Stream;
+
+    use super::super::edits::Edit;
+    use super::super::local_edits::LocalEdits;
+    use super::*;
+
+    /// Beds of paths and of areas at random, within 200 m of the origin.
+    fn beds(stream: &mut Stream) -> Vec<GroundBed> {
+        let mut bed = |index: u32| {
+            let mut number = |reach: f64| (stream.uniform() * 2.0 - 1.0) * reach;
+            let (x, y, z) = (number(200.0), number(200.0), number(8.0));
+            let is_area = index % 3 == 0;
+            let line = if is_area {
+                [(0.0, 0.0), (30.0, 4.0), (26.0, 22.0), (-3.0, 18.0)].map(|(a, b)| [x + a, y + b, z]).to_vec()
+            } else {
+                vec![[x, y, z], [x + 60.0, y + number(40.0), z + number(5.0)], [x + 90.0, y, z]]
+            };
+            GroundBed { line, width: 9.0, is_area, slope: 0.6, margin: 50.0 }
+        };
+        (0..12).map(&mut bed).collect()
+    }
+
+    #[test]
+    fn the_ground_is_nowhere_above_a_bed_and_falls_to_it_gently() {
+        let mut stream = Stream::new(11);
+        let mut met = 0;
+        for _ in 0..40 {
+            let beds = beds(&mut stream);
+            let mut edits: Vec<Edit> = beds.iter().map(|bed| Edit::Embank { bed: bed.clone() }).collect();
+            edits.extend(beds.iter().map(|bed| Edit::Excavate { bed: bed.clone() }));
+            let text = serde_json::to_string(&edits).unwrap();
+            assert_eq!(serde_json::from_str::<Vec<Edit>>(&text).unwrap().len(), edits.len());
+            let local = LocalEdits::new(edits.clone(), DVec2::splat(-250.0), DVec2::splat(250.0));
+            for _ in 0..400 {
+                let place = DVec2::new(stream.uniform() - 0.5, stream.uniform() - 0.5) * 500.0;
+                let ground = 12.0 * (place.x / 40.0).sin();
+                let height = local.at(place, ground);
+                let one_by_one = edits.iter().fold(ground, |height, edit| edit.change(place, height));
+                assert_eq!(height.to_bits(), one_by_one.to_bits(), "at {place}");
+                let near: Vec<(f64, f64)> = beds.iter().filter_map(|bed| bed.beside(place)).collect();
+                for (beyond, level) in &near {
+                    assert!(height <= level + 0.6 * beyond + 1e-9);
+                }
+                if let [(beyond, level)] = near[..] {
+                    met += 1;
+                    assert!((height - level).abs() <= 0.6 * beyond + 1e-9, "{height} beside {level}");
+                }
+            }
+        }
+        assert!(met > 1000, "{met} places beside one bed alone");
+    }
+}

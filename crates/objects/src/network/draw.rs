@@ -1,6 +1,6 @@
 //! How a network shows itself: carriageways, kerbs, sidewalks, medians, painted lines and the blocks between.
 
-use glam::{DVec2, DVec3};
+use glam::{DVec2, DVec3, Vec3};
 
 use super::bridge::draw_span;
 use super::grounds::{WATER, WATER_LEVEL, draw_water};
@@ -139,6 +139,10 @@ pub(super) fn add_points(part: &mut Part, points: &[DVec3], lift: f64) -> u32 {
 fn add_surface(part: &mut Part, surface: &StreetSurface, lift: f64) {
     let first = add_points(part, &surface.points, lift);
     for corners in &surface.triangles {
-        part.triangles.push(corners.map(|corner| corner + first));
+        // Streets whose corners leave nothing of them have no area once they are rounded.
+        let [a, b, c] = corners.map(|corner| part.positions[(corner + first) as usize]);
+        if (b - a).cross(c - a) != Vec3::ZERO {
+            part.triangles.push(corners.map(|corner| corner + first));
+        }
     }
 }

@@ -83,6 +83,7 @@ pub(crate) struct SyntaxTree {
 #[derive(Debug, Clone)]
 pub(crate) struct SyntaxError {
     /// In the parser's words.
+    #[cfg_attr(not(feature = "postgis"), allow(dead_code, reason = "SQLite tells of its errors itself"))]
     pub message: String,
 }
 

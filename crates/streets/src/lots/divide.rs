@@ -124,7 +124,7 @@ impl Division<'_> {
             }
             let mut others = self.partition.neighbors(cell);
             others.retain(|(other, _)| is_court(self, *other));
-            let joined = others.into_iter().find_map(|(other, _)| self.partition.join(cell, other));
+            let joined = others.into_iter().find_map(|(other, _)| self.partition.join(&[cell, other]));
             due.extend(joined);
         }
     }
@@ -155,7 +155,7 @@ impl Division<'_> {
                 let differs = |cell: CellId| has_front(cell) != own;
                 differs(a.0).cmp(&differs(b.0)).then(b.1.total_cmp(&a.1))
             });
-            let joined = others.into_iter().find_map(|(other, _)| self.partition.join(cell, other));
+            let joined = others.into_iter().find_map(|(other, _)| self.partition.join(&[cell, other]));
             due.extend(joined);
         }
     }

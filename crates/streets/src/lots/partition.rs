@@ -351,9 +351,9 @@ impl Partition {
         found
     }
 
-    /// Two neighbours as one, or `None` if that would meet itself in a corner.
-    pub(super) fn joined(&self, a: CellId, b: CellId) -> Option<CellRings> {
-        let all = [a, b].into_iter().flat_map(|cell| self.rings(cell)).flat_map(|ring| edges(ring));
+    /// Cells as one, or `None` if that would meet itself in a corner or fall apart.
+    fn joined(&self, cells: &[CellId]) -> Option<CellRings> {
+        let all = cells.iter().flat_map(|cell| self.rings(*cell)).flat_map(|ring| edges(ring));
         let all: Vec<[CornerId; 2]> = all.collect();
         let known: FxHashSet<[CornerId; 2]> = all.iter().copied().collect();
         let mut next: FxHashMap<CornerId, CornerId> = FxHashMap::default();
@@ -381,11 +381,12 @@ impl Partition {
         self.is_cell(&rings).then_some(rings)
     }
 
-    /// Joins two neighbours; gives the cell that they become, or `None` as [`Partition::joined`].
-    pub(super) fn join(&mut self, a: CellId, b: CellId) -> Option<CellId> {
-        let rings = self.joined(a, b)?;
-        self.take(a);
-        self.take(b);
+    /// Joins cells; gives the one that they become, or `None` if that would meet itself in a corner or fall apart.
+    pub(super) fn join(&mut self, cells: &[CellId]) -> Option<CellId> {
+        let rings = self.joined(cells)?;
+        for cell in cells {
+            self.take(*cell);
+        }
         Some(self.push(rings))
     }
 }

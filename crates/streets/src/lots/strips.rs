@@ -55,11 +55,14 @@ impl Division<'_> {
 
     /// Joins the cells of a side, in whichever order they touch.
     fn strip(&mut self, mut parts: Vec<CellId>) -> Option<CellId> {
+        if let Some(strip) = self.partition.join(&parts) {
+            return Some(strip);
+        }
         let mut strip = (!parts.is_empty()).then(|| parts.remove(0))?;
         let mut left = usize::MAX;
         while parts.len() < left {
             left = parts.len();
-            parts.retain(|part| match self.partition.join(strip, *part) {
+            parts.retain(|part| match self.partition.join(&[strip, *part]) {
                 Some(joined) => {
                     strip = joined;
                     false
@@ -144,7 +147,7 @@ impl Division<'_> {
         if left < self.options.min_width {
             let is_small = self.partition.area(self.partition.rings(giver)) <= most;
             return is_small
-                .then(|| self.partition.join(taker, giver))
+                .then(|| self.partition.join(&[taker, giver]))
                 .flatten()
                 .map(|all| [Some(all), None]);
         }
@@ -158,7 +161,7 @@ impl Division<'_> {
             return None;
         }
         let pieces = self.partition.commit(cut);
-        let joined = self.partition.join(taker, pieces[corner]).unwrap_or(taker);
+        let joined = self.partition.join(&[taker, pieces[corner]]).unwrap_or(taker);
         Some([Some(joined), Some(pieces[1 - corner])])
     }
 
