@@ -172,7 +172,7 @@ impl StreetNetwork {
         while let Some((from, to)) = due.pop() {
             let aside = |index: &usize| foot(line[*index], [line[from], line[to]]).0;
             let far = (from + 1..to).max_by(|a, b| aside(a).total_cmp(&aside(b)));
-            if let Some(far) = far.filter(|far| !(aside(far) <= TOLERANCE)) {
+            if let Some(far) = far.filter(|far| aside(far) > TOLERANCE) {
                 keeps[far] = true;
                 due.extend([(from, far), (far, to)]);
             }

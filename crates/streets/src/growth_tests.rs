@@ -22,7 +22,8 @@ fn obstacles(seed: u64, count: usize) -> (Vec<Obstacle>, Obstacles) {
         let corners = 3 + random.below(7.0) as usize;
         let ring = (0..corners).map(|corner| {
             let reach = radius * (0.3 + random.below(0.7));
-            middle + DVec2::from_angle(turned + corner as f64 / corners as f64 * 6.283_185) * reach
+            middle
+                + DVec2::from_angle(turned + corner as f64 / corners as f64 * std::f64::consts::TAU) * reach
         });
         let area = Polygon::new(Rings(vec![ring.collect()])).expect("a star");
         areas.push(Obstacle { area, is_limit: false, can_be_bridged: random.below(1.0) < 0.4 });
