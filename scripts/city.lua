@@ -26,7 +26,7 @@ local WATER = -3.5
 local course = math.floor(random() * 1000)
 local aside = extent * 0.33
 local function river(far: number, width: number): any
-  local south, north = {}, {}
+  local south: { any }, north: { any } = {}, {}
   for step = 0, 40 do
     local x = far * (step / 20 - 1)
     local y = -aside + extent * 0.22 * noise(x / (extent * 0.9), 0.5, course)

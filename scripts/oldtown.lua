@@ -59,7 +59,7 @@ local hull = if #corners > 0 then line(corners):convex_hull() else point(0, 0):b
 
 -- Houses, the front ones in rows that touch.
 local STYLES = { "half_timbered", "half_timbered", "porto", "terrace_house", "half_timbered", "porto" }
-local houses, yards = {}, {}
+local houses: { any }, yards: { any } = {}, {}
 for _, lot in
   lanes:lots({
     blocks = built,
@@ -89,7 +89,7 @@ do
 end
 
 -- Where streets leave the town; a path does, where none of them goes so far.
-local exits, path = {}, nil :: any
+local exits: { any }, path: any = {}, nil
 for _, open in lanes:open_ends() do
   local way = math.rad(open.heading)
   local out = vec(math.cos(way), math.sin(way), 0)

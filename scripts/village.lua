@@ -17,7 +17,7 @@ local rolling =
   { "Land", "Land", "Land", "Land", change = { { -1, 1 }, { -1, 1 }, { -1, 1 }, { -1, 1 } }, decay = 0.46 }
 local form = math.floor(random() * 1000000)
 local function ground(lanes: Network?): Terrain
-  local land = lsystem({
+  local options: any = {
     object = terrain({
       size = size,
       levels = 8,
@@ -34,8 +34,8 @@ local function ground(lanes: Network?): Terrain
       },
     }),
     seed = form,
-  })
-  return land:derive().objects[1] :: Terrain
+  }
+  return (lsystem :: any)(options):derive().objects[1] :: Terrain
 end
 
 local bare = ground()

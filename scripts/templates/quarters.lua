@@ -5,7 +5,7 @@ local skyline = require("templates/skyline")
 local quarters = {}
 
 -- Photos of some bays and four storeys: the size (m) of a bay, how many there are, and from 0 to 1 how light their wall is.
-local FACADES = {
+local FACADES: { [string]: any } = {
   stone = { texture = "windows_stone", bay = { 2.6, 3.3 }, count = 4, light = 0.72 },
   brick = { texture = "windows_brick", bay = { 2.7, 3.0 }, count = 4, light = 0.55 },
   flats = { texture = "windows_flats", bay = { 3.0, 2.9 }, count = 4, light = 0.8 },
@@ -58,7 +58,14 @@ local function one<T>(list: { T }, draw: number): T
 end
 
 -- A building of rows that touch, as high as `low` to `high` (m) by whole storeys of 3.1 m.
-local function row(lots, depth: number, low: number, high: number, look: string, style: string): { any }
+local function row(
+  lots: { any },
+  depth: number,
+  low: number,
+  high: number,
+  look: string,
+  style: string
+): { any }
   local features = {}
   for _, lot in lots do
     local draw = skyline.stream(lot.id, 7)
@@ -84,7 +91,7 @@ local function row(lots, depth: number, low: number, high: number, look: string,
 end
 
 -- Slabs and towers of flats, which stand free: as long as their lot lets them be.
-local function flats(lots): { any }
+local function flats(lots: { any }): { any }
   local features = {}
   for _, lot in lots do
     local draw = skyline.stream(lot.id, 5)
@@ -132,7 +139,7 @@ end
 
 -- Free-standing buildings by the rules of the skyline; those of each kind look as `looks` says.
 local function standing(
-  lots,
+  lots: { any },
   heights,
   plans,
   looks: { [string]: string },
@@ -156,7 +163,7 @@ quarters.kinds = {
   centre = {
     ground = "#aaa79f",
     lots = { kind = "boxes", width = 34, depth = 36, jitter = 0.4, parks = 0.04 },
-    buildings = function(lots, highest, extent)
+    buildings = function(lots: { any }, highest: number, extent: number)
       return standing(lots, {
         by = { centres = 0.7, depth = 0.3 },
         low = 17,
@@ -174,14 +181,14 @@ quarters.kinds = {
   old = {
     ground = "#a39d90",
     lots = { kind = "strips", width = 9, depth = 15, min_width = 5.5, jitter = 0.5, parks = 0.03 },
-    buildings = function(lots)
+    buildings = function(lots: { any })
       return row(lots, 12, 9, 16, "old", "porto")
     end,
   },
   blocks = {
     ground = "#8f9678",
     lots = { kind = "strips", width = 18, depth = 17, min_width = 9, jitter = 0.3, parks = 0.06 },
-    buildings = function(lots)
+    buildings = function(lots: { any })
       return row(lots, 13.5, 15, 23, "blocks", "haussmann")
     end,
   },
@@ -193,14 +200,14 @@ quarters.kinds = {
   rows = {
     ground = "#7d8d59",
     lots = { kind = "strips", width = 6.6, depth = 24, min_width = 5, jitter = 0.1, parks = 0.05 },
-    buildings = function(lots)
+    buildings = function(lots: { any })
       return row(lots, 10, 6, 9.4, "rows", "terrace_house")
     end,
   },
   villas = {
     ground = "#76894f",
     lots = { kind = "boxes", width = 20, depth = 26, jitter = 0.35, parks = 0.04 },
-    buildings = function(lots)
+    buildings = function(lots: { any })
       return standing(
         lots,
         {
@@ -245,13 +252,13 @@ function quarters.places(extent: number): { any }
 end
 
 -- The pattern of streets at each place.
-function quarters.pattern(places)
+function quarters.pattern(places: { any })
   return roads.districts(places)
 end
 
 -- The kind of the quarter that a place lies in.
-function quarters.at(places, at: any): string
-  local best, least = places[1], math.huge
+function quarters.at(places: { any }, at: any): string
+  local best: any, least = places[1], math.huge
   for _, place in places do
     local away = (at:x() - place.at[1]) ^ 2 + (at:y() - place.at[2]) ^ 2
     if away < least then
@@ -297,28 +304,31 @@ function quarters.distant(buildings: { any })
     tops[whole] = math.max(tops[whole] or 0, building.tier)
   end
   local system = lsystem({ object = footprint, interpret = "last" })
-  system:axiom(source(buildings), function(feature)
-    local look = feature.look
+  system:axiom(source(buildings), function(feature: any)
+    local look: string = feature.look
     local draw = skyline.stream(feature.lot.id, 3)
-    local tint = one(LOOKS[look].tints, draw())
+    local tint: any = one(LOOKS[look].tints, draw())
     return footprint(feature.geometry),
       Block(feature.geometry, look, tint, feature.height, feature.tier == tops[feature.lot.id])
   end)
-  system:interpret("Block(plan, look, tint, height, is_top)", function(this, plan, look, tint, height, is_top)
-    local chosen = LOOKS[look]
-    local facade = FACADES[chosen.facade]
-    local bay = facade.bay
-    local photo = {
-      texture = `templates/textures/{facade.texture}.png`,
-      texture_size = { bay[1] * facade.count, bay[2] * 4 },
-      color = tint,
-      roughness = 0.85,
-    }
-    -- Walls without windows are as dark as the photo's.
-    local plain = mix("#000000", tint, facade.light)
-    this:walls({ height = height, photo = photo, bay = bay, color = plain })
-    this:roof(if is_top then chosen.roof else { kind = "flat", color = "#96938d" })
-  end)
+  system:interpret(
+    "Block(plan, look, tint, height, is_top)",
+    function(this: Footprint, plan, look: string, tint: string, height: number, is_top: boolean)
+      local chosen = LOOKS[look]
+      local facade = FACADES[chosen.facade]
+      local bay = facade.bay
+      local photo = {
+        texture = `templates/textures/{facade.texture}.png`,
+        texture_size = { bay[1] * facade.count, bay[2] * 4 },
+        color = tint,
+        roughness = 0.85,
+      }
+      -- Walls without windows are as dark as the photo's.
+      local plain = mix("#000000", tint, facade.light)
+      this:walls({ height = height, photo = photo, bay = bay, color = plain })
+      this:roof(if is_top then chosen.roof else { kind = "flat", color = "#96938d" })
+    end
+  )
   system:derive(0)
 end
 

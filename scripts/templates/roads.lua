@@ -446,7 +446,7 @@ function roads.system(options: RoadOptions)
   end
 
   -- The modules that go on from a junction that a street has come to.
-  local function onward(this: Network, at: number, heading: number, depth: number, run: number)
+  local function onward(this: Network, at: number, heading: number, depth: number, run: number): { any }
     local place = this:place(at)
     local x, y = place.x, place.y
     if not inside(x, y) then
@@ -665,7 +665,8 @@ local function parsed(what: string, word: string, productions: { [string]: any }
   for place = 1, #word do
     local name = string.sub(word, place, place)
     if name == "[" then
-      table.insert(open, {})
+      local branch: { any } = {}
+      table.insert(open, branch)
     elseif name == "]" then
       local branch = table.remove(open)
       if #open == 0 then
