@@ -64,6 +64,8 @@ enum CornerShape {
     Round { edge: f64, kerb: f64 },
     /// The edges meet.
     Sharp,
+    /// The outside of a bend: by circles around the junction, so that nothing is farther from it than the edges are.
+    Bend,
     /// From one width to the other.
     Taper(f64),
     /// Around the end of a street: by a circle of this radius (m) at the outer edges.
@@ -98,6 +100,9 @@ impl Corner {
             return Self { arms, angle, shape: CornerShape::Round { edge: radius, kerb }, reaches };
         }
         let mut reaches = [if is_even { 0.0 } else { LEAST }; 2];
+        if bend >= MITRED {
+            return Self { arms, angle, shape: CornerShape::Bend, reaches };
+        }
         for [a, b] in lines {
             reaches = [reaches[0].max(meeting(angle, a, b)), reaches[1].max(meeting(angle, b, a))];
         }
@@ -137,6 +142,15 @@ impl Corner {
                 arc(center, radius, from, -swept, pieces(swept, edge + first.half.min(second.half)))
             }
             CornerShape::Sharp => vec![left(first, meeting(self.angle, a, b), a)],
+            CornerShape::Bend => {
+                let (from, swept) = (first.way.perp().to_angle(), self.angle - PI);
+                let chords = pieces(swept, first.half.max(second.half));
+                let at = |index: u32| {
+                    let part = f64::from(index) / f64::from(chords);
+                    DVec2::from_angle(from + swept * part) * (a + (b - a) * part)
+                };
+                (0..=chords).map(at).collect()
+            }
             CornerShape::Taper(length) => vec![left(first, length, a), left(second, length, -b)],
             CornerShape::Around(radius) => {
                 // The two circles are cut off by the same line.
@@ -233,6 +247,16 @@ mod tests {
                     }
                 }
             }
+        }
+    }
+
+    #[test]
+    fn the_outside_of_a_bend_is_no_farther_from_it_than_the_edges() {
+        for degrees in (205..=330).step_by(5) {
+            let corner = Corner::new([arm(0.0, 6.0), arm(f64::from(degrees), 6.0)], 4.0);
+            let points = corner.points(StreetLine::Edge);
+            assert!(points.len() > 2);
+            assert!(points.iter().all(|at| (at.length() - 6.0).abs() < 1e-9), "{degrees}: {points:?}");
         }
     }
 
