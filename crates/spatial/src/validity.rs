@@ -38,13 +38,14 @@ impl Geometry {
                 short = Some("a line has no length".to_owned());
             }
         });
+        let mut flat = None;
         super::plane::collect_polygons(self, &mut |rings: &Rings| {
             if rings.iter().any(|ring| !ring.is_empty() && twice_area(ring) == 0.0) {
-                short = Some("a ring has no area".to_owned());
+                flat = Some("a ring has no area".to_owned());
             }
         });
         let plane = Plane::of(&[self]);
-        short.or_else(|| plane.geo(self).check_validation().err().map(|reason| reason.to_string()))
+        short.or_else(|| plane.geo(self).check_validation().err().map(|reason| reason.to_string())).or(flat)
     }
 
     /// The same where it is valid; else the valid geometry that is most like it: of areas, what its rings go around an odd
