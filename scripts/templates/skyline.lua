@@ -397,7 +397,8 @@ function skyline.plan(lot: any, building: Building, options: Plans?, drawn: (() 
     for number, part in { 0.4, 0.75, 1 } do
       local to = height * part
       local w, d = width - 2 * inset, depth - 2 * inset
-      if w < 5 or d < 5 then
+      -- A box that is small to begin with is no tower of steps.
+      if #tiers > 0 and (w < 5 or d < 5) then
         tiers[#tiers].to = height
         break
       end
