@@ -43,13 +43,17 @@ fn the_reference_is_what_the_program_writes() {
     assert!(written.len() > 18, "{}", written.len());
 }
 
+/// What scripts of the book require.
+const ROADS: &str = include_str!("../../scripts/templates/roads.lua");
+
 #[test]
 fn every_script_of_the_book_runs() {
     let mut count = 0;
     for (name, text) in pages(&sources()) {
         for block in text.split("```lua\n").skip(1) {
             let script = block.split("```").next().unwrap();
-            let said = Folder::new().with("s.lua", script).burgeon(&["run", "s.lua", "--strict"]);
+            let folder = Folder::new().with("s.lua", script).with("templates/roads.lua", ROADS);
+            let said = folder.burgeon(&["run", "s.lua", "--strict"]);
             assert_eq!(said.status, 0, "{name}: {}", said.stderr);
             count += 1;
         }
