@@ -57,7 +57,7 @@ mod tests {
         let mut bed = |index: u32| {
             let mut number = |reach: f64| (stream.uniform() * 2.0 - 1.0) * reach;
             let (x, y, z) = (number(200.0), number(200.0), number(8.0));
-            let is_area = index % 3 == 0;
+            let is_area = index.is_multiple_of(3);
             let line = if is_area {
                 [(0.0, 0.0), (30.0, 4.0), (26.0, 22.0), (-3.0, 18.0)].map(|(a, b)| [x + a, y + b, z]).to_vec()
             } else {
