@@ -20,8 +20,8 @@ fn main() -> std::io::Result<()> {
     }
     blocks.push(']');
     let folder = std::path::PathBuf::from(std::env::var_os("OUT_DIR").unwrap_or_default());
-    std::fs::write(folder.join("registry.deflate"), packed)?;
-    std::fs::write(folder.join("registry.rs"), blocks)
+    std::fs::write(folder.join("epsg.deflate"), packed)?;
+    std::fs::write(folder.join("epsg.rs"), blocks)
 }
 
 #[cfg(not(feature = "data"))]

@@ -107,31 +107,11 @@ local function flats(lots: { any }): { any }
     if building.kind ~= "tower" then
       building.width, building.depth = 60, 14 + 24 * draw()
     end
-    local height = 2.9 * math.floor(building.height / 2.9 + 0.5)
-    for number, tier in skyline.plan(lot, building, { front = 5, side = 5, wing = 12 }, draw) do
-      local rings = { tier.plan }
-      for _, hole in tier.holes or {} do
-        table.insert(rings, hole)
-      end
-      local shape = { rings = {} }
-      for _, ring in rings do
-        local high = {}
-        for _, point in ring do
-          table.insert(high, { point[1], point[2], tier.from })
-        end
-        table.insert(shape.rings, high)
-      end
-      table.insert(features, {
-        id = `{lot.id}.{number}`,
-        geometry = shape,
-        height = math.min(tier.to, height) - tier.from,
-        tier = number,
-        total = height,
-        kind = building.kind,
-        look = "flats",
-        style = "modern_block",
-        lot = lot,
-      })
+    building.height = 2.9 * math.floor(building.height / 2.9 + 0.5)
+    local tiers = skyline.plan(lot, building, { front = 5, side = 5, wing = 12 }, draw)
+    for _, feature in skyline.features(lot, building, tiers) do
+      feature.look, feature.style = "flats", "modern_block"
+      table.insert(features, feature)
     end
   end
   return features

@@ -431,32 +431,40 @@ function skyline.plan(lot: any, building: Building, options: Plans?, drawn: (() 
   return { tier }
 end
 
--- The buildings of lots as features, the parts of each from below, to be the source of a system of footprints. Each has an id,
--- its geometry (at the height where it begins), its height, the kind and height of its building, its lot, and tier, from 1.
+-- The parts of a building as features, to be the source of a system of footprints. Each has an id, its geometry (at the height
+-- where it begins), its height, the kind and the height of its building, its lot, and tier, from 1.
+function skyline.features(lot: any, building: Building, tiers: { Tier }): { any }
+  local features = {}
+  for number, tier in tiers do
+    local rings = {}
+    for _, ring in { tier.plan, table.unpack(tier.holes or {}) } do
+      local high = {}
+      for _, point in ring do
+        table.insert(high, { point[1], point[2], tier.from })
+      end
+      table.insert(rings, high)
+    end
+    table.insert(features, {
+      id = `{lot.id}.{number}`,
+      geometry = { rings = rings },
+      height = tier.to - tier.from,
+      tier = number,
+      kind = building.kind,
+      total = building.height,
+      lot = lot,
+    })
+  end
+  return features
+end
+
+-- The buildings of lots as skyline.features, the parts of each from below.
 function skyline.buildings(lots: { any }, heights: Heights?, plans: Plans?, seed: number?): { any }
   local features = {}
   for _, lot in lots do
     local draw = skyline.stream(lot.id, seed)
     local building = skyline.building(lot, heights, draw)
-    for number, tier in skyline.plan(lot, building, plans, draw) do
-      local rings = {}
-      for _, ring in { tier.plan, table.unpack(tier.holes or {}) } do
-        local high = {}
-        for _, point in ring do
-          table.insert(high, { point[1], point[2], tier.from })
-        end
-        table.insert(rings, high)
-      end
-      table.insert(features, {
-        id = `{lot.id}.{number}`,
-        geometry = { rings = rings },
-        height = tier.to - tier.from,
-        tier = number,
-        kind = building.kind,
-        total = building.height,
-        lot = lot,
-      })
-    end
+    local parts = skyline.features(lot, building, skyline.plan(lot, building, plans, draw))
+    table.move(parts, 1, #parts, #features + 1, features)
   end
   return features
 end

@@ -4,6 +4,7 @@
 
 mod blob;
 pub(crate) mod condition;
+mod epsg;
 mod flatgeobuf;
 mod geopackage;
 pub(crate) mod geotiff;
@@ -14,7 +15,6 @@ pub(crate) mod output;
 mod packed;
 pub(crate) mod png;
 pub(crate) mod projection;
-mod registry;
 pub(crate) mod zipped;
 
 pub use flatgeobuf::FlatGeobuf;

@@ -3,7 +3,7 @@
 use proj4rs::Proj;
 use proj4rs::transform::transform;
 
-use super::registry::entry;
+use super::epsg::entry;
 use burgeon_base::error::{Error, Result};
 
 /// A projection, or longitude and latitude.

@@ -8,13 +8,13 @@ use flate2::read::DeflateDecoder;
 use burgeon_base::error::{Error, Result};
 
 /// The blocks, each behind the other.
-static PACKED: &[u8] = include_bytes!(concat!(env!("OUT_DIR"), "/registry.deflate"));
+static PACKED: &[u8] = include_bytes!(concat!(env!("OUT_DIR"), "/epsg.deflate"));
 
 /// The first number in each block, and where that is.
-static BLOCKS: &[(u16, Range<usize>)] = include!(concat!(env!("OUT_DIR"), "/registry.rs"));
+static BLOCKS: &[(u16, Range<usize>)] = include!(concat!(env!("OUT_DIR"), "/epsg.rs"));
 
 /// A coordinate system of the registry.
-pub(super) struct RegistryEntry {
+pub(super) struct EpsgEntry {
     /// Its number.
     pub(super) code: u16,
     /// Its definition in PROJ's words.
@@ -24,7 +24,7 @@ pub(super) struct RegistryEntry {
 }
 
 /// The coordinate system with a number, if the registry has it.
-pub(super) fn entry(code: u32) -> Result<Option<RegistryEntry>> {
+pub(super) fn entry(code: u32) -> Result<Option<EpsgEntry>> {
     let Ok(code) = u16::try_from(code) else { return Ok(None) };
     let behind = BLOCKS.partition_point(|(first, _)| *first <= code);
     let Some((_, place)) = behind.checked_sub(1).and_then(|block| BLOCKS.get(block)) else { return Ok(None) };
@@ -35,7 +35,7 @@ pub(super) fn entry(code: u32) -> Result<Option<RegistryEntry>> {
     Ok(lines.lines().find_map(|line| {
         let mut parts = line.splitn(3, '\t');
         let found = parts.next()?.parse().ok().filter(|found| *found == code)?;
-        Some(RegistryEntry { code: found, proj: parts.next()?.into(), text: parts.next()?.into() })
+        Some(EpsgEntry { code: found, proj: parts.next()?.into(), text: parts.next()?.into() })
     }))
 }
 
