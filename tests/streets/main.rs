@@ -3,8 +3,10 @@
 //! `cargo bench --bench streets` looks at 200 seeds of each.
 
 mod check;
+mod cities;
 
 use check::{PATTERNS, check, grown};
+use cities::{TOWNS, figures};
 
 /// The mean of each measure over some seeds of a pattern: degree, shares of dead ends, of 3 and of 4 streets, circuity,
 /// meshedness, orientation order.
@@ -26,6 +28,16 @@ fn every_pattern_keeps_what_networks_promise_with_any_seed() {
         for seed in 1..=6 {
             let grown = grown("roads.lua", seed, &[("pattern", pattern), ("extent", "250")]);
             check(&grown, radius, &format!("{pattern}, seed {seed}"));
+        }
+    }
+}
+
+#[test]
+fn towns_keep_buildings_apart_and_off_the_streets_with_any_seed() {
+    for town in &TOWNS {
+        for seed in 0..4 {
+            let of = figures(town, seed);
+            assert_eq!(of.fault(), None, "{}, seed {seed}: {of:?}", town.name());
         }
     }
 }

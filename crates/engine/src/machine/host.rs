@@ -10,9 +10,13 @@ use crate::machine::convert::{to_argument, to_lua, to_value};
 use crate::machine::library::Library;
 use crate::machine::types::ObjectHandle;
 use burgeon_base::error::{Error, Limit};
+use burgeon_base::warning::said;
 use burgeon_kit::declare::as_ref;
 use burgeon_kit::rules::{ColumnValue, DEEPEST, module_text};
 use burgeon_kit::{Call, ScriptObject, Value};
+
+/// An answer of more entries is made without a collection of garbage meanwhile.
+const LONG: usize = 256;
 
 /// While guards run, in `prelude.luau`.
 const GUARD: u8 = 2;
@@ -28,7 +32,7 @@ pub(crate) fn functions(lua: &Lua, current: &Rc<WorkState>, library: &Rc<Library
     add_values(lua, &host, current, library)?;
     add_tables(lua, &host)?;
     add_applications(lua, &host, current)?;
-    add_methods(lua, &host, current)?;
+    add_methods(lua, &host, current, library)?;
     add_script_objects(lua, &host, current, library)?;
     super::questions::add_questions(lua, &host, current)?;
     Ok(host)
@@ -165,7 +169,7 @@ fn add_applications(lua: &Lua, host: &Table, current: &Rc<WorkState>) -> mlua::R
 }
 
 /// Those that call methods of objects.
-fn add_methods(lua: &Lua, host: &Table, current: &Rc<WorkState>) -> mlua::Result<()> {
+fn add_methods(lua: &Lua, host: &Table, current: &Rc<WorkState>, library: &Rc<Library>) -> mlua::Result<()> {
     let state = Rc::clone(current);
     host.set(
         "call",
@@ -177,9 +181,10 @@ fn add_methods(lua: &Lua, host: &Table, current: &Rc<WorkState>) -> mlua::Result
             to_lua(lua, &answer, false)
         })?,
     )?;
+    let shelf = Rc::clone(library);
     host.set(
         "call_object",
-        lua.create_function(|lua, (name, object, arguments): (String, LuaValue, MultiValue)| {
+        lua.create_function(move |lua, (name, object, arguments): (String, LuaValue, MultiValue)| {
             let (_, method) = name.split_once(':').unwrap_or(("", &name));
             let LuaValue::UserData(data) = &object else {
                 return Err(mlua::Error::external(
@@ -193,8 +198,21 @@ fn add_methods(lua: &Lua, host: &Table, current: &Rc<WorkState>) -> mlua::Result
             };
             match &method.call {
                 Call::Read(read) => {
+                    said();
                     let answer = read(&*handle.0, &values(&arguments)?).map_err(mlua::Error::external)?;
-                    to_lua(lua, &answer, false)
+                    let machine = shelf.machine().map_err(mlua::Error::external)?;
+                    said().into_iter().for_each(|warning| machine.warn(warning));
+                    // All of a long answer stays, so looking for what does not would be in vain.
+                    let is_long = matches!(&answer, Value::Table(table) if table.entries.len() > LONG);
+                    let pauses = is_long && lua.gc_is_running();
+                    if pauses {
+                        lua.gc_stop();
+                    }
+                    let made = to_lua(lua, &answer, false);
+                    if pauses {
+                        lua.gc_restart();
+                    }
+                    made
                 }
                 Call::Write { .. } | Call::Script { .. } => Err(mlua::Error::external(Error::scope(
                     format!("{name} changes the object, and only interpretation rules may"),

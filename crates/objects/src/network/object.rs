@@ -6,6 +6,7 @@ use glam::DVec2;
 use rustc_hash::FxHashMap;
 
 use super::answers;
+use super::cache::AnswerCache;
 use super::existing::{self, ExistingLines};
 use super::kinds::StreetOptions;
 use super::land::VergeRecords;
@@ -124,9 +125,13 @@ pub struct Network {
     /// What became of what was proposed in the last pass, by junction and heading.
     growths: FxHashMap<(u32, u64), StreetGrowth>,
     walk: NetworkWalk,
+    /// What scripts have asked of blocks and lots.
+    pub(super) answers: AnswerCache,
     warnings: Vec<Warning>,
     /// Whether it was told that no street was built.
     is_told: bool,
+    /// Whether it was told that the ground hides streets.
+    is_hidden_told: bool,
 }
 
 #[methods("network")]
@@ -255,7 +260,7 @@ impl Network {
 
     /// The blocks between the streets, inside of their sidewalks, as features: each has an id, a geometry, its area (m²) and the
     /// least depth of the streets around it (street_depth).
-    pub fn blocks(&self) -> BlockRecords {
+    pub fn blocks(&self) -> Result<BlockRecords> {
         self.block_records()
     }
 
@@ -362,8 +367,10 @@ impl Network {
             water: waters.into(),
             growths: FxHashMap::default(),
             walk: NetworkWalk::default(),
+            answers: AnswerCache::default(),
             warnings,
             is_told: false,
+            is_hidden_told: false,
         })
     }
 
@@ -427,6 +434,10 @@ impl Network {
     fn finish(&mut self) -> Result<()> {
         if self.fit.get().is_some_and(|(version, _)| *version != self.network.version()) {
             self.fit = OnceLock::new();
+        }
+        if let Some(warning) = self.hidden()?.filter(|_| !self.is_hidden_told) {
+            self.is_hidden_told = true;
+            self.warnings.push(warning);
         }
         if self.network.size() > 0 || self.growths.is_empty() || self.is_told {
             return Ok(());
