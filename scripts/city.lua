@@ -67,10 +67,10 @@ local function form(x: number, y: number): number
     return high
   end
   local off = math.abs(y - midstream(x)) - wide / 2
-  local valley = 0.3 + (high - 0.3) * rise(12, extent * 0.45, off)
+  local valley = 0.3 + (high - 0.3) * rise(12, extent * 0.6, off)
   return WATER - 3 + (valley + 3 - WATER) * rise(-8, 6, off)
 end
-local size = extent * 2.8
+local size = extent * 2.6
 local Ground = module("Ground", "height", "form", "x", "y", "width")
 local cells = lsystem()
 cells:axiom(Ground(0, 0, 0, 0, size))
@@ -125,7 +125,7 @@ local streets = roads.grow({
     bridge = wide + 60,
     water_level = WATER,
     on = bare,
-    max_slope = 9,
+    max_slope = 13,
   },
 }).objects[1] :: Network
 
@@ -199,7 +199,9 @@ for kind, blocks in of do
 end
 local parks = {}
 for _, lot in green do
-  table.insert(parks, lot.geometry)
+  if lot.use == "park" or lot.use == "court" then
+    table.insert(parks, lot.geometry)
+  end
 end
 if not land then
   quarters.areas(parks, 0, 0.2, "#6f8a50")

@@ -185,7 +185,7 @@ town:derive()
 -- The ground: fields, a ditch, the yards of the blocks and the paved market.
 local country = point(0, 0):buffer(extent * 1.45 + 60)
 quarters.areas({ country:difference(hull:buffer(24)) }, -5, -0.05, "#8b9a5b")
-quarters.areas({ hull:buffer(24) }, -5, -0.06, "#8f8a68")
+quarters.areas({ hull:buffer(24) }, -5, -0.06, if wall_height > 0 then "#8f8a68" else "#8b9a5b")
 local ground = {}
 for _, block in built do
   table.insert(ground, block.geometry)

@@ -167,6 +167,7 @@ quarters.kinds = {
       min_width = 5.5,
       jitter = 0.5,
       parks = 0.03,
+      elongation = 7,
       terrace = 12,
     },
     buildings = function(lots: { any })
@@ -182,6 +183,7 @@ quarters.kinds = {
       min_width = 9,
       jitter = 0.3,
       parks = 0.06,
+      elongation = 6,
       terrace = 13.5,
     },
     buildings = function(lots: { any })
@@ -202,7 +204,7 @@ quarters.kinds = {
       min_width = 5,
       jitter = 0.1,
       parks = 0.05,
-      elongation = 5,
+      elongation = 9,
       terrace = 10,
     },
     buildings = function(lots: { any })

@@ -36,7 +36,7 @@ pub(crate) const TOWNS: [Town; 4] = [
         script: "oldtown.lua",
         joint: (170.0, 1.8),
         turning: 0.0,
-        set: &[("extent", "100"), ("trees", "false")],
+        set: &[("extent", "130"), ("trees", "false")],
     },
     Town {
         script: "village.lua",
