@@ -56,7 +56,7 @@ macro_rules! meeting {
             if !boxes_meet(call)? {
                 return Ok(FunctionResult::Boolean(false));
             }
-            Ok(FunctionResult::Boolean(call.geometry(0)?.geometry.$method(&call.geometry(1)?.geometry)))
+            Ok(FunctionResult::Boolean(call.geometry(0)?.prepared().$method(call.geometry(1)?.prepared())))
         }
     };
 }
@@ -173,7 +173,7 @@ pub static FUNCTIONS: &[SpatialFunction] = &[
         meeting!(overlaps),
     ),
     function("ST_Equals", (2, 2), PAIR, "boolean", "Whether they are the same set of points.", |call| {
-        Ok(FunctionResult::Boolean(call.geometry(0)?.geometry.equals(&call.geometry(1)?.geometry)))
+        Ok(FunctionResult::Boolean(call.geometry(0)?.prepared().equals(call.geometry(1)?.prepared())))
     }),
     function(
         "ST_Relate",
@@ -182,7 +182,7 @@ pub static FUNCTIONS: &[SpatialFunction] = &[
         "text or boolean",
         "How insides, borders and outsides meet, as nine letters (DE-9IM); or whether that fits a pattern such as `F***1****`.",
         |call| {
-            let relation = call.geometry(0)?.geometry.relate(&call.geometry(1)?.geometry);
+            let relation = call.geometry(0)?.prepared().relate(call.geometry(1)?.prepared());
             if call.len() == 2 {
                 return Ok(FunctionResult::Text(relation.text().to_owned()));
             }
