@@ -199,11 +199,8 @@ impl SortedContacts<'_> {
             for number in way {
                 let edge = &edges.edges[number];
                 let contacts = self.on(number);
-                let pieces = if contacts.is_empty() {
-                    vec![[edge.from, edge.to]]
-                } else {
-                    self.pieces(number, edge)
-                };
+                let pieces =
+                    if contacts.is_empty() { vec![[edge.from, edge.to]] } else { self.pieces(number, edge) };
                 for [from, to] in pieces {
                     let mut here = contacts.iter().filter(|contact| contact.place == from).peekable();
                     let meets = here.peek().is_some();

@@ -95,8 +95,7 @@ impl Parts {
             [false, true, true] => {
                 let rings = areas.iter().flat_map(|it| std::iter::once(it.exterior()).chain(it.interiors()));
                 let place = |at: &geo::Coord| back(DVec2::new(at.x, at.y));
-                let rings: Vec<Vec<DVec2>> =
-                    rings.map(|ring| ring.0.iter().map(place).collect()).collect();
+                let rings: Vec<Vec<DVec2>> = rings.map(|ring| ring.0.iter().map(place).collect()).collect();
                 Self::Areas(Edges::new(&rings))
             }
             _ => Self::Mixed,
@@ -183,9 +182,12 @@ impl Edges {
             }
             return;
         }
-        let numbered = || self.edges.iter().enumerate().map(|(number, edge)| NumberedEdge { edge: *edge, number });
+        let numbered =
+            || self.edges.iter().enumerate().map(|(number, edge)| NumberedEdge { edge: *edge, number });
         let tree = self.tree.get_or_init(|| RTree::bulk_load(numbered().collect()));
-        for found in tree.locate_in_envelope_intersecting(&AABB::from_corners(low.to_array(), high.to_array())) {
+        for found in
+            tree.locate_in_envelope_intersecting(&AABB::from_corners(low.to_array(), high.to_array()))
+        {
             each(found.number, &found.edge);
         }
     }

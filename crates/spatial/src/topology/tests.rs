@@ -52,7 +52,10 @@ proptest! {
 #[test]
 fn what_is_a_rounding_apart_is_apart() {
     // The corner of the second lies on the first one's side, and as little as can be beside it.
-    let first = Geometry::from_wkt("POLYGON ((600000 6000000, 600010 6000000, 600010 6000010, 600000 6000010, 600000 6000000))").unwrap();
+    let first = Geometry::from_wkt(
+        "POLYGON ((600000 6000000, 600010 6000000, 600010 6000010, 600000 6000010, 600000 6000000))",
+    )
+    .unwrap();
     for (x, expected) in [
         (600_010.0_f64, "FF2F01212"),
         (600_010.0_f64.next_down(), "212101212"),
