@@ -72,7 +72,7 @@ impl Geometry {
     /// ```
     pub fn buffer(&self, distance: f64, options: &BufferOptions) -> Result<Self> {
         if !distance.is_finite() || distance.abs() > super::FARTHEST {
-            return Err(Error::argument(format!("buffer takes a finite distance, not {distance}"))
+            return Err(Error::argument(format!("buffer takes a finite distance, not {distance:?}"))
                 .help("give metres: more to grow, less than 0 to shrink"));
         }
         if !(1..=1000).contains(&options.quadrant_segments) {
