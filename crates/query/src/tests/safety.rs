@@ -142,7 +142,7 @@ fn errors_tell_the_place_and_what_there_is() {
         "SELECT ST_Area(name) FROM houses WHERE name IS NOT NULL",
         "SELECT ST_Intersects(geom, 3) FROM houses",
         "SELECT geom::geography FROM houses",
-        "SELECT count(*) FROM dbstat",
+        "SELECT name FROM dbstat",
         "SELECT random()",
         "DELETE FROM houses",
         "SELECT 1; SELECT 2",
@@ -216,8 +216,8 @@ fn errors_tell_the_place_and_what_there_is() {
     -> SQL, line 1, column 14: no function called geography
       help: the book's page on SQL lists what there is
 
-    SELECT count(*) FROM dbstat
-    -> SQL, line 1, column 22: the table dbstat may not be read
+    SELECT name FROM dbstat
+    -> SQL, line 1, column 18: the table dbstat may not be read
       help: a table is what source(file) has read
 
     SELECT random()
