@@ -13,7 +13,7 @@ local wall_height = param("wall", { default = 7, min = 0, max = 14, unit = "m", 
 local with_trees = param("trees", { default = true })
 
 local lanes = roads.grow({
-  pattern = roads.organic({ block = 36, bends = 30, branching = 0.95, cross = 0.35 }),
+  pattern = roads.organic({ block = 36, bends = 30, branching = 0.95, cross = 0.35, variety = 0.35 }),
   extent = extent,
   steps = math.ceil(extent / 7),
   join = 170,

@@ -211,7 +211,7 @@ function quarters.places(extent: number): { any }
     {
       at = { 0, extent * 0.05 },
       kind = "centre",
-      pattern = roads.raster({ block = 105, width = 80, angle = turned }),
+      pattern = roads.raster({ block = 105, width = 80, angle = turned, gap = 0.2, variety = 0.5 }),
     },
   }
   local function around(share: number, angle: number, kind: string, pattern)
@@ -219,15 +219,30 @@ function quarters.places(extent: number): { any }
     local at = { math.cos(way) * extent * share, math.sin(way) * extent * share }
     table.insert(places, { at = at, kind = kind, pattern = pattern })
   end
-  around(0.42, 20, "old", roads.organic({ block = 58, bends = 30 }))
+  around(0.42, 20, "old", roads.organic({ block = 58, bends = 30, variety = 0.4 }))
   around(0.42, 110, "blocks", roads.radial({ middle = { 0, extent * 0.05 }, block = 85 }))
-  around(0.4, 200, "blocks", roads.organic({ block = 88 }))
-  around(0.44, 290, "flats", roads.raster({ block = 120, width = 100, angle = (turned + 30) % 360 }))
-  around(0.8, 50, "rows", roads.raster({ block = 120, width = 62, angle = (turned + 55) % 360 }))
-  around(0.8, 125, "villas", roads.organic({ block = 85, bends = 34 }))
-  around(0.8, 195, "rows", roads.raster({ block = 110, width = 64, angle = (turned - 20) % 360 }))
-  around(0.8, 265, "flats", roads.organic({ block = 110 }))
-  around(0.8, 335, "villas", roads.organic({ block = 90, bends = 30 }))
+  around(0.4, 200, "blocks", roads.organic({ block = 88, bends = 32, variety = 0.4 }))
+  around(
+    0.44,
+    290,
+    "flats",
+    roads.raster({ block = 120, width = 100, angle = (turned + 30) % 360, gap = 0.2, variety = 0.5 })
+  )
+  around(
+    0.8,
+    50,
+    "rows",
+    roads.raster({ block = 120, width = 62, angle = (turned + 55) % 360, gap = 0.2, variety = 0.5 })
+  )
+  around(0.8, 125, "villas", roads.organic({ block = 85, bends = 34, variety = 0.4 }))
+  around(
+    0.8,
+    195,
+    "rows",
+    roads.raster({ block = 110, width = 64, angle = (turned - 20) % 360, gap = 0.2, variety = 0.5 })
+  )
+  around(0.8, 265, "flats", roads.organic({ block = 110, bends = 32, variety = 0.4 }))
+  around(0.8, 335, "villas", roads.organic({ block = 90, bends = 30, variety = 0.4 }))
   return places
 end
 

@@ -88,7 +88,7 @@ impl Parameter for BlockArea {
 }
 
 /// Blocks as scripts get them.
-pub struct BlockRecords(Vec<Value>);
+pub struct BlockRecords(pub(super) Vec<Value>);
 
 impl Answer for BlockRecords {
     fn luau() -> String {

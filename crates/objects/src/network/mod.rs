@@ -10,6 +10,7 @@ mod land;
 mod lots;
 mod object;
 mod sites;
+mod streets;
 mod walk;
 
 pub use object::Network;
