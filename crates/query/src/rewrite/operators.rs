@@ -44,6 +44,10 @@ fn translated(expression: &mut Expr) -> Option<Expr> {
             if matches!(data_type, DataType::Boolean | DataType::Bool) {
                 return Some((**expr).clone());
             }
+            // SQLite makes a number of what is cast to a type that it does not know.
+            if let DataType::Custom(name, _) = data_type {
+                return parse::expression(&format!("{name}({expr})"));
+            }
             *kind = CastKind::Cast;
             None
         }
