@@ -57,7 +57,7 @@ fn main() {
         for seed in 1..=seeds {
             let grown = grown("roads.lua", seed, &[("pattern", pattern), ("extent", "350")]);
             check(&grown, radius, &format!("{pattern}, seed {seed}"));
-            let of = grown.streets().measures();
+            let of = grown.network().measures();
             let [ends, three, four] = of.shares;
             let all =
                 [of.degree, ends, three, four, of.circuity, of.meshedness, of.orientation_order, of.block];

@@ -18,7 +18,7 @@ local plan = param("plan", {
 local with_trees = param("trees", { default = true })
 
 local patterns = {
-  grown = roads.organic({ block = 36, bends = 30, branching = 0.95, cross = 0.35 }),
+  grown = roads.organic({ block = 36, bends = 30, branching = 0.95, cross = 0.35, variety = 0.35 }),
   ["laid out"] = roads.raster({ block = 62, width = 42, angle = 10 }),
 }
 local lanes = roads.grow({

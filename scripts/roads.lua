@@ -28,13 +28,21 @@ end
 
 local ways: { [string]: () -> any } = {
   organic = function()
-    return { pattern = roads.organic() }
+    return { pattern = roads.organic({ block = random(65, 95) }) }
   end,
   raster = function()
-    return { pattern = roads.raster({ angle = 12 }), headings = { 12, 102, 192, 282 }, join = 140 }
+    local angle = random(0, 90)
+    return {
+      pattern = roads.raster({ angle = angle, block = random(105, 150), width = random(65, 85) }),
+      headings = { angle, angle + 90, angle + 180, angle + 270 },
+    }
   end,
   radial = function()
-    return { pattern = roads.radial(), headings = { 0, 60, 120, 180, 240, 300 } }
+    local rays, turned, headings = math.floor(random(5, 9)), random(0, 90), {}
+    for ray = 1, rays do
+      table.insert(headings, turned + ray * 360 / rays)
+    end
+    return { pattern = roads.radial({ block = random(75, 110) }), headings = headings }
   end,
   contours = function()
     return { pattern = roads.contours(height) }
@@ -61,6 +69,15 @@ local ways: { [string]: () -> any } = {
 local options = ways[pattern]()
 options.extent = extent
 options.dead_ends = dead_ends
-options.network = { ground = "#66774e" }
+options.network = {
+  -- The greater a street, the darker.
+  streets = {
+    { name = "main street", width = 24, lanes = 4, sidewalk = 4, asphalt = "#43474d" },
+    { name = "street", width = 16, lanes = 2, parking = 2.2, sidewalk = 3, asphalt = "#5b6067" },
+    { name = "lane", width = 11, lanes = 2, sidewalk = 2, asphalt = "#757a81" },
+  },
+  paving = "#d3cfc6",
+  ground = "#a9b58c",
+}
 options.steps = math.ceil(extent / 25)
 roads.grow(options)

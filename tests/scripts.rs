@@ -246,9 +246,12 @@ fn guide() -> String {
 fn every_lua_block_of_the_guide_runs() {
     let folder = tempfile::tempdir().unwrap();
     // What the guide's scripts require.
-    fs::create_dir(folder.path().join("templates")).unwrap();
-    let library = "templates/roads.lua";
-    fs::copy(root().join("scripts").join(library), folder.path().join(library)).unwrap();
+    fs::create_dir_all(folder.path().join("templates/roads")).unwrap();
+    for name in ["roads.lua", "roads/checks.lua", "roads/patterns.lua", "roads/growth.lua", "roads/words.lua"]
+    {
+        let library = Path::new("templates").join(name);
+        fs::copy(root().join("scripts").join(&library), folder.path().join(library)).unwrap();
+    }
     let guide = guide();
     let mut count = 0;
     for (index, rest) in guide.split("\n```lua\n").skip(1).enumerate() {
@@ -261,7 +264,7 @@ fn every_lua_block_of_the_guide_runs() {
         assert!(modules + run.scene.triangles() > 0, "{block}");
         count += 1;
     }
-    assert_eq!(count, 25);
+    assert_eq!(count, 26);
     assert_eq!(count, guide.matches("```lua").count(), "a fragment would go untested");
 }
 

@@ -64,7 +64,10 @@ return {
   neighbors = "select id from buildings where id <> $id and ST_Intersects(geom, $geom)",
   pavements = PAVEMENTS,
   grass = "select geom from green where kind in ('grass', 'garden')",
-  flowerbeds = "select geom, fid % 4 + 1 as flowers from green where kind in ('scrub', 'heath')",
+  -- Shrubs are a bed where they are few.
+  flowerbeds = [[
+    select geom, fid % 4 + 1 as flowers from green
+    where kind in ('flowerbed', 'shrubbery') or kind in ('scrub', 'heath') and ST_Area(geom) < 400]],
   trees = "select geom as place, fid % 5 + 1 as species, 7 + fid % 6 as height, 3 as radius from trees",
   parks = "select geom from green where kind = 'park' and ST_Area(geom) > 4000",
   -- Benches look away from the road that is nearest.

@@ -15,6 +15,8 @@ local PAVING = {
   [COBBLES] = { texture = "textures/cobbles.png", texture_size = { 1.6, 1.6 }, roughness = 1 },
 }
 local DEPTH = 0.4
+-- What has more corners is laid in pieces.
+local MOST_CORNERS = 1000
 
 local streets = lsystem({ object = extruder({ smooth = false }) })
 streets:axiom(query(layers.pavements, Pavement))
@@ -30,6 +32,20 @@ streets:rule("Pavement(geom, code, level)", {
     table.insert(parts, Pavement(part, code, level))
   end
   return table.unpack(parts)
+end)
+-- The ground of a whole town is one polygon around all of its streets.
+streets:rule("Pavement(geom, code, level)", {
+  when = function(_, geom)
+    return geom:num_points() > MOST_CORNERS
+  end,
+}, function(_, geom, code, level)
+  local ring = geom:envelope():exterior_ring()
+  local low, high = ring:point_n(1):place(), ring:point_n(3):place()
+  local is_wide = high.x - low.x > high.y - low.y
+  local east = if is_wide then (low.x + high.x) / 2 else high.x
+  local north = if is_wide then high.y else (low.y + high.y) / 2
+  local half = polygon({ { low.x, low.y }, { east, low.y }, { east, north }, { low.x, north } })
+  return Pavement(geom:intersection(half), code, level), Pavement(geom:difference(half), code, level)
 end)
 -- The texture is fitted to the longer side of what is around the polygon, and its corners are counted one a step.
 streets:rule("Pavement(geom, code, level)", function(_, geom, code, level)

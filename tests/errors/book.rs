@@ -44,7 +44,13 @@ fn the_reference_is_what_the_program_writes() {
 }
 
 /// What scripts of the book require.
-const ROADS: &str = include_str!("../../scripts/templates/roads.lua");
+const ROADS: [(&str, &str); 5] = [
+    ("templates/roads.lua", include_str!("../../scripts/templates/roads.lua")),
+    ("templates/roads/checks.lua", include_str!("../../scripts/templates/roads/checks.lua")),
+    ("templates/roads/patterns.lua", include_str!("../../scripts/templates/roads/patterns.lua")),
+    ("templates/roads/growth.lua", include_str!("../../scripts/templates/roads/growth.lua")),
+    ("templates/roads/words.lua", include_str!("../../scripts/templates/roads/words.lua")),
+];
 
 #[test]
 fn every_script_of_the_book_runs() {
@@ -52,7 +58,9 @@ fn every_script_of_the_book_runs() {
     for (name, text) in pages(&sources()) {
         for block in text.split("```lua\n").skip(1) {
             let script = block.split("```").next().unwrap();
-            let folder = Folder::new().with("s.lua", script).with("templates/roads.lua", ROADS);
+            let folder = ROADS
+                .iter()
+                .fold(Folder::new().with("s.lua", script), |folder, (name, text)| folder.with(name, *text));
             let said = folder.burgeon(&["run", "s.lua", "--strict"]);
             assert_eq!(said.status, 0, "{name}: {}", said.stderr);
             count += 1;

@@ -163,9 +163,9 @@ fn a_file_that_is_no_data_file_is_told() {
       help: the file is cut short; get it again
     "#);
     assert_snapshot!(told(r#"source("empty.geojson")"#), @r#"
-    error: in/s.lua:2: empty.geojson is not GeoJSON: it ends at line 1, column 0, where more should follow
+    error: in/s.lua:2: empty.geojson is empty
       | source("empty.geojson")
-      help: it is empty; get it again
+      help: get the file again
     "#);
     assert_snapshot!(told(r#"source("broken.geojson")"#), @r#"
     error: in/s.lua:2: broken.geojson is not GeoJSON: expected value (line 3, column 15)

@@ -2,7 +2,7 @@
 
 use insta::assert_snapshot;
 
-use crate::support::{printed, refused};
+use crate::support::{Folder, printed, refused};
 use crate::warnings::warned;
 
 /// A network with these fields, of which one street is proposed.
@@ -408,4 +408,55 @@ end
       | roads:verge("bench")
       help: ask for "tree" or "lamp"
     "#);
+}
+
+#[test]
+fn a_network_goes_out_as_layers_that_another_grows_from() {
+    let script = r#"
+        local Square, Side = module("Square"), module("Side")
+        local kinds = { { name = "avenue", width = 20, lanes = 4 }, { width = 12 } }
+        local places = { { 0, 0 }, { 200, 0 }, { 200, 160 }, { 0, 160 }, { 300, 0 } }
+        local town = lsystem({ object = network({ streets = kinds, starts = places }) })
+        town:axiom(Square(), Side())
+        town:interpret("Square", function(this)
+          for from = 1, 4 do
+            this:lead(from, places[from % 4 + 1], if from == 1 then 0 else 1)
+          end
+        end)
+        town:interpret("Side", function(this)
+          this:lead(2, places[5], 0)
+          this:grow(1, 180, 90, 1)
+        end)
+        local grown = town:derive(0).objects[1]
+        source(grown:lots({ width = 20 }), { table = "lots" })
+    "#;
+    let again = r#"
+        local count = { streets = 0, junctions = 0, blocks = 0, lots = 0 }
+        local existing, length, ends, kinds = {}, 0, 0, {}
+        for name in count do
+          for _, feature in source("a.gpkg", { layer = name, crs = 3067 }) do
+            count[name] += 1
+            assert(feature.id ~= "")
+            if name == "streets" then
+              table.insert(existing, { lines = { feature.geometry }, depth = feature.depth })
+              length += feature.length
+              kinds[feature.kind] = (kinds[feature.kind] or 0) + feature.lanes
+            elseif name == "junctions" then
+              ends += feature.degree
+            else
+              assert(feature.area > 0 and feature.street_depth <= 1)
+            end
+          end
+        end
+        assert(count.blocks == 1 and count.lots > 8 and ends == 2 * count.streets and count.streets == 4, `{count.blocks} {count.lots} {ends}`)
+        assert(kinds["avenue"] == 4 * 2 and kinds["kind 2"] > 0)
+        local second = lsystem({ object = network({ existing = existing, snap = 8, min_length = 5 }) })
+        second:axiom(module("Nothing")())
+        local network = second:derive(0).objects[1]
+        assert(math.abs(network:measures().length - length) < 0.01, `{length}`)
+        assert(#network:streets() == count.streets and #network:junctions() == count.junctions)
+    "#;
+    let folder = Folder::new().with("s.lua", script).with("t.lua", again);
+    folder.burgeon(&["run", "s.lua", "-o", "a.gpkg", "--strict"]).done();
+    folder.burgeon(&["run", "t.lua", "--lod", "0"]).done();
 }

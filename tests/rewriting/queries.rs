@@ -397,3 +397,23 @@ fn a_picked_module_tells_what_guards_and_successors_asked() {
         [("A(3)".to_owned(), Vec::new()), ("B(1)".to_owned(), questions.map(str::to_owned).to_vec()),]
     );
 }
+
+#[test]
+fn a_picked_module_tells_what_guards_asked_of_geometries() {
+    let script = r#"
+        local Tree = module("Tree", "at")
+        local lawn = polygon({ { 0, 0 }, { 4, 0 }, { 4, 4 }, { 0, 4 } })
+        local s = lsystem({ object = extruder({ sides = 6, smooth = false }) })
+        s:axiom(Tree(point(3, 2)))
+        s:rule("Tree(at)", { when = function(this, at) return lawn:contains(at) and at:distance(point(0, 2)) > 2 end },
+          function(this, at) return B(at:x()) end)
+        s:interpret("B(n)", function(this, n) this:extrude(n) end)
+        s:derive()
+        "#;
+    let asked: Vec<_> = picked(script).into_iter().map(|ancestor| ancestor.asked).collect();
+    let answers = [
+        "POLYGON ((0 0, 4 0, 4 4, 0 4, 0 0)):contains(POINT (3 2)): true",
+        "POINT (3 2):distance(POINT (0 2)): 3",
+    ];
+    assert_eq!(asked, [Vec::new(), answers.map(str::to_owned).to_vec()]);
+}

@@ -10,7 +10,7 @@ use glam::{DVec2, DVec3};
 /// The patterns of `scripts/roads.lua`, and how far (m) their dead ends are joined.
 pub(crate) const PATTERNS: [(&str, f64); 7] = [
     ("organic", 40.0),
-    ("raster", 140.0),
+    ("raster", 40.0),
     ("radial", 40.0),
     ("contours", 40.0),
     ("population", 40.0),
@@ -60,7 +60,7 @@ pub(crate) fn meet([a, b]: [Whole; 2], [c, d]: [Whole; 2]) -> bool {
 /// Asserts that no street crosses another but at a junction, that junctions keep their angle, that the network is one, that
 /// no dead end is left that could be joined, and that areas add up.
 pub(crate) fn check(grown: &Network, radius: f64, about: &str) {
-    let network = grown.streets();
+    let network = grown.network();
     let pieces: Vec<_> =
         network.pieces().map(|(id, _)| (id, network.ends(id), network.line(id).map(whole))).collect();
     assert!(pieces.len() > 5, "{about}: {} pieces", pieces.len());

@@ -5,6 +5,8 @@
 mod check;
 mod cities;
 
+use std::path::PathBuf;
+
 use check::{PATTERNS, check, grown};
 use cities::{TOWNS, figures};
 
@@ -14,7 +16,7 @@ fn means(pattern: &str, seeds: u64) -> [f64; 7] {
     let mut sums = [0.0; 7];
     for seed in 1..=seeds {
         let grown = grown("roads.lua", seed, &[("pattern", pattern), ("extent", "600")]);
-        let of = grown.streets().measures();
+        let of = grown.network().measures();
         let [ends, three, four] = of.shares;
         let all = [of.degree, ends, three, four, of.circuity, of.meshedness, of.orientation_order];
         sums = std::array::from_fn(|index| sums[index] + all[index] / seeds as f64);
@@ -53,9 +55,9 @@ fn words_keep_what_networks_promise_with_any_angles() {
         let word = if split == "plain" { "F[+X]F-X|F[-X]FX" } else { "F[X]F+X|F[X]F-X|F[X]FX" };
         let set = [("bend", bend), ("branch", branch), ("split", split), ("iterations", "6"), ("word", word)];
         let grown = grown("charroads.lua", seed, &set);
-        assert!(grown.streets().size() > 10, "{split}: {}", grown.streets().size());
+        assert!(grown.network().size() > 10, "{split}: {}", grown.network().size());
         assert_eq!(grown.joinable(Some(120.0), Some(2.0)).expect("a radius"), 0);
-        assert_eq!(grown.streets().components(), 1);
+        assert_eq!(grown.network().components(), 1);
     }
 }
 
@@ -87,8 +89,8 @@ fn ten_seeds_are_ten_towns() {
         let mut towns: Vec<String> = (1..=10)
             .map(|seed| {
                 let grown = grown("roads.lua", seed, &[("pattern", pattern), ("extent", "200")]);
-                let of = grown.streets().measures();
-                format!("{} {:.0} {:.3} {:.0}", grown.streets().size(), of.length, of.degree, of.block)
+                let of = grown.network().measures();
+                format!("{} {:.0} {:.3} {:.0}", grown.network().size(), of.length, of.degree, of.block)
             })
             .collect();
         towns.sort();
@@ -100,10 +102,13 @@ fn ten_seeds_are_ten_towns() {
 /// What a line of a script that uses the library is refused with.
 fn refused(line: &str) -> String {
     let folder = tempfile::tempdir().expect("a folder");
+    let library = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("scripts/templates");
     let templates = folder.path().join("templates");
-    std::fs::create_dir(&templates).expect("a folder");
-    let library = concat!(env!("CARGO_MANIFEST_DIR"), "/scripts/templates/roads.lua");
-    std::fs::copy(library, templates.join("roads.lua")).expect("the library");
+    std::fs::create_dir_all(templates.join("roads")).expect("a folder");
+    for file in ["roads.lua", "roads/checks.lua", "roads/patterns.lua", "roads/growth.lua", "roads/words.lua"]
+    {
+        std::fs::copy(library.join(file), templates.join(file)).expect("the library");
+    }
     let path = folder.path().join("s.lua");
     std::fs::write(&path, format!("local roads = require(\"templates/roads\")\n{line}")).expect("room");
     let Err(error) = burgeon::run(&path, burgeon::options()) else { panic!("{line} is refused") };

@@ -209,7 +209,9 @@ impl ReferenceFrame {
             let at = feature.geometry.points_mut().find_map(place)?;
             let feature = format!("feature {} of {name}", shown(&feature.id));
             let [x, y] = passage.enter([at[0], at[1]]);
-            let at = format!("{}, {}", at[0], at[1]);
+            // The exponent of what is very large tells more than all of its digits.
+            let number = |at: f64| if at.abs() < 1e15 { at.to_string() } else { format!("{at:e}") };
+            let at = format!("{}, {}", number(at[0]), number(at[1]));
             Some(if x.is_finite() && y.is_finite() {
                 Error::data(format!("{feature} lies more than 2,000 km from the middle, at {at}")).help(
                     "all sources of a run share one model; check the coordinates and the coordinate system, or read a part",

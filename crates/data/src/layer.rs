@@ -44,9 +44,10 @@ impl Layer {
             warnings.push(Warning::new(WarningKind::Data, text).help("take them out of the file"));
         }
         if let Some((_, error)) = self.refused.first() {
-            let (count, such) = (self.refused.len(), if self.refused.len() == 1 { "" } else { "such as: " });
+            let (count, such) =
+                (self.refused.len(), if self.refused.len() == 1 { ":" } else { ", such as this one:" });
             let what = features(count);
-            let text = format!("left out {count} {what} that cannot be used: {such}{}", error.message());
+            let text = format!("left out {count} {what} that cannot be used{such} {}", error.message());
             let warning = Warning::new(WarningKind::Data, text);
             warnings.push(warning.help(error.remedy().unwrap_or("repair the file, or leave them out")));
         }

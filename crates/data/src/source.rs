@@ -97,6 +97,9 @@ impl Source {
         (&mut file).take(1024).read_to_end(&mut head).map_err(cannot)?;
         file.rewind().map_err(cannot)?;
         wanted.budget.check()?;
+        if head.is_empty() {
+            return Err(Error::data(format!("{name} is empty")).help("get the file again"));
+        }
         if head.starts_with(b"SQLite format 3") {
             return Ok(Self::GeoPackage(GeoPackage::open(path, name, wanted)?));
         }

@@ -1,7 +1,7 @@
 //! What some types of objects can do and others cannot, as their kinds declare it.
 
 use super::declare::{as_mut, as_ref};
-use super::{Drawing, Note, Object, Rewriter};
+use super::{Drawing, Note, Object, Rewriter, Value};
 use burgeon_base::error::Result;
 use burgeon_scene::Scene;
 
@@ -56,6 +56,10 @@ pub(super) fn expand<T: Object + Expand>() -> Capability<dyn Expand> {
 
 pub(super) fn detail<T: Object + LevelOfDetail>() -> Capability<dyn LevelOfDetail> {
     capability!(T: LevelOfDetail)
+}
+
+pub(super) fn layers<T: Object + HasLayers>() -> Capability<dyn HasLayers> {
+    capability!(T: HasLayers)
 }
 
 pub(super) fn report<T: Object + Report>() -> Capability<dyn Report> {
@@ -123,6 +127,12 @@ pub trait LevelOfDetail {
 pub trait Report {
     /// What that was since the pass began.
     fn notes(&self) -> &[Note];
+}
+
+/// Knows features, for files of layers.
+pub trait HasLayers {
+    /// Its layers, by name: each a list of features as scripts have them, tables with an id, a geometry and attributes.
+    fn layers(&self) -> Vec<(&'static str, Vec<Value>)>;
 }
 
 /// Lets all objects of a system know of one another, once there are all of them and before a rule asks.

@@ -3,7 +3,7 @@
 use std::borrow::Cow;
 use std::sync::Arc;
 
-use super::capability::{self, Capability, Draw, Expand, Gather, LevelOfDetail, Report, Show};
+use super::capability::{self, Capability, Draw, Expand, Gather, HasLayers, LevelOfDetail, Report, Show};
 use super::{BeginPrefetch, Loader, Object, ScriptType, Table, Value};
 use burgeon_base::error::{Error, Result};
 
@@ -44,6 +44,8 @@ pub struct Kind {
     pub detail: Option<Capability<dyn LevelOfDetail>>,
     /// How it tells what it did otherwise than asked, if it does.
     pub report: Option<Capability<dyn Report>>,
+    /// Gives its features as layers.
+    pub layers: Option<Capability<dyn HasLayers>>,
     /// What lets all objects of a system know of one another.
     pub gather: Option<Gather>,
     /// What a thread may prepare of a layer's features before they are asked for.
@@ -210,6 +212,7 @@ impl Kind {
             expand: None,
             detail: None,
             report: None,
+            layers: None,
             gather: None,
             prefetch: None,
             script: None,
@@ -315,6 +318,12 @@ impl Kind {
     #[must_use]
     pub fn has_detail<T: Object + LevelOfDetail>(self) -> Self {
         Self { detail: Some(capability::detail::<T>()), ..self }
+    }
+
+    /// Has features for files of layers.
+    #[must_use]
+    pub fn has_layers<T: Object + HasLayers>(self) -> Self {
+        Self { layers: Some(capability::layers::<T>()), ..self }
     }
 
     /// Tells what it did otherwise than asked.

@@ -38,7 +38,7 @@ mod seed;
 mod value;
 
 pub use buffer_bytes::BufferBytes;
-pub use capability::{Capability, Draw, Expand, Gather, LevelOfDetail, Report, Show};
+pub use capability::{Capability, Draw, Expand, Gather, HasLayers, LevelOfDetail, Report, Show};
 pub use color::Color;
 pub use column_value::ColumnValue;
 pub use drawing::Drawing;

@@ -3,7 +3,7 @@
 use std::any::Any;
 use std::sync::Arc;
 
-use super::{Drawing, Kind, Note, Rewriter};
+use super::{Drawing, Kind, Note, Rewriter, Value};
 use burgeon_base::error::Result;
 use burgeon_base::warning::Warning;
 use burgeon_scene::Scene;
@@ -105,6 +105,11 @@ impl dyn Object {
         if let Some(it) = kind.detail.as_ref().and_then(|capability| capability.of_mut(self)) {
             it.set_detail(detail);
         }
+    }
+
+    /// Its features as layers, by name, if it has any.
+    pub fn layers(&self) -> Vec<(&'static str, Vec<Value>)> {
+        self.kind().layers.as_ref().and_then(|layers| layers.of(self)).map_or_else(Vec::new, |it| it.layers())
     }
 
     /// What it had to do otherwise than it was asked since the pass began.

@@ -376,6 +376,11 @@ impl<T: Parameter> Parameter for Vec<T> {
     fn into_value(self) -> Value {
         list(self.into_iter().map(T::into_value))
     }
+
+    fn written(self) -> String {
+        let items: Vec<String> = self.into_iter().map(T::written).collect();
+        if items.is_empty() { "{}".to_owned() } else { format!("{{ {} }}", items.join(", ")) }
+    }
 }
 
 fn list(values: impl Iterator<Item = Value>) -> Value {

@@ -171,6 +171,7 @@ impl ScriptType {
                     begins_empty: base.begins_empty,
                     show: base.show,
                     draw: base.draw,
+                    layers: base.layers,
                     expand: base.expand,
                     gather: base.gather,
                     prefetch: base.prefetch,

@@ -21,6 +21,7 @@ mod export;
 mod layout;
 pub mod message;
 mod open;
+mod page;
 mod request;
 mod server;
 mod socket;

@@ -14,15 +14,12 @@ use tokio::sync::Semaphore;
 use super::Token;
 use super::address::admits;
 use super::export;
+use super::page;
 use super::socket;
 use super::state::ServerState;
 use burgeon_base::error::Error;
 use burgeon_base::stop::Stop;
 use burgeon_export::gltf;
-
-const INDEX: &[u8] = include_bytes!("../../../viewer/dist/index.html");
-const SCRIPT: &[u8] = include_bytes!("../../../viewer/dist/viewer.js");
-const STYLE: &[u8] = include_bytes!("../../../viewer/dist/viewer.css");
 
 /// Only what comes from this server; textures inside of models are read from the browser's own memory.
 const POLICY: &str = "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' blob: data:; \
@@ -121,9 +118,9 @@ async fn route(site: &Arc<Site>, request: Request, known: impl FnOnce()) -> Resp
     match inner {
         // The page's addresses are relative to the folder.
         None => (StatusCode::PERMANENT_REDIRECT, [(header::LOCATION, format!("/{token}/"))]).into_response(),
-        Some("") => file(INDEX, "text/html; charset=utf-8"),
-        Some("viewer.js") => file(SCRIPT, "text/javascript; charset=utf-8"),
-        Some("viewer.css") => file(STYLE, "text/css; charset=utf-8"),
+        Some("") => page::INDEX.answer(headers),
+        Some("viewer.js") => page::SCRIPT.answer(headers),
+        Some("viewer.css") => page::STYLE.answer(headers),
         Some("socket") => open_socket(site, request).await,
         Some(inner) => match inner.split_once('/') {
             Some(("model", name)) if name.ends_with(MEASURED) => measured(site, name).await,
@@ -237,10 +234,6 @@ fn disposition(name: &str) -> HeaderValue {
     let escaped = utf8_percent_encode(name, ESCAPED);
     let text = format!("attachment; filename=\"{plain}\"; filename*=UTF-8''{escaped}");
     HeaderValue::from_str(&text).unwrap_or(HeaderValue::from_static("attachment"))
-}
-
-fn file(content: &'static [u8], media_type: &'static str) -> Response {
-    ([(header::CONTENT_TYPE, media_type)], Bytes::from_static(content)).into_response()
 }
 
 fn missing() -> Response {

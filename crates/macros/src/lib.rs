@@ -160,8 +160,8 @@ pub fn fields(arguments: TokenStream, item: TokenStream) -> TokenStream {
 ///
 /// After the name, in any order:
 ///
-/// - what it can do, as its `Kind` says it: `draws` (in its field of type `Drawing`), `shows`, `expands`, `has_detail` and
-///   `reports`, each but the first with a trait to implement;
+/// - what it can do, as its `Kind` says it: `draws` (in its field of type `Drawing`), `shows`, `expands`, `has_detail`,
+///   `has_layers` and `reports`, each but the first with a trait to implement;
 /// - `begins_empty`: each pass begins as if there had been none before. Its state gets its defaults again, a drawing keeps
 ///   its memory;
 /// - `first = "field"`, `example = "..."`, `gathers = function`, `prefetches = function`, as its `Kind` takes them;

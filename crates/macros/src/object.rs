@@ -219,7 +219,7 @@ mod tests {
                 "\"tower\", shines",
                 tower,
                 "object takes no shines: it takes begins_empty, crate, deprecates, draws, example, expands, first, gathers, given, has, \
-                 has_detail, loader, make, options, prefetches, reports, shows, and of what the engine calls begin, push, \
+                 has_detail, has_layers, loader, make, options, prefetches, reports, shows, and of what the engine calls begin, push, \
                  pop, end, seed, take_warnings",
             ),
             ("\"tower\", shows, shows", tower, "shows stands here already"),

@@ -9,12 +9,12 @@ use syn::{Error, Expr, Path, Result, Token, Type, parenthesized, parse_quote};
 use crate::attribute::AttributeArguments;
 
 /// The verbs of a kind that take the type.
-const CAPABILITIES: [&str; 5] = ["draws", "expands", "has_detail", "reports", "shows"];
+const CAPABILITIES: [&str; 6] = ["draws", "expands", "has_detail", "has_layers", "reports", "shows"];
 /// The verbs of a kind that take a value.
 const VALUES: [&str; 5] = ["example", "first", "gathers", "has", "prefetches"];
 /// Everything, for messages.
-const ALL: &str = "begins_empty, crate, deprecates, draws, example, expands, first, gathers, given, has, has_detail, loader, make, options, \
-                   prefetches, reports, shows";
+const ALL: &str = "begins_empty, crate, deprecates, draws, example, expands, first, gathers, given, has, has_detail, has_layers, loader, make, \
+                   options, prefetches, reports, shows";
 
 /// What stands in the attribute.
 pub(crate) struct ObjectArguments {

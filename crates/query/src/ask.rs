@@ -8,7 +8,7 @@ use rusqlite::{CachedStatement, ToSql};
 use crate::blob;
 use crate::cell::{Cell, QueryAnswer};
 use crate::connection::DatabaseLink;
-use crate::database::PreparedStatement;
+use crate::database::{PreparedStatement, StatementShape};
 use crate::errors;
 use crate::place;
 use burgeon_base::budget::Budget;
@@ -61,6 +61,29 @@ fn prepare<'a>(
     }
 }
 
+/// The columns and parameters of a statement.
+fn shape(
+    statement: &CachedStatement<'_>,
+    prepared: &PreparedStatement,
+    as_rewritten: bool,
+) -> StatementShape {
+    let mut booleans: Vec<bool> = statement
+        .columns()
+        .map(|column| column.decl_type().is_some_and(|kind| kind.eq_ignore_ascii_case("boolean")))
+        .collect();
+    let known = prepared.rewritten.as_ref().filter(|_| as_rewritten);
+    let told = known.map_or(&[][..], |rewritten| &rewritten.booleans);
+    if told.len() == booleans.len() {
+        booleans.iter_mut().zip(told).for_each(|(boolean, told)| *boolean |= told);
+    }
+    let parameters = 1..=statement.parameter_count();
+    StatementShape {
+        names: statement.column_names().into_iter().map(str::to_owned).collect(),
+        booleans,
+        parameters: parameters.map(|index| statement.parameter_name(index).map(str::to_owned)).collect(),
+    }
+}
+
 /// The rows of a statement.
 pub(crate) fn rows(
     link: &DatabaseLink,
@@ -73,31 +96,22 @@ pub(crate) fn rows(
     if statement.column_count() == 0 {
         return Err(QueryFailure::Told(errors::only_reading()));
     }
-    for index in 1..=statement.parameter_count() {
-        let name = statement.parameter_name(index).map(str::to_owned);
+    let shape = prepared.shape.get_or_init(|| shape(&statement, prepared, as_rewritten));
+    for (index, name) in (1..).zip(&shape.parameters) {
         let cell = errors::parameter(&prepared.original, name.as_deref(), parameters)?;
         statement.raw_bind_parameter(index, Bound { cell, frame })?;
     }
-    let names: Vec<String> = statement.column_names().map(str::to_owned).collect();
-    let known = prepared.rewritten.as_ref().filter(|_| as_rewritten);
-    let mut booleans: Vec<bool> = statement
-        .columns()
-        .map(|column| column.decl_type().is_some_and(|kind| kind.eq_ignore_ascii_case("boolean")))
-        .collect();
-    let told = known.map_or(&[][..], |rewritten| &rewritten.booleans);
-    if told.len() == booleans.len() {
-        booleans.iter_mut().zip(told).for_each(|(boolean, told)| *boolean |= told);
-    }
-    let mut answer = QueryAnswer::new(names, budget);
+    let mut answer = QueryAnswer::new(Arc::clone(&shape.names), budget);
     let mut rows = statement.raw_query();
     while let Some(row) = rows.next()? {
         let cell = |(index, boolean): (usize, &bool)| {
             cell(row.get_ref(index)?, *boolean, frame, budget)
                 .map_err(|error| QueryFailure::Told(error.noting(&format!("column {}", answer.names[index]))))
         };
-        let row = booleans.iter().enumerate().map(cell).collect::<Result<Vec<Cell>, QueryFailure>>()?;
+        let row = shape.booleans.iter().enumerate().map(cell).collect::<Result<Vec<Cell>, QueryFailure>>()?;
         answer.push(row)?;
     }
+    let known = prepared.rewritten.as_ref().filter(|_| as_rewritten);
     if !known.is_some_and(|rewritten| rewritten.ordered) {
         answer.sort();
     }

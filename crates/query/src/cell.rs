@@ -91,7 +91,7 @@ const IDS: [&str; 3] = ["fid", "id", "ogc_fid"];
 #[derive(Debug, Default)]
 pub struct QueryAnswer {
     /// The names of columns, in order.
-    pub names: Vec<String>,
+    pub names: Arc<[String]>,
     /// The rows, in order; each has a cell for every name.
     pub rows: Vec<Vec<Cell>>,
     /// What it takes of a budget until it is dropped.
@@ -100,7 +100,7 @@ pub struct QueryAnswer {
 
 impl QueryAnswer {
     /// An answer without rows, which are counted against a budget.
-    pub(crate) fn new(names: Vec<String>, budget: &Arc<Budget>) -> Self {
+    pub(crate) fn new(names: Arc<[String]>, budget: &Arc<Budget>) -> Self {
         Self { names, rows: Vec::new(), taken: Some((Arc::clone(budget), 0)) }
     }
 

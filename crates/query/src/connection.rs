@@ -237,6 +237,12 @@ fn lock(connection: &mut Connection, state: &Arc<ConnectionState>) -> rusqlite::
     connection.authorizer(Some(move |context: AuthContext<'_>| {
         let trusted = || *trust.0.trusted.lock().unwrap_or_else(PoisonError::into_inner);
         match context.action {
+            // SQLite's own tables tell of its pages, and of files.
+            AuthAction::Read { table_name, .. }
+                if table_name.starts_with("sqlite_") || table_name.eq_ignore_ascii_case("dbstat") =>
+            {
+                Authorization::Deny
+            }
             AuthAction::Select | AuthAction::Read { .. } | AuthAction::Recursive => Authorization::Allow,
             AuthAction::Function { function_name } if functions::is_allowed(function_name) => {
                 Authorization::Allow

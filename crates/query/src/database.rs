@@ -2,7 +2,7 @@
 
 use std::path::Path;
 use std::sync::atomic::{AtomicUsize, Ordering};
-use std::sync::{Arc, Mutex, PoisonError, RwLock};
+use std::sync::{Arc, Mutex, OnceLock, PoisonError, RwLock};
 
 use rusqlite::Connection;
 use rustc_hash::FxHashMap;
@@ -37,7 +37,7 @@ static MEMORIES: AtomicUsize = AtomicUsize::new(0);
 /// let database = Database::new(None)?;
 /// let sql = "SELECT ST_Area(ST_Buffer(ST_MakePoint(0, 0), $r)) > 3 AS large, $r * 2 AS width";
 /// let answer = database.query(sql, &[("r", Cell::Number(1.0))], &Arc::new(Budget::default()))?;
-/// assert_eq!(answer.names, ["large", "width"]);
+/// assert_eq!(*answer.names, ["large", "width"]);
 /// assert_eq!(answer.rows, [[Cell::Boolean(true), Cell::Number(2.0)]]);
 /// # Ok::<(), burgeon_base::error::Error>(())
 /// ```
@@ -49,7 +49,8 @@ pub struct Database {
     /// Held while an index is made, so that nobody makes it twice.
     building: Mutex<()>,
     idle: Mutex<Vec<DatabaseLink>>,
-    statements: Mutex<FxHashMap<String, Arc<PreparedStatement>>>,
+    /// As they are asked, each with the state of the tables that it was made for.
+    statements: Mutex<FxHashMap<String, (usize, Arc<PreparedStatement>)>>,
     /// Keeps the memory, and writes into it.
     writer: Mutex<Connection>,
 }
@@ -72,6 +73,18 @@ pub(crate) struct PreparedStatement {
     pub original: String,
     /// As it was rewritten, if it could be read.
     pub rewritten: Option<Rewritten>,
+    /// What is known of its columns and parameters, once it was asked.
+    pub shape: OnceLock<StatementShape>,
+}
+
+/// The columns of a statement, and its parameters.
+pub(crate) struct StatementShape {
+    /// The names of columns.
+    pub names: Arc<[String]>,
+    /// By column: whether it is of booleans.
+    pub booleans: Vec<bool>,
+    /// The names of parameters, by number.
+    pub parameters: Vec<Option<String>>,
 }
 
 /// Whether a statement names a table.
@@ -194,7 +207,8 @@ impl Database {
         budget: &Arc<Budget>,
     ) -> Result<Arc<QueryAnswer>> {
         self.asked(sql, budget, |link, _| {
-            let prepared = PreparedStatement { original: sql.to_owned(), rewritten: None };
+            let prepared =
+                PreparedStatement { original: sql.to_owned(), rewritten: None, shape: OnceLock::new() };
             ask::rows(link, &prepared, parameters, self.frame.as_ref(), budget)
         })
     }
@@ -211,7 +225,6 @@ impl Database {
         work: impl FnOnce(&DatabaseLink, &PreparedStatement) -> std::result::Result<T, ask::QueryFailure>,
     ) -> Result<T> {
         budget.check()?;
-        errors::check_length(sql)?;
         let link = self.link().map_err(|error| errors::internal(&error))?;
         link.state.give(budget);
         let prepared = self.prepared(sql, &link, budget)?;
@@ -255,22 +268,23 @@ impl Database {
         budget: &Arc<Budget>,
     ) -> Result<Arc<PreparedStatement>> {
         let generation = link.generation;
-        let key = format!("{generation} {sql}");
-        let known = self.statements.lock().unwrap_or_else(PoisonError::into_inner).get(&key).cloned();
-        if let Some(known) = known {
+        let known = self.statements.lock().unwrap_or_else(PoisonError::into_inner).get(sql).cloned();
+        if let Some((_, known)) = known.filter(|(seen, _)| *seen == generation) {
             return Ok(known);
         }
+        errors::check_length(sql)?;
         let catalogue = self.tables.read().unwrap_or_else(PoisonError::into_inner).catalogue.clone();
         let rewritten = rewrite::rewrite(sql, &catalogue, &rewrite::ChosenRows::new(), Dialect::Sqlite);
         for (name, nearest) in rewritten.iter().flat_map(|rewritten| &rewritten.indexes) {
             self.index(name, *nearest, link, &catalogue, budget)?;
         }
-        let prepared = Arc::new(PreparedStatement { original: sql.to_owned(), rewritten });
+        let prepared =
+            Arc::new(PreparedStatement { original: sql.to_owned(), rewritten, shape: OnceLock::new() });
         let mut statements = self.statements.lock().unwrap_or_else(PoisonError::into_inner);
         if statements.len() >= STATEMENTS {
             statements.clear();
         }
-        statements.insert(key, Arc::clone(&prepared));
+        statements.insert(sql.to_owned(), (generation, Arc::clone(&prepared)));
         Ok(prepared)
     }
 

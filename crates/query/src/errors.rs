@@ -138,8 +138,22 @@ pub(crate) fn told(error: &rusqlite::Error, sql: &str, catalogue: &Catalogue) ->
         let error = Error::argument(format!("{}{text}", place(sql, offset, &name)));
         return if takes.is_empty() { error } else { error.help(takes) };
     }
-    let what =
-        format!("SQL{}: {text}", offset.map_or_else(String::new, |offset| format!(", {}", at(sql, offset))));
+    let at_end = text == "incomplete input";
+    // A function says its name first.
+    let function = text.split_once(": ").filter(|(name, _)| functions::find(name).is_some());
+    let what = match function {
+        Some((name, _)) => format!("{}{text}", place(sql, offset, name)),
+        None => {
+            let offset = if at_end { Some(sql.trim_end().len()) } else { offset };
+            format!(
+                "SQL{}: {text}",
+                offset.map_or_else(String::new, |offset| format!(", {}", at(sql, offset)))
+            )
+        }
+    };
+    if text == "Recursion limit" || text.starts_with("Expression tree is too large") {
+        return Error::argument(what).help("write shorter sums, and fewer brackets within one another");
+    }
     match code {
         Some(ErrorCode::OutOfMemory) => Error::limit(Limit::Memory, what)
             .help("ask for less, or raise the limit: --memory-limit MEGABYTES"),
@@ -161,7 +175,20 @@ pub(crate) fn told(error: &rusqlite::Error, sql: &str, catalogue: &Catalogue) ->
 /// What SQLite says before the name of a function that may not be called.
 const NOT_ALLOWED: &str = "not authorized to use function: ";
 
+/// What SQLite says of a column that may not be read.
+const NOT_READ: &str = "access to ";
+
 fn refused(text: &str, sql: &str) -> Error {
+    if let Some(column) = text.strip_prefix(NOT_READ).and_then(|rest| rest.strip_suffix(" is prohibited")) {
+        let table = column.rsplit_once('.').map_or(column, |(table, _)| table);
+        let table = table.rsplit('.').next().unwrap_or(table);
+        return Error::scope(format!(
+            "{}the table {} may not be read",
+            place(sql, None, table),
+            shown(table)
+        ))
+        .help("a table is what source(file) has read");
+    }
     if let Some(name) = text.strip_prefix(NOT_ALLOWED) {
         return Error::scope(format!("{}the function {} may not be called", place(sql, None, name), shown(name)))
             .help("questions give the same each time, and reach nothing but tables; the book's page on SQL lists what there is");

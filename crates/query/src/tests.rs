@@ -117,7 +117,7 @@ fn geometries_numbers_texts_and_nothing_come_back_as_they_are() {
     ];
     let sql = "SELECT $g AS g, $n AS n, $t AS t, $b AS b, $z AS z, ST_AsText($g) AS w, $n > 1 AS more";
     let answer = database.query(sql, &parameters, &budget()).unwrap();
-    assert_eq!(answer.names, ["g", "n", "t", "b", "z", "w", "more"]);
+    assert_eq!(*answer.names, ["g", "n", "t", "b", "z", "w", "more"]);
     let row = &answer.rows[0];
     assert_eq!(row[0], Cell::Geometry(geometry));
     assert_eq!(row[1..5], [Cell::Number(1.5), Cell::Text("it's".into()), Cell::Number(1.0), Cell::Null]);

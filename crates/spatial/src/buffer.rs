@@ -3,6 +3,7 @@
 use burgeon_base::error::{Error, Result};
 use geo::buffer::{Buffer, BufferStyle, LineCap, LineJoin};
 use geo::unary_union;
+use glam::DVec2;
 
 use super::Geometry;
 use super::edges::with_heights;
@@ -71,13 +72,16 @@ impl Geometry {
     /// ```
     pub fn buffer(&self, distance: f64, options: &BufferOptions) -> Result<Self> {
         if !distance.is_finite() || distance.abs() > super::FARTHEST {
-            return Err(Error::argument(format!("buffer takes a finite distance, not {distance}"))
+            return Err(Error::argument(format!("buffer takes a finite distance, not {distance:?}"))
                 .help("give metres: more to grow, less than 0 to shrink"));
         }
         if !(1..=1000).contains(&options.quadrant_segments) {
             let given = options.quadrant_segments;
             return Err(Error::argument(format!("buffer takes 1 to 1000 quadrant_segments, not {given}"))
                 .help("8 are 1 % from a circle's area"));
+        }
+        if let Some(strip) = self.strip(distance, options.cap) {
+            return Ok(with_heights(strip, &[self]));
         }
         let plane = Plane::of(&[self]);
         let areas = dissolved(plane.polygons(self));
@@ -117,5 +121,21 @@ impl Geometry {
             parts => unary_union(parts),
         };
         Ok(with_heights(plane.areas(&whole), &[self]))
+    }
+
+    /// What lies within `distance` of a line of one edge that does not end round: a rectangle. None of others.
+    fn strip(&self, distance: f64, cap: BufferCap) -> Option<Self> {
+        let Self::Line(line) = self else { return None };
+        let [a, b] = line[..] else { return None };
+        let length = (b - a).truncate().length();
+        if distance <= 0.0 || cap == BufferCap::Round || length == 0.0 || !self.is_sound() {
+            return None;
+        }
+        let along = (b - a).truncate() * (distance / length);
+        let beyond = if cap == BufferCap::Square { along } else { DVec2::ZERO };
+        let corner = |place: DVec2| place.extend(0.0);
+        let (a, b, left) = (a.truncate() - beyond, b.truncate() + beyond, along.perp());
+        let ring = vec![corner(a - left), corner(b - left), corner(b + left), corner(a + left)];
+        Self::polygon(vec![ring])
     }
 }

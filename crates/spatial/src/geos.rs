@@ -100,7 +100,13 @@ fn one_geometry_is_what_geos_says_of_it() {
             &[case["oriented"].as_f64().unwrap_or(0.0)],
             1e-6,
         );
-        assert!(geometry.covers(&geometry.point_on_surface()), "{}", name("point"));
+        let on_surface = geometry.point_on_surface();
+        // The middle of a line is as far beside it as it is rounded.
+        let is_there = match geometry.dimension() {
+            1 => geometry.distance(&on_surface).is_some_and(|far| far < 1e-9),
+            _ => geometry.covers(&on_surface),
+        };
+        assert!(is_there, "{}", name("point"));
         if !case["boundary"].is_null() {
             let boundary = geometry.boundary();
             wrong.hold(&name("boundary"), &measures(&boundary), &numbers(&case["boundary"]), 1e-8);

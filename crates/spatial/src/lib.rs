@@ -27,6 +27,7 @@ mod plane;
 mod properties;
 mod relation;
 mod skeleton;
+mod topology;
 mod validity;
 mod within;
 pub mod wkb;
@@ -37,6 +38,7 @@ pub use geometry::{FARTHEST, Geometry};
 pub use kind::GeometryKind;
 pub use overlay::union_all;
 pub use relation::Relation;
+pub use topology::PreparedGeometry;
 
 /// The deepest that geometries may be nested in collections.
 pub const DEEPEST: usize = 32;

@@ -3,7 +3,7 @@
 use glam::DVec3;
 use proptest::prelude::*;
 
-use crate::{BufferOptions, Geometry, union_all};
+use crate::{BufferCap, BufferOptions, Geometry, union_all};
 
 /// Places on a small grid, so that much touches, and some far from it.
 fn place() -> impl Strategy<Value = DVec3> {
@@ -102,6 +102,18 @@ proptest! {
         prop_assert!(one.difference(&two).area() < 1e-6);
         prop_assert!(a.is_empty() || two.area() > one.area());
         prop_assert!(two.dimension() == 2);
+    }
+
+    #[test]
+    fn a_strip_along_an_edge_is_what_a_line_through_its_middle_has(a in place(), b in place(), far in 0.1..3.0f64) {
+        prop_assume!(a.truncate() != b.truncate());
+        for cap in [BufferCap::Flat, BufferCap::Square] {
+            let options = BufferOptions { cap, ..BufferOptions::default() };
+            let strip = Geometry::Line(vec![a, b]).buffer(far, &options)?;
+            let whole = Geometry::Line(vec![a, a.midpoint(b), b]).buffer(far, &options)?;
+            prop_assert!(strip.sym_difference(&whole).area() < 1e-6, "{strip} {whole}");
+            prop_assert!(strip.is_valid() && (strip.num_points(), strip.has_heights()) == (5, whole.has_heights()));
+        }
     }
 
     #[test]

@@ -3,10 +3,11 @@
 use burgeon_base::error::{Error, Result};
 use burgeon_base::text::shown;
 use geo::Intersects;
+use glam::DVec2;
 
 use super::Geometry;
-use super::overlay;
 use super::plane::Plane;
+use super::topology::{self, PreparedGeometry};
 
 /// What the dimensionally extended nine-intersection model says of two geometries: the dimensions in which the
 /// interior, the boundary and the exterior of one meet those of the other.
@@ -62,7 +63,7 @@ impl Relation {
 impl Geometry {
     /// The dimensions in which interiors, boundaries and exteriors of the two meet.
     pub fn relate(&self, other: &Self) -> Relation {
-        Relation { cells: overlay::relate(self, other) }
+        PreparedGeometry::new(self).relate(&PreparedGeometry::new(other))
     }
 
     /// Whether they have a point in common.
@@ -81,7 +82,7 @@ impl Geometry {
 
     /// Whether no point of the other one lies outside, and one lies in the interior.
     pub fn contains(&self, other: &Self) -> bool {
-        self.surrounds(other) && self.relate(other).is("T*****FF*")
+        self.surrounds(other) && PreparedGeometry::new(self).contains(&PreparedGeometry::new(other))
     }
 
     /// Whether the other one contains it.
@@ -91,11 +92,7 @@ impl Geometry {
 
     /// Whether no point of the other one lies outside; borders count.
     pub fn covers(&self, other: &Self) -> bool {
-        if !self.surrounds(other) {
-            return false;
-        }
-        let relation = self.relate(other);
-        ["T*****FF*", "*T****FF*", "***T**FF*", "****T*FF*"].iter().any(|pattern| relation.is(pattern))
+        self.surrounds(other) && PreparedGeometry::new(self).covers(&PreparedGeometry::new(other))
     }
 
     /// Whether the other one covers it.
@@ -105,53 +102,137 @@ impl Geometry {
 
     /// Whether they meet, and their interiors do not.
     pub fn touches(&self, other: &Self) -> bool {
-        if !self.is_near(other) {
-            return false;
-        }
-        let relation = self.relate(other);
-        ["FT*******", "F**T*****", "F***T****"].iter().any(|pattern| relation.is(pattern))
+        self.is_near(other) && PreparedGeometry::new(self).touches(&PreparedGeometry::new(other))
     }
 
     /// Whether their interiors meet in less than the greater of their dimensions, and each has points outside of the
     /// other: a line that leads through an area, or lines that cross in points.
     pub fn crosses(&self, other: &Self) -> bool {
-        if !self.is_near(other) {
-            return false;
-        }
-        match self.dimension().cmp(&other.dimension()) {
-            std::cmp::Ordering::Less => self.relate(other).is("T*T******"),
-            std::cmp::Ordering::Greater => self.relate(other).is("T*****T**"),
-            std::cmp::Ordering::Equal => self.dimension() == 1 && self.relate(other).is("0********"),
-        }
+        self.is_near(other) && PreparedGeometry::new(self).crosses(&PreparedGeometry::new(other))
     }
 
     /// Whether they are of one dimension, their interiors meet in it, and each has points outside of the other.
     pub fn overlaps(&self, other: &Self) -> bool {
-        if !self.is_near(other) || self.dimension() != other.dimension() {
-            return false;
-        }
-        let pattern = if self.dimension() == 1 { "1*T***T**" } else { "T*T***T**" };
-        self.relate(other).is(pattern)
+        self.is_near(other)
+            && self.dimension() == other.dimension()
+            && PreparedGeometry::new(self).overlaps(&PreparedGeometry::new(other))
     }
 
     /// Whether they are the same points, in whatever order and however divided.
     pub fn equals(&self, other: &Self) -> bool {
-        let empty = [self, other].map(|it| it.is_empty() || !it.is_sound());
-        if empty.contains(&true) {
-            return empty == [true; 2];
+        match [self, other].map(|it| it.is_empty() || !it.is_sound()) {
+            [false, false] => {
+                self == other
+                    || self.bounds() == other.bounds()
+                        && PreparedGeometry::new(self).equals(&PreparedGeometry::new(other))
+            }
+            empty => empty == [true; 2],
         }
-        self == other || self.bounds() == other.bounds() && self.relate(other).is("T*F**FFF*")
     }
 
     /// Whether both are sound and the rectangles around them meet.
     fn is_near(&self, other: &Self) -> bool {
-        let (Some([a, b]), Some([c, d])) = (self.bounds(), other.bounds()) else { return false };
-        a.cmple(d).all() && c.cmple(b).all() && self.is_sound() && other.is_sound()
+        meet(self.bounds(), other.bounds()) && self.is_sound() && other.is_sound()
     }
 
     /// Whether both are sound and the other one's rectangle lies in its own.
     fn surrounds(&self, other: &Self) -> bool {
-        let (Some([a, b]), Some([c, d])) = (self.bounds(), other.bounds()) else { return false };
-        a.cmple(c).all() && d.cmple(b).all() && self.is_sound() && other.is_sound()
+        surrounds(self.bounds(), other.bounds()) && self.is_sound() && other.is_sound()
+    }
+}
+
+/// Whether two rectangles meet.
+fn meet(one: Option<[DVec2; 2]>, two: Option<[DVec2; 2]>) -> bool {
+    one.zip(two).is_some_and(|([a, b], [c, d])| a.cmple(d).all() && c.cmple(b).all())
+}
+
+/// Whether the second rectangle lies in the first.
+fn surrounds(one: Option<[DVec2; 2]>, two: Option<[DVec2; 2]>) -> bool {
+    one.zip(two).is_some_and(|([a, b], [c, d])| a.cmple(c).all() && d.cmple(b).all())
+}
+
+/// The same of geometries that are compared with many.
+impl PreparedGeometry {
+    /// The dimensions in which interiors, boundaries and exteriors of the two meet.
+    pub fn relate(&self, other: &Self) -> Relation {
+        Relation { cells: topology::relate(self, other, true) }
+    }
+
+    /// The same, but for the dimension in which borders that cross each other meet.
+    fn relation(&self, other: &Self) -> Relation {
+        Relation { cells: topology::relate(self, other, false) }
+    }
+
+    fn is_near(&self, other: &Self) -> bool {
+        self.is_sound && other.is_sound && meet(self.bounds, other.bounds)
+    }
+
+    fn surrounds(&self, other: &Self) -> bool {
+        self.is_sound && other.is_sound && surrounds(self.bounds, other.bounds)
+    }
+
+    /// As [`Geometry::contains`].
+    pub fn contains(&self, other: &Self) -> bool {
+        self.surrounds(other) && self.relation(other).is("T*****FF*")
+    }
+
+    /// As [`Geometry::within`].
+    pub fn within(&self, other: &Self) -> bool {
+        other.contains(self)
+    }
+
+    /// As [`Geometry::covers`].
+    pub fn covers(&self, other: &Self) -> bool {
+        if !self.surrounds(other) {
+            return false;
+        }
+        let relation = self.relation(other);
+        ["T*****FF*", "*T****FF*", "***T**FF*", "****T*FF*"].iter().any(|pattern| relation.is(pattern))
+    }
+
+    /// As [`Geometry::covered_by`].
+    pub fn covered_by(&self, other: &Self) -> bool {
+        other.covers(self)
+    }
+
+    /// As [`Geometry::touches`].
+    pub fn touches(&self, other: &Self) -> bool {
+        if !self.is_near(other) {
+            return false;
+        }
+        let relation = self.relation(other);
+        ["FT*******", "F**T*****", "F***T****"].iter().any(|pattern| relation.is(pattern))
+    }
+
+    /// As [`Geometry::crosses`].
+    pub fn crosses(&self, other: &Self) -> bool {
+        if !self.is_near(other) {
+            return false;
+        }
+        match self.dimension.cmp(&other.dimension) {
+            std::cmp::Ordering::Less => self.relation(other).is("T*T******"),
+            std::cmp::Ordering::Greater => self.relation(other).is("T*****T**"),
+            std::cmp::Ordering::Equal => self.dimension == 1 && self.relation(other).is("0********"),
+        }
+    }
+
+    /// As [`Geometry::overlaps`].
+    pub fn overlaps(&self, other: &Self) -> bool {
+        if !self.is_near(other) || self.dimension != other.dimension {
+            return false;
+        }
+        let pattern = if self.dimension == 1 { "1*T***T**" } else { "T*T***T**" };
+        self.relation(other).is(pattern)
+    }
+
+    /// As [`Geometry::equals`].
+    pub fn equals(&self, other: &Self) -> bool {
+        match [self, other].map(|it| it.bounds.is_none() || !it.is_sound) {
+            [false, false] => {
+                self.whole == other.whole
+                    || self.bounds == other.bounds && self.relation(other).is("T*F**FFF*")
+            }
+            empty => empty == [true; 2],
+        }
     }
 }

@@ -48,7 +48,7 @@ impl StreetKind {
     /// What streets of this kind are in a network.
     pub fn attributes(&self, depth: u32) -> StreetAttributes {
         let Self { width, sidewalk, median, .. } = *self;
-        StreetAttributes { width, sidewalk, median, depth, class: 0 }
+        StreetAttributes { width, sidewalk, median, depth }
     }
 
     /// Width (m) between the kerbs.

@@ -44,6 +44,7 @@ mod profile;
 mod rows;
 mod shape;
 mod spans;
+mod stretches;
 mod surface;
 #[cfg(test)]
 mod surface_tests;
@@ -67,5 +68,6 @@ pub use obstacles::{Obstacle, Obstacles};
 pub use placement::{SiteOptions, StreetSite, StreetSites};
 pub use profile::StreetProfiles;
 pub use spans::StreetSpan;
+pub use stretches::StreetStretch;
 pub use surface::{Median, Sidewalk, StreetFooting, StreetSurface, StreetSurfaces, SurfaceOptions};
 pub use verge::{VergePlace, VergeThing};

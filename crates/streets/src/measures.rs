@@ -88,44 +88,22 @@ impl StreetNetwork {
     /// Its streets from junction to junction.
     fn runs(&self) -> StreetRuns {
         let (mut lengths, mut straight, mut bins) = (Vec::new(), 0.0, [0.0; 36]);
-        let mut seen = vec![false; self.pieces.len()];
-        // Ways from junction to junction first, then rings of turns alone.
-        let starts = |of: fn(usize) -> bool| {
-            let all = (0..).zip(&self.junctions);
-            all.filter(move |(_, junction)| of(junction.degree()))
-        };
-        for (from, junction) in
-            starts(|degree| degree != 2 && degree != 0).chain(starts(|degree| degree == 2))
-        {
-            for &first in &junction.pieces {
-                let (mut at, mut piece, mut way) = (from, first, 0.0);
-                while !std::mem::replace(&mut seen[piece as usize], true) {
-                    way += self.length(piece);
-                    at = self.across(piece, at);
-                    let arms = &self.junctions[at as usize].pieces;
-                    if arms.len() != 2 {
-                        break;
-                    }
-                    piece = if arms[0] == piece { arms[1] } else { arms[0] };
-                }
-                if way == 0.0 {
-                    continue;
-                }
-                lengths.push(way);
-                let straight_way = self.at(at) - self.at(from);
-                straight += straight_way.length();
-                if straight_way.length() > 0.0 {
-                    for way in [straight_way, -straight_way] {
-                        // North is 0, clockwise, with bins around the directions they are named by.
-                        let bearing = way.x.atan2(way.y).to_degrees().rem_euclid(360.0);
-                        #[allow(
-                            clippy::cast_possible_truncation,
-                            clippy::cast_sign_loss,
-                            reason = "from 0 to 36"
-                        )]
-                        let bin = ((bearing + 5.0) / 10.0).floor() as usize % 36;
-                        bins[bin] += 1.0;
-                    }
+        for way in self.ways_between(|junction| self.junctions[junction as usize].degree() != 2) {
+            let (Some(first), Some(last)) = (way.first(), way.last()) else { continue };
+            lengths.push(way.iter().map(|course| self.length(course.piece)).sum());
+            let straight_way = self.at(self.across(last.piece, last.from)) - self.at(first.from);
+            straight += straight_way.length();
+            if straight_way.length() > 0.0 {
+                for way in [straight_way, -straight_way] {
+                    // North is 0, clockwise, with bins around the directions they are named by.
+                    let bearing = way.x.atan2(way.y).to_degrees().rem_euclid(360.0);
+                    #[allow(
+                        clippy::cast_possible_truncation,
+                        clippy::cast_sign_loss,
+                        reason = "from 0 to 36"
+                    )]
+                    let bin = ((bearing + 5.0) / 10.0).floor() as usize % 36;
+                    bins[bin] += 1.0;
                 }
             }
         }

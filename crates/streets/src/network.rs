@@ -27,8 +27,6 @@ pub struct StreetAttributes {
     pub median: f64,
     /// How many times its way branched off: 0 for a main street.
     pub depth: u32,
-    /// The number of the name that the script gave to streets of its kind.
-    pub class: u16,
 }
 
 /// Where streets meet, turn or end.

@@ -23,6 +23,7 @@ pub(crate) const MEDIAN_MARGIN: f64 = 6.0;
 pub(crate) struct PieceRows<'a> {
     profiles: &'a StreetProfiles,
     piece: PieceId,
+    depth: u32,
     start: DVec2,
     way: DVec2,
     rows: Vec<Row>,
@@ -147,12 +148,17 @@ impl<'a> PieceRows<'a> {
         let mut rows = vec![end(0)];
         rows.extend(alongs.into_iter().map(row));
         rows.push(end(1));
-        Self { profiles, piece, start, way, rows }
+        Self { profiles, piece, depth: attributes.depth, start, way, rows }
+    }
+
+    /// A surface of it without any points.
+    fn surface(&self) -> StreetSurface {
+        StreetSurface { piece: Some(self.piece), depth: self.depth, ..StreetSurface::default() }
     }
 
     /// Where vehicles are.
     pub(crate) fn carriageway(&self) -> StreetSurface {
-        let mut into = StreetSurface { piece: Some(self.piece), ..StreetSurface::default() };
+        let mut into = self.surface();
         for pair in self.rows.windows(2) {
             let (from, to) = (pair[0], pair[1]);
             let [right, left] = from.sides.map(|at| add(&mut into, at, from.height));
@@ -191,10 +197,7 @@ impl<'a> PieceRows<'a> {
 
     /// The strip in the middle.
     pub(crate) fn median(&self) -> Option<Median> {
-        let mut median = Median {
-            top: StreetSurface { piece: Some(self.piece), ..StreetSurface::default() },
-            kerbs: vec![],
-        };
+        let mut median = Median { top: self.surface(), kerbs: vec![] };
         let mut lines = [Vec::new(), Vec::new()];
         let mut noses = [Vec::new(), Vec::new()];
         for pair in self.rows.windows(2) {

@@ -40,6 +40,8 @@ pub struct StreetSurface {
     pub triangles: Vec<[u32; 3]>,
     /// The piece that it is of; none of a junction.
     pub piece: Option<PieceId>,
+    /// How many times the way of its street branched off; of a junction, the least of its streets.
+    pub depth: u32,
 }
 
 /// The raised strip in the middle of a piece.
@@ -185,7 +187,8 @@ fn junction_surface(
     #[allow(clippy::cast_possible_truncation, reason = "some dozens of points")]
     let count = outline.len() as u32;
     let triangles = (0..count).map(|index| [0, 1 + index, 1 + (index + 1) % count]).collect();
-    Some(StreetSurface { points, triangles, piece: None })
+    let depths = shape.arms.iter().map(|arm| shapes.network.attributes(arm.piece).depth);
+    Some(StreetSurface { points, triangles, piece: None, depth: depths.min().unwrap_or_default() })
 }
 
 /// The kerb around a way and the edge of what lies on its left, place by place.

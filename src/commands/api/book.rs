@@ -103,27 +103,24 @@ fn body(text: &mut String, entry: &Entry, level: usize) {
         }
         let _ = writeln!(text, "\n{heading} {title}\n");
         if what == MemberKind::Field {
-            fields(text, &entry.name, &members);
+            fields(text, &entry.name, &members, "");
         } else {
             members.into_iter().for_each(|member| method(text, &entry.name, member));
         }
     }
 }
 
-/// A table of fields, each followed by those of the table that it is.
-fn fields(text: &mut String, owner: &str, members: &[&Member]) {
-    text.push_str("| field | type | default | unit | |\n| --- | --- | --- | --- | --- |\n");
+/// A list of fields, each followed by those of the table that it is; `indent` stands before each line.
+fn fields(text: &mut String, owner: &str, members: &[&Member], indent: &str) {
     let mut rows = Vec::new();
     members.iter().for_each(|member| collect(&mut rows, "", member));
     for (name, member) in rows {
-        let code = |part: &str| if part.is_empty() { String::new() } else { format!("`{}`", cell(part)) };
-        let unit = member.unit.as_deref().unwrap_or_default();
-        let mut doc = cell(&plain(&member.doc));
+        let _ = writeln!(text, "{indent}- `{}`  ", member.usage_as(&name));
+        let mut doc = plain(&member.doc);
         if let Some(example) = example_of(&format!("{owner}.{name}")) {
             let _ = write!(doc, " [Picture]({}).", file_of(example));
         }
-        let (luau, default) = (code(&member.luau), code(&member.default));
-        let _ = writeln!(text, "| `{name}` | {luau} | {default} | {unit} | {doc} |");
+        let _ = writeln!(text, "{indent}  {doc}");
     }
 }
 
@@ -147,10 +144,8 @@ fn method(text: &mut String, owner: &str, member: &Member) {
         None => {}
     }
     if !member.fields.is_empty() {
-        text.push('\n');
         let members: Vec<&Member> = member.fields.iter().collect();
-        fields(text, &full, &members);
-        text.push('\n');
+        fields(text, &full, &members, "  ");
     }
 }
 
@@ -175,9 +170,4 @@ fn plain(doc: &str) -> String {
     let text = doc.split_whitespace().collect::<Vec<_>>().join(" ");
     // What stands in angle brackets is no HTML, and nothing is a link.
     text.replace('<', "&lt;").replace('[', "\\[")
-}
-
-/// A text for a cell of a table.
-fn cell(text: &str) -> String {
-    text.replace('\n', " ").replace('|', "\\|")
 }

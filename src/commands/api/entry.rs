@@ -199,7 +199,12 @@ impl Member {
 
     /// How it is written, without the owner.
     pub(super) fn usage(&self) -> String {
-        let Self { name, luau, default, .. } = self;
+        self.usage_as(&self.name)
+    }
+
+    /// How it is written if it is called `name`.
+    pub(super) fn usage_as(&self, name: &str) -> String {
+        let Self { luau, default, .. } = self;
         match self.what {
             MemberKind::Field if default == "nil" || default.is_empty() => format!("{name}: {luau}"),
             MemberKind::Field => format!("{name}: {luau} = {default}"),

@@ -101,8 +101,10 @@ impl RunCommand {
             files.write(path, |out| std::io::Write::write_all(out, text.as_bytes()))?;
         }
         let picture = self.picture.picture(self.size);
-        let (systems, layers) =
-            (systems(run), if self.writes(Format::has_layers) { layers(&run.systems) } else { Vec::new() });
+        let (systems, layers) = (
+            systems(run),
+            if self.writes(Format::has_layers) { layers(session, &run.systems) } else { Vec::new() },
+        );
         let facts = SceneFacts {
             frame: run.frame.as_ref(),
             detail: session.options.lod,

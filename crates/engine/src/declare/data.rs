@@ -9,6 +9,7 @@ use super::session::Session;
 use super::tables::{ListTable, SourceTable, SourceTables, TableContent};
 use burgeon_base::budget::Budget;
 use burgeon_base::error::{Error, Result};
+use burgeon_data::output::RecordTable;
 use burgeon_data::{Cache, Layer, ReferenceFrame, Source, SourceOptions, nearest_file, split_name};
 use burgeon_kit::{LoadRequest, LoadedObject, Loader, Resources, Table};
 use burgeon_packages::Package;
@@ -117,6 +118,11 @@ impl Data {
     pub(crate) fn add_list(&self, name: &str, list: ListTable) {
         let mut known = self.known.lock().unwrap_or_else(PoisonError::into_inner);
         known.tables.add(SourceTable { name: name.to_owned(), content: TableContent::List(list) });
+    }
+
+    /// The lists that the script made tables of, with the names of those.
+    pub(crate) fn lists(&self) -> Vec<RecordTable> {
+        self.known.lock().unwrap_or_else(PoisonError::into_inner).tables.lists()
     }
 
     /// What comes of the tables, the projection of the run, and what reading them may take.

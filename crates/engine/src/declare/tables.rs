@@ -5,6 +5,7 @@ use std::sync::Arc;
 #[cfg(feature = "postgis")]
 use std::time::Duration;
 
+use burgeon_data::output::{Record, RecordTable};
 use burgeon_data::{Feature, Layer};
 #[cfg(feature = "postgis")]
 use burgeon_query::postgis::{Server, ServerAddress};
@@ -40,6 +41,19 @@ pub(crate) struct ListTable {
     pub features: Vec<Feature>,
 }
 
+impl ListTable {
+    /// Its features as records.
+    fn records(&self, name: &str) -> RecordTable {
+        let record = |feature: &Feature| Record {
+            id: feature.id.as_str().to_owned(),
+            geometry: Some(feature.geometry.clone()),
+            values: feature.attributes.to_vec(),
+        };
+        let records = self.features.iter().map(record).collect();
+        RecordTable { name: name.to_owned(), columns: self.names.clone(), records }
+    }
+}
+
 /// The tables of a run, in the order in which they were loaded.
 #[derive(Default)]
 pub(super) struct SourceTables {
@@ -55,6 +69,15 @@ impl SourceTables {
     /// Adds what a source is.
     pub(super) fn add(&mut self, table: SourceTable) {
         self.loaded.push(table);
+    }
+
+    /// The lists that the script made.
+    pub(super) fn lists(&self) -> Vec<RecordTable> {
+        let list = |table: &SourceTable| match &table.content {
+            TableContent::List(list) => Some(list.records(&table.name)),
+            _ => None,
+        };
+        self.loaded.iter().filter_map(list).collect()
     }
 
     /// The server at an address; no question to it takes longer than `most`.

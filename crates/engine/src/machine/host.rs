@@ -3,7 +3,7 @@
 use std::rc::Rc;
 use std::sync::{Arc, LazyLock};
 
-use mlua::{Lua, MultiValue, Table, Value as LuaValue};
+use mlua::{Lua, LuaString, MultiValue, Table, Value as LuaValue};
 
 use super::current::WorkState;
 use crate::machine::convert::{to_argument, to_lua, to_value};
@@ -13,7 +13,7 @@ use burgeon_base::error::{Error, Limit};
 use burgeon_base::warning::said;
 use burgeon_kit::declare::as_ref;
 use burgeon_kit::rules::{ColumnValue, DEEPEST, module_text};
-use burgeon_kit::{Call, ScriptObject, Value};
+use burgeon_kit::{Call, GeometryObject, ScriptObject, Value};
 
 /// An answer of more entries is made without a collection of garbage meanwhile.
 const LONG: usize = 256;
@@ -25,6 +25,9 @@ const TOP: u8 = 0;
 
 /// A held object's place, a method's number, the application, and what the method is given.
 type HostCall = (Option<usize>, usize, usize, MultiValue);
+
+/// A method's number and name, the object, the application whose guard asks if it is one, and what the method is given.
+type ObjectCall = (usize, LuaString, LuaValue, Option<usize>, MultiValue);
 
 pub(crate) fn functions(lua: &Lua, current: &Rc<WorkState>, library: &Rc<Library>) -> mlua::Result<Table> {
     let host = lua.create_table()?;
@@ -182,9 +185,11 @@ fn add_methods(lua: &Lua, host: &Table, current: &Rc<WorkState>, library: &Rc<Li
         })?,
     )?;
     let shelf = Rc::clone(library);
+    let state = Rc::clone(current);
     host.set(
         "call_object",
-        lua.create_function(move |lua, (name, object, arguments): (String, LuaValue, MultiValue)| {
+        lua.create_function(move |lua, (number, name, object, guard, arguments): ObjectCall| {
+            let name = name.to_str()?;
             let (_, method) = name.split_once(':').unwrap_or(("", &name));
             let LuaValue::UserData(data) = &object else {
                 return Err(mlua::Error::external(
@@ -193,15 +198,26 @@ fn add_methods(lua: &Lua, host: &Table, current: &Rc<WorkState>, library: &Rc<Li
                 ));
             };
             let handle = data.borrow::<ObjectHandle>()?;
-            let Some(method) = handle.0.kind().method(method) else {
+            // Those of a type that extends another have other numbers.
+            let kind = handle.0.kind();
+            let known = kind.methods.get(number).filter(|known| *known.name == *method);
+            let Some(method) = known.or_else(|| kind.method(method)) else {
                 return Err(mlua::Error::external(handle.0.kind().unknown_method(method)));
             };
             match &method.call {
                 Call::Read(read) => {
+                    let given = values(&arguments)?;
                     said();
-                    let answer = read(&*handle.0, &values(&arguments)?).map_err(mlua::Error::external)?;
+                    let answer = read(&*handle.0, &given).map_err(mlua::Error::external)?;
                     let machine = shelf.machine().map_err(mlua::Error::external)?;
                     said().into_iter().for_each(|warning| machine.warn(warning));
+                    let place = guard.and_then(|guard| state.places.borrow().get(guard).copied());
+                    if let Some(place) = place.filter(|_| GeometryObject::of(&*handle.0).is_some()) {
+                        let given: Vec<String> = given.iter().map(Value::to_string).collect();
+                        let this = Value::Object(Arc::clone(&handle.0));
+                        let text = format!("{this}:{}({}): {answer}", method.name, given.join(", "));
+                        state.session.rows.note_answer(place as usize, text);
+                    }
                     // All of a long answer stays, so looking for what does not would be in vain.
                     let is_long = matches!(&answer, Value::Table(table) if table.entries.len() > LONG);
                     let pauses = is_long && lua.gc_is_running();

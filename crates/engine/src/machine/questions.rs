@@ -43,6 +43,8 @@ pub(super) fn add_questions(lua: &Lua, host: &Table, current: &Rc<WorkState>) ->
         })?,
     )?;
     let (state, tables) = (Rc::clone(current), RefCell::<RowTables>::default());
+    let none = lua.create_table()?;
+    none.set_readonly(true);
     host.set(
         "rows",
         lua.create_function(
@@ -57,6 +59,9 @@ pub(super) fn add_questions(lua: &Lua, host: &Table, current: &Rc<WorkState>) ->
                     state.session.rows.note(place as usize, &question, rows.len());
                 }
                 let mut tables = tables.borrow_mut();
+                if rows.is_empty() {
+                    return Ok(none.clone());
+                }
                 let address = Arc::as_ptr(&rows) as usize;
                 if let Some((_, known)) = tables.known.get(&address) {
                     return Ok(known.clone());

@@ -19,7 +19,7 @@ type Slot = Arc<OnceLock<Result<Arc<Rows>>>>;
 #[derive(Default)]
 pub(crate) struct KeptRows {
     known: Mutex<FxHashMap<Question, KeptAnswer>>,
-    /// The places of modules whose rules have asked in the step at hand, and what; in words.
+    /// The places of modules whose rules have asked data or geometries in the step at hand, and what; in words.
     noted: Mutex<Vec<(usize, String)>>,
     values: AtomicUsize,
 }
@@ -60,7 +60,11 @@ impl KeptRows {
 
     /// Notes for the step at hand what a rule has asked for the module at `place`, and how many rows it got.
     pub(crate) fn note(&self, place: usize, question: &Question, rows: usize) {
-        let text = format!("{question}: {rows} row{}", if rows == 1 { "" } else { "s" });
+        self.note_answer(place, format!("{question}: {rows} row{}", if rows == 1 { "" } else { "s" }));
+    }
+
+    /// The same in words.
+    pub(crate) fn note_answer(&self, place: usize, text: String) {
         self.noted.lock().unwrap_or_else(PoisonError::into_inner).push((place, text));
     }
 

@@ -1,24 +1,35 @@
 //! A question, its answer, and who answers.
 
 use std::fmt;
+use std::hash::{BuildHasher as _, Hash, Hasher};
 use std::sync::Arc;
 
 use burgeon_base::error::Result;
 use burgeon_kit::{Table, TableKey, Value};
+use rustc_hash::FxBuildHasher;
 
 use super::sql_parameters;
 
 /// A text of SQL with the values of its parameters. Two are equal if they ask the same.
-#[derive(Debug, Clone, PartialEq, Eq, Hash)]
+#[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Question {
+    /// What it adds to a hash: its values may be large, and lists of many questions ask for it again and again.
+    hash: u64,
     sql: Arc<str>,
     values: Option<Arc<Table>>,
+}
+
+impl Hash for Question {
+    fn hash<H: Hasher>(&self, state: &mut H) {
+        state.write_u64(self.hash);
+    }
 }
 
 impl Question {
     /// Asks `sql`, whose parameters have these `values`, by name; those that are not there are NULL.
     pub fn new(sql: Arc<str>, values: Option<Arc<Table>>) -> Self {
-        Self { sql, values: values.filter(|values| !values.entries.is_empty()) }
+        let values = values.filter(|values| !values.entries.is_empty());
+        Self { hash: FxBuildHasher.hash_one((&sql, &values)), sql, values }
     }
 
     /// The text.

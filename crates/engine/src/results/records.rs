@@ -73,7 +73,7 @@ impl SourceFeatures {
 pub(super) struct Columns(pub(super) Vec<String>);
 
 impl Columns {
-    fn number(&mut self, name: &str) -> usize {
+    pub(super) fn number(&mut self, name: &str) -> usize {
         self.0.iter().position(|known| known == name).unwrap_or_else(|| {
             self.0.push(name.to_owned());
             self.0.len() - 1
@@ -81,7 +81,7 @@ impl Columns {
     }
 
     /// The values of a feature's table, but for its id, its geometry and what no file can hold.
-    fn values(&mut self, table: &Table) -> Vec<(usize, Attribute)> {
+    pub(super) fn values(&mut self, table: &Table) -> Vec<(usize, Attribute)> {
         let values = table.entries.iter().filter_map(|(key, value)| match key {
             TableKey::Name(name) if !["id", "geometry"].contains(&&**name) => {
                 Some((self.number(name), attribute(value)?))

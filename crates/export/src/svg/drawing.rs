@@ -13,11 +13,11 @@ use burgeon_scene::Scene;
 use glam::DVec3;
 
 /// The most triangles that a drawing is made of; what has more is a picture.
-const LIMIT: usize = 2_000_000;
+const LIMIT: usize = 4_000_000;
 
 /// `scene` as an SVG document.
 ///
-/// Fails if the scene is not sound, if a texture cannot be read, beyond 2 million triangles, and if a `stop` was asked
+/// Fails if the scene is not sound, if a texture cannot be read, beyond 4 million triangles, and if a `stop` was asked
 /// for.
 pub fn svg(scene: &Scene, stop: &Stop) -> Result<String> {
     let checked = check(scene)?;
@@ -114,7 +114,13 @@ fn document(
         // Renderers leave a light gap between areas that touch; where no dark line covers it, a wide one of
         // the area's own colour does.
         let [edge, thin] = [0.32, 0.7].map(|brightness| palette.tone(sheet.ink, brightness));
-        let drawn = [(&sheet.seams, color, 2.0), (&sheet.thin, thin, 0.7), (&sheet.lines, edge, 0.8)];
+        // What is narrower than a line, such as paint on a street, is a line of its own colour.
+        let drawn = [
+            (&sheet.seams, color.clone(), 2.0),
+            (&sheet.hairs, color, 0.4),
+            (&sheet.thin, thin, 0.7),
+            (&sheet.lines, edge, 0.8),
+        ];
         for (ends, color, pens) in drawn {
             if !ends.is_empty() {
                 let (width, data) = (decimals(pen * pens), outline::lines(ends));

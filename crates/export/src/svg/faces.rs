@@ -48,8 +48,8 @@ pub(super) struct VisibleLine {
 /// What a line shows.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum VisibleLineKind {
-    /// Where a shape ends, bends or changes its material. The number is how wide (mm) the shape is on the
-    /// whole: with dark lines around it, something thin would be nothing else.
+    /// Where a shape ends, bends or changes its material. The number is how wide (mm) what is of that material in the
+    /// shape is on the whole, or the thinner of two: with dark lines around it, something thin would be nothing else.
     Edge(f64),
     /// Where a smooth surface changes its shade.
     Seam,
@@ -97,6 +97,8 @@ impl VisibleFaces {
         let matrix = view.matrix();
         let mirrored = instance.transform.matrix3.determinant() < 0.0;
         let mut edges = Vec::new();
+        // Points that are one on paper, where a triangle between them has vanished.
+        let mut merged: FxHashMap<u32, u32> = FxHashMap::default();
         let first_face = self.faces.len();
         for (part, welded) in shown_parts(mesh).zip(welded) {
             let double_sided = checked.scene.materials[part.material].double_sided;
@@ -116,6 +118,15 @@ impl VisibleFaces {
                     normal = -normal;
                 }
                 let flat = points.map(|at| [(at.x * 1000.0).round() as i64, (at.y * 1000.0).round() as i64]);
+                for (i, j) in [(0, 1), (1, 2), (2, 0)] {
+                    let (a, b) = (welded[corners[i] as usize], welded[corners[j] as usize]);
+                    if a != b && flat[i] == flat[j] && (points[i].z - points[j].z).abs() < 1e-3 {
+                        let (a, b) = (last(&merged, a), last(&merged, b));
+                        if a != b {
+                            merged.insert(a.max(b), a.min(b));
+                        }
+                    }
+                }
                 if normal.z <= 0.0 || !is_counter_clockwise(flat) {
                     continue;
                 }
@@ -132,11 +143,18 @@ impl VisibleFaces {
                 }
             }
         }
+        if !merged.is_empty() {
+            for edge in &mut edges {
+                let (a, b) = (last(&merged, edge.0), last(&merged, edge.1));
+                (edge.0, edge.1) = (a.min(b), a.max(b));
+            }
+        }
         edges.sort_unstable();
-        let (mut area, mut length) = (0.0, 0.0);
+        // By material, the area and the length of the lines around it.
+        let mut sizes: FxHashMap<u32, (f64, f64)> = FxHashMap::default();
         for face in &self.faces[first_face..] {
             let [a, b, c] = face.corners.map(|at| DVec3::new(at[0] as f64, at[1] as f64, 0.0));
-            area += (b - a).cross(c - a).z / 2.0;
+            sizes.entry(face.ink / SHADES).or_default().0 += (b - a).cross(c - a).z / 2.0;
         }
         let first_line = self.lines.len();
         for side in edges.chunk_by(|a, b| (a.0, a.1) == (b.0, b.1)) {
@@ -150,7 +168,12 @@ impl VisibleFaces {
             let same = one.ink / SHADES == other.ink / SHADES;
             if side.len() != 2 || !same || one.normal.dot(other.normal) < BEND {
                 let [from, to] = ends;
-                length += ((to[0] - from[0]) as f64).hypot((to[1] - from[1]) as f64);
+                let length = ((to[0] - from[0]) as f64).hypot((to[1] - from[1]) as f64);
+                for material in [Some(one.ink / SHADES), (!same).then_some(other.ink / SHADES)] {
+                    if let Some((_, around)) = material.and_then(|material| sizes.get_mut(&material)) {
+                        *around += length;
+                    }
+                }
                 self.lines.push(VisibleLine { ends, faces, kind: VisibleLineKind::Edge(0.0) });
             } else if one.ink != other.ink {
                 self.lines.push(VisibleLine { ends, faces, kind: VisibleLineKind::Seam });
@@ -158,7 +181,9 @@ impl VisibleFaces {
         }
         for line in &mut self.lines[first_line..] {
             if let VisibleLineKind::Edge(width) = &mut line.kind {
-                *width = 2.0 * area / length;
+                let of = line.faces.map(|face| self.faces[face as usize].ink / SHADES);
+                let widths = of.map(|material| sizes[&material]).map(|(area, around)| 2.0 * area / around);
+                *width = widths[0].min(widths[1]);
             }
         }
     }
@@ -173,6 +198,14 @@ fn weld(mesh: &Mesh) -> Vec<Vec<u32>> {
         *known.entry((*at + 0.0).to_array().map(f32::to_bits)).or_insert(next)
     };
     shown_parts(mesh).map(|part| part.positions.iter().map(&mut number).collect()).collect()
+}
+
+/// The point that a point was merged with in the end.
+fn last(merged: &FxHashMap<u32, u32>, mut point: u32) -> u32 {
+    while let Some(next) = merged.get(&point) {
+        point = *next;
+    }
+    point
 }
 
 /// Whether the corners turn left, and not by nothing.
@@ -231,6 +264,20 @@ mod tests {
         let faces = VisibleFaces::collect(&check(&scene).unwrap(), DrawingSide::Plan);
         assert_eq!((faces.faces.len(), faces.lines.len()), (2, 4));
         assert_eq!(faces.bounds(), Some(([-500, -500], [500, 500])));
+    }
+
+    #[test]
+    fn a_triangle_that_vanishes_on_paper_leaves_no_line() {
+        let mut scene = samples::boxes(1);
+        // A fan of three triangles around the origin, of which the middle one is thinner than the paper can tell.
+        let corners = [[0.0, 0.0], [10.0, 0.0], [10.0, 10.0], [9.9999, 10.0], [0.0, 10.0]];
+        let part = &mut scene.meshes[0].parts[0];
+        part.positions = corners.iter().map(|[x, y]| Vec3::new(*x, *y, 0.0)).collect();
+        part.normals = vec![burgeon_scene::Normal::from(DVec3::Z); corners.len()];
+        part.uvs = vec![glam::Vec2::ZERO; corners.len()];
+        part.triangles = [[0, 1, 2], [0, 2, 3], [0, 3, 4]].into_iter().collect();
+        let faces = VisibleFaces::collect(&check(&scene).unwrap(), DrawingSide::Plan);
+        assert_eq!((faces.faces.len(), faces.lines.len()), (2, 4));
     }
 
     #[test]

@@ -21,13 +21,22 @@ pub(super) struct PaperSheet {
     pub(super) lines: Vec<[PaperPoint; 2]>,
     /// The ends of lines around shapes that are hardly wider than a line.
     pub(super) thin: Vec<[PaperPoint; 2]>,
+    /// The ends of lines around shapes that are narrower than a line.
+    pub(super) hairs: Vec<[PaperPoint; 2]>,
     /// The ends of lines to sheets below with another shade of the same surface.
     pub(super) seams: Vec<[PaperPoint; 2]>,
 }
 
 impl PaperSheet {
     fn new(ink: Ink) -> Self {
-        Self { ink, faces: Vec::new(), lines: Vec::new(), thin: Vec::new(), seams: Vec::new() }
+        Self {
+            ink,
+            faces: Vec::new(),
+            lines: Vec::new(),
+            thin: Vec::new(),
+            hairs: Vec::new(),
+            seams: Vec::new(),
+        }
     }
 }
 
@@ -35,7 +44,7 @@ impl PaperSheet {
 ///
 /// Faces are laid down from the back, each on the lowest sheet of its ink that is not below a face that it
 /// overlaps. So faces of one ink that nothing separates share a sheet, and what is in front comes later.
-/// Shapes narrower than three times the `pen` (m) are thin. Fails if a `stop` was asked for.
+/// Shapes narrower than three times the `pen` (m) are thin, those narrower than it are hairs. Fails if a `stop` was asked for.
 pub(super) fn stack(faces: &VisibleFaces, pen: f64, stop: &Stop) -> Result<Vec<PaperSheet>> {
     let Some(mut grid) = PaperGrid::around(faces) else { return Ok(Vec::new()) };
     let mut order: Vec<u32> = (0..faces.faces.len() as u32).collect();
@@ -67,7 +76,8 @@ pub(super) fn stack(faces: &VisibleFaces, pen: f64, stop: &Stop) -> Result<Vec<P
         let sheet = &mut sheets[one.max(other) as usize];
         match line.kind {
             VisibleLineKind::Edge(width) if width >= pen * 3000.0 => sheet.lines.push(line.ends),
-            VisibleLineKind::Edge(_) => sheet.thin.push(line.ends),
+            VisibleLineKind::Edge(width) if width >= pen * 1000.0 => sheet.thin.push(line.ends),
+            VisibleLineKind::Edge(_) => sheet.hairs.push(line.ends),
             VisibleLineKind::Seam => sheet.seams.push(line.ends),
         }
     }

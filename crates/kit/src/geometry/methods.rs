@@ -210,7 +210,7 @@ impl GeometryObject {
 
     /// Whether they are the same points, in whatever order.
     pub fn equals(&self, other: Shape) -> bool {
-        self.geometry().equals(other.geometry())
+        self.prepared().equals(other.prepared())
     }
 
     /// Whether they have no point in common.
@@ -225,37 +225,37 @@ impl GeometryObject {
 
     /// Whether they meet, and only with their borders or ends.
     pub fn touches(&self, other: Shape) -> bool {
-        self.geometry().touches(other.geometry())
+        self.prepared().touches(other.prepared())
     }
 
     /// Whether a line leads through an area, or lines cross in points.
     pub fn crosses(&self, other: Shape) -> bool {
-        self.geometry().crosses(other.geometry())
+        self.prepared().crosses(other.prepared())
     }
 
     /// Whether it lies in the other one; what lies on its border alone does not.
     pub fn within(&self, other: Shape) -> bool {
-        self.geometry().within(other.geometry())
+        self.prepared().within(other.prepared())
     }
 
     /// Whether the other one lies in it; what lies on its border alone does not.
     pub fn contains(&self, other: Shape) -> bool {
-        self.geometry().contains(other.geometry())
+        self.prepared().contains(other.prepared())
     }
 
     /// Whether no point of the other one lies outside; borders count.
     pub fn covers(&self, other: Shape) -> bool {
-        self.geometry().covers(other.geometry())
+        self.prepared().covers(other.prepared())
     }
 
     /// Whether both are areas, or both lines, that share a part and have one of their own each.
     pub fn overlaps(&self, other: Shape) -> bool {
-        self.geometry().overlaps(other.geometry())
+        self.prepared().overlaps(other.prepared())
     }
 
     /// How the two lie to each other, as nine letters; with a pattern, such as "F***1****", whether they lie so.
     pub fn relate(&self, other: Shape, pattern: Option<String>) -> Result<Value> {
-        let relation = self.geometry().relate(other.geometry());
+        let relation = self.prepared().relate(other.prepared());
         Ok(match pattern {
             None => Value::Text(relation.text().into()),
             Some(pattern) => {

@@ -1,11 +1,11 @@
 //! The object that a geometry is for scripts.
 
 use std::hash::{Hash, Hasher};
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 use burgeon_data::Layer;
 use burgeon_macros::object;
-use burgeon_spatial::Geometry;
+use burgeon_spatial::{Geometry, PreparedGeometry};
 
 use crate::declare::as_ref;
 use crate::{Answer, Expectation, Field, Object, Parameter, Prefetch, Value, Vector};
@@ -16,6 +16,8 @@ use crate::{Answer, Expectation, Field, Object, Parameter, Prefetch, Value, Vect
 #[object("geometry", given, has = fields(), example = include_str!("../../scripts/geometry.lua"))]
 pub struct GeometryObject {
     from: GeometryStorage,
+    /// What is compared with others, once it was.
+    prepared: OnceLock<Box<PreparedGeometry>>,
 }
 
 /// Where a geometry is kept.
@@ -49,12 +51,12 @@ fn fields() -> Vec<Field> {
 impl GeometryObject {
     /// One of its own.
     pub fn new(geometry: Geometry) -> Self {
-        Self { from: GeometryStorage::Value(Arc::new(geometry)) }
+        Self::shared(Arc::new(geometry))
     }
 
     /// One that others hold, too.
     pub fn shared(geometry: Arc<Geometry>) -> Self {
-        Self { from: GeometryStorage::Value(geometry) }
+        Self { from: GeometryStorage::Value(geometry), prepared: OnceLock::new() }
     }
 
     /// That of the feature with this number, from 0; `None` if there is none. What it needs may be fetched before by `prefetch`.
@@ -66,6 +68,7 @@ impl GeometryObject {
         let there = index < layer.features.len();
         there.then(|| Self {
             from: GeometryStorage::Feature { layer: Arc::clone(layer), index, prefetch: prefetch.cloned() },
+            prepared: OnceLock::new(),
         })
     }
 
@@ -83,6 +86,11 @@ impl GeometryObject {
             GeometryStorage::Value(geometry) => geometry,
             GeometryStorage::Feature { layer, index, .. } => &layer.features[*index].geometry,
         }
+    }
+
+    /// The geometry, ready to be compared with others.
+    pub(super) fn prepared(&self) -> &PreparedGeometry {
+        self.prepared.get_or_init(|| Box::new(PreparedGeometry::new(self.geometry())))
     }
 
     /// The geometry that an object is, if it is one.

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use burgeon_geometry::Rings;
-use burgeon_spatial::Geometry;
+use burgeon_spatial::{Geometry, PreparedGeometry};
 use glam::DVec3;
 
 use super::GeometryObject;
@@ -17,6 +17,11 @@ impl Shape {
     /// The geometry itself.
     pub fn geometry(&self) -> &Geometry {
         self.0.geometry()
+    }
+
+    /// The same, ready to be compared with others.
+    pub(super) fn prepared(&self) -> &PreparedGeometry {
+        self.0.prepared()
     }
 }
 

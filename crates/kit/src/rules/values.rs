@@ -1,9 +1,10 @@
 //! The parameters of modules that are not numbers, kept once each.
 
+use std::hash::{BuildHasher as _, Hash, Hasher};
 use std::sync::RwLock;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use rustc_hash::FxHashMap;
+use rustc_hash::{FxBuildHasher, FxHashMap};
 
 use crate::{ColumnValue, Value};
 
@@ -18,8 +19,27 @@ pub struct Values {
 #[derive(Default)]
 struct Shelf {
     list: Vec<Option<Value>>,
-    handles: FxHashMap<Value, u32>,
+    handles: FxHashMap<HashedValue, u32>,
     free: Vec<u32>,
+}
+
+/// A value with its hash, which is not computed anew as there come to be more of them.
+#[derive(PartialEq, Eq)]
+struct HashedValue {
+    hash: u64,
+    value: Value,
+}
+
+impl HashedValue {
+    fn new(value: Value) -> Self {
+        Self { hash: FxBuildHasher.hash_one(&value), value }
+    }
+}
+
+impl Hash for HashedValue {
+    fn hash<H: Hasher>(&self, state: &mut H) {
+        state.write_u64(self.hash);
+    }
 }
 
 impl Values {
@@ -90,13 +110,14 @@ impl Values {
         }
         for (handle, used) in (0u32..).zip(used) {
             if !used && let Some(value) = shelf.list[handle as usize].take() {
-                shelf.handles.remove(&value);
+                shelf.handles.remove(&HashedValue::new(value));
                 shelf.free.push(handle);
             }
         }
     }
 
     fn handle(&self, value: Value) -> u32 {
+        let value = HashedValue::new(value);
         if let Some(handle) = self.read().handles.get(&value) {
             return *handle;
         }
@@ -106,11 +127,11 @@ impl Values {
         }
         let handle = match shelf.free.pop() {
             Some(handle) => {
-                shelf.list[handle as usize] = Some(value.clone());
+                shelf.list[handle as usize] = Some(value.value.clone());
                 handle
             }
             None => {
-                shelf.list.push(Some(value.clone()));
+                shelf.list.push(Some(value.value.clone()));
                 u32::try_from(shelf.list.len() - 1).unwrap_or(u32::MAX)
             }
         };

@@ -30,11 +30,13 @@ impl Network {
             drawing.material(&material)
         };
         let [asphalt, paving, white] = [self.options.asphalt, self.options.paving, WHITE].map(&mut paint);
-        let ground = self.options.ground.map(paint);
+        let ground = self.options.ground.map(&mut paint);
+        let inks: Vec<_> = self.options.streets.iter().map(|kind| kind.asphalt.map(&mut paint)).collect();
         let kerb = self.options.kerb;
-        let part = drawing.part(asphalt);
+        let of_kinds: Vec<usize> = inks.iter().map(|ink| ink.unwrap_or(asphalt)).collect();
         for surface in &surfaces.carriageways {
-            add_surface(part, surface, 0.0);
+            let kind = (surface.depth as usize).min(of_kinds.len() - 1);
+            add_surface(drawing.part(of_kinds[kind]), surface, 0.0);
         }
         let part = drawing.part(paving);
         for sidewalk in &surfaces.sidewalks {

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use burgeon_kit::{Expectation, Field, Parameter, Table, Value, fields};
+use burgeon_kit::{Color, Expectation, Field, Parameter, Table, Value, fields};
 use burgeon_streets::StreetKind;
 
 /// The width (m) of a sidewalk that is not told, and the part of the street's width that it is at most.
@@ -13,9 +13,13 @@ const SIDEWALK_PART: f64 = 0.2;
 #[fields("street")]
 #[derive(PartialEq)]
 pub struct StreetOptions {
+    /// What streets of it are called in layers, such as "avenue"; "kind 1" and so on if it is left out.
+    pub name: Option<String>,
     /// Width (m) from one outer edge of the sidewalks to the other.
     #[default(12.0)]
     pub width: f64,
+    /// Colour of its carriageway; that of all streets if it is left out.
+    pub asphalt: Option<Color>,
     /// Width (m) of the sidewalk on each side; 2.5 if it is left out, or a fifth of the width if that is less.
     pub sidewalk: Option<f64>,
     /// The number of lanes for both directions; as many as fit, if it is left out.
@@ -56,7 +60,7 @@ impl StreetOptions {
 
 impl Parameter for StreetOptions {
     fn luau() -> String {
-        "{ width: number?, sidewalk: number?, lanes: number?, median: number?, parking: number?, trees: number?, lamps: number? }"
+        "{ name: string?, width: number?, asphalt: Color?, sidewalk: number?, lanes: number?, median: number?, parking: number?, trees: number?, lamps: number? }"
             .into()
     }
 

@@ -203,12 +203,13 @@ impl LotSettings {
 }
 
 impl Network {
+    pub(super) fn block_list(&self) -> Vec<Value> {
+        let blocks = self.network.lot_blocks(self.surface_options());
+        blocks.iter().map(|block| self.block_record(block)).collect()
+    }
+
     pub(super) fn block_records(&self) -> Result<BlockRecords> {
-        let find = || {
-            let blocks = self.network.lot_blocks(self.surface_options());
-            let records: Vec<Value> = blocks.iter().map(|block| self.block_record(block)).collect();
-            Ok((records.into_value(), Vec::new()))
-        };
+        let find = || Ok((self.block_list().into_value(), Vec::new()));
         self.answers.once(|| vec![self.network.version()], find).map(BlockRecords)
     }
 

@@ -11,6 +11,7 @@ mod land;
 mod lots;
 mod object;
 mod sites;
+mod streets;
 mod walk;
 
 pub use object::Network;

@@ -12,6 +12,7 @@ use super::kinds::StreetOptions;
 use super::land::VergeRecords;
 use super::lots::{BlockRecords, LotRecords, LotSettings};
 use super::sites::{SiteRecords, SiteSettings};
+use super::streets::{JunctionRecords, StreetRecords};
 use super::walk::NetworkWalk;
 use crate::Terrain;
 use burgeon_base::error::{Error, Result};
@@ -107,6 +108,7 @@ pub struct NetworkOptions {
     options = NetworkOptions,
     example = include_str!("../../scripts/network.lua"),
     shows,
+    has_layers,
     begin = restart,
     push = open_branch,
     pop = close_branch,
@@ -258,6 +260,19 @@ impl Network {
         self.network.nearest(place.0.truncate()).map_or(f64::INFINITY, |(_, distance)| distance)
     }
 
+    /// The streets from one junction to the next, as features: each has an id, a geometry (its middle line), how often its way has
+    /// branched off (depth), the name of its kind, its width, sidewalk, lanes, median and parking, its length (m), whether it
+    /// is a bridge, and the junctions that it leads from and to.
+    pub fn streets(&self) -> StreetRecords {
+        self.street_records()
+    }
+
+    /// The junctions and the dead ends, without places where a street only turns, as features: each has an id, a geometry (a
+    /// point), its junction, its degree, and the least depth and the greatest width of its streets.
+    pub fn junctions(&self) -> JunctionRecords {
+        self.junction_records()
+    }
+
     /// The blocks between the streets, inside of their sidewalks, as features: each has an id, a geometry, its area (m²) and the
     /// least depth of the streets around it (street_depth).
     pub fn blocks(&self) -> Result<BlockRecords> {
@@ -375,7 +390,7 @@ impl Network {
     }
 
     /// The network itself.
-    pub fn streets(&self) -> &StreetNetwork {
+    pub fn network(&self) -> &StreetNetwork {
         &self.network
     }
 

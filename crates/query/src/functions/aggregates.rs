@@ -70,8 +70,8 @@ impl Aggregate<GeometryGroup, Value> for GeometryGathering {
             return Ok(Value::Null);
         }
         let made = match self.gathering {
-            Gathering::Collect => super::table::collected(geometries),
-            Gathering::Union => super::table::united(&geometries).map_err(failed)?,
+            Gathering::Collect => super::parts::collected(geometries),
+            Gathering::Union => super::parts::united(&geometries).map_err(failed)?,
         };
         value(FunctionResult::Geometry(made))
     }

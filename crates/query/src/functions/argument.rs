@@ -3,7 +3,7 @@
 use std::sync::OnceLock;
 
 use burgeon_base::budget::Budget;
-use burgeon_spatial::Geometry;
+use burgeon_spatial::{Geometry, PreparedGeometry};
 
 use crate::{blob, plane};
 
@@ -13,6 +13,7 @@ pub(crate) struct GeometryArgument {
     /// The geometry.
     pub geometry: Geometry,
     flat: OnceLock<geo::Geometry<f64>>,
+    prepared: OnceLock<PreparedGeometry>,
 }
 
 impl GeometryArgument {
@@ -25,10 +26,15 @@ impl GeometryArgument {
     pub(crate) fn flat(&self) -> &geo::Geometry<f64> {
         self.flat.get_or_init(|| plane::flat(&self.geometry))
     }
+
+    /// The geometry, ready to be compared with others.
+    pub(crate) fn prepared(&self) -> &PreparedGeometry {
+        self.prepared.get_or_init(|| PreparedGeometry::new(&self.geometry))
+    }
 }
 
 impl From<Geometry> for GeometryArgument {
     fn from(geometry: Geometry) -> Self {
-        Self { geometry, flat: OnceLock::new() }
+        Self { geometry, flat: OnceLock::new(), prepared: OnceLock::new() }
     }
 }

@@ -6,8 +6,13 @@
 mod aggregates;
 mod argument;
 mod call;
+mod forms;
+mod making;
+mod measures;
 mod numbers;
+mod parts;
 mod registry;
+mod relations;
 mod simple;
 mod table;
 

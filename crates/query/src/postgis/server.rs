@@ -294,7 +294,7 @@ impl ServerConnection {
         };
         let names: Vec<String> = statement.columns().iter().map(|column| column.name().to_owned()).collect();
         let width = names.len();
-        let mut answer = QueryAnswer::new(names, budget);
+        let mut answer = QueryAnswer::new(names.into(), budget);
         let cancel = self.client.cancel_token();
         let (stopped, ended) = (AtomicBool::new(false), channel::<()>());
         let (end, wait) = ended;

@@ -1,13 +1,13 @@
 //! Tables of which a script reads a part: on a server, statements see that part alone, as of files.
 
 use std::collections::BTreeMap;
-use std::ops::ControlFlow;
 
-use sqlparser::ast::{Query, SetExpr, TableFactor, VisitMut, VisitorMut};
+use sqlparser::ast::{Query, SetExpr, TableFactor};
 
 use super::Catalogue;
 use super::parse::{SyntaxTree, parse};
 use super::scope::{quoted, table};
+use super::walk::{PartMut, walk_mut};
 
 /// What is seen of tables, as a statement: by their names in small letters.
 pub(crate) type ChosenRows = BTreeMap<String, String>;
@@ -15,33 +15,27 @@ pub(crate) type ChosenRows = BTreeMap<String, String>;
 /// Puts in what is seen of the tables that a query names.
 pub(super) fn put_in(query: &mut Query, tables: &Catalogue, chosen: &ChosenRows) {
     if !chosen.is_empty() {
-        let _ = VisitMut::visit(query, &mut ChosenVisitor { tables, chosen });
+        walk_mut(query, |part| {
+            if let PartMut::TableFactor(factor) = part
+                && let Some(seen) = seen(factor, tables, chosen)
+            {
+                *factor = seen;
+            }
+        });
     }
 }
 
-struct ChosenVisitor<'a> {
-    tables: &'a Catalogue,
-    chosen: &'a ChosenRows,
-}
-
-impl VisitorMut for ChosenVisitor<'_> {
-    type Break = ();
-
-    fn post_visit_table_factor(&mut self, factor: &mut TableFactor) -> ControlFlow<()> {
-        let TableFactor::Table { name, alias, args: None, .. } = factor else {
-            return ControlFlow::Continue(());
-        };
-        let known = table(name, self.tables);
-        let seen = known.and_then(|known| Some((known, self.chosen.get(&known.name.to_ascii_lowercase())?)));
-        let Some((known, select)) = seen else { return ControlFlow::Continue(()) };
-        let parsed = parse(&format!("SELECT * FROM ({select}) AS {}", quoted(&known.name)));
-        let Some(mut part) = parsed.ok().and_then(first_relation) else { return ControlFlow::Continue(()) };
-        if let (TableFactor::Derived { alias: own, .. }, Some(alias)) = (&mut part, alias.take()) {
-            *own = Some(alias);
-        }
-        *factor = part;
-        ControlFlow::Continue(())
+/// What is seen of the table that stands behind FROM, if that is less than all.
+fn seen(factor: &mut TableFactor, tables: &Catalogue, chosen: &ChosenRows) -> Option<TableFactor> {
+    let TableFactor::Table { name, alias, args: None, .. } = factor else { return None };
+    let known = table(name, tables)?;
+    let select = chosen.get(&known.name.to_ascii_lowercase())?;
+    let parsed = parse(&format!("SELECT * FROM ({select}) AS {}", quoted(&known.name)));
+    let mut part = parsed.ok().and_then(first_relation)?;
+    if let (TableFactor::Derived { alias: own, .. }, Some(alias)) = (&mut part, alias.take()) {
+        *own = Some(alias);
     }
+    Some(part)
 }
 
 /// What stands behind FROM.

@@ -2,11 +2,13 @@
 
 use std::ops::ControlFlow;
 
-use sqlparser::ast::{Cte, Expr, FunctionArguments, ObjectName, Query, TableFactor, Visit, Visitor};
+use sqlparser::ast::{Expr, FunctionArguments, ObjectName, Query, TableFactor};
 
 use super::Catalogue;
 use super::parse::{find_word, parse};
+use super::scope::declared;
 use super::statement::with_stack;
+use super::walk::{Part, walk};
 use crate::errors::at;
 use crate::functions;
 use burgeon_base::error::{Error, Result};
@@ -78,22 +80,13 @@ fn unread(message: &str) -> String {
 }
 
 fn checked(query: &Query, sql: &str, catalogue: &Catalogue) -> Result<()> {
-    struct Declarations(Vec<String>);
-    impl Visitor for Declarations {
-        type Break = ();
-        fn pre_visit_query(&mut self, query: &Query) -> ControlFlow<()> {
-            let declared = query.with.iter().flat_map(|with| &with.cte_tables);
-            self.0.extend(declared.map(|Cte { alias, .. }| alias.name.value.to_ascii_lowercase()));
-            ControlFlow::Continue(())
-        }
-    }
-    let mut own = Declarations(Vec::new());
-    let _ = query.visit(&mut own);
-    let mut guard = Guard { sql, catalogue, own: own.0 };
-    match query.visit(&mut guard) {
-        ControlFlow::Break(error) => Err(error),
-        ControlFlow::Continue(()) => Ok(()),
-    }
+    let guard = Guard { sql, catalogue, own: declared(query) };
+    let mut result = Ok(());
+    let _ = walk(query, |part| {
+        result = guard.check(&part);
+        if result.is_ok() { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
+    });
+    result
 }
 
 struct Guard<'a> {
@@ -109,12 +102,12 @@ impl Guard<'_> {
         found.map_or_else(|| "SQL: ".to_owned(), |offset| format!("SQL, {}: ", at(self.sql, offset)))
     }
 
-    fn never_the_same(&self, word: &str) -> ControlFlow<Error> {
+    fn never_the_same(&self, word: &str) -> Result<()> {
         let what = format!("{}{} may not be asked for", self.place(word), shown(word));
-        ControlFlow::Break(Error::scope(what).help("questions give the same each time, whoever asks"))
+        Err(Error::scope(what).help("questions give the same each time, whoever asks"))
     }
 
-    fn function(&self, name: &ObjectName) -> ControlFlow<Error> {
+    fn function(&self, name: &ObjectName) -> Result<()> {
         let written = name.to_string();
         let plain = written.trim_matches('"').to_ascii_lowercase();
         let of_list = |name: &str| OF_ROWS.contains(&name) || OTHERS.contains(&name);
@@ -124,26 +117,31 @@ impl Guard<'_> {
                 && !["fromgdalraster", "asgdalraster"].contains(&rest)
         });
         if functions::is_allowed(&plain) || of_list(&plain) || spatial {
-            return ControlFlow::Continue(());
+            return Ok(());
         }
         let what = format!("{}the function {} may not be called", self.place(&plain), shown(&written));
-        ControlFlow::Break(Error::not_found("function", &plain, functions::names(), what).help(
+        Err(Error::not_found("function", &plain, functions::names(), what).help(
             "questions give the same each time, and reach nothing but tables; the book's page on SQL lists what there is",
         ))
     }
-}
 
-impl Visitor for Guard<'_> {
-    type Break = Error;
+    fn check(&self, part: &Part<'_>) -> Result<()> {
+        match part {
+            Part::Query(_) => Ok(()),
+            Part::Expression(expression) => self.expression(expression),
+            Part::TableFactor(factor) => self.table_factor(factor),
+            Part::Relation(name) => self.relation(name),
+        }
+    }
 
-    fn pre_visit_expr(&mut self, expression: &Expr) -> ControlFlow<Error> {
+    fn expression(&self, expression: &Expr) -> Result<()> {
         if let Expr::Identifier(name) = expression
             && name.quote_style.is_none()
             && NEVER_THE_SAME.iter().any(|word| name.value.eq_ignore_ascii_case(word))
         {
             return self.never_the_same(&name.value);
         }
-        let Expr::Function(function) = expression else { return ControlFlow::Continue(()) };
+        let Expr::Function(function) = expression else { return Ok(()) };
         // Such as CURRENT_TIMESTAMP, which is never the same.
         if matches!(function.args, FunctionArguments::None) {
             return self.never_the_same(&function.name.to_string());
@@ -151,26 +149,24 @@ impl Visitor for Guard<'_> {
         self.function(&function.name)
     }
 
-    fn pre_visit_table_factor(&mut self, factor: &TableFactor) -> ControlFlow<Error> {
+    fn table_factor(&self, factor: &TableFactor) -> Result<()> {
         match factor {
             TableFactor::Table { name, args: Some(_), .. } => self.function(name),
             TableFactor::Function { name, .. } => self.function(name),
-            _ => ControlFlow::Continue(()),
+            _ => Ok(()),
         }
     }
 
-    fn pre_visit_relation(&mut self, name: &ObjectName) -> ControlFlow<Error> {
+    fn relation(&self, name: &ObjectName) -> Result<()> {
         let written = name.to_string();
         let plain = written.replace('"', "").to_ascii_lowercase();
         let known = self.own.contains(&plain) || self.catalogue.contains_key(&plain);
         if known || functions::is_allowed(&plain) || OF_ROWS.contains(&plain.as_str()) {
-            return ControlFlow::Continue(());
+            return Ok(());
         }
         let names: Vec<&str> = self.catalogue.values().map(|table| table.name.as_str()).collect();
         let what = format!("{}no table called {}", self.place(&plain), shown(&written));
-        ControlFlow::Break(
-            Error::not_found("table", &plain, names.iter().copied(), what)
-                .help(format!("the database has {}", listed(names.iter().copied()))),
-        )
+        Err(Error::not_found("table", &plain, names.iter().copied(), what)
+            .help(format!("the database has {}", listed(names.iter().copied()))))
     }
 }

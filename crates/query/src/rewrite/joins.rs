@@ -4,6 +4,8 @@
 //! keys of the rows whose boxes do. SQLite then looks `b` up by its key for each row of `a`. Which of the two is looked
 //! up is decided here, since SQLite knows nothing of either: the one of which more rows are left without it.
 
+use std::ops::ControlFlow;
+
 use sqlparser::ast::{BinaryOperator, Expr, Select, Value};
 
 use super::Catalogue;
@@ -11,6 +13,7 @@ use super::operators::call;
 use super::scope::{
     FromItem, condition, condition_mut, conjuncts, geometry_column, mentioned, quoted, relations, text,
 };
+use super::walk::{Part, walk};
 use super::{TableInfo, parse};
 
 /// How many rows something is taken to have of which that is not known.
@@ -189,16 +192,11 @@ fn side<'a>(
 
 /// Whether an expression may be computed once more: one that holds no query of its own.
 fn is_plain(expression: &Expr) -> bool {
-    use sqlparser::ast::{Query, Visit, Visitor};
-    use std::ops::ControlFlow;
-    struct Queries;
-    impl Visitor for Queries {
-        type Break = ();
-        fn pre_visit_query(&mut self, _query: &Query) -> ControlFlow<()> {
-            ControlFlow::Break(())
-        }
-    }
-    expression.visit(&mut Queries).is_continue()
+    let walked = walk(expression, |part| match part {
+        Part::Query(_) => ControlFlow::Break(()),
+        _ => ControlFlow::Continue(()),
+    });
+    walked.is_continue()
 }
 
 /// The two geometries of a condition that holds only where their boxes meet, or are no farther than a distance.

@@ -13,6 +13,7 @@ mod order;
 mod parse;
 mod scope;
 mod statement;
+mod walk;
 
 pub(crate) use chosen::ChosenRows;
 #[cfg(feature = "postgis")]

@@ -1,28 +1,23 @@
 //! What PostgreSQL writes otherwise than SQLite.
 
-use std::ops::ControlFlow;
-
 use sqlparser::ast::{
     BinaryOperator, CastKind, DataType, Expr, Function, FunctionArg, FunctionArgExpr, FunctionArguments,
-    Query, UnaryOperator, Value, VisitMut, VisitorMut,
+    Query, UnaryOperator, Value,
 };
 
 use super::parse;
+use super::walk::{PartMut, walk_mut};
 use crate::functions;
 
 /// Writes operators and casts of PostGIS as SQLite has them.
 pub(super) fn translate(query: &mut Query) {
-    struct Translator;
-    impl VisitorMut for Translator {
-        type Break = ();
-        fn post_visit_expr(&mut self, expression: &mut Expr) -> ControlFlow<()> {
-            if let Some(other) = translated(expression) {
-                *expression = other;
-            }
-            ControlFlow::Continue(())
+    walk_mut(query, |part| {
+        if let PartMut::Expression(expression) = part
+            && let Some(other) = translated(expression)
+        {
+            *expression = other;
         }
-    }
-    let _ = VisitMut::visit(query, &mut Translator);
+    });
 }
 
 fn translated(expression: &mut Expr) -> Option<Expr> {
@@ -48,6 +43,10 @@ fn translated(expression: &mut Expr) -> Option<Expr> {
             }
             if matches!(data_type, DataType::Boolean | DataType::Bool) {
                 return Some((**expr).clone());
+            }
+            // SQLite makes a number of what is cast to a type that it does not know.
+            if let DataType::Custom(name, _) = data_type {
+                return parse::expression(&format!("{name}({expr})"));
             }
             *kind = CastKind::Cast;
             None

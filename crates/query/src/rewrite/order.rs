@@ -4,11 +4,12 @@ use std::ops::ControlFlow;
 
 use sqlparser::ast::{
     Expr, GroupByExpr, OrderBy, OrderByExpr, OrderByKind, OrderByOptions, OrderBySort, Query, Select,
-    SelectItem, SetExpr, Visit, Visitor,
+    SelectItem, SetExpr,
 };
 
 use super::operators::call;
 use super::scope::{quoted, relations};
+use super::walk::{Part, walk};
 use super::{Catalogue, Dialect, parse};
 
 /// The most columns that rows are ordered by.
@@ -102,24 +103,19 @@ fn columns(body: &SetExpr) -> Option<usize> {
 
 /// Whether many rows give one.
 pub(super) fn aggregates(select: &Select) -> bool {
-    struct Calls(bool);
-    impl Visitor for Calls {
-        type Break = ();
-        fn pre_visit_expr(&mut self, expression: &Expr) -> ControlFlow<()> {
-            if let Expr::Function(function) = expression {
-                let name = function.name.to_string().to_ascii_lowercase();
-                let many = call(expression).is_some_and(|(name, arguments)| {
-                    // With several arguments these are functions of one row.
-                    matches!(name.as_str(), "max" | "min" | "st_collect" | "st_union") && arguments.len() > 1
-                });
-                self.0 |= AGGREGATES.contains(&name.as_str()) && !many;
-            }
-            ControlFlow::Continue(())
-        }
-    }
-    let mut calls = Calls(false);
-    for item in &select.projection {
-        let _ = item.visit(&mut calls);
-    }
-    calls.0
+    let walked = walk(&select.projection, |part| match part {
+        Part::Expression(expression) if is_aggregate(expression) => ControlFlow::Break(()),
+        _ => ControlFlow::Continue(()),
+    });
+    walked.is_break()
+}
+
+/// Whether an expression is the call of a function of many rows.
+fn is_aggregate(expression: &Expr) -> bool {
+    let Expr::Function(function) = expression else { return false };
+    // With several arguments these are functions of one row.
+    let of_one_row = call(expression).is_some_and(|(name, arguments)| {
+        matches!(name.as_str(), "max" | "min" | "st_collect" | "st_union") && arguments.len() > 1
+    });
+    !of_one_row && AGGREGATES.contains(&function.name.to_string().to_ascii_lowercase().as_str())
 }

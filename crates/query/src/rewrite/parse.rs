@@ -1,10 +1,12 @@
 //! Reads statements: in the words that SQLite and PostgreSQL share, with operators of PostGIS.
 
-use sqlparser::ast::{BinaryOperator, Expr, Query, Statement};
+use sqlparser::ast::{BinaryOperator, Expr, Query};
 use sqlparser::dialect::Dialect as Grammar;
 use sqlparser::keywords::Keyword;
 use sqlparser::parser::{Parser, ParserError};
 use sqlparser::tokenizer::{Location, Token, TokenWithSpan, Tokenizer};
+
+use super::walk::asks_for_rows;
 
 /// The most words of a statement that is read: more could nest too deep.
 const MOST_TOKENS: usize = 10_000;
@@ -100,13 +102,28 @@ pub(crate) fn parse(sql: &str) -> Result<SyntaxTree, SyntaxError> {
     }
     let mut parser =
         Parser::new(&SharedGrammar).with_recursion_limit(DEEPEST).with_tokens_with_locations(tokens);
-    let mut statements =
-        parser.parse_statements().map_err(|error| SyntaxError { message: error.to_string() })?;
-    match (statements.pop(), statements.is_empty()) {
-        (Some(Statement::Query(query)), true) => Ok(SyntaxTree { query }),
-        (None, _) => Err(SyntaxError { message: "it says nothing".into() }),
-        (Some(_), true) => Err(SyntaxError { message: "it does not ask for rows".into() }),
-        (Some(_), false) => Err(SyntaxError { message: "it holds more than one statement".into() }),
+    let wrong = |message: &str| Err(SyntaxError { message: message.into() });
+    while parser.consume_token(&Token::SemiColon) {}
+    if parser.peek_token() == Token::EOF {
+        return wrong("it says nothing");
+    }
+    let unread = |error: ParserError| SyntaxError { message: error.to_string() };
+    // The parser's own way to read statements would bring all statements of all databases into the program.
+    let query = parser.parse_query().map_err(unread)?;
+    let ended = parser.consume_token(&Token::SemiColon);
+    while parser.consume_token(&Token::SemiColon) {}
+    let next = parser.peek_token();
+    if next == Token::EOF {
+        return if asks_for_rows(&query) {
+            Ok(SyntaxTree { query })
+        } else {
+            wrong("it does not ask for rows")
+        };
+    }
+    if ended {
+        wrong("it holds more than one statement")
+    } else {
+        parser.expected("end of statement", next).map_err(unread)
     }
 }
 

@@ -2,10 +2,9 @@
 
 use std::ops::ControlFlow;
 
-use sqlparser::ast::{
-    Cte, Expr, Ident, JoinConstraint, JoinOperator, ObjectName, Query, Select, TableFactor, Visit, Visitor,
-};
+use sqlparser::ast::{Expr, Ident, JoinConstraint, JoinOperator, ObjectName, Query, Select, TableFactor};
 
+use super::walk::{Part, walk};
 use super::{Catalogue, TableInfo};
 
 /// Something behind FROM.
@@ -22,19 +21,22 @@ pub(super) struct FromItem<'a> {
 
 /// The tables that a query means by their names: those that it declares itself hide others.
 pub(super) fn visible(query: &Query, catalogue: &Catalogue) -> Catalogue {
-    struct DeclaredNames(Vec<String>);
-    impl Visitor for DeclaredNames {
-        type Break = ();
-        fn pre_visit_query(&mut self, query: &Query) -> ControlFlow<()> {
-            let declared = query.with.iter().flat_map(|with| &with.cte_tables);
-            self.0.extend(declared.map(|Cte { alias, .. }| alias.name.value.to_ascii_lowercase()));
-            ControlFlow::Continue(())
-        }
-    }
-    let mut declared = DeclaredNames(Vec::new());
-    let _ = query.visit(&mut declared);
-    let seen = catalogue.iter().filter(|(name, _)| !declared.0.contains(name));
+    let declared = declared(query);
+    let seen = catalogue.iter().filter(|(name, _)| !declared.contains(name));
     seen.map(|(name, table)| (name.clone(), table.clone())).collect()
+}
+
+/// The names of the tables that a query declares itself, in small letters.
+pub(super) fn declared(query: &Query) -> Vec<String> {
+    let mut names = Vec::new();
+    let _ = walk(query, |part| {
+        if let Part::Query(query) = part {
+            let tables = query.with.iter().flat_map(|with| &with.cte_tables);
+            names.extend(tables.map(|table| table.alias.name.value.to_ascii_lowercase()));
+        }
+        ControlFlow::Continue(())
+    });
+    names
 }
 
 /// The table that a name without a schema means.
@@ -105,32 +107,32 @@ pub(super) fn condition_mut(operator: &mut JoinOperator) -> Option<&mut Expr> {
 
 /// Which of the relations an expression speaks of, or may speak of.
 pub(super) fn mentioned(expression: &Expr, relations: &[FromItem<'_>]) -> Vec<usize> {
-    struct Names<'a, 'b> {
-        relations: &'a [FromItem<'b>],
-        found: Vec<bool>,
-    }
-    impl Visitor for Names<'_, '_> {
-        type Break = ();
-        fn pre_visit_expr(&mut self, expression: &Expr) -> ControlFlow<()> {
-            for (relation, found) in self.relations.iter().zip(&mut self.found) {
-                *found |= match expression {
-                    Expr::CompoundIdentifier(parts) => match parts.as_slice() {
-                        [.., owner, _] => names(relation, owner),
-                        _ => true,
-                    },
-                    Expr::Identifier(name) => {
-                        relation.table.is_none_or(|table| table.has(&name.value) || is_row_id(&name.value))
-                    }
-                    Expr::QualifiedWildcard(..) | Expr::Wildcard(_) => true,
-                    _ => false,
-                };
-            }
-            ControlFlow::Continue(())
+    let mut found = vec![false; relations.len()];
+    let _ = walk(expression, |part| {
+        if let Part::Expression(part) = part {
+            relations
+                .iter()
+                .zip(&mut found)
+                .for_each(|(relation, found)| *found |= speaks_of(part, relation));
         }
+        ControlFlow::Continue(())
+    });
+    found.iter().enumerate().filter(|(_, found)| **found).map(|(index, _)| index).collect()
+}
+
+/// Whether an expression is a column of a relation, or may be.
+fn speaks_of(expression: &Expr, relation: &FromItem<'_>) -> bool {
+    match expression {
+        Expr::CompoundIdentifier(parts) => match parts.as_slice() {
+            [.., owner, _] => names(relation, owner),
+            _ => true,
+        },
+        Expr::Identifier(name) => {
+            relation.table.is_none_or(|table| table.has(&name.value) || is_row_id(&name.value))
+        }
+        Expr::QualifiedWildcard(..) | Expr::Wildcard(_) => true,
+        _ => false,
     }
-    let mut names = Names { relations, found: vec![false; relations.len()] };
-    let _ = expression.visit(&mut names);
-    names.found.iter().enumerate().filter(|(_, found)| **found).map(|(index, _)| index).collect()
 }
 
 fn is_row_id(name: &str) -> bool {

@@ -1,12 +1,12 @@
 //! A statement that is rewritten, and what is known of the tables that it is about.
 
 use std::collections::BTreeMap;
-use std::ops::ControlFlow;
 
 use super::chosen::{self, ChosenRows};
 use super::parse::{SyntaxTree, parse};
+use super::walk::{PartMut, walk_mut};
 use super::{joins, nearest, operators, order, scope};
-use sqlparser::ast::{Query, Select, SelectItem, SetExpr, VisitMut, VisitorMut};
+use sqlparser::ast::{Query, SelectItem, SetExpr};
 
 /// How much stack (bytes) the parser and what works on its trees have: as deep as a statement of so many words can be.
 const STACK: usize = 256 << 20;
@@ -103,38 +103,22 @@ fn rewritten(
     }
     let tables = scope::visible(&parsed.query, catalogue);
     let ordered = parsed.query.order_by.is_some() || parsed.query.limit_clause.is_some();
-    let mut visitor = IndexVisitor { tables: &tables, dialect, indexes: Vec::new() };
-    let _ = VisitMut::visit(&mut *parsed.query, &mut visitor);
-    let indexes = visitor.indexes;
+    let mut indexes = Vec::new();
+    walk_mut(&mut parsed.query, |part| match part {
+        PartMut::Select(select) if dialect == Dialect::Sqlite => {
+            indexes.extend(joins::index(select, &tables).into_iter().map(|name| (name, false)));
+        }
+        PartMut::Query(query) => {
+            let nearest = if dialect == Dialect::Sqlite { nearest::index(query, &tables) } else { None };
+            match nearest {
+                Some(name) => indexes.push((name, true)),
+                None => order::settle(query, &tables, dialect),
+            }
+        }
+        _ => {}
+    });
     chosen::put_in(&mut parsed.query, &tables, chosen);
     Rewritten { indexed: !indexes.is_empty(), indexes, ordered, booleans, sql: parsed.query.to_string() }
-}
-
-/// Visits each query from the inside out.
-struct IndexVisitor<'a> {
-    tables: &'a Catalogue,
-    dialect: Dialect,
-    indexes: Vec<(String, bool)>,
-}
-
-impl VisitorMut for IndexVisitor<'_> {
-    type Break = ();
-
-    fn post_visit_select(&mut self, select: &mut Select) -> ControlFlow<()> {
-        if self.dialect == Dialect::Sqlite {
-            self.indexes.extend(joins::index(select, self.tables).into_iter().map(|name| (name, false)));
-        }
-        ControlFlow::Continue(())
-    }
-
-    fn post_visit_query(&mut self, query: &mut Query) -> ControlFlow<()> {
-        let nearest = (self.dialect == Dialect::Sqlite).then(|| nearest::index(query, self.tables)).flatten();
-        match nearest {
-            Some(name) => self.indexes.push((name, true)),
-            None => order::settle(query, self.tables, self.dialect),
-        }
-        ControlFlow::Continue(())
-    }
 }
 
 /// Which columns of the result are true or false; empty where a star hides how many there are.

@@ -141,6 +141,8 @@ fn errors_tell_the_place_and_what_there_is() {
         "SELECT ST_X(geom) FROM houses",
         "SELECT ST_Area(name) FROM houses WHERE name IS NOT NULL",
         "SELECT ST_Intersects(geom, 3) FROM houses",
+        "SELECT geom::geography FROM houses",
+        "SELECT name FROM dbstat",
         "SELECT random()",
         "DELETE FROM houses",
         "SELECT 1; SELECT 2",
@@ -171,7 +173,7 @@ fn errors_tell_the_place_and_what_there_is() {
       help: it takes ST_Buffer(geometry, distance [, options])
 
     SELECT fid FROM houses WHERE
-    -> SQL: incomplete input
+    -> SQL, line 1, column 29: incomplete input
       help: write SQL as SQLite takes it: SELECT ... FROM ... WHERE ...
 
     SELECT fid FROM houses WHERE height > > 3
@@ -195,20 +197,28 @@ fn errors_tell_the_place_and_what_there_is() {
       help: check the statement; the book's page on SQL tells what functions take
 
     SELECT ST_GeomFromText('POINT(1') AS g
-    -> SQL: ST_GeomFromText: no well-known text: at letter 8 there should be a number, not its end
+    -> SQL, line 1, column 8: ST_GeomFromText: no well-known text: at letter 8 there should be a number, not its end
       help: check the statement; the book's page on SQL tells what functions take
 
     SELECT ST_X(geom) FROM houses
-    -> SQL: ST_X: argument 1 must be a point, not a polygon
+    -> SQL, line 1, column 8: ST_X: argument 1 must be a point, not a polygon
       help: check the statement; the book's page on SQL tells what functions take
 
     SELECT ST_Area(name) FROM houses WHERE name IS NOT NULL
-    -> SQL: ST_Area: no well-known text: at letter 1 there should be the name of a kind of geometry, not "house"
+    -> SQL, line 1, column 8: ST_Area: no well-known text: at letter 1 there should be the name of a kind of geometry, not "house"
       help: check the statement; the book's page on SQL tells what functions take
 
     SELECT ST_Intersects(geom, 3) FROM houses
-    -> SQL: ST_Intersects: argument 2 must be a geometry, not a number: ST_Intersects(geometry, geometry)
+    -> SQL, line 1, column 8: ST_Intersects: argument 2 must be a geometry, not a number: ST_Intersects(geometry, geometry)
       help: check the statement; the book's page on SQL tells what functions take
+
+    SELECT geom::geography FROM houses
+    -> SQL, line 1, column 14: no function called geography
+      help: the book's page on SQL lists what there is
+
+    SELECT name FROM dbstat
+    -> SQL, line 1, column 18: the table dbstat may not be read
+      help: a table is what source(file) has read
 
     SELECT random()
     -> SQL, line 1, column 8: the function random may not be called

@@ -53,7 +53,19 @@ impl Operand {
 
 /// Areas whose rings neither cross nor overlap: as they are if that holds already, else all that the rings go around.
 pub(crate) fn dissolved(areas: MultiPolygon) -> MultiPolygon {
-    if areas.0.is_empty() || areas.is_valid() { areas } else { filled(&areas, FILL) }
+    // A ring that goes back the way it came is taken for valid.
+    let has_width = |ring: &geo::LineString| twice_area_of(ring) != 0.0;
+    let are_wide = |it: &geo::Polygon| has_width(it.exterior()) && it.interiors().iter().all(has_width);
+    if areas.iter().all(are_wide) && areas.is_valid() { areas } else { filled(&areas, FILL) }
+}
+
+/// Twice the area in a ring, as triangles with its first corner; less than 0 if it is clockwise.
+fn twice_area_of(ring: &geo::LineString) -> f64 {
+    let Some(first) = ring.0.first() else { return 0.0 };
+    let cross = |pair: &[geo::Coord]| {
+        (pair[0].x - first.x) * (pair[1].y - first.y) - (pair[0].y - first.y) * (pair[1].x - first.x)
+    };
+    ring.0.windows(2).map(cross).sum()
 }
 
 /// What rings go around, by a rule.

@@ -3,7 +3,9 @@
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, OnceLock, PoisonError, RwLock};
 
-use mlua::{AnyUserData, Lua, MetaMethod, Table, UserData, UserDataMethods, Value as LuaValue};
+use mlua::{AnyUserData, Lua, LuaString, MetaMethod, Table, UserData, UserDataMethods, Value as LuaValue};
+
+use rustc_hash::FxHashMap;
 
 use super::geometries::geometry_field;
 use crate::machine::convert::to_lua;
@@ -11,7 +13,7 @@ use crate::results::DerivedSystem;
 use burgeon_base::error::{Error, Result};
 use burgeon_base::text::panic_message;
 use burgeon_kit::declare::as_ref;
-use burgeon_kit::{Object, ScriptObject, Value};
+use burgeon_kit::{Kind, Object, ScriptObject, Value};
 use burgeon_language::DERIVED;
 
 /// The objects of a system, one for each chain: read while rewriting, changed while interpreting.
@@ -101,13 +103,13 @@ pub(crate) struct ObjectHandle(pub Arc<dyn Object>);
 
 impl UserData for ObjectHandle {
     fn add_methods<M: UserDataMethods<Self>>(methods: &mut M) {
-        methods.add_meta_function(MetaMethod::Index, |lua, (this, name): (AnyUserData, String)| {
+        methods.add_meta_function(MetaMethod::Index, |lua, (this, name): (AnyUserData, LuaString)| {
             let object = Arc::clone(&this.borrow::<Self>()?.0);
-            let table: Table = lua.named_registry_value(&methods_key(&object.kind().name))?;
-            match table.raw_get::<LuaValue>(name.as_str())? {
+            match method_table(lua, object.kind())?.raw_get::<LuaValue>(&name)? {
                 LuaValue::Nil => {}
                 method => return Ok(method),
             }
+            let name = name.to_string_lossy();
             if let Some(field) = geometry_field(lua, &this, &name)? {
                 return Ok(field);
             }
@@ -134,6 +136,28 @@ impl UserData for ObjectHandle {
             Ok(Value::Object(Arc::clone(&this.0)).to_string())
         });
     }
+}
+
+/// The methods of types of objects, by where their kinds lie in memory; each with its kind, which stays there.
+#[derive(Default)]
+struct MethodTables(FxHashMap<usize, (Arc<Kind>, Table)>);
+
+/// The methods of a type.
+fn method_table(lua: &Lua, kind: &Arc<Kind>) -> mlua::Result<Table> {
+    let place = Arc::as_ptr(kind) as usize;
+    if let Some(known) = lua.app_data_ref::<MethodTables>()
+        && let Some((_, table)) = known.0.get(&place)
+    {
+        return Ok(table.clone());
+    }
+    let table: Table = lua.named_registry_value(&methods_key(&kind.name))?;
+    if lua.app_data_ref::<MethodTables>().is_none() {
+        lua.set_app_data(MethodTables::default());
+    }
+    if let Some(mut known) = lua.app_data_mut::<MethodTables>() {
+        known.0.insert(place, (Arc::clone(kind), table.clone()));
+    }
+    Ok(table)
 }
 
 /// The registry's name for the methods of a type of object.

@@ -7,6 +7,8 @@ use glam::{DMat3, DVec3, Vec3A};
 const WALL: f64 = 0.15;
 /// The same for a lying model; what is higher has sides worth seeing.
 const PLAN: f64 = 0.02;
+/// The same for what is flat, as a map is.
+const FLAT: f64 = 0.002;
 
 /// The direction to the camera.
 #[derive(Debug, Clone, Copy)]
@@ -44,6 +46,10 @@ fn suitable(points: &[DVec3]) -> (f64, f64) {
         let toward =
             if normal.y > 0.0 || (normal.y.abs() < 1e-6 && normal.x < 0.0) { -normal } else { normal };
         return (toward.x.atan2(toward.y).to_degrees().rem_euclid(360.0) - 12.0, 10.0);
+    }
+    if thickness < FLAT * breadth && normal.z.abs() > 0.9 {
+        // A plan, with north at the top.
+        return (180.0, 90.0);
     }
     if thickness < PLAN * breadth && normal.z.abs() > 0.9 {
         return (165.0, 58.0);

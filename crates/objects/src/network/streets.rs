@@ -1,0 +1,142 @@
+//! Streets and junctions as scripts and files of layers get them: features.
+
+use burgeon_data::Geometry;
+use burgeon_kit::{Answer, HasLayers, Parameter, Value};
+use burgeon_streets::{JunctionId, StreetKind, StreetStretch};
+use glam::{DVec2, DVec3};
+
+use super::Network;
+use super::lots::record;
+
+/// Streets as scripts get them.
+pub struct StreetRecords(Vec<Value>);
+
+impl Answer for StreetRecords {
+    fn luau() -> String {
+        "{ { id: string, geometry: Geometry, depth: number, kind: string, width: number, sidewalk: number, lanes: number, \
+         median: number, parking: number, length: number, bridge: boolean, from: number, to: number } }"
+            .into()
+    }
+
+    fn answer(self) -> burgeon_base::error::Result<Value> {
+        Ok(self.0.into_value())
+    }
+}
+
+/// Junctions as scripts get them.
+pub struct JunctionRecords(Vec<Value>);
+
+impl Answer for JunctionRecords {
+    fn luau() -> String {
+        "{ { id: string, geometry: Geometry, junction: number, degree: number, depth: number, width: number } }"
+            .into()
+    }
+
+    fn answer(self) -> burgeon_base::error::Result<Value> {
+        Ok(self.0.into_value())
+    }
+}
+
+impl Network {
+    pub(super) fn street_records(&self) -> StreetRecords {
+        let streets = self.network.stretches();
+        let mut known = rustc_hash::FxHashMap::<String, u32>::default();
+        let records = streets.iter().map(|street| {
+            // Called by where they lie, so that a street more changes no other.
+            let id = named(middle(&street.line));
+            let count = known.entry(id.clone()).or_default();
+            *count += 1;
+            self.street_record(street, if *count > 1 { format!("{id}#{count}") } else { id })
+        });
+        StreetRecords(records.collect())
+    }
+
+    pub(super) fn junction_records(&self) -> JunctionRecords {
+        let junctions = (0..).zip(self.network.junctions());
+        let there = junctions.filter(|(_, junction)| ![0, 2].contains(&junction.degree()));
+        let record = |(id, _)| self.junction_record(id);
+        JunctionRecords(there.map(record).collect())
+    }
+
+    fn street_record(&self, street: &StreetStretch, id: String) -> Value {
+        let depth = street.attributes.depth;
+        let kind = StreetKind::of(&self.kinds, depth);
+        let points: Vec<DVec3> = street.line.iter().map(|at| at.extend(0.0)).collect();
+        let [from, to] = street.junctions.map(number);
+        let metres = Value::Number;
+        record([
+            ("id", Value::Text(id.into())),
+            ("geometry", Geometry::Line(points).into_value()),
+            ("depth", depth.into_value()),
+            ("kind", Value::Text(self.kind_name(depth).into())),
+            ("width", metres(kind.width)),
+            ("sidewalk", metres(kind.sidewalk)),
+            ("lanes", kind.lanes().into_value()),
+            ("median", metres(kind.median)),
+            ("parking", metres(kind.parking)),
+            ("length", metres(street.length())),
+            ("bridge", Value::Boolean(street.is_bridge)),
+            ("from", from),
+            ("to", to),
+        ])
+    }
+
+    fn junction_record(&self, id: JunctionId) -> Value {
+        let at = self.network.at(id);
+        let streets: Vec<_> =
+            self.network.arms(id).iter().map(|(piece, _)| self.network.attributes(*piece)).collect();
+        let depth = streets.iter().map(|street| street.depth).min().unwrap_or_default();
+        let width = streets.iter().map(|street| street.width).fold(0.0, f64::max);
+        record([
+            ("id", Value::Text(named(at).into())),
+            ("geometry", Geometry::Point(Some(at.extend(0.0))).into_value()),
+            ("junction", number(id)),
+            ("degree", u32::try_from(streets.len()).unwrap_or(u32::MAX).into_value()),
+            ("depth", depth.into_value()),
+            ("width", Value::Number(width)),
+        ])
+    }
+
+    /// What streets of a depth are called: what the script calls them, or the number of their kind.
+    fn kind_name(&self, depth: u32) -> String {
+        let last = self.options.streets.len() - 1;
+        let number = (depth as usize).min(last);
+        let name = self.options.streets.get(number).and_then(|kind| kind.name.clone());
+        name.unwrap_or_else(|| format!("kind {}", number + 1))
+    }
+}
+
+impl HasLayers for Network {
+    fn layers(&self) -> Vec<(&'static str, Vec<Value>)> {
+        vec![
+            ("streets", self.street_records().0),
+            ("junctions", self.junction_records().0),
+            ("blocks", self.block_list()),
+        ]
+    }
+}
+
+/// The number of a junction in scripts.
+fn number(junction: JunctionId) -> Value {
+    Value::Number(f64::from(junction) + 1.0)
+}
+
+/// A name for what lies at a place.
+fn named(at: DVec2) -> String {
+    // Adding zero turns -0 into 0.
+    format!("{:.0}:{:.0}", at.x.round() + 0.0, at.y.round() + 0.0)
+}
+
+/// The place half way along a line.
+fn middle(line: &[DVec2]) -> DVec2 {
+    let length: f64 = line.windows(2).map(|pair| pair[0].distance(pair[1])).sum();
+    let mut rest = length / 2.0;
+    for pair in line.windows(2) {
+        let piece = pair[0].distance(pair[1]);
+        if piece >= rest && piece > 0.0 {
+            return pair[0].lerp(pair[1], rest / piece);
+        }
+        rest -= piece;
+    }
+    line.last().copied().unwrap_or_default()
+}

@@ -1,0 +1,68 @@
+//! Parts of geometries, as several functions take them.
+
+use burgeon_spatial::{Geometry, union_all};
+use glam::DVec3;
+
+use super::{FunctionCall, FunctionResult};
+
+/// The place of a point; nothing of an empty one. Fails for all else.
+pub(super) fn place(call: &FunctionCall<'_>, index: usize) -> Result<Option<DVec3>, String> {
+    match &call.geometry(index)?.geometry {
+        Geometry::Point(place) => Ok(*place),
+        other => Err(format!("argument {} must be a point, not a {}", index + 1, other.kind().name())),
+    }
+}
+
+/// Its own geometries; itself if it is a single one.
+pub(super) fn members(geometry: &Geometry) -> Vec<Geometry> {
+    match geometry {
+        Geometry::MultiPoint(points) => points.iter().map(|at| Geometry::point(*at)).collect(),
+        Geometry::MultiLine(lines) => lines.iter().cloned().map(Geometry::Line).collect(),
+        Geometry::MultiPolygon(polygons) => polygons.iter().cloned().map(Geometry::Polygon).collect(),
+        Geometry::Collection(members) => members.clone(),
+        single => vec![single.clone()],
+    }
+}
+
+/// Geometries beside each other: single ones of one kind as a multi form, others as a collection.
+pub(super) fn collected(geometries: Vec<Geometry>) -> Geometry {
+    let same = geometries.windows(2).all(|pair| pair[0].kind() == pair[1].kind());
+    let single = |geometry: &Geometry| {
+        matches!(geometry, Geometry::Point(Some(_)) | Geometry::Line(_) | Geometry::Polygon(_))
+    };
+    if !same || !geometries.iter().all(single) {
+        return Geometry::Collection(geometries);
+    }
+    let (mut points, mut lines, mut polygons) = (Vec::new(), Vec::new(), Vec::new());
+    for geometry in geometries {
+        match geometry {
+            Geometry::Point(point) => points.extend(point),
+            Geometry::Line(line) => lines.push(line),
+            Geometry::Polygon(polygon) => polygons.push(polygon),
+            _ => {}
+        }
+    }
+    if !points.is_empty() {
+        Geometry::MultiPoint(points)
+    } else if !lines.is_empty() {
+        Geometry::MultiLine(lines)
+    } else {
+        Geometry::MultiPolygon(polygons)
+    }
+}
+
+/// The union of geometries. Fails with the reason.
+#[allow(clippy::unnecessary_wraps, reason = "what is made of many may come to fail")]
+pub(super) fn united(geometries: &[Geometry]) -> Result<Geometry, String> {
+    Ok(union_all(geometries))
+}
+
+/// A ring as a line.
+pub(super) fn closed(ring: &[DVec3]) -> Geometry {
+    Geometry::Line(ring.iter().chain(ring.first()).copied().collect())
+}
+
+pub(super) fn sound(geometry: Geometry) -> Result<FunctionResult, String> {
+    geometry.check().map_err(|error| error.message().to_owned())?;
+    Ok(FunctionResult::Geometry(geometry))
+}

@@ -1,0 +1,106 @@
+//! Walks over the parts of a statement.
+//!
+//! The parser's own walk is made anew for each type that visits, over all that SQL may be; so there is one type for those
+//! who look and one for those who change.
+
+use std::ops::ControlFlow;
+
+use sqlparser::ast::{
+    Expr, ObjectName, Query, Select, SetExpr, TableFactor, Visit, VisitMut, Visitor, VisitorMut,
+};
+
+/// A part of a statement.
+pub(super) enum Part<'a> {
+    /// A query, whole or within another.
+    Query(&'a Query),
+    /// An expression.
+    Expression(&'a Expr),
+    /// What stands behind FROM.
+    #[cfg_attr(not(feature = "postgis"), expect(dead_code, reason = "looked at before a server is asked"))]
+    TableFactor(&'a TableFactor),
+    /// The name of a table.
+    #[cfg_attr(not(feature = "postgis"), expect(dead_code, reason = "looked at before a server is asked"))]
+    Relation(&'a ObjectName),
+}
+
+/// A part of a statement, to be changed.
+pub(super) enum PartMut<'a> {
+    /// A query, whole or within another.
+    Query(&'a mut Query),
+    /// What stands between SELECT and ORDER BY.
+    Select(&'a mut Select),
+    /// An expression.
+    Expression(&'a mut Expr),
+    /// What stands behind FROM.
+    TableFactor(&'a mut TableFactor),
+}
+
+/// Shows `look` the parts of `tree`, the outer before the inner, until it breaks.
+pub(super) fn walk(tree: &impl Visit, mut look: impl FnMut(Part<'_>) -> ControlFlow<()>) -> ControlFlow<()> {
+    tree.visit(&mut PartVisitor(&mut look))
+}
+
+/// Gives `change` the parts of `query`, the inner before the outer.
+pub(super) fn walk_mut(query: &mut Query, mut change: impl FnMut(PartMut<'_>)) {
+    let _ = VisitMut::visit(query, &mut PartMutVisitor(&mut change));
+}
+
+/// Whether each query in `tree` asks for rows.
+pub(super) fn asks_for_rows(tree: &Query) -> bool {
+    let asks = |body: &SetExpr| {
+        !matches!(body, SetExpr::Insert(_) | SetExpr::Update(_) | SetExpr::Delete(_) | SetExpr::Merge(_))
+    };
+    let walked = walk(tree, |part| match part {
+        Part::Query(query) if !asks(&query.body) => ControlFlow::Break(()),
+        _ => ControlFlow::Continue(()),
+    });
+    walked.is_continue()
+}
+
+struct PartVisitor<'a>(&'a mut dyn FnMut(Part<'_>) -> ControlFlow<()>);
+
+impl Visitor for PartVisitor<'_> {
+    type Break = ();
+
+    fn pre_visit_query(&mut self, query: &Query) -> ControlFlow<()> {
+        (self.0)(Part::Query(query))
+    }
+
+    fn pre_visit_expr(&mut self, expression: &Expr) -> ControlFlow<()> {
+        (self.0)(Part::Expression(expression))
+    }
+
+    fn pre_visit_table_factor(&mut self, factor: &TableFactor) -> ControlFlow<()> {
+        (self.0)(Part::TableFactor(factor))
+    }
+
+    fn pre_visit_relation(&mut self, name: &ObjectName) -> ControlFlow<()> {
+        (self.0)(Part::Relation(name))
+    }
+}
+
+struct PartMutVisitor<'a>(&'a mut dyn FnMut(PartMut<'_>));
+
+impl VisitorMut for PartMutVisitor<'_> {
+    type Break = ();
+
+    fn post_visit_query(&mut self, query: &mut Query) -> ControlFlow<()> {
+        (self.0)(PartMut::Query(query));
+        ControlFlow::Continue(())
+    }
+
+    fn post_visit_select(&mut self, select: &mut Select) -> ControlFlow<()> {
+        (self.0)(PartMut::Select(select));
+        ControlFlow::Continue(())
+    }
+
+    fn post_visit_expr(&mut self, expression: &mut Expr) -> ControlFlow<()> {
+        (self.0)(PartMut::Expression(expression));
+        ControlFlow::Continue(())
+    }
+
+    fn post_visit_table_factor(&mut self, factor: &mut TableFactor) -> ControlFlow<()> {
+        (self.0)(PartMut::TableFactor(factor));
+        ControlFlow::Continue(())
+    }
+}

@@ -1,0 +1,229 @@
+//! Where the edges of two geometries meet.
+
+use std::cmp::Ordering;
+
+use glam::DVec2;
+
+use super::locate::{begins_inside, is_between, place_in, side};
+use super::prepared::{Edge, Edges, PreparedGeometry};
+
+/// A place where an edge of one geometry meets an edge of the other.
+#[derive(Debug, Clone, Copy)]
+struct Contact {
+    /// The edges, by geometry.
+    edges: [usize; 2],
+    place: DVec2,
+}
+
+/// A part that an edge of one geometry shares with an edge of the other.
+#[derive(Debug, Clone, Copy)]
+struct SharedPart {
+    edges: [usize; 2],
+    ends: [DVec2; 2],
+}
+
+/// All places where two geometries meet.
+#[derive(Debug, Default)]
+pub(super) struct Contacts {
+    /// Whether edges cross between their ends.
+    pub(super) cross: bool,
+    /// Whether edges share a part on which they lead the same way, and opposite ways.
+    pub(super) shares: [bool; 2],
+    contacts: Vec<Contact>,
+    parts: Vec<SharedPart>,
+}
+
+/// What of a geometry lies inside of areas, outside, or on their border.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct WalkSides {
+    pub(super) inside: bool,
+    pub(super) outside: bool,
+}
+
+impl WalkSides {
+    /// Of what lies on both sides.
+    pub(super) const BOTH: Self = Self { inside: true, outside: true };
+}
+
+impl Contacts {
+    /// The contacts of two geometries with these edges; without any but the first where edges cross, if `until_crossing`.
+    pub(super) fn new(
+        (one, first): (&PreparedGeometry, &Edges),
+        (two, second): (&PreparedGeometry, &Edges),
+        until_crossing: bool,
+    ) -> Self {
+        let mut made = Self::default();
+        let (Some([a, b]), Some([c, d])) = (one.bounds, two.bounds) else { return made };
+        let (low, high) = (a.max(c), b.min(d));
+        if !low.cmple(high).all() {
+            return made;
+        }
+        let mut near: Vec<(usize, Edge)> = Vec::new();
+        let turned = first.edges.len() > second.edges.len();
+        let (few, many) = if turned { (second, first) } else { (first, second) };
+        few.meeting(low, high, |number, edge| near.push((number, *edge)));
+        near.sort_unstable_by_key(|(number, _)| *number);
+        for (number, edge) in near {
+            many.meeting(edge.low(), edge.high(), |other, found| {
+                if turned {
+                    made.meet([other, number], found, &edge);
+                } else {
+                    made.meet([number, other], &edge, found);
+                }
+            });
+            if made.cross && until_crossing {
+                return made;
+            }
+        }
+        made
+    }
+
+    /// Whether there are none.
+    pub(super) fn is_empty(&self) -> bool {
+        !self.cross && self.contacts.is_empty()
+    }
+
+    /// Whether edges share a part.
+    pub(super) fn has_shared(&self) -> bool {
+        self.shares != [false; 2]
+    }
+
+    /// The places where ends of edges meet the other geometry.
+    pub(super) fn places(&self) -> impl Iterator<Item = DVec2> + '_ {
+        self.contacts.iter().map(|contact| contact.place)
+    }
+
+    /// Notes how two edges meet.
+    fn meet(&mut self, edges: [usize; 2], e: &Edge, f: &Edge) {
+        let [p, q] = [side(f.from, f.to, e.from), side(f.from, f.to, e.to)];
+        if p == q && p != Ordering::Equal {
+            return;
+        }
+        let [r, s] = [side(e.from, e.to, f.from), side(e.from, e.to, f.to)];
+        if r == s && r != Ordering::Equal {
+            return;
+        }
+        if p == Ordering::Equal && q == Ordering::Equal {
+            return self.meet_along(edges, e, f);
+        }
+        let ends = [(p, e.from, f), (q, e.to, f), (r, f.from, e), (s, f.to, e)];
+        let mut on = ends.into_iter().filter(|(side, ..)| *side == Ordering::Equal).peekable();
+        if on.peek().is_none() {
+            self.cross = true;
+        } else if let Some((_, place, _)) = on.find(|(_, place, edge)| is_between(edge, *place)) {
+            self.contacts.push(Contact { edges, place });
+        }
+    }
+
+    /// Notes how two edges on one line meet.
+    fn meet_along(&mut self, edges: [usize; 2], e: &Edge, f: &Edge) {
+        let order = |a: &DVec2, b: &DVec2| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y));
+        let sorted = |edge: &Edge| match order(&edge.from, &edge.to) {
+            Ordering::Greater => [edge.to, edge.from],
+            _ => [edge.from, edge.to],
+        };
+        let ([a, b], [c, d]) = (sorted(e), sorted(f));
+        let later = if order(&a, &c) == Ordering::Less { c } else { a };
+        let sooner = if order(&b, &d) == Ordering::Greater { d } else { b };
+        if later == sooner {
+            self.contacts.push(Contact { edges, place: later });
+        } else if order(&later, &sooner) == Ordering::Less {
+            self.contacts.extend([later, sooner].map(|place| Contact { edges, place }));
+            self.parts.push(SharedPart { edges, ends: [later, sooner] });
+            let is_same = (order(&e.from, &e.to)) == order(&f.from, &f.to);
+            self.shares[usize::from(!is_same)] = true;
+        }
+    }
+
+    /// The contacts of the edges of a geometry, the first or the second, one edge after the other.
+    pub(super) fn of(&self, geometry: usize) -> SortedContacts<'_> {
+        let mut contacts: Vec<&Contact> = self.contacts.iter().collect();
+        contacts.sort_by_key(|contact| contact.edges[geometry]);
+        let mut parts: Vec<&SharedPart> = self.parts.iter().collect();
+        parts.sort_by_key(|part| part.edges[geometry]);
+        SortedContacts { geometry, contacts, parts }
+    }
+}
+
+/// Contacts by the edges of one geometry.
+pub(super) struct SortedContacts<'a> {
+    geometry: usize,
+    contacts: Vec<&'a Contact>,
+    parts: Vec<&'a SharedPart>,
+}
+
+impl SortedContacts<'_> {
+    fn on(&self, edge: usize) -> &[&Contact] {
+        let begin = self.contacts.partition_point(|it| it.edges[self.geometry] < edge);
+        let count = self.contacts[begin..].partition_point(|it| it.edges[self.geometry] == edge);
+        &self.contacts[begin..begin + count]
+    }
+
+    /// Whether the other geometry has a piece of an edge.
+    fn has(&self, edge: usize, piece: [DVec2; 2]) -> bool {
+        let begin = self.parts.partition_point(|it| it.edges[self.geometry] < edge);
+        let parts = self.parts[begin..].iter().take_while(|it| it.edges[self.geometry] == edge);
+        parts.into_iter().any(|part| {
+            let [from, to] = part.ends;
+            piece.iter().all(|end| is_between(&Edge { from, to }, *end))
+        })
+    }
+
+    /// The pieces that contacts divide an edge into.
+    fn pieces(&self, number: usize, edge: &Edge) -> Vec<[DVec2; 2]> {
+        let mut stops: Vec<DVec2> = self.on(number).iter().map(|contact| contact.place).collect();
+        stops.extend([edge.from, edge.to]);
+        // All are on one line.
+        stops.sort_unstable_by(|a, b| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)));
+        stops.dedup();
+        if stops.first() != Some(&edge.from) {
+            stops.reverse();
+        }
+        stops.windows(2).map(|pair| [pair[0], pair[1]]).collect()
+    }
+
+    /// Whether a part of the edges is not part of the other geometry's.
+    pub(super) fn has_own(&self, edges: &Edges) -> bool {
+        edges.edges.iter().enumerate().any(|(number, edge)| {
+            self.on(number).len() < 2
+                || self.pieces(number, edge).into_iter().any(|piece| !self.has(number, piece))
+        })
+    }
+
+    /// On which sides of the other geometry's border, which they nowhere cross between their ends, edges lie.
+    pub(super) fn walk(&self, edges: &Edges, areas: &Edges) -> WalkSides {
+        let mut sides = WalkSides::default();
+        for way in edges.ways() {
+            // Where the last piece was, if nothing has been met since.
+            let mut known = None;
+            for number in way {
+                let edge = &edges.edges[number];
+                let contacts = self.on(number);
+                let pieces =
+                    if contacts.is_empty() { vec![[edge.from, edge.to]] } else { self.pieces(number, edge) };
+                for [from, to] in pieces {
+                    let mut here = contacts.iter().filter(|contact| contact.place == from).peekable();
+                    let meets = here.peek().is_some();
+                    if meets && self.has(number, [from, to]) {
+                        continue;
+                    }
+                    let other = 1 - self.geometry;
+                    let is_inside = match known.filter(|_| !meets) {
+                        Some(known) => known,
+                        None if meets => {
+                            begins_inside(here.map(|contact| areas.edges[contact.edges[other]]), from, to)
+                        }
+                        None => place_in(areas, from) == Ordering::Greater,
+                    };
+                    sides.inside |= is_inside;
+                    sides.outside |= !is_inside;
+                    known = Some(is_inside);
+                }
+            }
+            if sides.inside && sides.outside {
+                break;
+            }
+        }
+        sides
+    }
+}

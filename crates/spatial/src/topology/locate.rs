@@ -1,0 +1,90 @@
+//! Where places lie to areas and lines, by exact predicates.
+
+use std::cmp::Ordering;
+
+use geo::{Coord, Kernel, Orientation, kernels::RobustKernel};
+use glam::DVec2;
+
+use super::prepared::{Edge, Edges};
+
+/// On which side of the way from `a` to `b` a place is: greater is the left.
+///
+/// Method: J. Shewchuk, "Adaptive precision floating-point arithmetic and fast robust geometric predicates", 1997.
+pub(super) fn side(a: DVec2, b: DVec2, place: DVec2) -> Ordering {
+    let coord = |at: DVec2| Coord { x: at.x, y: at.y };
+    match RobustKernel::orient2d(coord(a), coord(b), coord(place)) {
+        Orientation::CounterClockwise => Ordering::Greater,
+        Orientation::Collinear => Ordering::Equal,
+        Orientation::Clockwise => Ordering::Less,
+    }
+}
+
+/// Whether a place that is on the line of an edge is on the edge; its ends are.
+pub(super) fn is_between(edge: &Edge, place: DVec2) -> bool {
+    edge.low().cmple(place).all() && place.cmple(edge.high()).all()
+}
+
+/// Whether a place is on an edge.
+pub(super) fn is_on(edge: &Edge, place: DVec2) -> bool {
+    is_between(edge, place) && side(edge.from, edge.to, place) == Ordering::Equal
+}
+
+/// Where a place lies to areas: greater is inside, equal on their border.
+pub(super) fn place_in(areas: &Edges, place: DVec2) -> Ordering {
+    let mut winding = 0;
+    let mut touches = false;
+    areas.meeting(place, DVec2::new(f64::MAX, place.y), |_, Edge { from, to }| {
+        let edge = Edge { from: *from, to: *to };
+        touches |= is_on(&edge, place);
+        if from.y <= place.y && place.y < to.y {
+            winding += i32::from(side(*from, *to, place) == Ordering::Greater);
+        } else if to.y <= place.y && place.y < from.y {
+            winding -= i32::from(side(*from, *to, place) == Ordering::Less);
+        }
+    });
+    match (touches, winding) {
+        (true, _) => Ordering::Equal,
+        (_, 0) => Ordering::Less,
+        _ => Ordering::Greater,
+    }
+}
+
+/// Whether a place is on one of the edges.
+pub(super) fn is_on_any(edges: &Edges, place: DVec2) -> bool {
+    let mut found = false;
+    edges.meeting(place, place, |_, edge| found = found || is_on(edge, place));
+    found
+}
+
+/// Whether the way from `from`, which is on the border of areas, to `to` begins inside of them. `around` are the edges of
+/// the border that `from` is on; none of them leads the same way.
+///
+/// Method: the border that is met first when one turns to the right from that way: what leads away from `from` has the
+/// area to the side that one comes from, and what comes to it has not.
+pub(super) fn begins_inside(around: impl Iterator<Item = Edge>, from: DVec2, to: DVec2) -> bool {
+    // What is to the right comes before what is behind, and that before what is to the left.
+    let turn = |way: DVec2| match side(from, to, way) {
+        Ordering::Less => 0,
+        Ordering::Equal => 1,
+        Ordering::Greater => 2,
+    };
+    let mut first: Option<(u8, DVec2, bool)> = None;
+    let mut meet = |way: DVec2, leads_away: bool| {
+        let turned = turn(way);
+        let is_earlier = first.is_none_or(|(known, other, _)| {
+            turned < known || turned == known && side(from, way, other) == Ordering::Less
+        });
+        if is_earlier {
+            first = Some((turned, way, leads_away));
+        }
+    };
+    for edge in around {
+        if edge.to != from {
+            meet(edge.to, true);
+        }
+        if edge.from != from {
+            meet(edge.from, false);
+        }
+    }
+    first.is_some_and(|(_, _, leads_away)| leads_away)
+}

@@ -1,0 +1,194 @@
+//! A geometry as it is compared with others.
+
+use std::sync::OnceLock;
+
+use glam::DVec2;
+use rstar::{AABB, RTree, RTreeObject};
+
+use crate::Geometry;
+use crate::overlay::Operand;
+use crate::plane::Plane;
+
+/// From so many edges on they are asked by a tree.
+const MANY: usize = 64;
+
+/// A geometry that is compared with many others: what that takes of it alone is done once.
+///
+/// ```
+/// use burgeon_spatial::{Geometry, PreparedGeometry};
+///
+/// let lawn = Geometry::from_wkt("POLYGON ((0 0, 10 0, 10 10, 0 10, 0 0))")?;
+/// let prepared = PreparedGeometry::new(&lawn);
+/// let inside = |x: i32| prepared.contains(&PreparedGeometry::new(&Geometry::point([f64::from(x), 5.0, 0.0])));
+/// assert_eq!((0..20).filter(|x| inside(*x)).count(), 9);
+/// # Ok::<(), burgeon_base::error::Error>(())
+/// ```
+#[derive(Debug, Clone)]
+pub struct PreparedGeometry {
+    /// As it was given.
+    pub(crate) whole: Geometry,
+    pub(crate) bounds: Option<[DVec2; 2]>,
+    pub(crate) is_sound: bool,
+    /// That of the geometry, whose empty parts count too.
+    pub(crate) dimension: usize,
+    parts: OnceLock<Parts>,
+}
+
+/// What a geometry is made of.
+#[derive(Debug, Clone)]
+pub(super) enum Parts {
+    /// Nothing.
+    None,
+    /// Places, each once, in order.
+    Points(Vec<DVec2>),
+    /// Ways of edges, and the places where an odd number of them ends, in order.
+    Lines(Edges, Vec<DVec2>),
+    /// Rings, with the area to their left.
+    Areas(Edges),
+    /// Several of these.
+    Mixed,
+}
+
+impl PreparedGeometry {
+    /// Prepares a geometry.
+    pub fn new(geometry: &Geometry) -> Self {
+        Self {
+            whole: geometry.clone(),
+            bounds: geometry.bounds(),
+            is_sound: geometry.is_sound(),
+            dimension: geometry.dimension(),
+            parts: OnceLock::new(),
+        }
+    }
+
+    /// What it is made of; nothing if it is not sound.
+    pub(super) fn parts(&self) -> &Parts {
+        self.parts.get_or_init(|| if self.is_sound { Parts::new(&self.whole) } else { Parts::None })
+    }
+}
+
+impl Parts {
+    fn new(geometry: &Geometry) -> Self {
+        let plane = Plane::of(&[geometry]);
+        let Operand { areas, lines, mut points } = Operand::new(plane, geometry);
+        // Of the two zeros there is only one behind a sum.
+        let back = |place: DVec2| plane.back(place).truncate() + 0.0;
+        match [areas.0.is_empty(), lines.is_empty(), points.is_empty()] {
+            [true, true, true] => Self::None,
+            [true, true, false] => {
+                points.iter_mut().for_each(|place| *place = back(*place));
+                sort(&mut points);
+                points.dedup();
+                Self::Points(points)
+            }
+            [true, false, true] => {
+                let ways = lines.iter().map(|line| line.iter().map(|place| back(*place)).collect());
+                let ways: Vec<Vec<DVec2>> = ways.collect();
+                let ends = ways.iter().filter(|way| way.first() != way.last());
+                let mut ends: Vec<DVec2> =
+                    ends.flat_map(|way| way.first().into_iter().chain(way.last())).copied().collect();
+                sort(&mut ends);
+                let odd = ends.chunk_by(|a, b| a == b).filter(|same| same.len() % 2 == 1);
+                let boundary = odd.map(|same| same[0]).collect();
+                Self::Lines(Edges::new(&ways), boundary)
+            }
+            [false, true, true] => {
+                let rings = areas.iter().flat_map(|it| std::iter::once(it.exterior()).chain(it.interiors()));
+                let place = |at: &geo::Coord| back(DVec2::new(at.x, at.y));
+                let rings: Vec<Vec<DVec2>> = rings.map(|ring| ring.0.iter().map(place).collect()).collect();
+                Self::Areas(Edges::new(&rings))
+            }
+            _ => Self::Mixed,
+        }
+    }
+}
+
+/// Puts places in an order in which equal ones are neighbours.
+fn sort(places: &mut [DVec2]) {
+    places.sort_unstable_by(|a, b| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)));
+}
+
+/// Whether a place is among those that are in order.
+pub(super) fn is_among(places: &[DVec2], place: DVec2) -> bool {
+    let first = places.partition_point(|it| it.x < place.x || it.x == place.x && it.y < place.y);
+    places.get(first) == Some(&place)
+}
+
+/// An edge, from place to place; never without length.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Edge {
+    pub(super) from: DVec2,
+    pub(super) to: DVec2,
+}
+
+/// The edges of ways, one way after the other.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Edges {
+    pub(super) edges: Vec<Edge>,
+    /// By way: the number behind its last edge.
+    ends: Vec<usize>,
+    tree: OnceLock<RTree<NumberedEdge>>,
+}
+
+/// An edge in a tree.
+#[derive(Debug, Clone, Copy)]
+struct NumberedEdge {
+    edge: Edge,
+    number: usize,
+}
+
+impl RTreeObject for NumberedEdge {
+    type Envelope = AABB<[f64; 2]>;
+
+    fn envelope(&self) -> Self::Envelope {
+        AABB::from_corners(self.edge.from.to_array(), self.edge.to.to_array())
+    }
+}
+
+impl Edge {
+    pub(super) fn low(&self) -> DVec2 {
+        self.from.min(self.to)
+    }
+
+    pub(super) fn high(&self) -> DVec2 {
+        self.from.max(self.to)
+    }
+}
+
+impl Edges {
+    fn new(ways: &[Vec<DVec2>]) -> Self {
+        let mut made = Self::default();
+        for way in ways {
+            let edges = way.windows(2).filter(|pair| pair[0] != pair[1]);
+            made.edges.extend(edges.map(|pair| Edge { from: pair[0], to: pair[1] }));
+            made.ends.push(made.edges.len());
+        }
+        made
+    }
+
+    /// The numbers of the edges of each way.
+    pub(super) fn ways(&self) -> impl Iterator<Item = std::ops::Range<usize>> + '_ {
+        let begins = std::iter::once(0).chain(self.ends.iter().copied());
+        begins.zip(&self.ends).map(|(begin, end)| begin..*end)
+    }
+
+    /// Calls `each` with the edges whose boxes meet a box, and their numbers.
+    pub(super) fn meeting(&self, low: DVec2, high: DVec2, mut each: impl FnMut(usize, &Edge)) {
+        if self.edges.len() < MANY {
+            for (number, edge) in self.edges.iter().enumerate() {
+                if edge.low().cmple(high).all() && low.cmple(edge.high()).all() {
+                    each(number, edge);
+                }
+            }
+            return;
+        }
+        let numbered =
+            || self.edges.iter().enumerate().map(|(number, edge)| NumberedEdge { edge: *edge, number });
+        let tree = self.tree.get_or_init(|| RTree::bulk_load(numbered().collect()));
+        for found in
+            tree.locate_in_envelope_intersecting(&AABB::from_corners(low.to_array(), high.to_array()))
+        {
+            each(found.number, &found.edge);
+        }
+    }
+}

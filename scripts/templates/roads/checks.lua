@@ -1,0 +1,55 @@
+--!strict
+-- What the libraries of roads refuse, and how headings are compared.
+local checks = {}
+
+-- Refuses what a table may not have.
+function checks.options(name: string, given: { [string]: any }, known: { [string]: string })
+  for key, value in given do
+    local kinds = known[key]
+    if not kinds then
+      local names = {}
+      for each in known do
+        table.insert(names, each)
+      end
+      table.sort(names)
+      error(`{name} has no option {key}; it has {table.concat(names, ", ")}`, 3)
+    elseif not string.find(kinds, type(value), 1, true) then
+      error(`{name}: {key} is a {type(value)}, and must be a {kinds}`, 3)
+    end
+  end
+end
+
+-- The number that an option has; refuses what is out of its range, in the line of whoever called the caller. (What takes
+-- more arguments is not inlined, so that its caller can be told.)
+function checks.number(
+  name: string,
+  value: any,
+  usual: number,
+  least: number,
+  greatest: number,
+  ...: number
+): number
+  local given = if value == nil then usual else value
+  if type(given) ~= "number" or not (given >= least and given <= greatest) then
+    error(`{name} must be a number from {least} to {greatest}, not {given}`, (...) or 3)
+  end
+  return given
+end
+
+-- Degrees from one heading to another, from -180 to 180.
+function checks.between(from: number, to: number): number
+  return (to - from + 180) % 360 - 180
+end
+
+-- The one of some headings that is nearest to another.
+function checks.nearest(heading: number, headings: { number }): number
+  local best = headings[1]
+  for _, other in headings do
+    if math.abs(checks.between(heading, other)) < math.abs(checks.between(heading, best)) then
+      best = other
+    end
+  end
+  return best
+end
+
+return checks

@@ -1,0 +1,368 @@
+--!strict
+-- Growth: the rules by which streets follow a pattern, from junction to junction.
+local checks = require("checks")
+local patterns = require("patterns")
+
+local growth = {}
+
+local between, number = checks.between, checks.number
+
+export type RoadOptions = {
+  pattern: (patterns.Pattern | (x: number, y: number) -> patterns.Pattern)?,
+  network: NetworkOptions?,
+  extent: (number | (x: number, y: number) -> boolean)?,
+  population: ((x: number, y: number) -> number)?,
+  centres: { { number } }?,
+  headings: { number }?,
+  onto: boolean?,
+  deepest: number?,
+  steps: number?,
+  join: number?,
+  detour: number?,
+  dead_ends: string?,
+}
+
+local KNOWN: { [string]: string } = {
+  pattern = "table or function",
+  network = "table",
+  extent = "number or function",
+  population = "function",
+  centres = "table",
+  headings = "table",
+  onto = "boolean",
+  deepest = "number",
+  steps = "number",
+  join = "number",
+  detour = "number",
+  dead_ends = "string",
+}
+
+-- A street grows at a tip: from a junction, towards a heading, with a length (m) and how often its way has branched off.
+-- It counts its junctions since it divided, and how often it was refused.
+local Tip = module("Tip", "junction", "heading", "length", "depth", "run", "tries")
+-- Where a side street is to leave after some steps.
+local Bud = module("Bud", "junction", "heading", "depth", "wait")
+-- A highway on its way to the start with a number.
+local Highway = module("Highway", "junction", "heading", "length", "goal", "tries")
+-- The last stretch of a highway.
+local Arrival = module("Arrival", "junction", "goal")
+-- Where a town begins to grow after some steps.
+local Town = module("Town", "junction", "wait")
+-- The open ends of streets that were there before.
+local Outskirts = module("Outskirts")
+-- Counts the steps, and tidies up after the last.
+local Clock = module("Clock", "left")
+
+-- How far (degrees) a main street turns when it is refused, one try after the other.
+local ASIDE = { 20, -40, 55, -70 }
+-- What streets are made of, by depth.
+growth.STREETS = {
+  { width = 24, lanes = 4, sidewalk = 4 },
+  { width = 16, lanes = 2, parking = 2.2, sidewalk = 3 },
+  { width = 11, lanes = 2, sidewalk = 2 },
+}
+-- How likely a main street leads out of town; side streets never do.
+local LEADS_OUT = 0.3
+-- How many steps a side street waits, so that main streets come first.
+local WAIT = 2
+
+-- A number from 0 to 1 that looks drawn, and is the same for a place (m) within some metres.
+local function drawn(x: number, y: number, seed: number): number
+  local mixed =
+    bit32.bxor(math.floor(x / 8 + 0.5) * 73856093 % 2 ^ 32, math.floor(y / 8 + 0.5) * 19349663 % 2 ^ 32, seed)
+  mixed = bit32.bxor(mixed, bit32.rshift(mixed, 13)) % 65536
+  return mixed * 40503 % 65536 / 65536
+end
+
+-- The pairs of centres that highways join: those in whose circle no third one lies.
+local function joined(centres: { { number } }): { { number } }
+  local pairs = {}
+  for a = 1, #centres do
+    for b = a + 1, #centres do
+      local x, y = (centres[a][1] + centres[b][1]) / 2, (centres[a][2] + centres[b][2]) / 2
+      local reach = (centres[a][1] - x) ^ 2 + (centres[a][2] - y) ^ 2
+      local is_free = true
+      for c, other in centres do
+        if c ~= a and c ~= b and (other[1] - x) ^ 2 + (other[2] - y) ^ 2 < reach then
+          is_free = false
+        end
+      end
+      if is_free then
+        table.insert(pairs, { a, b })
+      end
+    end
+  end
+  return pairs
+end
+
+-- A system whose network grows by a pattern; derive it by `steps`. Options: `pattern` (or a function of a place that
+-- gives one), fields of the `network`, the `extent` (m) from the middle or a function that says whether a place is
+-- within, the `population` of a place from 0 to 1, `centres` that highways join, `headings` of the first streets,
+-- `onto` true to grow from the open ends of streets that are there, the `deepest` side streets, `join` (m) and `detour`
+-- for dead ends, and `dead_ends`, which are what is left of them to "keep" or to "remove".
+function growth.system(options: RoadOptions)
+  checks.options("roads.system", options :: any, KNOWN)
+  local given: any = options.pattern or patterns.organic()
+  local pattern_at: (x: number, y: number) -> patterns.Pattern = if type(given) == "function"
+    then given
+    else function()
+      return given
+    end
+  local extent: any = options.extent or 500
+  local inside: (x: number, y: number) -> boolean = if type(extent) == "function"
+    then extent
+    else function(x, y)
+      return x * x + y * y < extent * extent
+    end
+  local people = options.population
+  local deepest = number("roads.system: deepest", options.deepest, 4, 0, 20)
+  local steps = number("roads.system: steps", options.steps, 24, 1, 10000)
+  local detour = number("roads.system: detour", options.detour, 2.5, 1, 100)
+  local dead_ends = options.dead_ends or "keep"
+  if dead_ends ~= "keep" and dead_ends ~= "remove" then
+    error(`roads.system: dead_ends is "keep" or "remove", not "{dead_ends}"`, 2)
+  end
+  -- What is removed should rather have been joined, or not have stopped.
+  local keeps = dead_ends == "keep"
+  local join = number("roads.system: join", options.join, if keeps then 40 else 130, 0, 2000)
+  local centres = options.centres or { { 0, 0 } }
+  local headings = options.headings or { 8, 98, 188, 278 }
+
+  local fields: any = { streets = growth.STREETS, min_angle = 50, snap = 14 }
+  for name, value in (options.network or {}) :: any do
+    fields[name] = value
+  end
+  if options.onto then
+    fields.starts = fields.starts or {}
+  else
+    fields.starts = centres
+  end
+  local system = lsystem({ object = network(fields) })
+
+  local field = math.floor(random() * 1000000)
+  -- The tip of a street that leaves a junction; nil where the pattern leaves it out.
+  local function start(
+    pattern: patterns.Pattern,
+    at: number,
+    x: number,
+    y: number,
+    heading: number,
+    depth: number,
+    run: number,
+    tries: number?
+  ): any
+    local length = pattern.length(x, y, heading, depth)
+    local aim = pattern.toward(x, y, heading, length, depth)
+    local east, north = math.cos(math.rad(aim)) * length, math.sin(math.rad(aim)) * length
+    if not inside(x + east, y + north) and (depth > 0 or random() > LEADS_OUT) then
+      return nil
+    elseif depth > 0 then
+      -- Both ends find the same for what lies between them; a street along the border of a town is never left out.
+      local middle_x, middle_y = x + east / 2, y + north / 2
+      local is_border = inside(middle_x - north, middle_y + east) ~= inside(middle_x + north, middle_y - east)
+      if
+        not is_border
+        and (
+          drawn(middle_x, middle_y, field) < pattern.gap
+          or pattern.closed and pattern.closed(middle_x, middle_y, aim, length, depth)
+        )
+      then
+        return nil
+      end
+    end
+    return Tip(at, aim, length, depth, run, tries or 0)
+  end
+
+  -- The modules that go on from a junction that a street has come to.
+  local function onward(this: Network, at: number, heading: number, depth: number, run: number): { any }
+    local place = this:place(at)
+    local x, y = place.x, place.y
+    if not inside(x, y) then
+      return {}
+    end
+    local pattern = pattern_at(x, y)
+    local much = if people then math.clamp(people(x, y), 0, 1) else 1
+    if depth > 0 and much <= 0.02 or keeps and depth > 1 and random() < pattern.stop then
+      return {}
+    end
+    local function tip(aim: number, deep: number, count: number)
+      return start(pattern, at, x, y, aim, deep, count)
+    end
+    local divides = depth == 0 and pattern.every > 0 and run >= pattern.every
+    local modules = { tip(heading, depth, if divides then 0 else run + 1) }
+    local first = if random() < 0.5 then 90 else -90
+    if divides then
+      table.insert(modules, tip(heading + first, 0, 0))
+      if random() < pattern.both then
+        table.insert(modules, tip(heading - first, 0, 0))
+      end
+    elseif depth < deepest and random() < pattern.side * much then
+      table.insert(modules, Bud(at, heading + first + random(-pattern.skew, pattern.skew), depth + 1, WAIT))
+      if random() < pattern.both then
+        table.insert(modules, Bud(at, heading - first + random(-pattern.skew, pattern.skew), depth + 1, WAIT))
+      end
+    end
+    return modules
+  end
+
+  local axiom = {}
+  local highways = if #centres > 1 then joined(centres) else {}
+  for _, pair in highways do
+    local from, to = centres[pair[1]], centres[pair[2]]
+    local heading = math.deg(math.atan2(to[2] - from[2], to[1] - from[1]))
+    table.insert(axiom, Highway(pair[1], heading, 90, pair[2], 0))
+  end
+  if options.onto then
+    table.insert(axiom, Outskirts())
+  else
+    for index in centres do
+      table.insert(axiom, Town(index, if #highways > 0 then 4 else 0))
+    end
+  end
+  table.insert(axiom, Clock(steps))
+  system:axiom(table.unpack(axiom))
+
+  system:rule("Town(junction, wait)", function(this: Network, junction: number, wait: number)
+    if wait > 0 then
+      return Town(junction, wait - 1)
+    end
+    local place = this:place(junction)
+    local pattern = pattern_at(place.x, place.y)
+    local modules = {}
+    for _, heading in headings do
+      table.insert(modules, start(pattern, junction, place.x, place.y, heading, 0, 0))
+    end
+    return table.unpack(modules)
+  end)
+
+  system:rule("Outskirts", function(this: Network)
+    local modules = {}
+    for _, open in this:open_ends() do
+      if inside(open.place.x, open.place.y) then
+        local pattern = pattern_at(open.place.x, open.place.y)
+        local tip = start(pattern, open.junction, open.place.x, open.place.y, open.heading, open.depth, 0)
+        table.insert(modules, tip)
+      end
+    end
+    return table.unpack(modules)
+  end)
+
+  system:rule(
+    "Tip(junction, heading, length, depth, run, tries)",
+    function(
+      this: Network,
+      junction: number,
+      heading: number,
+      length: number,
+      depth: number,
+      run: number,
+      tries: number
+    )
+      local at = this:reached(junction, heading)
+      if at then
+        return table.unpack(onward(this, at, heading, depth, run))
+      end
+      local crossed = this:arrived(junction, heading)
+      if crossed then
+        local place = this:place(crossed)
+        local pattern = pattern_at(place.x, place.y)
+        local cross = pattern.cross
+        if inside(place.x, place.y) and random() < (if depth == 0 then math.max(cross, 0.2) else cross) then
+          return start(pattern, crossed, place.x, place.y, heading, depth, run, #ASIDE)
+        end
+      elseif depth == 0 and tries < #ASIDE then
+        -- A pattern of straight lines gives way to obstacles alone.
+        local place, fate = this:place(junction), this:fate(junction, heading)
+        if fate == "obstacle" or fate == "outside" or not pattern_at(place.x, place.y).straight then
+          return Tip(junction, heading + ASIDE[tries + 1], length, depth, run, tries + 1)
+        end
+      end
+      return nil
+    end
+  )
+
+  system:rule(
+    "Bud(junction, heading, depth, wait)",
+    function(this: Network, junction: number, heading: number, depth: number, wait: number)
+      if wait > 0 then
+        return Bud(junction, heading, depth, wait - 1)
+      end
+      local place = this:place(junction)
+      local pattern = pattern_at(place.x, place.y)
+      -- Somebody else may have joined it while it waited.
+      if this:degree(junction) > 2 and random() > pattern.both then
+        return nil
+      end
+      return start(pattern, junction, place.x, place.y, heading, depth, 0)
+    end
+  )
+
+  system:rule(
+    "Highway(junction, heading, length, goal, tries)",
+    function(this: Network, junction: number, heading: number, length: number, goal: number, tries: number)
+      local at = this:arrived(junction, heading)
+      if not at then
+        return if tries < #ASIDE
+          then Highway(junction, heading + ASIDE[tries + 1], length, goal, tries + 1)
+          else nil
+      elseif at == goal then
+        return nil
+      end
+      local here, there = this:place(at), this:place(goal)
+      local rest = here:distance(there)
+      if rest < 1.6 * length then
+        return Arrival(at, goal)
+      end
+      local straight = math.deg(math.atan2(there.y - here.y, there.x - here.x))
+      -- A highway swings a little, and turns no more than it has to.
+      local swing = 12 * noise(here.x / 300, here.y / 300)
+      local turn = math.clamp(between(heading, straight + swing), -20, 20)
+      local modules = { Highway(at, heading + turn, length, goal, 0) }
+      if inside(here.x, here.y) and random() < 0.6 then
+        local first = if random() < 0.5 then 90 else -90
+        table.insert(modules, Bud(at, heading + first, 1, 3))
+      end
+      return table.unpack(modules)
+    end
+  )
+
+  system:rule("Arrival", function()
+    return nil
+  end)
+
+  system:rule("Clock(left)", function(_, left: number)
+    return if left > 0 then Clock(left - 1) else nil
+  end)
+
+  system:interpret(
+    "Tip(junction, heading, length, depth, run, tries)",
+    function(this: Network, junction: number, heading: number, length: number, depth: number)
+      this:grow(junction, heading, length, depth)
+    end
+  )
+  system:interpret(
+    "Highway(junction, heading, length, goal, tries)",
+    function(this: Network, junction: number, heading: number, length: number)
+      this:grow(junction, heading, length, 0)
+    end
+  )
+  system:interpret("Arrival(junction, goal)", function(this: Network, junction: number, goal: number)
+    this:lead(junction, this:place(goal), 0)
+  end)
+  system:interpret("Clock(left)", function(this: Network, left: number)
+    if left == 0 then
+      this:join_dead_ends(join, detour)
+      if dead_ends == "remove" then
+        this:remove_dead_ends()
+      end
+    end
+  end)
+  return system
+end
+
+-- Grows a network by a pattern: `roads.system`, derived.
+function growth.grow(options: RoadOptions)
+  return growth.system(options):derive(options.steps or 24)
+end
+
+return growth

@@ -1,0 +1,338 @@
+--!strict
+-- Patterns: where streets go, as functions of a place and chances.
+local checks = require("checks")
+
+local patterns = {}
+
+local between, nearest, number = checks.between, checks.nearest, checks.number
+
+export type Pattern = {
+  -- The heading (degrees from east, counter-clockwise) of a street that leaves a place (m) about towards `heading`.
+  toward: (x: number, y: number, heading: number, length: number, depth: number) -> number,
+  -- How long (m) a street is that leaves a place, to the next junction.
+  length: (x: number, y: number, heading: number, depth: number) -> number,
+  -- How likely a side street leaves a junction, and how likely there is one on the other side as well.
+  side: number,
+  both: number,
+  -- How likely a street that meets another goes on behind it.
+  cross: number,
+  -- How far (degrees) side streets turn from square.
+  skew: number,
+  -- How likely a small side street ends at a junction.
+  stop: number,
+  -- The share of places that side streets leave out, the same from both ends.
+  gap: number,
+  -- Whether a side street that leaves a place is left out, in place of `gap`; both of its ends have to find the same.
+  closed: ((x: number, y: number, heading: number, length: number, depth: number) -> boolean)?,
+  -- Every so many junctions a main street divides; 0 for never.
+  every: number,
+  -- Whether main streets turn aside for obstacles alone.
+  straight: boolean?,
+}
+
+local PATTERN = {
+  block = "number",
+  width = "number",
+  angle = "number",
+  bends = "number",
+  branching = "number",
+  cross = "number",
+  skew = "number",
+  stop = "number",
+  gap = "number",
+  every = "number",
+  middle = "table",
+  steepest = "number",
+  variety = "number",
+}
+
+-- A pattern: what says where streets go, and chances from `options`, or else the usual ones.
+local function pattern(
+  name: string,
+  options: { [string]: any },
+  usual: { [string]: number },
+  ways: { [string]: any },
+  ...: any
+): any
+  local made: any = { skew = 0, both = usual.both }
+  for _, chance in
+    { { "branching", 1 }, { "cross", 1 }, { "skew", 40 }, { "stop", 1 }, { "gap", 0.6 }, { "every", 100 } } :: any
+  do
+    local key, most = chance[1], chance[2]
+    if usual[key] then
+      made[key] = number(`{name}: {key}`, options[key], usual[key], 0, most, 4)
+    end
+  end
+  made.side = made.branching
+  for key, way in ways do
+    made[key] = way
+  end
+  return made
+end
+
+-- A number from 0 to 1 that looks drawn, and is the same for the same whole numbers.
+local function drawn(a: number, b: number, seed: number): number
+  local mixed = bit32.bxor(a * 73856093 % 2 ^ 32, b * 19349663 % 2 ^ 32, seed * 83492791 % 2 ^ 32)
+  mixed = bit32.bxor(mixed, bit32.rshift(mixed, 15)) % 2 ^ 32
+  mixed = (mixed * 668265261) % 2 ^ 32
+  return bit32.bxor(mixed, bit32.rshift(mixed, 13)) % 65536 / 65536
+end
+
+-- Streets that wander, side streets that leave one at a time: a town that nobody planned. `block` (m) is how far
+-- junctions are apart, `bends` how far (degrees) a street turns from one to the next, `branching` how many junctions
+-- have side streets. `variety` from 0 to 1 is how much quarters differ: some are dense, some wide, and some have parks.
+function patterns.organic(options: { [string]: any }?): Pattern
+  local of = options or {}
+  checks.options("roads.organic", of, PATTERN)
+  local block = number("roads.organic: block", of.block, 80, 20, 500)
+  local bends = number("roads.organic: bends", of.bends, 38, 0, 60)
+  local variety = number("roads.organic: variety", of.variety, 1, 0, 1)
+  local field = math.floor(random() * 1000000)
+  local usual = { branching = 0.9, both = 0, cross = 0, skew = 18, stop = 0.3, gap = 0, every = 4 }
+  return pattern("roads.organic", of, usual, {
+    toward = function(x: number, y: number, heading: number, _: number, depth: number): number
+      -- Streets near one another turn alike; the smaller ones have a mind of their own.
+      local common = noise(x / (block * 5), y / (block * 5), 0.5, field)
+      local own = if depth == 0 then 0.15 else 0.5
+      return heading + bends * (common + random(-own, own))
+    end,
+    length = function(x: number, y: number, _: number, depth: number): number
+      -- Quarters are closer here and wider there.
+      local field_at = noise(x / (block * 4), y / (block * 4), 7.5, field)
+      local wide = math.clamp(math.exp(3.2 * variety * field_at), 0.42, 1.9)
+      return block * (if depth == 0 then math.clamp(wide, 0.75, 1.5) else wide * random(0.6, 1.35))
+    end,
+    closed = function(x: number, y: number): boolean
+      -- Parks and large estates.
+      return noise(x / (block * 3), y / (block * 3), 3.5, field) * variety > 0.36
+    end,
+  })
+end
+
+-- How many blocks of a raster in a row and in a column are one, and what share is so.
+local LARGE = { { 4, 0.06 }, { 2, 0.16 } }
+
+-- Where the lines of a raster lie (m) along one of its directions, on both sides of its middle, about `apart`.
+local function lines(apart: number, variety: number, seed: number): { number }
+  local at = { 0 }
+  for index = 1, 150 do
+    at[index + 1] = at[index] + apart * (1 + variety * (0.9 * drawn(index, 1, seed) ^ 1.5 - 0.35))
+  end
+  local all = {}
+  for index = 150, 1, -1 do
+    table.insert(all, -at[index + 1])
+  end
+  return table.move(at, 1, #at, #all + 1, all)
+end
+
+-- How many of some numbers, which rise, are no greater than another.
+local function below(numbers: { number }, limit: number): number
+  local low, high = 0, #numbers
+  while low < high do
+    local middle = (low + high + 1) // 2
+    if numbers[middle] <= limit then
+      low = middle
+    else
+      high = middle - 1
+    end
+  end
+  return low
+end
+
+-- Streets along two directions, with blocks of about `block` by `width` (m), turned by `angle` (degrees). `gap` is the share
+-- of streets across the longer direction that are left out, and `variety` from 0 to 1 how much blocks differ: some are as large
+-- as several.
+function patterns.raster(options: { [string]: any }?): Pattern
+  local of = options or {}
+  checks.options("roads.raster", of, PATTERN)
+  local block = number("roads.raster: block", of.block, 130, 20, 500)
+  local width = number("roads.raster: width", of.width, 75, 20, 500)
+  local angle = number("roads.raster: angle", of.angle, 0, -360, 360)
+  local variety = number("roads.raster: variety", of.variety, 1, 0, 1)
+  local gap = number("roads.raster: gap", of.gap, 0.5, 0, 0.6)
+  local headings = { angle, angle + 90, angle + 180, angle + 270 }
+  local field = math.floor(random() * 1000000)
+  local columns, rows = lines(block, variety, field), lines(width, variety, field + 1)
+  local east, north = math.cos(math.rad(angle)), math.sin(math.rad(angle))
+  -- The large block that a block is a part of, by a number; none if it is of none.
+  local function large(column: number, row: number): number?
+    for _, kind in LARGE do
+      local size, share = kind[1], kind[2] * variety
+      local a, b = column // size, row // size
+      if drawn(a, b, field + size) < share then
+        return (a * 1000 + b) * 10 + size
+      end
+    end
+    return nil
+  end
+  -- Whether two blocks side by side are one: as a part of a large one, or as a pair across the longer direction. What leads up to
+  -- a large block finds a street there.
+  local function is_one(column: number, row: number, along: boolean): boolean
+    local here = large(column, row)
+    local there = if along then large(column, row - 1) else large(column - 1, row)
+    if here ~= there or here or along then
+      return here == there and here ~= nil
+    end
+    -- Of streets side by side, the one with the greatest number stays, so that no row is long without any.
+    local own = drawn(column, row, field)
+    return own < gap and (own < drawn(column - 1, row, field) or own < drawn(column + 1, row, field))
+  end
+  local usual = { branching = 1, both = 1, cross = 1, stop = 0, gap = 0, every = 6 }
+  return pattern("roads.raster", of, usual, {
+    gap = 0,
+    straight = true,
+    toward = function(_: number, _: number, heading: number): number
+      return nearest(heading, headings)
+    end,
+    length = function(x: number, y: number, heading: number): number
+      -- To the next line, or to the one behind where that is near.
+      local turned = between(angle, heading) % 360
+      local along = turned < 45 or turned > 315 or math.abs(turned - 180) < 45
+      local at = if along then x * east + y * north else y * east - x * north
+      local crossed = if along then columns else rows
+      local near = 0.35 * (if along then block else width)
+      local index = if turned < 45
+          or turned > 315
+          or math.abs(turned - 90) < 45
+        then below(crossed, at + near) + 1
+        else below(crossed, at - near)
+      return math.abs((crossed[index] or at + 2 * near) - at)
+    end,
+    closed = function(x: number, y: number, heading: number): boolean
+      local turned = between(angle, heading) % 180
+      local along = turned < 45 or turned > 135
+      local u, v = x * east + y * north, y * east - x * north
+      -- A street lies on the line between two blocks.
+      local column = below(columns, if along then u else u + 20)
+      local row = below(rows, if along then v + 20 else v)
+      return is_one(column, row, along)
+    end,
+  })
+end
+
+-- Rays out of a `middle` (m), and rings around it that are `block` (m) apart.
+function patterns.radial(options: { [string]: any }?): Pattern
+  local of = options or {}
+  checks.options("roads.radial", of, PATTERN)
+  local block = number("roads.radial: block", of.block, 90, 20, 500)
+  local middle = of.middle or { 0, 0 }
+  local usual = { branching = 0.95, both = 0.9, cross = 0.5, stop = 0, gap = 0.22, every = 3 }
+  return pattern("roads.radial", of, usual, {
+    straight = true,
+    toward = function(x, y, heading, length)
+      local dx, dy = x - middle[1], y - middle[2]
+      local far = math.sqrt(dx * dx + dy * dy)
+      if far < block / 2 then
+        return heading
+      end
+      local ray = math.deg(math.atan2(dy, dx))
+      -- A street along a ring ends on it, wherever it begins.
+      local ring = block * math.max(1, math.floor(far / block + 0.5))
+      local bent = (far * far + length * length - ring * ring) / (2 * far * length)
+      local inward = math.deg(math.acos(math.clamp(bent, -0.5, 0.9)))
+      return nearest(heading, { ray, ray + 180, ray + 180 - inward, ray + 180 + inward })
+    end,
+    length = function(x, y, heading)
+      local dx, dy = x - middle[1], y - middle[2]
+      local ray = math.deg(math.atan2(dy, dx))
+      local across = math.abs(between(ray, heading)) % 180
+      if across < 45 or across > 135 then
+        -- To the next ring.
+        local far = math.sqrt(dx * dx + dy * dy) / block
+        local rest = if across < 45 then math.floor(far + 1.3) - far else far - math.ceil(far - 1.3)
+        return block * math.max(0.4, rest)
+      end
+      return block
+    end,
+  })
+end
+
+-- Streets along the lines of equal height, and others straight up and down where it is not steeper than `steepest`
+-- (degrees); elsewhere they climb at a slant. `height` gives the height (m) of a place, as a terrain's does:
+-- function(x, y) return land:height({ x, y }) end.
+function patterns.contours(height: (x: number, y: number) -> number, options: { [string]: any }?): Pattern
+  local of = options or {}
+  checks.options("roads.contours", of, PATTERN)
+  local block = number("roads.contours: block", of.block, 80, 20, 500)
+  local steepest = number("roads.contours: steepest", of.steepest, 9, 1, 45)
+  local most = math.tan(math.rad(steepest))
+  local usual = { branching = 0.55, both = 0.15, cross = 0.2, stop = 0.15, gap = 0, every = 5 }
+  return pattern("roads.contours", of, usual, {
+    toward = function(x, y, heading, length)
+      local near = length / 4
+      local east = (height(x + near, y) - height(x - near, y)) / (2 * near)
+      local north = (height(x, y + near) - height(x, y - near)) / (2 * near)
+      local slope = math.sqrt(east * east + north * north)
+      if slope < 0.005 then
+        return heading
+      end
+      local up = math.deg(math.atan2(north, east))
+      -- How far from straight up a street turns, so that it climbs no more than it may.
+      local slant = if slope > most then math.deg(math.acos(most / slope)) else 0
+      local along = nearest(heading, { up + 90, up - 90 })
+      -- The line bends: what the contour does at the end of the street counts half.
+      local tx, ty = math.cos(math.rad(along)) * length, math.sin(math.rad(along)) * length
+      local lost = height(x + tx, y + ty) - height(x, y)
+      local bend = math.deg(math.atan2(lost / slope, length))
+      along += if between(up, along) > 0 then bend else -bend
+      local ways = { along, up + slant, up - slant, up + 180 + slant, up + 180 - slant }
+      return nearest(heading, ways)
+    end,
+    length = function(_, _, _, depth)
+      return block * (if depth == 0 then 1 else random(0.8, 1.2))
+    end,
+  })
+end
+
+-- Streets that turn towards where more people live. `people` gives from 0 to 1 how many live at a place (m).
+function patterns.populous(people: (x: number, y: number) -> number, options: { [string]: any }?): Pattern
+  local of = options or {}
+  checks.options("roads.populous", of, PATTERN)
+  local block = number("roads.populous: block", of.block, 80, 20, 500)
+  local bends = number("roads.populous: bends", of.bends, 20, 0, 60)
+  local usual = { branching = 0.75, both = 0.25, cross = 0.25, skew = 6, stop = 0.1, gap = 0, every = 5 }
+  return pattern("roads.populous", of, usual, {
+    toward = function(x, y, heading, length, depth)
+      local best, most = heading, -1
+      for try = -2, 2 do
+        local turned = heading + try * bends / 2
+        local way = math.rad(turned)
+        local found = 0
+        -- What is far off counts less.
+        for far = 1, 4 do
+          local reach = far * length * (if depth == 0 then 2 else 1)
+          found += people(x + math.cos(way) * reach, y + math.sin(way) * reach) / far
+        end
+        if found > most * 1.001 then
+          best, most = turned, found
+        end
+      end
+      return best + random(-2, 2)
+    end,
+    length = function(x, y)
+      return block * (1.5 - 0.8 * math.clamp(people(x, y), 0, 1)) * random(0.85, 1.15)
+    end,
+  })
+end
+
+-- The pattern of each place, by the nearest of some districts: { at = { x, y }, pattern = ... }.
+function patterns.districts(
+  districts: { { at: { number }, pattern: Pattern } }
+): (x: number, y: number) -> Pattern
+  if #districts == 0 then
+    error("roads.districts takes one district or more: { at = { x, y }, pattern = ... }", 2)
+  end
+  return function(x, y)
+    local best, least = districts[1], math.huge
+    for _, district in districts do
+      local dx, dy = x - district.at[1], y - district.at[2]
+      local far = dx * dx + dy * dy
+      if far < least then
+        best, least = district, far
+      end
+    end
+    return best.pattern
+  end
+end
+
+return patterns
