@@ -242,7 +242,7 @@ pub(crate) fn figures(town: &Town, seed: u64) -> TownFigures {
         })
     };
     let grown = objects().find_map(|object| object.downcast_ref::<Network>()).expect("a network");
-    let network = grown.streets();
+    let network = grown.network();
     let mut figures = TownFigures {
         pieces: network.size(),
         components: network.components(),
