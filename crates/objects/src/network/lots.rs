@@ -143,8 +143,11 @@ impl LongLots {
     fn warning(&self, options: &LotOptions) -> Option<Warning> {
         (self.count > 0).then(|| {
             let text = format!(
-                "network:lots: left out {} lots that would be more than {} times as long as wide, up to {:.1} times",
-                self.count, options.elongation, self.longest
+                "network:lots: left out {} lot{} more than {} times as long as wide, up to {:.1} times",
+                self.count,
+                if self.count == 1 { "" } else { "s" },
+                options.elongation,
+                self.longest
             );
             Warning::new(WarningKind::Doubtful, text)
                 .help("give a greater elongation, or all = true: they are lots whose use is \"rest\"")

@@ -450,8 +450,9 @@ impl Network {
         if self.fit.get().is_some_and(|(version, _)| *version != self.network.version()) {
             self.fit = OnceLock::new();
         }
+        // Where there is no ground is told when the streets are drawn.
         if !self.is_hidden_told
-            && let Some(warning) = self.hidden()?
+            && let Ok(Some(warning)) = self.hidden()
         {
             self.is_hidden_told = true;
             self.warnings.push(warning);
