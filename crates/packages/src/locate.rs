@@ -47,6 +47,14 @@ impl FileName {
         let parts: Vec<&str> = path.split('/').filter(|part| !part.is_empty() && *part != ".").collect();
         Ok(Self { package: package.to_owned(), path: parts.join("/") })
     }
+
+    /// Reads `@castle/towers`, without an ending, as the name of a script: `towers.lua` of that package, `init.lua` where
+    /// it is the package's own name.
+    pub fn script(name: &str) -> Result<Self> {
+        let Self { package, path } = Self::parse(name)?;
+        let path = if path.is_empty() { "init.lua".to_owned() } else { format!("{path}.lua") };
+        Ok(Self { package, path })
+    }
 }
 
 /// The file that a name means.

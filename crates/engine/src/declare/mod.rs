@@ -13,6 +13,7 @@ mod param;
 pub(crate) mod paths;
 mod positions;
 mod preset;
+mod scripts;
 mod servers;
 mod session;
 mod tables;

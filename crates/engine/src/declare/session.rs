@@ -6,28 +6,22 @@ use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Duration;
 
-use rustc_hash::FxHashMap;
-
-use super::analysis::{
-    Analysis, CheckedFile, Globals, QueryCall, ScriptReader, call_problems, has_metatables,
-};
+use super::analysis::{Analysis, CheckedFile, QueryCall, call_problems, has_metatables};
 use super::api::api_version;
 use super::data::Data;
 use super::deprecations::Deprecations;
 use super::options::RunOptions;
 use super::param::Param;
 use super::positions::RandomPositions;
+use super::scripts::{ScriptFiles, SourceFile, read_stdlib, unreadable};
 use super::types::DeclaredTypes;
 use crate::questions::{AskedRows, KeptRows, Question, RowSource, Rows};
-use burgeon_base::error::{Error, Limit, Result, SourcePlace};
+use burgeon_base::error::{Error, Result};
 use burgeon_base::stop::Stop;
 use burgeon_base::warning::{Warning, Warnings};
 use burgeon_kit::rules::Values;
 use burgeon_language::CallForm;
 use burgeon_packages::{PackageSearch, Packages};
-
-/// The most (bytes) that one file of a script may have; reading it takes 300 times as much memory.
-const LARGEST: u64 = 4_000_000;
 
 /// How far a run has come, for those who wait.
 #[derive(Debug, Default)]
@@ -75,15 +69,6 @@ impl RunProgress {
     }
 }
 
-/// A source file, read once, as every virtual machine runs it.
-#[derive(Debug)]
-pub(crate) struct SourceFile {
-    /// The name in messages, relative to where the script was called.
-    pub name: String,
-    /// What reading it gave.
-    pub analysis: Analysis,
-}
-
 /// One run of a script.
 pub struct Session {
     /// How to run it.
@@ -111,9 +96,7 @@ pub struct Session {
     stdlib: Option<(String, String)>,
     /// By file: what it writes in `require`, and the files that are meant.
     required: Mutex<BTreeMap<String, BTreeMap<String, String>>>,
-    sources: Mutex<FxHashMap<PathBuf, Arc<SourceFile>>>,
-    /// The main file while it is read ahead, and its path.
-    ahead: Mutex<Option<(PathBuf, ScriptReader)>>,
+    pub(super) scripts: Mutex<ScriptFiles>,
     sought: Mutex<BTreeMap<PathBuf, bool>>,
     params: Mutex<Vec<Param>>,
     left_out: Mutex<Vec<(String, Error)>>,
@@ -163,8 +146,7 @@ impl Session {
             declared: Mutex::default(),
             stdlib,
             required: Mutex::default(),
-            sources: Mutex::default(),
-            ahead: Mutex::default(),
+            scripts: Mutex::default(),
             sought: Mutex::default(),
             params: Mutex::default(),
             left_out: Mutex::default(),
@@ -201,8 +183,7 @@ impl Session {
 
     /// Every file that was read, in the order of their paths.
     pub fn files(&self) -> Vec<PathBuf> {
-        let mut files: Vec<PathBuf> =
-            self.sources.lock().unwrap_or_else(PoisonError::into_inner).keys().cloned().collect();
+        let mut files: Vec<PathBuf> = self.script_files().read.keys().cloned().collect();
         files.sort();
         files
     }
@@ -308,8 +289,9 @@ impl Session {
     /// What is wrong with the calls of all files that were read, once the script has declared its types of objects.
     pub(crate) fn call_problems(&self) -> Vec<Error> {
         let required = self.required.lock().unwrap_or_else(PoisonError::into_inner).clone();
-        let sources = self.sources.lock().unwrap_or_else(PoisonError::into_inner);
-        let mut files: Vec<CheckedFile> = sources
+        let scripts = self.script_files();
+        let mut files: Vec<CheckedFile> = scripts
+            .read
             .values()
             .filter_map(|source| {
                 let (name, ast) = (source.name.clone(), Arc::clone(source.analysis.ast.as_ref()?));
@@ -329,15 +311,15 @@ impl Session {
 
     /// How people find a file that was read.
     pub(crate) fn name_of(&self, path: &Path) -> String {
-        let sources = self.sources.lock().unwrap_or_else(PoisonError::into_inner);
-        let known = sources.get(path).filter(|_| !path.starts_with(&self.root));
+        let scripts = self.script_files();
+        let known = scripts.read.get(path).filter(|_| !path.starts_with(&self.root));
         let inner = path.strip_prefix(&self.root).unwrap_or(path);
         known.map_or_else(|| inner.display().to_string(), |source| source.name.clone())
     }
 
     fn source_called(&self, file: &str) -> Option<Arc<SourceFile>> {
-        let sources = self.sources.lock().unwrap_or_else(PoisonError::into_inner);
-        sources.values().find(|source| source.name == file).cloned()
+        let scripts = self.script_files();
+        scripts.read.values().find(|source| source.name == file).cloned()
     }
 
     /// Takes notice of what a piece of the script may do.
@@ -389,59 +371,11 @@ impl Session {
 
     /// All problems that reading the files showed, in the order of the files' names.
     pub(crate) fn problems(&self) -> Vec<Error> {
-        let sources = self.sources.lock().unwrap_or_else(PoisonError::into_inner);
-        let mut sources: Vec<_> = sources.values().collect();
+        let scripts = self.script_files();
+        let mut sources: Vec<_> = scripts.read.values().collect();
         sources.sort_by(|a, b| a.name.cmp(&b.name));
         sources.iter().flat_map(|source| source.analysis.problems.clone()).collect()
     }
-
-    /// Begins to read the main file, so that it is read while a machine is made. What goes wrong is told when the
-    /// file is asked for.
-    pub(crate) fn read_ahead(&self) {
-        let begin =
-            |path: PathBuf| Some((begin_reading(&path, &self.script.display().to_string()).ok()?, path));
-        let reading = self.script.canonicalize().ok().and_then(begin);
-        *self.ahead.lock().unwrap_or_else(PoisonError::into_inner) =
-            reading.map(|(reading, path)| (path, reading));
-    }
-
-    /// The source of the file at `path`, which lies in the script's folder; `name` is for messages.
-    pub(crate) fn source(&self, path: &Path, name: &str, globals: &Globals) -> Result<Arc<SourceFile>> {
-        let mut sources = self.sources.lock().unwrap_or_else(PoisonError::into_inner);
-        if let Some(source) = sources.get(path) {
-            return Ok(Arc::clone(source));
-        }
-        let ahead =
-            self.ahead.lock().unwrap_or_else(PoisonError::into_inner).take_if(|(main, _)| main == path);
-        let reading = match ahead {
-            Some((_, reading)) => reading,
-            None => begin_reading(path, name)?,
-        };
-        let mut analysis = reading.finish(globals);
-        self.note(&analysis);
-        for (used, line) in &analysis.deprecated {
-            if let Some(deprecation) = globals.deprecated.get(used) {
-                let place = SourcePlace { file: name.to_owned(), line: *line };
-                self.use_deprecated(used, deprecation, Some(place));
-            }
-        }
-        let undeclared = self.undeclared(name, &analysis.packages);
-        analysis.problems.extend(undeclared);
-        let source = Arc::new(SourceFile { name: name.to_owned(), analysis });
-        sources.insert(path.to_path_buf(), Arc::clone(&source));
-        Ok(source)
-    }
-}
-
-/// Begins to read the file at `path`; `name` is for messages.
-fn begin_reading(path: &Path, name: &str) -> Result<ScriptReader> {
-    let bytes =
-        burgeon_base::files::read(path, LARGEST).map_err(|error| unreadable(Path::new(name), &error))?;
-    let text = String::from_utf8(bytes).map_err(|_| {
-        Error::file(path, format!("{name} is not a text file"))
-            .help("scripts are UTF-8 text; check the file's name")
-    })?;
-    Ok(ScriptReader::begin(name, text.strip_prefix('\u{feff}').unwrap_or(&text)))
 }
 
 /// A folder of data files, without links in its path.
@@ -452,42 +386,6 @@ fn data_root(folder: &Path) -> Result<PathBuf> {
         Error::not_found("folder", &shown, [], format!("there is no folder {shown}"))
             .help("--data names a folder of data files")
     })
-}
-
-/// The name and the text of a file in the place of the standard library.
-fn read_stdlib(path: &Path) -> Result<(String, String)> {
-    let name = path.display().to_string();
-    let remedy = "--stdlib names a Lua file; without it the built-in one is used";
-    let bytes = burgeon_base::files::read(path, LARGEST).map_err(|error| {
-        Error::file(path, format!("cannot read the standard library {name}: {error}")).help(remedy)
-    })?;
-    let text = String::from_utf8(bytes).map_err(|_| {
-        Error::file(path, format!("the standard library {name} is not a text file")).help(remedy)
-    })?;
-    let text = text.strip_prefix('\u{feff}').map(str::to_owned).unwrap_or(text);
-    Ok((name, text))
-}
-
-/// The error for a script that cannot be read.
-fn unreadable(path: &Path, error: &std::io::Error) -> Error {
-    let shown = path.display();
-    match error.kind() {
-        std::io::ErrorKind::NotFound => {
-            Error::not_found("script", &shown, [], format!("there is no script {shown}"))
-                .help("check the path, or make one: burgeon new NAME")
-        }
-        std::io::ErrorKind::IsADirectory => {
-            Error::file(path, format!("{shown} is a folder")).help("name a script in it")
-        }
-        std::io::ErrorKind::FileTooLarge => {
-            Error::limit(Limit::Size, format!("{shown} is larger than {} MB", LARGEST / 1_000_000))
-                .help("divide it; other files of its folder come in with require")
-        }
-        std::io::ErrorKind::InvalidInput => {
-            Error::file(path, format!("cannot read {shown}: {error}")).help("scripts are text files")
-        }
-        _ => Error::file(path, format!("cannot read {shown}: {error}")),
-    }
 }
 
 #[cfg(test)]

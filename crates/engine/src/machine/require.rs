@@ -21,13 +21,7 @@ pub(super) fn require(library: &Library, session: &Session, lua: &Lua, name: &st
     }
     let asker = Machine::asker(lua, session);
     let (path, shown) = match asker {
-        _ if FileName::is_meant(name) => {
-            let name = match FileName::parse(bare)? {
-                name if name.path.is_empty() => FileName { path: "init.lua".to_owned(), ..name },
-                name => FileName { path: format!("{}.lua", name.path), ..name },
-            };
-            located(session, &name, asker)?
-        }
+        _ if FileName::is_meant(name) => located(session, &FileName::script(bare)?, asker)?,
         Some(package) => find_in_package(session, package, &caller(lua), bare)?,
         None => {
             let loading = library.loading.borrow();

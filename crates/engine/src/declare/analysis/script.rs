@@ -132,7 +132,7 @@ fn unread(text: &str, problems: Vec<Error>) -> Analysis {
 
 fn read(file: &str, text: &str, globals: &Receiver<Globals>) -> Analysis {
     // Luau bounds the nesting of what it compiles; the parser used here does not, so it comes second.
-    if Compiler::new().compile(text).is_err() {
+    if Compiler::new().set_optimization_level(0).compile(text).is_err() {
         return unread(text, Vec::new());
     }
     let refuse = |line: usize| {

@@ -1,0 +1,156 @@
+//! The files of a run's scripts: each is read once for all virtual machines, and begun before it is asked for.
+
+use std::collections::VecDeque;
+use std::path::{Path, PathBuf};
+use std::sync::{Arc, MutexGuard, PoisonError};
+
+use rustc_hash::FxHashMap;
+
+use super::analysis::{Analysis, Globals, ScriptReader};
+use super::session::Session;
+use burgeon_base::error::{Error, Limit, Result, SourcePlace};
+use burgeon_packages::FileName;
+
+/// The most (bytes) that one file of a script may have; reading it takes 300 times as much memory.
+const LARGEST: u64 = 4_000_000;
+
+/// How many files are read at once before they are asked for.
+const MOST_AHEAD: usize = 4;
+
+/// A file, read once, as every virtual machine runs it.
+#[derive(Debug)]
+pub(crate) struct SourceFile {
+    /// The name in messages, relative to where the script was called.
+    pub name: String,
+    /// What reading it gave.
+    pub analysis: Analysis,
+}
+
+/// The files that were read, are being read and will be read.
+#[derive(Default)]
+pub(super) struct ScriptFiles {
+    /// Those that were asked for, by their paths.
+    pub read: FxHashMap<PathBuf, Arc<SourceFile>>,
+    ahead: FxHashMap<PathBuf, ScriptReader>,
+    /// Their paths, and their names for messages.
+    next: VecDeque<(PathBuf, String)>,
+}
+
+impl ScriptFiles {
+    /// Begins to read those that come next. What goes wrong is told when a file is asked for.
+    fn begin(&mut self) {
+        while self.ahead.len() < MOST_AHEAD
+            && let Some((path, name)) = self.next.pop_front()
+        {
+            if !self.read.contains_key(&path)
+                && !self.ahead.contains_key(&path)
+                && let Ok(reader) = begin_reading(&path, &name)
+            {
+                self.ahead.insert(path, reader);
+            }
+        }
+    }
+
+    fn reader(&mut self, path: &Path, name: &str) -> Result<ScriptReader> {
+        let reader = self.ahead.remove(path).map_or_else(|| begin_reading(path, name), Ok);
+        self.begin();
+        reader
+    }
+}
+
+impl Session {
+    /// The files of its scripts.
+    pub(super) fn script_files(&self) -> MutexGuard<'_, ScriptFiles> {
+        self.scripts.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// Begins to read the main file, so that it is read while a machine is made.
+    pub(crate) fn read_ahead(&self) {
+        if let Ok(path) = self.script().canonicalize() {
+            let mut files = self.script_files();
+            files.next.push_back((path, self.script().display().to_string()));
+            files.begin();
+        }
+    }
+
+    /// The source of the file at `path`, which lies in the script's folder; `name` is for messages.
+    pub(crate) fn source(&self, path: &Path, name: &str, globals: &Globals) -> Result<Arc<SourceFile>> {
+        let mut files = self.script_files();
+        if let Some(source) = files.read.get(path) {
+            return Ok(Arc::clone(source));
+        }
+        let mut analysis = files.reader(path, name)?.finish(globals);
+        self.note(&analysis);
+        for (used, line) in &analysis.deprecated {
+            if let Some(deprecation) = globals.deprecated.get(used) {
+                let place = SourcePlace { file: name.to_owned(), line: *line };
+                self.use_deprecated(used, deprecation, Some(place));
+            }
+        }
+        let undeclared = self.undeclared(name, &analysis.packages);
+        analysis.problems.extend(undeclared);
+        files.next.extend(self.named_scripts(name, &analysis.packages));
+        let source = Arc::new(SourceFile { name: name.to_owned(), analysis });
+        files.read.insert(path.to_path_buf(), Arc::clone(&source));
+        files.begin();
+        Ok(source)
+    }
+
+    /// The scripts of packages that the texts of a file name: their paths, and their names for messages.
+    fn named_scripts(&self, file: &str, texts: &[(String, usize)]) -> Vec<(PathBuf, String)> {
+        let asker = self.package_of(file);
+        let located = texts.iter().filter_map(|(text, _)| {
+            let name = FileName::script(text.strip_suffix(".lua").unwrap_or(text)).ok()?;
+            let located = self.packages().locate("file", &name, asker, &mut |_, _| {}).ok()?;
+            Some((located.path, located.shown.display().to_string()))
+        });
+        located.collect()
+    }
+}
+
+/// Begins to read the file at `path`; `name` is for messages.
+fn begin_reading(path: &Path, name: &str) -> Result<ScriptReader> {
+    let bytes =
+        burgeon_base::files::read(path, LARGEST).map_err(|error| unreadable(Path::new(name), &error))?;
+    let text = String::from_utf8(bytes).map_err(|_| {
+        Error::file(path, format!("{name} is not a text file"))
+            .help("scripts are UTF-8 text; check the file's name")
+    })?;
+    Ok(ScriptReader::begin(name, text.strip_prefix('\u{feff}').unwrap_or(&text)))
+}
+
+/// The name and the text of a file in the place of the standard library.
+pub(super) fn read_stdlib(path: &Path) -> Result<(String, String)> {
+    let name = path.display().to_string();
+    let remedy = "--stdlib names a Lua file; without it the built-in one is used";
+    let bytes = burgeon_base::files::read(path, LARGEST).map_err(|error| {
+        Error::file(path, format!("cannot read the standard library {name}: {error}")).help(remedy)
+    })?;
+    let text = String::from_utf8(bytes).map_err(|_| {
+        Error::file(path, format!("the standard library {name} is not a text file")).help(remedy)
+    })?;
+    let text = text.strip_prefix('\u{feff}').map(str::to_owned).unwrap_or(text);
+    Ok((name, text))
+}
+
+/// The error for a script that cannot be read.
+pub(super) fn unreadable(path: &Path, error: &std::io::Error) -> Error {
+    let shown = path.display();
+    match error.kind() {
+        std::io::ErrorKind::NotFound => {
+            Error::not_found("script", &shown, [], format!("there is no script {shown}"))
+                .help("check the path, or make one: burgeon new NAME")
+        }
+        std::io::ErrorKind::IsADirectory => {
+            Error::file(path, format!("{shown} is a folder")).help("name a script in it")
+        }
+        std::io::ErrorKind::FileTooLarge => {
+            Error::limit(Limit::Size, format!("{shown} is larger than {} MB", LARGEST / 1_000_000))
+                .help("divide it; other files of its folder come in with require")
+        }
+        std::io::ErrorKind::InvalidInput => {
+            Error::file(path, format!("cannot read {shown}: {error}")).help("scripts are text files")
+        }
+        _ => Error::file(path, format!("cannot read {shown}: {error}")),
+    }
+}
