@@ -366,6 +366,6 @@ fn an_object_is_placed_as_a_prototype_without_a_system_of_its_own() {
         assert_eq!(printed(text, threads), ["5\t4"]);
     }
     let (_folder, path) = script("prototype(3)");
-    let error = burgeon::run(&path, options(1)).unwrap_err();
+    let error = burgeon::run(&path, options(1)).map(|_| ()).unwrap_err();
     assert!(error.message().contains("object"), "{error}");
 }
