@@ -41,12 +41,14 @@ pub(crate) const TOWNS: [Town; 4] = [
         script: "oldtown.lua",
         joint: (170.0, 1.8),
         turning: 0.0,
+        seeds: 12,
         set: &[("extent", "130"), ("trees", "false")],
     },
     Town {
         script: "village.lua",
         joint: (90.0, 2.0),
         turning: 6.0,
+        seeds: 12,
         set: &[("extent", "130"), ("trees", "false")],
     },
 ];
