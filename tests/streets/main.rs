@@ -8,8 +8,7 @@ mod cities;
 use std::path::PathBuf;
 
 use check::{PATTERNS, check, grown};
-use cities::{TOWNS, Town, figures};
-use rayon::prelude::*;
+use cities::{TOWNS, figures};
 
 /// The mean of each measure over some seeds of a pattern: degree, shares of dead ends, of 3 and of 4 streets, circuity,
 /// meshedness, orientation order.
@@ -37,12 +36,12 @@ fn every_pattern_keeps_what_networks_promise_with_any_seed() {
 
 #[test]
 fn towns_keep_buildings_apart_and_off_the_streets_with_any_seed() {
-    let all: Vec<(&Town, u64)> =
-        TOWNS.iter().flat_map(|town| (0..town.seeds).map(move |seed| (town, seed))).collect();
-    all.into_par_iter().for_each(|(town, seed)| {
-        let of = figures(town, seed);
-        assert_eq!(of.fault(), None, "{}, seed {seed}: {of:?}", town.name());
-    });
+    for town in &TOWNS {
+        for seed in 0..town.seeds {
+            let of = figures(town, seed);
+            assert_eq!(of.fault(), None, "{}, seed {seed}: {of:?}", town.name());
+        }
+    }
 }
 
 #[test]
