@@ -322,6 +322,15 @@ local function mix(a: any, b: any, t: number): { number }
   return { lerp(from[1], to[1], t), lerp(from[2], to[2], t), lerp(from[3], to[3], t) }
 end
 
+-- Models.
+
+--- What `object` draws by itself, in `begin` and `finish` of its type, as a model that systems place.
+local function prototype(object: any): Derived
+  local system = lsystem({ object = object })
+  system:axiom()
+  return system:derive(0)
+end
+
 -- The turtle's modules --------------------------------------------------------------------------------------
 -- The symbols of The Algorithmic Beauty of Plants, for every system whose object is a turtle. Lengths in
 -- metres, angles in degrees; what is left out is the turtle's own step, angle or width.
@@ -378,5 +387,6 @@ names.noise = noise
 names.hsv = hsv
 names.rgb = rgb
 names.mix = mix
+names.prototype = prototype
 table.freeze(Vec)
 return names

@@ -1,6 +1,6 @@
 --!strict
 -- A whole city from nothing but rules and a seed: main and side streets, a river with bridges, quarters of their own kind,
--- lots, buildings and a skyline. Near `detail` every building has its facades; farther off, photos of windows stand in.
+-- lots, buildings and a skyline, on flat land or on hills. Near `detail` every building has its facades; farther off, photos of windows stand in.
 -- burgeon run scripts/city.lua -o city.glb
 local build = require("templates/build")
 local nature = require("templates/nature")
@@ -20,16 +20,28 @@ local highest = param("highest", {
 local detail =
   param("detail", { default = 130, min = 0, max = 3000, unit = "m", text = "How far there are facades" })
 local with_trees = param("trees", { default = true })
+local hills = param(
+  "hills",
+  { default = 0, min = 0, max = 80, unit = "m", text = "How high the ground rises; 0 if it is flat" }
+)
+local heart = param("heart", {
+  default = "towers",
+  choices = { "towers", "old town", "boulevards" },
+  text = "What stands in the middle",
+})
 
 -- The river runs from west to east past the middle.
 local WATER = -3.5
 local course = math.floor(random() * 1000)
 local aside = extent * 0.33
+local function midstream(x: number): number
+  return -aside + extent * 0.22 * noise(x / (extent * 0.9), 0.5, course)
+end
 local function river(far: number, width: number): any
   local south: { any }, north: { any } = {}, {}
   for step = 0, 40 do
     local x = far * (step / 20 - 1)
-    local y = -aside + extent * 0.22 * noise(x / (extent * 0.9), 0.5, course)
+    local y = midstream(x)
     table.insert(south, { x, y - width / 2 })
     table.insert(north, 1, { x, y + width / 2 })
   end
@@ -40,9 +52,61 @@ local wide = 30 + extent * 0.05
 local water: any = if with_river then river(far, wide) else nil
 local quays: any = if with_river then river(far, wide + 14) else nil
 
--- Quarters: which is where, and how its streets run.
+-- The ground, where it is not flat: hills, and the valley of the river. It is there once to be asked, and once with the streets
+-- that lie on it.
 local middle = { 0, extent * 0.05 }
-local places = quarters.places(extent)
+local function rise(from: number, to: number, at: number): number
+  local along = math.clamp((at - from) / (to - from), 0, 1)
+  return along * along * (3 - 2 * along)
+end
+local function form(x: number, y: number): number
+  local wild = 0.5 + 0.5 * noise(x / (extent * 0.75), y / (extent * 0.75), 0.5, course + 1)
+  local high = 0.5
+    + hills * wild * (0.35 + 0.65 * rise(0, extent * 0.7, math.sqrt(x * x + (y - middle[2]) ^ 2)))
+  if not with_river then
+    return high
+  end
+  local off = math.abs(y - midstream(x)) - wide / 2
+  local valley = 0.3 + (high - 0.3) * rise(12, extent * 0.6, off)
+  return WATER - 3 + (valley + 3 - WATER) * rise(-8, 6, off)
+end
+local size = extent * 2.6
+local Ground = module("Ground", "height", "form", "x", "y", "width")
+local cells = lsystem()
+cells:axiom(Ground(0, 0, 0, 0, size))
+cells:rule("Ground(height, form, x, y, width)", function(this, _, _, x: number, y: number, width: number)
+  local quarter = width / 4
+  local function quadrant(x: number, y: number)
+    return Ground(0, form(x, y), x, y, width / 2)
+  end
+  return quadrant(x - quarter, y + quarter),
+    quadrant(x + quarter, y + quarter),
+    quadrant(x - quarter, y - quarter),
+    quadrant(x + quarter, y - quarter)
+end)
+local function ground(streets: Network?): Terrain
+  local options: any = {
+    object = terrain({
+      size = size,
+      levels = math.clamp(math.ceil(math.log(size / 4.5, 2)), 3, 10),
+      rules = cells,
+      under = streets,
+      shown = streets ~= nil,
+      base = WATER - 20,
+      water = if with_river then { level = WATER } else nil,
+      covers = {
+        { color = "#7c8a58" },
+        { color = "#8a935c", on = { patches = 0.8, scale = 190 } },
+        { color = "#8b7d5d", on = { slope = { 26, 38 } } },
+      },
+    }),
+  }
+  return (lsystem :: any)(options):derive().objects[1] :: Terrain
+end
+local bare = if hills > 0 then ground() else nil
+
+-- Quarters: which is where, and how its streets run.
+local places = quarters.places(extent, heart)
 local streets = roads.grow({
   pattern = quarters.pattern(places),
   centres = { middle },
@@ -60,6 +124,8 @@ local streets = roads.grow({
     water = if with_river then { quays } else {},
     bridge = wide + 60,
     water_level = WATER,
+    on = bare,
+    max_slope = 13,
   },
 }).objects[1] :: Network
 
@@ -68,28 +134,34 @@ local function dry(geometry: any): any
   return if with_river and geometry:intersects(quays) then geometry:difference(quays) else geometry
 end
 
--- The ground: the country around, the blocks, each in the colour of its quarter, and the water.
-local country = {}
-for step = 1, 72 do
-  local angle = math.rad(step * 5)
-  table.insert(country, { math.cos(angle) * (extent * 1.1 + 60), math.sin(angle) * (extent * 1.1 + 60) })
+-- The flat ground: the country around, the blocks, each in the colour of its quarter, and the water.
+local land: Terrain? = if bare then ground(streets) else nil
+local function height(x: number, y: number): number
+  return if land then land:height(vec(x, y, 0)) else 0
 end
-local land = polygon(country)
-quarters.areas({ if with_river then land:difference(water) else land }, -7, -0.06, "#7c8a58")
-if with_river then
-  quarters.areas({ land:intersection(water) }, -7, WATER, "#56727c")
+if not land then
+  local country = {}
+  for step = 1, 72 do
+    local angle = math.rad(step * 5)
+    table.insert(country, { math.cos(angle) * (extent * 1.1 + 60), math.sin(angle) * (extent * 1.1 + 60) })
+  end
+  local plate = polygon(country)
+  quarters.areas({ if with_river then plate:difference(water) else plate }, -7, -0.06, "#7c8a58")
+  if with_river then
+    quarters.areas({ plate:intersection(water) }, -7, WATER, "#56727c")
+  end
 end
 
 -- Blocks, each of the kind of its quarter.
 local of: { [string]: { any } } = {}
-local ground: { [string]: { any } } = {}
+local plots: { [string]: { any } } = {}
 for _, block in streets:blocks() do
   local kind = quarters.at(places, block.geometry:centroid())
   local left = dry(block.geometry)
   if not left:is_empty() then
     of[kind] = of[kind] or {}
-    ground[kind] = ground[kind] or {}
-    table.insert(ground[kind], left)
+    plots[kind] = plots[kind] or {}
+    table.insert(plots[kind], left)
     for _, part in left:geometries() do
       if part:area() > 250 then
         table.insert(of[kind], { id = block.id, geometry = part })
@@ -102,41 +174,43 @@ end
 local near: { any }, distant: { any }, green: { any } = {}, {}, {}
 for kind, blocks in of do
   local quarter = quarters.kinds[kind]
-  quarters.areas(ground[kind], -0.3, 0.14, quarter.ground)
+  if not land then
+    quarters.areas(plots[kind], -0.3, 0.14, quarter.ground)
+  end
   local options = table.clone(quarter.lots)
   options.blocks, options.all, options.seed = blocks, true, kind
   local lots = {}
   for _, lot in streets:lots(options) do
     if lot.use == "building" then
       table.insert(lots, lot)
-    elseif lot.use == "park" or lot.use == "court" then
+    elseif lot.use ~= "blocked" then
       table.insert(green, lot)
     end
   end
-  for _, building in quarter.buildings(lots, highest, extent) do
+  local buildings, empty = quarter.buildings(lots, highest, extent)
+  -- What has no room for a building is a garden.
+  table.move(empty, 1, #empty, #green + 1, green)
+  for _, building in if land then quarters.raised(buildings, height) else buildings do
     local at = building.lot.access
     local away = math.sqrt((at.x - middle[1]) ^ 2 + (at.y - middle[2]) ^ 2)
     local is_near = away < detail and building.style and building.tier == 1
     table.insert(if is_near then near else distant, building)
   end
 end
-quarters.areas(
-  (function()
-    local parks = {}
-    for _, lot in green do
-      table.insert(parks, lot.geometry)
-    end
-    return parks
-  end)(),
-  0,
-  0.2,
-  "#6f8a50"
-)
+local parks = {}
+for _, lot in green do
+  if lot.use == "park" or lot.use == "court" then
+    table.insert(parks, lot.geometry)
+  end
+end
+if not land then
+  quarters.areas(parks, 0, 0.2, "#6f8a50")
+end
 
 local houses = build.system()
 houses:axiom(source(near), function(feature)
   local style = build.style(feature.style, 1 + math.floor(random() * 60))
-  return footprint(feature.geometry, { attributes = { kind = feature.kind } }),
+  return footprint(feature.geometry, { attributes = quarters.attributes(feature) }),
     build.Building(style, build.levels(style, feature.height), feature.height, "")
 end)
 houses:derive()
@@ -148,11 +222,10 @@ if with_trees then
     table.insert(trees, { id = place.id, geometry = { points = { place.place } }, height = 8 })
   end
   for _, lot in green do
-    for number = 1, math.min(60, math.floor(lot.area / 90)) do
-      local at = lot.geometry:random_point(random(), random())
+    for number, at in quarters.scattered(lot, math.min(60, math.floor(lot.area / 90))) do
       table.insert(trees, {
         id = `{lot.id} {number}`,
-        geometry = { points = { vec(at:x(), at:y(), 0) } },
+        geometry = { points = { vec(at[1], at[2], height(at[1], at[2])) } },
         height = random(6, 13),
       })
     end
@@ -163,7 +236,7 @@ if with_trees then
     for number = 1, 22 do
       local x = math.cos(angle) * away + random(-1, 1) * random(5, 45)
       local y = math.sin(angle) * away + random(-1, 1) * random(5, 45)
-      local place = vec(x, y, 0)
+      local place = vec(x, y, height(x, y))
       if streets:distance(place) > 55 and not (with_river and quays:distance(point(x, y)) < 4) then
         local id = `wood {wood} {number}`
         table.insert(trees, { id = id, geometry = { points = { place } }, height = random(8, 15) })

@@ -10,10 +10,19 @@ local skyline = require("templates/skyline")
 
 local extent = param("extent", { default = 165, min = 90, max = 400, unit = "m", text = "From the middle" })
 local wall_height = param("wall", { default = 7, min = 0, max = 14, unit = "m", text = "0 for no wall" })
+local plan = param("plan", {
+  default = "grown",
+  choices = { "grown", "laid out" },
+  text = "Crooked lanes, or straight ones of a town that was founded",
+})
 local with_trees = param("trees", { default = true })
 
+local patterns = {
+  grown = roads.organic({ block = 36, bends = 30, branching = 0.95, cross = 0.35, variety = 0.35 }),
+  ["laid out"] = roads.raster({ block = 62, width = 42, angle = 10 }),
+}
 local lanes = roads.grow({
-  pattern = roads.organic({ block = 36, bends = 30, branching = 0.95, cross = 0.35, variety = 0.35 }),
+  pattern = patterns[plan],
   extent = extent,
   steps = math.ceil(extent / 7),
   join = 170,
@@ -68,12 +77,14 @@ for _, lot in
     depth = 14,
     min_width = 5,
     jitter = 0.45,
+    terrace = 11,
     all = true,
   })
 do
   if lot.use == "building" then
     local draw = skyline.stream(lot.id, 11)
-    for number, part in skyline.row(lot, 11):geometries() do
+    local before = #houses
+    for number, part in lot.terrace do
       if part:area() > 26 then
         table.insert(houses, {
           id = `{lot.id}.{number}`,
@@ -82,6 +93,10 @@ do
           levels = 2 + math.floor(draw() * 2.4),
         })
       end
+    end
+    -- What has no room for a house is a yard.
+    if #houses == before then
+      table.insert(yards, lot)
     end
   else
     table.insert(yards, lot)
@@ -170,7 +185,7 @@ town:derive()
 -- The ground: fields, a ditch, the yards of the blocks and the paved market.
 local country = point(0, 0):buffer(extent * 1.45 + 60)
 quarters.areas({ country:difference(hull:buffer(24)) }, -5, -0.05, "#8b9a5b")
-quarters.areas({ hull:buffer(24) }, -5, -0.06, "#8f8a68")
+quarters.areas({ hull:buffer(24) }, -5, -0.06, if wall_height > 0 then "#8f8a68" else "#8b9a5b")
 local ground = {}
 for _, block in built do
   table.insert(ground, block.geometry)
@@ -251,9 +266,8 @@ if with_trees then
     table.insert(trees, { id = `tree {#trees}`, geometry = { points = { vec(x, y, z) } }, height = tall })
   end
   for _, yard in yards do
-    for number = 1, math.floor(yard.area / 70) do
-      local at = yard.geometry:random_point(random(), random())
-      plant(at:x(), at:y(), 0.1, random(4, 8))
+    for _, at in quarters.scattered(yard, math.floor(yard.area / 70)) do
+      plant(at[1], at[2], 0.1, random(4, 8))
     end
   end
   for number = 1, 500 do

@@ -81,7 +81,16 @@ local sites = lanes:sites({
   gap = 5,
 })
 local church: any, least = nil, math.huge
-for _, site in sites do
+local church_sites = lanes:sites({
+  sizes = { { 12, 24 } },
+  along = 5,
+  away = 40,
+  distance = 36,
+  setback = 4,
+  gap = 5,
+  shrink = 1,
+})
+for _, site in church_sites do
   local off = math.abs(math.sqrt(site.access.x ^ 2 + site.access.y ^ 2) - 40)
   if site.row == 0 and off < least then
     church, least = site, off
@@ -91,7 +100,7 @@ local houses, gardens = {}, {}
 for _, site in sites do
   local ring = site.geometry.rings[1]
   local away = math.sqrt(site.access.x ^ 2 + site.access.y ^ 2)
-  if site.access:distance(church.access) < 26 then
+  if church and site.geometry:distance(church.geometry) < 5 then
     continue
   elseif random() < 0.93 - 0.45 * away / extent then
     local is_barn = site.row > 0 or (away > extent * 0.6 and random() < 0.35)
@@ -105,12 +114,7 @@ for _, site in sites do
   end
 end
 if church then
-  local facing = math.rad(church.facing)
-  local out, along = vec(math.cos(facing), math.sin(facing), 0), vec(-math.sin(facing), math.cos(facing), 0)
-  local ring = {}
-  for _, corner in { { 0, -6 }, { 0, 6 }, { -24, 6 }, { -24, -6 } } do
-    table.insert(ring, church.access + out * (corner[1] - 6) + along * corner[2])
-  end
+  local ring = church.geometry.rings[1]
   table.insert(houses, { id = "church", geometry = laid(ring), style = "church", levels = 1 })
 end
 

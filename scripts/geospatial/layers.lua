@@ -44,15 +44,19 @@ for _, name in { "roads", "trees", "furniture", "green" } do
   source(`{town}:{name}`)
 end
 
--- A carriageway is what lies within some metres of a road, and slabs are what is left around the buildings.
+-- A carriageway is what lies within some metres of a road, and slabs are what is left around the buildings, but for
+-- water and open land far from all of them.
 local PAVEMENTS = [[
   with carriageways as (
     select ST_Buffer(ST_Simplify(ST_Union(ST_Buffer(geom, case highway
       when 'primary' then 6 when 'secondary' then 5 when 'tertiary' then 4.5 when 'service' then 2.5 else 3.5 end,
       'quad_segs=2')), 0.1), -0.05, 'quad_segs=1') as geom
     from roads where highway in ('primary', 'secondary', 'tertiary', 'unclassified', 'residential', 'service')),
-  ground as (select ST_Buffer(ST_ConvexHull(ST_Collect(geom)), 10, 'quad_segs=1') as geom from buildings)
-  select ST_Intersection(c.geom, g.geom) as geom, 1 as code, 0 as level from carriageways c, ground g
+  town as (select ST_Buffer(ST_ConvexHull(ST_Collect(geom)), 10, 'quad_segs=1') as geom from buildings),
+  ground as (
+    select ST_Buffer(ST_Simplify(ST_Union(ST_Buffer(geom, 100, 'quad_segs=1')), 2), -80, 'quad_segs=1') as geom
+    from buildings)
+  select ST_Intersection(c.geom, t.geom) as geom, 1 as code, 0 as level from carriageways c, town t
   union all select ST_Buffer(ST_Difference(g.geom, c.geom), -0.05, 'quad_segs=1'), 2, 0.15 from carriageways c, ground g]]
 
 return {

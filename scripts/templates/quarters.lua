@@ -57,21 +57,14 @@ local function one<T>(list: { T }, draw: number): T
   return list[math.min(#list, 1 + math.floor(draw * #list))]
 end
 
--- A building of rows that touch, as high as `low` to `high` (m) by whole storeys of 3.1 m.
-local function row(
-  lots: { any },
-  depth: number,
-  low: number,
-  high: number,
-  look: string,
-  style: string
-): { any }
-  local features = {}
+-- Buildings of rows that touch, as high as `low` to `high` (m) by whole storeys of 3.1 m; and the lots that have none.
+local function row(lots: { any }, low: number, high: number, look: string, style: string): ({ any }, { any })
+  local features, empty = {}, {}
   for _, lot in lots do
     local draw = skyline.stream(lot.id, 7)
-    local plan = skyline.row(lot, depth)
     local height = 3.1 * math.floor((low + (high - low) * draw()) / 3.1 + 0.5)
-    for number, part in plan:geometries() do
+    local before = #features
+    for number, part in lot.terrace do
       if part:area() > 30 then
         table.insert(features, {
           id = `{lot.id}.{number}`,
@@ -86,13 +79,16 @@ local function row(
         })
       end
     end
+    if #features == before then
+      table.insert(empty, lot)
+    end
   end
-  return features
+  return features, empty
 end
 
 -- Slabs and towers of flats, which stand free: as long as their lot lets them be.
-local function flats(lots: { any }): { any }
-  local features = {}
+local function flats(lots: { any }): ({ any }, { any })
+  local features, empty = {}, {}
   for _, lot in lots do
     local draw = skyline.stream(lot.id, 5)
     local building = skyline.building(lot, {
@@ -109,12 +105,15 @@ local function flats(lots: { any }): { any }
     end
     building.height = 2.9 * math.floor(building.height / 2.9 + 0.5)
     local tiers = skyline.plan(lot, building, { front = 5, side = 5, wing = 12 }, draw)
+    if #tiers == 0 then
+      table.insert(empty, lot)
+    end
     for _, feature in skyline.features(lot, building, tiers) do
       feature.look, feature.style = "flats", "modern_block"
       table.insert(features, feature)
     end
   end
-  return features
+  return features, empty
 end
 
 -- Free-standing buildings by the rules of the skyline; those of each kind look as `looks` says.
@@ -124,19 +123,20 @@ local function standing(
   plans,
   looks: { [string]: string },
   styles: { [string]: string }
-): { any }
-  local features = skyline.buildings(lots, heights, plans)
+): ({ any }, { any })
+  local features, empty = skyline.buildings(lots, heights, plans)
   for _, feature in features do
     feature.look = looks[feature.kind]
     feature.style = styles[feature.kind]
   end
-  return features
+  return features, empty
 end
 
 export type Quarter = {
   ground: string,
   lots: { [string]: any },
-  buildings: (lots: { any }, highest: number, extent: number) -> { any },
+  -- The buildings of lots, and the lots without room for one.
+  buildings: (lots: { any }, highest: number, extent: number) -> ({ any }, { any }),
 }
 
 quarters.kinds = {
@@ -160,16 +160,34 @@ quarters.kinds = {
   },
   old = {
     ground = "#a39d90",
-    lots = { kind = "strips", width = 9, depth = 15, min_width = 5.5, jitter = 0.5, parks = 0.03 },
+    lots = {
+      kind = "strips",
+      width = 9,
+      depth = 15,
+      min_width = 5.5,
+      jitter = 0.5,
+      parks = 0.03,
+      elongation = 7,
+      terrace = 12,
+    },
     buildings = function(lots: { any })
-      return row(lots, 12, 9, 16, "old", "porto")
+      return row(lots, 9, 16, "old", "porto")
     end,
   },
   blocks = {
     ground = "#8f9678",
-    lots = { kind = "strips", width = 18, depth = 17, min_width = 9, jitter = 0.3, parks = 0.06 },
+    lots = {
+      kind = "strips",
+      width = 18,
+      depth = 17,
+      min_width = 9,
+      jitter = 0.3,
+      parks = 0.06,
+      elongation = 6,
+      terrace = 13.5,
+    },
     buildings = function(lots: { any })
-      return row(lots, 13.5, 15, 23, "blocks", "haussmann")
+      return row(lots, 15, 23, "blocks", "haussmann")
     end,
   },
   flats = {
@@ -179,9 +197,18 @@ quarters.kinds = {
   },
   rows = {
     ground = "#7d8d59",
-    lots = { kind = "strips", width = 6.6, depth = 24, min_width = 5, jitter = 0.1, parks = 0.05 },
+    lots = {
+      kind = "strips",
+      width = 6.6,
+      depth = 24,
+      min_width = 5,
+      jitter = 0.1,
+      parks = 0.05,
+      elongation = 9,
+      terrace = 10,
+    },
     buildings = function(lots: { any })
-      return row(lots, 10, 6, 9.4, "rows", "terrace_house")
+      return row(lots, 6, 9.4, "rows", "terrace_house")
     end,
   },
   villas = {
@@ -204,23 +231,28 @@ quarters.kinds = {
   },
 } :: { [string]: Quarter }
 
--- Where quarters lie: { at, kind, pattern }.
-function quarters.places(extent: number): { any }
+-- Where quarters lie: { at, kind, pattern }. The heart is "towers", "old town" or "boulevards".
+function quarters.places(extent: number, heart: string): { any }
   local turned = random(0, 360)
-  local places = {
-    {
-      at = { 0, extent * 0.05 },
+  local middle = { 0, extent * 0.05 }
+  local hearts: { [string]: any } = {
+    towers = {
       kind = "centre",
       pattern = roads.raster({ block = 105, width = 80, angle = turned, gap = 0.2, variety = 0.5 }),
     },
+    ["old town"] = { kind = "old", pattern = roads.organic({ block = 62, bends = 28, variety = 0.4 }) },
+    boulevards = { kind = "blocks", pattern = roads.radial({ middle = middle, block = 95 }) },
   }
+  local places = { { at = middle, kind = hearts[heart].kind, pattern = hearts[heart].pattern } }
   local function around(share: number, angle: number, kind: string, pattern)
     local way = math.rad(turned + angle)
     local at = { math.cos(way) * extent * share, math.sin(way) * extent * share }
     table.insert(places, { at = at, kind = kind, pattern = pattern })
   end
-  around(0.42, 20, "old", roads.organic({ block = 58, bends = 30, variety = 0.4 }))
-  around(0.42, 110, "blocks", roads.radial({ middle = { 0, extent * 0.05 }, block = 85 }))
+  -- Where the heart is old, the new towers stand beside it.
+  local first = if heart == "old town" then "blocks" else "old"
+  around(0.42, 20, first, roads.organic({ block = 58, bends = 30, variety = 0.4 }))
+  around(0.42, 110, "blocks", roads.radial({ middle = middle, block = 85 }))
   around(0.4, 200, "blocks", roads.organic({ block = 88, bends = 32, variety = 0.4 }))
   around(
     0.44,
@@ -263,6 +295,53 @@ function quarters.at(places: { any }, at: any): string
   return best.kind
 end
 
+-- Buildings on ground with heights: their plans lie on it, and what stands on others as high as those.
+function quarters.raised(buildings: { any }, height: (x: number, y: number) -> number): { any }
+  local high: { [string]: number } = {}
+  local raised = {}
+  for _, building in buildings do
+    local whole: string = building.lot.id
+    local from: number? = if building.tier > 1 then high[whole] else nil
+    local top = -math.huge
+    local rings = {}
+    for _, ring in building.geometry.rings do
+      local laid = {}
+      for _, point in ring do
+        local on = height(point[1], point[2])
+        top = math.max(top, on)
+        table.insert(laid, { point[1], point[2], if from then from + point[3] else on })
+      end
+      table.insert(rings, laid)
+    end
+    if building.tier == 1 then
+      high[whole] = top
+    end
+    local copy = table.clone(building)
+    copy.geometry = { rings = rings }
+    table.insert(raised, copy)
+  end
+  return raised
+end
+
+-- Up to so many places at random on a lot.
+function quarters.scattered(lot: any, count: number): { { number } }
+  local rings = lot.geometry.rings
+  local low, high = { math.huge, math.huge }, { -math.huge, -math.huge }
+  for _, point in rings[1] do
+    for axis = 1, 2 do
+      low[axis], high[axis] = math.min(low[axis], point[axis]), math.max(high[axis], point[axis])
+    end
+  end
+  local places = {}
+  for _ = 1, count do
+    local x, y = random(low[1], high[1]), random(low[2], high[2])
+    if skyline.holds(rings, x, y) then
+      table.insert(places, { x, y })
+    end
+  end
+  return places
+end
+
 local Area = module("Area", "rings", "from", "to", "color")
 
 -- Draws polygons between two heights (m).
@@ -286,6 +365,16 @@ function quarters.areas(geometries: { any }, from: number, to: number, color: st
   system:derive(0)
 end
 
+-- What is told of a building.
+function quarters.attributes(feature: any): { [string]: any }
+  return {
+    kind = feature.kind,
+    tier = feature.tier,
+    total = feature.total,
+    street_depth = feature.lot.street_depth or 0,
+  }
+end
+
 local Block = module("Block", "plan", "look", "tint", "height", "is_top")
 
 -- Buildings without facades of their own: photos of windows in whole bays, and a roof.
@@ -303,7 +392,7 @@ function quarters.distant(buildings: { any })
     local look: string = feature.look
     local draw = skyline.stream(feature.lot.id, 3)
     local tint: any = one(LOOKS[look].tints, draw())
-    return footprint(feature.geometry),
+    return footprint(feature.geometry, { attributes = quarters.attributes(feature) }),
       Block(feature.geometry, look, tint, feature.height, feature.tier == tops[feature.lot.id])
   end)
   system:interpret(
@@ -320,6 +409,9 @@ function quarters.distant(buildings: { any })
       }
       -- Walls without windows are as dark as the photo's.
       local plain = mix("#000000", tint, facade.light)
+      if this:highest() > this:lowest() + 0.01 then
+        this:groundwork("extruded")
+      end
       this:walls({ height = height, photo = photo, bay = bay, color = plain })
       this:roof(if is_top then chosen.roof else { kind = "flat", color = "#96938d" })
     end

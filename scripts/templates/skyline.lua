@@ -196,6 +196,24 @@ local function inside(pieces: { { number } }, x: number, y: number): boolean
   return odd
 end
 
+-- Whether a place (m) is inside of rings.
+function skyline.holds(rings: any, x: number, y: number): boolean
+  local odd = false
+  for _, ring in rings do
+    local last = ring[#ring]
+    for _, point in ring do
+      if (last[2] > y) ~= (point[2] > y) then
+        local t = (y - last[2]) / (point[2] - last[2])
+        if last[1] + t * (point[1] - last[1]) > x then
+          odd = not odd
+        end
+      end
+      last = point
+    end
+  end
+  return odd
+end
+
 -- How far it is free to the left and to the right of `x` between the heights y0 and y1; nil if it is not free there.
 local function free(pieces: { { number } }, x: number, y0: number, y1: number): (number?, number)
   local left, right = -math.huge, math.huge
@@ -457,16 +475,19 @@ function skyline.features(lot: any, building: Building, tiers: { Tier }): { any 
   return features
 end
 
--- The buildings of lots as skyline.features, the parts of each from below.
-function skyline.buildings(lots: { any }, heights: Heights?, plans: Plans?, seed: number?): { any }
-  local features = {}
+-- The buildings of lots as skyline.features, the parts of each from below; and the lots that have no room for one.
+function skyline.buildings(lots: { any }, heights: Heights?, plans: Plans?, seed: number?): ({ any }, { any })
+  local features, empty = {}, {}
   for _, lot in lots do
     local draw = skyline.stream(lot.id, seed)
     local building = skyline.building(lot, heights, draw)
     local parts = skyline.features(lot, building, skyline.plan(lot, building, plans, draw))
     table.move(parts, 1, #parts, #features + 1, features)
+    if #parts == 0 then
+      table.insert(empty, lot)
+    end
   end
-  return features
+  return features, empty
 end
 
 return skyline

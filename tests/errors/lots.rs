@@ -5,6 +5,7 @@ use std::path::Path;
 use insta::assert_snapshot;
 
 use crate::support::{Folder, printed, refused};
+use crate::warnings::warned;
 
 /// A network of nine blocks, and what is asked of it as `streets`.
 const GRID: &str = r#"local Lead = module("Lead", "from", "x", "y", "depth")
@@ -72,6 +73,25 @@ fn lots_that_cannot_be_are_refused() {
     error: s.lua:26: network:lots: none of 9 blocks has room for a lot with 200 m of front and 48000 m²: the greatest has 7833 m²
       | streets:lots({ width = 400, depth = 400 })
       help: give a smaller width and depth, or fewer parks
+    ");
+}
+
+#[test]
+fn lots_that_are_too_long_are_told() {
+    let thin = "local thin = polygon({ { 0, 0 }, { 90, 0 }, { 90, 9 }, { 0, 9 } })\n\
+        local lots = network({}):lots({ blocks = { thin }, width = 80, min_width = 60 })\nassert(#lots == 0)";
+    let told = warned(&[thin]);
+    let told: Vec<&str> = told.lines().skip_while(|line| !line.contains("network:lots")).take(3).collect();
+    assert_snapshot!(told.join("\n"), @r#"
+    warning: s.lua:2: network:lots: left out 1 lot more than 4 times as long as wide, up to 10.0 times
+      | local lots = network({}):lots({ blocks = { thin }, width = 80, min_width = 60 })
+      help: give a greater elongation, or all = true: they are lots whose use is "rest"
+    "#);
+    let whole = thin.replace("min_width = 60", "min_width = 60, elongation = 11").replace("== 0", "== 1");
+    assert_eq!(printed(&format!("{whole}\nprint(\"sound\")")), ["sound"]);
+    assert_snapshot!(refused(&asked("streets:lots({ terrace = 0 })")), @r"
+    error: s.lua:26: network:lots: terrace must be from 0.5 to 1000 m, not 0
+      | streets:lots({ terrace = 0 })
     ");
 }
 

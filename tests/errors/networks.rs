@@ -371,6 +371,16 @@ fn streets_that_cut_deep_into_the_ground_are_told() {
 }
 
 #[test]
+fn ground_that_is_shown_without_its_streets_is_told() {
+    let is_told =
+        |script: &str| warned(&[script]).contains("the ground is shown as it was without the streets");
+    let script = on_hills(3, "max_slope = 9", "");
+    assert!(!is_told(&script), "{script}");
+    let shown = script.replace("shown = roads ~= nil", "shown = true");
+    assert!(shown != script && is_told(&shown), "{script}");
+}
+
+#[test]
 fn streets_beyond_their_ground_are_refused() {
     assert_snapshot!(refused(&grown("on = 3", "")), @r"
     error: s.lua:2: network: on must be a terrain that was derived: land:derive().objects[1], not 3

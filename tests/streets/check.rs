@@ -30,22 +30,22 @@ pub(crate) fn grown(script: &str, seed: u64, set: &[(&str, &str)]) -> Network {
     Arc::unwrap_or_clone(object.downcast::<Network>().expect("a network"))
 }
 
-type Whole = (i128, i128);
+pub(crate) type Whole = (i128, i128);
 
 /// A place in steps of the grid, exactly.
 #[allow(clippy::cast_possible_truncation, reason = "places are on the grid, and within 2^30 steps")]
-fn whole(at: DVec2) -> Whole {
+pub(crate) fn whole(at: DVec2) -> Whole {
     let steps = at * 1024.0;
     assert!(steps.fract() == DVec2::ZERO, "{at} is off the grid");
     (steps.x as i128, steps.y as i128)
 }
 
-fn side(a: Whole, b: Whole, c: Whole) -> i128 {
+pub(crate) fn side(a: Whole, b: Whole, c: Whole) -> i128 {
     ((b.0 - a.0) * (c.1 - a.1) - (b.1 - a.1) * (c.0 - a.0)).signum()
 }
 
 /// Whether two pieces have a place in common.
-fn meet([a, b]: [Whole; 2], [c, d]: [Whole; 2]) -> bool {
+pub(crate) fn meet([a, b]: [Whole; 2], [c, d]: [Whole; 2]) -> bool {
     let within = |a: Whole, b: Whole, p: Whole| {
         a.0.min(b.0) <= p.0 && p.0 <= a.0.max(b.0) && a.1.min(b.1) <= p.1 && p.1 <= a.1.max(b.1)
     };

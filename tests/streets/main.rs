@@ -3,10 +3,13 @@
 //! `cargo bench --bench streets` looks at 200 seeds of each.
 
 mod check;
+mod cities;
 
 use std::path::PathBuf;
 
 use check::{PATTERNS, check, grown};
+use cities::{TOWNS, Town, figures};
+use rayon::prelude::*;
 
 /// The mean of each measure over some seeds of a pattern: degree, shares of dead ends, of 3 and of 4 streets, circuity,
 /// meshedness, orientation order.
@@ -30,6 +33,16 @@ fn every_pattern_keeps_what_networks_promise_with_any_seed() {
             check(&grown, radius, &format!("{pattern}, seed {seed}"));
         }
     }
+}
+
+#[test]
+fn towns_keep_buildings_apart_and_off_the_streets_with_any_seed() {
+    let all: Vec<(&Town, u64)> =
+        TOWNS.iter().flat_map(|town| (0..town.seeds).map(move |seed| (town, seed))).collect();
+    all.into_par_iter().for_each(|(town, seed)| {
+        let of = figures(town, seed);
+        assert_eq!(of.fault(), None, "{}, seed {seed}: {of:?}", town.name());
+    });
 }
 
 #[test]

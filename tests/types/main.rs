@@ -342,3 +342,30 @@ s:derive()
     let said = format!("{:?}", less.report());
     assert!(said.contains("a plain post") && said.contains("detail 1") && said.contains("no cap"), "{said}");
 }
+
+#[test]
+fn an_object_is_placed_as_a_prototype_without_a_system_of_its_own() {
+    let text = r#"
+        local lantern = object("lantern", {
+          extends = extruder,
+          fields = { height = { default = 4 } },
+          begin = function(self) self:extrude(self.height) end,
+        })
+        local lamps = { prototype(lantern({ height = 5, sides = 6 })), prototype(lantern({ sides = 6 })) }
+        local Post = module("Post", "x", "kind")
+        local street = lsystem({ object = extruder() })
+        street:axiom({ Post(0, 1) }, { Post(10, 2) }, { Post(20, 1) })
+        street:interpret("Post(x, kind)", function(this, x, kind) this:jump({ x, 0, 0 }):place(lamps[kind]) end)
+        street:derive()
+        print(lamps[1]:high().z, lamps[2]:high().z)
+    "#;
+    for threads in [1, 2] {
+        let (_folder, path) = script(text);
+        let made = run(&path, threads).scene;
+        assert_eq!((made.instances.len(), made.meshes.len()), (3, 2));
+        assert_eq!(printed(text, threads), ["5\t4"]);
+    }
+    let (_folder, path) = script("prototype(3)");
+    let error = burgeon::run(&path, options(1)).map(|_| ()).unwrap_err();
+    assert!(error.message().contains("object"), "{error}");
+}

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use crate::declare::Session;
 use crate::machine::types::Objects;
 use burgeon_base::error::{Error, Result, SourcePlace};
-use burgeon_base::warning::Warning;
+use burgeon_base::warning::{Warning, said};
 use burgeon_kit::declare::{downcast_mut, downcast_ref};
 use burgeon_kit::random::Stream;
 use burgeon_kit::rules::{ModuleKey, Symbol};
@@ -176,12 +176,21 @@ impl WorkState {
             })?,
         };
         match &kind.methods.get(method).ok_or_else(missing)?.call {
-            Call::Read(read) => objects
-                .read(chain, |object| match slot {
+            Call::Read(read) => {
+                said();
+                let answer = objects.read(chain, |object| match slot {
                     None => read(object, arguments),
                     Some(slot) => read(downcast_ref::<ScriptObject>(object)?.held(slot)?, arguments),
-                })
-                .map_err(Error::of_data),
+                });
+                let said = said();
+                if !said.is_empty() {
+                    let place = place();
+                    for warning in said {
+                        self.session.warn(warning.at(place.clone()));
+                    }
+                }
+                answer.map_err(Error::of_data)
+            }
             Call::Script { .. } => Err(Error::internal("the script itself runs this method")),
             Call::Write { .. } if objects.has_failed(chain) => Ok(Value::Nil),
             Call::Write { values, .. } => {

@@ -10,9 +10,13 @@ use crate::machine::convert::{to_argument, to_lua, to_value};
 use crate::machine::library::Library;
 use crate::machine::types::ObjectHandle;
 use burgeon_base::error::{Error, Limit};
+use burgeon_base::warning::said;
 use burgeon_kit::declare::as_ref;
 use burgeon_kit::rules::{ColumnValue, DEEPEST, module_text};
 use burgeon_kit::{Call, GeometryObject, ScriptObject, Value};
+
+/// An answer of more entries is made without a collection of garbage meanwhile.
+const LONG: usize = 256;
 
 /// While guards run, in `prelude.luau`.
 const GUARD: u8 = 2;
@@ -31,7 +35,7 @@ pub(crate) fn functions(lua: &Lua, current: &Rc<WorkState>, library: &Rc<Library
     add_values(lua, &host, current, library)?;
     add_tables(lua, &host)?;
     add_applications(lua, &host, current)?;
-    add_methods(lua, &host, current)?;
+    add_methods(lua, &host, current, library)?;
     add_script_objects(lua, &host, current, library)?;
     super::questions::add_questions(lua, &host, current)?;
     Ok(host)
@@ -168,7 +172,7 @@ fn add_applications(lua: &Lua, host: &Table, current: &Rc<WorkState>) -> mlua::R
 }
 
 /// Those that call methods of objects.
-fn add_methods(lua: &Lua, host: &Table, current: &Rc<WorkState>) -> mlua::Result<()> {
+fn add_methods(lua: &Lua, host: &Table, current: &Rc<WorkState>, library: &Rc<Library>) -> mlua::Result<()> {
     let state = Rc::clone(current);
     host.set(
         "call",
@@ -180,6 +184,7 @@ fn add_methods(lua: &Lua, host: &Table, current: &Rc<WorkState>) -> mlua::Result
             to_lua(lua, &answer, false)
         })?,
     )?;
+    let shelf = Rc::clone(library);
     let state = Rc::clone(current);
     host.set(
         "call_object",
@@ -202,7 +207,10 @@ fn add_methods(lua: &Lua, host: &Table, current: &Rc<WorkState>) -> mlua::Result
             match &method.call {
                 Call::Read(read) => {
                     let given = values(&arguments)?;
+                    said();
                     let answer = read(&*handle.0, &given).map_err(mlua::Error::external)?;
+                    let machine = shelf.machine().map_err(mlua::Error::external)?;
+                    said().into_iter().for_each(|warning| machine.warn(warning));
                     let place = guard.and_then(|guard| state.places.borrow().get(guard).copied());
                     if let Some(place) = place.filter(|_| GeometryObject::of(&*handle.0).is_some()) {
                         let given: Vec<String> = given.iter().map(Value::to_string).collect();
@@ -210,7 +218,17 @@ fn add_methods(lua: &Lua, host: &Table, current: &Rc<WorkState>) -> mlua::Result
                         let text = format!("{this}:{}({}): {answer}", method.name, given.join(", "));
                         state.session.rows.note_answer(place as usize, text);
                     }
-                    to_lua(lua, &answer, false)
+                    // All of a long answer stays, so looking for what does not would be in vain.
+                    let is_long = matches!(&answer, Value::Table(table) if table.entries.len() > LONG);
+                    let pauses = is_long && lua.gc_is_running();
+                    if pauses {
+                        lua.gc_stop();
+                    }
+                    let made = to_lua(lua, &answer, false);
+                    if pauses {
+                        lua.gc_restart();
+                    }
+                    made
                 }
                 Call::Write { .. } | Call::Script { .. } => Err(mlua::Error::external(Error::scope(
                     format!("{name} changes the object, and only interpretation rules may"),

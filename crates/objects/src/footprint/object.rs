@@ -315,6 +315,11 @@ pub(super) fn along(from: DVec2, to: DVec2) -> DVec3 {
 }
 
 impl Footprint {
+    /// The rings (m) that it was given.
+    pub fn rings(&self) -> &burgeon_geometry::Rings {
+        &self.options.geometry
+    }
+
     fn restart(&mut self) {
         self.shell = Shell::new(&self.plan);
         self.sides.clear();

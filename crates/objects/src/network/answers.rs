@@ -1,9 +1,11 @@
-//! What a network answers in tables.
+//! What a network answers in tables, and tells of what it was asked.
 
 use std::sync::Arc;
 
+use burgeon_base::error::{Error, Result};
+use burgeon_base::warning::{Warning, WarningKind};
 use burgeon_kit::{Parameter, Table, TableKey, Value, Vector};
-use burgeon_streets::{Fate, JunctionId, Measures, StreetNetwork, StreetProspect};
+use burgeon_streets::{DeadEndOptions, Fate, JunctionId, Measures, StreetNetwork, StreetProspect};
 use glam::DVec2;
 
 /// A table of named values.
@@ -74,4 +76,35 @@ pub(super) fn open_ends(network: &StreetNetwork) -> Value {
         ])
     });
     ends.collect::<Vec<_>>().into_value()
+}
+
+/// What to tell where streets were proposed and none is there, by what became of them.
+pub(super) fn unbuilt(fates: impl ExactSizeIterator<Item = Fate>) -> Warning {
+    let count = fates.len();
+    let refusals = fates.filter_map(|fate| match fate {
+        Fate::Refused(why) => Some(why.name()),
+        _ => None,
+    });
+    let mut reasons: Vec<&str> = refusals.collect();
+    reasons.sort_unstable();
+    reasons.dedup();
+    let text = format!("network: no street was built of {count} that were proposed: {}", reasons.join(", "));
+    Warning::new(WarningKind::DrawsNothing, text).help("network:fate tells of each what became of it")
+}
+
+/// How dead ends are joined, as a script gave it to `method`.
+pub(super) fn dead_end_options(
+    method: &str,
+    radius: Option<f64>,
+    detour: Option<f64>,
+) -> Result<DeadEndOptions> {
+    let usual = DeadEndOptions::default();
+    let options =
+        DeadEndOptions { radius: radius.unwrap_or(usual.radius), detour: detour.unwrap_or(usual.detour) };
+    if !(0.0..=2000.0).contains(&options.radius) || !(1.0..=100.0).contains(&options.detour) {
+        return Err(Error::argument(format!(
+            "network:{method} takes a radius from 0 to 2000, and a detour from 1 to 100"
+        )));
+    }
+    Ok(options)
 }

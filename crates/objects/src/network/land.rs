@@ -22,6 +22,8 @@ const FARTHEST: f64 = 80.0;
 const CELLS: f64 = 2.2;
 /// By how much (m) a street that lies on the ground may lie above or below it, before that is told.
 const DEEP: f64 = 8.0;
+/// How far (m) streets may lie above or below the ground that is shown, before that is told.
+const OFF: f64 = 0.5;
 /// How far (m) above water streets lie, and how far bridges.
 const DRY: [f64; 2] = [0.8, 3.0];
 
@@ -102,6 +104,21 @@ impl Network {
         let mut edits: Vec<Edit> = raised.map(|(bed, _)| Edit::Embank { bed: bed.clone() }).collect();
         edits.extend(beds.into_iter().map(|(bed, _)| Edit::Excavate { bed }));
         Ok(edits)
+    }
+
+    /// What to tell of streets that do not lie on the ground that is shown, which only one that is made afterwards can meet.
+    pub(super) fn hidden(&self) -> Result<Option<Warning>> {
+        if self.network.size() == 0 || !self.options.on.as_ref().is_some_and(|ground| ground.is_shown()) {
+            return Ok(None);
+        }
+        let fit = self.fit()?;
+        let deepest = fit.depths.iter().copied().fold(0.0, f64::max);
+        Ok((deepest > OFF).then(|| {
+            let text = "network: on: the ground is shown as it was without the streets, some of which lie in it or above it";
+            Warning::new(WarningKind::Doubtful, text).help(
+                "give that terrain shown = false, and show another one that is like it, with under = these streets",
+            )
+        }))
     }
 
     /// What to tell of streets that would be steeper if they lay on the ground.

@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use burgeon_base::error::{Error, Result};
 use burgeon_base::text::listed;
+use burgeon_base::warning::{Warning, WarningKind};
 use burgeon_data::Geometry;
 use burgeon_geometry::Rings;
 use burgeon_kit::rules::ModuleKey;
@@ -13,6 +14,10 @@ use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 
 use super::Network;
+use super::cache::AnswerKey;
+
+/// How far (m) terraces stay inside of the borders of their lots.
+const JOINT: f64 = 0.02;
 
 /// What `network:lots` takes.
 #[fields("network:lots")]
@@ -47,6 +52,9 @@ pub struct LotSettings {
     /// How near (m) to a street an edge of such an area is to be on it. Where there are no streets, all edges are on one.
     #[default(6.0)]
     pub reach: f64,
+    /// How deep (m) a terrace of buildings that touch reaches behind its fronts: then each lot to be built on has a list of
+    /// polygons, terrace, the parts of it that are at most so deep, 2 cm inside of its border.
+    pub terrace: Option<f64>,
     /// Whether parks, courts and what is too small for a building are given too.
     #[default(false)]
     pub all: bool,
@@ -88,7 +96,7 @@ impl Parameter for BlockArea {
 }
 
 /// Blocks as scripts get them.
-pub struct BlockRecords(pub(super) Vec<Value>);
+pub struct BlockRecords(Value);
 
 impl Answer for BlockRecords {
     fn luau() -> String {
@@ -96,27 +104,80 @@ impl Answer for BlockRecords {
     }
 
     fn answer(self) -> Result<Value> {
-        Ok(self.0.into_value())
+        Ok(self.0)
     }
 }
 
 /// Lots as scripts get them.
-pub struct LotRecords(Vec<Value>);
+pub struct LotRecords(Value);
 
 impl Answer for LotRecords {
     fn luau() -> String {
         "{ { id: string, geometry: Geometry, use: string, area: number, width: number, depth: number, front: Geometry, \
          fronts: { Geometry }, front_length: number, corner: boolean, access: Vector, facing: number, block: string, \
-         street_depth: number?, street_width: number? } }"
+         street_depth: number?, street_width: number?, terrace: { Geometry }? } }"
             .into()
     }
 
     fn answer(self) -> Result<Value> {
-        Ok(self.0.into_value())
+        Ok(self.0)
+    }
+}
+
+/// What is no lot to be built on only because it is more times as long as wide than was asked.
+#[derive(Default)]
+struct LongLots {
+    count: usize,
+    longest: f64,
+}
+
+impl LongLots {
+    fn count(&mut self, lot: &Lot, options: &LotOptions) {
+        let is_wide = lot.front_length >= options.min_width && lot.area >= options.min_area;
+        if lot.purpose == LotUse::Rest && is_wide && lot.elongation > options.elongation {
+            self.count += 1;
+            self.longest = self.longest.max(lot.elongation);
+        }
+    }
+
+    fn warning(&self, options: &LotOptions) -> Option<Warning> {
+        (self.count > 0).then(|| {
+            let text = format!(
+                "network:lots: left out {} lot{} more than {} times as long as wide, up to {:.1} times",
+                self.count,
+                if self.count == 1 { "" } else { "s" },
+                options.elongation,
+                self.longest
+            );
+            Warning::new(WarningKind::Doubtful, text)
+                .help("give a greater elongation, or all = true: they are lots whose use is \"rest\"")
+        })
     }
 }
 
 impl LotSettings {
+    /// All that lots depend on, number by number.
+    fn key(&self, version: u64, options: &LotOptions) -> AnswerKey {
+        let LotOptions { pattern, width, min_width, depth, area, min_area, elongation, jitter, parks } =
+            *options;
+        let kind = LotPattern::ALL.iter().position(|(_, known)| *known == pattern).unwrap_or_default();
+        let mut key =
+            vec![version, kind as u64, u64::from(self.all), self.seed.0, self.blocks.is_some().into()];
+        let terrace = self.terrace.unwrap_or(-1.0);
+        let sizes = [width, min_width, depth, area, min_area, elongation, jitter, parks, self.reach, terrace];
+        key.extend(sizes.map(f64::to_bits));
+        for area in self.blocks.iter().flatten() {
+            let id = area.id.as_deref().unwrap_or_default();
+            key.push(id.len() as u64 + u64::from(area.id.is_some()));
+            key.extend(id.bytes().map(u64::from));
+            for ring in area.rings.iter() {
+                key.push(ring.len() as u64);
+                key.extend(ring.iter().flat_map(|at| [at.x.to_bits(), at.y.to_bits()]));
+            }
+        }
+        key
+    }
+
     fn options(&self) -> Result<LotOptions> {
         let known = LotPattern::ALL.iter().find(|(name, _)| *name == self.kind);
         let Some((_, pattern)) = known else {
@@ -137,40 +198,64 @@ impl LotSettings {
             ..usual
         };
         options.check()?;
+        if let Some(depth) = self.terrace.filter(|depth| !(0.5..=1000.0).contains(depth)) {
+            return Err(Error::argument(format!("terrace must be from 0.5 to 1000 m, not {depth}")));
+        }
         Ok(options)
     }
 }
 
 impl Network {
-    pub(super) fn block_records(&self) -> BlockRecords {
+    pub(super) fn block_list(&self) -> Vec<Value> {
         let blocks = self.network.lot_blocks(self.surface_options());
-        BlockRecords(blocks.iter().map(|block| self.block_record(block)).collect())
+        blocks.iter().map(|block| self.block_record(block)).collect()
+    }
+
+    pub(super) fn block_records(&self) -> Result<BlockRecords> {
+        let find = || Ok((self.block_list().into_value(), Vec::new()));
+        self.answers.once(|| vec![self.network.version()], find).map(BlockRecords)
     }
 
     pub(super) fn lot_records(&self, settings: &LotSettings) -> Result<LotRecords> {
         let options = settings.options().map_err(|error| error.about("network:lots"))?;
-        let blocks = match &settings.blocks {
+        let key = || settings.key(self.network.version(), &options);
+        self.answers.once(key, || self.divided(settings, &options)).map(LotRecords)
+    }
+
+    fn divided(&self, settings: &LotSettings, options: &LotOptions) -> Result<(Value, Vec<Warning>)> {
+        let blocks: Vec<StreetBlock> = match &settings.blocks {
             None => self.network.lot_blocks(self.surface_options()),
             Some(areas) => {
                 let block = |area: &BlockArea| {
                     self.network.block(area.id.as_deref(), &flat(&area.rings), settings.reach)
                 };
-                areas.iter().filter_map(block).collect()
+                areas.par_iter().filter_map(block).collect()
             }
         };
-        let divided = blocks.par_iter().map(|block| {
-            let mut stream = ModuleKey::seed(settings.seed.0).feature(&block.id).stream();
-            let mut lots = block.divide(&options, &mut || stream.uniform());
-            for lot in &mut lots {
-                let is_free = || !self.network.obstacles().reach_into(&lot.rings[0]);
-                if lot.purpose == LotUse::Building && !is_free() {
-                    lot.purpose = LotUse::Blocked;
+        let divided: Vec<(Vec<Value>, LongLots)> = blocks
+            .par_iter()
+            .map(|block| {
+                let mut stream = ModuleKey::seed(settings.seed.0).feature(&block.id).stream();
+                let mut lots = block.divide(options, &mut || stream.uniform());
+                let mut long = LongLots::default();
+                for lot in &mut lots {
+                    let is_free = || !self.network.obstacles().reach_into(&lot.rings[0]);
+                    if lot.purpose == LotUse::Building && !is_free() {
+                        lot.purpose = LotUse::Blocked;
+                    }
+                    long.count(lot, options);
                 }
-            }
-            lots.retain(|lot| settings.all || lot.purpose == LotUse::Building);
-            lots.iter().map(|lot| self.lot_record(block, lot)).collect::<Vec<_>>()
-        });
-        let records: Vec<Value> = divided.flatten().collect();
+                lots.retain(|lot| settings.all || lot.purpose == LotUse::Building);
+                (lots.iter().map(|lot| self.lot_record(block, lot, settings.terrace)).collect(), long)
+            })
+            .collect();
+        let mut long = LongLots::default();
+        let mut records = Vec::new();
+        for (of_block, of_long) in divided {
+            records.extend(of_block);
+            long.count += of_long.count;
+            long.longest = long.longest.max(of_long.longest);
+        }
         if records.is_empty() && settings.blocks.is_none() && !blocks.is_empty() {
             let greatest = blocks.iter().map(area_of).fold(0.0, f64::max);
             let text = format!(
@@ -181,7 +266,8 @@ impl Network {
             );
             return Err(Error::argument(text).help("give a smaller width and depth, or fewer parks"));
         }
-        Ok(LotRecords(records))
+        let told = if settings.all { None } else { long.warning(options) };
+        Ok((records.into_value(), told.into_iter().collect()))
     }
 
     fn block_record(&self, block: &StreetBlock) -> Value {
@@ -195,11 +281,15 @@ impl Network {
         ])
     }
 
-    fn lot_record(&self, block: &StreetBlock, lot: &Lot) -> Value {
+    fn lot_record(&self, block: &StreetBlock, lot: &Lot, terrace: Option<f64>) -> Value {
         let line = |points: &[DVec2]| Geometry::Line(points.iter().map(|at| at.extend(0.0)).collect());
         let number = |value: Option<f64>| value.map_or(Value::Nil, Value::Number);
         let front = lot.fronts.first();
         let attributes = lot.piece.map(|piece| self.network.attributes(piece));
+        let terrace = terrace.filter(|_| lot.purpose == LotUse::Building).map(|depth| {
+            let parts = lot.row(depth, JOINT).into_iter();
+            parts.map(|part| Geometry::Polygon(Rings::from(&part).at_height(0.0))).collect::<Vec<_>>()
+        });
         let fronts: Vec<Geometry> = lot.fronts.iter().map(|front| line(front)).collect();
         record([
             ("id", Value::Text(format!("{}/{}", block.id, lot.number).into())),
@@ -217,6 +307,7 @@ impl Network {
             ("block", Value::Text(block.id.as_str().into())),
             ("street_depth", number(attributes.map(|street| f64::from(street.depth)))),
             ("street_width", number(attributes.map(|street| street.width))),
+            ("terrace", terrace.map_or(Value::Nil, Parameter::into_value)),
         ])
     }
 }

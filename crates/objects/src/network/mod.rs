@@ -2,6 +2,7 @@
 
 mod answers;
 mod bridge;
+mod cache;
 mod draw;
 mod existing;
 mod grounds;

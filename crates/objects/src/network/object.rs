@@ -6,6 +6,7 @@ use glam::DVec2;
 use rustc_hash::FxHashMap;
 
 use super::answers;
+use super::cache::AnswerCache;
 use super::existing::{self, ExistingLines};
 use super::kinds::StreetOptions;
 use super::land::VergeRecords;
@@ -20,8 +21,8 @@ use burgeon_geometry::{Plan, Polygon, Rings};
 use burgeon_kit::{Color, TableOf, Value, Vector, fields, methods, object};
 use burgeon_scene::Scene;
 use burgeon_streets::{
-    Constraints, DeadEndOptions, Fate, JunctionId, Obstacle, Obstacles, StreetAttributes, StreetFit,
-    StreetGrowth, StreetKind, StreetNetwork, SurfaceOptions,
+    Constraints, Fate, JunctionId, Obstacle, Obstacles, StreetAttributes, StreetFit, StreetGrowth,
+    StreetKind, StreetNetwork, SurfaceOptions,
 };
 
 /// What `network(...)` takes.
@@ -126,9 +127,13 @@ pub struct Network {
     /// What became of what was proposed in the last pass, by junction and heading.
     growths: FxHashMap<(u32, u64), StreetGrowth>,
     walk: NetworkWalk,
+    /// What scripts have asked of blocks and lots.
+    pub(super) answers: AnswerCache,
     warnings: Vec<Warning>,
     /// Whether it was told that no street was built.
     is_told: bool,
+    /// Whether it was told that the ground hides streets.
+    is_hidden_told: bool,
 }
 
 #[methods("network")]
@@ -179,7 +184,7 @@ impl Network {
 
     /// Joins dead ends to the streets within a radius (m) to which the way along the streets is so many times longer.
     pub fn join_dead_ends(&mut self, radius: Option<f64>, detour: Option<f64>) -> Result<()> {
-        self.network.join_dead_ends(dead_end_options("join_dead_ends", radius, detour)?);
+        self.network.join_dead_ends(answers::dead_end_options("join_dead_ends", radius, detour)?);
         Ok(())
     }
 
@@ -221,7 +226,7 @@ impl Network {
 
     /// How many dead ends `join_dead_ends` would join with the same radius (m) and detour.
     pub fn joinable(&self, radius: Option<f64>, detour: Option<f64>) -> Result<u32> {
-        let options = dead_end_options("joinable", radius, detour)?;
+        let options = answers::dead_end_options("joinable", radius, detour)?;
         Ok(u32::try_from(self.network.joinable_dead_ends(options)).unwrap_or(u32::MAX))
     }
 
@@ -270,7 +275,7 @@ impl Network {
 
     /// The blocks between the streets, inside of their sidewalks, as features: each has an id, a geometry, its area (m²) and the
     /// least depth of the streets around it (street_depth).
-    pub fn blocks(&self) -> BlockRecords {
+    pub fn blocks(&self) -> Result<BlockRecords> {
         self.block_records()
     }
 
@@ -377,8 +382,10 @@ impl Network {
             water: waters.into(),
             growths: FxHashMap::default(),
             walk: NetworkWalk::default(),
+            answers: AnswerCache::default(),
             warnings,
             is_told: false,
+            is_hidden_told: false,
         })
     }
 
@@ -443,41 +450,23 @@ impl Network {
         if self.fit.get().is_some_and(|(version, _)| *version != self.network.version()) {
             self.fit = OnceLock::new();
         }
-        if self.network.size() > 0 || self.growths.is_empty() || self.is_told {
-            return Ok(());
+        // Where there is no ground is told when the streets are drawn.
+        if !self.is_hidden_told
+            && let Ok(Some(warning)) = self.hidden()
+        {
+            self.is_hidden_told = true;
+            self.warnings.push(warning);
         }
-        self.is_told = true;
-        let count = self.growths.len();
-        let refusals = self.growths.values().filter_map(|growth| match growth.fate {
-            Fate::Refused(why) => Some(why.name()),
-            _ => None,
-        });
-        let mut reasons: Vec<&str> = refusals.collect();
-        reasons.sort_unstable();
-        reasons.dedup();
-        let text =
-            format!("network: no street was built of {count} that were proposed: {}", reasons.join(", "));
-        let help = "network:fate tells of each what became of it";
-        self.warnings.push(Warning::new(WarningKind::DrawsNothing, text).help(help));
+        if self.network.size() == 0 && !self.growths.is_empty() && !self.is_told {
+            self.is_told = true;
+            self.warnings.push(answers::unbuilt(self.growths.values().map(|growth| growth.fate)));
+        }
         Ok(())
     }
 
     fn drain_warnings(&mut self) -> Vec<Warning> {
         std::mem::take(&mut self.warnings)
     }
-}
-
-/// How dead ends are joined, as a script gave it to `method`.
-fn dead_end_options(method: &str, radius: Option<f64>, detour: Option<f64>) -> Result<DeadEndOptions> {
-    let usual = DeadEndOptions::default();
-    let options =
-        DeadEndOptions { radius: radius.unwrap_or(usual.radius), detour: detour.unwrap_or(usual.detour) };
-    if !(0.0..=2000.0).contains(&options.radius) || !(1.0..=100.0).contains(&options.detour) {
-        return Err(Error::argument(format!(
-            "network:{method} takes a radius from 0 to 2000, and a detour from 1 to 100"
-        )));
-    }
-    Ok(options)
 }
 
 impl burgeon_kit::Show for Network {

@@ -111,7 +111,7 @@ impl HasLayers for Network {
         vec![
             ("streets", self.street_records().0),
             ("junctions", self.junction_records().0),
-            ("blocks", self.block_records().0),
+            ("blocks", self.block_list()),
         ]
     }
 }

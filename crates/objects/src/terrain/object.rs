@@ -443,6 +443,13 @@ impl Expand for Terrain {
     }
 }
 
+impl Terrain {
+    /// Whether it shows itself.
+    pub(crate) fn is_shown(&self) -> bool {
+        self.options.shown
+    }
+}
+
 impl Show for Terrain {
     fn show(&self, scene: &mut Scene, name: &str, feature: Option<&str>) -> Result<()> {
         if self.options.shown { self.draw(scene, name, feature) } else { Ok(()) }

@@ -7,7 +7,7 @@ use sqlparser::ast::{Query, SetExpr, TableFactor};
 use super::Catalogue;
 use super::parse::{SyntaxTree, parse};
 use super::scope::{quoted, table};
-use super::walk::{PartMut, walk_mut};
+use super::walk::{StatementPartMut, walk_mut};
 
 /// What is seen of tables, as a statement: by their names in small letters.
 pub(crate) type ChosenRows = BTreeMap<String, String>;
@@ -16,7 +16,7 @@ pub(crate) type ChosenRows = BTreeMap<String, String>;
 pub(super) fn put_in(query: &mut Query, tables: &Catalogue, chosen: &ChosenRows) {
     if !chosen.is_empty() {
         walk_mut(query, |part| {
-            if let PartMut::TableFactor(factor) = part
+            if let StatementPartMut::TableFactor(factor) = part
                 && let Some(seen) = seen(factor, tables, chosen)
             {
                 *factor = seen;

@@ -8,7 +8,7 @@ use super::Catalogue;
 use super::parse::{find_word, parse};
 use super::scope::declared;
 use super::statement::with_stack;
-use super::walk::{Part, walk};
+use super::walk::{StatementPart, walk};
 use crate::errors::at;
 use crate::functions;
 use burgeon_base::error::{Error, Result};
@@ -125,12 +125,12 @@ impl Guard<'_> {
         ))
     }
 
-    fn check(&self, part: &Part<'_>) -> Result<()> {
+    fn check(&self, part: &StatementPart<'_>) -> Result<()> {
         match part {
-            Part::Query(_) => Ok(()),
-            Part::Expression(expression) => self.expression(expression),
-            Part::TableFactor(factor) => self.table_factor(factor),
-            Part::Relation(name) => self.relation(name),
+            StatementPart::Query(_) => Ok(()),
+            StatementPart::Expression(expression) => self.expression(expression),
+            StatementPart::TableFactor(factor) => self.table_factor(factor),
+            StatementPart::Relation(name) => self.relation(name),
         }
     }
 

@@ -13,7 +13,7 @@ use super::operators::call;
 use super::scope::{
     FromItem, condition, condition_mut, conjuncts, geometry_column, mentioned, quoted, relations, text,
 };
-use super::walk::{Part, walk};
+use super::walk::{StatementPart, walk};
 use super::{TableInfo, parse};
 
 /// How many rows something is taken to have of which that is not known.
@@ -193,7 +193,7 @@ fn side<'a>(
 /// Whether an expression may be computed once more: one that holds no query of its own.
 fn is_plain(expression: &Expr) -> bool {
     let walked = walk(expression, |part| match part {
-        Part::Query(_) => ControlFlow::Break(()),
+        StatementPart::Query(_) => ControlFlow::Break(()),
         _ => ControlFlow::Continue(()),
     });
     walked.is_continue()

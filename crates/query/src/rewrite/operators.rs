@@ -6,13 +6,13 @@ use sqlparser::ast::{
 };
 
 use super::parse;
-use super::walk::{PartMut, walk_mut};
+use super::walk::{StatementPartMut, walk_mut};
 use crate::functions;
 
 /// Writes operators and casts of PostGIS as SQLite has them.
 pub(super) fn translate(query: &mut Query) {
     walk_mut(query, |part| {
-        if let PartMut::Expression(expression) = part
+        if let StatementPartMut::Expression(expression) = part
             && let Some(other) = translated(expression)
         {
             *expression = other;

@@ -9,7 +9,7 @@ use sqlparser::ast::{
 
 use super::operators::call;
 use super::scope::{quoted, relations};
-use super::walk::{Part, walk};
+use super::walk::{StatementPart, walk};
 use super::{Catalogue, Dialect, parse};
 
 /// The most columns that rows are ordered by.
@@ -104,7 +104,7 @@ fn columns(body: &SetExpr) -> Option<usize> {
 /// Whether many rows give one.
 pub(super) fn aggregates(select: &Select) -> bool {
     let walked = walk(&select.projection, |part| match part {
-        Part::Expression(expression) if is_aggregate(expression) => ControlFlow::Break(()),
+        StatementPart::Expression(expression) if is_aggregate(expression) => ControlFlow::Break(()),
         _ => ControlFlow::Continue(()),
     });
     walked.is_break()

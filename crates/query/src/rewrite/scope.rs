@@ -4,7 +4,7 @@ use std::ops::ControlFlow;
 
 use sqlparser::ast::{Expr, Ident, JoinConstraint, JoinOperator, ObjectName, Query, Select, TableFactor};
 
-use super::walk::{Part, walk};
+use super::walk::{StatementPart, walk};
 use super::{Catalogue, TableInfo};
 
 /// Something behind FROM.
@@ -30,7 +30,7 @@ pub(super) fn visible(query: &Query, catalogue: &Catalogue) -> Catalogue {
 pub(super) fn declared(query: &Query) -> Vec<String> {
     let mut names = Vec::new();
     let _ = walk(query, |part| {
-        if let Part::Query(query) = part {
+        if let StatementPart::Query(query) = part {
             let tables = query.with.iter().flat_map(|with| &with.cte_tables);
             names.extend(tables.map(|table| table.alias.name.value.to_ascii_lowercase()));
         }
@@ -109,7 +109,7 @@ pub(super) fn condition_mut(operator: &mut JoinOperator) -> Option<&mut Expr> {
 pub(super) fn mentioned(expression: &Expr, relations: &[FromItem<'_>]) -> Vec<usize> {
     let mut found = vec![false; relations.len()];
     let _ = walk(expression, |part| {
-        if let Part::Expression(part) = part {
+        if let StatementPart::Expression(part) = part {
             relations
                 .iter()
                 .zip(&mut found)

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use super::chosen::{self, ChosenRows};
 use super::parse::{SyntaxTree, parse};
-use super::walk::{PartMut, walk_mut};
+use super::walk::{StatementPartMut, walk_mut};
 use super::{joins, nearest, operators, order, scope};
 use sqlparser::ast::{Query, SelectItem, SetExpr};
 
@@ -105,10 +105,10 @@ fn rewritten(
     let ordered = parsed.query.order_by.is_some() || parsed.query.limit_clause.is_some();
     let mut indexes = Vec::new();
     walk_mut(&mut parsed.query, |part| match part {
-        PartMut::Select(select) if dialect == Dialect::Sqlite => {
+        StatementPartMut::Select(select) if dialect == Dialect::Sqlite => {
             indexes.extend(joins::index(select, &tables).into_iter().map(|name| (name, false)));
         }
-        PartMut::Query(query) => {
+        StatementPartMut::Query(query) => {
             let nearest = if dialect == Dialect::Sqlite { nearest::index(query, &tables) } else { None };
             match nearest {
                 Some(name) => indexes.push((name, true)),

@@ -10,7 +10,7 @@ use sqlparser::ast::{
 };
 
 /// A part of a statement.
-pub(super) enum Part<'a> {
+pub(super) enum StatementPart<'a> {
     /// A query, whole or within another.
     Query(&'a Query),
     /// An expression.
@@ -24,7 +24,7 @@ pub(super) enum Part<'a> {
 }
 
 /// A part of a statement, to be changed.
-pub(super) enum PartMut<'a> {
+pub(super) enum StatementPartMut<'a> {
     /// A query, whole or within another.
     Query(&'a mut Query),
     /// What stands between SELECT and ORDER BY.
@@ -36,12 +36,15 @@ pub(super) enum PartMut<'a> {
 }
 
 /// Shows `look` the parts of `tree`, the outer before the inner, until it breaks.
-pub(super) fn walk(tree: &impl Visit, mut look: impl FnMut(Part<'_>) -> ControlFlow<()>) -> ControlFlow<()> {
+pub(super) fn walk(
+    tree: &impl Visit,
+    mut look: impl FnMut(StatementPart<'_>) -> ControlFlow<()>,
+) -> ControlFlow<()> {
     tree.visit(&mut PartVisitor(&mut look))
 }
 
 /// Gives `change` the parts of `query`, the inner before the outer.
-pub(super) fn walk_mut(query: &mut Query, mut change: impl FnMut(PartMut<'_>)) {
+pub(super) fn walk_mut(query: &mut Query, mut change: impl FnMut(StatementPartMut<'_>)) {
     let _ = VisitMut::visit(query, &mut PartMutVisitor(&mut change));
 }
 
@@ -51,56 +54,56 @@ pub(super) fn asks_for_rows(tree: &Query) -> bool {
         !matches!(body, SetExpr::Insert(_) | SetExpr::Update(_) | SetExpr::Delete(_) | SetExpr::Merge(_))
     };
     let walked = walk(tree, |part| match part {
-        Part::Query(query) if !asks(&query.body) => ControlFlow::Break(()),
+        StatementPart::Query(query) if !asks(&query.body) => ControlFlow::Break(()),
         _ => ControlFlow::Continue(()),
     });
     walked.is_continue()
 }
 
-struct PartVisitor<'a>(&'a mut dyn FnMut(Part<'_>) -> ControlFlow<()>);
+struct PartVisitor<'a>(&'a mut dyn FnMut(StatementPart<'_>) -> ControlFlow<()>);
 
 impl Visitor for PartVisitor<'_> {
     type Break = ();
 
     fn pre_visit_query(&mut self, query: &Query) -> ControlFlow<()> {
-        (self.0)(Part::Query(query))
+        (self.0)(StatementPart::Query(query))
     }
 
     fn pre_visit_expr(&mut self, expression: &Expr) -> ControlFlow<()> {
-        (self.0)(Part::Expression(expression))
+        (self.0)(StatementPart::Expression(expression))
     }
 
     fn pre_visit_table_factor(&mut self, factor: &TableFactor) -> ControlFlow<()> {
-        (self.0)(Part::TableFactor(factor))
+        (self.0)(StatementPart::TableFactor(factor))
     }
 
     fn pre_visit_relation(&mut self, name: &ObjectName) -> ControlFlow<()> {
-        (self.0)(Part::Relation(name))
+        (self.0)(StatementPart::Relation(name))
     }
 }
 
-struct PartMutVisitor<'a>(&'a mut dyn FnMut(PartMut<'_>));
+struct PartMutVisitor<'a>(&'a mut dyn FnMut(StatementPartMut<'_>));
 
 impl VisitorMut for PartMutVisitor<'_> {
     type Break = ();
 
     fn post_visit_query(&mut self, query: &mut Query) -> ControlFlow<()> {
-        (self.0)(PartMut::Query(query));
+        (self.0)(StatementPartMut::Query(query));
         ControlFlow::Continue(())
     }
 
     fn post_visit_select(&mut self, select: &mut Select) -> ControlFlow<()> {
-        (self.0)(PartMut::Select(select));
+        (self.0)(StatementPartMut::Select(select));
         ControlFlow::Continue(())
     }
 
     fn post_visit_expr(&mut self, expression: &mut Expr) -> ControlFlow<()> {
-        (self.0)(PartMut::Expression(expression));
+        (self.0)(StatementPartMut::Expression(expression));
         ControlFlow::Continue(())
     }
 
     fn post_visit_table_factor(&mut self, factor: &mut TableFactor) -> ControlFlow<()> {
-        (self.0)(PartMut::TableFactor(factor));
+        (self.0)(StatementPartMut::TableFactor(factor));
         ControlFlow::Continue(())
     }
 }

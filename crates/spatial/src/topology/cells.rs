@@ -9,7 +9,7 @@ use glam::DVec2;
 
 use super::contacts::{Contacts, WalkSides};
 use super::locate::{is_on_any, place_in};
-use super::prepared::{Edges, Parts, PreparedGeometry, is_among};
+use super::prepared::{PreparedGeometry, TopologyParts, WayEdges, is_among};
 use crate::overlay;
 
 /// The places of the interior, the boundary and the exterior in a row of cells.
@@ -20,9 +20,9 @@ const EXTERIOR: usize = 2;
 /// The dimensions in which interiors, boundaries and exteriors of two geometries meet, row by row of the first: `F`, `0`,
 /// `1` or `2`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) struct Cells([[u8; 3]; 3]);
+pub(crate) struct RelationCells([[u8; 3]; 3]);
 
-impl Cells {
+impl RelationCells {
     fn new() -> Self {
         let mut made = Self([[b'F'; 3]; 3]);
         made.note(EXTERIOR, EXTERIOR, b'2');
@@ -58,7 +58,7 @@ impl Cells {
 /// they meet, as a letter. Where borders of two areas cross, the dimension in which they meet is told only if `all` is
 /// asked for; else it is 0.
 pub(crate) fn relate(one: &PreparedGeometry, two: &PreparedGeometry, all: bool) -> [u8; 9] {
-    use Parts::{Areas, Lines, Mixed, None, Points};
+    use TopologyParts::{Areas, Lines, Mixed, None, Points};
     let cells = match (one.parts(), two.parts()) {
         (Mixed, _) | (_, Mixed) => return overlay::relate(&one.whole, &two.whole),
         (Areas(a), Areas(b)) => areas((one, a), (two, b), all),
@@ -74,25 +74,29 @@ pub(crate) fn relate(one: &PreparedGeometry, two: &PreparedGeometry, all: bool) 
 }
 
 /// A geometry and nothing.
-fn alone(parts: &Parts) -> Cells {
-    let mut cells = Cells::new();
+fn alone(parts: &TopologyParts) -> RelationCells {
+    let mut cells = RelationCells::new();
     match parts {
-        Parts::Points(_) => cells.note(INTERIOR, EXTERIOR, b'0'),
-        Parts::Lines(_, ends) => {
+        TopologyParts::Points(_) => cells.note(INTERIOR, EXTERIOR, b'0'),
+        TopologyParts::Lines(_, ends) => {
             cells.note(INTERIOR, EXTERIOR, b'1');
             cells.note_if(!ends.is_empty(), BOUNDARY, EXTERIOR, b'0');
         }
-        Parts::Areas(_) => {
+        TopologyParts::Areas(_) => {
             cells.note(INTERIOR, EXTERIOR, b'2');
             cells.note(BOUNDARY, EXTERIOR, b'1');
         }
-        Parts::None | Parts::Mixed => {}
+        TopologyParts::None | TopologyParts::Mixed => {}
     }
     cells
 }
 
-fn areas(one: (&PreparedGeometry, &Edges), two: (&PreparedGeometry, &Edges), all: bool) -> Cells {
-    let mut cells = Cells::new();
+fn areas(
+    one: (&PreparedGeometry, &WayEdges),
+    two: (&PreparedGeometry, &WayEdges),
+    all: bool,
+) -> RelationCells {
+    let mut cells = RelationCells::new();
     let contacts = Contacts::new(one, two, !all);
     let [same, opposite] = contacts.shares;
     cells.note_if(!contacts.is_empty(), BOUNDARY, BOUNDARY, b'0');
@@ -113,11 +117,11 @@ fn areas(one: (&PreparedGeometry, &Edges), two: (&PreparedGeometry, &Edges), all
 }
 
 fn area_and_line(
-    area: (&PreparedGeometry, &Edges),
-    line: (&PreparedGeometry, &Edges),
+    area: (&PreparedGeometry, &WayEdges),
+    line: (&PreparedGeometry, &WayEdges),
     ends: &[DVec2],
-) -> Cells {
-    let mut cells = Cells::new();
+) -> RelationCells {
+    let mut cells = RelationCells::new();
     let contacts = Contacts::new(area, line, false);
     cells.note(INTERIOR, EXTERIOR, b'2');
     cells.note_if(contacts.of(0).has_own(area.1), BOUNDARY, EXTERIOR, b'1');
@@ -136,7 +140,7 @@ fn area_and_line(
 }
 
 /// Where a place lies to areas.
-fn row_in_area(areas: &Edges, place: DVec2) -> usize {
+fn row_in_area(areas: &WayEdges, place: DVec2) -> usize {
     match place_in(areas, place) {
         Ordering::Greater => INTERIOR,
         Ordering::Equal => BOUNDARY,
@@ -144,11 +148,11 @@ fn row_in_area(areas: &Edges, place: DVec2) -> usize {
     }
 }
 
-/// Edges, and where the lines of which they are end.
-type LineParts<'a> = (&'a PreparedGeometry, &'a Edges, &'a [DVec2]);
+/// WayEdges, and where the lines of which they are end.
+type LineParts<'a> = (&'a PreparedGeometry, &'a WayEdges, &'a [DVec2]);
 
-fn lines(one: LineParts<'_>, two: LineParts<'_>) -> Cells {
-    let mut cells = Cells::new();
+fn lines(one: LineParts<'_>, two: LineParts<'_>) -> RelationCells {
+    let mut cells = RelationCells::new();
     let contacts = Contacts::new((one.0, one.1), (two.0, two.1), false);
     cells.note_if(contacts.has_shared(), INTERIOR, INTERIOR, b'1');
     cells.note_if(contacts.cross, INTERIOR, INTERIOR, b'0');
@@ -168,31 +172,31 @@ fn lines(one: LineParts<'_>, two: LineParts<'_>) -> Cells {
 }
 
 /// A geometry and places.
-fn with_points(parts: &Parts, places: &[DVec2]) -> Cells {
-    let mut cells = Cells::new();
+fn with_points(parts: &TopologyParts, places: &[DVec2]) -> RelationCells {
+    let mut cells = RelationCells::new();
     for place in places {
         let row = match parts {
-            Parts::Points(own) if is_among(own, *place) => INTERIOR,
-            Parts::Lines(_, ends) if is_among(ends, *place) => BOUNDARY,
-            Parts::Lines(edges, _) if is_on_any(edges, *place) => INTERIOR,
-            Parts::Areas(edges) => row_in_area(edges, *place),
+            TopologyParts::Points(own) if is_among(own, *place) => INTERIOR,
+            TopologyParts::Lines(_, ends) if is_among(ends, *place) => BOUNDARY,
+            TopologyParts::Lines(edges, _) if is_on_any(edges, *place) => INTERIOR,
+            TopologyParts::Areas(edges) => row_in_area(edges, *place),
             _ => EXTERIOR,
         };
         cells.note(row, INTERIOR, b'0');
     }
     match parts {
-        Parts::Points(own) => {
+        TopologyParts::Points(own) => {
             cells.note_if(own.iter().any(|place| !is_among(places, *place)), INTERIOR, EXTERIOR, b'0');
         }
-        Parts::Lines(_, ends) => {
+        TopologyParts::Lines(_, ends) => {
             cells.note(INTERIOR, EXTERIOR, b'1');
             cells.note_if(ends.iter().any(|end| !is_among(places, *end)), BOUNDARY, EXTERIOR, b'0');
         }
-        Parts::Areas(_) => {
+        TopologyParts::Areas(_) => {
             cells.note(INTERIOR, EXTERIOR, b'2');
             cells.note(BOUNDARY, EXTERIOR, b'1');
         }
-        Parts::None | Parts::Mixed => {}
+        TopologyParts::None | TopologyParts::Mixed => {}
     }
     cells
 }

@@ -5,7 +5,7 @@ use std::cmp::Ordering;
 use glam::DVec2;
 
 use super::locate::{begins_inside, is_between, place_in, side};
-use super::prepared::{Edge, Edges, PreparedGeometry};
+use super::prepared::{DirectedEdge, PreparedGeometry, WayEdges};
 
 /// A place where an edge of one geometry meets an edge of the other.
 #[derive(Debug, Clone, Copy)]
@@ -48,8 +48,8 @@ impl WalkSides {
 impl Contacts {
     /// The contacts of two geometries with these edges; without any but the first where edges cross, if `until_crossing`.
     pub(super) fn new(
-        (one, first): (&PreparedGeometry, &Edges),
-        (two, second): (&PreparedGeometry, &Edges),
+        (one, first): (&PreparedGeometry, &WayEdges),
+        (two, second): (&PreparedGeometry, &WayEdges),
         until_crossing: bool,
     ) -> Self {
         let mut made = Self::default();
@@ -58,7 +58,7 @@ impl Contacts {
         if !low.cmple(high).all() {
             return made;
         }
-        let mut near: Vec<(usize, Edge)> = Vec::new();
+        let mut near: Vec<(usize, DirectedEdge)> = Vec::new();
         let turned = first.edges.len() > second.edges.len();
         let (few, many) = if turned { (second, first) } else { (first, second) };
         few.meeting(low, high, |number, edge| near.push((number, *edge)));
@@ -94,7 +94,7 @@ impl Contacts {
     }
 
     /// Notes how two edges meet.
-    fn meet(&mut self, edges: [usize; 2], e: &Edge, f: &Edge) {
+    fn meet(&mut self, edges: [usize; 2], e: &DirectedEdge, f: &DirectedEdge) {
         let [p, q] = [side(f.from, f.to, e.from), side(f.from, f.to, e.to)];
         if p == q && p != Ordering::Equal {
             return;
@@ -116,9 +116,9 @@ impl Contacts {
     }
 
     /// Notes how two edges on one line meet.
-    fn meet_along(&mut self, edges: [usize; 2], e: &Edge, f: &Edge) {
+    fn meet_along(&mut self, edges: [usize; 2], e: &DirectedEdge, f: &DirectedEdge) {
         let order = |a: &DVec2, b: &DVec2| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y));
-        let sorted = |edge: &Edge| match order(&edge.from, &edge.to) {
+        let sorted = |edge: &DirectedEdge| match order(&edge.from, &edge.to) {
             Ordering::Greater => [edge.to, edge.from],
             _ => [edge.from, edge.to],
         };
@@ -165,12 +165,12 @@ impl SortedContacts<'_> {
         let parts = self.parts[begin..].iter().take_while(|it| it.edges[self.geometry] == edge);
         parts.into_iter().any(|part| {
             let [from, to] = part.ends;
-            piece.iter().all(|end| is_between(&Edge { from, to }, *end))
+            piece.iter().all(|end| is_between(&DirectedEdge { from, to }, *end))
         })
     }
 
     /// The pieces that contacts divide an edge into.
-    fn pieces(&self, number: usize, edge: &Edge) -> Vec<[DVec2; 2]> {
+    fn pieces(&self, number: usize, edge: &DirectedEdge) -> Vec<[DVec2; 2]> {
         let mut stops: Vec<DVec2> = self.on(number).iter().map(|contact| contact.place).collect();
         stops.extend([edge.from, edge.to]);
         // All are on one line.
@@ -183,7 +183,7 @@ impl SortedContacts<'_> {
     }
 
     /// Whether a part of the edges is not part of the other geometry's.
-    pub(super) fn has_own(&self, edges: &Edges) -> bool {
+    pub(super) fn has_own(&self, edges: &WayEdges) -> bool {
         edges.edges.iter().enumerate().any(|(number, edge)| {
             self.on(number).len() < 2
                 || self.pieces(number, edge).into_iter().any(|piece| !self.has(number, piece))
@@ -191,7 +191,7 @@ impl SortedContacts<'_> {
     }
 
     /// On which sides of the other geometry's border, which they nowhere cross between their ends, edges lie.
-    pub(super) fn walk(&self, edges: &Edges, areas: &Edges) -> WalkSides {
+    pub(super) fn walk(&self, edges: &WayEdges, areas: &WayEdges) -> WalkSides {
         let mut sides = WalkSides::default();
         for way in edges.ways() {
             // Where the last piece was, if nothing has been met since.

@@ -31,20 +31,20 @@ pub struct PreparedGeometry {
     pub(crate) is_sound: bool,
     /// That of the geometry, whose empty parts count too.
     pub(crate) dimension: usize,
-    parts: OnceLock<Parts>,
+    parts: OnceLock<TopologyParts>,
 }
 
 /// What a geometry is made of.
 #[derive(Debug, Clone)]
-pub(super) enum Parts {
+pub(super) enum TopologyParts {
     /// Nothing.
     None,
     /// Places, each once, in order.
     Points(Vec<DVec2>),
     /// Ways of edges, and the places where an odd number of them ends, in order.
-    Lines(Edges, Vec<DVec2>),
+    Lines(WayEdges, Vec<DVec2>),
     /// Rings, with the area to their left.
-    Areas(Edges),
+    Areas(WayEdges),
     /// Several of these.
     Mixed,
 }
@@ -62,12 +62,13 @@ impl PreparedGeometry {
     }
 
     /// What it is made of; nothing if it is not sound.
-    pub(super) fn parts(&self) -> &Parts {
-        self.parts.get_or_init(|| if self.is_sound { Parts::new(&self.whole) } else { Parts::None })
+    pub(super) fn parts(&self) -> &TopologyParts {
+        self.parts
+            .get_or_init(|| if self.is_sound { TopologyParts::new(&self.whole) } else { TopologyParts::None })
     }
 }
 
-impl Parts {
+impl TopologyParts {
     fn new(geometry: &Geometry) -> Self {
         let plane = Plane::of(&[geometry]);
         let Operand { areas, lines, mut points } = Operand::new(plane, geometry);
@@ -90,13 +91,13 @@ impl Parts {
                 sort(&mut ends);
                 let odd = ends.chunk_by(|a, b| a == b).filter(|same| same.len() % 2 == 1);
                 let boundary = odd.map(|same| same[0]).collect();
-                Self::Lines(Edges::new(&ways), boundary)
+                Self::Lines(WayEdges::new(&ways), boundary)
             }
             [false, true, true] => {
                 let rings = areas.iter().flat_map(|it| std::iter::once(it.exterior()).chain(it.interiors()));
                 let place = |at: &geo::Coord| back(DVec2::new(at.x, at.y));
                 let rings: Vec<Vec<DVec2>> = rings.map(|ring| ring.0.iter().map(place).collect()).collect();
-                Self::Areas(Edges::new(&rings))
+                Self::Areas(WayEdges::new(&rings))
             }
             _ => Self::Mixed,
         }
@@ -116,15 +117,15 @@ pub(super) fn is_among(places: &[DVec2], place: DVec2) -> bool {
 
 /// An edge, from place to place; never without length.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Edge {
+pub(super) struct DirectedEdge {
     pub(super) from: DVec2,
     pub(super) to: DVec2,
 }
 
 /// The edges of ways, one way after the other.
 #[derive(Debug, Clone, Default)]
-pub(super) struct Edges {
-    pub(super) edges: Vec<Edge>,
+pub(super) struct WayEdges {
+    pub(super) edges: Vec<DirectedEdge>,
     /// By way: the number behind its last edge.
     ends: Vec<usize>,
     tree: OnceLock<RTree<NumberedEdge>>,
@@ -133,7 +134,7 @@ pub(super) struct Edges {
 /// An edge in a tree.
 #[derive(Debug, Clone, Copy)]
 struct NumberedEdge {
-    edge: Edge,
+    edge: DirectedEdge,
     number: usize,
 }
 
@@ -145,7 +146,7 @@ impl RTreeObject for NumberedEdge {
     }
 }
 
-impl Edge {
+impl DirectedEdge {
     pub(super) fn low(&self) -> DVec2 {
         self.from.min(self.to)
     }
@@ -155,12 +156,12 @@ impl Edge {
     }
 }
 
-impl Edges {
+impl WayEdges {
     fn new(ways: &[Vec<DVec2>]) -> Self {
         let mut made = Self::default();
         for way in ways {
             let edges = way.windows(2).filter(|pair| pair[0] != pair[1]);
-            made.edges.extend(edges.map(|pair| Edge { from: pair[0], to: pair[1] }));
+            made.edges.extend(edges.map(|pair| DirectedEdge { from: pair[0], to: pair[1] }));
             made.ends.push(made.edges.len());
         }
         made
@@ -173,7 +174,7 @@ impl Edges {
     }
 
     /// Calls `each` with the edges whose boxes meet a box, and their numbers.
-    pub(super) fn meeting(&self, low: DVec2, high: DVec2, mut each: impl FnMut(usize, &Edge)) {
+    pub(super) fn meeting(&self, low: DVec2, high: DVec2, mut each: impl FnMut(usize, &DirectedEdge)) {
         if self.edges.len() < MANY {
             for (number, edge) in self.edges.iter().enumerate() {
                 if edge.low().cmple(high).all() && low.cmple(edge.high()).all() {

@@ -6,22 +6,23 @@
 use super::divide::Division;
 use super::measure::{CellBox, extent};
 use super::options::LotPattern;
-use super::partition::{CellId, CellRings, Cut};
+use super::partition::{CellId, CellRings, CornerId, Cut};
 
 /// Where along a box a cut is tried, in turn.
 const SHARES: [f64; 5] = [0.5, 0.42, 0.58, 0.33, 0.67];
 
 impl Division<'_> {
-    /// Divides a cell and what comes of it, until all are small enough or cannot be cut.
+    /// Divides a cell and what comes of it, until all are small and short enough or cannot be cut.
     pub(super) fn by_boxes(&mut self, cell: CellId) {
         let mut due = vec![cell];
         while let Some(cell) = due.pop() {
             let rings = self.partition.rings(cell).to_vec();
-            if self.partition.area(&rings) <= self.options.area {
+            let is_great = self.partition.area(&rings) > self.options.area;
+            if !is_great && !self.is_long(&rings) {
                 continue;
             }
             let mut found = self.across_box(cell, &rings);
-            if found.is_none() && self.options.pattern != LotPattern::Skeleton {
+            if found.is_none() && is_great && self.options.pattern != LotPattern::Skeleton {
                 found = self.behind_front(cell, &rings);
             }
             if let Some(cut) = found {
@@ -31,11 +32,19 @@ impl Division<'_> {
         }
     }
 
+    /// Whether a cell is more times as long as wide than a lot may be.
+    pub(super) fn is_long(&self, rings: &[Vec<CornerId>]) -> bool {
+        let around = self.partition.box_around(rings);
+        around.is_some_and(|around| around.elongation() > self.options.elongation)
+    }
+
     /// The cut across the box of a cell, or else along it, of which all pieces are good.
     fn across_box(&mut self, cell: CellId, rings: &CellRings) -> Option<Cut> {
         let around = self.partition.box_around(rings)?;
         let jitter = (self.draw() - 0.5) * self.options.jitter * 0.5;
-        let least = (around.elongation() * 0.8).max(self.options.elongation);
+        // What is long or thin may be cut into what is less so.
+        let longest = (around.elongation() * 0.8).max(self.options.elongation);
+        let bounds = [longest, self.options.min_width.min(around.size.y * 0.99)];
         for (axis, length) in [(around.along, around.size.x), (around.along.perp(), around.size.y)] {
             let middle = around.middle.dot(axis);
             let shares = SHARES.iter().map(|share| middle + (share + jitter - 0.5) * length);
@@ -47,7 +56,7 @@ impl Division<'_> {
             for along in holes.chain(shares).collect::<Vec<_>>() {
                 let place = around.middle + axis * (along - middle);
                 let Some(cut) = self.partition.cut(cell, place, axis.perp()) else { continue };
-                if cut.pieces.iter().all(|piece| self.is_good(piece, &cut, least)) {
+                if cut.pieces.iter().all(|piece| self.is_good(piece, &cut, bounds)) {
                     return Some(cut);
                 }
             }
@@ -69,21 +78,20 @@ impl Division<'_> {
         }
         let at = front.points[0] + inwards * (start + depth - front.points[0].dot(inwards));
         let cut = self.partition.cut(cell, at, way)?;
-        let least = f64::INFINITY;
+        let bounds = [f64::INFINITY, self.options.min_width];
         let is_court = |piece: &CellRings| {
             self.partition.fronts(piece, Some(&cut)).is_empty()
                 && self.partition.area(piece) >= self.options.min_area
         };
-        let has_lot = cut.pieces.iter().any(|piece| self.is_good(piece, &cut, least));
-        let all = |piece: &CellRings| self.is_good(piece, &cut, least) || is_court(piece);
+        let has_lot = cut.pieces.iter().any(|piece| self.is_good(piece, &cut, bounds));
+        let all = |piece: &CellRings| self.is_good(piece, &cut, bounds) || is_court(piece);
         (has_lot && cut.pieces.iter().all(all)).then_some(cut)
     }
 
-    /// Whether a piece can be a lot that is not more than so many times as long as wide, or many lots.
-    fn is_good(&self, piece: &CellRings, cut: &Cut, elongation: f64) -> bool {
+    /// Whether a piece can be a lot that is not more than so many times as long as wide, and at least so wide (m), or many lots.
+    fn is_good(&self, piece: &CellRings, cut: &Cut, [longest, least]: [f64; 2]) -> bool {
         let area = self.partition.area(piece);
-        let fits =
-            |around: CellBox| around.elongation() <= elongation && around.size.y >= self.options.min_width;
+        let fits = |around: CellBox| around.elongation() <= longest && around.size.y >= least;
         area >= self.options.min_area
             && (piece.len() == 1 || area > self.options.area)
             && self.has_access(piece, Some(cut))

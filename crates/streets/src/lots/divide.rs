@@ -18,7 +18,7 @@ pub enum LotUse {
     Park,
     /// Behind the lots, without access from a street.
     Court,
-    /// Too small for a building, or without access.
+    /// Too small or too long for a building.
     Rest,
     /// An obstacle reaches into it.
     Blocked,
@@ -64,6 +64,8 @@ pub struct Lot {
     pub depth: f64,
     /// Whether it is on two streets, or where one turns.
     pub is_corner: bool,
+    /// How many times the smallest box around it is as long as wide.
+    pub elongation: f64,
 }
 
 /// A block on its way to lots.
@@ -170,7 +172,7 @@ impl Division<'_> {
             return LotUse::Court;
         }
         let has_access = fronts.iter().any(|front| front.length >= self.options.min_width);
-        if has_access && area >= self.options.min_area && !rings.is_empty() {
+        if has_access && area >= self.options.min_area && !rings.is_empty() && !self.is_long(rings) {
             LotUse::Building
         } else {
             LotUse::Rest
@@ -208,6 +210,7 @@ impl Division<'_> {
             width: along,
             depth: behind,
             is_corner,
+            elongation: self.partition.box_around(rings).map_or(1.0, |around| around.elongation()),
             fronts: fronts.into_iter().map(|front| front.points).collect(),
         }
     }

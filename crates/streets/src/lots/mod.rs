@@ -13,6 +13,7 @@ mod fine;
 mod measure;
 mod options;
 mod partition;
+mod row;
 mod strips;
 #[cfg(test)]
 mod tests;

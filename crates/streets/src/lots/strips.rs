@@ -42,9 +42,10 @@ impl Division<'_> {
                 self.slice(strip, side);
             }
         }
-        // What lies on a short side of its strip may reach far behind it.
+        // What lies on a short side of its strip may reach far behind it, and a shallow strip along its street.
         let cells = self.partition.cells();
-        let great = cells.filter(|(_, rings)| self.partition.area(rings) > self.options.area * 1.3);
+        let great = cells
+            .filter(|(_, rings)| self.partition.area(rings) > self.options.area * 1.3 || self.is_long(rings));
         for cell in great.map(|(cell, _)| cell).collect::<Vec<_>>() {
             if self.has_access(self.partition.rings(cell), None) {
                 self.by_boxes(cell);

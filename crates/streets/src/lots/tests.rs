@@ -118,6 +118,70 @@ fn lots_of_networks_at_random_have_fronts_on_their_streets() {
     assert!(long * 200 < count, "{long} of {count} lots are too long");
 }
 
+#[test]
+fn terraces_keep_apart_inside_of_their_lots() {
+    let (mut count, mut area_of_rows) = (0, 0.0);
+    for seed in 1..=60 {
+        let network = grown(seed, 40, Constraints::default(), Obstacles::default());
+        let mut random = TestNumbers(seed);
+        for block in network.lot_blocks(SurfaceOptions::default()) {
+            let pattern = LotPattern::ALL[seed as usize % 3].1;
+            let options = LotOptions { pattern, ..LotOptions::new(9.0, 18.0) };
+            let depth = 6.0 + random.below(20.0);
+            for lot in block.divide(&options, &mut || random.below(1.0)) {
+                let whole = Polygon::new(lot.rings.clone()).expect("a lot");
+                let inwards = -lot.facing;
+                for part in lot.row(depth, 0.02) {
+                    assert!(part.without(&[whole.clone()]).iter().all(|rest| rest.area() < 1e-9), "{lot:?}");
+                    for at in part.points() {
+                        assert!((at - lot.access).dot(inwards) < depth + 1e-9, "{lot:?}");
+                        let near = whole.edges().map(|edge| crate::grid::foot(at, edge).0);
+                        assert!(near.fold(f64::INFINITY, f64::min) > 0.02 - 1e-6, "{lot:?}");
+                    }
+                    count += 1;
+                    area_of_rows += part.area();
+                }
+                // What is left by general means is as great, but for corners that are blunt there.
+                let [low, high] = whole.bounds().expect("corners");
+                let (size, last) = ((high - low).length(), lot.access.dot(inwards) + depth);
+                let from = inwards * last + inwards.perp() * inwards.perp().dot((low + high) / 2.0);
+                let beyond = [(0.0, size), (0.0, -size), (size, -size), (size, size)]
+                    .map(|(along, aside)| from + inwards * along + inwards.perp() * aside);
+                let beyond = Polygon::turned(Rings(vec![beyond.to_vec()])).expect("a square");
+                let general: f64 = whole
+                    .inset(0.02)
+                    .iter()
+                    .flat_map(|part| part.without(std::slice::from_ref(&beyond)))
+                    .map(|part| part.area())
+                    .sum();
+                let quick: f64 = lot.row(depth, 0.02).iter().map(|part| part.area()).sum();
+                let none = if lot.fronts.is_empty() { 0.0 } else { general };
+                assert!((quick - none).abs() < 0.02, "{quick} m² for {none} m²: {lot:?}");
+            }
+        }
+    }
+    assert!(count > 5000 && area_of_rows > 100_000.0, "{count} parts, {area_of_rows} m²");
+}
+
+#[test]
+fn thin_blocks_are_cut_into_lots_that_are_short_enough() {
+    let empty = StreetNetwork::new(Constraints::default(), Obstacles::default()).expect("a network");
+    let mut random = TestNumbers(11);
+    for (_, pattern) in LotPattern::ALL {
+        for number in 0..60 {
+            let (long, deep) = (60.0 + random.below(60.0), 7.0 + random.below(5.0));
+            let corners = [(0.0, 0.0), (long, 0.0), (long, deep), (0.0, deep)].map(DVec2::from);
+            let block = empty.block(None, &Rings(vec![corners.to_vec()]), 6.0).expect("an area");
+            let options = LotOptions { pattern, ..LotOptions::new(16.0, 28.0) };
+            let lots = block.divide(&options, &mut || random.below(1.0));
+            check(&block, &lots, &options);
+            for lot in lots.iter().filter(|lot| lot.purpose == LotUse::Building) {
+                assert!(lot.elongation <= options.elongation, "{number} by {pattern:?}: {}", lot.elongation);
+            }
+        }
+    }
+}
+
 /// Numbers that follow from the id of a block.
 fn stream_of(id: &str) -> TestNumbers {
     TestNumbers(id.bytes().fold(7_u64, |sum, byte| sum.wrapping_mul(31) + u64::from(byte)) | 1)
