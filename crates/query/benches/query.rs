@@ -148,7 +148,6 @@ fn beside(file: &str, sql: &str, rows: usize) -> String {
     #[cfg(feature = "postgis")]
     if let Ok(address) = std::env::var("BURGEON_POSTGIS") {
         let (least, found) = server(&address, file, sql);
-        // Areas that overlap by less than a millionth of a square metre are told otherwise there.
         let other = if found == rows { String::new() } else { format!(" ({found} rows)") };
         return format!("{least:.1}{other}");
     }

@@ -78,7 +78,7 @@ fn shape(
     }
     let parameters = 1..=statement.parameter_count();
     StatementShape {
-        names: statement.column_names().into_iter().map(str::to_owned).collect(),
+        names: statement.column_names().map(str::to_owned).collect(),
         booleans,
         parameters: parameters.map(|index| statement.parameter_name(index).map(str::to_owned)).collect(),
     }
