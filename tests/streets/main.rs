@@ -138,6 +138,17 @@ fn grammars_that_cannot_be_are_refused_in_the_line_that_gives_them() {
         ("roads.system({ patern = 3 })", "roads.system has no option patern; it has centres"),
         ("roads.organic({ block = 2 })", "roads.organic: block must be a number from 20 to 500, not 2"),
         ("roads.districts({})", "roads.districts takes one district or more"),
+        ("roads.districts({ { at = { 0, 0 } } })", "the pattern of district 1 must be a pattern"),
+        ("roads.districts({ { pattern = roads.organic() } })", "at of district 1 must be a place (m)"),
+        ("roads.contours()", "roads.contours: height must be a function of a place"),
+        ("roads.radial({ middle = { 'a' } })", "roads.radial: middle must be a place (m)"),
+        ("roads.grow({ extent = 0 })", "roads.system: extent must be a number from 1 to 500000, not 0"),
+        ("roads.grow({ extent = 0 / 0 })", "extent must be a number from 1 to 500000, not nan"),
+        ("roads.grow({ pattern = {} })", "roads.system: pattern has no function called toward"),
+        ("roads.grow({ headings = {} })", "centres and headings say where streets begin"),
+        ("roads.grow({ headings = { 0 / 0 } })", "roads.system: heading 1 must be a number"),
+        ("roads.grow({ onto = true })", "onto = true takes streets that are there"),
+        ("roads.grow({ join = 0 / 0 })", "roads.system: join must be a number from 0 to 2000, not nan"),
     ];
     for (line, expected) in cases {
         let text = refused(line);

@@ -35,6 +35,8 @@ pub struct ExistingStreet {
 /// What became of pieces of existing streets that are not in the network, by how many they are.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct ExistingLosses {
+    /// Those of a single place, or none.
+    pub short: usize,
     /// Those with places that are not finite, or too far away.
     pub outside: usize,
     /// Those of bridges from where they would cross other streets: a network is planar.
@@ -55,6 +57,7 @@ impl StreetNetwork {
             let places = street.line.iter().copied().filter(|at| GridPlace::nearest(*at).is_some());
             let line: Vec<DVec2> = places.collect();
             losses.outside += street.line.len() - line.len();
+            losses.short += usize::from(street.line.len() < 2);
             if line.len() > 1 {
                 known.push(ExistingStreet { line, ..street.clone() });
             }

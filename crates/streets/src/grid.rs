@@ -32,28 +32,44 @@ impl GridPlace {
     }
 }
 
-/// On which side of the way from `a` to `b` a place lies: positive on the left, 0 on their line.
-pub(crate) fn side(a: GridPlace, b: GridPlace, place: GridPlace) -> i64 {
-    ((b.x - a.x) * (place.y - a.y) - (b.y - a.y) * (place.x - a.x)).signum()
+/// A place in whole steps, whose side of a way is decided exactly.
+pub(crate) trait ExactPlace: Copy {
+    /// Its steps to the east and to the north.
+    fn steps(self) -> [i64; 2];
+
+    /// On which side of the way from `a` to `b` it lies: 1 on the left, 0 on their line, -1 on the right.
+    fn side_of(self, a: Self, b: Self) -> i32;
+
+    /// Whether it is between two others whose line it is on, or is one of them.
+    fn is_between(self, a: Self, b: Self) -> bool {
+        let ([ax, ay], [bx, by], [x, y]) = (a.steps(), b.steps(), self.steps());
+        let within = |a: i64, b: i64, at: i64| a.min(b) <= at && at <= a.max(b);
+        within(ax, bx, x) && within(ay, by, y)
+    }
 }
 
-/// Whether a place on the line of `a` and `b` is between them, or is one of them.
-fn is_between(a: GridPlace, b: GridPlace, place: GridPlace) -> bool {
-    let within = |a: i64, b: i64, at: i64| a.min(b) <= at && at <= a.max(b);
-    within(a.x, b.x, place.x) && within(a.y, b.y, place.y)
+impl ExactPlace for GridPlace {
+    fn steps(self) -> [i64; 2] {
+        [self.x, self.y]
+    }
+
+    fn side_of(self, a: Self, b: Self) -> i32 {
+        let turn = (b.x - a.x) * (self.y - a.y) - (b.y - a.y) * (self.x - a.x);
+        i32::from(turn > 0) - i32::from(turn < 0)
+    }
 }
 
 /// Whether two pieces have a place in common, their ends included.
-pub(crate) fn meet([a, b]: [GridPlace; 2], [c, d]: [GridPlace; 2]) -> bool {
-    let [of_c, of_d] = [c, d].map(|end| side(a, b, end));
-    let [of_a, of_b] = [a, b].map(|end| side(c, d, end));
+pub(crate) fn touch<P: ExactPlace>([a, b]: [P; 2], [c, d]: [P; 2]) -> bool {
+    let [of_c, of_d] = [c, d].map(|end| end.side_of(a, b));
+    let [of_a, of_b] = [a, b].map(|end| end.side_of(c, d));
     if of_c * of_d < 0 && of_a * of_b < 0 {
         return true;
     }
-    (of_c == 0 && is_between(a, b, c))
-        || (of_d == 0 && is_between(a, b, d))
-        || (of_a == 0 && is_between(c, d, a))
-        || (of_b == 0 && is_between(c, d, b))
+    (of_c == 0 && c.is_between(a, b))
+        || (of_d == 0 && d.is_between(a, b))
+        || (of_a == 0 && a.is_between(c, d))
+        || (of_b == 0 && b.is_between(c, d))
 }
 
 /// How far along the way from `a` to `b`, from 0 to 1, it meets the line of `c` and `d`; `None` if they are parallel.
@@ -83,12 +99,12 @@ mod tests {
     #[test]
     fn pieces_meet_where_they_touch_and_cross() {
         let across = [place(0, 0), place(10, 10)];
-        assert!(meet(across, [place(0, 10), place(10, 0)]));
-        assert!(meet(across, [place(10, 10), place(20, 0)]), "end to end");
-        assert!(meet(across, [place(5, 5), place(20, 0)]), "an end on the other");
-        assert!(meet(across, [place(5, 5), place(20, 20)]), "on one line");
-        assert!(!meet(across, [place(11, 11), place(20, 20)]), "on one line, apart");
-        assert!(!meet(across, [place(0, 1), place(9, 10)]), "parallel");
+        assert!(touch(across, [place(0, 10), place(10, 0)]));
+        assert!(touch(across, [place(10, 10), place(20, 0)]), "end to end");
+        assert!(touch(across, [place(5, 5), place(20, 0)]), "an end on the other");
+        assert!(touch(across, [place(5, 5), place(20, 20)]), "on one line");
+        assert!(!touch(across, [place(11, 11), place(20, 20)]), "on one line, apart");
+        assert!(!touch(across, [place(0, 1), place(9, 10)]), "parallel");
     }
 
     #[test]
@@ -111,7 +127,7 @@ mod tests {
                 let [ax, ay, bx, by, cx, cy] = [a.0, a.1, b.0, b.1, c.0, c.1].map(i128::from);
                 ((bx - ax) * (cy - ay) - (by - ay) * (cx - ax)).signum()
             };
-            let found = side(place(a.0, a.1), place(b.0, b.1), place(c.0, c.1));
+            let found = place(c.0, c.1).side_of(place(a.0, a.1), place(b.0, b.1));
             prop_assert_eq!(i128::from(found), wide(a, b, c));
         }
     }

@@ -56,11 +56,16 @@ impl StreetNetwork {
             return Err(Error::argument(format!("{place} is no place for a street"))
                 .help("places are finite, and within 500 km of the origin"));
         };
-        if self.obstacles.at(place).is_some() {
-            return Err(Error::argument(format!(
-                "a street cannot begin at {place}, for an obstacle is there"
-            ))
-            .help("begin elsewhere, or leave the obstacle out"));
+        match self.obstacles.at(place) {
+            Some(area) if area.is_limit => {
+                let text = format!("a street cannot begin at {place}, for that is outside of the limit");
+                return Err(Error::argument(text).help("begin inside of it, or give a wider limit"));
+            }
+            Some(_) => {
+                let text = format!("a street cannot begin at {place}, for an obstacle is there");
+                return Err(Error::argument(text).help("begin elsewhere, or leave the obstacle out"));
+            }
+            None => {}
         }
         if let Some(found) = self.junction_at(on_grid) {
             return Ok(found);

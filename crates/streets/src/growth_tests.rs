@@ -166,7 +166,7 @@ proptest! {
             for &b in &pieces[..index] {
                 let shares = network.ends(a).iter().filter(|end| network.ends(b).contains(end)).count();
                 prop_assert!(shares < 2, "twice the same");
-                let meets = crate::grid::meet(network.grid_line(a), network.grid_line(b));
+                let meets = crate::grid::touch(network.grid_line(a), network.grid_line(b));
                 prop_assert!(shares == 1 || !meets, "{:?} {:?}", network.line(a), network.line(b));
             }
         }

@@ -4,7 +4,7 @@ use smallvec::SmallVec;
 
 use crate::constraints::Refusal;
 use crate::corner::{Arm, turn};
-use crate::grid::{GridPlace, foot, meet};
+use crate::grid::{GridPlace, foot, touch};
 use crate::grow::StreetEnd;
 use crate::network::{JunctionId, PieceId, StreetAttributes, StreetNetwork};
 
@@ -94,7 +94,7 @@ impl StreetNetwork {
             if divided == Some(piece) {
                 continue;
             }
-            if meet(places, self.grid_line(piece)) {
+            if touch(places, self.grid_line(piece)) {
                 return Err(Refusal::TooNear);
             }
             let apart =
@@ -178,7 +178,7 @@ impl StreetNetwork {
             let half = [place, self.junctions[end as usize].place];
             let crosses = || {
                 self.pieces_near(half.map(GridPlace::metres), 0.01).any(|other| {
-                    other != piece && !self.ends(other).contains(&end) && meet(half, self.grid_line(other))
+                    other != piece && !self.ends(other).contains(&end) && touch(half, self.grid_line(other))
                 })
             };
             at.distance(to) >= self.constraints.min_length.max(self.reach_at(end, piece))

@@ -3,7 +3,7 @@
 use glam::DVec2;
 
 use super::*;
-use crate::grid::meet;
+use crate::grid::touch;
 
 /// A generator of numbers: xorshift.
 pub(crate) struct TestNumbers(pub(crate) u64);
@@ -70,7 +70,7 @@ pub(crate) fn check(network: &StreetNetwork) {
             let shared: Vec<u32> =
                 network.ends(a).into_iter().filter(|end| network.ends(b).contains(end)).collect();
             match shared[..] {
-                [] => assert!(!meet(network.grid_line(a), network.grid_line(b)), "{a} and {b} cross"),
+                [] => assert!(!touch(network.grid_line(a), network.grid_line(b)), "{a} and {b} cross"),
                 [junction] => {
                     let angle = network.leaves(a, junction).angle_to(network.leaves(b, junction)).abs();
                     assert!(angle.to_degrees() >= least, "{} degrees", angle.to_degrees());

@@ -2,8 +2,8 @@
 -- What the libraries of roads refuse, and how headings are compared.
 local checks = {}
 
--- Refuses what a table may not have.
-function checks.options(name: string, given: { [string]: any }, known: { [string]: string })
+-- Refuses what a table may not have, in the line of whoever called the caller, or as many levels up as are given.
+function checks.options(name: string, given: { [string]: any }, known: { [string]: string }, ...: number)
   for key, value in given do
     local kinds = known[key]
     if not kinds then
@@ -12,9 +12,9 @@ function checks.options(name: string, given: { [string]: any }, known: { [string
         table.insert(names, each)
       end
       table.sort(names)
-      error(`{name} has no option {key}; it has {table.concat(names, ", ")}`, 3)
+      error(`{name} has no option {key}; it has {table.concat(names, ", ")}`, (...) or 3)
     elseif not string.find(kinds, type(value), 1, true) then
-      error(`{name}: {key} is a {type(value)}, and must be a {kinds}`, 3)
+      error(`{name}: {key} is a {type(value)}, and must be a {kinds}`, (...) or 3)
     end
   end
 end
@@ -50,6 +50,29 @@ function checks.nearest(heading: number, headings: { number }): number
     end
   end
   return best
+end
+
+-- Two finite numbers; refuses all else, as `number` does.
+function checks.place(name: string, value: any, ...: number): { number }
+  local x, y
+  if type(value) == "table" then
+    x, y = value[1], value[2]
+  end
+  if type(x) ~= "number" or type(y) ~= "number" or x - x ~= 0 or y - y ~= 0 then
+    error(`{name} must be a place (m), such as \{ 0, 0 }`, (...) or 3)
+  end
+  return value
+end
+
+-- What gives a number at a place; refuses all else, as `number` does.
+function checks.field(name: string, value: any, ...: number): (x: number, y: number) -> number
+  if type(value) ~= "function" then
+    error(
+      `{name} must be a function of a place, function(x, y) return 0.5 end, not a {type(value)}`,
+      (...) or 3
+    )
+  end
+  return value
 end
 
 return checks

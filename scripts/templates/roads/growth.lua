@@ -100,33 +100,59 @@ end
 -- within, the `population` of a place from 0 to 1, `centres` that highways join, `headings` of the first streets,
 -- `onto` true to grow from the open ends of streets that are there, the `deepest` side streets, `join` (m) and `detour`
 -- for dead ends, and `dead_ends`, which are what is left of them to "keep" or to "remove".
-function growth.system(options: RoadOptions)
-  checks.options("roads.system", options :: any, KNOWN)
+function growth.system(options: RoadOptions, ...: number)
+  -- How many functions are called between this and the script, for errors.
+  local level = 3 + ((...) or 0)
+  checks.options("roads.system", options :: any, KNOWN, level)
   local given: any = options.pattern or patterns.organic()
   local pattern_at: (x: number, y: number) -> patterns.Pattern = if type(given) == "function"
-    then given
+    then function(x, y)
+      return patterns.check(`the pattern at {x}, {y}`, given(x, y), 3)
+    end
     else function()
       return given
     end
-  local extent: any = options.extent or 500
+  if type(given) ~= "function" then
+    patterns.check("roads.system: pattern", given, level)
+  end
+  local extent: any = options.extent
+  if type(extent) ~= "function" then
+    extent = number("roads.system: extent", extent, 500, 1, 500000, level)
+  end
   local inside: (x: number, y: number) -> boolean = if type(extent) == "function"
     then extent
     else function(x, y)
       return x * x + y * y < extent * extent
     end
   local people = options.population
-  local deepest = number("roads.system: deepest", options.deepest, 4, 0, 20)
-  local steps = number("roads.system: steps", options.steps, 24, 1, 10000)
-  local detour = number("roads.system: detour", options.detour, 2.5, 1, 100)
+  local deepest = number("roads.system: deepest", options.deepest, 4, 0, 20, level)
+  local steps = number("roads.system: steps", options.steps, 24, 1, 10000, level)
+  local detour = number("roads.system: detour", options.detour, 2.5, 1, 100, level)
   local dead_ends = options.dead_ends or "keep"
   if dead_ends ~= "keep" and dead_ends ~= "remove" then
-    error(`roads.system: dead_ends is "keep" or "remove", not "{dead_ends}"`, 2)
+    error(`roads.system: dead_ends is "keep" or "remove", not "{dead_ends}"`, level - 1)
   end
   -- What is removed should rather have been joined, or not have stopped.
   local keeps = dead_ends == "keep"
-  local join = number("roads.system: join", options.join, if keeps then 40 else 130, 0, 2000)
+  local join = number("roads.system: join", options.join, if keeps then 40 else 130, 0, 2000, level)
   local centres = options.centres or { { 0, 0 } }
   local headings = options.headings or { 8, 98, 188, 278 }
+  if options.onto then
+    if not (options.network and options.network.existing) then
+      error("roads.system: onto = true takes streets that are there: network = { existing = ... }", level - 1)
+    end
+  elseif #centres == 0 or #headings == 0 then
+    error(
+      "roads.system: centres and headings say where streets begin; leave them out, or give one or more",
+      level - 1
+    )
+  end
+  for index, heading in headings do
+    number(`roads.system: heading {index}`, heading, 0, -360000, 360000, level)
+  end
+  for index, centre in centres do
+    checks.place(`roads.system: centre {index}`, centre, level)
+  end
 
   local fields: any = { streets = growth.STREETS, min_angle = 50, snap = 14 }
   for name, value in (options.network or {}) :: any do
@@ -153,6 +179,11 @@ function growth.system(options: RoadOptions)
   ): any
     local length = pattern.length(x, y, heading, depth)
     local aim = pattern.toward(x, y, heading, length, depth)
+    if not (length > 0 and length < 100000 and aim - aim == 0) then
+      error(
+        `a pattern gives a street of {length} m towards {aim} degrees at {x}, {y}; its length has to be above 0, and its heading finite`
+      )
+    end
     local east, north = math.cos(math.rad(aim)) * length, math.sin(math.rad(aim)) * length
     if not inside(x + east, y + north) and (depth > 0 or random() > LEADS_OUT) then
       return nil
@@ -181,7 +212,9 @@ function growth.system(options: RoadOptions)
       return {}
     end
     local pattern = pattern_at(x, y)
-    local much = if people then math.clamp(people(x, y), 0, 1) else 1
+    local much = if people
+      then math.clamp(number("population of a place", people(x, y), 0, -math.huge, math.huge), 0, 1)
+      else 1
     if depth > 0 and much <= 0.02 or keeps and depth > 1 and random() < pattern.stop then
       return {}
     end
@@ -362,7 +395,7 @@ end
 
 -- Grows a network by a pattern: `roads.system`, derived.
 function growth.grow(options: RoadOptions)
-  return growth.system(options):derive(options.steps or 24)
+  return growth.system(options, 1):derive(options.steps or 24)
 end
 
 return growth

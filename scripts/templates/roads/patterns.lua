@@ -30,6 +30,19 @@ export type Pattern = {
   straight: boolean?,
 }
 
+-- What no pattern does without.
+local KINDS = {
+  toward = "function",
+  length = "function",
+  side = "number",
+  both = "number",
+  cross = "number",
+  skew = "number",
+  stop = "number",
+  gap = "number",
+  every = "number",
+}
+
 local PATTERN = {
   block = "number",
   width = "number",
@@ -215,7 +228,7 @@ function patterns.radial(options: { [string]: any }?): Pattern
   local of = options or {}
   checks.options("roads.radial", of, PATTERN)
   local block = number("roads.radial: block", of.block, 90, 20, 500)
-  local middle = of.middle or { 0, 0 }
+  local middle = checks.place("roads.radial: middle", of.middle or { 0, 0 })
   local usual = { branching = 0.95, both = 0.9, cross = 0.5, stop = 0, gap = 0.22, every = 3 }
   return pattern("roads.radial", of, usual, {
     straight = true,
@@ -253,6 +266,7 @@ end
 function patterns.contours(height: (x: number, y: number) -> number, options: { [string]: any }?): Pattern
   local of = options or {}
   checks.options("roads.contours", of, PATTERN)
+  checks.field("roads.contours: height", height)
   local block = number("roads.contours: block", of.block, 80, 20, 500)
   local steepest = number("roads.contours: steepest", of.steepest, 9, 1, 45)
   local most = math.tan(math.rad(steepest))
@@ -288,6 +302,7 @@ end
 function patterns.populous(people: (x: number, y: number) -> number, options: { [string]: any }?): Pattern
   local of = options or {}
   checks.options("roads.populous", of, PATTERN)
+  checks.field("roads.populous: people", people)
   local block = number("roads.populous: block", of.block, 80, 20, 500)
   local bends = number("roads.populous: bends", of.bends, 20, 0, 60)
   local usual = { branching = 0.75, both = 0.25, cross = 0.25, skew = 6, stop = 0.1, gap = 0, every = 5 }
@@ -315,12 +330,29 @@ function patterns.populous(people: (x: number, y: number) -> number, options: { 
   })
 end
 
+-- Refuses what is no pattern, so many levels up.
+function patterns.check(name: string, value: any, level: number): Pattern
+  if type(value) ~= "table" then
+    error(`{name} must be a pattern, such as roads.organic(), not {type(value)}`, level)
+  end
+  for key, kind in KINDS do
+    if type(value[key]) ~= kind then
+      error(`{name} has no {kind} called {key}; a pattern has what roads.organic() has`, level)
+    end
+  end
+  return value
+end
+
 -- The pattern of each place, by the nearest of some districts: { at = { x, y }, pattern = ... }.
 function patterns.districts(
   districts: { { at: { number }, pattern: Pattern } }
 ): (x: number, y: number) -> Pattern
   if #districts == 0 then
     error("roads.districts takes one district or more: { at = { x, y }, pattern = ... }", 2)
+  end
+  for index, district in districts do
+    checks.place(`roads.districts: at of district {index}`, district.at)
+    patterns.check(`roads.districts: the pattern of district {index}`, district.pattern, 3)
   end
   return function(x, y)
     local best, least = districts[1], math.huge

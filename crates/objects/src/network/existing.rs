@@ -58,9 +58,10 @@ pub(super) fn add(
             is_bridge: *bridge,
         }));
     }
-    let ExistingLosses { outside, over, refused: by_reason } = network.add_existing(&streets)?;
+    let ExistingLosses { short, outside, over, refused: by_reason } = network.add_existing(&streets)?;
     let mut losses = vec![
         (refused, "without a line".to_owned()),
+        (short, "of less than two places".to_owned()),
         (outside, "with places that are none within 500 km".to_owned()),
         (over, "of bridges that cross other streets".to_owned()),
     ];

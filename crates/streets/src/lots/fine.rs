@@ -2,7 +2,7 @@
 
 use glam::DVec2;
 
-use crate::grid::FARTHEST;
+use crate::grid::{ExactPlace, FARTHEST, touch};
 
 /// How many steps of the grid are a metre: 2^20.
 const PER_METRE: f64 = 1_048_576.0;
@@ -32,24 +32,28 @@ impl FinePlace {
     }
 }
 
-/// On which side of the way from `a` to `b` a place lies: 1 on the left, 0 on their line, -1 on the right.
-#[allow(clippy::cast_precision_loss, reason = "differences are within 2^41 steps")]
-pub(crate) fn side(a: FinePlace, b: FinePlace, place: FinePlace) -> i32 {
-    let [ux, uy, vx, vy] = [b.x - a.x, b.y - a.y, place.x - a.x, place.y - a.y];
-    let (left, right) = (ux as f64 * vy as f64, uy as f64 * vx as f64);
-    let turn = left - right;
-    // Each product is rounded once, and so is the difference.
-    if turn.abs() > 4.0 * f64::EPSILON * (left.abs() + right.abs()) {
-        return if turn > 0.0 { 1 } else { -1 };
+impl ExactPlace for FinePlace {
+    fn steps(self) -> [i64; 2] {
+        [self.x, self.y]
     }
-    let exact = i128::from(ux) * i128::from(vy) - i128::from(uy) * i128::from(vx);
-    i32::from(exact > 0) - i32::from(exact < 0)
+
+    #[allow(clippy::cast_precision_loss, reason = "differences are within 2^41 steps")]
+    fn side_of(self, a: Self, b: Self) -> i32 {
+        let [ux, uy, vx, vy] = [b.x - a.x, b.y - a.y, self.x - a.x, self.y - a.y];
+        let (left, right) = (ux as f64 * vy as f64, uy as f64 * vx as f64);
+        let turn = left - right;
+        // Each product is rounded once, and so is the difference.
+        if turn.abs() > 4.0 * f64::EPSILON * (left.abs() + right.abs()) {
+            return if turn > 0.0 { 1 } else { -1 };
+        }
+        let exact = i128::from(ux) * i128::from(vy) - i128::from(uy) * i128::from(vx);
+        i32::from(exact > 0) - i32::from(exact < 0)
+    }
 }
 
-/// Whether a place on the line of `a` and `b` is between them, or is one of them.
-fn is_between(a: FinePlace, b: FinePlace, place: FinePlace) -> bool {
-    let within = |a: i64, b: i64, at: i64| a.min(b) <= at && at <= a.max(b);
-    within(a.x, b.x, place.x) && within(a.y, b.y, place.y)
+/// On which side of the way from `a` to `b` a place lies: 1 on the left, 0 on their line, -1 on the right.
+pub(crate) fn side(a: FinePlace, b: FinePlace, place: FinePlace) -> i32 {
+    place.side_of(a, b)
 }
 
 /// Whether two edges have a place in common that is not an end of both.
@@ -60,17 +64,9 @@ pub(crate) fn meet([a, b]: [FinePlace; 2], [c, d]: [FinePlace; 2]) -> bool {
     }
     let shared = [(a, b, c, d), (a, b, d, c), (b, a, c, d), (b, a, d, c)];
     if let Some((end, p, _, q)) = shared.into_iter().find(|(end, _, other, _)| end == other) {
-        return side(end, p, q) == 0 && (is_between(end, p, q) || is_between(end, q, p));
+        return side(end, p, q) == 0 && (p.is_between(end, q) || q.is_between(end, p));
     }
-    let [of_c, of_d] = [c, d].map(|end| side(a, b, end));
-    let [of_a, of_b] = [a, b].map(|end| side(c, d, end));
-    if of_c * of_d < 0 && of_a * of_b < 0 {
-        return true;
-    }
-    (of_c == 0 && is_between(a, b, c))
-        || (of_d == 0 && is_between(a, b, d))
-        || (of_a == 0 && is_between(c, d, a))
-        || (of_b == 0 && is_between(c, d, b))
+    touch([a, b], [c, d])
 }
 
 /// Whether a place is inside a ring, whichever way that runs; on its border the answer may be either.
