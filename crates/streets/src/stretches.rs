@@ -63,7 +63,7 @@ impl StreetNetwork {
                             break;
                         }
                         let onward = self.junctions[at as usize].pieces.iter().copied();
-                        let Some(piece) = onward.filter(|piece| *piece != course.piece).last() else { break };
+                        let Some(piece) = onward.rev().find(|piece| *piece != course.piece) else { break };
                         course = Course { piece, from: at };
                     }
                     if !way.is_empty() {
