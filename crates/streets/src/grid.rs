@@ -33,7 +33,7 @@ impl GridPlace {
 }
 
 /// A place in whole steps, whose side of a way is decided exactly.
-pub(crate) trait ExactPlace: Copy {
+pub(crate) trait WholePlace: Copy {
     /// Its steps to the east and to the north.
     fn steps(self) -> [i64; 2];
 
@@ -48,7 +48,7 @@ pub(crate) trait ExactPlace: Copy {
     }
 }
 
-impl ExactPlace for GridPlace {
+impl WholePlace for GridPlace {
     fn steps(self) -> [i64; 2] {
         [self.x, self.y]
     }
@@ -60,7 +60,7 @@ impl ExactPlace for GridPlace {
 }
 
 /// Whether two pieces have a place in common, their ends included.
-pub(crate) fn touch<P: ExactPlace>([a, b]: [P; 2], [c, d]: [P; 2]) -> bool {
+pub(crate) fn touch<P: WholePlace>([a, b]: [P; 2], [c, d]: [P; 2]) -> bool {
     let [of_c, of_d] = [c, d].map(|end| end.side_of(a, b));
     let [of_a, of_b] = [a, b].map(|end| end.side_of(c, d));
     if of_c * of_d < 0 && of_a * of_b < 0 {

@@ -2,7 +2,7 @@
 
 use glam::DVec2;
 
-use crate::grid::{ExactPlace, FARTHEST, touch};
+use crate::grid::{FARTHEST, WholePlace, touch};
 
 /// How many steps of the grid are a metre: 2^20.
 const PER_METRE: f64 = 1_048_576.0;
@@ -32,7 +32,7 @@ impl FinePlace {
     }
 }
 
-impl ExactPlace for FinePlace {
+impl WholePlace for FinePlace {
     fn steps(self) -> [i64; 2] {
         [self.x, self.y]
     }

@@ -132,7 +132,10 @@ fn terraces_keep_apart_inside_of_their_lots() {
                 let whole = Polygon::new(lot.rings.clone()).expect("a lot");
                 let inwards = -lot.facing;
                 for part in lot.row(depth, 0.02) {
-                    assert!(part.without(&[whole.clone()]).iter().all(|rest| rest.area() < 1e-9), "{lot:?}");
+                    assert!(
+                        part.without(std::slice::from_ref(&whole)).iter().all(|rest| rest.area() < 1e-9),
+                        "{lot:?}"
+                    );
                     for at in part.points() {
                         assert!((at - lot.access).dot(inwards) < depth + 1e-9, "{lot:?}");
                         let near = whole.edges().map(|edge| crate::grid::foot(at, edge).0);
