@@ -84,7 +84,7 @@ do
   if lot.use == "building" then
     local draw = skyline.stream(lot.id, 11)
     local before = #houses
-    for number, part in lot.terrace do
+    for number, part in lot.terrace or {} do
       if part:area() > 26 then
         table.insert(houses, {
           id = `{lot.id}.{number}`,

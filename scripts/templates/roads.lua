@@ -8,9 +8,6 @@ local growth = require("roads/growth")
 local patterns = require("roads/patterns")
 local words = require("roads/words")
 
-export type Pattern = patterns.Pattern
-export type RoadOptions = growth.RoadOptions
-
 return {
   organic = patterns.organic,
   raster = patterns.raster,

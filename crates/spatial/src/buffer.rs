@@ -7,7 +7,7 @@ use glam::DVec2;
 
 use super::Geometry;
 use super::edges::with_heights;
-use super::overlay::dissolved;
+use super::overlay::{dissolved, with_width};
 use super::plane::Plane;
 
 /// What a buffer's border does at corners.
@@ -84,7 +84,8 @@ impl Geometry {
             return Ok(with_heights(strip, &[self]));
         }
         let plane = Plane::of(&[self]);
-        let areas = dissolved(plane.polygons(self));
+        let (areas, thin_rings) = with_width(plane.polygons(self));
+        let areas = dissolved(areas);
         if distance == 0.0 {
             return Ok(with_heights(plane.areas(&areas), &[self]));
         }
@@ -107,6 +108,7 @@ impl Geometry {
             parts.push(areas.buffer_with_style(style()));
         }
         if distance > 0.0 && self.is_sound() {
+            parts.extend(thin_rings.iter().map(|ring| ring.buffer_with_style(style())));
             let thin = self.parts().into_iter().filter(|part| part.dimension() < 2);
             parts.extend(thin.map(|part| match part {
                 // A line without length is its place.

@@ -5,10 +5,13 @@ local patterns = require("patterns")
 
 local growth = {}
 
+-- What the patterns of roads/patterns are.
+type Pattern = any
+
 local between, number = checks.between, checks.number
 
 export type RoadOptions = {
-  pattern: (patterns.Pattern | (x: number, y: number) -> patterns.Pattern)?,
+  pattern: (Pattern | (x: number, y: number) -> Pattern)?,
   network: NetworkOptions?,
   extent: (number | (x: number, y: number) -> boolean)?,
   population: ((x: number, y: number) -> number)?,
@@ -105,14 +108,15 @@ function growth.system(options: RoadOptions, ...: number)
   local level = 3 + ((...) or 0)
   checks.options("roads.system", options :: any, KNOWN, level)
   local given: any = options.pattern or patterns.organic()
-  local pattern_at: (x: number, y: number) -> patterns.Pattern = if type(given) == "function"
+  local is_by_place = type(given) == "function"
+  local pattern_at: (x: number, y: number) -> Pattern = if is_by_place
     then function(x, y)
       return patterns.check(`the pattern at {x}, {y}`, given(x, y), 3)
     end
     else function()
       return given
     end
-  if type(given) ~= "function" then
+  if not is_by_place then
     patterns.check("roads.system: pattern", given, level)
   end
   local extent: any = options.extent
@@ -168,7 +172,7 @@ function growth.system(options: RoadOptions, ...: number)
   local field = math.floor(random() * 1000000)
   -- The tip of a street that leaves a junction; nil where the pattern leaves it out.
   local function start(
-    pattern: patterns.Pattern,
+    pattern: Pattern,
     at: number,
     x: number,
     y: number,
@@ -177,6 +181,8 @@ function growth.system(options: RoadOptions, ...: number)
     run: number,
     tries: number?
   ): any
+    local closed: ((x: number, y: number, heading: number, length: number, depth: number) -> boolean)? =
+      pattern.closed
     local length = pattern.length(x, y, heading, depth)
     local aim = pattern.toward(x, y, heading, length, depth)
     if not (length > 0 and length < 100000 and aim - aim == 0) then
@@ -195,7 +201,7 @@ function growth.system(options: RoadOptions, ...: number)
         not is_border
         and (
           drawn(middle_x, middle_y, field) < pattern.gap
-          or pattern.closed and pattern.closed(middle_x, middle_y, aim, length, depth)
+          or closed and closed(middle_x, middle_y, aim, length, depth)
         )
       then
         return nil

@@ -31,7 +31,7 @@ export type Pattern = {
 }
 
 -- What no pattern does without.
-local KINDS = {
+local KINDS: { [string]: string } = {
   toward = "function",
   length = "function",
   side = "number",
@@ -232,7 +232,7 @@ function patterns.radial(options: { [string]: any }?): Pattern
   local usual = { branching = 0.95, both = 0.9, cross = 0.5, stop = 0, gap = 0.22, every = 3 }
   return pattern("roads.radial", of, usual, {
     straight = true,
-    toward = function(x, y, heading, length)
+    toward = function(x: number, y: number, heading: number, length: number): number
       local dx, dy = x - middle[1], y - middle[2]
       local far = math.sqrt(dx * dx + dy * dy)
       if far < block / 2 then
@@ -245,7 +245,7 @@ function patterns.radial(options: { [string]: any }?): Pattern
       local inward = math.deg(math.acos(math.clamp(bent, -0.5, 0.9)))
       return nearest(heading, { ray, ray + 180, ray + 180 - inward, ray + 180 + inward })
     end,
-    length = function(x, y, heading)
+    length = function(x: number, y: number, heading: number): number
       local dx, dy = x - middle[1], y - middle[2]
       local ray = math.deg(math.atan2(dy, dx))
       local across = math.abs(between(ray, heading)) % 180
@@ -272,7 +272,7 @@ function patterns.contours(height: (x: number, y: number) -> number, options: { 
   local most = math.tan(math.rad(steepest))
   local usual = { branching = 0.55, both = 0.15, cross = 0.2, stop = 0.15, gap = 0, every = 5 }
   return pattern("roads.contours", of, usual, {
-    toward = function(x, y, heading, length)
+    toward = function(x: number, y: number, heading: number, length: number): number
       local near = length / 4
       local east = (height(x + near, y) - height(x - near, y)) / (2 * near)
       local north = (height(x, y + near) - height(x, y - near)) / (2 * near)
@@ -292,7 +292,7 @@ function patterns.contours(height: (x: number, y: number) -> number, options: { 
       local ways = { along, up + slant, up - slant, up + 180 + slant, up + 180 - slant }
       return nearest(heading, ways)
     end,
-    length = function(_, _, _, depth)
+    length = function(_: number, _: number, _: number, depth: number): number
       return block * (if depth == 0 then 1 else random(0.8, 1.2))
     end,
   })
@@ -307,7 +307,7 @@ function patterns.populous(people: (x: number, y: number) -> number, options: { 
   local bends = number("roads.populous: bends", of.bends, 20, 0, 60)
   local usual = { branching = 0.75, both = 0.25, cross = 0.25, skew = 6, stop = 0.1, gap = 0, every = 5 }
   return pattern("roads.populous", of, usual, {
-    toward = function(x, y, heading, length, depth)
+    toward = function(x: number, y: number, heading: number, length: number, depth: number): number
       local best, most = heading, -1
       for try = -2, 2 do
         local turned = heading + try * bends / 2
@@ -324,7 +324,7 @@ function patterns.populous(people: (x: number, y: number) -> number, options: { 
       end
       return best + random(-2, 2)
     end,
-    length = function(x, y)
+    length = function(x: number, y: number): number
       return block * (1.5 - 0.8 * math.clamp(people(x, y), 0, 1)) * random(0.85, 1.15)
     end,
   })
@@ -354,7 +354,7 @@ function patterns.districts(
     checks.place(`roads.districts: at of district {index}`, district.at)
     patterns.check(`roads.districts: the pattern of district {index}`, district.pattern, 3)
   end
-  return function(x, y)
+  return function(x: number, y: number)
     local best, least = districts[1], math.huge
     for _, district in districts do
       local dx, dy = x - district.at[1], y - district.at[2]

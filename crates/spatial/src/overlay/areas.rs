@@ -1,6 +1,7 @@
 //! Set operations on areas.
 
 use geo::bool_ops::{FillRule, OpType};
+use geo::orient::{Direction, Orient};
 use geo::{BooleanOps, Coord, MultiPolygon};
 use rustc_hash::FxHashMap;
 
@@ -72,7 +73,9 @@ pub(super) fn snap(made: &mut MultiPolygon, nodes: impl IntoIterator<Item = Coor
     };
     let polygons = std::mem::take(&mut made.0).into_iter().filter_map(|polygon| {
         let outer = Some(mend(polygon.exterior())).filter(is_area)?;
-        Some(geo::Polygon::new(outer, polygon.interiors().iter().map(mend).filter(is_area).collect()))
+        let holes = polygon.interiors().iter().map(mend).filter(is_area).collect();
+        // A hole that meets the outer ring may come out with the area to its left, and would be filled the next time.
+        Some(geo::Polygon::new(outer, holes).orient(Direction::Default))
     });
     made.0 = polygons.collect();
 }

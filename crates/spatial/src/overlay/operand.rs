@@ -14,6 +14,8 @@ pub(crate) struct Operand {
     pub(crate) areas: MultiPolygon,
     pub(crate) lines: Vec<Vec<DVec2>>,
     pub(crate) points: Vec<DVec2>,
+    /// Whether the areas are those that were given, corner by corner: none had to be computed.
+    pub(crate) are_given: bool,
 }
 
 impl Operand {
@@ -31,7 +33,10 @@ impl Operand {
             });
             collect_points(geometry, &mut |point| points.push(plane.flat(point)));
         }
-        Self { areas: dissolved(plane.polygons(geometry)), lines, points }
+        let (areas, thin) = with_width(plane.polygons(geometry));
+        lines.extend(thin.iter().map(|ring| ring.0.iter().map(|at| DVec2::new(at.x, at.y)).collect()));
+        let are_given = are_disjoint(&areas);
+        Self { areas: if are_given { areas } else { filled(&areas, FILL) }, lines, points, are_given }
     }
 
     /// Its lines and rings.
@@ -51,12 +56,29 @@ impl Operand {
     }
 }
 
+/// Below this (m²) it is looked at whether a ring goes around anything.
+const NARROW: f64 = 1e-9;
+
+/// Those areas that have a width, and the rings of those that go back the way they came, which are lines.
+pub(crate) fn with_width(areas: MultiPolygon) -> (MultiPolygon, Vec<geo::LineString>) {
+    let (thin, wide): (Vec<_>, Vec<_>) = areas.into_iter().partition(|area| {
+        twice_area_of(area.exterior()).abs() < NARROW
+            && filled(&MultiPolygon(vec![area.clone()]), FILL).0.is_empty()
+    });
+    (MultiPolygon(wide), thin.into_iter().map(|area| area.into_inner().0).collect())
+}
+
 /// Areas whose rings neither cross nor overlap: as they are if that holds already, else all that the rings go around.
 pub(crate) fn dissolved(areas: MultiPolygon) -> MultiPolygon {
+    if are_disjoint(&areas) { areas } else { filled(&areas, FILL) }
+}
+
+/// Whether the rings of areas neither cross nor overlap.
+fn are_disjoint(areas: &MultiPolygon) -> bool {
     // A ring that goes back the way it came is taken for valid.
     let has_width = |ring: &geo::LineString| twice_area_of(ring) != 0.0;
     let are_wide = |it: &geo::Polygon| has_width(it.exterior()) && it.interiors().iter().all(has_width);
-    if areas.iter().all(are_wide) && areas.is_valid() { areas } else { filled(&areas, FILL) }
+    areas.iter().all(are_wide) && areas.is_valid()
 }
 
 /// Twice the area in a ring, as triangles with its first corner; less than 0 if it is clockwise.

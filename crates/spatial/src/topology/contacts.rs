@@ -4,8 +4,8 @@ use std::cmp::Ordering;
 
 use glam::DVec2;
 
-use super::locate::{begins_inside, is_between, place_in, side};
-use super::prepared::{DirectedEdge, PreparedGeometry, WayEdges};
+use super::locate::{begins_inside, is_between, is_on, place_in, side};
+use super::prepared::{DirectedEdge, PreparedGeometry, WayEdges, is_among};
 
 /// A place where an edge of one geometry meets an edge of the other.
 #[derive(Debug, Clone, Copy)]
@@ -25,8 +25,8 @@ struct SharedPart {
 /// All places where two geometries meet.
 #[derive(Debug, Default)]
 pub(super) struct Contacts {
-    /// Whether edges cross between their ends.
-    pub(super) cross: bool,
+    /// Edges that cross between their ends, by geometry.
+    crossings: Vec<[usize; 2]>,
     /// Whether edges share a part on which they lead the same way, and opposite ways.
     pub(super) shares: [bool; 2],
     contacts: Vec<Contact>,
@@ -71,7 +71,7 @@ impl Contacts {
                     made.meet([number, other], &edge, found);
                 }
             });
-            if made.cross && until_crossing {
+            if made.cross() && until_crossing {
                 return made;
             }
         }
@@ -80,7 +80,22 @@ impl Contacts {
 
     /// Whether there are none.
     pub(super) fn is_empty(&self) -> bool {
-        !self.cross && self.contacts.is_empty()
+        !self.cross() && self.contacts.is_empty()
+    }
+
+    /// Whether edges cross between their ends.
+    pub(super) fn cross(&self) -> bool {
+        !self.crossings.is_empty()
+    }
+
+    /// Whether edges cross between their ends in a place where no line ends, which may be on an edge of its own.
+    pub(super) fn cross_apart_from(&self, ends: &[&[DVec2]], edges: [&WayEdges; 2]) -> bool {
+        let is_end = |place: &DVec2| ends.iter().any(|ends| is_among(ends, *place));
+        let met: Vec<DVec2> = self.places().filter(is_end).collect();
+        self.crossings.iter().any(|crossing| {
+            let [e, f] = [0, 1].map(|geometry| &edges[geometry].edges[crossing[geometry]]);
+            !met.iter().any(|end| is_on(e, *end) && is_on(f, *end))
+        })
     }
 
     /// Whether edges share a part.
@@ -109,7 +124,7 @@ impl Contacts {
         let ends = [(p, e.from, f), (q, e.to, f), (r, f.from, e), (s, f.to, e)];
         let mut on = ends.into_iter().filter(|(side, ..)| *side == Ordering::Equal).peekable();
         if on.peek().is_none() {
-            self.cross = true;
+            self.crossings.push(edges);
         } else if let Some((_, place, _)) = on.find(|(_, place, edge)| is_between(edge, *place)) {
             self.contacts.push(Contact { edges, place });
         }

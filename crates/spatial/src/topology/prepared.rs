@@ -45,7 +45,7 @@ pub(super) enum TopologyParts {
     Lines(WayEdges, Vec<DVec2>),
     /// Rings, with the area to their left.
     Areas(WayEdges),
-    /// Several of these.
+    /// Several of these, or areas that had to be computed, whose corners are rounded.
     Mixed,
 }
 
@@ -71,7 +71,7 @@ impl PreparedGeometry {
 impl TopologyParts {
     fn new(geometry: &Geometry) -> Self {
         let plane = Plane::of(&[geometry]);
-        let Operand { areas, lines, mut points } = Operand::new(plane, geometry);
+        let Operand { areas, lines, mut points, are_given } = Operand::new(plane, geometry);
         // Of the two zeros there is only one behind a sum.
         let back = |place: DVec2| plane.back(place).truncate() + 0.0;
         match [areas.0.is_empty(), lines.is_empty(), points.is_empty()] {
@@ -93,7 +93,7 @@ impl TopologyParts {
                 let boundary = odd.map(|same| same[0]).collect();
                 Self::Lines(WayEdges::new(&ways), boundary)
             }
-            [false, true, true] => {
+            [false, true, true] if are_given => {
                 let rings = areas.iter().flat_map(|it| std::iter::once(it.exterior()).chain(it.interiors()));
                 let place = |at: &geo::Coord| back(DVec2::new(at.x, at.y));
                 let rings: Vec<Vec<DVec2>> = rings.map(|ring| ring.0.iter().map(place).collect()).collect();
