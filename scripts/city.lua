@@ -1,6 +1,7 @@
 --!strict
 -- A whole city from nothing but rules and a seed: main and side streets, a river with bridges, quarters of their own kind,
--- lots, buildings and a skyline, on flat land or on hills. Near `detail` every building has its facades; farther off, photos of windows stand in.
+-- lots, buildings and a skyline, on flat land or on hills. Near `detail` every building has its facades; farther off, photos
+-- of windows stand in.
 -- burgeon run scripts/city.lua -o city.glb
 local build = require("templates/build")
 local nature = require("templates/nature")
@@ -222,10 +223,12 @@ if with_trees then
     table.insert(trees, { id = place.id, geometry = { points = { place.place } }, height = 8 })
   end
   for _, lot in green do
-    for number, at in quarters.scattered(lot, math.min(60, math.floor(lot.area / 90))) do
+    for number = 1, math.min(60, math.floor(lot.area / 90)) do
+      local at = lot.geometry:random_point(random(), random())
+      local x, y = at:x(), at:y()
       table.insert(trees, {
         id = `{lot.id} {number}`,
-        geometry = { points = { vec(at[1], at[2], height(at[1], at[2])) } },
+        geometry = { points = { vec(x, y, height(x, y)) } },
         height = random(6, 13),
       })
     end

@@ -266,8 +266,9 @@ if with_trees then
     table.insert(trees, { id = `tree {#trees}`, geometry = { points = { vec(x, y, z) } }, height = tall })
   end
   for _, yard in yards do
-    for _, at in quarters.scattered(yard, math.floor(yard.area / 70)) do
-      plant(at[1], at[2], 0.1, random(4, 8))
+    for _ = 1, math.floor(yard.area / 70) do
+      local at = yard.geometry:random_point(random(), random())
+      plant(at:x(), at:y(), 0.1, random(4, 8))
     end
   end
   for number = 1, 500 do

@@ -323,25 +323,6 @@ function quarters.raised(buildings: { any }, height: (x: number, y: number) -> n
   return raised
 end
 
--- Up to so many places at random on a lot.
-function quarters.scattered(lot: any, count: number): { { number } }
-  local rings = lot.geometry.rings
-  local low, high = { math.huge, math.huge }, { -math.huge, -math.huge }
-  for _, point in rings[1] do
-    for axis = 1, 2 do
-      low[axis], high[axis] = math.min(low[axis], point[axis]), math.max(high[axis], point[axis])
-    end
-  end
-  local places = {}
-  for _ = 1, count do
-    local x, y = random(low[1], high[1]), random(low[2], high[2])
-    if skyline.holds(rings, x, y) then
-      table.insert(places, { x, y })
-    end
-  end
-  return places
-end
-
 local Area = module("Area", "rings", "from", "to", "color")
 
 -- Draws polygons between two heights (m).

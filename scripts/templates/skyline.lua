@@ -196,24 +196,6 @@ local function inside(pieces: { { number } }, x: number, y: number): boolean
   return odd
 end
 
--- Whether a place (m) is inside of rings.
-function skyline.holds(rings: any, x: number, y: number): boolean
-  local odd = false
-  for _, ring in rings do
-    local last = ring[#ring]
-    for _, point in ring do
-      if (last[2] > y) ~= (point[2] > y) then
-        local t = (y - last[2]) / (point[2] - last[2])
-        if last[1] + t * (point[1] - last[1]) > x then
-          odd = not odd
-        end
-      end
-      last = point
-    end
-  end
-  return odd
-end
-
 -- How far it is free to the left and to the right of `x` between the heights y0 and y1; nil if it is not free there.
 local function free(pieces: { { number } }, x: number, y0: number, y1: number): (number?, number)
   local left, right = -math.huge, math.huge

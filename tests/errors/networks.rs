@@ -206,6 +206,18 @@ fn a_network_of_which_no_street_is_built_says_why() {
 }
 
 #[test]
+fn areas_that_are_no_polygons_or_cross_themselves_are_told() {
+    let told = |areas: &str| warned(&[&grown(areas, "this:grow(1, 180, 60, 0)")]);
+    for name in ["obstacles", "water"] {
+        let text = told(&format!("{name} = {{ {{ vec(10, 10), vec(40, 40), vec(40, 10), vec(10, 40) }} }}"));
+        assert!(text.contains(&format!("s.lua:2: network: {name}: an area is no simple polygon")), "{text}");
+        assert!(text.contains("meet at (25.000, 25.000)"), "{text}");
+    }
+    let text = told("limit = { vec(0, 0), vec(100, 0), vec(200, 0) }");
+    assert!(text.contains("s.lua:2: network: limit: left out an area that is no polygon"), "{text}");
+}
+
+#[test]
 fn streets_are_probed_and_walked_and_those_that_are_there_are_grown_onto() {
     let script = r#"
 local F, Turn90 = module("F", "length"), module("Turn90")

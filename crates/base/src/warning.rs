@@ -11,7 +11,8 @@
 //!   away in `Object::take_warnings`. The line is that of the constructor's or
 //!   the method's call, or of the system. Where passes begin empty, only what the last pass said counts.
 //!   [`Warning::of_all`] keeps it back as long as some module of the kind does better.
-//! - *An object that is only asked* [`say`]s it; whoever has asked it in the line of a script takes what was [`said`].
+//! - *An object that is only asked* [defers](defer_warning) it; whoever asked it in the line of a script
+//!   [takes](take_deferred) what was deferred.
 //! - *A file*: what it was loaded into keeps the warnings, and the function that a script asked for it hands them on to
 //!   its machine, so that they are told by every run, also by one that need not read the file again.
 //!
@@ -98,17 +99,17 @@ impl WarningKind {
 }
 
 thread_local! {
-    static SAID: RefCell<Vec<Warning>> = const { RefCell::new(Vec::new()) };
+    static DEFERRED: RefCell<Vec<Warning>> = const { RefCell::new(Vec::new()) };
 }
 
-/// Tells the one for whom this thread is at work of a warning.
-pub fn say(warning: Warning) {
-    SAID.with_borrow_mut(|said| said.push(warning));
+/// Keeps a warning for the one for whom this thread is at work.
+pub fn defer_warning(warning: Warning) {
+    DEFERRED.with_borrow_mut(|deferred| deferred.push(warning));
 }
 
-/// Takes all that was [said](say) in this thread since this was called last.
-pub fn said() -> Vec<Warning> {
-    SAID.take()
+/// Takes all warnings that were [deferred](defer_warning) in this thread since this was called last.
+pub fn take_deferred() -> Vec<Warning> {
+    DEFERRED.take()
 }
 
 /// Something that people should know of a run that has succeeded, with its place and a remedy.

@@ -67,6 +67,9 @@ pub struct RunTimes {
 }
 
 /// Runs the script at `path`.
+///
+/// A program calls it in a thread, or in a pool of its own: not in a task of rayon's global pool, for whose threads the run
+/// would wait while it takes one.
 pub fn run(path: &Path, options: RunOptions) -> Result<Run> {
     let session = Session::new(path, options)?;
     run_session(&session)

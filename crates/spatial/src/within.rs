@@ -8,7 +8,7 @@ use super::edges::with_heights;
 use super::measure::length;
 use super::overlay::dissolved;
 use super::plane::{Plane, collect_lines};
-use super::{Geometry, GeometryKind};
+use super::{Geometry, GeometryKind, PreparedGeometry};
 
 impl Geometry {
     /// A point of it that is well inside where it has an area, and none of its ends where it has a length. Empty of an
@@ -71,27 +71,29 @@ impl Geometry {
     /// # Ok::<(), burgeon_base::error::Error>(())
     /// ```
     pub fn random_point(&self, u: f64, v: f64) -> Result<Self> {
+        PreparedGeometry::new(self).random_point(u, v)
+    }
+}
+
+impl PreparedGeometry {
+    /// As [`Geometry::random_point`]; its areas are divided into triangles once.
+    pub fn random_point(&self, u: f64, v: f64) -> Result<Geometry> {
         if let Some(wrong) = [u, v].into_iter().find(|number| !(0.0..=1.0).contains(number)) {
             return Err(Error::argument(format!("random_point takes two numbers from 0 to 1, not {wrong}"))
                 .help("write geometry:random_point(random(), random())"));
         }
-        if !self.is_sound() {
-            return Ok(Self::Point(None));
+        let whole = &self.whole;
+        if !self.is_sound {
+            return Ok(Geometry::Point(None));
         }
-        let plane = Plane::of(&[self]);
-        let areas = dissolved(plane.polygons(self));
-        let place = |at: geo::Coord| DVec2::new(at.x, at.y);
-        let triangles: Vec<[DVec2; 3]> = areas
-            .iter()
-            .flat_map(|polygon| polygon.earcut_triangles())
-            .map(|triangle| triangle.to_array().map(place))
-            .collect();
+        let plane = Plane::of(&[whole]);
+        let triangles = self.triangles.get_or_init(|| triangles(whole, plane));
         let area = |[a, b, c]: &[DVec2; 3]| (*b - *a).perp_dot(*c - *a).abs();
-        let whole: f64 = triangles.iter().map(area).sum();
-        let found = if whole > 0.0 {
-            let mut rest = u * whole;
+        let sum: f64 = triangles.iter().map(area).sum();
+        let found = if sum > 0.0 {
+            let mut rest = u * sum;
             let mut chosen = triangles[0];
-            for triangle in &triangles {
+            for triangle in triangles {
                 chosen = *triangle;
                 if rest <= area(triangle) {
                     break;
@@ -102,10 +104,10 @@ impl Geometry {
             // What is left of the first number is as random within the triangle.
             let across = (rest / area(&chosen).max(f64::MIN_POSITIVE)).clamp(0.0, 1.0).sqrt();
             Some(plane.back(a + (b - a) * (across * (1.0 - v)) + (c - a) * (across * v)))
-        } else if self.length() > 0.0 {
+        } else if whole.length() > 0.0 {
             let mut lines = Vec::new();
-            collect_lines(self, &mut |line| lines.push(line));
-            let mut rest = u * self.length();
+            collect_lines(whole, &mut |line| lines.push(line));
+            let mut rest = u * whole.length();
             let mut found = None;
             for line in lines {
                 found = Some(super::lines::along(line, rest));
@@ -116,14 +118,22 @@ impl Geometry {
             }
             found
         } else {
-            let points: Vec<&DVec3> = self.points().collect();
+            let points: Vec<&DVec3> = whole.points().collect();
             #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "from 0 to the count")]
             let index = (u * points.len() as f64) as usize;
             points.get(index.min(points.len().saturating_sub(1))).map(|point| **point)
         };
-        let made = Self::Point(found);
-        Ok(if self.kind() == GeometryKind::Point { self.clone() } else { with_heights(made, &[self]) })
+        let made = Geometry::Point(found);
+        Ok(if whole.kind() == GeometryKind::Point { whole.clone() } else { with_heights(made, &[whole]) })
     }
+}
+
+/// What areas are divided into.
+fn triangles(geometry: &Geometry, plane: Plane) -> Vec<[DVec2; 3]> {
+    let place = |at: geo::Coord| DVec2::new(at.x, at.y);
+    let areas = dissolved(plane.polygons(geometry));
+    let triangles = areas.iter().flat_map(|polygon| polygon.earcut_triangles());
+    triangles.map(|triangle| triangle.to_array().map(place)).collect()
 }
 
 /// How wide a polygon is where it is cut along x, and the middle of the widest piece; none without an area.

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use crate::declare::Session;
 use crate::machine::types::Objects;
 use burgeon_base::error::{Error, Result, SourcePlace};
-use burgeon_base::warning::{Warning, said};
+use burgeon_base::warning::{Warning, take_deferred};
 use burgeon_kit::declare::{downcast_mut, downcast_ref};
 use burgeon_kit::random::Stream;
 use burgeon_kit::rules::{ModuleKey, Symbol};
@@ -177,15 +177,15 @@ impl WorkState {
         };
         match &kind.methods.get(method).ok_or_else(missing)?.call {
             Call::Read(read) => {
-                said();
+                take_deferred();
                 let answer = objects.read(chain, |object| match slot {
                     None => read(object, arguments),
                     Some(slot) => read(downcast_ref::<ScriptObject>(object)?.held(slot)?, arguments),
                 });
-                let said = said();
-                if !said.is_empty() {
+                let deferred = take_deferred();
+                if !deferred.is_empty() {
                     let place = place();
-                    for warning in said {
+                    for warning in deferred {
                         self.session.warn(warning.at(place.clone()));
                     }
                 }

@@ -10,7 +10,7 @@ use crate::machine::convert::{to_argument, to_lua, to_value};
 use crate::machine::library::Library;
 use crate::machine::types::ObjectHandle;
 use burgeon_base::error::{Error, Limit};
-use burgeon_base::warning::said;
+use burgeon_base::warning::take_deferred;
 use burgeon_kit::declare::as_ref;
 use burgeon_kit::rules::{ColumnValue, DEEPEST, module_text};
 use burgeon_kit::{Call, GeometryObject, ScriptObject, Value};
@@ -207,10 +207,10 @@ fn add_methods(lua: &Lua, host: &Table, current: &Rc<WorkState>, library: &Rc<Li
             match &method.call {
                 Call::Read(read) => {
                     let given = values(&arguments)?;
-                    said();
+                    take_deferred();
                     let answer = read(&*handle.0, &given).map_err(mlua::Error::external)?;
                     let machine = shelf.machine().map_err(mlua::Error::external)?;
-                    said().into_iter().for_each(|warning| machine.warn(warning));
+                    take_deferred().into_iter().for_each(|warning| machine.warn(warning));
                     let place = guard.and_then(|guard| state.places.borrow().get(guard).copied());
                     if let Some(place) = place.filter(|_| GeometryObject::of(&*handle.0).is_some()) {
                         let given: Vec<String> = given.iter().map(Value::to_string).collect();

@@ -31,7 +31,8 @@ pub fn layers(session: &Session, systems: &[Arc<DerivedSystem>]) -> Vec<RecordTa
         }
         layers.chains(system);
     }
-    layers.tables.into_iter().map(|LayerTable { table, .. }| table).collect()
+    let tables = layers.tables.into_iter();
+    tables.map(|LayerTable { columns, table, .. }| RecordTable { columns: columns.0, ..table }).collect()
 }
 
 /// Tables that are being filled.
@@ -52,7 +53,6 @@ struct LayerTable {
 impl LayerTable {
     fn add(&mut self, id: String, geometry: Option<Geometry>, mut values: Vec<(usize, Attribute)>) {
         values.sort_by_key(|(column, _)| *column);
-        self.table.columns.clone_from(&self.columns.0);
         self.table.records.push(Record { id: apart(id, &mut self.taken), geometry, values });
     }
 }

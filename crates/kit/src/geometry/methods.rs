@@ -114,7 +114,7 @@ impl GeometryObject {
     /// The point inside that two numbers from 0 to 1 choose: geometry:random_point(random(), random()) draws one of which
     /// no place is likelier than another.
     pub fn random_point(&self, u: f64, v: f64) -> Result<Geometry> {
-        self.geometry().random_point(u, v)
+        self.prepared().random_point(u, v)
     }
 
     /// Its area as seen from above, without holes (m²); 0 of lines and points.

@@ -3,10 +3,13 @@
 use std::sync::{Arc, Mutex, PoisonError};
 
 use burgeon_base::error::Result;
-use burgeon_base::warning::{Warning, say};
+use burgeon_base::warning::{Warning, defer_warning};
 use burgeon_kit::Value;
 
-/// What an answer depends on, number by number.
+/// How many answers are kept at most: those that were asked for last.
+const MOST: usize = 32;
+
+/// What an answer depends on, number by number; the first is the network's version.
 pub(super) type AnswerKey = Vec<u64>;
 /// An answer with what was told of it, once there is one.
 type AnswerSlot = Arc<Mutex<Option<(Value, Vec<Warning>)>>>;
@@ -23,7 +26,8 @@ impl Clone for AnswerCache {
 }
 
 impl AnswerCache {
-    /// The answer to a question, which one asks while others wait for it; what is to be told of it is [said](say) each time.
+    /// The answer to a question, which one asks while others wait for it; what is to be told of it is [deferred](defer_warning)
+    /// each time.
     pub(super) fn once(
         &self,
         key: impl FnOnce() -> AnswerKey,
@@ -39,6 +43,10 @@ impl AnswerCache {
             match known.iter().find(|(other, _)| *other == key) {
                 Some((_, slot)) => Arc::clone(slot),
                 None => {
+                    // Nobody asks for what an earlier network would have answered.
+                    known.retain(|(other, _)| other.first() == key.first());
+                    let surplus = (known.len() + 1).saturating_sub(MOST);
+                    known.drain(..surplus);
                     let slot = AnswerSlot::default();
                     known.push((key, Arc::clone(&slot)));
                     slot
@@ -56,6 +64,6 @@ impl AnswerCache {
 }
 
 fn tell((answer, told): (Value, Vec<Warning>)) -> Value {
-    told.into_iter().for_each(say);
+    told.into_iter().for_each(defer_warning);
     answer
 }

@@ -1,6 +1,7 @@
 //! A network of streets as scripts have it: `network` in scripts.
 
 mod answers;
+mod areas;
 mod bridge;
 mod cache;
 mod draw;

@@ -6,6 +6,7 @@ use glam::DVec2;
 use rustc_hash::FxHashMap;
 
 use super::answers;
+use super::areas::NetworkAreas;
 use super::cache::AnswerCache;
 use super::existing::{self, ExistingLines};
 use super::kinds::StreetOptions;
@@ -16,13 +17,13 @@ use super::streets::{JunctionRecords, StreetRecords};
 use super::walk::NetworkWalk;
 use crate::Terrain;
 use burgeon_base::error::{Error, Result};
-use burgeon_base::warning::{Warning, WarningKind};
-use burgeon_geometry::{Plan, Polygon, Rings};
+use burgeon_base::warning::Warning;
+use burgeon_geometry::{Polygon, Rings};
 use burgeon_kit::{Color, TableOf, Value, Vector, fields, methods, object};
 use burgeon_scene::Scene;
 use burgeon_streets::{
-    Constraints, Fate, JunctionId, Obstacle, Obstacles, StreetAttributes, StreetFit, StreetGrowth,
-    StreetKind, StreetNetwork, SurfaceOptions,
+    Constraints, Fate, JunctionId, Obstacles, StreetAttributes, StreetFit, StreetGrowth, StreetKind,
+    StreetNetwork, SurfaceOptions,
 };
 
 /// What `network(...)` takes.
@@ -344,28 +345,7 @@ impl Network {
             shorten: options.shorten,
             most: options.most as usize,
         };
-        let mut warnings = Vec::new();
-        let (mut areas, mut waters) = (Vec::new(), Vec::new());
-        let area_kinds = [(&options.obstacles, false, false), (&options.water, false, true)];
-        let limit: Vec<Rings> = options.limit.iter().cloned().collect();
-        for (rings, is_limit, can_be_bridged) in area_kinds.into_iter().chain([(&limit, true, false)]) {
-            for rings in rings {
-                match Plan::new(rings) {
-                    Ok(plan) => {
-                        if can_be_bridged {
-                            waters.push(plan.flat());
-                        }
-                        areas.push(Obstacle { area: plan.flat(), is_limit, can_be_bridged });
-                    }
-                    Err(error) => {
-                        let text =
-                            format!("network: left out an area that is no polygon: {}", error.message());
-                        warnings
-                            .push(Warning::new(WarningKind::Data, text).help("repair it, or leave it out"));
-                    }
-                }
-            }
-        }
+        let NetworkAreas { areas, waters, mut warnings } = NetworkAreas::new(&options);
         let mut network =
             StreetNetwork::new(constraints, Obstacles::new(areas)).map_err(|error| error.about("network"))?;
         for start in &options.starts {

@@ -32,6 +32,8 @@ pub struct PreparedGeometry {
     /// That of the geometry, whose empty parts count too.
     pub(crate) dimension: usize,
     parts: OnceLock<TopologyParts>,
+    /// What its areas are divided into, for points at random: corners in its plane.
+    pub(crate) triangles: OnceLock<Vec<[DVec2; 3]>>,
 }
 
 /// What a geometry is made of.
@@ -58,6 +60,7 @@ impl PreparedGeometry {
             is_sound: geometry.is_sound(),
             dimension: geometry.dimension(),
             parts: OnceLock::new(),
+            triangles: OnceLock::new(),
         }
     }
 

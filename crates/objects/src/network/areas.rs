@@ -1,0 +1,53 @@
+//! Areas that streets do not lead through, as scripts give them.
+
+use super::object::NetworkOptions;
+use burgeon_base::warning::{Warning, WarningKind};
+use burgeon_geometry::{Plan, Polygon, Rings};
+use burgeon_streets::Obstacle;
+
+/// The areas of a network, and what is to be told of them.
+pub(super) struct NetworkAreas {
+    /// All of them.
+    pub(super) areas: Vec<Obstacle>,
+    /// Those that bridges lead over.
+    pub(super) waters: Vec<Polygon>,
+    /// What was left out, or counts in part.
+    pub(super) warnings: Vec<Warning>,
+}
+
+impl NetworkAreas {
+    pub(super) fn new(options: &NetworkOptions) -> Self {
+        let mut made = Self { areas: Vec::new(), waters: Vec::new(), warnings: Vec::new() };
+        for (name, areas) in [("obstacles", &options.obstacles), ("water", &options.water)] {
+            areas.iter().for_each(|rings| made.add(name, rings));
+        }
+        options.limit.iter().for_each(|rings| made.add("limit", rings));
+        made
+    }
+
+    fn add(&mut self, name: &str, rings: &Rings) {
+        let plan = match Plan::new(rings) {
+            Ok(plan) => plan,
+            Err(error) => {
+                let text =
+                    format!("network: {name}: left out an area that is no polygon: {}", error.message());
+                let warning = Warning::new(WarningKind::Data, text);
+                self.warnings.push(warning.help("repair it, or leave it out"));
+                return;
+            }
+        };
+        if let (repairs @ [_, ..], trouble) = plan.repairs() {
+            let text = format!(
+                "network: {name}: an area is no simple polygon ({trouble}), so that a part of it counts: {}",
+                repairs.join(", ")
+            );
+            let warning = Warning::new(WarningKind::Data, text);
+            self.warnings.push(warning.help("repair it, so that all of it counts"));
+        }
+        let can_be_bridged = name == "water";
+        if can_be_bridged {
+            self.waters.push(plan.flat());
+        }
+        self.areas.push(Obstacle { area: plan.flat(), is_limit: name == "limit", can_be_bridged });
+    }
+}
