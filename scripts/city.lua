@@ -173,6 +173,7 @@ end
 
 -- Buildings with all of their facades, and those that are only seen from afar.
 local near: { any }, distant: { any }, green: { any } = {}, {}, {}
+local plan: { any } = {}
 for kind, blocks in of do
   local quarter = quarters.kinds[kind]
   if not land then
@@ -182,6 +183,14 @@ for kind, blocks in of do
   options.blocks, options.all, options.seed = blocks, true, kind
   local lots = {}
   for _, lot in streets:lots(options) do
+    table.insert(plan, {
+      id = lot.id,
+      geometry = lot.geometry,
+      quarter = kind,
+      use = lot.use,
+      area = lot.area,
+      is_corner = lot.corner,
+    })
     if lot.use == "building" then
       table.insert(lots, lot)
     elseif lot.use ~= "blocked" then
@@ -198,6 +207,9 @@ for kind, blocks in of do
     table.insert(if is_near then near else distant, building)
   end
 end
+-- A layer of maps: `-o city.gpkg`.
+source(plan, { table = "lots" })
+
 local parks = {}
 for _, lot in green do
   if lot.use == "park" or lot.use == "court" then
