@@ -5,6 +5,7 @@ use rayon::prelude::*;
 use super::frame::ReferenceFrame;
 use super::table::{Feature, FeatureTable};
 use burgeon_base::error::{Error, Result};
+use burgeon_base::text::shown;
 use burgeon_base::warning::{Warning, WarningKind};
 
 /// Features of a data file, in metres around the run's origin.
@@ -87,6 +88,7 @@ impl Layer {
             feature.geometry.points().fold(nothing(), |bounds, point| around(bounds, [point.to_array(); 2]))
         });
         let bounds = turned.reduce(nothing, around);
+        table.notes.extend(invalid(&table));
         Ok(Self {
             name: table.layer,
             shown: table.shown,
@@ -100,6 +102,21 @@ impl Layer {
             notes: table.notes,
         })
     }
+}
+
+/// Which features have lines or areas that are not valid, in words: what is computed with them may not be what they look like.
+fn invalid(table: &FeatureTable) -> Option<String> {
+    let features = table.features.par_iter().enumerate();
+    let wrong: Vec<usize> =
+        features.filter(|(_, feature)| !feature.geometry.is_valid()).map(|(number, _)| number).collect();
+    let first = &table.features[*wrong.first()?];
+    let (file, id) = (&table.shown, shown(&first.id));
+    let why = first.geometry.validity_reason().unwrap_or_default();
+    let remedy = "geometry:make_valid() and ST_MakeValid repair it, footprints repair it by themselves";
+    Some(match wrong.len() {
+        1 => format!("{file}: feature {id} is not valid: {why}; {remedy}"),
+        count => format!("{file}: {count} features are not valid, such as {id}: {why}; {remedy}"),
+    })
 }
 
 /// The bounds around two; which of the two zeros a coordinate is does not depend on their order.
@@ -131,5 +148,31 @@ mod tests {
         let hole = hole.into_iter().rev().collect();
         assert_eq!(layer.features[0].geometry, Geometry::Polygon(Rings(vec![outer, hole])));
         assert_eq!(layer.bounds, [[0.0; 3], [4.0, 4.0, 0.0]]);
+    }
+
+    #[test]
+    fn areas_that_cross_themselves_are_told_with_the_reason() {
+        let ring = |points: [[f64; 2]; 4]| {
+            vec![Geometry::Polygon(Rings(vec![points.map(|[x, y]| DVec3::new(x, y, 0.0)).to_vec()]))]
+        };
+        let [square, bow_tie] = [
+            [[0.0, 0.0], [4.0, 0.0], [4.0, 4.0], [0.0, 4.0]],
+            [[0.0, 0.0], [4.0, 4.0], [4.0, 0.0], [0.0, 4.0]],
+        ];
+        let told = |shapes: &[[[f64; 2]; 4]]| {
+            let mut table = FeatureTable::new("a", "a", Crs::epsg(3067), &crate::SourceOptions::default());
+            for (number, shape) in shapes.iter().enumerate() {
+                table.push(&number.to_string(), ring(*shape), Vec::new()).unwrap();
+            }
+            Layer::new(table, &mut None).unwrap().notes
+        };
+        assert!(told(&[square, square]).is_empty());
+        let why = "exterior ring has a self-intersection; geometry:make_valid()";
+        assert!(told(&[square, bow_tie])[0].starts_with(&format!("a: feature 1 is not valid: {why}")));
+        let several = told(&[bow_tie, square, bow_tie]);
+        assert!(
+            several[0].starts_with(&format!("a: 2 features are not valid, such as 0: {why}")),
+            "{several:?}"
+        );
     }
 }

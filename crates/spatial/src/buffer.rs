@@ -109,8 +109,16 @@ impl Geometry {
         }
         if distance > 0.0 && self.is_sound() {
             parts.extend(thin_rings.iter().map(|ring| ring.buffer_with_style(style())));
-            let thin = self.parts().into_iter().filter(|part| part.dimension() < 2);
-            parts.extend(thin.map(|part| match part {
+            let thin: Vec<Self> = self.parts().into_iter().filter(|part| part.dimension() < 2).collect();
+            if options.join == BufferJoin::Round {
+                let lines = thin.iter().filter_map(|part| match part {
+                    Geometry::Line(line) => Some(plane.string(line)),
+                    _ => None,
+                });
+                let turns = thin_rings.iter().cloned().chain(lines).flat_map(|line| turns_back(&line));
+                parts.extend(turns.map(|at| geo::Point(at).buffer_with_style(style())));
+            }
+            parts.extend(thin.into_iter().map(|part| match part {
                 // A line without length is its place.
                 Geometry::Line(line) if line.iter().all(|point| point.truncate() == line[0].truncate()) => {
                     geo::Point(plane.coord(line[0])).buffer_with_style(style())
@@ -140,4 +148,14 @@ impl Geometry {
         let ring = vec![corner(a - left), corner(b - left), corner(b + left), corner(a + left)];
         Self::polygon(vec![ring])
     }
+}
+
+/// The corners at which a line goes back the way it came, or nearly so; there the buffers of `geo` have no arc.
+fn turns_back(line: &geo::LineString) -> Vec<geo::Coord> {
+    let corners = line.0.windows(3).filter(|corner| {
+        let place = |at: geo::Coord| DVec2::new(at.x, at.y);
+        let [a, b, c] = [corner[0], corner[1], corner[2]].map(place);
+        (b - a).angle_to(c - b).abs() > std::f64::consts::PI - 1e-3
+    });
+    corners.map(|corner| corner[1]).collect()
 }

@@ -84,9 +84,18 @@ impl Geometry {
     /// # Ok::<(), burgeon_base::error::Error>(())
     /// ```
     pub fn centroid(&self) -> Self {
-        let plane = Plane::of(&[self]);
-        let centre = plane.geo(self).centroid();
-        with_heights(Self::Point(centre.map(|at| plane.back(DVec2::new(at.x(), at.y())))), &[self])
+        let centre = |whole: &Self| {
+            let plane = Plane::of(&[whole]);
+            plane.geo(whole).centroid().map(|at| plane.back(DVec2::new(at.x(), at.y())))
+        };
+        let is_around = |at: &DVec3| {
+            let at = at.truncate();
+            self.bounds().is_some_and(|[low, high]| low.cmple(at).all() && at.cmple(high).all())
+        };
+        // Of rings that cross themselves what they go around one way may weigh against what they go around the other way.
+        let found =
+            centre(self).map(|at| if is_around(&at) { at } else { centre(&self.dissolved()).unwrap_or(at) });
+        with_heights(Self::Point(found), &[self])
     }
 
     /// The smallest convex geometry that it lies in: a line if all is on one, a point if all is in one place.

@@ -59,6 +59,11 @@ fn has_spike(geometry: &Geometry) -> bool {
     })
 }
 
+/// Whether no area of it had to be computed, so that relations with it are exact.
+fn has_given_areas(geometry: &Geometry) -> bool {
+    crate::overlay::Operand::new(crate::plane::Plane::of(&[geometry]), geometry).are_given
+}
+
 fn settings(cases: u32) -> ProptestConfig {
     ProptestConfig { cases, failure_persistence: None, ..ProptestConfig::default() }
 }
@@ -132,7 +137,9 @@ proptest! {
         prop_assume!(!has_spike(&a) && !has_spike(&b));
         let relation = a.relate(&b);
         let is = |pattern: &str| relation.matches(pattern).expect("a pattern");
-        prop_assert_eq!(a.intersects(&b), !is("FF*FF****"), "{} {} {}", a, b, relation.text());
+        if has_given_areas(&a) && has_given_areas(&b) {
+            prop_assert_eq!(a.intersects(&b), !is("FF*FF****"), "{} {} {}", a, b, relation.text());
+        }
         prop_assert_eq!(a.disjoint(&b), !b.intersects(&a));
         prop_assert_eq!(a.contains(&b), b.within(&a));
         prop_assert_eq!(a.contains(&b), is("T*****FF*"));
@@ -252,4 +259,25 @@ fn a_ring_that_goes_back_the_way_it_came_is_a_line() {
     let [of_ring, of_line] =
         [&ring, &line].map(|it| it.buffer(0.5, &BufferOptions::default()).expect("a buffer"));
     assert!(of_ring.sym_difference(&of_line).area() < 1e-6, "{of_ring}");
+}
+
+#[test]
+fn the_centroid_of_a_ring_that_crosses_itself_is_within_its_bounds() {
+    for text in [
+        "POLYGON ((2 1.9169239968529606, 6 1, 0 4, 7 1, 1 4, 6 1, 2 1.9169239968529606))",
+        "POLYGON ((4 5, 6 7, 4.140198189262057 3, 3 7, 1 5, 4 5))",
+        "POLYGON ((7 7.307791081020515, 6 0, 1 7, 0 0, 1 1, 6 6, 7 7.307791081020515))",
+    ] {
+        let geometry = Geometry::from_wkt(text).expect("a polygon");
+        let centroid = geometry.centroid();
+        assert!(geometry.envelope().intersects(&centroid), "{text}: {centroid}");
+    }
+}
+
+#[test]
+fn where_a_line_goes_back_its_buffer_has_an_arc() {
+    let options = BufferOptions::default();
+    let [there, back] = ["LINESTRING (6 3, 6.1 2, 6 3, 0 0)", "LINESTRING (6.1 2, 6 3, 0 0)"]
+        .map(|text| Geometry::from_wkt(text).expect("a line").buffer(1.5, &options).expect("a buffer"));
+    assert!(there.sym_difference(&back).area() < 0.02, "{} {}", there.area(), back.area());
 }

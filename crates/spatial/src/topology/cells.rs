@@ -129,7 +129,7 @@ fn area_and_line(
     cells.note_if(sides.inside, INTERIOR, INTERIOR, b'1');
     cells.note_if(sides.outside, EXTERIOR, INTERIOR, b'1');
     cells.note_if(contacts.has_shared(), BOUNDARY, INTERIOR, b'1');
-    cells.note_if(contacts.cross_apart_from(&[ends], [area.1, line.1]), BOUNDARY, INTERIOR, b'0');
+    cells.note_if(contacts.cross(), BOUNDARY, INTERIOR, b'0');
     for place in contacts.places() {
         cells.note(BOUNDARY, if is_among(ends, place) { BOUNDARY } else { INTERIOR }, b'0');
     }
@@ -155,7 +155,7 @@ fn lines(one: LineParts<'_>, two: LineParts<'_>) -> RelationCells {
     let mut cells = RelationCells::new();
     let contacts = Contacts::new((one.0, one.1), (two.0, two.1), false);
     cells.note_if(contacts.has_shared(), INTERIOR, INTERIOR, b'1');
-    cells.note_if(contacts.cross_apart_from(&[one.2, two.2], [one.1, two.1]), INTERIOR, INTERIOR, b'0');
+    cells.note_if(contacts.cross(), INTERIOR, INTERIOR, b'0');
     cells.note_if(contacts.of(0).has_own(one.1), INTERIOR, EXTERIOR, b'1');
     cells.note_if(contacts.of(1).has_own(two.1), EXTERIOR, INTERIOR, b'1');
     let row = |ends: &[DVec2], place| if is_among(ends, place) { BOUNDARY } else { INTERIOR };

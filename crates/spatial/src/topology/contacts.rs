@@ -5,7 +5,7 @@ use std::cmp::Ordering;
 use glam::DVec2;
 
 use super::locate::{begins_inside, is_between, is_on, place_in, side};
-use super::prepared::{DirectedEdge, PreparedGeometry, WayEdges, is_among};
+use super::prepared::{DirectedEdge, PreparedGeometry, WayEdges};
 
 /// A place where an edge of one geometry meets an edge of the other.
 #[derive(Debug, Clone, Copy)]
@@ -25,7 +25,7 @@ struct SharedPart {
 /// All places where two geometries meet.
 #[derive(Debug, Default)]
 pub(super) struct Contacts {
-    /// Edges that cross between their ends, by geometry.
+    /// Edges that cross between their ends, by geometry, where neither geometry has a corner.
     crossings: Vec<[usize; 2]>,
     /// Whether edges share a part on which they lead the same way, and opposite ways.
     pub(super) shares: [bool; 2],
@@ -66,9 +66,9 @@ impl Contacts {
         for (number, edge) in near {
             many.meeting(edge.low(), edge.high(), |other, found| {
                 if turned {
-                    made.meet([other, number], found, &edge);
+                    made.meet([other, number], [found, &edge], [first, second]);
                 } else {
-                    made.meet([number, other], &edge, found);
+                    made.meet([number, other], [&edge, found], [first, second]);
                 }
             });
             if made.cross() && until_crossing {
@@ -88,16 +88,6 @@ impl Contacts {
         !self.crossings.is_empty()
     }
 
-    /// Whether edges cross between their ends in a place where no line ends, which may be on an edge of its own.
-    pub(super) fn cross_apart_from(&self, ends: &[&[DVec2]], edges: [&WayEdges; 2]) -> bool {
-        let is_end = |place: &DVec2| ends.iter().any(|ends| is_among(ends, *place));
-        let met: Vec<DVec2> = self.places().filter(is_end).collect();
-        self.crossings.iter().any(|crossing| {
-            let [e, f] = [0, 1].map(|geometry| &edges[geometry].edges[crossing[geometry]]);
-            !met.iter().any(|end| is_on(e, *end) && is_on(f, *end))
-        })
-    }
-
     /// Whether edges share a part.
     pub(super) fn has_shared(&self) -> bool {
         self.shares != [false; 2]
@@ -108,8 +98,8 @@ impl Contacts {
         self.contacts.iter().map(|contact| contact.place)
     }
 
-    /// Notes how two edges meet.
-    fn meet(&mut self, edges: [usize; 2], e: &DirectedEdge, f: &DirectedEdge) {
+    /// Notes how two edges, of the first and of the second geometry, meet.
+    fn meet(&mut self, edges: [usize; 2], [e, f]: [&DirectedEdge; 2], geometries: [&WayEdges; 2]) {
         let [p, q] = [side(f.from, f.to, e.from), side(f.from, f.to, e.to)];
         if p == q && p != Ordering::Equal {
             return;
@@ -124,7 +114,10 @@ impl Contacts {
         let ends = [(p, e.from, f), (q, e.to, f), (r, f.from, e), (s, f.to, e)];
         let mut on = ends.into_iter().filter(|(side, ..)| *side == Ordering::Equal).peekable();
         if on.peek().is_none() {
-            self.crossings.push(edges);
+            match corner_on(e, f, geometries) {
+                Some(place) => self.contacts.push(Contact { edges, place }),
+                None => self.crossings.push(edges),
+            }
         } else if let Some((_, place, _)) = on.find(|(_, place, edge)| is_between(edge, *place)) {
             self.contacts.push(Contact { edges, place });
         }
@@ -158,6 +151,20 @@ impl Contacts {
         parts.sort_by_key(|part| part.edges[geometry]);
         SortedContacts { geometry, contacts, parts }
     }
+}
+
+/// The corner of one of the geometries, or the end of a line, that lies where two edges cross: there a geometry touches itself,
+/// and what is to the sides of an edge is not the same before and behind the crossing.
+fn corner_on(e: &DirectedEdge, f: &DirectedEdge, geometries: [&WayEdges; 2]) -> Option<DVec2> {
+    let (low, high) = (e.low().max(f.low()), e.high().min(f.high()));
+    let mut found = None;
+    for edges in geometries {
+        edges.meeting(low, high, |_, edge| {
+            found =
+                found.or([edge.from, edge.to].into_iter().find(|place| is_on(e, *place) && is_on(f, *place)));
+        });
+    }
+    found
 }
 
 /// Contacts by the edges of one geometry.

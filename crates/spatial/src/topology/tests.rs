@@ -50,6 +50,15 @@ proptest! {
 }
 
 #[test]
+fn edges_that_cross_where_a_geometry_touches_itself_have_what_is_there_beside_them() {
+    // In (3 3) the first touches itself, and a side of the second leads along it there and then into it.
+    let first = "MULTIPOLYGON (((4 2, 2 1, 3 3, 0 0, 5 1, 4 2)), ((4 5, 1 5, 4 2, 4 5)))";
+    let second = "MULTIPOLYGON (((2 1, 4 5, 4 2, 2 1)), ((0 0, 2 1, 1 1, 0 0)))";
+    let [first, second] = [first, second].map(|text| Geometry::from_wkt(text).unwrap());
+    assert_eq!(first.relate(&second).text(), "2121112F2");
+}
+
+#[test]
 fn what_is_a_rounding_apart_is_apart() {
     // The corner of the second lies on the first one's side, and as little as can be beside it.
     let first = Geometry::from_wkt(
