@@ -1,5 +1,5 @@
 //! Towns: 200 seeds of each script, looked at building by building and street by street.
-//! `cargo bench --bench cities [-- SEEDS]`.
+//! `cargo bench --bench cities [-- SEEDS] [SCRIPT] [extent=METRES]`.
 
 #![allow(clippy::print_stdout, reason = "a bench prints its figures")]
 
@@ -14,14 +14,17 @@ mod cities;
 use cities::{TOWNS, TownFigures, figures};
 
 fn main() {
-    let seeds: u64 = std::env::args().skip(1).find_map(|word| word.parse().ok()).unwrap_or(200);
+    let words: Vec<String> = std::env::args().skip(1).filter(|word| !word.starts_with("--")).collect();
+    let seeds: u64 = words.iter().find_map(|word| word.parse().ok()).unwrap_or(200);
+    let extent = words.iter().find_map(|word| word.strip_prefix("extent="));
+    let script = words.iter().find(|word| TOWNS.iter().any(|town| town.script == **word));
     println!(
         "| script | towns | buildings | pairs that overlap | on a street | streets that cross | least angle over the minimum | parts | joined | lots | without access | areas off by | height and depth |"
     );
     println!("|---|---|---|---|---|---|---|---|---|---|---|---|---|");
-    for town in &TOWNS {
+    for town in TOWNS.iter().filter(|town| script.is_none_or(|script| town.script == *script)) {
         let begin = Instant::now();
-        let all: Vec<TownFigures> = (0..seeds).map(|seed| figures(town, seed)).collect();
+        let all: Vec<TownFigures> = (0..seeds).map(|seed| figures(town, seed, extent)).collect();
         let sum = |of: fn(&TownFigures) -> usize| all.iter().map(of).sum::<usize>();
         let least = |of: fn(&TownFigures) -> f64| all.iter().map(of).fold(f64::INFINITY, f64::min);
         let parts = all.iter().map(|it| it.components).max().unwrap_or(0);

@@ -236,10 +236,12 @@ fn rank_correlation(pairs: &[(f64, f64)]) -> f64 {
     product(&one, &two) / (product(&one, &one) * product(&two, &two)).sqrt()
 }
 
-/// Counts all of it in the town that a script makes.
-pub(crate) fn figures(town: &Town, seed: u64) -> TownFigures {
+/// Counts all of it in the town that a script makes, which reaches as far as it does for its kind unless an `extent` is given.
+pub(crate) fn figures(town: &Town, seed: u64, extent: Option<&str>) -> TownFigures {
     let path = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("scripts").join(town.script);
-    let set = town.set.iter().map(|(name, value)| ((*name).to_owned(), (*value).to_owned())).collect();
+    let mut set: Vec<_> =
+        town.set.iter().map(|(name, value)| ((*name).to_owned(), (*value).to_owned())).collect();
+    set.extend(extent.map(|extent| ("extent".to_owned(), extent.to_owned())));
     let run = burgeon::run(&path, RunOptions { seed, set, lod: 0, ..burgeon::options() })
         .unwrap_or_else(|error| panic!("{}, seed {seed}: {error}", town.script));
     let objects = || {

@@ -38,7 +38,7 @@ fn every_pattern_keeps_what_networks_promise_with_any_seed() {
 fn towns_keep_buildings_apart_and_off_the_streets_with_any_seed() {
     for town in &TOWNS {
         for seed in 0..town.seeds {
-            let of = figures(town, seed);
+            let of = figures(town, seed, None);
             assert_eq!(of.fault(), None, "{}, seed {seed}: {of:?}", town.name());
         }
     }
