@@ -8,7 +8,7 @@ local quarters = require("templates/quarters")
 local roads = require("templates/roads")
 local skyline = require("templates/skyline")
 
-local extent = param("extent", { default = 165, min = 90, max = 400, unit = "m", text = "From the middle" })
+local extent = param("extent", { default = 165, min = 110, max = 400, unit = "m", text = "From the middle" })
 local wall_height = param("wall", { default = 7, min = 0, max = 14, unit = "m", text = "0 for no wall" })
 local plan = param("plan", {
   default = "grown",
@@ -18,7 +18,13 @@ local plan = param("plan", {
 local with_trees = param("trees", { default = true })
 
 local patterns = {
-  grown = roads.organic({ block = 36, bends = 30, branching = 0.95, cross = 0.35, variety = 0.35 }),
+  grown = roads.organic({
+    block = 36,
+    bends = 30,
+    branching = 0.95,
+    cross = 0.35,
+    variety = if extent < 150 then 0.1 else 0.35,
+  }),
   ["laid out"] = roads.raster({ block = 62, width = 42, angle = 10 }),
 }
 local lanes = roads.grow({

@@ -68,6 +68,8 @@ growth.STREETS = {
 local LEADS_OUT = 0.3
 -- How many steps a side street waits, so that main streets come first.
 local WAIT = 2
+-- Which shares of the steps are left when it is looked for land that growth has not come to.
+local LATER = { 0.5, 0.25 }
 
 -- A number from 0 to 1 that looks drawn, and is the same for a place (m) within some metres.
 local function drawn(x: number, y: number, seed: number): number
@@ -244,6 +246,33 @@ function growth.system(options: RoadOptions, ...: number)
     return modules
   end
 
+  -- Streets into land that growth, which chance may end early, has not come to.
+  local function belated(this: Network): { any }
+    local modules = {}
+    for _, junction in this:junctions() do
+      local place = this:place(junction.junction)
+      local depth = math.min(junction.depth + 1, deepest)
+      local pattern = pattern_at(place.x, place.y)
+      -- How many lengths around a place nothing is to be; a fourth street leaves a junction for much land alone.
+      local free = if junction.degree < 3 then 1.1 else 1.8
+      for turn = 0, 270, 90 do
+        local heading = headings[1] + turn
+        local length = pattern.length(place.x, place.y, heading, depth)
+        local way = (free + 0.4) * length * vec(math.cos(math.rad(heading)), math.sin(math.rad(heading)), 0)
+        local ahead = place + way
+        local is_peopled = not people or people(ahead.x, ahead.y) > 0.02
+        if inside(ahead.x, ahead.y) and is_peopled and this:distance(ahead) > free * length then
+          table.insert(modules, start(pattern, junction.junction, place.x, place.y, heading, depth, 0))
+        end
+      end
+    end
+    return modules
+  end
+  local looks = {}
+  for _, share in LATER do
+    looks[math.floor(steps * share)] = not options.onto and steps >= 12
+  end
+
   local axiom = {}
   local highways = if #centres > 1 then joined(centres) else {}
   for _, pair in highways do
@@ -369,8 +398,13 @@ function growth.system(options: RoadOptions, ...: number)
     return nil
   end)
 
-  system:rule("Clock(left)", function(_, left: number)
-    return if left > 0 then Clock(left - 1) else nil
+  system:rule("Clock(left)", function(this: Network, left: number)
+    if left == 0 then
+      return nil
+    elseif looks[left] then
+      return Clock(left - 1), table.unpack(belated(this))
+    end
+    return Clock(left - 1)
   end)
 
   system:interpret(
