@@ -254,15 +254,18 @@ function growth.system(options: RoadOptions, ...: number)
       local depth = math.min(junction.depth + 1, deepest)
       local pattern = pattern_at(place.x, place.y)
       -- How many lengths around a place nothing is to be; a fourth street leaves a junction for much land alone.
-      local free = if junction.degree < 3 then 1.1 else 1.8
+      local free = if junction.degree < 3 then 1.1 else 2.2
+      local room = math.max(3 - junction.degree, 1)
       for turn = 0, 270, 90 do
         local heading = headings[1] + turn
         local length = pattern.length(place.x, place.y, heading, depth)
         local way = (free + 0.4) * length * vec(math.cos(math.rad(heading)), math.sin(math.rad(heading)), 0)
         local ahead = place + way
         local is_peopled = not people or people(ahead.x, ahead.y) > 0.02
-        if inside(ahead.x, ahead.y) and is_peopled and this:distance(ahead) > free * length then
-          table.insert(modules, start(pattern, junction.junction, place.x, place.y, heading, depth, 0))
+        if room > 0 and inside(ahead.x, ahead.y) and is_peopled and this:distance(ahead) > free * length then
+          local tip = start(pattern, junction.junction, place.x, place.y, heading, depth, 0)
+          room -= if tip then 1 else 0
+          table.insert(modules, tip)
         end
       end
     end
@@ -401,10 +404,11 @@ function growth.system(options: RoadOptions, ...: number)
   system:rule("Clock(left)", function(this: Network, left: number)
     if left == 0 then
       return nil
-    elseif looks[left] then
-      return Clock(left - 1), table.unpack(belated(this))
     end
-    return Clock(left - 1)
+    local modules = if looks[left] then belated(this) else {}
+    -- It tidies up when all others have grown.
+    table.insert(modules, Clock(left - 1))
+    return table.unpack(modules)
   end)
 
   system:interpret(
