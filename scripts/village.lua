@@ -11,8 +11,9 @@ local hills =
   param("hills", { default = 26, min = 0, max = 80, unit = "m", text = "How high the ground rises" })
 local with_trees = param("trees", { default = true })
 
--- The ground: once to be asked, and once with the lanes that lie on it.
-local size = extent * 3
+-- The ground: once to be asked, and once with the lanes that lie on it. A lane may lead out of the village, and have
+-- houses there.
+local size = math.max(extent * 3, extent * 2 + 260)
 local rolling =
   { "Land", "Land", "Land", "Land", change = { { -1, 1 }, { -1, 1 }, { -1, 1 }, { -1, 1 } }, decay = 0.46 }
 local form = math.floor(random() * 1000000)

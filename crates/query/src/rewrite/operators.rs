@@ -32,7 +32,7 @@ fn translated(expression: &mut Expr) -> Option<Expr> {
             let not = if *negated { "NOT " } else { "" };
             parse::expression(&format!("(lower({expr}) {not}LIKE lower({pattern}))"))
         }
-        Expr::Cast { kind: kind @ CastKind::DoubleColon, expr, data_type, .. } => {
+        Expr::Cast { kind: kind @ (CastKind::DoubleColon | CastKind::Cast), expr, data_type, .. } => {
             if data_type.to_string().to_ascii_lowercase().starts_with("geometry") {
                 return Some(match &**expr {
                     text @ Expr::Value(_) if is_text(text) => {
