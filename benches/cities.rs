@@ -11,7 +11,7 @@ mod check;
 #[path = "../tests/streets/cities.rs"]
 mod cities;
 
-use cities::{TOWNS, TownFigures, figures};
+use cities::{TOWNS, Town, TownFigures, figures};
 
 fn main() {
     let words: Vec<String> = std::env::args().skip(1).filter(|word| !word.starts_with("--")).collect();
@@ -22,6 +22,10 @@ fn main() {
         "| script | towns | buildings | pairs that overlap | on a street | streets that cross | least angle over the minimum | parts | joined | lots | without access | areas off by | height and depth |"
     );
     println!("|---|---|---|---|---|---|---|---|---|---|---|---|---|");
+    let name = |town: &Town| match extent {
+        Some(extent) => format!("{} extent={extent}", town.script),
+        None => town.name(),
+    };
     for town in TOWNS.iter().filter(|town| script.is_none_or(|script| town.script == *script)) {
         let begin = Instant::now();
         let all: Vec<TownFigures> = (0..seeds).map(|seed| figures(town, seed, extent)).collect();
@@ -34,7 +38,7 @@ fn main() {
         let correlation = known.iter().sum::<f64>() / known.len().max(1) as f64;
         println!(
             "| {} | {} | {} | {} | {} | {} | {:.2}° | {parts} | {:.1} % | {} | {} | {area:.1e} | {correlation:.2} |",
-            town.name(),
+            name(town),
             all.len(),
             sum(|it| it.buildings),
             sum(|it| it.overlaps),
@@ -47,9 +51,9 @@ fn main() {
         );
         for (seed, of) in (0..).zip(&all) {
             if let Some(fault) = of.fault() {
-                println!("seed {seed} of {}: {fault}: {of:?}", town.name());
+                println!("seed {seed} of {}: {fault}: {of:?}", name(town));
             }
         }
-        println!("{} in {:.1} s", town.name(), begin.elapsed().as_secs_f64());
+        println!("{} in {:.1} s", name(town), begin.elapsed().as_secs_f64());
     }
 }

@@ -6,7 +6,7 @@ local build = require("templates/build")
 local nature = require("templates/nature")
 local roads = require("templates/roads")
 
-local extent = param("extent", { default = 210, min = 120, max = 600, unit = "m", text = "From the middle" })
+local extent = param("extent", { default = 210, min = 150, max = 600, unit = "m", text = "From the middle" })
 local hills =
   param("hills", { default = 26, min = 0, max = 80, unit = "m", text = "How high the ground rises" })
 local with_trees = param("trees", { default = true })
@@ -49,6 +49,7 @@ local lanes = roads.grow({
   steps = math.ceil(extent / 16),
   deepest = 2,
   join = 90,
+  detour = 2,
   network = {
     on = bare,
     max_slope = 11,

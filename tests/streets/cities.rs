@@ -49,7 +49,7 @@ pub(crate) const TOWNS: [Town; 4] = [
         joint: (90.0, 2.0),
         turning: 6.0,
         seeds: 4,
-        set: &[("extent", "130"), ("trees", "false")],
+        set: &[("extent", "150"), ("trees", "false")],
     },
 ];
 

@@ -273,7 +273,7 @@ function growth.system(options: RoadOptions, ...: number)
   end
   local looks = {}
   for _, share in LATER do
-    looks[math.floor(steps * share)] = not options.onto and steps >= 12
+    looks[math.floor(steps * share)] = not options.onto and steps >= 8
   end
 
   local axiom = {}
