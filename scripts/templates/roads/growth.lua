@@ -261,7 +261,7 @@ function growth.system(options: RoadOptions, ...: number)
         local length = pattern.length(place.x, place.y, heading, depth)
         local way = (free + 0.4) * length * vec(math.cos(math.rad(heading)), math.sin(math.rad(heading)), 0)
         local ahead = place + way
-        local is_peopled = not people or people(ahead.x, ahead.y) > 0.02
+        local is_peopled = not people or (people :: any)(ahead.x, ahead.y) > 0.02
         if room > 0 and inside(ahead.x, ahead.y) and is_peopled and this:distance(ahead) > free * length then
           local tip = start(pattern, junction.junction, place.x, place.y, heading, depth, 0)
           room -= if tip then 1 else 0
