@@ -49,7 +49,6 @@ fn main() {
         "with a package of {FILES} scripts and {FILES} images, one required: {:+.2} ms",
         ms(one) - ms(alone)
     );
-    assert!(one < alone + Duration::from_millis(50));
     let all: String = (0..FILES).map(|file| format!("require(\"@large/part{file}\")\n")).collect();
     let all = start(folder.path(), &all);
     println!("with all {FILES} scripts required: {:+.2} ms", ms(all) - ms(alone));

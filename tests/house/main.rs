@@ -170,13 +170,11 @@ fn a_member_names_the_crates_that_it_uses_and_no_others() {
             .collect();
         let mut tests: String =
             sources.iter().flat_map(|source| [source.tests.as_str(), &source.comments]).collect();
-        if folder == Path::new("") {
-            let mut files = Vec::new();
-            ["tests", "benches", "examples"]
-                .iter()
-                .for_each(|name| sources::collect(&root().join(name), "rs", &mut files));
-            files.iter().for_each(|file| tests += &text(file));
+        let mut files = Vec::new();
+        for name in ["tests", "benches", "examples"] {
+            sources::collect(&root().join(&folder).join(name), "rs", &mut files);
         }
+        files.iter().for_each(|file| tests += &text(file));
         let tests = paths(&tests);
         let used = |paths: &[Vec<String>], name: &str| {
             let name = name.replace('-', "_");

@@ -16,23 +16,33 @@ pub fn make_room<T>(array: &mut Vec<T>, more: usize) {
     }
 }
 
+/// Adds `items` at the end of `array`, for which it makes room as [`make_room`] does.
+pub fn append<T: Copy>(array: &mut Vec<T>, items: &[T]) {
+    make_room(array, items.len());
+    array.extend_from_slice(items);
+}
+
 #[cold]
 fn grow<T>(array: &mut Vec<T>, more: usize) {
-    let large = array.capacity() * size_of::<T>() >= LARGE;
-    array.reserve(if large { more.max(3 * array.capacity()) } else { more });
-    let bytes = array.capacity() * size_of::<T>();
-    if bytes >= LARGE {
-        advise(array.as_ptr() as usize, bytes);
+    let capacity = (array.len() + more).max(2 * array.capacity());
+    if capacity * size_of::<T>() < LARGE {
+        array.reserve(more);
+        return;
     }
+    // The advice comes before anything is written: what is there already lies on pages of its own.
+    let is_large = array.capacity() * size_of::<T>() >= LARGE;
+    let mut larger: Vec<T> = Vec::with_capacity(if is_large { 2 * capacity } else { capacity });
+    advise(larger.as_ptr() as usize, larger.capacity() * size_of::<T>());
+    larger.append(array);
+    *array = larger;
 }
 
 /// Asks for huge pages in a range of memory. It is only advice: a refusal changes nothing.
 #[cfg(target_os = "linux")]
 fn advise(start: usize, bytes: usize) {
     const PAGE: usize = 4096;
-    // Whole pages, since an allocation that has this advice for only a part of it cannot be moved without copying.
-    let first = start / PAGE * PAGE;
-    let length = (start + bytes).next_multiple_of(PAGE) - first;
+    let first = start.next_multiple_of(PAGE);
+    let length = ((start + bytes) / PAGE * PAGE).saturating_sub(first);
     #[allow(unsafe_code, reason = "no safe interface gives this advice for memory of the global allocator")]
     // SAFETY: MADV_HUGEPAGE changes neither what pages hold nor how they may be used, and all pages of the range hold
     // a part of an allocation that is alive.

@@ -15,6 +15,10 @@ use flatgeobuf::{ColumnType, FgbCrs, FgbWriter, FgbWriterOptions, GeometryType};
 use geozero::wkb::Wkb;
 use geozero::{ColumnValue, PropertyProcessor};
 
+/// As the program has it.
+#[global_allocator]
+static ALLOCATOR: mimalloc::MiMalloc = mimalloc::MiMalloc;
+
 /// How many features are a million.
 const COUNT: usize = 1_000_000;
 

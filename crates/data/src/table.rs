@@ -269,7 +269,7 @@ impl FeatureTable {
         self.budget.take(40 + known + points + parts.len() * (size_of::<Feature>() + 16))?;
         self.records += 1;
         let attributes: Arc<[(usize, Attribute)]> = attributes.into();
-        for (geometry, keeps) in parts.into_iter().zip(keeps) {
+        for (mut geometry, keeps) in parts.into_iter().zip(keeps) {
             if !keeps {
                 if several {
                     self.ids.skip(id, &self.features);
@@ -281,6 +281,7 @@ impl FeatureTable {
             }
             let id = self.ids.fresh(id, &self.features);
             self.budget.take(id.weight())?;
+            geometry.compact();
             self.features.push(Feature { id, geometry, attributes: Arc::clone(&attributes) });
         }
         Ok(())

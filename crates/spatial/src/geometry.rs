@@ -144,6 +144,32 @@ impl Geometry {
         }
     }
 
+    /// Gives back the room that its lists have left over, where there are very many geometries.
+    ///
+    /// Allocators leave an array that is asked to shrink where it is, so that its room is lost to others; hence a copy.
+    pub fn compact(&mut self) {
+        fn compact<T: Clone>(list: &mut Vec<T>) {
+            if list.capacity() > list.len() {
+                *list = list.clone();
+            }
+        }
+        let rings = |rings: &mut Rings| {
+            rings.0.iter_mut().for_each(compact);
+            compact(&mut rings.0);
+        };
+        match self {
+            Self::Point(_) => {}
+            Self::Line(points) | Self::MultiPoint(points) => compact(points),
+            Self::Polygon(polygon) => rings(polygon),
+            Self::MultiLine(lines) => {
+                lines.iter_mut().for_each(compact);
+                compact(lines);
+            }
+            Self::MultiPolygon(polygons) => polygons.iter_mut().for_each(rings),
+            Self::Collection(members) => members.iter_mut().for_each(Self::compact),
+        }
+    }
+
     /// All of its points.
     pub fn points(&self) -> impl Iterator<Item = &DVec3> {
         self.lists().into_iter().flatten()

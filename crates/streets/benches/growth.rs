@@ -71,6 +71,5 @@ fn main() {
             network.size(),
             growth * 1e6 / tries as f64
         );
-        assert!(size != 100_000 || growth < 5.0, "100,000 pieces are grown in under 5 s");
     }
 }

@@ -5,6 +5,7 @@
 
 pub(crate) mod analysis;
 mod api;
+pub(crate) mod bytecode;
 mod data;
 mod deprecations;
 mod options;
@@ -24,5 +25,6 @@ pub use api::{API_VERSION, api_version};
 pub use options::{Limits, Print, RunOptions, TraceRequest};
 pub use param::{Control, Param, Setting};
 pub use preset::Preset;
+pub(crate) use scripts::SourceFile;
 pub use session::{RunProgress, Session};
 pub(crate) use tables::ListTable;

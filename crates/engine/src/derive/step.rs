@@ -11,6 +11,7 @@ use super::threads::{ThreadJob, ThreadPool};
 use crate::machine::{Machine, SystemFunctions};
 use crate::results::Use;
 use burgeon_base::error::{Error, Limit, Result};
+use burgeon_base::memory::append;
 use burgeon_kit::rules::{Chain, Links, Mark};
 
 /// Pieces of a chain from which rewriting it takes longer than starting a helper.
@@ -188,9 +189,9 @@ impl Stepper {
                 }
             };
             let base = made.end(chain);
-            made.symbols.extend_from_slice(&output.chain.symbols);
-            made.params.extend_from_slice(&output.chain.params);
-            made.keys.extend_from_slice(&output.chain.keys);
+            append(&mut made.symbols, &output.chain.symbols);
+            append(&mut made.params, &output.chain.params);
+            append(&mut made.keys, &output.chain.keys);
             let rebased = output.chain.marks.iter().map(|mark| Mark {
                 module: base.module + mark.module,
                 param: base.param + mark.param,

@@ -36,7 +36,7 @@ impl BlankMachine {
             | StdLib::OS
             | StdLib::DEBUG;
         let lua = Lua::new_with(libraries, LuaOptions::default())?;
-        lua.set_compiler(super::virtual_machine::compiler());
+        lua.set_compiler(crate::declare::bytecode::compiler());
         lua.enable_jit(true);
         let prelude = Prelude::chunk(&lua)?;
         Ok(Self { lua, prelude })

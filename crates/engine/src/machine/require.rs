@@ -77,12 +77,12 @@ fn load(
 ) -> Result<LuaValue> {
     let source = session.source(&path, shown, &library.globals())?;
     if !source.analysis.problems.is_empty() && !session.options.check {
-        machine.load(&source.name, &source.analysis.text)?;
+        machine.load_file(&source)?;
         return Err(Error::several(source.analysis.problems.clone()));
     }
     library.loading.borrow_mut().push(path.clone());
     let value = machine
-        .load(&source.name, &source.analysis.text)
+        .load_file(&source)
         .and_then(|chunk| machine.call::<LuaValue>(&chunk, ()).map_err(|error| machine.translate(error)));
     library.loading.borrow_mut().pop();
     let value = value?;

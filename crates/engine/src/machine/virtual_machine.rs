@@ -10,12 +10,12 @@ use super::library::{Library, PrintSwitch};
 use super::prelude::Prelude;
 use super::system::tell_unseen;
 use super::{Driver, Watchdog, WorkState, host, protected, watchdog};
-use crate::declare::Session;
+use crate::declare::{Session, SourceFile, bytecode};
 use burgeon_base::error::{Error, ErrorKind, Limit, Result, SourcePlace};
 use burgeon_base::warning::Warning;
 use burgeon_kit::rules::{Symbol, Symbols};
 use burgeon_packages::Package;
-use mlua::chunk::{ChunkMode, Compiler};
+use mlua::chunk::ChunkMode;
 use mlua::{Buffer, Function, Lua, Value};
 
 /// The name of the machine's own Lua code in tracebacks.
@@ -95,10 +95,10 @@ impl Machine {
             session.source(&path, &session.script().display().to_string(), &self.library.globals())?;
         let problems = session.problems();
         if !problems.is_empty() && !session.options.check {
-            self.load(&source.name, &source.analysis.text)?;
+            self.load_file(&source)?;
             return Err(Error::several(problems));
         }
-        let chunk = self.load(&source.name, &source.analysis.text)?;
+        let chunk = self.load_file(&source)?;
         let value: Value = self.call(&chunk, ()).map_err(|error| self.translate(error))?;
         tell_unseen(self, !value.is_nil());
         Ok(())
@@ -149,13 +149,21 @@ impl Machine {
 
     /// Compiles `text`; errors name the file `name`.
     pub(crate) fn load(&self, name: &str, text: &str) -> Result<Function> {
+        self.load_text(name, text, None)
+    }
+
+    /// The function that is a whole file of the script.
+    pub(crate) fn load_file(&self, file: &SourceFile) -> Result<Function> {
+        self.load_text(&file.name, &file.analysis.text, file.analysis.code.as_deref())
+    }
+
+    fn load_text(&self, name: &str, text: &str, code: Option<&[u8]>) -> Result<Function> {
         self.library.prepare_functions(&self.lua, text).map_err(|error| self.translate(error))?;
-        self.lua
-            .load(text)
-            .set_name(format!("@{name}"))
-            .set_mode(ChunkMode::Text)
-            .into_function()
-            .map_err(|error| self.translate(error))
+        let chunk = match code {
+            Some(code) => self.lua.load(code).set_mode(ChunkMode::Binary),
+            None => self.lua.load(text).set_mode(ChunkMode::Text),
+        };
+        chunk.set_name(format!("@{name}")).into_function().map_err(|error| self.translate(error))
     }
 
     /// A function from what [`compile`] gave, as bytecode until it is made [`native`]; what goes wrong in it is told in
@@ -238,11 +246,7 @@ impl Machine {
 
 /// Compiles Burgeon's own Lua text, which has no mistakes in it; nothing comes of one that has.
 pub(crate) fn compile(text: &str) -> Vec<u8> {
-    compiler().compile(text).unwrap_or_default()
-}
-
-pub(super) fn compiler() -> Compiler {
-    Compiler::new().set_optimization_level(2).set_type_info_level(1).set_debug_level(1)
+    bytecode::compile(text).unwrap_or_default()
 }
 
 /// Whether Lua had no memory left.

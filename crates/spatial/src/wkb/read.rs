@@ -103,12 +103,35 @@ impl WkbReader<'_> {
     fn points(&mut self, head: GeometryHeader) -> Result<Vec<DVec3>, String> {
         let size = 16 + 8 * (usize::from(head.z) + usize::from(head.m));
         let count = self.count(size)?;
-        (0..count).map(|_| self.point(head)).collect()
+        let mut points = Vec::with_capacity(count);
+        for _ in 0..count {
+            points.push(self.point(head)?);
+        }
+        Ok(points)
+    }
+
+    /// The points of a ring; the last one is left out where it is the first one again, so that there is no room for it
+    /// either.
+    fn ring(&mut self, head: GeometryHeader) -> Result<Vec<DVec3>, String> {
+        let size = 16 + 8 * (usize::from(head.z) + usize::from(head.m));
+        let count = self.count(size)?;
+        let mut points: Vec<DVec3> = Vec::with_capacity(count.saturating_sub(1));
+        for number in 1..=count {
+            let point = self.point(head)?;
+            if number < count || points.first() != Some(&point) {
+                points.push(point);
+            }
+        }
+        Ok(points)
     }
 
     fn rings(&mut self, head: GeometryHeader) -> Result<Vec<Vec<DVec3>>, String> {
         let count = self.count(4)?;
-        (0..count).map(|_| self.points(head)).collect()
+        let mut rings = Vec::with_capacity(count);
+        for _ in 0..count {
+            rings.push(self.ring(head)?);
+        }
+        Ok(rings)
     }
 
     /// The head of a geometry of a type that is `allowed` here.

@@ -118,6 +118,24 @@ fn curves_and_collections_become_lines_and_polygons() {
 }
 
 #[test]
+fn geometries_have_no_room_left_over() {
+    let text = "MULTIPOLYGON (((0 0, 9 0, 9 9, 0 9, 0 0), (1 1, 1 2, 2 1, 1 1)), ((20 0, 29 0, 29 9, 20 0)))";
+    let mut geometry = Geometry::from_wkb(&Geometry::from_wkt(text).unwrap().to_wkb()).unwrap();
+    let room = |geometry: &Geometry| {
+        let Geometry::MultiPolygon(polygons) = geometry else { panic!("{geometry:?}") };
+        let rings = polygons.iter().flat_map(|rings| rings.iter());
+        rings.map(|ring| (ring.len(), ring.capacity())).collect::<Vec<_>>()
+    };
+    assert_eq!(room(&geometry), [(4, 4), (3, 3), (3, 3)]);
+    let Geometry::MultiPolygon(polygons) = &mut geometry else { return };
+    polygons[0].0[0].reserve(50);
+    let before = geometry.clone();
+    geometry.compact();
+    assert_eq!(room(&geometry), [(4, 4), (3, 3), (3, 3)]);
+    assert_eq!(geometry, before);
+}
+
+#[test]
 fn changed_bytes_never_make_it_panic() {
     let straight = of_points(2, &[[0.0, 0.0], [4.0, 0.0]]);
     let half = of_points(8, &[[4.0, 0.0], [2.0, 2.0], [0.0, 0.0]]);

@@ -8,6 +8,7 @@ use std::time::Duration;
 
 use super::queries::QueryCall;
 use super::walk::{Facts, Walk};
+use crate::declare::bytecode::compile;
 use burgeon_base::error::{Error, Limit, SourcePlace};
 use burgeon_kit::Deprecation;
 use burgeon_kit::rules::Signature;
@@ -16,7 +17,6 @@ use burgeon_packages::FileName;
 use full_moon::ast::Ast;
 use full_moon::node::Node;
 use full_moon::tokenizer::TokenType;
-use mlua::chunk::Compiler;
 use rustc_hash::FxHashMap;
 
 /// What a script may use without declaring it.
@@ -41,6 +41,8 @@ pub(crate) struct Globals {
 pub(crate) struct Analysis {
     /// The text to run, with as many lines as the script.
     pub text: String,
+    /// Its bytecode, if it is a file's and Luau compiles it.
+    pub code: Option<Vec<u8>>,
     /// What is wrong, by line.
     pub problems: Vec<Error>,
     /// Whether the script names `random`.
@@ -132,9 +134,7 @@ fn unread(text: &str, problems: Vec<Error>) -> Analysis {
 
 fn read(file: &str, text: &str, globals: &Receiver<Globals>) -> Analysis {
     // Luau bounds the nesting of what it compiles; the parser used here does not, so it comes second.
-    if Compiler::new().set_optimization_level(0).compile(text).is_err() {
-        return unread(text, Vec::new());
-    }
+    let Some(code) = compile(text) else { return unread(text, Vec::new()) };
     let refuse = |line: usize| {
         let place = SourcePlace { file: file.to_owned(), line };
         let error = Error::syntax("this part of Luau's syntax is not known to Burgeon")
@@ -190,8 +190,10 @@ fn read(file: &str, text: &str, globals: &Receiver<Globals>) -> Analysis {
     let packages = package_names(&ast);
     let signatures = signatures.into_iter().filter_map(|(line, form)| Some((line, form?))).collect();
     let ast = globals.checks_calls.then(|| Arc::new(ast));
+    let code = if edits.is_empty() { Some(code) } else { compile(&out) };
     Analysis {
         text: out,
+        code,
         problems,
         random,
         pure,
