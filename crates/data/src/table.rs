@@ -102,8 +102,10 @@ fn touches(geometry: &Geometry, [west, south, east, north]: [f64; 4]) -> bool {
 }
 
 /// The ids that are taken.
-#[derive(Debug, Default)]
+#[derive(Debug)]
 struct TakenIds {
+    /// Ids from this number on are free, as long as all of them are numbers that grow; then `features` is empty.
+    free: Option<u64>,
     /// The numbers of features, by their ids.
     features: HashTable<u32>,
     /// The number that was tried last behind an id that came again.
@@ -114,9 +116,25 @@ fn hash(id: &str) -> u64 {
     FxBuildHasher.hash_one(id)
 }
 
+/// The number that `id` is, written as numbers are.
+fn counted(id: &str) -> Option<u64> {
+    let plain = id.bytes().all(|byte| byte.is_ascii_digit()) && (id.len() == 1 || !id.starts_with('0'));
+    if plain { id.parse().ok() } else { None }
+}
+
 impl TakenIds {
+    fn new() -> Self {
+        Self { free: Some(0), features: HashTable::new(), last: FxHashMap::default() }
+    }
+
     /// The id that the next of `features` gets, where it wants `id`: that one, or it with a number behind it.
     fn fresh(&mut self, id: &str, features: &[Feature]) -> FeatureId {
+        let number = self.free.and_then(|free| counted(id).filter(|number| *number >= free));
+        if let Some(after) = number.and_then(|number| number.checked_add(1)) {
+            self.free = Some(after);
+            return FeatureId::from(id);
+        }
+        self.look_up(features);
         let last = self.last.get(id).copied();
         let id = match last.is_some() || self.taken(id, features) {
             false => FeatureId::from(id),
@@ -133,18 +151,34 @@ impl TakenIds {
                 FeatureId::from(unique.as_str())
             }
         };
-        let number = u32::try_from(features.len()).unwrap_or(u32::MAX);
-        let own = hash(&id);
+        self.insert(&id, features.len(), features);
+        id
+    }
+
+    /// From here on ids are looked up.
+    fn look_up(&mut self, features: &[Feature]) {
+        if self.free.take().is_some() {
+            self.features = HashTable::with_capacity(features.len() + 1);
+            features
+                .iter()
+                .enumerate()
+                .for_each(|(place, feature)| self.insert(&feature.id, place, features));
+        }
+    }
+
+    /// Takes `id` for the feature at `place`.
+    fn insert(&mut self, id: &str, place: usize, features: &[Feature]) {
+        let own = hash(id);
         let of = |number: &u32| {
             // The next one is not there yet.
             features.get(*number as usize).map_or(own, |feature| hash(&feature.id))
         };
-        self.features.insert_unique(own, number, of);
-        id
+        self.features.insert_unique(own, u32::try_from(place).unwrap_or(u32::MAX), of);
     }
 
     /// Counts a part with this id that is not wanted, so that others have the same ids as if it were.
     fn skip(&mut self, id: &str, features: &[Feature]) {
+        self.look_up(features);
         let first = usize::from(self.taken(id, features));
         *self.last.entry(id.to_owned()).or_insert(first) += 1;
     }
@@ -179,7 +213,7 @@ impl FeatureTable {
             refused: Vec::new(),
             notes: Vec::new(),
             selection: Selection { kind, within, limit, seen: [false; 3] },
-            ids: TakenIds::default(),
+            ids: TakenIds::new(),
             numbers: FxHashMap::default(),
             texts: FxHashSet::default(),
             budget: Arc::clone(&wanted.budget),
@@ -369,7 +403,7 @@ impl FeatureTable {
     pub(super) fn identify(&mut self, name: Option<&str>) -> Result<()> {
         let Some(name) = name else { return Ok(()) };
         let column = self.column(name)?;
-        self.ids = TakenIds::default();
+        self.ids = TakenIds::new();
         for mut feature in std::mem::take(&mut self.features) {
             let known = feature.attributes.iter().find(|(index, _)| *index == column);
             let id = known.map_or_else(|| feature.id.to_string(), |(_, value)| value.as_id());
@@ -483,6 +517,19 @@ mod tests {
         let mut table = FeatureTable::new("a", "a", Crs::epsg(4326), &SourceOptions::default());
         let [a, b] = ["residential"; 2].map(|text| table.text(text));
         assert!(matches!((a, b), (Attribute::Text(a), Attribute::Text(b)) if Arc::ptr_eq(&a, &b)));
+    }
+
+    #[test]
+    fn ids_that_count_up_are_told_apart_from_those_that_come_later() {
+        let mut table = FeatureTable::new("a", "a", Crs::epsg(4326), &SourceOptions::default());
+        let wanted =
+            ["0", "7", "8", "18446744073709551615", "18446744073709551615", "9", "007", "8", "7.2", "7"];
+        for id in wanted {
+            table.push(id, vec![Geometry::point([0.0; 3])], Vec::new()).unwrap();
+        }
+        let ids: Vec<&str> = table.features.iter().map(|feature| feature.id.as_str()).collect();
+        let same = ["18446744073709551615", "18446744073709551615.2"];
+        assert_eq!(ids, ["0", "7", "8", same[0], same[1], "9", "007", "8.2", "7.2", "7.3"]);
     }
 
     #[test]
