@@ -117,7 +117,7 @@ impl Source {
 
     /// Reads GeoJSON, all of it.
     fn geojson(
-        file: File,
+        mut file: File,
         size: u64,
         path: &Path,
         (name, wanted): (&str, &SourceOptions),
@@ -129,6 +129,13 @@ impl Source {
                 format!("{name} is larger than {} MB", geojson::LARGEST / 1_000_000),
             )
             .help("convert it to a FlatGeobuf or a GeoPackage, of which a part can be read"));
+        }
+        if size > 4 * geojson::WINDOW as u64 {
+            let read = geojson::stream((&mut file).take(size), path, name, wanted, geojson::WINDOW);
+            if let Some(table) = read.map_err(|error| error.about(name))? {
+                return Ok(Self::GeoJson(Box::new(table)));
+            }
+            file.rewind().map_err(&cannot)?;
         }
         let room = usize::try_from(size).unwrap_or(usize::MAX);
         let _held = wanted.budget.hold(room)?;

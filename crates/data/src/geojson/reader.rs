@@ -16,7 +16,7 @@ use serde_json::{Map, Value};
 pub(crate) const LARGEST: u64 = 500_000_000;
 
 /// What stands before each text of a sequence.
-const RECORD: char = '\u{1e}';
+pub(super) const RECORD: char = '\u{1e}';
 
 /// Properties of a feature from this length (bytes) on are asked for before they are read.
 pub(super) const LARGE: usize = 1 << 20;
@@ -41,20 +41,11 @@ pub(crate) fn read(bytes: &[u8], path: &Path, name: &str, wanted: &SourceOptions
                 .help("data files are GeoJSON, GeoPackage, FlatGeobuf, GML and .osm.pbf; convert it: ogr2ogr out.gpkg FILE"));
         }
     };
-    let stem = path.file_stem().map_or_else(|| name.to_owned(), |stem| stem.to_string_lossy().into_owned());
-    let mut reader = FeatureReader {
-        table: FeatureTable::new(&stem, name, Crs::epsg(4326), wanted),
-        name,
-        wanted,
-        records: 0,
-        failure: None,
-    };
-    let extension = path.extension().unwrap_or_default().to_string_lossy().to_ascii_lowercase();
+    let mut reader = FeatureReader::new(path, name, wanted);
     if text.trim_start().starts_with(RECORD) {
         reader.records(text)?;
     } else {
-        let is_sequence = crate::SEQUENCES.contains(&&*extension);
-        reader.documents(text, is_sequence)?;
+        reader.documents(text, super::is_sequence(path))?;
     }
     Ok(reader.table)
 }
@@ -70,7 +61,20 @@ pub(super) struct FeatureReader<'a> {
     pub(super) failure: Option<Error>,
 }
 
-impl FeatureReader<'_> {
+impl<'a> FeatureReader<'a> {
+    /// A reader of the file at `path`, which messages call `name`.
+    pub(super) fn new(path: &Path, name: &'a str, wanted: &'a SourceOptions) -> Self {
+        let stem =
+            path.file_stem().map_or_else(|| name.to_owned(), |stem| stem.to_string_lossy().into_owned());
+        let table = FeatureTable::new(&stem, name, Crs::epsg(4326), wanted);
+        Self { table, name, wanted, records: 0, failure: None }
+    }
+
+    /// What has been read.
+    pub(super) fn into_table(self) -> FeatureTable {
+        self.table
+    }
+
     /// Reads the texts of a sequence with separators.
     fn records(&mut self, text: &str) -> Result<()> {
         let mut line = 1;
@@ -116,12 +120,15 @@ impl FeatureReader<'_> {
     }
 
     /// Reads one text, whose features are added at once; gives what else it says, and what follows it.
-    fn text<'t>(&mut self, text: &'t str) -> Result<(DocumentHeader<'t>, &'t str), serde_json::Error> {
+    pub(super) fn text<'t>(
+        &mut self,
+        text: &'t str,
+    ) -> Result<(DocumentHeader<'t>, &'t str), serde_json::Error> {
         document(self, text)
     }
 
     /// Takes the document that is the whole file.
-    fn alone(&mut self, head: DocumentHeader<'_>) -> Result<()> {
+    pub(super) fn alone(&mut self, head: DocumentHeader<'_>) -> Result<()> {
         self.stop()?;
         self.table.crs = system(head.crs.as_ref());
         if let Some(title) = head.name.as_ref().and_then(Value::as_str).filter(|title| !title.is_empty()) {
@@ -131,7 +138,7 @@ impl FeatureReader<'_> {
     }
 
     /// Takes a text of a sequence, which may name the coordinate system of all.
-    fn member(&mut self, head: DocumentHeader<'_>) -> Result<()> {
+    pub(super) fn member(&mut self, head: DocumentHeader<'_>) -> Result<()> {
         self.stop()?;
         if head.crs.is_some() {
             self.table.crs = system(head.crs.as_ref());

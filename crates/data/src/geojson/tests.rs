@@ -199,3 +199,81 @@ fn changed_bytes_never_make_it_panic() {
     }
     assert!(good > 500 && bad > 500, "{good} {bad}");
 }
+
+/// All that a table tells.
+fn content(table: &FeatureTable) -> String {
+    let FeatureTable { layer, crs, names, features, records, empty, refused, notes, .. } = table;
+    format!("{layer} {crs:?} {names:?} {features:?} {records} {empty} {refused:?} {notes:?}")
+}
+
+#[test]
+fn a_file_says_the_same_when_it_is_read_a_part_at_a_time() {
+    let point = r#"{"type":"Point","coordinates":[12.5,-3e1]}"#;
+    let (a, b) = (
+        feature(r#"{"type":"Polygon","coordinates":[[[0,0],[10,0],[10,10],[0,0]]]}"#),
+        format!(r#"{{"id":"\u00e9 }}","type":"Feature","properties":{{"näme":"x\"]"}},"geometry":{point}}}"#),
+    );
+    let null = r#"{"type":"Feature","properties":null,"geometry":null}"#;
+    let utm = r#""crs":{"type":"name","properties":{"name":"urn:ogc:def:crs:EPSG::25831"}}"#;
+    let texts = [
+        format!(r#"{{"type":"FeatureCollection","features":[{a},{b},{null},{a}]}}"#),
+        format!(
+            "\u{feff} {{ \"features\" : [ {a}\n,\t{b} ] ,\r\n\"name\":\"town\", \"type\": \"FeatureCollection\", {utm} }} \n"
+        ),
+        format!(r#"{{"type":"FeatureCollection","features":[7,{a},{{"type":1}},{b}]}}"#),
+        format!(r#"{{"f\u0065atures":[{a}],"type":"FeatureCollection","features":[{b}]}}"#),
+        r#"{"type":"FeatureCollection","features":[ ]}"#.to_owned(),
+        format!("{a}\n{b}\n{{}}\n{point}\n{a}"),
+        format!("{a}{{\"type\":\"FeatureCollection\",\"features\":[{a},{b}]}}{b}"),
+        format!("\u{1e}{a}\n\u{1e}\u{1e} \n\u{1e}{b}"),
+        a.clone(),
+        point.to_owned(),
+    ];
+    let wanted = SourceOptions::default();
+    let part =
+        |bytes: &[u8], name: &str, window: usize| stream(bytes, Path::new(name), name, &wanted, window);
+    for (text, name) in texts.iter().flat_map(|text| [(text, "a.geojson"), (text, "a.ndjson")]) {
+        let whole = content(&read_as(text, name).unwrap());
+        for window in (1..80).chain([1000, 100_000]) {
+            let table = part(text.as_bytes(), name, window).unwrap().expect(text);
+            assert_eq!(content(&table), whole, "{text} by {window}");
+        }
+    }
+    let (mut same, mut irregular) = (0, 0);
+    for text in texts.iter().map(String::as_bytes) {
+        for at in 0..text.len() {
+            for byte in *b"\0 \n\x1e\"[]{},:-0e\xff" {
+                let changed = [&text[..at], &[byte], &text[at + 1..]].concat();
+                let whole = read(&changed, Path::new("a"), "a", &wanted);
+                match part(&changed, "a", 1 + at % 50) {
+                    Ok(Some(table)) => {
+                        assert_eq!(content(&table), content(&whole.unwrap()));
+                        same += 1;
+                    }
+                    Ok(None) => irregular += 1,
+                    Err(error) => assert_eq!(whole.unwrap_err().message(), error.message()),
+                }
+            }
+        }
+    }
+    assert!(same > 5_000 && irregular > 5_000, "{same} {irregular}");
+}
+
+#[test]
+fn a_part_at_a_time_takes_no_more_memory_than_its_largest_feature() {
+    let small = feature(r#"{"type":"Point","coordinates":[1,2]}"#);
+    let list = vec![small.as_str(); 20_000].join(",");
+    let text = format!(r#"{{"type":"FeatureCollection","features":[{list}]}}"#);
+    let with = |text: &str, memory: usize| {
+        let budget = Budget::within(std::time::Duration::from_secs(60), memory);
+        let wanted = SourceOptions { budget, ..SourceOptions::default() };
+        let read = stream(text.as_bytes(), Path::new("a"), "a", &wanted, 1000);
+        read.map(|table| (table.unwrap().features.len(), wanted.budget.taken()))
+    };
+    let (count, taken) = with(&text, 100_000_000).unwrap();
+    assert_eq!(count, 20_000);
+    assert!(with(&text, taken + 2_000).is_ok() && with(&text, taken - 1_000).is_err());
+    let points = vec!["[1,2]"; 400_000].join(",");
+    let large = feature(&format!(r#"{{"type":"LineString","coordinates":[{points}]}}"#));
+    assert!(with(&large, 1_000_000).unwrap_err().message().contains("MB of memory"));
+}
