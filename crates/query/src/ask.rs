@@ -105,7 +105,7 @@ pub(crate) fn rows(
     let mut rows = statement.raw_query();
     while let Some(row) = rows.next()? {
         let cell = |(index, boolean): (usize, &bool)| {
-            cell(row.get_ref(index)?, *boolean, frame, budget)
+            cell(row.get_ref(index)?, *boolean, frame, link, budget)
                 .map_err(|error| QueryFailure::Told(error.noting(&format!("column {}", answer.names[index]))))
         };
         let row = shape.booleans.iter().enumerate().map(cell).collect::<Result<Vec<Cell>, QueryFailure>>()?;
@@ -162,6 +162,7 @@ fn cell(
     value: ValueRef<'_>,
     boolean: bool,
     frame: Option<&ReferenceFrame>,
+    link: &DatabaseLink,
     budget: &Budget,
 ) -> BurgeonResult<Cell> {
     Ok(match value {
@@ -173,6 +174,7 @@ fn cell(
         ValueRef::Text(text) => Cell::Text(String::from_utf8_lossy(text).into()),
         ValueRef::Blob(bytes) => {
             let geometry = blob::read(bytes, budget).map_err(|why| {
+                link.state.keep_unreadable(bytes);
                 Error::data(format!("a geometry {why}"))
                     .help("bytes are taken as geometries; take hex(...) of others")
             })?;

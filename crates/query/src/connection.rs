@@ -52,6 +52,8 @@ pub(crate) struct ConnectionState {
     pub indexes: Arc<Indexes>,
     /// The geometries that were read last: those of an outer loop are asked for again and again, and of neighbours.
     recent: Mutex<RecentGeometries>,
+    /// The blob that was no geometry.
+    unreadable: Mutex<Option<Vec<u8>>>,
     /// Whether what comes is Burgeon's own.
     trusted: Mutex<bool>,
 }
@@ -112,9 +114,20 @@ impl ConnectionState {
         if let Some((_, parsed)) = place.as_ref().filter(|(known, _)| known == bytes) {
             return Ok(Arc::clone(parsed));
         }
-        let parsed = Arc::new(GeometryArgument::read(bytes, &self.budget())?);
+        let read = GeometryArgument::read(bytes, &self.budget());
+        let parsed = Arc::new(read.inspect_err(|_| self.keep_unreadable(bytes))?);
         *place = Some((bytes.to_vec(), Arc::clone(&parsed)));
         Ok(parsed)
+    }
+
+    /// Remembers a blob that is no geometry, so that its row can be told.
+    pub(crate) fn keep_unreadable(&self, bytes: &[u8]) {
+        *self.unreadable.lock().unwrap_or_else(PoisonError::into_inner) = Some(bytes.to_vec());
+    }
+
+    /// The last blob that was no geometry, which is forgotten.
+    pub(crate) fn take_unreadable(&self) -> Option<Vec<u8>> {
+        self.unreadable.lock().unwrap_or_else(PoisonError::into_inner).take()
     }
 }
 
@@ -190,6 +203,7 @@ impl DatabaseLink {
             budget: Mutex::default(),
             indexes: Arc::clone(indexes),
             recent: Mutex::default(),
+            unreadable: Mutex::default(),
             trusted: Mutex::new(false),
         });
         functions::register(&connection, &state)?;

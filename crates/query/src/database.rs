@@ -228,10 +228,11 @@ impl Database {
         let link = self.link().map_err(|error| errors::internal(&error))?;
         link.state.give(budget);
         let prepared = self.prepared(sql, &link, budget)?;
+        link.state.take_unreadable();
         let done = work(&link, &prepared);
         let result = done.map_err(|failure| {
             // What was interrupted does not say why.
-            budget.check().err().unwrap_or_else(|| self.error(sql, failure))
+            budget.check().err().unwrap_or_else(|| self.error(sql, failure, &link))
         });
         link.state.give(&Arc::default());
         let mut idle = self.idle.lock().unwrap_or_else(PoisonError::into_inner);
@@ -239,11 +240,19 @@ impl Database {
         result
     }
 
-    fn error(&self, sql: &str, failure: ask::QueryFailure) -> Error {
+    fn error(&self, sql: &str, failure: ask::QueryFailure, link: &DatabaseLink) -> Error {
         let tables = self.tables.read().unwrap_or_else(PoisonError::into_inner);
-        match failure {
+        let error = match failure {
             ask::QueryFailure::Told(error) => error,
             ask::QueryFailure::Sqlite(error) => errors::told(&error, sql, &tables.catalogue),
+        };
+        let row = link.state.take_unreadable().and_then(|bytes| {
+            let asked = tables.catalogue.values().filter(|table| names_table(sql, &table.name));
+            asked.into_iter().find_map(|table| tables::row_of(&link.connection, table, &bytes))
+        });
+        match row {
+            Some(row) => error.noting(&row),
+            None => error,
         }
     }
 

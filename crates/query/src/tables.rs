@@ -14,6 +14,7 @@ use crate::index::{IndexBuilder, SpatialIndex};
 use crate::rewrite::TableInfo;
 use burgeon_base::budget::Budget;
 use burgeon_base::error::{Error, Result};
+use burgeon_base::text::shown;
 use burgeon_data::{Attribute, Crs, GeoPackage, Layer, ReferenceFrame};
 use burgeon_spatial::Geometry;
 use glam::DVec3;
@@ -43,6 +44,22 @@ pub(crate) fn index(
         builder.push(row.get(0)?, row.get_ref(1)?.as_blob_or_null().unwrap_or_default(), budget)?;
     }
     Ok(builder.build())
+}
+
+/// The row of a table that holds these bytes as a geometry, in words.
+pub(crate) fn row_of(connection: &Connection, table: &TableInfo, bytes: &[u8]) -> Option<String> {
+    let key = table.key.as_deref()?;
+    table.geometries.iter().find_map(|column| {
+        let sql =
+            format!("SELECT {} FROM {} WHERE {} = ?1", quoted(key), quoted(&table.name), quoted(column));
+        let row: Value = connection.query_row(&sql, [bytes], |row| row.get(0)).ok()?;
+        let row = match row {
+            Value::Integer(number) => number.to_string(),
+            Value::Text(text) => shown(&text).into_owned(),
+            _ => return None,
+        };
+        Some(format!("{} of {} with {key} {row}", shown(column), shown(&table.name)))
+    })
 }
 
 /// A layer of a GeoPackage.

@@ -96,3 +96,42 @@ fn tables_of_mixed_and_invalid_geometries_are_joined_and_none_is_lost() {
     );
     assert_eq!(count("SELECT ST_Union(geom) AS geom, ST_Collect(geom) AS both FROM odd"), 1);
 }
+
+#[test]
+fn a_row_whose_geometry_cannot_be_read_is_named() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = town(folder.path(), 30);
+    let connection = rusqlite::Connection::open(&path).unwrap();
+    let no_number = [b"GP\0\x01\0\0\0\0\x01\x01\0\0\0".as_slice(), &f64::NAN.to_le_bytes(), &[0; 8]].concat();
+    for (blob, fid) in [(&no_number[..], 17), (&no_number[..20], 23)] {
+        connection.execute("UPDATE houses SET geom = ?1 WHERE fid = ?2", (blob, fid)).unwrap();
+    }
+    drop(connection);
+    let database = Database::new(None).unwrap();
+    database.add_geopackage("houses", &path, "town.gpkg", "houses", &budget()).unwrap();
+    database.add_geopackage("built", &path, "town.gpkg", "houses", &budget()).unwrap();
+    let told = |sql: &str| database.query(sql, &[], &budget()).unwrap_err().message().to_owned();
+    insta::assert_snapshot!(
+        [
+            "SELECT ST_Area(geom) FROM houses WHERE fid > 10",
+            "SELECT fid FROM built WHERE fid > 20 AND ST_Area(geom) > 50",
+            "SELECT geom AS place FROM houses WHERE fid = 17",
+            "SELECT a.fid FROM houses a, built b WHERE b.fid = 17 AND ST_Distance(a.geom, b.geom) < 2",
+            "SELECT ST_Area(x'0101')",
+        ]
+        .map(told)
+        .join("\n"),
+        @r"
+    SQL, line 1, column 8: ST_Area: the geometry of argument 1 has a coordinate that is no finite number (geom of houses with fid 17)
+    SQL, line 1, column 42: ST_Area: the geometry of argument 1 ends too early (geom of built with fid 23)
+    a geometry has a coordinate that is no finite number (column place) (geom of houses with fid 17)
+    SQL: a geometry has a coordinate that is no finite number (geom of built with fid 17)
+    SQL, line 1, column 8: ST_Area: the geometry of argument 1 ends too early
+    "
+    );
+    // What nobody asks for is nobody's fault.
+    assert_eq!(
+        database.query("SELECT fid FROM houses WHERE fid = 17", &[], &budget()).unwrap().rows.len(),
+        1
+    );
+}
