@@ -19,6 +19,9 @@ use rusqlite::{Connection, OpenFlags, OptionalExtension};
 /// The longest text or blob (bytes) of a file.
 const LONGEST: i32 = 200_000_000;
 
+/// How many kibibytes of pages a connection keeps.
+const PAGES: i64 = 256;
+
 /// How often is looked whether a query is to end.
 const PERIOD: Duration = Duration::from_millis(20);
 
@@ -193,6 +196,8 @@ pub(in crate::formats) fn guard(connection: &mut Connection, budget: &Arc<Budget
     ] {
         connection.set_limit(limit, most)?;
     }
+    // Rows are read once, in order: no more pages than that takes.
+    connection.pragma_update(None, "cache_size", -PAGES)?;
     // What is sorted stays in memory, where it is counted.
     connection.pragma_update(None, "temp_store", "MEMORY")?;
     limit_heap(budget.memory());
