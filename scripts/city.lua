@@ -52,6 +52,8 @@ local far = extent * 1.6
 local wide = 30 + extent * 0.05
 local water: any = if with_river then river(far, wide) else nil
 local quays: any = if with_river then river(far, wide + 14) else nil
+-- What is to be built on ends a little before them, so that no rounding makes it reach into what is in its way.
+local banks: any = if with_river then river(far, wide + 14.1) else nil
 
 -- The ground, where it is not flat: hills, and the valley of the river. It is there once to be asked, and once with the streets
 -- that lie on it.
@@ -132,7 +134,7 @@ local streets = roads.grow({
 
 -- What is left of an area beside the river.
 local function dry(geometry: any): any
-  return if with_river and geometry:intersects(quays) then geometry:difference(quays) else geometry
+  return if with_river and geometry:intersects(banks) then geometry:difference(banks) else geometry
 end
 
 -- The flat ground: the country around, the blocks, each in the colour of its quarter, and the water.
@@ -153,7 +155,8 @@ if not land then
   end
 end
 
--- Blocks, each of the kind of its quarter.
+-- Blocks, each of the kind of its quarter. What has no building is green.
+local green: { any } = {}
 local of: { [string]: { any } } = {}
 local plots: { [string]: { any } } = {}
 for _, block in streets:blocks() do
@@ -164,15 +167,19 @@ for _, block in streets:blocks() do
     plots[kind] = plots[kind] or {}
     table.insert(plots[kind], left)
     for _, part in left:geometries() do
-      if part:area() > 250 then
+      local area = part:area()
+      if area > 250 then
         table.insert(of[kind], { id = block.id, geometry = part })
+      else
+        -- What the river leaves of a block is a garden where it is too small to be divided.
+        table.insert(green, { id = `{block.id} {#green}`, geometry = part, area = area, use = "rest" })
       end
     end
   end
 end
 
 -- Buildings with all of their facades, and those that are only seen from afar.
-local near: { any }, distant: { any }, green: { any } = {}, {}, {}
+local near: { any }, distant: { any } = {}, {}
 local plan: { any } = {}
 for kind, blocks in of do
   local quarter = quarters.kinds[kind]
@@ -193,7 +200,7 @@ for kind, blocks in of do
     })
     if lot.use == "building" then
       table.insert(lots, lot)
-    elseif lot.use ~= "blocked" then
+    else
       table.insert(green, lot)
     end
   end

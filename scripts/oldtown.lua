@@ -50,13 +50,35 @@ local lanes = roads.grow({
   },
 }).objects[1] :: Network
 
--- The market is the block next to the middle; all others are divided into narrow lots.
+-- A church in the middle of a block, as long as there is room for it, and at least 18 m; nil where there is none.
+local function church_in(block: any): any
+  local middle = block.geometry:point_on_surface()
+  local shape = block.geometry:oriented_envelope().rings[1]
+  local along = vec(shape[2][1] - shape[1][1], shape[2][2] - shape[1][2], 0):unit()
+  local across = vec(-along.y, along.x, 0)
+  local place = vec(middle:x(), middle:y(), 0)
+  for length = 34, 18, -4 do
+    local ring = {}
+    for _, corner in { { -0.5, -0.22 }, { 0.5, -0.22 }, { 0.5, 0.22 }, { -0.5, 0.22 } } do
+      local at = place + along * (corner[1] * length) + across * (corner[2] * length)
+      table.insert(ring, { at.x, at.y })
+    end
+    if polygon(ring):buffer(5):within(block.geometry) then
+      return polygon(ring)
+    end
+  end
+  return nil
+end
+
+-- The market is the block next to the middle, if possible one with room for a church; all others are divided into narrow
+-- lots.
 local blocks = lanes:blocks()
-local market, least = nil :: any, math.huge
+local market, church, least = nil :: any, nil :: any, math.huge
 for _, block in blocks do
   local far = block.geometry:distance(point(0, 0)) + math.abs(block.area - 2200) / 60
-  if far < least then
-    market, least = block, far
+  local place = if church and far >= least then nil else church_in(block)
+  if place and not church or (place ~= nil) == (church ~= nil) and far < least then
+    market, church, least = block, place, far
   end
 end
 local built = {}
@@ -159,26 +181,12 @@ do
   end
 end
 
-local church: any = nil
-if market then
-  local middle = market.geometry:point_on_surface()
-  local shape = market.geometry:oriented_envelope().rings[1]
-  local along = vec(shape[2][1] - shape[1][1], shape[2][2] - shape[1][2], 0):unit()
-  local across = vec(-along.y, along.x, 0)
-  local place = vec(middle:x(), middle:y(), 0)
-  for length = 34, 18, -4 do
-    local ring = {}
-    for _, corner in { { -0.5, -0.22 }, { 0.5, -0.22 }, { 0.5, 0.22 }, { -0.5, 0.22 } } do
-      local at = place + along * (corner[1] * length) + across * (corner[2] * length)
-      table.insert(ring, { at.x, at.y })
-    end
-    if not church and polygon(ring):buffer(5):within(market.geometry) then
-      church = polygon(ring)
-    end
-  end
-  if church then
-    table.insert(houses, { id = "church", geometry = church, style = "church", levels = 1 })
-  end
+if church then
+  table.insert(houses, { id = "church", geometry = church, style = "church", levels = 1 })
+else
+  print(
+    `oldtown: no church, for {if market then "no block has room for one of 18 m" else "the lanes enclose no block"}: try another seed, or a greater extent`
+  )
 end
 
 local town = build.system()

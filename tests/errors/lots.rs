@@ -95,6 +95,74 @@ fn lots_that_are_too_long_are_told() {
     ");
 }
 
+/// The warnings of a run about lots and sites.
+fn left_out(script: &str) -> String {
+    let folder = Folder::new().with("s.lua", script);
+    let said = folder.burgeon(&["run", "s.lua"]).done().stderr;
+    let lines: Vec<&str> = said.lines().collect();
+    let of = |at: &usize| lines[*at].starts_with("warning: ") && lines[*at].contains("network:");
+    (0..lines.len()).filter(of).map(|at| lines[at..at + 3].join("\n")).collect::<Vec<_>>().join("\n")
+}
+
+#[test]
+fn lots_that_an_obstacle_reaches_into_are_told_once_and_counted() {
+    let pond = "polygon({ { 30, 20 }, { 60, 20 }, { 60, 40 }, { 30, 40 } })";
+    let wet = |what: &str| asked(what).replace("snap = 6", &format!("snap = 6, obstacles = {{ {pond} }}"));
+    assert_snapshot!(left_out(&wet("streets:lots({ width = 16 })")), @r#"
+    warning: s.lua:26: network:lots: left out 4 lots that an obstacle or water reaches into
+      | streets:lots({ width = 16 })
+      help: give all = true: they are lots whose use is "blocked"; or blocks that end before what is in the way: block.geometry:difference(water:buffer(0.1))
+    "#);
+    // What is asked for is not left out.
+    let all = "local blocked = 0\nfor _, lot in streets:lots({ width = 16, all = true }) do\n\
+        blocked += if lot.use == \"blocked\" then 1 else 0\nend\nassert(blocked > 0)";
+    assert_eq!(left_out(&wet(all)), "");
+    assert_eq!(left_out(&asked("streets:lots({ width = 16 })")), "");
+    let ponds = "local ponds = {}\nfor x = 0, 240, 120 do\n  for y = 0, 180, 90 do\n    table.insert(ponds, polygon({ { x + 15, y + 15 }, \
+                 { x + 105, y + 15 }, { x + 105, y + 75 }, { x + 15, y + 75 } }))\n  end\nend\n";
+    let ponds = format!("{ponds}{}", asked("streets:lots({ width = 16 })"));
+    assert_snapshot!(refused(&ponds.replace("snap = 6", "snap = 6, obstacles = ponds")), @r"
+    error: s.lua:32: network:lots: an obstacle or water reaches into each of 147 lots
+      | streets:lots({ width = 16 })
+      help: give a smaller width and depth, or fewer obstacles
+    ");
+}
+
+#[test]
+fn blocks_and_networks_without_any_lot_are_told() {
+    let given = |blocks: &str| {
+        format!(
+            "local blocks = {{ {blocks} }}\nnetwork({{}}):lots({{ blocks = blocks, width = 12, elongation = 9 }})"
+        )
+    };
+    let yard = "{ { { 0, 0 }, { 90, 0 }, { 90, 60 }, { 0, 60 } } }";
+    let flat = "{ { { 0, 0 }, { 90, 0 }, { 180, 0 } } }";
+    let far = "{ { { 9e6, 0 }, { 9.0001e6, 0 }, { 9.0001e6, 60 } } }";
+    let small = "{ { { 0, 0 }, { 5, 0 }, { 5, 4 }, { 0, 4 } } }";
+    assert_eq!(left_out(&given(yard)), "");
+    assert_eq!(left_out(&given("")), "");
+    assert_snapshot!(left_out(&given(&format!("{yard}, {flat}, {far}"))), @r"
+    warning: s.lua:2: network:lots: left out 2 of 3 blocks: nothing lies within their borders, or they lie more than 500 km from the origin
+      | network({}):lots({ blocks = blocks, width = 12, elongation = 9 })
+      help: give polygons with an area, near the origin
+    ");
+    assert_snapshot!(left_out(&given(&format!("{small}, {small}"))), @r"
+    warning: s.lua:2: network:lots: none of 2 blocks has room for a lot with 6 m of front and 100.8 m²: the greatest has 20 m²
+      | network({}):lots({ blocks = blocks, width = 12, elongation = 9 })
+      help: give a smaller width and depth, or fewer parks
+    ");
+    assert_eq!(left_out(&given(&format!("{small}, {yard}"))), "");
+    assert_eq!(left_out(&given(small).replace("width", "parks = 1, width")), "");
+    assert_snapshot!(left_out("network({}):lots({})\nnetwork({}):sites({})"), @r"
+    warning: s.lua:1: network:lots: the streets enclose no block, so there are no lots
+      | network({}):lots({})
+      help: let streets meet, or say what to divide: blocks = { polygon }
+    warning: s.lua:2: network:sites: there are no streets, so there are no sites beside them
+      | network({}):sites({})
+      help: ask the network when its streets have grown: system:derive(steps).objects[1]:sites()
+    ");
+}
+
 #[test]
 fn sites_that_cannot_be_are_refused() {
     assert_snapshot!(refused(&asked("streets:sites({ sizes = {} })")), @r"

@@ -9,7 +9,7 @@ use burgeon_data::Geometry;
 use burgeon_geometry::Rings;
 use burgeon_kit::rules::ModuleKey;
 use burgeon_kit::{Answer, Expectation, Parameter, Seed, Table, TableKey, Value, fields};
-use burgeon_streets::{Lot, LotOptions, LotPattern, LotUse, PieceId, StreetBlock, StreetNetwork};
+use burgeon_streets::{FARTHEST, Lot, LotOptions, LotPattern, LotUse, PieceId, StreetBlock, StreetNetwork};
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 
@@ -124,33 +124,79 @@ impl Answer for LotRecords {
     }
 }
 
-/// What is no lot to be built on only because it is more times as long as wide than was asked.
+/// What blocks do not give, for another reason than that there is no room.
 #[derive(Default)]
-struct LongLots {
-    count: usize,
+struct LeftOut {
+    /// What is no lot to be built on only because it is more times as long as wide than was asked.
+    long: usize,
     longest: f64,
+    /// What is none only because an obstacle reaches into it.
+    blocked: usize,
+    /// Blocks that no lots can be made of.
+    undivided: usize,
+    /// Blocks that are parks.
+    parks: usize,
 }
 
-impl LongLots {
+impl LeftOut {
     fn count(&mut self, lot: &Lot, options: &LotOptions) {
         let is_wide = lot.front_length >= options.min_width && lot.area >= options.min_area;
-        if lot.purpose == LotUse::Rest && is_wide && lot.elongation > options.elongation {
-            self.count += 1;
-            self.longest = self.longest.max(lot.elongation);
+        match lot.purpose {
+            LotUse::Rest if is_wide && lot.elongation > options.elongation => {
+                self.long += 1;
+                self.longest = self.longest.max(lot.elongation);
+            }
+            LotUse::Blocked => self.blocked += 1,
+            LotUse::Park => self.parks += 1,
+            _ => {}
         }
     }
 
-    fn warning(&self, options: &LotOptions) -> Option<Warning> {
-        (self.count > 0).then(|| {
+    fn add(&mut self, other: &Self) {
+        self.long += other.long;
+        self.longest = self.longest.max(other.longest);
+        self.blocked += other.blocked;
+        self.undivided += other.undivided;
+        self.parks += other.parks;
+    }
+
+    /// Tells of lots that are given where a script asks for `all`.
+    fn lots(&self, options: &LotOptions) -> Vec<Warning> {
+        let lots = |count: usize| format!("{count} lot{}", if count == 1 { "" } else { "s" });
+        let mut told = Vec::new();
+        if self.long > 0 {
             let text = format!(
-                "network:lots: left out {} lot{} more than {} times as long as wide, up to {:.1} times",
-                self.count,
-                if self.count == 1 { "" } else { "s" },
+                "network:lots: left out {} more than {} times as long as wide, up to {:.1} times",
+                lots(self.long),
                 options.elongation,
                 self.longest
             );
-            Warning::new(WarningKind::Doubtful, text)
-                .help("give a greater elongation, or all = true: they are lots whose use is \"rest\"")
+            let help = "give a greater elongation, or all = true: they are lots whose use is \"rest\"";
+            told.push(Warning::new(WarningKind::Doubtful, text).help(help));
+        }
+        if self.blocked > 0 {
+            let text = format!(
+                "network:lots: left out {} that an obstacle or water reaches into",
+                lots(self.blocked)
+            );
+            let help = "give all = true: they are lots whose use is \"blocked\"; or blocks that end before what is in the \
+                        way: block.geometry:difference(water:buffer(0.1))";
+            told.push(Warning::new(WarningKind::Doubtful, text).help(help));
+        }
+        told
+    }
+
+    /// Tells of blocks, `count` in all, that give nothing in any case.
+    fn blocks(&self, count: usize) -> Option<Warning> {
+        (self.undivided > 0).then(|| {
+            let text = format!(
+                "network:lots: left out {} of {count} block{}: nothing lies within their borders, or they lie more than \
+                 {:.0} km from the origin",
+                self.undivided,
+                if count == 1 { "" } else { "s" },
+                FARTHEST / 1000.0
+            );
+            Warning::new(WarningKind::Doubtful, text).help("give polygons with an area, near the origin")
         })
     }
 }
@@ -223,51 +269,71 @@ impl Network {
     }
 
     fn divided(&self, settings: &LotSettings, options: &LotOptions) -> Result<(Value, Vec<Warning>)> {
+        let mut left_out = LeftOut::default();
         let blocks: Vec<StreetBlock> = match &settings.blocks {
             None => self.network.lot_blocks(self.surface_options()),
             Some(areas) => {
                 let block = |area: &BlockArea| {
                     self.network.block(area.id.as_deref(), &flat(&area.rings), settings.reach)
                 };
-                areas.par_iter().filter_map(block).collect()
+                let blocks: Vec<StreetBlock> = areas.par_iter().filter_map(block).collect();
+                left_out.undivided = areas.len() - blocks.len();
+                blocks
             }
         };
-        let divided: Vec<(Vec<Value>, LongLots)> = blocks
+        let count = blocks.len() + left_out.undivided;
+        let divided: Vec<(Vec<Value>, LeftOut)> = blocks
             .par_iter()
             .map(|block| {
                 let mut stream = ModuleKey::seed(settings.seed.0).feature(&block.id).stream();
                 let mut lots = block.divide(options, &mut || stream.uniform());
-                let mut long = LongLots::default();
+                let mut left_out = LeftOut { undivided: usize::from(lots.is_empty()), ..LeftOut::default() };
                 for lot in &mut lots {
                     let is_free = || !self.network.obstacles().reach_into(&lot.rings[0]);
                     if lot.purpose == LotUse::Building && !is_free() {
                         lot.purpose = LotUse::Blocked;
                     }
-                    long.count(lot, options);
+                    left_out.count(lot, options);
                 }
                 lots.retain(|lot| settings.all || lot.purpose == LotUse::Building);
-                (lots.iter().map(|lot| self.lot_record(block, lot, settings.terrace)).collect(), long)
+                (lots.iter().map(|lot| self.lot_record(block, lot, settings.terrace)).collect(), left_out)
             })
             .collect();
-        let mut long = LongLots::default();
         let mut records = Vec::new();
-        for (of_block, of_long) in divided {
+        for (of_block, left_out_of_block) in divided {
             records.extend(of_block);
-            long.count += of_long.count;
-            long.longest = long.longest.max(of_long.longest);
+            left_out.add(&left_out_of_block);
         }
-        if records.is_empty() && settings.blocks.is_none() && !blocks.is_empty() {
-            let greatest = blocks.iter().map(area_of).fold(0.0, f64::max);
-            let text = format!(
-                "network:lots: none of {} blocks has room for a lot with {} m of front and {} m²: the greatest has {greatest:.0} m²",
-                blocks.len(),
-                options.min_width,
-                options.min_area
-            );
-            return Err(Error::argument(text).help("give a smaller width and depth, or fewer parks"));
+        let mut told = if settings.all { Vec::new() } else { left_out.lots(options) };
+        told.extend(left_out.blocks(count));
+        if records.is_empty() {
+            let help = "give a smaller width and depth, or fewer parks";
+            match settings.blocks {
+                None if left_out.blocked > 0 => {
+                    let text = format!(
+                        "network:lots: an obstacle or water reaches into each of {} lots",
+                        left_out.blocked
+                    );
+                    return Err(
+                        Error::argument(text).help("give a smaller width and depth, or fewer obstacles")
+                    );
+                }
+                None if !blocks.is_empty() => {
+                    return Err(Error::argument(without_room(&blocks, options)).help(help));
+                }
+                None => {
+                    let text = "network:lots: the streets enclose no block, so there are no lots";
+                    let help = "let streets meet, or say what to divide: blocks = { polygon }";
+                    told.push(Warning::new(WarningKind::Doubtful, text).help(help));
+                }
+                // A share of the blocks was to be parks, and may be all of a few.
+                Some(_) if told.is_empty() && left_out.parks < blocks.len() => {
+                    told.push(Warning::new(WarningKind::Doubtful, without_room(&blocks, options)).help(help));
+                }
+                Some(_) => {}
+            }
         }
-        let told = if settings.all { None } else { long.warning(options) };
-        Ok((records.into_value(), told.into_iter().collect()))
+        Ok((records.into_value(), told))
     }
 
     fn block_record(&self, block: &StreetBlock) -> Value {
@@ -310,6 +376,18 @@ impl Network {
             ("terrace", terrace.map_or(Value::Nil, Parameter::into_value)),
         ])
     }
+}
+
+/// Says that nothing of blocks is a lot to be built on.
+fn without_room(blocks: &[StreetBlock], options: &LotOptions) -> String {
+    let greatest = blocks.iter().map(area_of).fold(0.0, f64::max);
+    format!(
+        "network:lots: none of {} block{} has room for a lot with {} m of front and {} m²: the greatest has {greatest:.0} m²",
+        blocks.len(),
+        if blocks.len() == 1 { "" } else { "s" },
+        options.min_width,
+        options.min_area
+    )
 }
 
 fn depth_of(network: &StreetNetwork, piece: PieceId) -> u32 {

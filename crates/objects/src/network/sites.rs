@@ -1,6 +1,7 @@
 //! Sites beside streets as scripts get them: features, to be the source of a system.
 
 use burgeon_base::error::{Error, Result};
+use burgeon_base::warning::{Warning, WarningKind, defer_warning};
 use burgeon_data::Geometry;
 use burgeon_geometry::Rings;
 use burgeon_kit::rules::ModuleKey;
@@ -73,7 +74,11 @@ impl Network {
         };
         let found = self.network.sites(self.surface_options(), &options, &mut stream);
         let found = found.map_err(|error| error.about("network:sites"))?;
-        if found.sites.is_empty() && found.tried > 0 {
+        if found.tried == 0 {
+            let text = "network:sites: there are no streets, so there are no sites beside them";
+            let help = "ask the network when its streets have grown: system:derive(steps).objects[1]:sites()";
+            defer_warning(Warning::new(WarningKind::Doubtful, text).help(help));
+        } else if found.sites.is_empty() {
             let why = ["are in a street or reach into one", "come too near another", "meet an obstacle"];
             let why = found.refused.iter().zip(why).filter(|(count, _)| **count > 0);
             let why: Vec<String> = why.map(|(count, why)| format!("{count} {why}")).collect();
