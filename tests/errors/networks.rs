@@ -1,5 +1,7 @@
 //! Street networks: what cannot be, and what becomes of streets that are proposed.
 
+use std::path::Path;
+
 use insta::assert_snapshot;
 
 use crate::support::{Folder, printed, refused};
@@ -11,6 +13,45 @@ fn grown(fields: &str, proposal: &str) -> String {
         "local A = module(\"A\")\nlocal s = lsystem({{ object = network({{ {fields} }}) }})\ns:axiom(A())\n\
          s:interpret(\"A\", function(this)\n  {proposal}\nend)\ns:derive(0)"
     )
+}
+
+/// What is told of a script that uses the library of roads.
+fn refused_by_roads(script: &str) -> String {
+    let templates = Path::new(env!("CARGO_MANIFEST_DIR")).join("scripts/templates");
+    let files =
+        ["roads.lua", "roads/checks.lua", "roads/growth.lua", "roads/patterns.lua", "roads/words.lua"];
+    let folder =
+        Folder::new().with("s.lua", format!("local roads = require(\"templates/roads\")\n{script}\n"));
+    let folder = files.into_iter().fold(folder, |folder, file| {
+        folder.with(&format!("templates/{file}"), std::fs::read(templates.join(file)).unwrap())
+    });
+    folder.refuses(&["run", "s.lua"])
+}
+
+#[test]
+fn fields_given_through_the_library_of_roads_are_refused_in_the_line_of_the_script() {
+    let options = "{\n  network = { min_lenght = 3 },\n}";
+    for function in ["grow", "system", "word"] {
+        let said = refused_by_roads(&format!(
+            "local function town()\n  return roads.{function}({options})\nend\ntown()"
+        ));
+        let expected = "error: s.lua:3: network has no field called min_lenght\n";
+        assert!(said.starts_with(expected), "{function}: {said}");
+        assert!(said.contains("help: did you mean min_length?"), "{function}: {said}");
+    }
+    assert_snapshot!(refused_by_roads("roads.grow({ network = { snap = 3, clearance = 6 } })"), @r"
+    error: s.lua:2: network: snap (3 m) is less than clearance (6 m), so a street that ends between the two could neither join nor stay
+      | roads.grow({ network = { snap = 3, clearance = 6 } })
+      help: give a greater snap, or a smaller clearance
+    ");
+    assert_snapshot!(refused_by_roads("roads.grow({ network = { streets = { { width = \"wide\" } } } })"), @r#"
+    error: s.lua:2: network: streets must be a list whose item 1 is a kind of street (street: width must be a number, not "wide"), not {width="wide"}
+      | roads.grow({ network = { streets = { { width = "wide" } } } })
+    "#);
+    assert_snapshot!(refused_by_roads("roads.word({ network = { streets = { { width = 0 } } } })"), @r"
+    error: s.lua:2: network: streets: kind 1: width must be from 2 to 200 m, not 0
+      | roads.word({ network = { streets = { { width = 0 } } } })
+    ");
 }
 
 #[test]

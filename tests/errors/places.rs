@@ -133,6 +133,56 @@ fn a_mistake_with_the_library_is_told_in_the_line_of_the_script() {
 }
 
 #[test]
+fn what_a_library_catches_is_raised_again_in_the_line_of_its_caller() {
+    let of = |caught: &str, again: &str| {
+        let script = format!(
+            "local function make(...)\n  local is_made, made = pcall({caught}, ...)\n  if not is_made then\n    {again}\n  end\n  \
+             return made\nend\n\nlocal function use(...)\n  return make({{ sidess = 3 }})\nend\nuse()\n"
+        );
+        refused(&script)
+    };
+    assert_snapshot!(of("extruder", "error(made, 2)"), @r"
+    error: s.lua:10: extruder has no field called sidess
+      | return make({ sidess = 3 })
+      help: did you mean sides?
+    ");
+    assert_snapshot!(of("extruder", "error(made, 3)"), @r"
+    error: s.lua:12: extruder has no field called sidess
+      | use()
+      help: did you mean sides?
+    ");
+    assert_snapshot!(of("rgb", "error(made, 2)"), @r##"
+    error: s.lua:10: rgb takes a colour such as "#336699", not a table
+      | return make({ sidess = 3 })
+    "##);
+    assert_snapshot!(of("function() error(\"wrong\") end", "error(made, 2)"), @r"
+    error: s.lua:10: wrong
+      | return make({ sidess = 3 })
+    ");
+    // Another text says what it says.
+    assert_snapshot!(of("extruder", "error(\"no: \" .. made, 2)"), @r"
+    error: s.lua:10: no: s.lua:2: extruder has no field called sidess
+      | return make({ sidess = 3 })
+    ");
+    assert_snapshot!(of("extruder", "error(made, 0)"), @r"
+    error: s.lua:2: extruder has no field called sidess
+      | local is_made, made = pcall(extruder, ...)
+      help: did you mean sides?
+    ");
+    assert_snapshot!(of("extruder", "error(\"no extruder\")"), @r#"
+    error: s.lua:4: no extruder
+      | error("no extruder")
+    "#);
+    let folder = Folder::new().with(
+        "s.lua",
+        "local function make(...)\n  local _, made = pcall(extruder, { sidess = 3 })\n  error(made, 2)\nend\n\
+         print(select(2, pcall(function()\n  make()\nend)))\n",
+    );
+    let said = folder.burgeon(&["run", "s.lua", "--json"]).done();
+    assert_eq!(said.stderr, "s.lua:6: extruder has no field called sidess\n");
+}
+
+#[test]
 fn a_vector_is_made_of_a_list_and_read_like_one() {
     let script = r#"
 assert(vec({ 1, 2, 3 }) == vec(1, 2, 3) and vec({ 1, 2 }) == vec(1, 2) and vec(vec(4, 5, 6)) == vec(4, 5, 6))

@@ -75,4 +75,13 @@ function checks.field(name: string, value: any, ...: number): (x: number, y: num
   return value
 end
 
+-- What a constructor makes of `fields`; what it refuses is told as `number` tells it.
+function checks.made(constructor: (fields: any) -> any, fields: any, ...: number): any
+  local is_made, made = pcall(constructor, fields)
+  if not is_made then
+    error(made, (...) or 3)
+  end
+  return made
+end
+
 return checks

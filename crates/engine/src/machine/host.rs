@@ -9,7 +9,7 @@ use super::current::WorkState;
 use crate::machine::convert::{to_argument, to_lua, to_value};
 use crate::machine::library::Library;
 use crate::machine::types::ObjectHandle;
-use burgeon_base::error::{Error, Limit};
+use burgeon_base::error::{Error, Limit, SourcePlace};
 use burgeon_base::warning::take_deferred;
 use burgeon_kit::declare::as_ref;
 use burgeon_kit::rules::{ColumnValue, DEEPEST, module_text};
@@ -112,6 +112,21 @@ fn add_tables(lua: &Lua, host: &Table) -> mlua::Result<()> {
                 Ok(LuaValue::String(lua.create_string(format!("{place}{}", error.message()))?))
             }
             other => Ok(other),
+        })?,
+    )?;
+    host.set(
+        "told_at",
+        lua.create_function(|_, (cause, file, line): (LuaValue, String, usize)| {
+            let error = match &cause {
+                LuaValue::Error(error) => super::virtual_machine::translate(error),
+                LuaValue::String(text) => {
+                    let text = mlua::Error::RuntimeError(text.to_string_lossy());
+                    super::virtual_machine::translate(&text)
+                }
+                other => return Ok(other.clone()),
+            };
+            let error = error.rather_at(Some(SourcePlace { file, line }));
+            Ok(LuaValue::Error(Box::new(mlua::Error::external(error))))
         })?,
     )?;
     Ok(())
