@@ -4,53 +4,18 @@
 
 #![allow(clippy::print_stdout, clippy::unwrap_used, reason = "a bench tells what it found, and may panic")]
 
-use std::collections::{HashSet, VecDeque};
+mod grown;
+
+use std::collections::HashSet;
 use std::time::Instant;
 
 use burgeon_geometry::Rings;
 use burgeon_streets::{
-    Constraints, Fate, Lot, LotOptions, LotPattern, LotUse, Obstacles, SiteOptions, StreetAttributes,
-    StreetBlock, StreetNetwork, SurfaceOptions,
+    Constraints, Lot, LotOptions, LotPattern, LotUse, Obstacles, SiteOptions, StreetBlock, StreetNetwork,
+    SurfaceOptions,
 };
 use glam::DVec2;
-
-/// A generator of numbers: xorshift.
-struct Numbers(u64);
-
-impl Numbers {
-    fn below(&mut self, limit: f64) -> f64 {
-        self.0 ^= self.0 << 13;
-        self.0 ^= self.0 >> 7;
-        self.0 ^= self.0 << 17;
-        (self.0 >> 11) as f64 / (1_u64 << 53) as f64 * limit
-    }
-}
-
-fn grown(size: usize) -> StreetNetwork {
-    let mut random = Numbers(0x9E37_79B9_7F4A_7C15);
-    let mut network = StreetNetwork::new(Constraints::default(), Obstacles::default()).unwrap();
-    let start = network.begin(DVec2::ZERO).unwrap();
-    let mut tips: VecDeque<(u32, f64, u32)> =
-        (0..4).map(|way| (start, f64::from(way) * 90.0 + random.below(10.0), 0)).collect();
-    while network.size() < size {
-        let Some((from, heading, depth)) = tips.pop_front() else { break };
-        let heading = heading + random.below(20.0) - 10.0;
-        let length = 60.0 + random.below(60.0);
-        let to = network.at(from) + DVec2::from_angle(heading.to_radians()) * length;
-        let width = if depth == 0 { 18.0 } else { 11.0 };
-        let street = StreetAttributes { width, depth, ..StreetAttributes::default() };
-        let growth = network.grow(from, to, street).unwrap();
-        if matches!(growth.fate, Fate::Built | Fate::Bent | Fate::Shortened) {
-            tips.push_back((growth.end, heading, depth));
-            for side in [-90.0, 90.0] {
-                if random.below(1.0) < 0.4 {
-                    tips.push_back((growth.end, heading + side, depth + 1));
-                }
-            }
-        }
-    }
-    network
-}
+use grown::{Numbers, grown};
 
 /// Whether lots fill their block: areas add up, and every edge has one lot on either side, or is on the border.
 fn check(block: &StreetBlock, lots: &[Lot]) {
@@ -79,7 +44,7 @@ fn check(block: &StreetBlock, lots: &[Lot]) {
 
 fn main() {
     for size in [1000, 10_000, 100_000] {
-        let network = grown(size);
+        let (network, _) = grown(size);
         let begin = Instant::now();
         let blocks = network.lot_blocks(SurfaceOptions::default());
         println!("{} pieces: {} blocks in {:.1?}", network.size(), blocks.len(), begin.elapsed());
