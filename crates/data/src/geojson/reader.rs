@@ -12,7 +12,7 @@ use serde::Deserialize;
 use serde_json::value::RawValue;
 use serde_json::{Map, Value};
 
-/// The largest file (bytes) that is read; it takes about five times as much memory.
+/// The largest file (bytes) that is read.
 pub(crate) const LARGEST: u64 = 500_000_000;
 
 /// What stands before each text of a sequence.
