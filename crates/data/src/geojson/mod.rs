@@ -10,13 +10,5 @@ mod stream;
 #[cfg(test)]
 mod tests;
 
-use std::path::Path;
-
 pub(super) use reader::{LARGEST, read};
 pub(super) use stream::{WINDOW, stream};
-
-/// Whether the name of a file says that it holds a document to a line.
-fn is_sequence(path: &Path) -> bool {
-    let extension = path.extension().unwrap_or_default().to_string_lossy().to_ascii_lowercase();
-    crate::SEQUENCES.contains(&&*extension)
-}

@@ -31,6 +31,12 @@ struct RawFeature<'a> {
     geometry: Option<&'a RawValue>,
 }
 
+/// Whether the name of a file says that it holds a document to a line.
+pub(super) fn is_sequence(path: &Path) -> bool {
+    let extension = path.extension().unwrap_or_default().to_string_lossy().to_ascii_lowercase();
+    crate::SEQUENCES.contains(&&*extension)
+}
+
 /// Reads all of a file, which messages call `name`.
 pub(crate) fn read(bytes: &[u8], path: &Path, name: &str, wanted: &SourceOptions) -> Result<FeatureTable> {
     let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
@@ -45,7 +51,7 @@ pub(crate) fn read(bytes: &[u8], path: &Path, name: &str, wanted: &SourceOptions
     if text.trim_start().starts_with(RECORD) {
         reader.records(text)?;
     } else {
-        reader.documents(text, super::is_sequence(path))?;
+        reader.documents(text, is_sequence(path))?;
     }
     Ok(reader.table)
 }

@@ -8,7 +8,7 @@ use std::path::Path;
 use serde_json::Deserializer;
 use serde_json::value::RawValue;
 
-use super::reader::{FeatureReader, RECORD};
+use super::reader::{FeatureReader, RECORD, is_sequence};
 use crate::{FeatureTable, SourceOptions};
 use burgeon_base::budget::{Budget, MemoryReservation};
 use burgeon_base::error::{Error, Result};
@@ -27,7 +27,7 @@ pub(crate) fn stream(
 ) -> Result<Option<FeatureTable>> {
     let before = wanted.budget.taken();
     let mut reader = FeatureReader::new(path, name, wanted);
-    match reader.stream(TextWindow::new(file, window, &wanted.budget), super::is_sequence(path)) {
+    match reader.stream(TextWindow::new(file, window, &wanted.budget), is_sequence(path)) {
         Ok(()) => Ok(Some(reader.into_table())),
         Err(Halt::Irregular) => {
             drop(reader);

@@ -81,8 +81,6 @@ pub(crate) fn is_inside(ring: &[FinePlace], place: FinePlace) -> bool {
 }
 
 /// Whether no two edges of some rings meet but at the end of both, which only neighbours in a ring have in common.
-///
-/// Method: edges from left to right, each held against those that begin before it ends.
 pub(crate) fn are_simple(rings: &[Vec<FinePlace>]) -> bool {
     let mut edges: Vec<[FinePlace; 2]> = Vec::new();
     let mut corners: Vec<FinePlace> = Vec::new();
@@ -97,6 +95,13 @@ pub(crate) fn are_simple(rings: &[Vec<FinePlace>]) -> bool {
     if corners.windows(2).any(|pair| pair[0] == pair[1]) {
         return false;
     }
+    are_apart(edges)
+}
+
+/// Whether no two edges meet but at the end of both.
+///
+/// Method: edges from left to right, each held against those that begin before it ends.
+pub(crate) fn are_apart(mut edges: Vec<[FinePlace; 2]>) -> bool {
     edges.sort_unstable_by_key(|[a, b]| a.x.min(b.x));
     edges.iter().enumerate().all(|(index, edge)| {
         let right = edge[0].x.max(edge[1].x);

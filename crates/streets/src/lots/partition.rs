@@ -134,11 +134,19 @@ impl Partition {
             sum += area;
             cells.push(Some(tiled.push(vec![ring])));
         }
-        if (sum - whole).abs() > 2e-7 * whole {
+        // Rounded, a corner of one face may lie beyond an edge of another.
+        if (sum - whole).abs() > 2e-7 * whole || !tiled.are_apart() {
             return None;
         }
         *self = tiled;
         Some(cells)
+    }
+
+    /// Whether the borders of cells meet in their corners alone.
+    fn are_apart(&self) -> bool {
+        let borders = self.cells().flat_map(|(_, rings)| rings).flat_map(|ring| edges(ring));
+        let once = borders.filter(|[a, b]| a < b || !self.beside.contains_key(&[*b, *a]));
+        fine::are_apart(once.map(|edge| edge.map(|corner| self.places[corner as usize])).collect())
     }
 
     /// The cell on the left of an edge.
@@ -246,10 +254,16 @@ impl Partition {
             return false;
         }
         splits.iter().all(|([a, b], v)| {
-            let Some(other) = self.beside.get(&[*b, *a]).filter(|other| **other != cell) else {
-                return true;
+            // Behind an edge that is nobody else's there may be a cell, only nearer than the grid tells.
+            let others: Vec<[CornerId; 2]> = match self.beside.get(&[*b, *a]) {
+                Some(other) if *other == cell => return true,
+                Some(other) => self.rings(*other).iter().flat_map(|ring| edges(ring)).collect(),
+                None => self
+                    .cells()
+                    .filter(|(other, _)| *other != cell)
+                    .flat_map(|(_, rings)| rings.iter().flat_map(|ring| edges(ring)))
+                    .collect(),
             };
-            let others: Vec<[CornerId; 2]> = self.rings(*other).iter().flat_map(|ring| edges(ring)).collect();
             let others: Vec<[CornerId; 2]> = others.into_iter().filter(|edge| *edge != [*b, *a]).collect();
             is_free(&[*b, *v], &others) && is_free(&[*v, *a], &others)
         })
@@ -378,7 +392,8 @@ impl Partition {
         }
         let outer = rings.iter().position(|ring| self.ring_area(ring) > 0.0)?;
         rings.swap(0, outer);
-        self.is_cell(&rings).then_some(rings)
+        let places: Vec<Vec<FinePlace>> = rings.iter().map(|ring| self.ring_places(ring)).collect();
+        (self.is_cell(&rings) && fine::are_simple(&places)).then_some(rings)
     }
 
     /// Joins cells; gives the one that they become, or `None` if that would meet itself in a corner or fall apart.

@@ -93,6 +93,47 @@ fn lots_of_polygons_at_random_are_disjoint_and_fill_them() {
     assert!(count > 5000, "{count} lots");
 }
 
+/// The same with corners on its edges, or off them by about as much as rounding, and with corners cut off and bent again.
+fn bent(random: &mut TestNumbers, rings: &Rings<DVec2>) -> Rings<DVec2> {
+    let ring = &rings.0[0];
+    let mut bent = Vec::new();
+    for (index, &from) in ring.iter().enumerate() {
+        let to = ring[(index + 1) % ring.len()];
+        let across = (to - from).normalize_or_zero().perp();
+        bent.push(from);
+        let mut at: Vec<f64> = (0..random.below(4.0) as usize).map(|_| random.below(1.0)).collect();
+        at.sort_by(f64::total_cmp);
+        let off = [0.0, 1e-6, 1e-4, 0.1][random.below(4.0) as usize];
+        bent.extend(at.iter().map(|at| from.lerp(to, *at) + across * (random.below(2.0) - 1.0) * off));
+    }
+    Rings(vec![bent])
+}
+
+#[test]
+fn lots_of_polygons_with_corners_that_hardly_turn_are_disjoint_and_fill_them() {
+    let empty = StreetNetwork::new(Constraints::default(), Obstacles::default()).expect("a network");
+    let mut random = TestNumbers(11);
+    let mut count = 0;
+    for number in 0..600 {
+        let plain = star(&mut random, [40.0, 120.0, 300.0][number % 3]);
+        let rings = bent(&mut random, &plain);
+        let Some(mut block) = empty.block(None, &rings, 6.0) else { continue };
+        // As beside water, some sides are on no street.
+        let dry: Vec<bool> = block.sides.iter().map(|_| random.below(1.0) < 0.6).collect();
+        block
+            .edge_sides
+            .iter_mut()
+            .flatten()
+            .for_each(|side| *side = side.filter(|side| dry[*side as usize]));
+        let usual = LotOptions::new(8.0 + random.below(20.0), 15.0 + random.below(30.0));
+        let options = LotOptions { pattern: LotPattern::ALL[number / 3 % 3].1, ..usual };
+        let lots = block.divide(&options, &mut || random.below(1.0));
+        check(&block, &lots, &options);
+        count += lots.len();
+    }
+    assert!(count > 5000, "{count} lots");
+}
+
 #[test]
 fn lots_of_networks_at_random_have_fronts_on_their_streets() {
     let (mut count, mut long) = (0, 0);
