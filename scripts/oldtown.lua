@@ -184,9 +184,8 @@ end
 if church then
   table.insert(houses, { id = "church", geometry = church, style = "church", levels = 1 })
 else
-  print(
-    `oldtown: no church, for {if market then "no block has room for one of 18 m" else "the lanes enclose no block"}: try another seed, or a greater extent`
-  )
+  local why = if market then "no block has room for one of 18 m" else "the lanes enclose no block"
+  print(`oldtown: no church, for {why}: try another seed, or a greater extent`)
 end
 
 local town = build.system()
