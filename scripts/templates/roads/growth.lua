@@ -169,7 +169,7 @@ function growth.system(options: RoadOptions, ...: number)
   else
     fields.starts = centres
   end
-  local system = lsystem({ object = checks.made(network, fields, level) })
+  local system = lsystem({ object = checks.made(network, fields, level) :: Network })
 
   local field = math.floor(random() * 1000000)
   -- The tip of a street that leaves a junction; nil where the pattern leaves it out.
@@ -405,7 +405,7 @@ function growth.system(options: RoadOptions, ...: number)
     if left == 0 then
       return nil
     end
-    local modules = if looks[left] then belated(this) else {}
+    local modules: { any } = if looks[left] then belated(this) else {}
     -- It tidies up when all others have grown.
     table.insert(modules, Clock(left - 1))
     return table.unpack(modules)
