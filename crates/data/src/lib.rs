@@ -19,6 +19,7 @@ pub mod output;
 mod source;
 mod table;
 mod tags;
+mod taken_ids;
 
 use std::path::Path;
 

@@ -1,13 +1,12 @@
 //! What a layer holds, as it stands in its file.
 
-use std::hash::BuildHasher;
 use std::sync::Arc;
 
-use hashbrown::HashTable;
 use rayon::prelude::*;
-use rustc_hash::{FxBuildHasher, FxHashMap, FxHashSet};
+use rustc_hash::{FxHashMap, FxHashSet};
 
 use super::id::FeatureId;
+use super::taken_ids::TakenIds;
 use super::{Crs, SourceOptions};
 use burgeon_base::budget::Budget;
 use burgeon_base::error::{Error, Result};
@@ -99,94 +98,6 @@ fn touches(geometry: &Geometry, [west, south, east, north]: [f64; 4]) -> bool {
         }
     }
     low[0] <= east && low[1] <= north && high[0] >= west && high[1] >= south
-}
-
-/// The ids that are taken.
-#[derive(Debug)]
-struct TakenIds {
-    /// Ids from this number on are free, as long as all of them are numbers that grow; then `features` is empty.
-    free: Option<u64>,
-    /// The numbers of features, by their ids.
-    features: HashTable<u32>,
-    /// The number that was tried last behind an id that came again.
-    last: FxHashMap<String, usize>,
-}
-
-fn hash(id: &str) -> u64 {
-    FxBuildHasher.hash_one(id)
-}
-
-/// The number that `id` is, written as numbers are.
-fn counted(id: &str) -> Option<u64> {
-    let plain = id.bytes().all(|byte| byte.is_ascii_digit()) && (id.len() == 1 || !id.starts_with('0'));
-    if plain { id.parse().ok() } else { None }
-}
-
-impl TakenIds {
-    fn new() -> Self {
-        Self { free: Some(0), features: HashTable::new(), last: FxHashMap::default() }
-    }
-
-    /// The id that the next of `features` gets, where it wants `id`: that one, or it with a number behind it.
-    fn fresh(&mut self, id: &str, features: &[Feature]) -> FeatureId {
-        let number = self.free.and_then(|free| counted(id).filter(|number| *number >= free));
-        if let Some(after) = number.and_then(|number| number.checked_add(1)) {
-            self.free = Some(after);
-            return FeatureId::from(id);
-        }
-        self.look_up(features);
-        let last = self.last.get(id).copied();
-        let id = match last.is_some() || self.taken(id, features) {
-            false => FeatureId::from(id),
-            true => {
-                let mut count = last.unwrap_or(1);
-                let unique = loop {
-                    count += 1;
-                    let unique = format!("{id}.{count}");
-                    if !self.taken(&unique, features) {
-                        break unique;
-                    }
-                };
-                self.last.insert(id.to_owned(), count);
-                FeatureId::from(unique.as_str())
-            }
-        };
-        self.insert(&id, features.len(), features);
-        id
-    }
-
-    /// From here on ids are looked up.
-    fn look_up(&mut self, features: &[Feature]) {
-        if self.free.take().is_some() {
-            self.features = HashTable::with_capacity(features.len() + 1);
-            features
-                .iter()
-                .enumerate()
-                .for_each(|(place, feature)| self.insert(&feature.id, place, features));
-        }
-    }
-
-    /// Takes `id` for the feature at `place`.
-    fn insert(&mut self, id: &str, place: usize, features: &[Feature]) {
-        let own = hash(id);
-        let of = |number: &u32| {
-            // The next one is not there yet.
-            features.get(*number as usize).map_or(own, |feature| hash(&feature.id))
-        };
-        self.features.insert_unique(own, u32::try_from(place).unwrap_or(u32::MAX), of);
-    }
-
-    /// Counts a part with this id that is not wanted, so that others have the same ids as if it were.
-    fn skip(&mut self, id: &str, features: &[Feature]) {
-        self.look_up(features);
-        let first = usize::from(self.taken(id, features));
-        *self.last.entry(id.to_owned()).or_insert(first) += 1;
-    }
-
-    fn taken(&self, id: &str, features: &[Feature]) -> bool {
-        let same = |number: &u32| features.get(*number as usize).is_some_and(|feature| feature.id == *id);
-        self.features.find(hash(id), same).is_some()
-    }
 }
 
 /// About how much memory (bytes) a geometry takes besides its own place.
@@ -481,17 +392,6 @@ mod tests {
     use super::*;
 
     #[test]
-    fn parts_and_repeated_ids_are_numbered_on() {
-        let mut table = FeatureTable::new("a", "a", Crs::epsg(4326), &SourceOptions::default());
-        let point = Geometry::point([0.0; 3]);
-        table.push("12", vec![point.clone(), point.clone(), point.clone()], Vec::new()).unwrap();
-        table.push("12.2", vec![point.clone()], Vec::new()).unwrap();
-        table.push("12", vec![point], Vec::new()).unwrap();
-        let ids: Vec<&str> = table.features.iter().map(|feature| feature.id.as_str()).collect();
-        assert_eq!(ids, ["12", "12.2", "12.3", "12.2.2", "12.4"]);
-    }
-
-    #[test]
     fn what_is_not_wanted_is_not_kept_and_changes_no_id() {
         let (point, line) = (Geometry::point([1.0; 3]), Geometry::Line(vec![DVec3::ZERO, DVec3::ONE]));
         let far = Geometry::Line(vec![DVec3::splat(5.0), DVec3::splat(6.0)]);
@@ -517,29 +417,5 @@ mod tests {
         let mut table = FeatureTable::new("a", "a", Crs::epsg(4326), &SourceOptions::default());
         let [a, b] = ["residential"; 2].map(|text| table.text(text));
         assert!(matches!((a, b), (Attribute::Text(a), Attribute::Text(b)) if Arc::ptr_eq(&a, &b)));
-    }
-
-    #[test]
-    fn ids_that_count_up_are_told_apart_from_those_that_come_later() {
-        let mut table = FeatureTable::new("a", "a", Crs::epsg(4326), &SourceOptions::default());
-        let wanted =
-            ["0", "7", "8", "18446744073709551615", "18446744073709551615", "9", "007", "8", "7.2", "7"];
-        for id in wanted {
-            table.push(id, vec![Geometry::point([0.0; 3])], Vec::new()).unwrap();
-        }
-        let ids: Vec<&str> = table.features.iter().map(|feature| feature.id.as_str()).collect();
-        let same = ["18446744073709551615", "18446744073709551615.2"];
-        assert_eq!(ids, ["0", "7", "8", same[0], same[1], "9", "007", "8.2", "7.2", "7.3"]);
-    }
-
-    #[test]
-    fn many_equal_ids_take_no_longer_than_others() {
-        let mut table = FeatureTable::new("a", "a", Crs::epsg(4326), &SourceOptions::default());
-        for number in 0..200_000 {
-            let id = if number % 3 == 0 { format!("a.{number}") } else { "a".to_owned() };
-            table.push(&id, vec![Geometry::point([0.0; 3])], Vec::new()).unwrap();
-        }
-        let ids: std::collections::HashSet<_> = table.features.iter().map(|feature| &*feature.id).collect();
-        assert_eq!(ids.len(), 200_000);
     }
 }

@@ -120,8 +120,11 @@ impl ConnectionState {
         Ok(parsed)
     }
 
-    /// Remembers a blob that is no geometry, so that its row can be told.
+    /// Remembers a blob that is no geometry, so that its row can be told, if there is memory for it.
     pub(crate) fn keep_unreadable(&self, bytes: &[u8]) {
+        if self.budget().hold(bytes.len()).is_err() {
+            return;
+        }
         *self.unreadable.lock().unwrap_or_else(PoisonError::into_inner) = Some(bytes.to_vec());
     }
 

@@ -76,7 +76,7 @@ function checks.field(name: string, value: any, ...: number): (x: number, y: num
 end
 
 -- What a constructor makes of `fields`; what it refuses is told as `number` tells it.
-function checks.made(constructor: (fields: any) -> any, fields: any, ...: number): any
+function checks.construct(constructor: (fields: any) -> any, fields: any, ...: number): any
   local is_made, made = pcall(constructor, fields)
   if not is_made then
     error(made, (...) or 3)

@@ -169,7 +169,7 @@ function growth.system(options: RoadOptions, ...: number)
   else
     fields.starts = centres
   end
-  local system = lsystem({ object = checks.made(network, fields, level) :: Network })
+  local system = lsystem({ object = checks.construct(network, fields, level) :: Network })
 
   local field = math.floor(random() * 1000000)
   -- The tip of a street that leaves a junction; nil where the pattern leaves it out.

@@ -159,7 +159,7 @@ function words.word(options: { [string]: any })
   for name, value in options.network or {} do
     fields[name] = value
   end
-  local system = lsystem({ object = checks.made(network, fields) :: Network, interpret = "last" })
+  local system = lsystem({ object = checks.construct(network, fields) :: Network, interpret = "last" })
 
   -- The modules of a word.
   local function modules(tree: { any }, side: number, depth: number): { any }

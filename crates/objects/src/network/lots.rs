@@ -126,7 +126,7 @@ impl Answer for LotRecords {
 
 /// What blocks do not give, for another reason than that there is no room.
 #[derive(Default)]
-struct LeftOut {
+struct Omissions {
     /// What is no lot to be built on only because it is more times as long as wide than was asked.
     long: usize,
     longest: f64,
@@ -138,7 +138,7 @@ struct LeftOut {
     parks: usize,
 }
 
-impl LeftOut {
+impl Omissions {
     fn count(&mut self, lot: &Lot, options: &LotOptions) {
         let is_wide = lot.front_length >= options.min_width && lot.area >= options.min_area;
         match lot.purpose {
@@ -269,7 +269,7 @@ impl Network {
     }
 
     fn divided(&self, settings: &LotSettings, options: &LotOptions) -> Result<(Value, Vec<Warning>)> {
-        let mut left_out = LeftOut::default();
+        let mut omissions = Omissions::default();
         let blocks: Vec<StreetBlock> = match &settings.blocks {
             None => self.network.lot_blocks(self.surface_options()),
             Some(areas) => {
@@ -277,42 +277,43 @@ impl Network {
                     self.network.block(area.id.as_deref(), &flat(&area.rings), settings.reach)
                 };
                 let blocks: Vec<StreetBlock> = areas.par_iter().filter_map(block).collect();
-                left_out.undivided = areas.len() - blocks.len();
+                omissions.undivided = areas.len() - blocks.len();
                 blocks
             }
         };
-        let count = blocks.len() + left_out.undivided;
-        let divided: Vec<(Vec<Value>, LeftOut)> = blocks
+        let count = blocks.len() + omissions.undivided;
+        let divided: Vec<(Vec<Value>, Omissions)> = blocks
             .par_iter()
             .map(|block| {
                 let mut stream = ModuleKey::seed(settings.seed.0).feature(&block.id).stream();
                 let mut lots = block.divide(options, &mut || stream.uniform());
-                let mut left_out = LeftOut { undivided: usize::from(lots.is_empty()), ..LeftOut::default() };
+                let mut omissions =
+                    Omissions { undivided: usize::from(lots.is_empty()), ..Omissions::default() };
                 for lot in &mut lots {
                     let is_free = || !self.network.obstacles().reach_into(&lot.rings[0]);
                     if lot.purpose == LotUse::Building && !is_free() {
                         lot.purpose = LotUse::Blocked;
                     }
-                    left_out.count(lot, options);
+                    omissions.count(lot, options);
                 }
                 lots.retain(|lot| settings.all || lot.purpose == LotUse::Building);
-                (lots.iter().map(|lot| self.lot_record(block, lot, settings.terrace)).collect(), left_out)
+                (lots.iter().map(|lot| self.lot_record(block, lot, settings.terrace)).collect(), omissions)
             })
             .collect();
         let mut records = Vec::new();
-        for (of_block, left_out_of_block) in divided {
+        for (of_block, omissions_of_block) in divided {
             records.extend(of_block);
-            left_out.add(&left_out_of_block);
+            omissions.add(&omissions_of_block);
         }
-        let mut told = if settings.all { Vec::new() } else { left_out.lots(options) };
-        told.extend(left_out.blocks(count));
+        let mut told = if settings.all { Vec::new() } else { omissions.lots(options) };
+        told.extend(omissions.blocks(count));
         if records.is_empty() {
             let help = "give a smaller width and depth, or fewer parks";
             match settings.blocks {
-                None if left_out.blocked > 0 => {
+                None if omissions.blocked > 0 => {
                     let text = format!(
                         "network:lots: an obstacle or water reaches into each of {} lots",
-                        left_out.blocked
+                        omissions.blocked
                     );
                     return Err(
                         Error::argument(text).help("give a smaller width and depth, or fewer obstacles")
@@ -327,7 +328,7 @@ impl Network {
                     told.push(Warning::new(WarningKind::Doubtful, text).help(help));
                 }
                 // A share of the blocks was to be parks, and may be all of a few.
-                Some(_) if told.is_empty() && left_out.parks < blocks.len() => {
+                Some(_) if told.is_empty() && omissions.parks < blocks.len() => {
                     told.push(Warning::new(WarningKind::Doubtful, without_room(&blocks, options)).help(help));
                 }
                 Some(_) => {}

@@ -65,6 +65,13 @@ struct GeometryHeader {
     m: bool,
 }
 
+impl GeometryHeader {
+    /// How long (bytes) each of its points is.
+    fn point_size(self) -> usize {
+        16 + 8 * (usize::from(self.z) + usize::from(self.m))
+    }
+}
+
 impl WkbReader<'_> {
     fn take<const N: usize>(&mut self) -> Result<[u8; N], String> {
         let (taken, rest) = self.bytes.split_first_chunk::<N>().ok_or(ENDS)?;
@@ -101,8 +108,7 @@ impl WkbReader<'_> {
     }
 
     fn points(&mut self, head: GeometryHeader) -> Result<Vec<DVec3>, String> {
-        let size = 16 + 8 * (usize::from(head.z) + usize::from(head.m));
-        let count = self.count(size)?;
+        let count = self.count(head.point_size())?;
         let mut points = Vec::with_capacity(count);
         for _ in 0..count {
             points.push(self.point(head)?);
@@ -113,8 +119,7 @@ impl WkbReader<'_> {
     /// The points of a ring; the last one is left out where it is the first one again, so that there is no room for it
     /// either.
     fn ring(&mut self, head: GeometryHeader) -> Result<Vec<DVec3>, String> {
-        let size = 16 + 8 * (usize::from(head.z) + usize::from(head.m));
-        let count = self.count(size)?;
+        let count = self.count(head.point_size())?;
         let mut points: Vec<DVec3> = Vec::with_capacity(count.saturating_sub(1));
         for number in 1..=count {
             let point = self.point(head)?;

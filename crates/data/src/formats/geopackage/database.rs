@@ -87,6 +87,8 @@ impl GeoPackage {
 
     fn with(mut connection: Connection, name: String, budget: &Arc<Budget>) -> Result<Self> {
         let error = |error: rusqlite::Error| broken(&name, &error);
+        // Rows are read once, in order: no more pages than that takes.
+        connection.pragma_update(None, "cache_size", -PAGES).map_err(error)?;
         guard(&mut connection, budget).map_err(error)?;
         let layers = described(&connection).map_err(|error| match error {
             rusqlite::Error::SqliteFailure(_, Some(text)) if text.starts_with("no such table") => {
@@ -196,8 +198,6 @@ pub(in crate::formats) fn guard(connection: &mut Connection, budget: &Arc<Budget
     ] {
         connection.set_limit(limit, most)?;
     }
-    // Rows are read once, in order: no more pages than that takes.
-    connection.pragma_update(None, "cache_size", -PAGES)?;
     // What is sorted stays in memory, where it is counted.
     connection.pragma_update(None, "temp_store", "MEMORY")?;
     limit_heap(budget.memory());
