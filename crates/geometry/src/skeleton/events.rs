@@ -1,6 +1,9 @@
 //! What is going to happen to the wavefront, and when.
 
 use std::cmp::{Ordering, Reverse};
+use std::collections::BinaryHeap;
+
+use smallvec::SmallVec;
 
 use super::edge::Direction;
 use super::fronts::{CornerCourse, EdgeFront};
@@ -46,31 +49,50 @@ impl WavefrontEvent {
             WavefrontEventKind::Start(edge) => (3, edge, 0),
         }
     }
-}
 
-impl PartialEq for WavefrontEvent {
-    fn eq(&self, other: &Self) -> bool {
-        self.cmp(other) == Ordering::Equal
-    }
-}
-
-impl Eq for WavefrontEvent {}
-
-impl Ord for WavefrontEvent {
-    fn cmp(&self, other: &Self) -> Ordering {
+    /// The order in which what happens at one time is noted.
+    fn compare(&self, other: &Self) -> Ordering {
         self.low.total_cmp(&other.low).then_with(|| self.rank().cmp(&other.rank()))
     }
 }
 
-impl PartialOrd for WavefrontEvent {
-    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
-        Some(self.cmp(other))
+/// What is expected, the earliest first.
+///
+/// What moves about in the heap is a small part of it.
+#[derive(Debug, Default)]
+pub(super) struct EventQueue {
+    events: Vec<WavefrontEvent>,
+    order: BinaryHeap<Reverse<(i64, u32)>>,
+}
+
+impl EventQueue {
+    pub(super) fn clear(&mut self) {
+        self.events.clear();
+        self.order.clear();
+    }
+
+    fn push(&mut self, event: WavefrontEvent) {
+        self.events.push(event);
+        self.put_back(short(self.events.len() - 1));
+    }
+
+    /// Expects an event again that had been taken.
+    fn put_back(&mut self, number: u32) {
+        let low = self.events[number as usize].low.to_bits().cast_signed();
+        // Among the negative ones the greater bits are those of the lesser number.
+        let sorted = if low < 0 { low ^ i64::MAX } else { low };
+        self.order.push(Reverse((sorted, number)));
+    }
+
+    /// The number of the earliest event.
+    fn first(&self) -> Option<u32> {
+        self.order.peek().map(|&Reverse((_, number))| number)
     }
 }
 
 impl Wavefront {
     pub(super) fn expect(&mut self, when: EventTime, what: WavefrontEventKind) {
-        self.events.push(Reverse(WavefrontEvent { low: when.low(), when, what, leads: false }));
+        self.events.push(WavefrontEvent { low: when.low(), when, what, leads: false });
     }
 
     /// Foresees when the edge between two neighbours shrinks to a point.
@@ -172,7 +194,7 @@ impl Wavefront {
             let [a, b] = corner.pair();
             let when = self.lines.when([a, b, self.traced.edges[edge].line]);
             let what = WavefrontEventKind::Split(short(index), short(edge));
-            self.events.push(Reverse(WavefrontEvent { low, when, what, leads: true }));
+            self.events.push(WavefrontEvent { low, when, what, leads: true });
         }
     }
 
@@ -180,15 +202,16 @@ impl Wavefront {
     ///
     /// All that happens at exactly the same time is taken together.
     pub(super) fn gather(&mut self) -> Option<EventTime> {
-        let (mut ties, mut later) = (std::mem::take(&mut self.ties), Vec::new());
+        let (mut ties, mut later) = (std::mem::take(&mut self.ties), SmallVec::<[u32; 8]>::new());
         let next = loop {
             ties.clear();
-            let mut first: Option<EventTime> = None;
-            while let Some(&Reverse(mut event)) = self.events.peek() {
+            while let Some(number) = self.events.first() {
+                let mut event = self.events.events[number as usize];
+                let first = ties.first().map(|&first| self.events.events[first as usize].when);
                 if first.is_some_and(|first| event.low > first.high()) {
                     break;
                 }
-                self.events.pop();
+                self.events.order.pop();
                 if !self.stands(&event) {
                     continue;
                 }
@@ -203,33 +226,38 @@ impl Wavefront {
                 }
                 if self.lines.settle(&mut event.when, COARSE) || event.low < event.when.low() {
                     event.low = event.when.low();
-                    self.events.push(Reverse(event));
+                    self.events.events[number as usize] = event;
+                    self.events.put_back(number);
                     continue;
                 }
-                let order = match &mut first {
-                    None => Ordering::Less,
-                    Some(first) => self.lines.compare(&mut event.when, first),
-                };
+                let mut order = Ordering::Less;
+                if let Some(mut first) = first {
+                    order = self.lines.compare(&mut event.when, &mut first);
+                    self.events.events[ties[0] as usize].when = first;
+                }
+                self.events.events[number as usize] = event;
                 match order {
                     Ordering::Less => {
                         later.append(&mut ties);
-                        first = Some(event.when);
-                        ties.push(event);
+                        ties.push(number);
                     }
-                    Ordering::Equal => ties.push(event),
-                    Ordering::Greater => later.push(event),
+                    Ordering::Equal => ties.push(number),
+                    Ordering::Greater => later.push(number),
                 }
             }
-            self.events.extend(later.drain(..).map(Reverse));
-            let Some(mut when) = first else { break None };
+            later.drain(..).for_each(|number| self.events.put_back(number));
+            let event = |number: u32| &self.events.events[number as usize];
+            ties.sort_unstable_by(|&a, &b| event(a).compare(event(b)));
+            let Some(&first) = ties.first() else { break None };
+            let mut when = event(first).when;
             self.spots.clear();
             // What was foreseen twice is over.
             if self.last.as_mut().is_some_and(|last| self.lines.compare(&mut when, last) != Ordering::Greater)
             {
                 continue;
             }
-            for event in &ties {
-                self.note(event.what, &mut when);
+            for &number in &ties {
+                self.note(self.events.events[number as usize].what, &mut when);
             }
             if !self.spots.is_empty() {
                 break Some(when);

@@ -2,34 +2,35 @@
 
 use std::cmp::Ordering;
 
-use dashu_int::ops::{BitTest, SquareRoot, UnsignedAbs};
+use dashu_int::ops::SquareRoot;
 use dashu_int::{IBig, UBig};
 use glam::{DVec2, I64Vec2};
 
 use super::edge::{CELLS, Direction};
+use super::whole::Whole;
 
 /// The points (x, y) of the lattice with a x + b y = c + w t, where t is the time in cells.
 #[derive(Debug, Clone)]
 pub(super) struct ExactLine {
-    pub a: IBig,
-    pub b: IBig,
-    pub c: IBig,
-    pub w: IBig,
+    pub a: Whole,
+    pub b: Whole,
+    pub c: Whole,
+    pub w: Whole,
 }
 
 /// A fraction; the denominator is positive.
 #[derive(Debug, Clone)]
 pub(super) struct Ratio {
-    pub over: IBig,
-    pub under: IBig,
+    pub over: Whole,
+    pub under: Whole,
 }
 
 /// A point (cells) with one positive denominator for both coordinates.
 #[derive(Debug, Clone)]
 pub(super) struct ExactPlace {
-    pub x: IBig,
-    pub y: IBig,
-    pub under: IBig,
+    pub x: Whole,
+    pub y: Whole,
+    pub under: Whole,
 }
 
 /// A number as a product of a whole one and a power of two.
@@ -48,25 +49,25 @@ fn parts(number: f64) -> (i64, i64) {
 }
 
 #[allow(clippy::cast_sign_loss, clippy::cast_possible_truncation, reason = "callers make it positive")]
-fn shifted(number: IBig, by: i64) -> IBig {
-    number << by as usize
+fn shifted(number: &Whole, by: i64) -> Whole {
+    number.shifted(by as usize)
 }
 
 /// The length of a way, as a product of a whole number and a power of two.
 ///
 /// Lines that are all but parallel part as slowly as their speeds differ, so these must be far more exact than
 /// directions are.
-fn length(x: i64, y: i64) -> (IBig, i64) {
+fn length(x: i64, y: i64) -> (Whole, i64) {
     let [x, y] = [x, y].map(|number| u128::from(number.unsigned_abs()));
-    let square = UBig::from(x * x + y * y);
-    let whole = square.sqrt();
-    if &whole * &whole == square {
-        return (whole.into(), 0);
+    let square = x * x + y * y;
+    let whole = square.isqrt();
+    if whole * whole == square {
+        #[allow(clippy::cast_possible_wrap, reason = "no more than 2^64")]
+        return (Whole::from(whole as i128), 0);
     }
-    let more = 128usize.saturating_sub(whole.bit_len());
-    #[allow(clippy::cast_possible_wrap, reason = "at most 128")]
-    let power = -(more as i64);
-    ((square << (2 * more)).sqrt().into(), power)
+    let more = whole.leading_zeros();
+    let longer = (UBig::from(square) << (2 * more as usize)).sqrt();
+    (IBig::from(longer).into(), -i64::from(more))
 }
 
 impl ExactLine {
@@ -77,35 +78,35 @@ impl ExactLine {
         let I64Vec2 { x, y } = direction.shortest().0;
         let (length, length_power) = length(x, y);
         let (speed, speed_power) = parts(speed);
-        let (w, w_power) = (length * IBig::from(speed), length_power + speed_power);
+        let (w, w_power) = (&length * &Whole::from(speed), length_power + speed_power);
         let (rest, rest_power) = parts(if speed > 0 { rest * CELLS } else { 0.0 });
         let scale = 0.max(-w_power).max(-(w_power + rest_power));
         let c = i128::from(-y) * i128::from(through.x) + i128::from(x) * i128::from(through.y);
-        let gone = &w * IBig::from(rest);
+        let gone = &w * &Whole::from(rest);
         Self {
-            a: shifted(IBig::from(-y), scale),
-            b: shifted(IBig::from(x), scale),
-            c: shifted(IBig::from(c), scale) - shifted(gone, scale + w_power + rest_power),
-            w: shifted(w, scale + w_power),
+            a: shifted(&Whole::from(-y), scale),
+            b: shifted(&Whole::from(x), scale),
+            c: shifted(&Whole::from(c), scale) - shifted(&gone, scale + w_power + rest_power),
+            w: shifted(&w, scale + w_power),
         }
     }
 
     /// The line through a place across `direction`, which never moves.
     pub(super) fn pin(direction: Direction, at: &ExactPlace) -> Self {
         let I64Vec2 { x, y } = direction.shortest().0;
-        let (x, y) = (IBig::from(x), IBig::from(y));
+        let (x, y) = (Whole::from(x), Whole::from(y));
         let c = &at.x * &x + &at.y * &y;
-        Self { a: &at.under * x, b: &at.under * y, c, w: IBig::ZERO }
+        Self { a: &at.under * &x, b: &at.under * &y, c, w: Whole::ZERO }
     }
 
-    fn cross(&self, other: &Self) -> IBig {
+    fn cross(&self, other: &Self) -> Whole {
         &self.a * &other.b - &self.b * &other.a
     }
 }
 
 /// Its sign is that of the rate at which three lines near each other.
-pub(super) fn rate([l, m, n]: [&ExactLine; 3]) -> IBig {
-    &l.w * m.cross(n) + &m.w * n.cross(l) + &n.w * l.cross(m)
+pub(super) fn rate([l, m, n]: [&ExactLine; 3]) -> Whole {
+    &l.w * &m.cross(n) + &m.w * &n.cross(l) + &n.w * &l.cross(m)
 }
 
 /// When three lines go through one point; none if they never do, or always.
@@ -113,7 +114,7 @@ pub(super) fn time([l, m, n]: [&ExactLine; 3]) -> Option<Ratio> {
     let crosses = [m.cross(n), n.cross(l), l.cross(m)];
     let under = &l.w * &crosses[0] + &m.w * &crosses[1] + &n.w * &crosses[2];
     let over = &l.c * &crosses[0] + &m.c * &crosses[1] + &n.c * &crosses[2];
-    match under.cmp(&IBig::ZERO) {
+    match under.sign() {
         Ordering::Less => Some(Ratio { over, under: -under }),
         Ordering::Equal => None,
         Ordering::Greater => Some(Ratio { over: -over, under }),
@@ -127,7 +128,11 @@ pub(super) fn place(l: &ExactLine, m: &ExactLine, time: &Ratio) -> ExactPlace {
     let x = &level * &m.b - &other * &l.b;
     let y = &other * &l.a - &level * &m.a;
     let under = &cross * &time.under;
-    if cross < IBig::ZERO { ExactPlace { x: -x, y: -y, under: -under } } else { ExactPlace { x, y, under } }
+    if cross.sign() == Ordering::Less {
+        ExactPlace { x: -x, y: -y, under: -under }
+    } else {
+        ExactPlace { x, y, under }
+    }
 }
 
 impl Ratio {
@@ -135,7 +140,7 @@ impl Ratio {
     pub(super) fn of(time: f64) -> Self {
         let (whole, power) = parts(time * CELLS);
         let [up, down] = [power.max(0), (-power).max(0)];
-        Self { over: shifted(IBig::from(whole), up), under: shifted(IBig::ONE, down) }
+        Self { over: shifted(&Whole::from(whole), up), under: shifted(&Whole::ONE, down) }
     }
 
     pub(super) fn compare(&self, other: &Self) -> Ordering {
@@ -144,7 +149,7 @@ impl Ratio {
 
     /// In metres, rounded.
     pub(super) fn metres(&self) -> f64 {
-        quotient(&self.over, &self.under)
+        self.over.over(&self.under) / CELLS
     }
 }
 
@@ -155,28 +160,15 @@ impl ExactPlace {
 
     /// The order of two places along a direction.
     pub(super) fn compare_along(&self, other: &Self, direction: Direction) -> Ordering {
-        let (x, y) = (IBig::from(direction.0.x), IBig::from(direction.0.y));
+        let (x, y) = (Whole::from(direction.0.x), Whole::from(direction.0.y));
         let [own, others] = [self, other].map(|place| &place.x * &x + &place.y * &y);
-        (own * &other.under).cmp(&(others * &self.under))
+        (&own * &other.under).cmp(&(&others * &self.under))
     }
 
     /// In metres, rounded.
     pub(super) fn metres(&self) -> DVec2 {
-        DVec2::new(quotient(&self.x, &self.under), quotient(&self.y, &self.under))
+        DVec2::new(self.x.over(&self.under), self.y.over(&self.under)) / CELLS
     }
-}
-
-/// A fraction of cells in metres.
-fn quotient(over: &IBig, under: &IBig) -> f64 {
-    if under.is_zero() {
-        return f64::NAN;
-    }
-    let spare = under.bit_len() + 66;
-    let shift = spare.saturating_sub(over.unsigned_abs().bit_len());
-    let whole = (over << shift) / under;
-    #[allow(clippy::cast_possible_truncation, clippy::cast_possible_wrap, reason = "a few thousand at most")]
-    let power = (-(shift as i64)).max(-2000) as i32;
-    whole.to_f64().value() * 2f64.powi(power / 2) * 2f64.powi(power - power / 2) / CELLS
 }
 
 #[cfg(test)]

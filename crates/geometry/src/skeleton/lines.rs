@@ -210,7 +210,7 @@ impl MovingLines {
             return Ordering::Equal;
         }
         self.exactly(&lines);
-        exact::rate(self.known(lines)).cmp(&dashu_int::IBig::ZERO)
+        exact::rate(self.known(lines)).sign()
     }
 
     /// When three lines that near each other meet; none if they do not, at least where two of them turn so that they

@@ -16,5 +16,6 @@ mod straight;
 #[cfg(test)]
 pub(super) mod tests;
 mod wavefront;
+mod whole;
 
 pub use straight::{Pace, Peak, Skeleton};

@@ -1,15 +1,14 @@
 //! The wavefront: the polygon's edges moving inwards until nothing is left of it.
 
 use std::cell::Cell;
-use std::cmp::{Ordering, Reverse};
-use std::collections::BinaryHeap;
+use std::cmp::Ordering;
 use std::ops::Range;
 
 use glam::I64Vec2;
 use smallvec::SmallVec;
 
 use super::edge::{Direction, SkeletonEdge, metres};
-use super::events::{WavefrontEvent, WavefrontEventKind, short};
+use super::events::{EventQueue, WavefrontEventKind, short};
 use super::fronts::{EdgeFront, EdgeFronts};
 use super::lines::{EventTime, LineMeeting, MovingLines};
 use super::meeting::EventPoint;
@@ -88,8 +87,9 @@ pub(super) struct Wavefront {
     pub pieces: Vec<SmallVec<[usize; 6]>>,
     /// Lines that corners may reach, each with the earliest time.
     pub foreseen: Vec<(f64, usize)>,
-    pub events: BinaryHeap<Reverse<WavefrontEvent>>,
-    pub ties: Vec<WavefrontEvent>,
+    pub events: EventQueue,
+    /// The numbers of the events that are next.
+    pub ties: SmallVec<[u32; 8]>,
     pub spots: Vec<EventPoint>,
     /// When the last thing happened, and that or a little before.
     pub last: Option<EventTime>,
