@@ -1,7 +1,7 @@
 //! Memory for arrays of many megabytes: fresh pages cost more than what is written to them.
 
 /// Arrays from this size (bytes) on are given huge pages.
-const LARGE: usize = 2 << 20;
+const LARGE: usize = 16 << 20;
 
 /// Makes room for `more` items in `array`, which at least doubles where it grows, and grows fourfold once it is large:
 /// memory that is not touched costs nothing, and moving what is there does.
@@ -16,10 +16,12 @@ pub fn make_room<T>(array: &mut Vec<T>, more: usize) {
     }
 }
 
-/// Adds `items` at the end of `array`, for which it makes room as [`make_room`] does.
-pub fn append<T: Copy>(array: &mut Vec<T>, items: &[T]) {
-    make_room(array, items.len());
-    array.extend_from_slice(items);
+/// Makes room for `more` items in `array` and no more than that: for those who know how many there will be.
+pub fn make_exact_room<T>(array: &mut Vec<T>, more: usize) {
+    if array.capacity() - array.len() < more {
+        array.reserve_exact(more);
+        advise_for(array);
+    }
 }
 
 #[cold]
@@ -29,20 +31,28 @@ fn grow<T>(array: &mut Vec<T>, more: usize) {
         array.reserve(more);
         return;
     }
-    // The advice comes before anything is written: what is there already lies on pages of its own.
     let is_large = array.capacity() * size_of::<T>() >= LARGE;
     let mut larger: Vec<T> = Vec::with_capacity(if is_large { 2 * capacity } else { capacity });
-    advise(larger.as_ptr() as usize, larger.capacity() * size_of::<T>());
+    // Before anything is written: what is there already lies on pages of its own.
+    advise_for(&larger);
     larger.append(array);
     *array = larger;
+}
+
+fn advise_for<T>(array: &Vec<T>) {
+    let bytes = array.capacity() * size_of::<T>();
+    if bytes >= LARGE {
+        advise(array.as_ptr() as usize, bytes);
+    }
 }
 
 /// Asks for huge pages in a range of memory. It is only advice: a refusal changes nothing.
 #[cfg(target_os = "linux")]
 fn advise(start: usize, bytes: usize) {
     const PAGE: usize = 4096;
-    let first = start.next_multiple_of(PAGE);
-    let length = ((start + bytes) / PAGE * PAGE).saturating_sub(first);
+    // Whole pages, since an allocation that has this advice for only a part of it cannot be moved without copying.
+    let first = start / PAGE * PAGE;
+    let length = (start + bytes).next_multiple_of(PAGE) - first;
     #[allow(unsafe_code, reason = "no safe interface gives this advice for memory of the global allocator")]
     // SAFETY: MADV_HUGEPAGE changes neither what pages hold nor how they may be used, and all pages of the range hold
     // a part of an allocation that is alive.
@@ -67,6 +77,9 @@ mod tests {
             array.push(item);
             assert_eq!(array.capacity(), before);
         }
+        assert!(array.iter().copied().eq(0..3 << 20));
+        make_exact_room(&mut array, 5 << 20);
+        assert!((8 << 20..9 << 20).contains(&array.capacity()));
         assert!(array.iter().copied().eq(0..3 << 20));
     }
 }

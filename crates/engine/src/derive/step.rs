@@ -11,7 +11,7 @@ use super::threads::{ThreadJob, ThreadPool};
 use crate::machine::{Machine, SystemFunctions};
 use crate::results::Use;
 use burgeon_base::error::{Error, Limit, Result};
-use burgeon_base::memory::append;
+use burgeon_base::memory::make_exact_room;
 use burgeon_kit::rules::{Chain, Links, Mark};
 
 /// Pieces of a chain from which rewriting it takes longer than starting a helper.
@@ -189,9 +189,10 @@ impl Stepper {
                 }
             };
             let base = made.end(chain);
-            append(&mut made.symbols, &output.chain.symbols);
-            append(&mut made.params, &output.chain.params);
-            append(&mut made.keys, &output.chain.keys);
+            let read = [rewriting.pieces[index].end, rewriting.chain.symbols.len()];
+            append(&mut made.symbols, &output.chain.symbols, read);
+            append(&mut made.params, &output.chain.params, read);
+            append(&mut made.keys, &output.chain.keys, read);
             let rebased = output.chain.marks.iter().map(|mark| Mark {
                 module: base.module + mark.module,
                 param: base.param + mark.param,
@@ -234,6 +235,19 @@ impl Stepper {
             None => error,
         }
     }
+}
+
+/// Adds `items`, what one more piece has made, at the end of `array`, once so many symbols of so many have been read.
+///
+/// With the first piece, and where there is no room, it makes as much as all need if they make as much as those that have
+/// been read; but no more than four times what there is, for they may not.
+fn append<T: Copy>(array: &mut Vec<T>, items: &[T], [read, all]: [usize; 2]) {
+    let length = array.len() + items.len();
+    if array.is_empty() || length > array.capacity() {
+        let expected = (length * all / read.max(1)).min(4 * array.capacity().max(length));
+        make_exact_room(array, expected + expected / 16 - array.len());
+    }
+    array.extend_from_slice(items);
 }
 
 /// Joins the chain's marks to pieces of at least `size` symbols.

@@ -48,6 +48,7 @@ impl Chain {
     }
 
     /// The place behind the last symbol, given the number of chains before it.
+    #[inline]
     pub fn end(&self, chain: usize) -> Mark {
         Mark { module: self.symbols.len(), param: self.params.len(), chain }
     }
@@ -61,12 +62,13 @@ impl Chain {
     pub fn mark(&mut self, size: usize, arities: &[u8]) {
         self.marks.clear();
         let mut here = Mark::default();
-        for (module, symbol) in self.symbols.iter().enumerate() {
-            if module % size.max(1) == 0 {
-                self.marks.push(Mark { module, ..here });
+        for symbols in self.symbols.chunks(size.max(1)) {
+            self.marks.push(here);
+            here.module += symbols.len();
+            for symbol in symbols {
+                here.param += usize::from(arities[usize::from(*symbol)]);
+                here.chain += usize::from(*symbol == END);
             }
-            here.param += usize::from(arities[usize::from(*symbol)]);
-            here.chain += usize::from(*symbol == END);
         }
     }
 

@@ -38,6 +38,7 @@ impl Rule {
     }
 
     /// The number of values that the rule's functions take besides `this`.
+    #[inline]
     pub fn arguments(&self) -> usize {
         self.pattern.formals.len()
     }
@@ -120,6 +121,7 @@ impl Grammar {
     }
 
     /// The rules in the order of their declaration.
+    #[inline]
     pub fn rules(&self) -> &[Rule] {
         &self.rules
     }
@@ -137,6 +139,7 @@ impl Grammar {
     }
 
     /// The branches that contexts name.
+    #[inline]
     pub fn branches(&self) -> &Branches {
         &self.branches
     }
@@ -154,26 +157,31 @@ impl Grammar {
     }
 
     /// The number of parameters by symbol, brackets included.
+    #[inline]
     pub fn arities(&self) -> &[u8] {
         &self.arities
     }
 
     /// Whether modules need random keys.
+    #[inline]
     pub fn draws_random(&self) -> bool {
         self.random
     }
 
     /// Whether a rule looks at the neighbours of its module.
+    #[inline]
     pub fn has_contexts(&self) -> bool {
         self.left || self.right
     }
 
     /// Whether a rule looks at what comes before its module.
+    #[inline]
     pub fn has_left_contexts(&self) -> bool {
         self.left
     }
 
     /// Whether a rule looks at what comes after its module.
+    #[inline]
     pub fn has_right_contexts(&self) -> bool {
         self.right
     }
