@@ -38,7 +38,7 @@ impl StreetNetwork {
     /// Joins dead ends to the streets around them until no more can be; gives how many it has joined.
     ///
     /// A dead end tries junctions, the nearest places of streets, and what lies straight ahead, in the order of length,
-    /// in which what turns by 45 degrees counts twice, as does what would cross a street with such a kink; the first that keeps all constraints and saves a detour is built.
+    /// in which what turns by 45 degrees counts twice; the first that keeps all constraints and saves a detour is built.
     pub fn join_dead_ends(&mut self, options: DeadEndOptions) -> usize {
         let mut joined = 0;
         loop {
@@ -90,19 +90,17 @@ impl StreetNetwork {
         let attributes = self.pieces[piece as usize].attributes;
         let (here, ahead) = (self.at(from), -self.leaves(piece, from));
         let mut ends: SmallVec<[(f64, u64, StreetEnd); 32]> = SmallVec::new();
-        let mut add = |end: StreetEnd, place: DVec2, kink: f64, order: u64| {
+        let mut add = |end: StreetEnd, place: DVec2, order: u64| {
             let way = place - here;
             let deviation = ahead.angle_to(way).abs().to_degrees();
             if way.length() <= options.radius && deviation <= 135.0 {
-                let turns = 1.0 + (deviation + kink) / DEVIATION;
-                ends.push((way.length() * turns, order, end));
+                ends.push((way.length() * (1.0 + deviation / DEVIATION), order, end));
             }
         };
         let around = [here; 2];
         for junction in self.junctions_near(around, options.radius) {
             if junction != from && !self.junctions[junction as usize].pieces.is_empty() {
-                let kink = self.kink(here, junction);
-                add(StreetEnd::Junction(junction), self.at(junction), kink, u64::from(junction));
+                add(StreetEnd::Junction(junction), self.at(junction), u64::from(junction));
             }
         }
         for other in self.pieces_near(around, options.radius) {
@@ -119,7 +117,7 @@ impl StreetNetwork {
             ];
             for (index, place) in (0..).zip(places) {
                 if let Some((place, on)) = place.and_then(|place| Some((place, GridPlace::nearest(place)?))) {
-                    add(StreetEnd::On(other, on), place, 0.0, (1 << 40) + (u64::from(other) << 1) + index);
+                    add(StreetEnd::On(other, on), place, (1 << 40) + (u64::from(other) << 1) + index);
                 }
             }
         }
@@ -132,18 +130,6 @@ impl StreetNetwork {
                 && self.is_detour(from, *end, here.distance(to) * options.detour)
         });
         found.map(|(_, _, end)| end)
-    }
-
-    /// By how much (degrees) a street that comes from a place to a junction of three arms or more would turn to go on into
-    /// one of them: streets that cross do so in one line. Nothing where there are fewer.
-    fn kink(&self, from: DVec2, junction: JunctionId) -> f64 {
-        let pieces = &self.junctions[junction as usize].pieces;
-        if pieces.len() < 3 {
-            return 0.0;
-        }
-        let way = self.at(junction) - from;
-        let turn = |piece: &u32| way.angle_to(self.leaves(*piece, junction)).abs().to_degrees();
-        pieces.iter().map(turn).fold(180.0, f64::min)
     }
 
     /// Whether the way along the network is longer than `least` (m).
