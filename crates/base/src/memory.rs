@@ -1,7 +1,9 @@
 //! Memory for arrays of many megabytes: fresh pages cost more than what is written to them.
 
-/// Arrays from this size (bytes) on are given huge pages.
-const LARGE: usize = 16 << 20;
+/// Arrays from this size (bytes) on are given huge pages where they grow.
+const LARGE: usize = 2 << 20;
+/// Those that take no more than they need are from this size (bytes) on, of which a part of a huge page is not much.
+const LARGE_AND_EXACT: usize = 16 << 20;
 
 /// Makes room for `more` items in `array`, which at least doubles where it grows, and grows fourfold once it is large:
 /// memory that is not touched costs nothing, and moving what is there does.
@@ -20,7 +22,7 @@ pub fn make_room<T>(array: &mut Vec<T>, more: usize) {
 pub fn make_exact_room<T>(array: &mut Vec<T>, more: usize) {
     if array.capacity() - array.len() < more {
         array.reserve_exact(more);
-        advise_for(array);
+        advise_from(LARGE_AND_EXACT, array);
     }
 }
 
@@ -34,14 +36,15 @@ fn grow<T>(array: &mut Vec<T>, more: usize) {
     let is_large = array.capacity() * size_of::<T>() >= LARGE;
     let mut larger: Vec<T> = Vec::with_capacity(if is_large { 2 * capacity } else { capacity });
     // Before anything is written: what is there already lies on pages of its own.
-    advise_for(&larger);
+    advise_from(LARGE, &larger);
     larger.append(array);
     *array = larger;
 }
 
-fn advise_for<T>(array: &Vec<T>) {
+/// Asks for huge pages for an array, if it has so many bytes or more.
+fn advise_from<T>(least: usize, array: &Vec<T>) {
     let bytes = array.capacity() * size_of::<T>();
-    if bytes >= LARGE {
+    if bytes >= least {
         advise(array.as_ptr() as usize, bytes);
     }
 }
