@@ -239,12 +239,13 @@ impl Stepper {
 
 /// Adds `items`, what one more piece has made, at the end of `array`, once so many symbols of so many have been read.
 ///
-/// With the first piece, and where there is no room, it makes as much as all need if they make as much as those that have
-/// been read; but no more than four times what there is, for they may not.
+/// With the first piece, and where there is no room, it makes room for what all pieces make if the rest makes as much as
+/// what has been read; but no more than four times what there is, for it may not.
 fn append<T: Copy>(array: &mut Vec<T>, items: &[T], [read, all]: [usize; 2]) {
     let length = array.len() + items.len();
     if array.is_empty() || length > array.capacity() {
-        let expected = (length * all / read.max(1)).min(4 * array.capacity().max(length));
+        let expected = length.saturating_mul(all) / read.max(1);
+        let expected = expected.min(4 * array.capacity().max(length)).max(length);
         make_exact_room(array, expected + expected / 16 - array.len());
     }
     array.extend_from_slice(items);
