@@ -1,13 +1,14 @@
 //! Tests of how thin triangles of roofs are: none is thinner than 0.1 mm.
 
-use super::super::skeleton::samples::{Random, mixed, rounded};
+use super::super::skeleton::samples::{FAMILIES, Random, mixed, rounded};
 use super::super::skeleton::tests::plan;
 use super::super::solid;
 use super::tests::{BENT, HEIGHT, building};
 use super::*;
-use crate::planar::Polygon;
+use crate::planar::{Polygon, edges};
 use burgeon_scene::Part;
 use glam::DVec2;
+use rustc_hash::FxHashMap;
 
 /// Triangles are at least so wide (m).
 const WIDE: f64 = 1e-4;
@@ -135,4 +136,29 @@ fn open_eaves_beside_a_sharp_notch_end_at_its_corners() {
         }
     }
     assert!(faults.is_empty(), "{}: {:#?}", faults.len(), &faults[..faults.len().min(4)]);
+}
+
+#[test]
+fn a_face_that_merged_peaks_have_turned_over_does_not_lie_on_its_neighbours() {
+    // 24 courtyards; beside one of them a peak is 1 mm beyond the border that it is on.
+    let walls = plan(&(FAMILIES[5].make)(&mut Random(17_846_573_750_141_382_562))).expect("a plan");
+    let shape = RoofShape {
+        surface: RoofSurface::Sloped(Ends::Hips, &[]),
+        rise: Rise::Slope(0.7),
+        overhang: 0.0,
+        eaves: Eaves::Closed,
+        slab: 0.0,
+    };
+    let cover = shape.cover(&walls, HEIGHT).expect("a roof");
+    let part = building(&walls, &cover);
+    assert!(solid::check([&part]).is_solid());
+    let mut uses: FxHashMap<[[u32; 3]; 2], u32> = FxHashMap::default();
+    for triangle in &part.triangles {
+        let corners = triangle.map(|corner| part.positions[corner as usize].to_array().map(f32::to_bits));
+        for [a, b] in edges(&corners) {
+            *uses.entry([a.min(b), a.max(b)]).or_default() += 1;
+        }
+    }
+    assert_eq!(uses.values().filter(|uses| **uses != 2).count(), 0);
+    assert!(uses.len() > 400, "{}", uses.len());
 }

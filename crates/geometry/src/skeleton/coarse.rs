@@ -16,12 +16,13 @@ const NARROW: f64 = 2.5e-4;
 /// Two peaks become one only where the border between them is all that the faces around them share, and a peak on a
 /// straight border between two faces is left out. A spike is closed where one of its borders runs along the other: what
 /// is beyond them meets there. No face loses its edge or touches itself, and no two faces get a second border between the same peaks. The first `fixed` peaks stay.
-pub(super) fn coarsen(peaks: &[Peak], fixed: usize, faces: &mut [Vec<usize>]) {
-    let sharp = |face: &Vec<usize>| face.len() > 3 && spikes_of(peaks, face).next().is_some();
-    let mut short = short_borders(peaks, fixed, faces);
-    if short.is_empty() && !faces.iter().any(sharp) {
+pub(super) fn coarsen(peaks: &[Peak], fixed: usize, edges: &[SkeletonEdge], faces: &mut [Vec<usize>]) {
+    // Peaks that stand for others may turn spikes over by twice as much; beside upright faces these would lean then.
+    let turned = if edges.iter().all(|edge| edge.pace.moves()) { 2.0 * FINEST } else { FINEST };
+    if faces.iter().all(|face| is_coarse(peaks, fixed, face, turned)) {
         return;
     }
+    let mut short = short_borders(peaks, fixed, faces);
     let mut map = PeakMap::new(peaks.len(), faces);
     // What cannot be done at first may be possible once other things have been.
     let mut done = true;
@@ -33,7 +34,7 @@ pub(super) fn coarsen(peaks: &[Peak], fixed: usize, faces: &mut [Vec<usize>]) {
         }
         for face in 0..faces.len() {
             while faces[face].len() > 3 {
-                let found: SmallVec<[[usize; 3]; 4]> = spikes_of(peaks, &faces[face]).collect();
+                let found: SmallVec<[[usize; 3]; 4]> = spikes_of(peaks, &faces[face], turned).collect();
                 let mut found = found.into_iter().filter(|spike| spike[1] >= fixed);
                 if !found.any(|spike| map.closes(face, spike, peaks, faces)) {
                     break;
@@ -70,6 +71,37 @@ pub(super) fn widen(peaks: &mut [Peak], fixed: usize, edges: &[SkeletonEdge], fa
     }
 }
 
+/// Whether a face has neither short borders nor spikes.
+fn is_coarse(peaks: &[Peak], fixed: usize, face: &[usize], turned: f64) -> bool {
+    let count = face.len();
+    let mut back = way(peaks, [face[1], face[0]]);
+    (1..count).all(|index| {
+        let (from, to) = (face[index], face[(index + 1) % count]);
+        let on = way(peaks, [from, to]);
+        let ways = [std::mem::replace(&mut back, -on), on];
+        !((from.max(to) >= fixed && square(on) <= FINEST * FINEST)
+            || (index > 1 && count > 3 && is_spike(ways, turned)))
+    })
+}
+
+/// The square of the length of a border, on the plan or in time.
+fn square(way: DVec3) -> f64 {
+    way.truncate().length_squared().max(way.z * way.z)
+}
+
+/// Whether one of two ways from a corner runs along the other; the second one is up to `turned` (m) off it on the wrong
+/// side.
+fn is_spike([one, two]: [DVec3; 2], turned: f64) -> bool {
+    let dot = one.dot(two);
+    if dot <= 0.0 {
+        return false;
+    }
+    let squares = [one.length_squared(), two.length_squared()];
+    let (long, cross) = (squares[0].max(squares[1]), one.cross(two));
+    let widest = if cross.z > 0.0 { turned } else { FINEST };
+    4.0 * dot * dot > squares[0] * squares[1] && cross.length_squared() <= widest * widest * long
+}
+
 /// The short borders, each with the square of its length, the shortest first; the second of the two peaks may go.
 fn short_borders(peaks: &[Peak], fixed: usize, faces: &[Vec<usize>]) -> Vec<(f64, [usize; 2])> {
     let mut short = Vec::new();
@@ -77,8 +109,7 @@ fn short_borders(peaks: &[Peak], fixed: usize, faces: &[Vec<usize>]) -> Vec<(f64
         for (index, &from) in face.iter().enumerate() {
             let to = face[(index + 1) % face.len()];
             if from < to && to >= fixed {
-                let way = way(peaks, [from, to]);
-                let square = way.truncate().length_squared().max(way.z * way.z);
+                let square = square(way(peaks, [from, to]));
                 if square <= FINEST * FINEST {
                     short.push((square, [from, to]));
                 }
@@ -91,20 +122,13 @@ fn short_borders(peaks: &[Peak], fixed: usize, faces: &[Vec<usize>]) -> Vec<(f64
 
 /// The spikes of a face: three corners after one another of which the first or the last is on the border between the
 /// two others.
-fn spikes_of<'a>(peaks: &'a [Peak], face: &'a [usize]) -> impl Iterator<Item = [usize; 3]> + 'a {
+///
+/// One that has been turned over is no wider than `turned` (m).
+fn spikes_of(peaks: &[Peak], face: &[usize], turned: f64) -> impl Iterator<Item = [usize; 3]> {
     let count = face.len();
     // The first two corners are those of the edge.
     let corners = (2..count).map(move |index| [face[index - 1], face[index], face[(index + 1) % count]]);
-    corners.filter(|&[a, tip, b]| {
-        let [one, two] = [way(peaks, [tip, a]), way(peaks, [tip, b])];
-        let dot = one.dot(two);
-        if dot <= 0.0 {
-            return false;
-        }
-        let squares = [one.length_squared(), two.length_squared()];
-        let long = squares[0].max(squares[1]);
-        4.0 * dot * dot > squares[0] * squares[1] && one.cross(two).length_squared() <= FINEST * FINEST * long
-    })
+    corners.filter(move |&[a, tip, b]| is_spike([way(peaks, [tip, a]), way(peaks, [tip, b])], turned))
 }
 
 /// From a peak to another, on the plan and in time.

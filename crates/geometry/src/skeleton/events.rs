@@ -309,8 +309,9 @@ impl Wavefront {
         let ([a, b], before, after) = (corner.pair(), corner.before, corner.after);
         let line = self.traced.edges[edge].line;
         let place = self.lines.meeting([a, b, line], when);
-        for number in 0..self.pieces[edge].len() {
-            let from = self.pieces[edge][number];
+        let mut piece = self.pieces[edge];
+        while let Some(from) = piece {
+            piece = self.corners[from].older;
             let to = self.corners[from].after;
             // At its neighbours' other edges it is only if its own have collapsed.
             if !self.corners[from].alive || from == after || to == before {

@@ -36,7 +36,7 @@ pub(super) fn assemble(rings: &[Vec<I64Vec2>], traced: WavefrontTrace) -> Result
         }
     }
     let mut faces: Vec<Vec<usize>> = borders.into_iter().map(chain).collect::<Result<_>>()?;
-    coarsen(&peaks, edges.len(), &mut faces);
+    coarsen(&peaks, edges.len(), &edges, &mut faces);
     widen(&mut peaks, edges.len(), &edges, &faces);
     verify(rings, &edges, &peaks, &faces)?;
     let paces = edges.iter().map(|edge| edge.pace).collect();

@@ -3,7 +3,6 @@
 use std::cmp::Ordering;
 
 use glam::{DVec2, I64Vec2};
-use smallvec::SmallVec;
 
 use super::edge::{Direction, metres};
 use super::exact::{self, ExactLine, ExactPlace, Ratio};
@@ -11,7 +10,7 @@ use super::exact::{self, ExactLine, ExactPlace, Ratio};
 /// What rounding adds to a number, as a part of it.
 const UNIT: f64 = f64::EPSILON / 2.0;
 /// How far (m) times and places may be off in what goes out.
-pub(super) const FINE: f64 = 1e-9;
+pub(super) const FINE: f64 = 1e-7;
 
 /// A line: the points whose product with `normal` is `level` + `speed` * time.
 #[derive(Debug, Clone, Copy)]
@@ -360,6 +359,3 @@ impl MovingLines {
         })
     }
 }
-
-/// Lists that are short almost always.
-pub(super) type Few<T> = SmallVec<[T; 12]>;

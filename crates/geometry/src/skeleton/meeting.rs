@@ -4,7 +4,7 @@ use std::cmp::Ordering;
 
 use super::Peak;
 use super::edge::Direction;
-use super::lines::{EventTime, FINE, Few, LineMeeting};
+use super::lines::{EventTime, FINE, LineMeeting};
 use super::wavefront::Wavefront;
 use burgeon_base::error::{Error, Result};
 
@@ -31,6 +31,24 @@ enum End {
 struct EdgePiece {
     edge: usize,
     ends: [End; 2],
+}
+
+/// Lists that are empty between two meetings, and keep their memory.
+#[derive(Debug, Default)]
+pub(super) struct MeetingLists {
+    /// The spots from left to right.
+    order: Vec<usize>,
+    places: Vec<LineMeeting>,
+    /// The corners where pieces of edges begin.
+    begins: Vec<usize>,
+    /// The corners that meet others, with the numbers of their meetings.
+    corners: Vec<(usize, usize)>,
+    /// What meets on an edge, by the corner where its piece begins, and the numbers of the meetings.
+    cuts: Vec<(usize, LineMeeting, usize)>,
+    pieces: Vec<EdgePiece>,
+    rays: Vec<Ray>,
+    /// The new corners.
+    fresh: Vec<usize>,
 }
 
 /// An end of a piece, as seen from the place where it meets others.
@@ -85,11 +103,18 @@ impl Wavefront {
         self.lines.settle(when, FINE);
         self.last = Some(*when);
         self.now = when.low();
+        let mut lists = std::mem::take(&mut self.lists);
+        let done = self.resolve_with(&mut lists, when);
+        self.lists = lists;
+        done
+    }
+
+    fn resolve_with(&mut self, lists: &mut MeetingLists, when: &mut EventTime) -> Result<()> {
         for _ in 0..=self.corners.len() {
-            let fresh = self.pair_anew(when)?;
-            self.close(&fresh, when);
-            self.rush(&fresh, when);
-            self.go_on(&fresh);
+            self.pair_anew(lists, when)?;
+            self.close(&lists.fresh, when);
+            self.rush(&lists.fresh, when);
+            self.go_on(&lists.fresh);
             if self.spots.is_empty() {
                 if std::mem::take(&mut self.restarted) {
                     self.look_again();
@@ -100,19 +125,20 @@ impl Wavefront {
         Err(Error::geometry("edges in one line do not come to rest"))
     }
 
-    /// Cuts what meets and pairs it anew: the new corners.
-    fn pair_anew(&mut self, when: &mut EventTime) -> Result<Few<usize>> {
-        self.join_same(when);
+    /// Cuts what meets and pairs it anew in new corners.
+    fn pair_anew(&mut self, lists: &mut MeetingLists, when: &mut EventTime) -> Result<()> {
+        self.join_same(&mut lists.order, when);
         let first_peak = self.traced.peaks.len();
-        let places = self.number_meetings(when);
-        let mut pieces = self.cut(when);
+        self.number_meetings(&mut lists.places, when);
+        self.cut(lists, when);
+        let MeetingLists { places, pieces, rays, fresh, .. } = lists;
         for index in 0..self.spots.len() {
             let spot = self.spots[index];
             if !spot.cut {
                 self.end(spot.corner, first_peak + spot.meeting);
             }
         }
-        let mut rays: Few<Ray> = Few::new();
+        rays.clear();
         for (index, piece) in pieces.iter().enumerate() {
             let direction = self.lines.direction(piece.edge);
             if let End::Meeting(meeting) = piece.ends[0] {
@@ -127,7 +153,7 @@ impl Wavefront {
             let angle = || a.direction.compare(b.direction);
             a.meeting.cmp(&b.meeting).then_with(angle).then(b.leaves.cmp(&a.leaves))
         });
-        let mut fresh: Few<usize> = Few::new();
+        fresh.clear();
         for rays in rays.chunk_by(|a, b| a.meeting == b.meeting) {
             let next = |index: usize| &rays[(index + 1) % rays.len()];
             if (0..rays.len()).any(|index| rays[index].leaves == next(index).leaves) {
@@ -143,18 +169,19 @@ impl Wavefront {
                 fresh.push(corner);
             }
         }
-        for piece in &pieces {
+        for piece in pieces.iter() {
             if let [End::Corner(a), End::Corner(b)] = piece.ends {
                 self.corners[a].after = b;
                 self.corners[b].before = a;
             }
         }
-        Ok(fresh)
+        Ok(())
     }
 
     /// Joins the spots whose places are one.
-    fn join_same(&mut self, when: &mut EventTime) {
-        let mut order: Few<usize> = (0..self.spots.len()).collect();
+    fn join_same(&mut self, order: &mut Vec<usize>, when: &mut EventTime) {
+        order.clear();
+        order.extend(0..self.spots.len());
         let low = |spot: &EventPoint| spot.place.at.x - spot.place.slack;
         order.sort_by(|&a, &b| low(&self.spots[a]).total_cmp(&low(&self.spots[b])));
         for (rank, &a) in order.iter().enumerate() {
@@ -172,8 +199,8 @@ impl Wavefront {
     }
 
     /// Numbers the meetings, from 0, and adds a peak for each, in their order; their places.
-    fn number_meetings(&mut self, when: &mut EventTime) -> Few<LineMeeting> {
-        let mut places = Few::new();
+    fn number_meetings(&mut self, places: &mut Vec<LineMeeting>, when: &mut EventTime) {
+        places.clear();
         for index in 0..self.spots.len() {
             let leader = self.leader(index);
             if leader == index {
@@ -186,15 +213,12 @@ impl Wavefront {
                 self.spots[index].meeting = self.spots[leader].meeting;
             }
         }
-        places
     }
 
-    /// The pieces of edges that the spots touch, cut there.
-    fn cut(&mut self, when: &mut EventTime) -> Few<EdgePiece> {
-        // Where pieces begin, and the meetings on them in their order.
-        let mut begins: Few<usize> = Few::new();
-        let mut whole: Few<(usize, usize)> = Few::new();
-        let mut cuts: Few<(usize, LineMeeting, usize)> = Few::new();
+    /// Finds the pieces of edges that the spots touch, cut there.
+    fn cut(&mut self, lists: &mut MeetingLists, when: &mut EventTime) {
+        let MeetingLists { begins, corners: whole, cuts, pieces, .. } = lists;
+        (begins.clear(), whole.clear(), cuts.clear(), pieces.clear());
         for index in 0..self.spots.len() {
             let EventPoint { corner, cut, place, meeting, .. } = self.spots[index];
             begins.push(corner);
@@ -222,8 +246,7 @@ impl Wavefront {
             Ok(found) => End::Meeting(whole[found].1),
             Err(_) => End::Corner(corner),
         };
-        let mut pieces = Few::new();
-        for &from in &begins {
+        for &from in begins.iter() {
             let corner = &self.corners[from];
             let mut last = end(from);
             let between = cuts.partition_point(|cut| cut.0 < from)..cuts.partition_point(|cut| cut.0 <= from);
@@ -235,6 +258,5 @@ impl Wavefront {
                 last = next;
             }
         }
-        pieces
     }
 }

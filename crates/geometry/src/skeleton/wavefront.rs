@@ -11,7 +11,7 @@ use super::edge::{Direction, SkeletonEdge, metres};
 use super::events::{EventQueue, WavefrontEventKind, short};
 use super::fronts::{EdgeFront, EdgeFronts};
 use super::lines::{EventTime, LineMeeting, MovingLines};
-use super::meeting::EventPoint;
+use super::meeting::{EventPoint, MeetingLists};
 use super::{Pace, Peak};
 use burgeon_base::error::{Error, Result};
 
@@ -54,6 +54,8 @@ pub(super) struct WavefrontCorner {
     /// Where the lines that it may reach after the one that it is expected to reach next are among those that have been
     /// foreseen, the last one first.
     pub foreseen: Range<usize>,
+    /// The corner before it where a piece of the same edge began.
+    pub older: Option<usize>,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -83,14 +85,15 @@ pub(super) struct Wavefront {
     /// How many corners there had been when it was last asked which edges are still there.
     known: usize,
     pub corners: Vec<WavefrontCorner>,
-    /// For each edge the corners where pieces of it begin; some may be dead.
-    pub pieces: Vec<SmallVec<[usize; 6]>>,
+    /// For each edge the last of the corners where pieces of it begin; some may be dead.
+    pub pieces: Vec<Option<usize>>,
     /// Lines that corners may reach, each with the earliest time.
     pub foreseen: Vec<(f64, usize)>,
     pub events: EventQueue,
     /// The numbers of the events that are next.
     pub ties: SmallVec<[u32; 8]>,
     pub spots: Vec<EventPoint>,
+    pub lists: MeetingLists,
     /// When the last thing happened, and that or a little before.
     pub last: Option<EventTime>,
     pub now: f64,
@@ -171,7 +174,7 @@ impl Wavefront {
         self.known = count;
         self.corners.clear();
         self.pieces.clear();
-        self.pieces.resize(count, SmallVec::new());
+        self.pieces.resize(count, None);
         self.foreseen.clear();
         self.events.clear();
         self.spots.clear();
@@ -277,8 +280,8 @@ impl Wavefront {
             alive: true,
             spot: usize::MAX,
             foreseen: 0..0,
+            older: self.pieces[edges[1]].replace(index),
         });
-        self.pieces[edges[1]].push(index);
         self.alive[edges[1]] += 1;
         index
     }
@@ -290,8 +293,9 @@ impl Wavefront {
         if self.alive[edge] == 0 {
             return;
         }
-        for number in 0..self.pieces[edge].len() {
-            let from = self.pieces[edge][number];
+        let mut piece = self.pieces[edge];
+        while let Some(from) = piece {
+            piece = self.corners[from].older;
             if self.corners[from].alive {
                 for end in [from, self.corners[from].after] {
                     let place = self.place(end, when);
