@@ -43,7 +43,7 @@ pub(super) struct EventTime {
     exact: u32,
 }
 
-/// No line, or no number of an exact time.
+/// No line, or no number of an exact line or time.
 const NONE: u32 = u32::MAX;
 
 impl EventTime {
@@ -81,7 +81,9 @@ pub(super) struct MovingLines {
     lines: Vec<MovingLine>,
     directions: Vec<Direction>,
     origins: Vec<LineOrigin>,
-    exact: Vec<Option<Box<ExactLine>>>,
+    /// The number of what each is exactly, if it is known.
+    numbers: Vec<u32>,
+    exact: Vec<ExactLine>,
     times: Vec<Ratio>,
     /// What the rounding of products with levels may add up to (m), and that of products with speeds.
     noise: [f64; 2],
@@ -104,6 +106,7 @@ impl MovingLines {
         self.lines.clear();
         self.directions.clear();
         self.origins.clear();
+        self.numbers.clear();
         self.exact.clear();
         self.times.clear();
         // Normals are off by 8 units, levels by 16 of them; a product of three normals and levels has 9 terms.
@@ -134,7 +137,7 @@ impl MovingLines {
         self.lines.push(line);
         self.directions.push(direction);
         self.origins.push(origin);
-        self.exact.push(None);
+        self.numbers.push(NONE);
         self.lines.len() - 1
     }
 
@@ -153,7 +156,7 @@ impl MovingLines {
 
     fn exactly(&mut self, lines: &[usize]) {
         for &line in lines {
-            if self.exact[line].is_some() {
+            if self.numbers[line] != NONE {
                 continue;
             }
             let direction = self.directions[line];
@@ -166,13 +169,14 @@ impl MovingLines {
                     ExactLine::pin(direction.left(), &place)
                 }
             };
-            self.exact[line] = Some(Box::new(exact));
+            self.numbers[line] = u32::try_from(self.exact.len()).unwrap_or(NONE);
+            self.exact.push(exact);
         }
     }
 
-    #[allow(clippy::expect_used, reason = "exactly() has filled them")]
+    /// What lines are, for which that has been asked.
     fn known<const N: usize>(&self, lines: [usize; N]) -> [&ExactLine; N] {
-        lines.map(|line| self.exact[line].as_deref().expect("an exact line"))
+        lines.map(|line| &self.exact[self.numbers[line] as usize])
     }
 
     /// Whether two lines that cross do so to the left or to the right; equal if they are parallel.
