@@ -218,7 +218,10 @@ impl Wavefront {
     /// Finds the pieces of edges that the spots touch, cut there.
     fn cut(&mut self, lists: &mut MeetingLists, when: &mut EventTime) {
         let MeetingLists { begins, corners: whole, cuts, pieces, .. } = lists;
-        (begins.clear(), whole.clear(), cuts.clear(), pieces.clear());
+        begins.clear();
+        whole.clear();
+        cuts.clear();
+        pieces.clear();
         for index in 0..self.spots.len() {
             let EventPoint { corner, cut, place, meeting, .. } = self.spots[index];
             begins.push(corner);
