@@ -12,11 +12,11 @@ use burgeon::script::RunOptions;
 use check::{PATTERNS, check, grown};
 
 /// What a pattern is compared by: its name and its value of a network.
-const CITIES: [(&str, [f64; 8]); 4] = [
-    ("Vancouver", [3.22, 0.08, 0.56, 0.36, 1.03, 0.30, f64::NAN, f64::NAN]),
-    ("London", [2.56, 0.25, 0.67, 0.07, 1.06, 0.14, f64::NAN, f64::NAN]),
-    ("Helsinki", [3.23, 0.08, 0.53, 0.39, 1.09, 0.22, 0.42, 7000.0]),
-    ("Monaco", [2.80, 0.14, 0.78, 0.08, 1.21, 0.21, 0.06, 1660.0]),
+const CITIES: [(&str, [f64; 9]); 4] = [
+    ("Vancouver", [3.22, 0.08, 0.56, 0.36, 1.03, 0.30, f64::NAN, f64::NAN, f64::NAN]),
+    ("London", [2.56, 0.25, 0.67, 0.07, 1.06, 0.14, f64::NAN, f64::NAN, f64::NAN]),
+    ("Helsinki", [3.23, 0.08, 0.53, 0.39, 1.09, 0.22, 0.42, 7000.0, 0.64]),
+    ("Monaco", [2.80, 0.14, 0.78, 0.08, 1.21, 0.21, 0.06, 1660.0, 0.70]),
 ];
 
 /// A town of 100,000 pieces.
@@ -41,11 +41,11 @@ roads:derive(400)
 
 fn main() {
     let seeds = std::env::args().skip(1).find_map(|word| word.parse().ok()).unwrap_or(200);
-    println!("{:12} degree  ends  3-way  4-way  circ.  mesh.  order  block (m²)  pieces", "");
-    let row = |name: &str, of: [f64; 8], pieces: f64| {
-        let [degree, ends, three, four, circuity, meshedness, order, block] = of;
+    println!("{:12} degree  ends  3-way  4-way  circ.  mesh.  order  block (m²)  spread  pieces", "");
+    let row = |name: &str, of: [f64; 9], pieces: f64| {
+        let [degree, ends, three, four, circuity, meshedness, order, block, spread] = of;
         println!(
-            "{name:12} {degree:6.2} {ends:5.2} {three:6.2} {four:6.2} {circuity:6.2} {meshedness:6.2} {order:6.2} {block:11.0} {pieces:7.0}"
+            "{name:12} {degree:6.2} {ends:5.2} {three:6.2} {four:6.2} {circuity:6.2} {meshedness:6.2} {order:6.2} {block:11.0} {spread:7.2} {pieces:7.0}"
         );
     };
     for (name, of) in CITIES {
@@ -53,14 +53,14 @@ fn main() {
     }
     for (pattern, radius) in PATTERNS {
         let begin = Instant::now();
-        let (mut sums, mut pieces) = ([0.0; 8], 0.0);
+        let (mut sums, mut pieces) = ([0.0; 9], 0.0);
         for seed in 1..=seeds {
-            let grown = grown("roads.lua", seed, &[("pattern", pattern), ("extent", "350")]);
+            let grown = grown("roads.lua", seed, &[("pattern", pattern), ("extent", "1000")]);
             check(&grown, radius, &format!("{pattern}, seed {seed}"));
             let of = grown.network().measures();
             let [ends, three, four] = of.shares;
-            let all =
-                [of.degree, ends, three, four, of.circuity, of.meshedness, of.orientation_order, of.block];
+            let [degree, circuity, order] = [of.degree, of.circuity, of.orientation_order];
+            let all = [degree, ends, three, four, circuity, of.meshedness, order, of.block, of.block_spread];
             sums = std::array::from_fn(|index| sums[index] + all[index]);
             pieces += grown.size() as f64;
         }

@@ -5,7 +5,7 @@ use std::path::Path;
 use insta::assert_snapshot;
 
 use crate::support::{Folder, printed, refused};
-use crate::warnings::warned;
+use crate::warnings::{silent, warned};
 
 /// A network with these fields, of which one street is proposed.
 fn grown(fields: &str, proposal: &str) -> String {
@@ -15,17 +15,21 @@ fn grown(fields: &str, proposal: &str) -> String {
     )
 }
 
-/// What is told of a script that uses the library of roads.
-fn refused_by_roads(script: &str) -> String {
+/// A folder with a script that uses the library of roads.
+fn with_roads(script: &str) -> Folder {
     let templates = Path::new(env!("CARGO_MANIFEST_DIR")).join("scripts/templates");
     let files =
         ["roads.lua", "roads/checks.lua", "roads/growth.lua", "roads/patterns.lua", "roads/words.lua"];
     let folder =
         Folder::new().with("s.lua", format!("local roads = require(\"templates/roads\")\n{script}\n"));
-    let folder = files.into_iter().fold(folder, |folder, file| {
+    files.into_iter().fold(folder, |folder, file| {
         folder.with(&format!("templates/{file}"), std::fs::read(templates.join(file)).unwrap())
-    });
-    folder.refuses(&["run", "s.lua"])
+    })
+}
+
+/// How a script is refused that uses the library of roads.
+fn refused_by_roads(script: &str) -> String {
+    with_roads(script).refuses(&["run", "s.lua"])
 }
 
 #[test]
@@ -244,6 +248,76 @@ fn a_network_of_which_no_street_is_built_says_why() {
       | local s = lsystem({ object = network({  }) })
       help: network:fate tells of each what became of it
     "#);
+}
+
+#[test]
+fn a_street_that_does_not_come_to_its_place_is_told() {
+    let pond = "obstacles = { { { 80, -200 }, { 120, -200 }, { 120, 200 }, { 80, 200 } } }, bend = 0";
+    let to = |x: f64| grown(pond, &format!("this:lead(1, {{ {x}, 0 }}, 0)"));
+    silent(&[&to(60.0)]);
+    assert_snapshot!(warned(&[&to(300.0), &to(1e9)]), @r#"
+    local A = module("A")
+    local s = lsystem({ object = network({ obstacles = { { { 80, -200 }, { 120, -200 }, { 120, 200 }, { 80, 200 } } }, bend = 0 }) })
+    s:axiom(A())
+    s:interpret("A", function(this)
+      this:lead(1, { 300, 0 }, 0)
+    end)
+    s:derive(0)
+    warning: s.lua:5: rule A (interpretation): network:lead: the street from 0.0, 0.0 to 300.0, 0.0 ends at 69.0, 0.0, for an obstacle is in its way
+      | this:lead(1, { 300, 0 }, 0)
+      module: A, step 0
+      help: lead it around the obstacle, or leave that out
+
+    local A = module("A")
+    local s = lsystem({ object = network({ obstacles = { { { 80, -200 }, { 120, -200 }, { 120, 200 }, { 80, 200 } } }, bend = 0 }) })
+    s:axiom(A())
+    s:interpret("A", function(this)
+      this:lead(1, { 1000000000, 0 }, 0)
+    end)
+    s:derive(0)
+    warning: s.lua:5: rule A (interpretation): network:lead: no street leads from 0.0, 0.0 to 1000000000.0, 0.0: outside
+      | this:lead(1, { 1000000000, 0 }, 0)
+      module: A, step 0
+      help: lead it to a place within the `limit` of the network, and within 500 km of the origin
+    "#);
+    let two = |y: f64| grown("", &format!("this:lead(1, {{ 90, 0 }}, 0) this:lead(1, {{ 40, {y} }}, 0)"));
+    silent(&[&two(80.0)]);
+    assert_snapshot!(warned(&[&two(40.0)]), @r#"
+    local A = module("A")
+    local s = lsystem({ object = network({  }) })
+    s:axiom(A())
+    s:interpret("A", function(this)
+      this:lead(1, { 90, 0 }, 0) this:lead(1, { 40, 40 }, 0)
+    end)
+    s:derive(0)
+    warning: s.lua:5: rule A (interpretation): network:lead: no street leads from 0.0, 0.0 to 40.0, 40.0: angle
+      | this:lead(1, { 90, 0 }, 0) this:lead(1, { 40, 40 }, 0)
+      module: A, step 0
+      help: lead it elsewhere, or give the network a smaller `min_angle`
+    "#);
+}
+
+#[test]
+fn highways_that_do_not_arrive_are_told() {
+    let towns = |fields: &str, options: &str| {
+        format!(
+            "roads.grow({{ pattern = roads.raster(), network = {{ {fields} }}, centres = {{ {{ -600, 0 }}, {{ 600, 0 }} }}, {options}\n\
+             extent = function(x, y) return (math.abs(x) - 600) ^ 2 + y ^ 2 < 150 ^ 2 end }})"
+        )
+    };
+    let told = with_roads(&towns("", "")).burgeon(&["run", "s.lua", "--strict"]).done().stderr;
+    assert!(!told.contains("warning"), "{told}");
+    assert_snapshot!(refused_by_roads(&towns("", "steps = 12,")), @r"
+    error: s.lua:2: roads.system: the highway from centre 1 to centre 2, 1200 m, takes 15 steps or more, and there are 12; give more, or centres that are nearer
+      | roads.grow({ pattern = roads.raster(), network = {  }, centres = { { -600, 0 }, { 600, 0 } }, steps = 12,
+    ");
+    let lake = "obstacles = { { { -100, -900 }, { 100, -900 }, { 100, 900 }, { -100, 900 } } }";
+    assert_snapshot!(with_roads(&towns(lake, "")).warned(&["run", "s.lua"]), @r"
+    warning: templates/roads/growth.lua:526: rule Arrival(junction, heading, length, goal, tries) (interpretation): network:lead: no street leads from -113.0, -28.9 to 600.0, 0.0: obstacle
+      | this:lead(junction, this:place(goal), 0)
+      module: Arrival(8,-42.013161642443464,90,2,9), step 11
+      help: lead it around the obstacle, or leave that out
+    ");
 }
 
 #[test]

@@ -9,13 +9,13 @@ use glam::{DVec2, DVec3};
 
 /// The patterns of `scripts/roads.lua`, and how far (m) their dead ends are joined.
 pub(crate) const PATTERNS: [(&str, f64); 7] = [
-    ("organic", 40.0),
+    ("organic", 30.0),
     ("raster", 40.0),
     ("radial", 40.0),
     ("contours", 40.0),
     ("population", 40.0),
     ("districts", 40.0),
-    ("centres", 40.0),
+    ("centres", 30.0),
 ];
 /// How much longer than a joint the way along the streets has to be.
 pub(crate) const DETOUR: f64 = 2.5;

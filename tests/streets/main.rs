@@ -12,13 +12,14 @@ use cities::{TOWNS, figures};
 
 /// The mean of each measure over some seeds of a pattern: degree, shares of dead ends, of 3 and of 4 streets, circuity,
 /// meshedness, orientation order.
-fn means(pattern: &str, seeds: u64) -> [f64; 7] {
-    let mut sums = [0.0; 7];
+fn means(pattern: &str, seeds: u64) -> [f64; 8] {
+    let mut sums = [0.0; 8];
     for seed in 1..=seeds {
-        let grown = grown("roads.lua", seed, &[("pattern", pattern), ("extent", "600")]);
+        let grown = grown("roads.lua", seed, &[("pattern", pattern), ("extent", "1000")]);
         let of = grown.network().measures();
         let [ends, three, four] = of.shares;
-        let all = [of.degree, ends, three, four, of.circuity, of.meshedness, of.orientation_order];
+        let [degree, circuity, meshedness] = [of.degree, of.circuity, of.meshedness];
+        let all = [degree, ends, three, four, circuity, meshedness, of.orientation_order, of.block_spread];
         sums = std::array::from_fn(|index| sums[index] + all[index] / seeds as f64);
     }
     sums
@@ -64,7 +65,7 @@ fn words_keep_what_networks_promise_with_any_angles() {
 #[test]
 fn wandering_streets_are_like_those_of_old_cities_and_rasters_like_those_of_new_ones() {
     // London and Monaco, with room for what few streets and few seeds change.
-    let [degree, ends, three, four, circuity, meshedness, order] = means("organic", 6);
+    let [degree, ends, three, four, circuity, meshedness, order, spread] = means("organic", 6);
     assert!((2.5..2.95).contains(&degree), "degree {degree}");
     assert!((0.1..0.27).contains(&ends), "dead ends {ends}");
     assert!((0.62..0.8).contains(&three), "3-way {three}");
@@ -72,8 +73,10 @@ fn wandering_streets_are_like_those_of_old_cities_and_rasters_like_those_of_new_
     assert!((1.03..1.21).contains(&circuity), "circuity {circuity}");
     assert!((0.12..0.24).contains(&meshedness), "meshedness {meshedness}");
     assert!((0.0..0.2).contains(&order), "orientation order {order}");
+    // Helsinki and Monaco have 0.64 and 0.70.
+    assert!((0.56..0.75).contains(&spread), "spread of blocks {spread}");
     // Vancouver; the order of Chicago.
-    let [degree, ends, three, four, circuity, meshedness, order] = means("raster", 6);
+    let [degree, ends, three, four, circuity, meshedness, order, _] = means("raster", 6);
     assert!((3.0..3.45).contains(&degree), "degree {degree}");
     assert!((0.02..0.15).contains(&ends), "dead ends {ends}");
     assert!((0.42..0.65).contains(&three), "3-way {three}");

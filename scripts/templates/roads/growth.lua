@@ -47,10 +47,15 @@ local Tip = module("Tip", "junction", "heading", "length", "depth", "run", "trie
 local Bud = module("Bud", "junction", "heading", "depth", "wait")
 -- A highway on its way to the start with a number.
 local Highway = module("Highway", "junction", "heading", "length", "goal", "tries")
--- The last stretch of a highway.
-local Arrival = module("Arrival", "junction", "goal")
+-- The last stretch of a highway; when all tries are refused, it is led to its goal, and the network tells if it cannot be.
+local Arrival = module("Arrival", "junction", "heading", "length", "goal", "tries")
 -- Where a town begins to grow after some steps.
 local Town = module("Town", "junction", "wait")
+-- A side street that leaves around a green after some steps: its heading, that of the street it leaves, and the side (m) of the
+-- green that lies between them.
+local Fork = module("Fork", "junction", "heading", "along", "side", "depth", "wait")
+-- The third side of a green.
+local ForkArm = module("ForkArm", "junction", "heading", "length", "depth")
 -- The open ends of streets that were there before.
 local Outskirts = module("Outskirts")
 -- Counts the steps, and tidies up after the last.
@@ -58,6 +63,8 @@ local Clock = module("Clock", "left")
 
 -- How far (degrees) a main street turns when it is refused, one try after the other.
 local ASIDE = { 20, -40, 55, -70 }
+-- As much for the last stretch of a highway, which any street of the town may take.
+local ASTRAY = { 20, -40, 60, -80, 100, -120, 140, -160 }
 -- What streets are made of, by depth.
 growth.STREETS = {
   { width = 24, lanes = 4, sidewalk = 4 },
@@ -69,7 +76,15 @@ local LEADS_OUT = 0.3
 -- How many steps a side street waits, so that main streets come first.
 local WAIT = 2
 -- Which shares of the steps are left when it is looked for land that growth has not come to.
-local LATER = { 0.5, 0.25 }
+local LATER = { 0.75, 0.6, 0.45, 0.3, 0.15 }
+-- How long (m) a highway is from junction to junction.
+local HIGHWAY = 90
+-- How long (m) the sides of a green are, at a main street and elsewhere, and its angle (degrees): with equal sides its other
+-- angles are no sharper than most networks take.
+local GREEN_SIDE = { main = { 42, 60 }, other = { 28, 42 } }
+local GREEN_ANGLE = { 62, 76 }
+-- How near (m) a junction draws a street's end, and how far dead ends are joined, where neither pattern nor script says it.
+local SNAP, JOIN = 14, 40
 
 -- A number from 0 to 1 that looks drawn, and is the same for a place (m) within some metres.
 local function drawn(x: number, y: number, seed: number): number
@@ -140,7 +155,8 @@ function growth.system(options: RoadOptions, ...: number)
   end
   -- What is removed should rather have been joined, or not have stopped.
   local keeps = dead_ends == "keep"
-  local join = number("roads.system: join", options.join, if keeps then 40 else 130, 0, 2000, level)
+  local usual_join = if is_by_place then JOIN else given.join or JOIN
+  local join = number("roads.system: join", options.join, if keeps then usual_join else 130, 0, 2000, level)
   local centres = options.centres or { { 0, 0 } }
   local headings = options.headings or { 8, 98, 188, 278 }
   if options.onto then
@@ -160,7 +176,8 @@ function growth.system(options: RoadOptions, ...: number)
     checks.place(`roads.system: centre {index}`, centre, level)
   end
 
-  local fields: any = { streets = growth.STREETS, min_angle = 50, snap = 14 }
+  local fields: any =
+    { streets = growth.STREETS, min_angle = 50, snap = if is_by_place then SNAP else given.snap or SNAP }
   for name, value in (options.network or {}) :: any do
     fields[name] = value
   end
@@ -237,7 +254,16 @@ function growth.system(options: RoadOptions, ...: number)
       if random() < pattern.both then
         table.insert(modules, tip(heading - first, 0, 0))
       end
-    elseif depth < deepest and random() < pattern.side * much then
+    elseif depth >= deepest or random() >= pattern.side * much then
+      return modules
+    elseif keeps and random() < (pattern.greens or 0) then
+      -- Where dead ends are removed, a green would be left of some.
+      local sides = if depth == 0 then GREEN_SIDE.main else GREEN_SIDE.other
+      -- It leans back, for the street that came here is there, and the one ahead may turn.
+      local lean = (if first > 0 then 1 else -1) * random(GREEN_ANGLE[1], GREEN_ANGLE[2])
+      local side = random(sides[1], sides[2])
+      table.insert(modules, Fork(at, heading + 180 + lean, heading + 180, side, depth + 1, WAIT))
+    else
       table.insert(modules, Bud(at, heading + first + random(-pattern.skew, pattern.skew), depth + 1, WAIT))
       if random() < pattern.both then
         table.insert(modules, Bud(at, heading - first + random(-pattern.skew, pattern.skew), depth + 1, WAIT))
@@ -253,8 +279,9 @@ function growth.system(options: RoadOptions, ...: number)
       local place = this:place(junction.junction)
       local depth = math.min(junction.depth + 1, deepest)
       local pattern = pattern_at(place.x, place.y)
-      -- How many lengths around a place nothing is to be; a fourth street leaves a junction for much land alone.
-      local free = if junction.degree < 3 then 1.1 else 2.2
+      -- How many lengths around a place nothing is to be; a fourth street leaves a junction for much land alone, and for
+      -- very much where streets leave one at a time.
+      local free = if junction.degree < 3 then 1.1 elseif pattern.both > 0 then 2.2 else 6
       local room = math.max(3 - junction.degree, 1)
       for turn = 0, 270, 90 do
         local heading = headings[1] + turn
@@ -280,8 +307,16 @@ function growth.system(options: RoadOptions, ...: number)
   local highways = if #centres > 1 then joined(centres) else {}
   for _, pair in highways do
     local from, to = centres[pair[1]], centres[pair[2]]
-    local heading = math.deg(math.atan2(to[2] - from[2], to[1] - from[1]))
-    table.insert(axiom, Highway(pair[1], heading, 90, pair[2], 0))
+    local east, north = to[1] - from[1], to[2] - from[2]
+    local far = math.sqrt(east * east + north * north)
+    local least = math.ceil(far / HIGHWAY) + 1
+    if least > steps then
+      error(
+        `roads.system: the highway from centre {pair[1]} to centre {pair[2]}, {math.round(far)} m, takes {least} steps or more, and there are {steps}; give more, or centres that are nearer`,
+        level - 1
+      )
+    end
+    table.insert(axiom, Highway(pair[1], math.deg(math.atan2(north, east)), HIGHWAY, pair[2], 0))
   end
   if options.onto then
     table.insert(axiom, Outskirts())
@@ -369,22 +404,55 @@ function growth.system(options: RoadOptions, ...: number)
   )
 
   system:rule(
+    "Fork(junction, heading, along, side, depth, wait)",
+    function(
+      this: Network,
+      junction: number,
+      heading: number,
+      along: number,
+      side: number,
+      depth: number,
+      wait: number
+    )
+      if wait > 0 then
+        return Fork(junction, heading, along, side, depth, wait - 1)
+      end
+      local at = this:reached(junction, heading)
+      if not at then
+        return nil
+      end
+      local place = this:place(at)
+      local function way(aim: number): Vector
+        return side * vec(math.cos(math.rad(aim)), math.sin(math.rad(aim)), 0)
+      end
+      local across = way(along) - way(heading)
+      local modules = { start(pattern_at(place.x, place.y), at, place.x, place.y, heading, depth, 1) }
+      table.insert(modules, ForkArm(at, math.deg(math.atan2(across.y, across.x)), across:length(), depth))
+      return table.unpack(modules)
+    end
+  )
+
+  system:rule("ForkArm", function()
+    return nil
+  end)
+
+  system:rule(
     "Highway(junction, heading, length, goal, tries)",
     function(this: Network, junction: number, heading: number, length: number, goal: number, tries: number)
       local at = this:arrived(junction, heading)
       if not at then
         return if tries < #ASIDE
           then Highway(junction, heading + ASIDE[tries + 1], length, goal, tries + 1)
-          else nil
+          else Arrival(junction, heading, length, goal, #ASTRAY + 1)
       elseif at == goal then
         return nil
       end
       local here, there = this:place(at), this:place(goal)
       local rest = here:distance(there)
-      if rest < 1.6 * length then
-        return Arrival(at, goal)
-      end
       local straight = math.deg(math.atan2(there.y - here.y, there.x - here.x))
+      if rest < 1.6 * length then
+        return Arrival(at, straight, rest, goal, 0)
+      end
       -- A highway swings a little, and turns no more than it has to.
       local swing = 12 * noise(here.x / 300, here.y / 300)
       local turn = math.clamp(between(heading, straight + swing), -20, 20)
@@ -397,9 +465,15 @@ function growth.system(options: RoadOptions, ...: number)
     end
   )
 
-  system:rule("Arrival", function()
-    return nil
-  end)
+  system:rule(
+    "Arrival(junction, heading, length, goal, tries)",
+    function(this: Network, junction: number, heading: number, length: number, goal: number, tries: number)
+      if this:arrived(junction, heading) or tries > #ASTRAY then
+        return nil
+      end
+      return Arrival(junction, heading + (ASTRAY[tries + 1] or 0), length, goal, tries + 1)
+    end
+  )
 
   system:rule("Clock(left)", function(this: Network, left: number)
     if left == 0 then
@@ -423,9 +497,38 @@ function growth.system(options: RoadOptions, ...: number)
       this:grow(junction, heading, length, 0)
     end
   )
-  system:interpret("Arrival(junction, goal)", function(this: Network, junction: number, goal: number)
-    this:lead(junction, this:place(goal), 0)
-  end)
+  system:interpret(
+    "Fork(junction, heading, along, side, depth, wait)",
+    function(
+      this: Network,
+      junction: number,
+      heading: number,
+      _: number,
+      side: number,
+      depth: number,
+      wait: number
+    )
+      if wait == 0 then
+        this:grow(junction, heading, side, depth)
+      end
+    end
+  )
+  system:interpret(
+    "ForkArm(junction, heading, length, depth)",
+    function(this: Network, junction: number, heading: number, length: number, depth: number)
+      this:grow(junction, heading, length, depth)
+    end
+  )
+  system:interpret(
+    "Arrival(junction, heading, length, goal, tries)",
+    function(this: Network, junction: number, heading: number, length: number, goal: number, tries: number)
+      if tries > #ASTRAY then
+        this:lead(junction, this:place(goal), 0)
+      else
+        this:grow(junction, heading, length, 0)
+      end
+    end
+  )
   system:interpret("Clock(left)", function(this: Network, left: number)
     if left == 0 then
       this:join_dead_ends(join, detour)

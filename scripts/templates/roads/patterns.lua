@@ -24,6 +24,11 @@ export type Pattern = {
   gap: number,
   -- Whether a side street that leaves a place is left out, in place of `gap`; both of its ends have to find the same.
   closed: ((x: number, y: number, heading: number, length: number, depth: number) -> boolean)?,
+  -- The share of side streets that leave around a small green; none does if it is left out.
+  greens: number?,
+  -- How near (m) a junction draws a street's end, and how far dead ends are joined, where the script says neither.
+  snap: number?,
+  join: number?,
   -- Every so many junctions a main street divides; 0 for never.
   every: number,
   -- Whether main streets turn aside for obstacles alone.
@@ -53,6 +58,7 @@ local PATTERN = {
   skew = "number",
   stop = "number",
   gap = "number",
+  greens = "number",
   every = "number",
   middle = "table",
   steepest = "number",
@@ -69,7 +75,15 @@ local function pattern(
 ): any
   local made: any = { skew = 0, both = usual.both }
   for _, chance in
-    { { "branching", 1 }, { "cross", 1 }, { "skew", 40 }, { "stop", 1 }, { "gap", 0.6 }, { "every", 100 } } :: any
+    {
+      { "branching", 1 },
+      { "cross", 1 },
+      { "skew", 40 },
+      { "stop", 1 },
+      { "gap", 0.6 },
+      { "greens", 1 },
+      { "every", 100 },
+    } :: any
   do
     local key, most = chance[1], chance[2]
     if usual[key] then
@@ -93,7 +107,8 @@ end
 
 -- Streets that wander, side streets that leave one at a time: a town that nobody planned. `block` (m) is how far
 -- junctions are apart, `bends` how far (degrees) a street turns from one to the next, `branching` how many junctions
--- have side streets. `variety` from 0 to 1 is how much quarters differ: some are dense, some wide, and some have parks.
+-- have side streets, `greens` how many of these leave around a small green. `variety` from 0 to 1 is how much quarters differ:
+-- some are knots of lanes, some wide, and some have parks.
 function patterns.organic(options: { [string]: any }?): Pattern
   local of = options or {}
   checks.options("roads.organic", of, PATTERN)
@@ -101,8 +116,12 @@ function patterns.organic(options: { [string]: any }?): Pattern
   local bends = number("roads.organic: bends", of.bends, 38, 0, 60)
   local variety = number("roads.organic: variety", of.variety, 1, 0, 1)
   local field = math.floor(random() * 1000000)
-  local usual = { branching = 0.9, both = 0, cross = 0, skew = 18, stop = 0.3, gap = 0, every = 4 }
+  local usual =
+    { branching = 0.9, both = 0, cross = 0, skew = 18, stop = 0.3, gap = 0, greens = 0.35, every = 4 }
   return pattern("roads.organic", of, usual, {
+    -- Nobody moves a street for a junction nearby, or joins what ends.
+    snap = 7,
+    join = 30,
     toward = function(x: number, y: number, heading: number, _: number, depth: number): number
       -- Streets near one another turn alike; the smaller ones have a mind of their own.
       local common = noise(x / (block * 5), y / (block * 5), 0.5, field)
@@ -112,12 +131,12 @@ function patterns.organic(options: { [string]: any }?): Pattern
     length = function(x: number, y: number, _: number, depth: number): number
       -- Quarters are closer here and wider there.
       local field_at = noise(x / (block * 4), y / (block * 4), 7.5, field)
-      local wide = math.clamp(math.exp(3.2 * variety * field_at), 0.42, 1.9)
-      return block * (if depth == 0 then math.clamp(wide, 0.75, 1.5) else wide * random(0.6, 1.35))
+      local wide = math.clamp(math.exp(4.5 * variety * field_at), 0.36, 2.2)
+      return block * (if depth == 0 then math.clamp(wide, 0.9, 1.6) else wide * random(0.6, 1.35))
     end,
     closed = function(x: number, y: number): boolean
       -- Parks and large estates.
-      return noise(x / (block * 3), y / (block * 3), 3.5, field) * variety > 0.36
+      return noise(x / (block * 3), y / (block * 3), 3.5, field) * variety > 0.45
     end,
   })
 end

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use burgeon_base::error::{Error, Result};
 use burgeon_base::warning::{Warning, WarningKind};
 use burgeon_kit::{Parameter, Table, TableKey, Value, Vector};
-use burgeon_streets::{DeadEndOptions, Fate, JunctionId, Measures, StreetNetwork, StreetProspect};
+use burgeon_streets::{DeadEndOptions, Fate, JunctionId, Measures, Refusal, StreetNetwork, StreetProspect};
 use glam::DVec2;
 
 /// A table of named values.
@@ -90,6 +90,35 @@ pub(super) fn unbuilt(fates: impl ExactSizeIterator<Item = Fate>) -> Warning {
     reasons.dedup();
     let text = format!("network: no street was built of {count} that were proposed: {}", reasons.join(", "));
     Warning::new(WarningKind::DrawsNothing, text).help("network:fate tells of each what became of it")
+}
+
+/// What to tell of a street that was to lead from one place to another and ends elsewhere; the places are where it begins, where
+/// it ends, and where it was to lead.
+pub(super) fn misled(fate: Fate, [from, end, to]: [DVec2; 3]) -> Option<Warning> {
+    let metres = |place: DVec2| format!("{:.1}, {:.1}", place.x, place.y);
+    let way = format!("from {} to {}", metres(from), metres(to));
+    let (text, remedy) = match fate {
+        Fate::Refused(why) => {
+            let remedy = match why {
+                Refusal::TooShort => "lead it farther, or give the network a smaller `min_length`",
+                Refusal::Angle => "lead it elsewhere, or give the network a smaller `min_angle`",
+                Refusal::TooNear => "lead it elsewhere, or give the network a smaller `clearance`",
+                Refusal::Corners => "lead it elsewhere, or give the network a smaller `corner`",
+                Refusal::Obstacle => "lead it around the obstacle, or leave that out",
+                Refusal::Outside => {
+                    "lead it to a place within the `limit` of the network, and within 500 km of the origin"
+                }
+            };
+            (format!("network:lead: no street leads {way}: {}", why.name()), remedy)
+        }
+        Fate::Shortened => {
+            let end = metres(end);
+            let text = format!("network:lead: the street {way} ends at {end}, for an obstacle is in its way");
+            (text, "lead it around the obstacle, or leave that out")
+        }
+        _ => return None,
+    };
+    Some(Warning::new(WarningKind::NoEffect, text).help(remedy))
 }
 
 /// How dead ends are joined, as a script gave it to `method`.

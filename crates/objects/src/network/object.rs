@@ -148,10 +148,14 @@ impl Network {
         Ok(())
     }
 
-    /// Proposes a street from a junction to a place (m).
+    /// Proposes a street from a junction to a place (m). It may join others on its way; a warning tells if it is refused, or
+    /// ends before an obstacle.
     pub fn lead(&mut self, junction: u32, to: Vector, depth: u32) -> Result<()> {
         let from = self.known(junction)?;
-        self.network.grow(from, to.0.truncate(), self.attributes(depth))?;
+        let to = to.0.truncate();
+        let growth = self.network.grow(from, to, self.attributes(depth))?;
+        let ways = [self.network.at(from), self.network.at(growth.end), to];
+        self.warnings.extend(answers::misled(growth.fate, ways));
         Ok(())
     }
 
