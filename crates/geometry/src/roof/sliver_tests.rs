@@ -138,10 +138,10 @@ fn open_eaves_beside_a_sharp_notch_end_at_its_corners() {
     assert!(faults.is_empty(), "{}: {:#?}", faults.len(), &faults[..faults.len().min(4)]);
 }
 
-#[test]
-fn a_face_that_merged_peaks_have_turned_over_does_not_lie_on_its_neighbours() {
-    // 24 courtyards; beside one of them a peak is 1 mm beyond the border that it is on.
-    let walls = plan(&(FAMILIES[5].make)(&mut Random(17_846_573_750_141_382_562))).expect("a plan");
+/// Asserts that a hip roof over the plan that a family makes of a seed is solid, and each of its edges that of two faces;
+/// how many edges there are.
+fn closed_edges(family: usize, seed: u64) -> usize {
+    let walls = plan(&(FAMILIES[family].make)(&mut Random(seed))).expect("a plan");
     let shape = RoofShape {
         surface: RoofSurface::Sloped(Ends::Hips, &[]),
         rise: Rise::Slope(0.7),
@@ -160,5 +160,17 @@ fn a_face_that_merged_peaks_have_turned_over_does_not_lie_on_its_neighbours() {
         }
     }
     assert_eq!(uses.values().filter(|uses| **uses != 2).count(), 0);
-    assert!(uses.len() > 400, "{}", uses.len());
+    uses.len()
+}
+
+#[test]
+fn a_face_that_merged_peaks_have_turned_over_does_not_lie_on_its_neighbours() {
+    // 24 courtyards; beside one of them a peak is 1 mm beyond the border that it is on.
+    assert!(closed_edges(5, 17_846_573_750_141_382_562) > 400);
+}
+
+#[test]
+fn a_face_that_merged_peaks_let_step_back_is_one() {
+    // 58 corners with 0.1 mm of noise, whose ridges meet all but in one place; two peaks pass one another by 2.2 mm.
+    assert!(closed_edges(14, 15_810_918_746_686_250_647) > 100);
 }
