@@ -263,7 +263,7 @@ impl FeatureTable {
     }
 
     /// Leaves out a feature for the reason that `error` gives. Fails as [`FeatureTable::push`] does.
-    pub(super) fn refuse(&mut self, id: String, error: Error) -> Result<()> {
+    pub fn refuse(&mut self, id: String, error: Error) -> Result<()> {
         self.budget.tick()?;
         self.budget.take(500 + id.len())?;
         self.refused.push((id, error.of_data()));

@@ -4,7 +4,7 @@ use std::error::Error as StdError;
 use std::sync::Arc;
 
 use bytes::BytesMut;
-use postgres::types::{FromSql, IsNull, ToSql, Type, to_sql_checked};
+use postgres::types::{FromSql, IsNull, Kind, ToSql, Type, to_sql_checked};
 
 use crate::ask::whole;
 use crate::blob;
@@ -81,12 +81,25 @@ impl ToSql for BoundCell {
 }
 
 /// A value as it comes, with geometries in the coordinates of the server.
-pub(super) struct ServerCell(pub(super) Cell);
+pub(super) enum ServerCell {
+    Cell(Cell),
+    /// What is no geometry that can be read, and why.
+    Unreadable(String),
+}
+
+/// The names of types, besides `geometry`, whose values come as they are; others can be made text.
+pub(super) const COME_AS_THEY_ARE: [&str; 17] = [
+    "bool", "bpchar", "bytea", "citext", "float4", "float8", "int2", "int4", "int8", "json", "jsonb", "name",
+    "numeric", "oid", "text", "uuid", "varchar",
+];
 
 impl<'a> FromSql<'a> for ServerCell {
     fn from_sql(kind: &Type, raw: &'a [u8]) -> Result<Self, BoxedError> {
         let text = |raw: &[u8]| Cell::Text(String::from_utf8_lossy(raw).into());
-        Ok(Self(match *kind {
+        if let Kind::Domain(of) = kind.kind() {
+            return Self::from_sql(of, raw);
+        }
+        Ok(Self::Cell(match *kind {
             Type::BOOL => Cell::Boolean(bool::from_sql(kind, raw)?),
             Type::INT2 => Cell::Number(i16::from_sql(kind, raw)?.into()),
             Type::INT4 => Cell::Number(i32::from_sql(kind, raw)?.into()),
@@ -100,26 +113,32 @@ impl<'a> FromSql<'a> for ServerCell {
             Type::JSONB => text(raw.get(1..).unwrap_or_default()),
             Type::JSON => text(raw),
             Type::UUID => Cell::Text(uuid(raw).into()),
-            Type::BYTEA => geometry(raw)?,
-            _ if kind.name() == "geometry" => geometry(raw)?,
-            _ if is_text(kind) || kind.name() == "citext" => text(raw),
-            _ => return Err(format!("is of type {}; make it text: ...::text", kind.name()).into()),
+            _ if *kind == Type::BYTEA || kind.name() == "geometry" => {
+                match blob::read(raw, &Budget::default()) {
+                    Ok(geometry) => Cell::Geometry(Arc::new(geometry)),
+                    Err(why) => return Ok(Self::Unreadable(why)),
+                }
+            }
+            _ if is_text(kind) || kind.name() == "citext" || matches!(kind.kind(), Kind::Enum(_)) => {
+                text(raw)
+            }
+            _ => {
+                let name = match kind.kind() {
+                    Kind::Array(of) => format!("{}[]", of.name()),
+                    _ => kind.name().to_owned(),
+                };
+                return Err(format!("is of type {name}; make it text: ...::text").into());
+            }
         }))
     }
 
     fn from_sql_null(_: &Type) -> Result<Self, BoxedError> {
-        Ok(Self(Cell::Null))
+        Ok(Self::Cell(Cell::Null))
     }
 
     fn accepts(_: &Type) -> bool {
         true
     }
-}
-
-fn geometry(raw: &[u8]) -> Result<Cell, BoxedError> {
-    let read = blob::read(raw, &Budget::default());
-    read.map(|geometry| Cell::Geometry(Arc::new(geometry)))
-        .map_err(|why| format!("has a geometry that {why}").into())
 }
 
 /// A number of any length as the nearest of ours: groups of four digits, and where the point stands.

@@ -2,9 +2,11 @@
 
 use std::sync::Arc;
 
+use rustc_hash::FxHashMap;
+
 use super::Server;
-use super::server::ServerFailure;
-use crate::cell::{Cell, QueryAnswer};
+use super::server::{ServerAnswer, ServerFailure};
+use crate::cell::Cell;
 use crate::place::Move;
 use burgeon_base::error::{Error, Result};
 use burgeon_base::text::{listed, shown};
@@ -47,7 +49,8 @@ impl Server {
         let mut sql =
             format!("SELECT {}, {}", key.map_or_else(|| "NULL".to_owned(), quoted), quoted(geometry));
         for name in &own {
-            sql += &format!(", {}", quoted(name));
+            let foreign = known.foreign.contains(&(layer.to_ascii_lowercase(), (*name).clone()));
+            sql += &format!(", {}{}", quoted(name), if foreign { "::text" } else { "" });
         }
         let mut rows = format!(" FROM {}", quoted(&table.name));
         if let Some(condition) = &wanted.condition {
@@ -93,8 +96,8 @@ impl Server {
     }
 }
 
-/// The rows as features.
-fn features(answer: &QueryAnswer, mut table: FeatureTable, wanted: &SourceOptions) -> Result<FeatureTable> {
+/// The rows as features, without those whose geometry cannot be read.
+fn features(answer: &ServerAnswer, mut table: FeatureTable, wanted: &SourceOptions) -> Result<FeatureTable> {
     let id = match &wanted.id {
         Some(id) => Some(table.names.iter().position(|name| name == id).ok_or_else(|| {
             let names = || table.names.iter().map(String::as_str);
@@ -109,9 +112,19 @@ fn features(answer: &QueryAnswer, mut table: FeatureTable, wanted: &SourceOption
         Cell::Text(text) => Some(text.to_string()),
         other => Some(other.to_string()),
     };
-    for (row, number) in answer.rows.iter().zip(1usize..) {
+    let wrong = answer.faults.iter().filter(|fault| fault.column == 1);
+    let wrong: FxHashMap<usize, &str> = wrong.map(|fault| (fault.row, fault.why.as_str())).collect();
+    for (row, number) in answer.rows.rows.iter().zip(1usize..) {
         let key = text(&row[0]).unwrap_or_else(|| number.to_string());
         let id = id.and_then(|id| text(&row[id + 2])).unwrap_or(key);
+        if let Some(why) = wrong.get(&(number - 1)) {
+            let text = format!("the geometry of feature {} of {} {why}", shown(&id), table.shown);
+            table.refuse(
+                id,
+                Error::data(text).help("repair it in the database, or leave it out: where = \"...\""),
+            )?;
+            continue;
+        }
         let parts = match &row[1] {
             Cell::Geometry(geometry) => geometry.parts(),
             _ => Vec::new(),

@@ -12,7 +12,7 @@ use postgres::{Client, Config, NoTls, Statement};
 use rustc_hash::FxHashMap;
 
 use super::ServerAddress;
-use super::cells::{BoundCell, ServerCell};
+use super::cells::{BoundCell, COME_AS_THEY_ARE, ServerCell};
 use super::errors::{is_lost, told, unreachable};
 use super::numbered::{NumberedStatement, ParameterTypes, numbered};
 use crate::cell::{Cell, QueryAnswer};
@@ -40,10 +40,11 @@ const MOST_IDLE: usize = 16;
 const MOST_STATEMENTS: usize = 200;
 
 /// The tables of the server that its user sees without naming a schema: columns, keys and how many rows there may be.
-const TABLES: &str = "SELECT c.oid::int8, c.relname::text, a.attname::text, t.typname::text, greatest(c.reltuples, 0)::float8, \
+const TABLES: &str = "SELECT c.oid::int8, c.relname::text, a.attname::text, coalesce(b.typname, t.typname)::text, greatest(c.reltuples, 0)::float8, \
     EXISTS (SELECT 1 FROM pg_index i WHERE i.indrelid = c.oid AND i.indisprimary AND i.indnatts = 1 AND a.attnum = ANY (i.indkey)), \
-    CASE WHEN t.typname = 'geometry' THEN postgis_typmod_srid(a.atttypmod) END \
+    CASE WHEN t.typname = 'geometry' THEN postgis_typmod_srid(a.atttypmod) END, t.typtype = 'e' \
     FROM pg_class c JOIN pg_attribute a ON a.attrelid = c.oid JOIN pg_type t ON t.oid = a.atttypid \
+    LEFT JOIN pg_type b ON t.typtype = 'd' AND b.oid = t.typbasetype \
     JOIN pg_namespace n ON n.oid = c.relnamespace \
     WHERE c.relkind IN ('r', 'v', 'm', 'p', 'f') AND a.attnum > 0 AND NOT a.attisdropped AND pg_table_is_visible(c.oid) \
     AND n.nspname NOT LIKE 'pg\\_%' AND n.nspname <> 'information_schema' \
@@ -70,6 +71,21 @@ pub(super) struct ServerTables {
     pub(super) catalogue: Catalogue,
     /// The reference system of each table.
     pub(super) systems: BTreeMap<String, u32>,
+    /// The tables and columns whose values have to be made text.
+    pub(super) foreign: BTreeSet<(String, String)>,
+}
+
+/// The rows of an answer, and what of them cannot be read, which stands as null.
+pub(super) struct ServerAnswer {
+    pub(super) rows: QueryAnswer,
+    pub(super) faults: Vec<CellFault>,
+}
+
+/// A geometry that cannot be read: its row and column, from 0, and why.
+pub(super) struct CellFault {
+    pub(super) row: usize,
+    pub(super) column: usize,
+    pub(super) why: String,
 }
 
 impl fmt::Debug for Server {
@@ -160,14 +176,26 @@ impl Server {
         let rewritten = rewrite::rewrite(sql, &known.catalogue, &chosen, Dialect::Postgis);
         let (asked, ordered) = rewritten.map_or((sql.to_owned(), false), |it| (it.sql, it.ordered));
         let given = |name: &str| errors::parameter(sql, Some(&format!("${name}")), parameters).cloned();
-        let mut answer = self.asked(&asked, srid, &given, &place, budget).map_err(|failure| {
-            budget.check().err().unwrap_or_else(|| match failure {
-                ServerFailure::Told(error) => error,
-                ServerFailure::Server(error, asked) => {
-                    told(&self.address, &error, (sql, &asked), &known.catalogue)
-                }
-            })
-        })?;
+        let ServerAnswer { rows: mut answer, faults } =
+            self.asked(&asked, srid, &given, &place, budget).map_err(|failure| {
+                budget.check().err().unwrap_or_else(|| match failure {
+                    ServerFailure::Told(error) => error,
+                    ServerFailure::Server(error, asked) => {
+                        told(&self.address, &error, (sql, &asked), &known.catalogue)
+                    }
+                })
+            })?;
+        if let Some(CellFault { row, column, why }) = faults.first() {
+            let plain = |cell: &Cell| matches!(cell, Cell::Number(_) | Cell::Text(_));
+            let named = answer.id().or_else(|| answer.rows[*row].iter().position(plain));
+            let with = named.map_or_else(
+                || format!("row {}", row + 1),
+                |named| format!("the row with {} {}", answer.names[named], answer.rows[*row][named]),
+            );
+            let column = &answer.names[*column];
+            return Err(Error::data(format!("SQL: the column {column} has a geometry that {why} ({with})"))
+                .help("repair it, or leave its row out: WHERE ..."));
+        }
         if !ordered {
             answer.sort();
         }
@@ -202,7 +230,7 @@ impl Server {
             return Ok(known);
         }
         let none = |_: &str| Ok(Cell::Null);
-        let rows =
+        let answer =
             self.asked(TABLES, 0, &none, &Move::nowhere(), budget).map_err(|failure| match failure {
                 ServerFailure::Told(error) => error,
                 ServerFailure::Server(error, _)
@@ -215,7 +243,7 @@ impl Server {
                     told(&self.address, &error, ("", &asked), &Catalogue::new())
                 }
             })?;
-        Ok(self.known.get_or_init(|| ServerTables::read(&rows)))
+        Ok(self.known.get_or_init(|| ServerTables::read(&answer.rows)))
     }
 
     /// Asks on one connection, and once more on a new one where that was lost before there were rows.
@@ -226,7 +254,7 @@ impl Server {
         given: &dyn Fn(&str) -> Result<Cell>,
         place: &Move<'_>,
         budget: &Arc<Budget>,
-    ) -> Result<QueryAnswer, ServerFailure> {
+    ) -> Result<ServerAnswer, ServerFailure> {
         let kept = self.idle.lock().unwrap_or_else(PoisonError::into_inner).pop();
         let again = kept.is_some();
         let mut connection = match kept {
@@ -262,7 +290,7 @@ impl ServerConnection {
         given: &dyn Fn(&str) -> Result<Cell>,
         place: &Move<'_>,
         budget: &Arc<Budget>,
-    ) -> Result<QueryAnswer, ServerFailure> {
+    ) -> Result<ServerAnswer, ServerFailure> {
         // The mode of a transaction can be changed until its first query.
         let failed = |error, sql: &str| ServerFailure::Server(error, sql.to_owned());
         self.client.batch_execute("BEGIN READ ONLY; SELECT 1").map_err(|error| failed(error, ""))?;
@@ -294,7 +322,7 @@ impl ServerConnection {
         };
         let names: Vec<String> = statement.columns().iter().map(|column| column.name().to_owned()).collect();
         let width = names.len();
-        let mut answer = QueryAnswer::new(names.into(), budget);
+        let mut answer = ServerAnswer { rows: QueryAnswer::new(names.into(), budget), faults: Vec::new() };
         let cancel = self.client.cancel_token();
         let (stopped, ended) = (AtomicBool::new(false), channel::<()>());
         let (end, wait) = ended;
@@ -315,6 +343,7 @@ impl ServerConnection {
                 let mut rows =
                     client.query_raw(&statement, &bound).map_err(|error| failed(error, &asked.sql))?;
                 while let Some(row) = rows.next().map_err(|error| failed(error, &asked.sql))? {
+                    let number = answer.rows.rows.len();
                     let cell = |index: usize| {
                         let cell: ServerCell = row.try_get(index).map_err(|error| {
                             use std::error::Error as _;
@@ -323,9 +352,16 @@ impl ServerConnection {
                             Error::data(format!("SQL: the column {column} {why}"))
                                 .help("ask for numbers, texts, true or false, or geometries")
                         })?;
-                        Ok(place.bring_in(cell.0))
+                        Ok(match cell {
+                            ServerCell::Cell(cell) => place.bring_in(cell),
+                            ServerCell::Unreadable(why) => {
+                                budget.take(64 + why.len())?;
+                                answer.faults.push(CellFault { row: number, column: index, why });
+                                Cell::Null
+                            }
+                        })
                     };
-                    answer.push((0..width).map(cell).collect::<Result<_>>()?)?;
+                    answer.rows.push((0..width).map(cell).collect::<Result<_>>()?)?;
                 }
                 Ok(())
             };
@@ -351,9 +387,10 @@ impl ServerConnection {
 
 impl ServerTables {
     fn read(rows: &QueryAnswer) -> Self {
-        let mut tables = Self { catalogue: Catalogue::new(), systems: BTreeMap::new() };
+        let mut tables =
+            Self { catalogue: Catalogue::new(), systems: BTreeMap::new(), foreign: BTreeSet::new() };
         for row in &rows.rows {
-            let [_, Cell::Text(table), Cell::Text(column), Cell::Text(kind), rows, key, srid] =
+            let [_, Cell::Text(table), Cell::Text(column), Cell::Text(kind), rows, key, srid, is_enum] =
                 row.as_slice()
             else {
                 continue;
@@ -366,6 +403,8 @@ impl ServerTables {
             info.columns.push(column.to_string());
             if &**kind == "geometry" {
                 info.geometries.push(column.to_string());
+            } else if *is_enum != Cell::Boolean(true) && !COME_AS_THEY_ARE.contains(&&**kind) {
+                tables.foreign.insert((name.clone(), column.to_string()));
             }
             if *key == Cell::Boolean(true) {
                 info.key = Some(column.to_string());

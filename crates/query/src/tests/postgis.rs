@@ -145,6 +145,7 @@ fn a_server_gives_the_same_rows() {
     safety(&server);
     lost(&server);
     layers(&server);
+    odd(&address);
 }
 
 /// Whether two values are the same but for what engines round otherwise.
@@ -278,6 +279,67 @@ fn lost(server: &Server) {
         });
         assert_eq!(server.query(sql, &[], None, &budget()).unwrap().rows, known.rows);
     });
+}
+
+/// Types that others use too, and geometries that cannot be read: their rows are named, and the others stay.
+fn odd(address: &ServerAddress) {
+    writer()
+        .batch_execute(
+            "CREATE TYPE odd_kind AS ENUM ('low', 'high'); CREATE DOMAIN odd_size AS float8 CHECK (value > 0);
+             CREATE TABLE odd (gid int PRIMARY KEY, geom geometry(Geometry, 3067), day date, at timestamp, marks int[],
+               kind odd_kind, size odd_size, bytes bytea, price numeric(8, 2), around geometry);
+             INSERT INTO odd SELECT n, ST_SetSRID(ST_MakePoint(385000 + n, 6672000), 3067), '2024-02-29',
+               '2024-02-29 12:30:00', ARRAY[n, 2], 'high', n / 4.0, '\\x0102', 1.25, NULL FROM generate_series(1, 6) n;
+             UPDATE odd SET geom = ST_SetSRID(ST_MakePoint(385000, 'NaN'), 3067) WHERE gid = 2;
+             UPDATE odd SET geom = ST_SetSRID(ST_MakeLine(ST_MakePoint(1, 1), ST_MakePoint('Infinity', 1)), 3067) WHERE gid = 4;
+             UPDATE odd SET geom = ST_GeomFromEWKT('SRID=3067;CIRCULARSTRING(0 0, 1 1, 2 0)'),
+               around = ST_MakePoint('NaN', 0) WHERE gid = 5",
+        )
+        .unwrap();
+    let server = Server::new(address, Some(std::time::Duration::from_secs(60)));
+    let wanted = burgeon_data::SourceOptions {
+        layer: Some("odd".to_owned()),
+        ..burgeon_data::SourceOptions::default()
+    };
+    let table = server.read(&wanted).unwrap();
+    let ids: Vec<&str> = table.features.iter().map(|feature| &*feature.id).collect();
+    assert_eq!(ids, ["1", "3", "5", "6"]);
+    let refused: Vec<String> = table.refused.iter().map(|(id, error)| format!("{id}: {error}")).collect();
+    insta::assert_snapshot!(refused.join("\n").replace(&*table.shown, "town:odd"), @r#"
+    2: the geometry of feature 2 of town:odd has a coordinate that is no finite number
+      help: repair it in the database, or leave it out: where = "..."
+    4: the geometry of feature 4 of town:odd has a coordinate that is no finite number
+      help: repair it in the database, or leave it out: where = "..."
+    "#);
+    let first: Vec<String> = (table.features[1].attributes.iter())
+        .map(|(name, value)| format!("{} {value:?}", table.names[*name]))
+        .collect();
+    insta::assert_snapshot!(first.join("\n"), @r#"
+    day Text("2024-02-29")
+    at Text("2024-02-29 12:30:00")
+    marks Text("{3,2}")
+    kind Text("high")
+    size Number(0.75)
+    price Number(1.25)
+    "#);
+    let told = |sql: &str| server.query(sql, &[], None, &budget()).unwrap_err().to_string();
+    insta::assert_snapshot!(
+        ["SELECT gid, geom FROM odd", "SELECT geom FROM odd WHERE gid > 3 ORDER BY gid", "SELECT marks FROM odd"].map(told).join("\n"),
+        @r#"
+    SQL: the column geom has a geometry that has a coordinate that is no finite number (the row with gid 2)
+      help: repair it, or leave its row out: WHERE ...
+    SQL: the column geom has a geometry that has a coordinate that is no finite number (row 1)
+      help: repair it, or leave its row out: WHERE ...
+    SQL: the column marks is of type int4[]; make it text: ...::text
+      help: ask for numbers, texts, true or false, or geometries
+    "#
+    );
+    let rows = server.query("SELECT gid, kind, size, price FROM odd WHERE gid = 3", &[], None, &budget());
+    assert_eq!(
+        rows.unwrap().rows,
+        [[Cell::Number(3.0), Cell::Text("high".into()), Cell::Number(0.75), Cell::Number(1.25)]]
+    );
+    writer().batch_execute("DROP TABLE odd; DROP TYPE odd_kind; DROP DOMAIN odd_size").unwrap();
 }
 
 /// A table is a layer.
