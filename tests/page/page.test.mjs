@@ -141,6 +141,63 @@ test("a click on a known point tells the module, the line and the path of rules"
     assert.ok(different(before, await pixels(page)) > 200, "the module's triangles were marked");
   }));
 
+const HUTS = `local Hut, Stand = module("Hut", "n"), module("Stand", "n")
+local placed = {}
+for n = 1, 64 do
+  -- Every other hut is drawn at the middle and placed.
+  local x, y = (n - 1) % 8 * 12, (n - 1) // 8 * 12
+  local w, s = if n % 2 == 0 then 0 else x, if n % 2 == 0 then 0 else y
+  local plan = { { w, s }, { w + 6, s }, { w + 6, s + 8 }, { w, s + 8 } }
+  local hut = lsystem({ object = extruder({ shape = plan, smooth = false }) })
+  hut:axiom(Hut(n))
+  hut:interpret("Hut(n)", function(this, n)
+    this:color("#b0413e"):caps(true):extrude(3 + n / 100)
+  end)
+  placed[n] = hut:derive()
+end
+local all = lsystem({ object = turtle() })
+local stands = {}
+for n = 2, 64, 2 do
+  table.insert(stands, Stand(n))
+end
+all:axiom(stands)
+all:interpret("Stand(n)", function(this, n)
+  this:jump(vec((n - 1) % 8 * 12, (n - 1) // 8 * 12, 0)):place(placed[n])
+end)
+all:derive()
+`;
+
+test("many small parts are drawn as few meshes, and each is picked and marked by itself", () =>
+  open(HUTS, async ({ page }) => {
+    await drawn(page);
+    await page.waitForTimeout(1500);
+    assert.ok((await page.evaluate(() => window.burgeon.draws)) < 16);
+    // The picture has a frame from here on, for the keyboard's sake.
+    await page.keyboard.press("Escape");
+    const plain = await pixels(page);
+    const [width, height] = await page.evaluate(() => [innerWidth, innerHeight]);
+    for (const n of [10, 19, 37, 64]) {
+      const roof = [((n - 1) % 8) * 12 + 3, Math.floor((n - 1) / 8) * 12 + 4, 3 + n / 100];
+      const [x, y] = await page.evaluate((at) => window.burgeon.project(at), roof);
+      assert.ok(x > 0 && x < width && y > 0 && y < height, "the whole model is seen");
+      await page.mouse.click(x, y);
+      await page.waitForFunction((n) => document.querySelector('[data-testid="picked"]').textContent.includes(n), `Hut(${n})`);
+      // The card would cover others.
+      const covering = (visibility) => seen(page, "picked").evaluate((it, to) => (it.style.visibility = to), visibility);
+      await covering("hidden");
+      await page.waitForTimeout(800);
+      const marked = await pixels(page);
+      await covering("");
+      await page.keyboard.press("Escape");
+      await seen(page, "picked").waitFor({ state: "hidden" });
+      await page.waitForTimeout(800);
+      const bare = await pixels(page);
+      const changed = different(bare, marked);
+      assert.ok(changed > 100 && changed < bare.length / 4 / 20, `hut ${n} alone was marked: ${changed} pixels`);
+      assert.ok(different(plain, bare) < 50, "nothing of the mark stays");
+    }
+  }));
+
 test("a line of the script marks all that it made", () =>
   open(BLOCKS, async ({ page }) => {
     await drawn(page);

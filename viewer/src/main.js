@@ -108,7 +108,10 @@ async function show(message) {
     try {
       own = await loading.show(message, () => tell(message));
     } catch (error) {
-      if (state.model === message) tell(message);
+      if (state.model === message) {
+        stop();
+        tell(message);
+      }
       if (error.name === 'AbortError' || state.model !== message) return;
       // The server keeps only its last few models; on a new connection it tells the present one.
       if (error.status === 404 && state.gone !== message.url) {
@@ -143,7 +146,7 @@ async function show(message) {
 function hear(message) {
   if (message.run !== state.run || message.url !== state.model.url) return show(message);
   state.model = message;
-  working.stop();
+  stop();
   trouble.clear();
   tell(message);
 }
@@ -163,11 +166,17 @@ function tell(message) {
 
 // Messages
 
+/** Nothing is on its way any more. */
+function stop() {
+  working.stop();
+  stage?.wait(false);
+}
+
 connection('connecting');
 socket.on('open', () => connection('live'));
 socket.on('lost', () => {
   connection('lost');
-  working.stop();
+  stop();
   steps.pause();
 });
 socket.on('moved', () => connection('moved'));
@@ -186,22 +195,23 @@ socket.on('hello', (hello) => {
 });
 socket.on('model', hear);
 socket.on('working', (message) => {
+  stage?.wait(true);
   trouble.again();
   working.start(message);
 });
 socket.on('progress', (message) => working.progress(message));
 socket.on('error', (message) => {
-  working.stop();
+  stop();
   steps.pause();
   trouble.error(message, state.model !== null);
   document.documentElement.dataset.failed = message.run;
 });
 socket.on('waiting', (message) => {
-  working.stop();
+  stop();
   trouble.waiting(message, state.model !== null);
 });
 socket.on('cancelled', ({ stale }) => {
-  working.stop();
+  stop();
   if (!stale) return;
   steps.pause();
   trouble.cancelled(state.model !== null);
@@ -273,6 +283,10 @@ window.burgeon = Object.freeze({
   },
   get memory() {
     return stage && { ...stage.renderer.info.memory, programs: stage.renderer.info.programs.length };
+  },
+  /** How many meshes the last frame drew, those of shadows among them. */
+  get draws() {
+    return stage?.renderer.info.render.calls;
   },
   /** The pixel of the window where a point of the scene (m, z up) is seen; null behind the camera. */
   project: (point) => stage?.pixel(stage.inside(point)) ?? null,

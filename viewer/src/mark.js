@@ -50,7 +50,7 @@ export class Mark {
       const { mesh, primitive, node } = part.userData;
       const own = (wanted.get(`${mesh} ${primitive}`) ?? []).filter((range) => (range.node ?? node) === node);
       for (const alike of byInstances(own)) {
-        const geometry = pieces(part.geometry, alike);
+        const geometry = pieces(part, alike);
         if (!geometry) continue;
         const instances = part.isInstancedMesh
           ? (alike[0].instances?.filter((i) => i >= 0 && i < part.count) ?? null)
@@ -64,8 +64,8 @@ export class Mark {
     for (const mesh of this.#meshes) {
       mesh.removeFromParent();
       if (mesh.isInstancedMesh && mesh.userData.own) mesh.dispose();
-      // The points belong to the model.
-      mesh.geometry.deleteAttribute('position');
+      // The points that the model draws belong to it.
+      if (!mesh.geometry.userData.own) mesh.geometry.deleteAttribute('position');
       mesh.geometry.dispose();
     }
     this.#meshes = [];
@@ -105,7 +105,7 @@ function chosen(all, instances) {
   return new InstancedBufferAttribute(some, 16);
 }
 
-function pieces(geometry, ranges) {
+function pieces({ geometry, parent }, ranges) {
   const index = geometry.index.array;
   const clipped = ranges
     .map(({ from, count }) => [Math.max(0, from) * 3, Math.min(index.length, (from + count) * 3)])
@@ -119,7 +119,10 @@ function pieces(geometry, ranges) {
     at += to - from;
   }
   const made = new BufferGeometry();
-  made.setAttribute('position', geometry.attributes.position);
+  const { position } = geometry.attributes;
+  // A part that is drawn with others has its points on the graphics card among theirs.
+  made.userData.own = parent === null;
+  made.setAttribute('position', parent ? position : new BufferAttribute(position.array, position.itemSize));
   made.setIndex(new BufferAttribute(chosen, 1));
   return made;
 }

@@ -14,6 +14,7 @@ import {
   Vector3,
 } from 'three';
 import { faceted } from './faceted.js';
+import { merge } from './merge.js';
 
 const ONE = new Vector3(1, 1, 1);
 
@@ -34,7 +35,7 @@ export function build(glb, made, plain) {
   const geometries = (glb.json.meshes ?? []).map((mesh) =>
     mesh.primitives.map((it) => geometry(glb, it, attribute)),
   );
-  model.geometries = geometries.flat();
+  model.geometries = new Set(geometries.flat());
 
   const visit = (index, parent) => {
     const node = nodes[index];
@@ -64,14 +65,18 @@ export function build(glb, made, plain) {
     roots = first.children ?? [];
   }
   for (const root of roots) visit(root, new Matrix4());
+  model.draw();
   return model;
 }
 
 export class Model {
   group = new Group();
-  /** The meshes, each with `userData` of `{node, mesh, primitive, flat, material}`. */
+  /** What the file places, as meshes that are asked and marked, each with `userData` of `{node, mesh, primitive, flat,
+   *  material}`. */
   parts = [];
-  geometries = [];
+  /** What is drawn of them: the meshes of the group, each with `userData` of `{flat, material}`. */
+  drawn = [];
+  geometries = new Set();
   box = new Box3();
   /** Where (0, 0, 0) of the group is in the file. */
   origin = new Vector3();
@@ -95,12 +100,19 @@ export class Model {
     }
     part.matrixAutoUpdate = false;
     part.matrix.copy(matrix);
-    part.castShadow = true;
-    part.receiveShadow = true;
     part.userData = { ...from, material };
     this.triangles += (geometry.index.count / 3) * count;
     this.parts.push(part);
-    this.group.add(part);
+  }
+
+  /** Puts what is to be drawn of the parts into the group. */
+  draw() {
+    this.drawn = merge(this.parts);
+    for (const mesh of this.drawn) {
+      Object.assign(mesh, { castShadow: true, receiveShadow: true, matrixAutoUpdate: false });
+      this.geometries.add(mesh.geometry);
+      this.group.add(mesh);
+    }
   }
 
   dispose() {

@@ -32,6 +32,7 @@ import { nearest } from './ray.js';
 import { toneMapping } from './tone.js';
 
 const REST = 160; // ms without a change after which the finer frame is drawn
+const PATIENCE = 1000; // ms longer at most where a frame takes long
 const FEW = 10_000; // triangles below which a new model's first frame is a finer one without a graphics card, too
 const SLOW = 40; // ms for a frame above which moving frames are plainer
 const SMOOTH = 22; // ms for a plain frame below which the finer one may have more pixels than the page
@@ -49,6 +50,7 @@ export class Stage {
   /** The same of frames with shadows alone: on slow machines the others tell nothing of them. */
   #fineCost = 0;
   #coarse = false;
+  #waiting = false;
   #shadowDue = false;
   #drawn = [];
 
@@ -109,6 +111,7 @@ export class Stage {
     this.ground.under(model.box, model.origin);
     this.light.fit(model.box, this.ground.height);
     this.#shadowDue = true;
+    this.#waiting = false;
     old.dispose();
     const fine = !this.slow || model.triangles < FEW;
     this.#draw(fine);
@@ -118,6 +121,12 @@ export class Stage {
     this.#fineCost = fine ? this.#cost : Infinity;
     this.#later();
     return this.#cost;
+  }
+
+  /** Whether another model is being made: without a graphics card the finer frame would take the time that it needs. */
+  wait(waiting) {
+    this.#waiting = waiting && this.slow;
+    this.#later();
   }
 
   get mode() {
@@ -154,12 +163,14 @@ export class Stage {
   /** Draws the finer frame when nothing has changed for a while. */
   #later() {
     clearTimeout(this.#rest);
+    if (this.#waiting) return;
+    const rest = REST + (this.slow ? Math.min(this.#cost, PATIENCE) : 0);
     this.#rest = setTimeout(() => {
       if (this.camera.moving) return;
       this.#draw(true, true);
       if (this.slow && this.renderer.getPixelRatio() === 1 && this.model.triangles < MANY)
         this.#rest = setTimeout(() => this.#draw(true, true, 2), STILL);
-    }, REST);
+    }, rest);
   }
 
   #draw(fine, still = false, ratio = null) {
@@ -172,7 +183,7 @@ export class Stage {
       this.#shadowDue = false;
     }
     // Only a uniform of the same shaders, or those of plain materials, so that nothing has to be compiled.
-    for (const part of model.parts) part.receiveShadow = shadows;
+    for (const part of model.drawn) part.receiveShadow = shadows;
     if (this.slow) this.shading.plainly(model, shadows ? null : this.plain);
     this.ground.shaded(shadows);
     this.#scale(ratio ?? this.#ratio(still));

@@ -132,7 +132,7 @@ function patterns.organic(options: { [string]: any }?): Pattern
       -- Quarters are closer here and wider there.
       local field_at = noise(x / (block * 4), y / (block * 4), 7.5, field)
       local wide = math.clamp(math.exp(4.5 * variety * field_at), 0.36, 2.2)
-      return block * (if depth == 0 then math.clamp(wide, 0.9, 1.6) else wide * random(0.6, 1.35))
+      return block * (if depth == 0 then math.clamp(wide, 0.9, 1.6) else wide * math.exp(random(-0.7, 0.5)))
     end,
     closed = function(x: number, y: number): boolean
       -- Parks and large estates.
