@@ -77,13 +77,21 @@ impl Sizes {
     /// `counts` times one length, the same each time.
     pub fn times(&self, counts: std::ops::RangeInclusive<u32>) -> Result<Self> {
         let mut intervals: SmallVec<[[f64; 2]; 2]> = SmallVec::new();
+        // The least length of an interval without an end.
+        let mut endless = f64::INFINITY;
         for count in counts {
             let count = f64::from(count);
             // From here on, longer ones only add what one interval without an end has already.
-            if intervals.iter().any(|[low, high]| high.is_infinite() && *low <= count * self.low()) {
+            if endless <= count * self.low() {
                 break;
             }
-            intervals.extend(self.0.iter().map(|[low, high]| [low * count, high * count]));
+            for [low, high] in &self.0 {
+                let of_all = [low * count, high * count];
+                if of_all[1].is_infinite() {
+                    endless = endless.min(of_all[0]);
+                }
+                intervals.push(of_all);
+            }
         }
         Self::gather(intervals).limited()
     }
