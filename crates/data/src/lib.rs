@@ -5,6 +5,7 @@
 //! be modelled. Coordinates are projected here, once: everything behind works in metres. It never panics on
 //! what a file holds, and never changes a file.
 
+mod attribute_pool;
 mod cache;
 pub mod elevation;
 #[cfg_attr(not(feature = "data"), path = "absent.rs")]

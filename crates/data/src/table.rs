@@ -5,6 +5,7 @@ use std::sync::Arc;
 use rayon::prelude::*;
 use rustc_hash::{FxHashMap, FxHashSet};
 
+use super::attribute_pool::AttributePool;
 use super::id::FeatureId;
 use super::taken_ids::TakenIds;
 use super::{Crs, SourceOptions};
@@ -33,7 +34,8 @@ pub struct Feature {
     pub id: FeatureId,
     /// Where it is: a geometry of one part.
     pub geometry: Geometry,
-    /// What it knows: the number of the name in [`FeatureTable::names`], and the value. Shared by the parts of a geometry.
+    /// What it knows: the number of the name in [`FeatureTable::names`], and the value. Features that know the same may
+    /// share it.
     pub attributes: Arc<[(usize, Attribute)]>,
 }
 
@@ -64,6 +66,9 @@ pub struct FeatureTable {
     numbers: FxHashMap<String, usize>,
     /// Short texts that came lately, which many features share.
     texts: FxHashSet<Arc<str>>,
+    pool: AttributePool,
+    /// The numbers of the features that are further parts of the record before, in their order.
+    further: Vec<usize>,
     budget: Arc<Budget>,
 }
 
@@ -127,6 +132,8 @@ impl FeatureTable {
             ids: TakenIds::new(),
             numbers: FxHashMap::default(),
             texts: FxHashSet::default(),
+            pool: AttributePool::new(),
+            further: Vec::new(),
             budget: Arc::clone(&wanted.budget),
         }
     }
@@ -209,11 +216,13 @@ impl FeatureTable {
         if self.is_full() || !keeps.contains(&true) {
             return Ok(());
         }
-        let known: usize = attributes.iter().map(|(_, value)| 32 + value.weight()).sum();
+        let (attributes, is_new) = self.pool.intern(attributes);
+        let own = if is_new { &*attributes } else { &[] };
+        let known: usize = own.iter().map(|(_, value)| 32 + value.weight()).sum();
         let points: usize = parts.iter().map(weight).sum();
         self.budget.take(40 + known + points + parts.len() * (size_of::<Feature>() + 16))?;
         self.records += 1;
-        let attributes: Arc<[(usize, Attribute)]> = attributes.into();
+        let first = self.features.len();
         for (mut geometry, keeps) in parts.into_iter().zip(keeps) {
             if !keeps {
                 if several {
@@ -227,6 +236,9 @@ impl FeatureTable {
             let id = self.ids.fresh(id, &self.features);
             self.budget.take(id.weight())?;
             geometry.compact();
+            if self.features.len() > first {
+                self.further.push(self.features.len());
+            }
             self.features.push(Feature { id, geometry, attributes: Arc::clone(&attributes) });
         }
         Ok(())
@@ -235,14 +247,23 @@ impl FeatureTable {
     /// Keeps the features with these numbers, which come in order, and at most `limit` of them.
     pub(super) fn keep(&mut self, kept: &[usize], limit: Option<usize>) {
         let mut kept = kept.iter().take(limit.unwrap_or(usize::MAX)).copied().peekable();
-        let mut number = 0;
+        let mut further = self.further.iter().copied().peekable();
+        // The number of the first feature of each record, for all that are kept.
+        let mut firsts = Vec::new();
+        let (mut number, mut first) = (0, 0);
         self.features.retain(|_| {
+            if further.next_if_eq(&number).is_none() {
+                first = number;
+            }
+            let keeps = kept.next_if_eq(&number).is_some();
+            if keeps {
+                firsts.push(first);
+            }
             number += 1;
-            kept.next_if_eq(&(number - 1)).is_some()
+            keeps
         });
-        let starts = |pair: &&[Feature]| !Arc::ptr_eq(&pair[0].attributes, &pair[1].attributes);
-        self.records =
-            usize::from(!self.features.is_empty()) + self.features.windows(2).filter(starts).count();
+        self.further = (1..firsts.len()).filter(|number| firsts[*number] == firsts[number - 1]).collect();
+        self.records = firsts.len() - self.further.len();
     }
 
     /// The table with what is wanted of it: a coordinate system in place of its own, one kind of geometry, so many
@@ -409,6 +430,31 @@ mod tests {
         assert_eq!(read(SourceOptions { kind, limit: Some(2), ..SourceOptions::default() }), "1.2 1.4");
         let within = Some([1.0, 0.5, 4.0, 4.0]);
         assert_eq!(read(SourceOptions { within, ..SourceOptions::default() }), "1 1.2 1.3 2");
+    }
+
+    #[test]
+    fn features_that_know_the_same_share_it_and_stay_records_of_their_own() {
+        let mut table = FeatureTable::new("a", "a", Crs::epsg(4326), &SourceOptions::default());
+        let point = Geometry::point([1.0; 3]);
+        let numbers = [0.0, -0.0, 0.0, 7.0, 7.0, 7.0];
+        for (id, number) in numbers.into_iter().enumerate() {
+            let parts = vec![point.clone(); if id == 4 { 3 } else { 1 }];
+            table.push(&id.to_string(), parts, vec![(0, Attribute::Number(number))]).unwrap();
+        }
+        let signs: Vec<bool> = (table.features.iter())
+            .map(|feature| matches!(feature.attributes[0].1, Attribute::Number(it) if it.is_sign_negative()))
+            .collect();
+        assert_eq!(signs, [false, true, false, false, false, false, false, false]);
+        let shares =
+            |a: usize, b: usize| Arc::ptr_eq(&table.features[a].attributes, &table.features[b].attributes);
+        assert!(shares(3, 4) && shares(4, 6) && shares(6, 7) && !shares(0, 1));
+        // Of 0, 1, 2, 3, 4, 4.2, 4.3 and 5.
+        table.keep(&[2, 3, 5, 6, 7], None);
+        assert_eq!((table.features.len(), table.records), (5, 4));
+        table.keep(&[1, 3, 4], Some(2));
+        assert_eq!((table.features.len(), table.records), (2, 2));
+        table.keep(&[0], None);
+        assert_eq!((table.features[0].id.to_string().as_str(), table.records), ("3", 1));
     }
 
     #[test]

@@ -1,0 +1,92 @@
+//! Attributes that many features have alike, such as those of most buildings in a register, are there once.
+
+use std::hash::{Hash, Hasher};
+use std::sync::Arc;
+
+use rustc_hash::FxHasher;
+
+use super::Attribute;
+
+/// The attributes of a feature: the numbers of their names, and their values.
+pub(super) type Attributes = Arc<[(usize, Attribute)]>;
+
+/// How many are remembered.
+const PLACES: usize = 4096;
+
+/// What features had that came lately.
+#[derive(Debug)]
+pub(super) struct AttributePool(Vec<Option<Attributes>>);
+
+impl AttributePool {
+    /// None.
+    pub(super) fn new() -> Self {
+        Self(Vec::new())
+    }
+
+    /// What is equal to `attributes` and came lately; otherwise these are remembered. Also tells whether they are new.
+    pub(super) fn intern(&mut self, attributes: Vec<(usize, Attribute)>) -> (Attributes, bool) {
+        let Some(place) = place(&attributes) else { return (attributes.into(), true) };
+        if self.0.is_empty() {
+            self.0.resize(PLACES, None);
+        }
+        let known = &mut self.0[place];
+        if let Some(known) = known.as_ref().filter(|known| same(known, &attributes)) {
+            return (Arc::clone(known), false);
+        }
+        let attributes: Attributes = attributes.into();
+        *known = Some(Arc::clone(&attributes));
+        (attributes, true)
+    }
+}
+
+/// Where attributes are remembered; lists and objects of GeoJSON are not.
+#[allow(clippy::cast_possible_truncation, reason = "any bits of a hash will do")]
+fn place(attributes: &[(usize, Attribute)]) -> Option<usize> {
+    let mut hasher = FxHasher::default();
+    for (name, value) in attributes {
+        name.hash(&mut hasher);
+        match value {
+            Attribute::Boolean(value) => value.hash(&mut hasher),
+            // Few numbers differ in their lower bits, from which the hasher draws most.
+            Attribute::Number(value) => {
+                (value.to_bits() ^ value.to_bits().rotate_right(32)).hash(&mut hasher)
+            }
+            Attribute::Text(value) => value.hash(&mut hasher),
+            Attribute::Nested(_) => return None,
+        }
+    }
+    Some(hasher.finish() as usize % PLACES)
+}
+
+/// Whether two lists are the same to the last bit: zeros have signs.
+fn same(known: &[(usize, Attribute)], others: &[(usize, Attribute)]) -> bool {
+    known.len() == others.len()
+        && known.iter().zip(others).all(|((name, value), (other_name, other))| {
+            name == other_name
+                && match (value, other) {
+                    (Attribute::Number(value), Attribute::Number(other)) => {
+                        value.to_bits() == other.to_bits()
+                    }
+                    _ => value == other,
+                }
+        })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_repeats_is_there_once() {
+        let kinds: Vec<Arc<str>> = ["house", "shed", "church", "school"].map(Arc::from).to_vec();
+        let mut pool = AttributePool::new();
+        let mut own = 0;
+        for number in 0..100_000_u32 {
+            let kind = Attribute::Text(Arc::clone(&kinds[number as usize % 4]));
+            let height = Attribute::Number(f64::from(number % 30));
+            own += usize::from(pool.intern(vec![(0, kind), (1, height), (2, Attribute::Number(3.0))]).1);
+        }
+        // There are 60, of which some may take turns in one place.
+        assert!((60..6000).contains(&own), "{own}");
+    }
+}
