@@ -42,6 +42,7 @@ fn files_that_require_each_other_are_told_in_order() {
     assert_snapshot!(required("require(\"one\")"), @r#"
     error: in/two.lua:1: files require each other in a circle: one.lua -> two.lua -> one.lua
       | return require("one")
+      called at in/s.lua:2
       help: move what both need into a third file
     "#);
     assert_snapshot!(required("require(\"s\")"), @r#"
@@ -93,6 +94,7 @@ fn an_error_in_a_required_file_names_that_file() {
     assert_snapshot!(required("require(\"late\")({})"), @r"
     error: in/late.lua:2: attempt to index nil with 'y'
       | return t.x.y
+      called at in/s.lua:2
     ");
     assert_snapshot!(required("require(\"binary\")"), @r#"
     error: in/s.lua:2: in/binary.lua is not a text file

@@ -66,12 +66,14 @@ fn files_of_a_package_find_one_another_and_not_the_scripts() {
     insta::assert_snapshot!(refused(&folder), @r#"
     error: mods/castle/parts/wall.lua:1: the package castle has no file parts/own.lua
       | return require("own")
+      called at s.lua:1
       help: it is looked for in mods/castle
     "#);
     let folder = folder.with("mods/castle/parts/wall.lua", "return require(\"../../../own\")");
     insta::assert_snapshot!(refused(&folder), @r#"
     error: mods/castle/parts/wall.lua:1: require("../../../own") leads outside the package castle
       | return require("../../../own")
+      called at s.lua:1
       help: a file of another package is named with it: require("@castle/towers")
     "#);
     let folder = folder.with("s.lua", "require(\"stone\")").with("mods/castle/stone.lua", "return 1");
@@ -202,6 +204,7 @@ fn a_package_uses_only_those_that_it_depends_on() {
     insta::assert_snapshot!(refused(&masonry("", "return require(\"@\" .. \"masonry\")")), @r#"
     error: mods/castle/towers.lua:1: the package castle does not depend on masonry
       | return require("@" .. "masonry")
+      called at s.lua:1
       help: write into its mod.toml, below [depends]: masonry = "*"
     "#);
     insta::assert_snapshot!(refused(&masonry("", "return { height = 1, texture = \"@masonry/stone.png\" }")), @r#"
@@ -318,12 +321,14 @@ fn a_later_package_replaces_a_file_and_builds_on_the_one_before() {
     insta::assert_snapshot!(refused(&folder), @r#"
     error: mods/ruins/towers.lua:1: require("../castle/towers") leads outside the package ruins
       | return require("../castle/towers")
+      called at s.lua:1
       help: a file of another package is named with it: require("@castle/towers")
     "#);
     std::fs::remove_file(folder.path().join("mods/ruins/towers.lua")).unwrap();
     insta::assert_snapshot!(refused(&folder), @r#"
     error: mods/ruins/mod.toml:7: the package ruins has no file towers.lua, which it puts in the place of @castle/towers.lua
       | "@castle/towers.lua" = "towers.lua"
+      called at s.lua:1
       help: it is looked for in mods/ruins
     "#);
     // In the user's folder it changes no script that does not ask for it.
@@ -411,11 +416,13 @@ fn a_package_sets_other_defaults_of_another_ones_parameters() {
     insta::assert_snapshot!(refused(&with("height = 50")), @r"
     error: mods/ruins/mod.toml:7: the default that the package ruins sets: param height is 50, out of its range
       | height = 50
+      called at s.lua:1
       help: it goes from 3 to 40
     ");
     insta::assert_snapshot!(refused(&with("height = true")), @r#"
     error: mods/ruins/mod.toml:7: the default that the package ruins sets: param height must be a number, not "true"
       | height = true
+      called at s.lua:1
       help: its default is 12
     "#);
     // A parameter of the script's own is the script's.

@@ -112,9 +112,10 @@ export class Trouble {
     tell();
   }
 
-  #describe({ message, file, line, excerpt, rule, module, step, help, count: times }) {
+  #describe({ message, file, line, excerpt, called_at: caller, rule, module, step, help, count: times }) {
     const facts = [];
     if (times > 1) facts.push(['times', count(times)]);
+    if (caller) facts.push(['called at', `${caller.file}:${caller.line}`]);
     if (rule) facts.push(['rule', rule]);
     if (module) facts.push(['module', module]);
     if (step !== null && step !== undefined) facts.push(['step', String(step)]);

@@ -140,6 +140,12 @@ impl Warning {
         Self { told: self.told.at(place), ..self }
     }
 
+    /// Says which line of the script led there, if that is known.
+    #[must_use]
+    pub fn called_at(self, caller: Option<SourcePlace>) -> Self {
+        Self { told: self.told.called_at(caller), ..self }
+    }
+
     /// Names the rule, unless it is named already.
     #[must_use]
     pub fn rule(self, rule: impl fmt::Display) -> Self {

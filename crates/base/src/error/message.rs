@@ -72,6 +72,7 @@ struct Parts {
     kind: ErrorKind,
     message: String,
     place: Option<SourcePlace>,
+    caller: Option<SourcePlace>,
     rule: Option<String>,
     module: Option<String>,
     step: Option<usize>,
@@ -99,6 +100,7 @@ impl Error {
             kind,
             message: shortened(&message.to_string(), LONGEST).into_owned(),
             place: None,
+            caller: None,
             rule: None,
             module: None,
             step: None,
@@ -209,6 +211,16 @@ impl Error {
         self
     }
 
+    /// Says which line of the script led there, unless that is known already. It is told if the place is in another file
+    /// and in no rule: no line calls a rule.
+    #[must_use]
+    pub fn called_at(mut self, caller: Option<SourcePlace>) -> Self {
+        if self.0.caller.is_none() {
+            self.0.caller = caller;
+        }
+        self
+    }
+
     /// Names the rule, unless it is named already.
     #[must_use]
     pub fn rule(mut self, rule: impl fmt::Display) -> Self {
@@ -246,6 +258,12 @@ impl Error {
         self.0.place.as_ref()
     }
 
+    /// The line that led to the place, if it is to be told.
+    fn caller(&self) -> Option<&SourcePlace> {
+        let (place, caller) = (self.0.place.as_ref()?, self.0.caller.as_ref()?);
+        (self.0.rule.is_none() && place.file != caller.file).then_some(caller)
+    }
+
     /// This problem without those reported with it.
     #[must_use]
     pub fn alone(&self) -> Self {
@@ -259,8 +277,8 @@ impl Error {
         std::iter::once(self).chain(&self.0.more)
     }
 
-    /// The error for machines: `{ code, message, file, line, rule, module, step, help }`, absent where
-    /// unknown; codes are those of [`ErrorKind::code`].
+    /// The error for machines: `{ code, message, file, line, called_at: { file, line }, rule, module, step, help }`, absent
+    /// where unknown; codes are those of [`ErrorKind::code`].
     pub fn to_json(&self) -> serde_json::Value {
         let mut object = serde_json::Map::new();
         let parts = &*self.0;
@@ -269,6 +287,10 @@ impl Error {
         if let Some(place) = &parts.place {
             object.insert("file".into(), place.file.clone().into());
             object.insert("line".into(), place.line.into());
+        }
+        if let Some(caller) = self.caller() {
+            let place = serde_json::json!({ "file": caller.file, "line": caller.line });
+            object.insert("called_at".into(), place);
         }
         for (key, part) in [("rule", &parts.rule), ("module", &parts.module), ("help", &parts.help)] {
             if let Some(text) = part {
@@ -294,6 +316,9 @@ impl Error {
         text += &parts.message;
         if let Some(line) = line {
             text += &format!("\n  | {line}");
+        }
+        if let Some(caller) = self.caller() {
+            text += &format!("\n  called at {caller}");
         }
         match (&parts.module, parts.step) {
             (Some(module), Some(step)) => text += &format!("\n  module: {module}, step {step}"),
@@ -358,6 +383,21 @@ mod tests {
           module: Slab(NaN), step 2
           help: give a finite length
         ");
+    }
+
+    #[test]
+    fn a_place_in_another_file_has_the_line_that_led_there() {
+        let at = |file: &str, line: usize| Some(SourcePlace { file: file.into(), line });
+        let error = |file: &str| Error::script("no").at(at(file, 3)).called_at(at("a.lua", 7)).help("yes");
+        insta::assert_snapshot!(error("b.lua").with_line(Some("error()")), @r"
+        b.lua:3: no
+          | error()
+          called at a.lua:7
+          help: yes
+        ");
+        assert_eq!(error("b.lua").to_json()["called_at"]["line"], 7);
+        assert_eq!(error("a.lua").to_string(), "a.lua:3: no\n  help: yes");
+        assert_eq!(error("b.lua").rule("A").to_string(), "b.lua:3: rule A: no\n  help: yes");
     }
 
     #[test]

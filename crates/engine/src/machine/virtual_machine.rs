@@ -108,7 +108,7 @@ impl Machine {
     /// only helps says nothing, for the leading one runs the same line.
     pub(crate) fn warn(&self, warning: Warning) {
         if self.driver.leads() {
-            self.session.warn(warning.at(Self::place(&self.lua)));
+            self.session.warn(warning.at(Self::place(&self.lua)).called_at(Self::outermost(&self.lua)));
         }
     }
 
@@ -231,15 +231,23 @@ impl Machine {
         session.package_of(&Self::place(lua)?.file)
     }
 
-    /// The line of the script that is being run, `level` calls up from the Rust function that asks.
+    /// The line of the script that is being run.
     pub(crate) fn place(lua: &Lua) -> Option<SourcePlace> {
-        (1..20).find_map(|level| {
-            lua.inspect_stack(level, |debug| {
-                let source = debug.source();
-                let file = source.source?.strip_prefix('@')?.to_owned();
-                Some(SourcePlace { file, line: debug.current_line()? })
-            })
-            .flatten()
+        (1..20).find_map(|level| Self::frame(lua, level)?)
+    }
+
+    /// The line from which all is called that is being run.
+    fn outermost(lua: &Lua) -> Option<SourcePlace> {
+        (1..200).map_while(|level| Self::frame(lua, level)).flatten().last()
+    }
+
+    /// The line that is being run so many calls up from the Rust function that asks: none within that if it is no line of a
+    /// script, and none at all if there are not so many calls.
+    fn frame(lua: &Lua, level: usize) -> Option<Option<SourcePlace>> {
+        lua.inspect_stack(level, |debug| {
+            let source = debug.source();
+            let file = source.source?.strip_prefix('@')?.to_owned();
+            Some(SourcePlace { file, line: debug.current_line()? })
         })
     }
 }
@@ -274,7 +282,10 @@ fn is_error_of_a_handler(error: &mlua::Error) -> bool {
 
 pub(super) fn translate(error: &mlua::Error) -> Error {
     match error {
-        mlua::Error::CallbackError { traceback, cause } => translate(cause).at(place_in_traceback(traceback)),
+        mlua::Error::CallbackError { traceback, cause } => {
+            let mut places = places(traceback);
+            translate(cause).at(places.next()).called_at(places.last())
+        }
         mlua::Error::ExternalError(inner) => match inner.downcast_ref::<Error>() {
             Some(error) => error.clone(),
             None => Error::script(inner.to_string()),
@@ -308,11 +319,13 @@ fn parse(text: &str) -> Error {
     };
     if place.is_none() && is_no_text(message) {
         return Error::script("the script raised an error that is no text")
-            .at(place_in_traceback(traceback))
+            .at(places(traceback).next())
+            .called_at(places(traceback).last())
             .help("write error(\"what is wrong\")");
     }
     // What a function of Luau's library refuses has no place of its own.
-    let error = Error::of(kind, message).at(place).at(place_in_traceback(traceback));
+    let error = Error::of(kind, message).at(place).at(places(traceback).next());
+    let error = error.called_at(places(traceback).last());
     match help {
         Some(help) => {
             let error = if help.ends_with('\u{2}') { error.of_data() } else { error };
@@ -375,9 +388,9 @@ fn split_place(text: &str) -> Option<(Option<SourcePlace>, &str)> {
     None
 }
 
-/// The innermost line of a script in a traceback, whose lines read `file:line: in function <...>`.
-fn place_in_traceback(traceback: &str) -> Option<SourcePlace> {
-    traceback.lines().find_map(|line| split_place(line.trim())?.0)
+/// The lines of scripts in a traceback, the innermost first; its own lines read `file:line: in function <...>`.
+fn places(traceback: &str) -> impl Iterator<Item = SourcePlace> {
+    traceback.lines().filter_map(|line| split_place(line.trim())?.0)
 }
 
 /// Copies a column into the beginning of a buffer, which is long enough.
