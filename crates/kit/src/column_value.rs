@@ -35,6 +35,7 @@ impl ColumnValue {
     }
 
     /// What a stored f64 holds.
+    #[inline]
     pub fn unpack(stored: f64) -> Self {
         let bits = stored.to_bits();
         let low = u32::try_from(bits & 0xFFFF_FFFF).unwrap_or(0);

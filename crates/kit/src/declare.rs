@@ -73,6 +73,7 @@ pub struct Numbers<'a> {
 
 impl<'a> Numbers<'a> {
     /// The `numbers` that `method` of type `kind` is called with.
+    #[inline]
     pub fn new(kind: &'static str, method: &'static str, numbers: &'a [f64]) -> Self {
         Self { kind, method, numbers, taken: 0 }
     }
@@ -101,11 +102,13 @@ impl<'a> Numbers<'a> {
     }
 
     /// Ends the reading of arguments; their number was checked before.
+    #[inline]
     #[allow(clippy::unused_self, reason = "mirrors Arguments::end")]
     pub fn end(&self) {}
 }
 
 /// The object of type `T` that a method is called for: this one, or one that it extends.
+#[inline]
 pub fn downcast_ref<T: Object>(object: &dyn Object) -> Result<&T> {
     as_ref(object).ok_or_else(wrong_type)
 }
@@ -117,6 +120,7 @@ pub fn downcast_mut<T: Object>(object: &mut dyn Object) -> Result<&mut T> {
 }
 
 /// `object` as a `T`, or the object that it extends, if one of them is.
+#[inline]
 pub fn as_ref<T: Object>(object: &dyn Object) -> Option<&T> {
     let any: &dyn Any = object;
     match any.downcast_ref() {

@@ -116,6 +116,7 @@ impl Answer for () {
         String::new()
     }
 
+    #[inline]
     fn answer(self) -> Result<Value> {
         Ok(Value::Nil)
     }
@@ -126,6 +127,7 @@ impl<T: Answer> Answer for Result<T> {
         T::luau()
     }
 
+    #[inline]
     fn answer(self) -> Result<Value> {
         self?.answer()
     }
@@ -227,6 +229,7 @@ impl Parameter for u32 {
         }
     }
 
+    #[inline]
     #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "the range is checked")]
     fn from_number(number: f64) -> Option<Self> {
         (number.fract() == 0.0 && (0.0..=f64::from(u32::MAX)).contains(&number)).then_some(number as u32)
@@ -251,6 +254,7 @@ impl Parameter for bool {
         }
     }
 
+    #[inline]
     fn from_number(number: f64) -> Option<Self> {
         match ColumnValue::unpack(number) {
             ColumnValue::Boolean(value) => Some(value),
