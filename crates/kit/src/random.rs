@@ -9,6 +9,7 @@ pub struct Stream(Xoshiro256PlusPlus);
 
 impl Stream {
     /// The numbers of `seed`, from the first.
+    #[inline]
     pub fn new(seed: u64) -> Self {
         Self(Xoshiro256PlusPlus::seed_from_u64(seed))
     }

@@ -120,10 +120,19 @@ impl Ground {
         let wanted = Tile::wanted(place, detail);
         let cells = self.world.descend(coarse, place.level + detail, wanted, true, divide)?;
         let mut heights = Vec::with_capacity(wanted.len());
-        for (x, y) in wanted.cells() {
-            let from = cells.area.index(x, y);
-            let height = self.world.remapped(cells.surface()[from]);
-            heights.push(height + cells.forms.get(from).copied().unwrap_or(0.0));
+        let (surface, is_remapped) = (cells.surface(), self.world.is_remapped());
+        for y in (wanted.y..).take(wanted.rows) {
+            let first = cells.area.index(wanted.x, y);
+            let row = first..first + wanted.columns;
+            let begin = heights.len();
+            heights.extend_from_slice(&surface[row.clone()]);
+            let heights = &mut heights[begin..];
+            if is_remapped {
+                heights.iter_mut().for_each(|height| *height = self.world.remapped(*height));
+            }
+            if let Some(forms) = cells.forms.get(row) {
+                heights.iter_mut().zip(forms).for_each(|(height, form)| *height += form);
+            }
         }
         let level = place.level + detail;
         let mut tile;

@@ -210,6 +210,11 @@ impl World {
         Ok(block.unwrap_or_else(|| from.clone()))
     }
 
+    /// Whether heights are changed.
+    pub(super) fn is_remapped(&self) -> bool {
+        !self.remap.is_empty()
+    }
+
     /// What `height` (m) is changed to.
     pub(super) fn remapped(&self, height: f64) -> f64 {
         let (Some(first), Some(last)) = (self.remap.first(), self.remap.last()) else { return height };

@@ -35,6 +35,7 @@ impl ModuleKey {
     }
 
     /// The numbers of this key, from the first.
+    #[inline]
     pub fn stream(self) -> Stream {
         Stream::new(self.0)
     }
