@@ -8,14 +8,14 @@ use rustc_hash::FxHasher;
 use super::Attribute;
 
 /// The attributes of a feature: the numbers of their names, and their values.
-pub(super) type Attributes = Arc<[(usize, Attribute)]>;
+pub(super) type FeatureAttributes = Arc<[(usize, Attribute)]>;
 
 /// How many are remembered.
 const PLACES: usize = 4096;
 
 /// What features had that came lately.
 #[derive(Debug)]
-pub(super) struct AttributePool(Vec<Option<Attributes>>);
+pub(super) struct AttributePool(Vec<Option<FeatureAttributes>>);
 
 impl AttributePool {
     /// None.
@@ -24,7 +24,7 @@ impl AttributePool {
     }
 
     /// What is equal to `attributes` and came lately; otherwise these are remembered. Also tells whether they are new.
-    pub(super) fn intern(&mut self, attributes: Vec<(usize, Attribute)>) -> (Attributes, bool) {
+    pub(super) fn intern(&mut self, attributes: Vec<(usize, Attribute)>) -> (FeatureAttributes, bool) {
         let Some(place) = place(&attributes) else { return (attributes.into(), true) };
         if self.0.is_empty() {
             self.0.resize(PLACES, None);
@@ -33,7 +33,7 @@ impl AttributePool {
         if let Some(known) = known.as_ref().filter(|known| same(known, &attributes)) {
             return (Arc::clone(known), false);
         }
-        let attributes: Attributes = attributes.into();
+        let attributes: FeatureAttributes = attributes.into();
         *known = Some(Arc::clone(&attributes));
         (attributes, true)
     }
