@@ -6,9 +6,16 @@ import { label } from './readouts.js';
 
 const SIDE = 6; // labels on each side of zero
 const APART = 46; // pixels between labels at least
+const LABEL = 50; // pixels that a label is wide at most
+
+/** Whether a label at a pixel would be partly behind a bar. */
+const meets = ({ left, right, top, bottom }, [x, y]) =>
+  x > left - LABEL && x < right + LABEL && y > top - 12 && y < bottom + 12;
 
 export class Ticks {
   #pool = [];
+  /** What lies over the picture. */
+  #bars = [...document.querySelectorAll('.tools, .axes, .timeline')];
 
   constructor(place, stage) {
     Object.assign(this, { place, stage });
@@ -23,6 +30,7 @@ export class Ticks {
     if (cell) {
       const box = stage.canvas.getBoundingClientRect();
       const cover = this.#cover();
+      const bars = this.#bars.map((bar) => bar.getBoundingClientRect());
       for (const axis of ['x', 'z']) {
         for (let i = -SIDE; i <= SIDE; i++) {
           if (i === 0) continue;
@@ -38,6 +46,7 @@ export class Ticks {
           if (!pixel) continue;
           const [x, y] = [pixel[0] - box.left, pixel[1] - box.top];
           if (cover && cover(pixel, at)) continue;
+          if (bars.some((bar) => meets(bar, pixel))) continue;
           if (x < 8 || y < 8 || x > box.width - 8 || y > box.height - 8) continue;
           if (shown.some((other) => Math.abs(other.x - x) < APART && Math.abs(other.y - y) < 18)) continue;
           shown.push({ x, y, text: label(Math.abs(i * cell)), axis });
