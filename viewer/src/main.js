@@ -108,10 +108,8 @@ async function show(message) {
     try {
       own = await loading.show(message, () => tell(message));
     } catch (error) {
-      if (state.model === message) {
-        stop();
-        tell(message);
-      }
+      stage?.wait(working.busy);
+      if (state.model === message) tell(message);
       if (error.name === 'AbortError' || state.model !== message) return;
       // The server keeps only its last few models; on a new connection it tells the present one.
       if (error.status === 404 && state.gone !== message.url) {
@@ -122,6 +120,8 @@ async function show(message) {
       return socket.open ? toast(error.message) : undefined;
     }
     if (!own) return;
+    // Another run may have begun while this model was on its way.
+    stage.wait(working.busy);
     const { marked } = state;
     if (card.open) card.close();
     if (marked) highlight(marked.file, marked.line, true);

@@ -3,7 +3,7 @@
 import { Box3, BufferAttribute, BufferGeometry, Mesh, Sphere, Vector3 } from 'three';
 
 const SMALL = 5000; // vertices above which a mesh is drawn by itself
-const MOST = 65536; // vertices of a merged mesh, so that its indices have two bytes
+const MOST = 65535; // vertices of a merged mesh: indices have two bytes, and the last of them ends a strip in WebGL
 
 /** The meshes to draw in place of `parts`: parts that are drawn by themselves, and merged ones. */
 export function merge(parts) {

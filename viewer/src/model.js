@@ -75,7 +75,7 @@ export class Model {
    *  material}`. */
   parts = [];
   /** What is drawn of them: the meshes of the group, each with `userData` of `{flat, material}`. */
-  drawn = [];
+  meshes = [];
   geometries = new Set();
   box = new Box3();
   /** Where (0, 0, 0) of the group is in the file. */
@@ -107,8 +107,8 @@ export class Model {
 
   /** Puts what is to be drawn of the parts into the group. */
   draw() {
-    this.drawn = merge(this.parts);
-    for (const mesh of this.drawn) {
+    this.meshes = merge(this.parts);
+    for (const mesh of this.meshes) {
       Object.assign(mesh, { castShadow: true, receiveShadow: true, matrixAutoUpdate: false });
       this.geometries.add(mesh.geometry);
       this.group.add(mesh);

@@ -41,7 +41,7 @@ export class Shading {
   apply(model) {
     this.clear();
     if (this.mode === 'uv') this.#checker.map ??= checker();
-    for (const part of model.drawn) {
+    for (const part of model.meshes) {
       part.material = this.#of(part);
       if (this.mode === 'wire') this.#addWire(model, part);
     }
@@ -50,7 +50,7 @@ export class Shading {
   /** Shows lit surfaces by `plain`'s materials, or by their own if that is null. */
   plainly(model, plain) {
     if (this.mode !== 'lit') return;
-    for (const part of model.drawn) {
+    for (const part of model.meshes) {
       const { material } = part.userData;
       part.material = plain ? plain.of(material) : material;
     }

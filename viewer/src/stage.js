@@ -32,7 +32,7 @@ import { nearest } from './ray.js';
 import { toneMapping } from './tone.js';
 
 const REST = 160; // ms without a change after which the finer frame is drawn
-const PATIENCE = 1000; // ms longer at most where a frame takes long
+const LONGER = 1000; // ms longer at most where a frame takes long
 const FEW = 10_000; // triangles below which a new model's first frame is a finer one without a graphics card, too
 const SLOW = 40; // ms for a frame above which moving frames are plainer
 const SMOOTH = 22; // ms for a plain frame below which the finer one may have more pixels than the page
@@ -111,7 +111,6 @@ export class Stage {
     this.ground.under(model.box, model.origin);
     this.light.fit(model.box, this.ground.height);
     this.#shadowDue = true;
-    this.#waiting = false;
     old.dispose();
     const fine = !this.slow || model.triangles < FEW;
     this.#draw(fine);
@@ -125,7 +124,8 @@ export class Stage {
 
   /** Whether another model is being made: without a graphics card the finer frame would take the time that it needs. */
   wait(waiting) {
-    this.#waiting = waiting && this.slow;
+    if (!this.slow) return;
+    this.#waiting = waiting;
     this.#later();
   }
 
@@ -164,7 +164,7 @@ export class Stage {
   #later() {
     clearTimeout(this.#rest);
     if (this.#waiting) return;
-    const rest = REST + (this.slow ? Math.min(this.#cost, PATIENCE) : 0);
+    const rest = REST + (this.slow ? Math.min(this.#cost, LONGER) : 0);
     this.#rest = setTimeout(() => {
       if (this.camera.moving) return;
       this.#draw(true, true);
@@ -183,7 +183,7 @@ export class Stage {
       this.#shadowDue = false;
     }
     // Only a uniform of the same shaders, or those of plain materials, so that nothing has to be compiled.
-    for (const part of model.drawn) part.receiveShadow = shadows;
+    for (const part of model.meshes) part.receiveShadow = shadows;
     if (this.slow) this.shading.plainly(model, shadows ? null : this.plain);
     this.ground.shaded(shadows);
     this.#scale(ratio ?? this.#ratio(still));

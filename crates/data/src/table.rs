@@ -273,6 +273,8 @@ impl FeatureTable {
             self.crs = Crs::epsg(code);
         }
         self.check_kind()?;
+        // It would keep what a condition has left out.
+        self.pool = AttributePool::new();
         if let (true, Some((_, error))) = (self.features.is_empty() && !self.has_seen(), self.refused.first())
         {
             return Err(error.clone());
