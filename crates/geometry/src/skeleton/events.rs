@@ -129,13 +129,14 @@ impl Wavefront {
             levels: l.normal * m.level - m.normal * l.level,
             speeds: l.normal * m.speed - m.normal * l.speed,
             slack: noise[0] + l.slack + m.slack,
-            noise: noise[1],
+            noise,
             now: self.now,
             sorts: corner.edges.map(|edge| self.current.sort(edge)),
         };
+        let shortly = course.short();
         let mut found: [(f64, usize); FORESEEN] = [(f64::INFINITY, usize::MAX); FORESEEN];
         for block in self.current.blocks_around(corner.edges[1]) {
-            let mut within = self.current.within_reach(block, &course, found[FORESEEN - 1].0);
+            let mut within = self.current.within_reach(block, &shortly, found[FORESEEN - 1].0);
             while within > 0 {
                 let lane = within.trailing_zeros();
                 within &= within - 1;
