@@ -58,13 +58,17 @@ pub(super) fn widen(peaks: &mut [Peak], fixed: usize, edges: &[SkeletonEdge], fa
         for (index, &a) in face.iter().enumerate() {
             let b = face[(index + 1) % face.len()];
             let (from, way) = (peaks[a].at, peaks[b].at - peaks[a].at);
-            let length = way.length();
-            let (along, inward) = (way / length, way.perp() / length);
+            let square = way.length_squared();
             for &peak in face[2..].iter().filter(|&&peak| peak >= fixed && peak != a && peak != b) {
                 let there = peaks[peak].at - from;
-                let (far, on) = (inward.dot(there), along.dot(there));
-                if far.abs() < NARROW && on > NARROW && on < length - NARROW {
-                    peaks[peak].at += inward * (NARROW - far);
+                let across = way.perp_dot(there);
+                // Most are far off, which takes no root to tell.
+                if across * across < 2.0 * NARROW * NARROW * square {
+                    let length = square.sqrt();
+                    let (far, on) = (across / length, way.dot(there) / length);
+                    if far.abs() < NARROW && on > NARROW && on < length - NARROW {
+                        peaks[peak].at += way.perp() / length * (NARROW - far);
+                    }
                 }
             }
         }

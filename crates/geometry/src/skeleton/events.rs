@@ -8,7 +8,7 @@ use smallvec::SmallVec;
 use super::edge::Direction;
 use super::fronts::{CornerCourse, EdgeFront};
 use super::lines::EventTime;
-use super::wavefront::{CornerKind, Wavefront};
+use super::wavefront::{ANY, CornerKind, Wavefront};
 
 /// Times that may be off by more than this (m) are made exact before they are compared.
 const COARSE: f64 = 1e-6;
@@ -62,7 +62,8 @@ impl WavefrontEvent {
 #[derive(Debug, Default)]
 pub(super) struct EventQueue {
     events: Vec<WavefrontEvent>,
-    order: BinaryHeap<Reverse<(i64, u32)>>,
+    /// The time of each, as a number that is sorted alike, and then its number.
+    order: BinaryHeap<Reverse<u128>>,
 }
 
 impl EventQueue {
@@ -78,15 +79,16 @@ impl EventQueue {
 
     /// Expects an event again that had been taken.
     fn put_back(&mut self, number: u32) {
-        let low = self.events[number as usize].low.to_bits().cast_signed();
+        let bits = self.events[number as usize].low.to_bits();
         // Among the negative ones the greater bits are those of the lesser number.
-        let sorted = if low < 0 { low ^ i64::MAX } else { low };
-        self.order.push(Reverse((sorted, number)));
+        let sorted = if bits >> 63 == 0 { bits | 1 << 63 } else { !bits };
+        self.order.push(Reverse(u128::from(sorted) << 32 | u128::from(number)));
     }
 
     /// The number of the earliest event.
+    #[allow(clippy::cast_possible_truncation, reason = "it stands in the last 32 bits")]
     fn first(&self) -> Option<u32> {
-        self.order.peek().map(|&Reverse((_, number))| number)
+        self.order.peek().map(|&Reverse(key)| key as u32)
     }
 }
 
@@ -97,6 +99,7 @@ impl Wavefront {
 
     /// Foresees when the edge between two neighbours shrinks to a point.
     pub(super) fn expect_collapse(&mut self, a: usize, b: usize) {
+        self.corners[a].shrunk = f64::INFINITY;
         let (from, to) = (&self.corners[a], &self.corners[b]);
         if from.kind == CornerKind::Rushing || to.kind == CornerKind::Rushing {
             return;
@@ -107,10 +110,26 @@ impl Wavefront {
         let off = to.kind == CornerKind::Reflex;
         if let Some(when) = self.lines.nearing(lines, out != off) {
             self.expect(when, WavefrontEventKind::Collapse(short(a), short(b)));
+            if self.last.is_none_or(|last| last.high() < when.low()) {
+                self.corners[a].shrunk = when.high();
+            }
         }
     }
 
-    /// Foresees the first edge whose line a reflex corner reaches after (time, edge) `last`.
+    /// When one of the two edges of a corner has shrunk to a point, as far as is known, and the corner is over.
+    fn over(&self, index: usize) -> f64 {
+        let corner = &self.corners[index];
+        corner.shrunk.min(self.corners[corner.before].shrunk)
+    }
+
+    /// Foresees more of what a corner reaches if it lasts longer than it was to when nothing was found.
+    pub(super) fn expect_later_split(&mut self, index: usize) {
+        if self.corners[index].alive && self.over(index) > self.corners[index].foreseen_until {
+            self.expect_split(index, ANY);
+        }
+    }
+
+    /// Foresees the first edge whose line a reflex corner reaches after (time, edge) `last` and before it is over.
     ///
     /// Few of these lines are reached where the edge is, so the next ones are kept for then.
     #[allow(clippy::float_cmp, reason = "equal speeds are given as equal numbers")]
@@ -134,7 +153,9 @@ impl Wavefront {
             sorts: corner.edges.map(|edge| self.current.sort(edge)),
         };
         let shortly = course.short();
-        let mut found: [(f64, usize); FORESEEN] = [(f64::INFINITY, usize::MAX); FORESEEN];
+        let over = self.over(index);
+        let mut found: [(f64, usize); FORESEEN] = [(over, usize::MAX); FORESEEN];
+        let mut count = 0;
         for block in self.current.blocks_around(corner.edges[1]) {
             let mut within = self.current.within_reach(block, &shortly, found[FORESEEN - 1].0);
             while within > 0 {
@@ -173,7 +194,8 @@ impl Wavefront {
                 };
                 let candidate = (low, number);
                 if candidate < found[FORESEEN - 1] && candidate > last && !corner.edges.contains(&number) {
-                    let mut rank = FORESEEN - 1;
+                    let mut rank = count.min(FORESEEN - 1);
+                    count = rank + 1;
                     while rank > 0 && candidate < found[rank - 1] {
                         found[rank] = found[rank - 1];
                         rank -= 1;
@@ -183,8 +205,9 @@ impl Wavefront {
             }
         }
         let begin = self.foreseen.len();
-        self.foreseen.extend(found.into_iter().rev().filter(|candidate| candidate.1 != usize::MAX));
+        self.foreseen.extend(found[..count].iter().rev());
         self.corners[index].foreseen = begin..self.foreseen.len();
+        self.corners[index].foreseen_until = if begin == self.foreseen.len() { over } else { f64::INFINITY };
         self.expect_next_split(index);
     }
 

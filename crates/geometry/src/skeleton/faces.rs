@@ -5,7 +5,7 @@ use smallvec::SmallVec;
 
 use super::coarse::{coarsen, widen};
 use super::edge::{SkeletonEdge, metres};
-use super::wavefront::WavefrontTrace;
+use super::wavefront::{Arc, WavefrontTrace};
 use super::{Peak, Skeleton};
 use crate::planar::twice_area;
 use burgeon_base::error::{Error, Result};
@@ -15,27 +15,10 @@ const MERGED: f64 = 1e-3;
 /// How far (m) a corner may be off the plane of its face.
 const OFF_PLANE: f64 = 5e-3;
 
-/// The directed borders of a face: the two peaks of each.
-type Borders = SmallVec<[[usize; 2]; 8]>;
-
 /// Puts the faces together; fails if they are not those of a roof over `rings`.
 pub(super) fn assemble(rings: &[Vec<I64Vec2>], traced: WavefrontTrace) -> Result<Skeleton> {
     let WavefrontTrace { edges, mut peaks, arcs } = traced;
-    let mut borders: Vec<Borders> = Vec::with_capacity(edges.len());
-    let mut first = 0;
-    for ring in rings {
-        let next = |index: usize| first + (index + 1) % ring.len();
-        borders.extend((0..ring.len()).map(|index| Borders::from_iter([[first + index, next(index)]])));
-        first += ring.len();
-    }
-    for arc in &arcs {
-        let [from, to] = arc.ends;
-        if arc.edges[0] != arc.edges[1] {
-            borders[arc.edges[0]].push([from, to]);
-            borders[arc.edges[1]].push([to, from]);
-        }
-    }
-    let mut faces: Vec<Vec<usize>> = borders.into_iter().map(chain).collect::<Result<_>>()?;
+    let mut faces = chains(rings, &arcs)?;
     coarsen(&peaks, edges.len(), &edges, &mut faces);
     widen(&mut peaks, edges.len(), &edges, &faces);
     verify(rings, &edges, &peaks, &faces)?;
@@ -43,20 +26,62 @@ pub(super) fn assemble(rings: &[Vec<I64Vec2>], traced: WavefrontTrace) -> Result
     Ok(Skeleton { peaks, faces, paces })
 }
 
+/// The faces' rings, put together from the edges and the borders between them.
+fn chains(rings: &[Vec<I64Vec2>], arcs: &[Arc]) -> Result<Vec<Vec<usize>>> {
+    let arcs = || arcs.iter().filter(|arc| arc.edges[0] != arc.edges[1]);
+    // Where the borders of each face begin, in one list of all.
+    let mut begins = vec![0; rings.iter().map(Vec::len).sum::<usize>() + 1];
+    for edge in arcs().flat_map(|arc| arc.edges) {
+        begins[edge + 1] += 1;
+    }
+    let mut before = 0;
+    for begin in &mut begins {
+        before += *begin;
+        *begin = before;
+    }
+    // The edge itself is the first one.
+    let mut ends: Vec<usize> = begins.iter().enumerate().map(|(edge, begin)| begin + edge).collect();
+    let mut borders = vec![[0; 2]; before + begins.len() - 1];
+    let mut add = |edge: usize, border: [usize; 2]| {
+        borders[ends[edge]] = border;
+        ends[edge] += 1;
+    };
+    let mut first = 0;
+    for ring in rings {
+        (0..ring.len())
+            .for_each(|index| add(first + index, [first + index, first + (index + 1) % ring.len()]));
+        first += ring.len();
+    }
+    for &Arc { edges: [before, after], ends: [from, to] } in arcs() {
+        add(before, [from, to]);
+        add(after, [to, from]);
+    }
+    let mut rest = &mut borders[..];
+    let mut faces = Vec::with_capacity(begins.len() - 1);
+    for pair in begins.windows(2) {
+        let (own, others) = rest.split_at_mut(pair[1] - pair[0] + 1);
+        faces.push(chain(own)?);
+        rest = others;
+    }
+    Ok(faces)
+}
+
 /// The closed ring that directed borders form, beginning with the first of them.
-fn chain(mut borders: Borders) -> Result<Vec<usize>> {
+fn chain(borders: &mut [[usize; 2]]) -> Result<Vec<usize>> {
     // What runs both ways bounds nothing.
-    let mut index = 1;
-    while index < borders.len() {
+    let (mut index, mut count) = (1, borders.len());
+    while index < count {
         let [from, to] = borders[index];
-        match borders[index + 1..].iter().position(|&border| border == [to, from]) {
+        match borders[index + 1..count].iter().position(|&border| border == [to, from]) {
             Some(back) => {
-                borders.remove(index + 1 + back);
-                borders.remove(index);
+                borders.copy_within(index + 2 + back..count, index + 1 + back);
+                borders.copy_within(index + 1..count - 1, index);
+                count -= 2;
             }
             None => index += 1,
         }
     }
+    let borders = &mut borders[..count];
     let [first, mut at] = borders[0];
     let mut ring = Vec::with_capacity(borders.len());
     ring.push(first);
@@ -90,23 +115,28 @@ fn verify(
     let whole: f64 = rings.iter().map(|ring| twice_area(ring.iter().map(|&at| metres(at)))).sum();
     let even = edges.windows(2).all(|pair| pair[0].pace == pair[1].pace);
     let mut sum = 0.0;
+    let mut along = Vec::new();
     for (edge, face) in edges.iter().zip(faces) {
         if face.len() < 3 {
             return Err(Error::geometry("a face of the roof has no corners but its edge's"));
         }
-        if face.iter().any(|&peak| edge.ahead(peaks[peak].at, peaks[peak].time).abs() > OFF_PLANE) {
+        let corners = || face.iter().map(|&peak| &peaks[peak]);
+        if corners().any(|peak| edge.ahead(peak.at, peak.time).abs() > OFF_PLANE) {
             return Err(Error::geometry("a face of the roof is not flat"));
         }
-        let area = twice_area(face.iter().map(|&peak| peaks[peak].at));
-        // What stands upright may be off its plane by as much as borders are short.
-        let along = face.iter().map(|&peak| peaks[peak].at.dot(edge.along));
-        let (low, high) =
-            along.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), at| (low.min(at), high.max(at)));
-        if area < -MERGED * (high - low) || (edge.pace.moves() && area <= 0.0) {
-            return Err(Error::geometry("a face of the roof is turned over"));
+        let area = twice_area(corners().map(|peak| peak.at));
+        along.clear();
+        along.extend(corners().map(|peak| peak.at.dot(edge.along)));
+        if area <= 0.0 {
+            // What stands upright may be off its plane by as much as borders are short.
+            let length = along.iter().copied().fold(f64::NEG_INFINITY, f64::max)
+                - along.iter().copied().fold(f64::INFINITY, f64::min);
+            if area < -MERGED * length || edge.pace.moves() {
+                return Err(Error::geometry("a face of the roof is turned over"));
+            }
         }
         sum += area;
-        let monotone = |within| monotone(edge, peaks, face, within * MERGED);
+        let monotone = |within| is_monotone(&along, within * MERGED);
         // Peaks may stand for others that are 2 mm away, at both ends of a border.
         if !monotone(2.0) && (even && !monotone(4.0) || crosses_itself(edge, peaks, face)) {
             return Err(Error::geometry("a face of the roof overlaps itself"));
@@ -118,14 +148,13 @@ fn verify(
     Ok(())
 }
 
-/// Whether the ring goes once there and once back along its edge, but for steps `within` a length (m).
-fn monotone(edge: &SkeletonEdge, peaks: &[Peak], face: &[usize], within: f64) -> bool {
-    let along = |index: usize| peaks[face[index % face.len()]].at.dot(edge.along);
-    let mut last = 0.0f64;
-    let mut first = 0.0f64;
+/// Whether a ring of places (m) along its edge goes once there and once back, but for steps `within` a length (m).
+fn is_monotone(along: &[f64], within: f64) -> bool {
+    let (mut first, mut last) = (0.0f64, 0.0f64);
     let mut turns = 0;
-    for index in 0..face.len() {
-        let step = along(index + 1) - along(index);
+    let mut at = along[0];
+    for &next in along[1..].iter().chain(&along[..1]) {
+        let step = next - std::mem::replace(&mut at, next);
         if step.abs() > within {
             if first == 0.0 {
                 first = step;

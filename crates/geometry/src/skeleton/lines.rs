@@ -20,6 +20,9 @@ pub(super) struct MovingLine {
     pub speed: f64,
     /// How far (m) `level` may be off.
     pub slack: f64,
+    /// Whether it runs along an axis, with a level without rounding and a speed of 0 or 1: what is reckoned of such lines
+    /// alone is often as exact.
+    pub is_plain: bool,
 }
 
 /// What a line is, exactly.
@@ -75,6 +78,17 @@ pub(super) struct LineMeeting {
     pub slack: f64,
 }
 
+/// The sum of the levels (m) and the sum of the speeds of three lines, each times the cross product of the others.
+#[derive(Debug, Clone, Copy)]
+struct LineSums {
+    levels: f64,
+    speeds: f64,
+    /// How far (m) the levels of the lines may be off.
+    slack: f64,
+    /// Whether both sums are without rounding; the sum of the speeds is then no more than 2.
+    is_exact: bool,
+}
+
 /// All lines of a wavefront.
 #[derive(Debug, Default)]
 pub(super) struct MovingLines {
@@ -89,15 +103,33 @@ pub(super) struct MovingLines {
     noise: [f64; 2],
 }
 
-/// Whether the sign of a number that may be off by `slack` is known.
+/// The sign of a number that may be off by `slack`, if it is known.
 fn sign(number: f64, slack: f64) -> Option<Ordering> {
     if number > slack {
         Some(Ordering::Greater)
     } else if number < -slack {
         Some(Ordering::Less)
     } else {
-        None
+        (slack == 0.0).then_some(Ordering::Equal)
     }
+}
+
+/// Whether the sum of two numbers is one without rounding.
+///
+/// Method: D. Knuth, "The Art of Computer Programming", volume 2, 4.2.2.
+fn is_sum_exact(a: f64, b: f64) -> bool {
+    let sum = a + b;
+    let part = sum - a;
+    a - (sum - part) == 0.0 && b - part == 0.0
+}
+
+/// The vector of length 1 in a direction; along an axis without rounding.
+fn unit(way: I64Vec2) -> DVec2 {
+    if is_axis(way) { way.signum().as_dvec2() } else { way.as_dvec2().normalize_or_zero() }
+}
+
+fn is_axis(way: I64Vec2) -> bool {
+    way.x == 0 || way.y == 0
 }
 
 impl MovingLines {
@@ -115,19 +147,24 @@ impl MovingLines {
 
     /// Adds the line in `direction` through a point of the lattice, which moves from `rest` on.
     pub(super) fn add(&mut self, direction: Direction, through: I64Vec2, speed: f64, rest: f64) -> usize {
-        let normal = direction.left().0.as_dvec2().normalize_or_zero();
+        let normal = unit(direction.left().0);
         let late = if speed > 0.0 { speed * rest } else { 0.0 };
         let level = normal.dot(metres(through)) - late;
         let slack = if late > 0.0 { 4.0 * UNIT * late } else { 0.0 };
-        self.push(MovingLine { normal, level, speed, slack }, direction, LineOrigin::Edge { through, rest })
+        let fits = through.abs().max_element() < 1 << f64::MANTISSA_DIGITS;
+        let is_plain = fits && late == 0.0 && [0.0, 1.0].contains(&speed) && is_axis(direction.0);
+        let line = MovingLine { normal, level, speed, slack, is_plain };
+        self.push(line, direction, LineOrigin::Edge { through, rest })
     }
 
     /// Adds the line across another one through a place on it.
     pub(super) fn pin(&mut self, line: usize, place: &LineMeeting, when: &EventTime) -> usize {
         let direction = self.directions[line];
-        let normal = direction.0.as_dvec2().normalize_or_zero();
+        let normal = unit(direction.0);
         let level = normal.dot(place.at);
-        let pinned = MovingLine { normal, level, speed: 0.0, slack: 2.0 * place.slack };
+        let slack = 2.0 * place.slack;
+        let is_plain = slack == 0.0 && is_axis(direction.0);
+        let pinned = MovingLine { normal, level, speed: 0.0, slack, is_plain };
         // To its left is where the other line came from.
         let across = Direction(-direction.0.perp());
         self.push(pinned, across, LineOrigin::Pin { pair: place.pair, when: *when })
@@ -185,14 +222,15 @@ impl MovingLines {
         sign(cross, 32.0 * UNIT).unwrap_or_else(|| self.directions[line].turn(self.directions[other]))
     }
 
-    /// The sum of the levels and the sum of the speeds of three lines, each times the cross product of the others.
-    fn sums(&self, [l, m, n]: [usize; 3]) -> [f64; 2] {
+    /// What of three lines tells when they meet.
+    fn sums(&self, [l, m, n]: [usize; 3]) -> LineSums {
         let [l, m, n] = [l, m, n].map(|line| &self.lines[line]);
         let crosses = [m.normal.perp_dot(n.normal), n.normal.perp_dot(l.normal), l.normal.perp_dot(m.normal)];
-        [
-            l.level * crosses[0] + m.level * crosses[1] + n.level * crosses[2],
-            l.speed * crosses[0] + m.speed * crosses[1] + n.speed * crosses[2],
-        ]
+        let [one, two, three] = [l.level * crosses[0], m.level * crosses[1], n.level * crosses[2]];
+        let speeds = l.speed * crosses[0] + m.speed * crosses[1] + n.speed * crosses[2];
+        let is_plain = l.is_plain && m.is_plain && n.is_plain;
+        let is_exact = is_plain && is_sum_exact(one, two) && is_sum_exact(one + two, three);
+        LineSums { levels: one + two + three, speeds, slack: l.slack + m.slack + n.slack, is_exact }
     }
 
     /// Whether two lines are parallel and move the same way at the same speed.
@@ -220,7 +258,8 @@ impl MovingLines {
     /// near each other backwards.
     pub(super) fn nearing(&mut self, lines: [usize; 3], backwards: bool) -> Option<EventTime> {
         let sums = self.sums(lines);
-        let rate = sign(sums[1], self.noise[1]).unwrap_or_else(|| self.exact_rate(lines));
+        let noise = if sums.is_exact { 0.0 } else { self.noise[1] };
+        let rate = sign(sums.speeds, noise).unwrap_or_else(|| self.exact_rate(lines));
         let wanted = if backwards { Ordering::Less } else { Ordering::Greater };
         (rate == wanted).then(|| self.when_of(lines, sums))
     }
@@ -230,7 +269,8 @@ impl MovingLines {
         self.when_of(lines, self.sums(lines))
     }
 
-    fn when_of(&self, lines: [usize; 3], [levels, speeds]: [f64; 2]) -> EventTime {
+    fn when_of(&self, lines: [usize; 3], sums: LineSums) -> EventTime {
+        let LineSums { levels, speeds, slack, is_exact } = sums;
         #[allow(clippy::cast_possible_truncation, reason = "there are fewer lines")]
         let mut by = lines.map(|line| line as u32);
         for [a, b] in [[0, 1], [1, 2], [0, 1]] {
@@ -240,9 +280,11 @@ impl MovingLines {
         }
         let mut when = EventTime { time: -levels / speeds, slack: f64::INFINITY, by, exact: NONE };
         let rest = speeds.abs() - self.noise[1];
-        if rest > 0.0 {
-            let levels = self.noise[0] + lines.iter().map(|&line| self.lines[line].slack).sum::<f64>();
-            when.slack = (levels + when.time.abs() * self.noise[1]) / rest + 4.0 * UNIT * when.time.abs();
+        if is_exact && speeds != 0.0 {
+            when.slack = 0.0;
+        } else if rest > 0.0 {
+            when.slack = (self.noise[0] + slack + when.time.abs() * self.noise[1]) / rest
+                + 4.0 * UNIT * when.time.abs();
         }
         if when.slack.is_nan() {
             when.slack = f64::INFINITY;
@@ -301,6 +343,10 @@ impl MovingLines {
         let cross = l.normal.perp_dot(m.normal);
         let [one, two] = [l, m].map(|line| line.level + line.speed * when.time);
         let at = DVec2::new(one * m.normal.y - two * l.normal.y, two * l.normal.x - one * m.normal.x) / cross;
+        let is_exact = |line: &MovingLine| is_sum_exact(line.level, line.speed * when.time);
+        if l.is_plain && m.is_plain && when.slack == 0.0 && is_exact(l) && is_exact(m) {
+            return LineMeeting { pair, at, slack: 0.0 };
+        }
         let off = self.noise[0] + l.slack + m.slack + (l.speed + m.speed) * when.slack;
         let slack = off / (cross.abs() - 32.0 * UNIT).max(0.0);
         LineMeeting { pair, at, slack: if slack.is_nan() { f64::INFINITY } else { slack } }
@@ -332,8 +378,9 @@ impl MovingLines {
     /// Whether two places at one time are one. Exact.
     pub(super) fn is_one(&mut self, a: &LineMeeting, b: &LineMeeting, when: &mut EventTime) -> bool {
         let apart = (a.at - b.at).abs().max_element();
-        if apart > a.slack + b.slack {
-            return false;
+        let near = a.slack + b.slack;
+        if apart > near || near == 0.0 {
+            return apart == 0.0;
         }
         // The lines that meet at this time do so in one place.
         let mut lines = a.pair.iter().chain(&b.pair);
@@ -352,7 +399,8 @@ impl MovingLines {
         when: &mut EventTime,
     ) -> Ordering {
         let way = -self.lines[line].normal.perp();
-        let near = 2.0 * (a.slack + b.slack) + self.noise[0];
+        let slack = a.slack + b.slack;
+        let near = if slack == 0.0 && self.lines[line].is_plain { 0.0 } else { 2.0 * slack + self.noise[0] };
         sign(way.dot(a.at) - way.dot(b.at), near).unwrap_or_else(|| {
             if self.is_one(a, b, when) {
                 return Ordering::Equal;
@@ -361,5 +409,54 @@ impl MovingLines {
             let [a, b] = [a, b].map(|place| self.exact_place(place.pair, when));
             a.compare_along(&b, direction)
         })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    /// A line along an axis, from few of them, so that many meet at one time.
+    fn plain() -> impl Strategy<Value = (Direction, I64Vec2, f64)> {
+        let at = prop_oneof![(-4..4i64).prop_map(|at| at << 31), -(1i64 << 54)..1 << 54];
+        (0..4usize, at.clone(), at, 0..3u8).prop_map(|(turn, x, y, speed)| {
+            let way = [(1, 0), (0, 1), (-1, 0), (0, -1)][turn];
+            (Direction(I64Vec2::from(way)), I64Vec2::new(x, y), f64::from(speed.min(1)))
+        })
+    }
+
+    proptest! {
+        #[test]
+        fn what_is_told_without_rounding_is_what_fractions_tell(given in prop::array::uniform6(plain())) {
+            let mut lines = MovingLines::default();
+            lines.begin(2f64.powi(23), 1.0);
+            let numbers = given.map(|(direction, through, speed)| lines.add(direction, through, speed, 0.0));
+            let mut met = Vec::new();
+            for triple in [[0, 1, 2], [3, 4, 5], [0, 2, 4], [1, 3, 5]].map(|of| of.map(|index| numbers[index])) {
+                let sums = lines.sums(triple);
+                let rate = exact::rate({ lines.exactly(&triple); lines.known(triple) }).sign();
+                if sums.is_exact {
+                    prop_assert_eq!(sign(sums.speeds, 0.0), Some(rate));
+                }
+                if rate != Ordering::Equal {
+                    met.push(lines.when(triple));
+                }
+            }
+            for mut when in met.clone() {
+                for mut other in met.clone() {
+                    let quick = lines.compare(&mut { when }, &mut { other });
+                    let [one, two] = [lines.ratio(&mut when), lines.ratio(&mut other)];
+                    prop_assert_eq!(quick, lines.times[one].compare(&lines.times[two]));
+                }
+                for pair in [[0, 1], [2, 3], [4, 5]].map(|of| of.map(|index| numbers[index])) {
+                    if lines.turn(pair[0], pair[1]) != Ordering::Equal {
+                        let place = lines.place(pair, &when);
+                        let exact = lines.exact_place(pair, &mut when);
+                        prop_assert!(place.slack > 0.0 || place.at == exact.metres());
+                    }
+                }
+            }
+        }
     }
 }

@@ -99,17 +99,10 @@ impl Wavefront {
     }
 
     /// Makes the new wavefront of what the spots' corners and edges meet, until nothing more happens at this time.
-    pub(super) fn resolve(&mut self, when: &mut EventTime) -> Result<()> {
+    pub(super) fn resolve(&mut self, lists: &mut MeetingLists, when: &mut EventTime) -> Result<()> {
         self.lines.settle(when, FINE);
         self.last = Some(*when);
         self.now = when.low();
-        let mut lists = std::mem::take(&mut self.lists);
-        let done = self.resolve_with(&mut lists, when);
-        self.lists = lists;
-        done
-    }
-
-    fn resolve_with(&mut self, lists: &mut MeetingLists, when: &mut EventTime) -> Result<()> {
         for _ in 0..=self.corners.len() {
             self.pair_anew(lists, when)?;
             self.close(&lists.fresh, when);
@@ -180,6 +173,9 @@ impl Wavefront {
 
     /// Joins the spots whose places are one.
     fn join_same(&mut self, order: &mut Vec<usize>, when: &mut EventTime) {
+        if (1..self.spots.len()).all(|spot| self.leader(spot) == 0) {
+            return;
+        }
         order.clear();
         order.extend(0..self.spots.len());
         let low = |spot: &EventPoint| spot.place.at.x - spot.place.slack;

@@ -54,6 +54,10 @@ pub(super) struct WavefrontCorner {
     /// Where the lines that it may reach after the one that it is expected to reach next are among those that have been
     /// foreseen, the last one first.
     pub foreseen: Range<usize>,
+    /// Until when all that it may reach has been foreseen, if that was nothing.
+    pub foreseen_until: f64,
+    /// When the edge after it has shrunk to a point at the latest, as things are.
+    pub shrunk: f64,
     /// The corner before it where a piece of the same edge began.
     pub older: Option<usize>,
 }
@@ -93,7 +97,6 @@ pub(super) struct Wavefront {
     /// The numbers of the events that are next.
     pub ties: SmallVec<[u32; 8]>,
     pub spots: Vec<EventPoint>,
-    pub lists: MeetingLists,
     /// When the last thing happened, and that or a little before.
     pub last: Option<EventTime>,
     pub now: f64,
@@ -104,21 +107,22 @@ pub(super) struct Wavefront {
 }
 
 thread_local! {
-    /// The last wavefront of the thread, whose memory the next one uses again: a city has tens of thousands.
-    static SPARE: Cell<Option<Box<Wavefront>>> = const { Cell::new(None) };
+    /// The last wavefront of the thread and its lists, whose memory the next one uses again: a city has tens of thousands.
+    static SPARE: Cell<Option<Box<(Wavefront, MeetingLists)>>> = const { Cell::new(None) };
 }
 
 /// Moves all edges inwards until the polygon is used up.
 pub(super) fn propagate(rings: &[Vec<I64Vec2>], paces: &[Pace]) -> Result<WavefrontTrace> {
-    let mut front = SPARE.take().unwrap_or_default();
-    let done = front.run(rings, paces);
+    let mut spare = SPARE.take().unwrap_or_default();
+    let (front, lists) = &mut *spare;
+    let done = front.run(rings, paces, lists);
     let traced = std::mem::take(&mut front.traced);
-    SPARE.set(Some(front));
+    SPARE.set(Some(spare));
     done.map(|()| traced)
 }
 
 impl Wavefront {
-    fn run(&mut self, rings: &[Vec<I64Vec2>], paces: &[Pace]) -> Result<()> {
+    fn run(&mut self, rings: &[Vec<I64Vec2>], paces: &[Pace], lists: &mut MeetingLists) -> Result<()> {
         self.begin(rings, paces)?;
         for _ in 0..16 * paces.len() + 64 {
             let Some(mut when) = self.gather() else {
@@ -128,7 +132,7 @@ impl Wavefront {
                 self.move_on()?;
                 continue;
             };
-            self.resolve(&mut when)?;
+            self.resolve(lists, &mut when)?;
         }
         Err(Error::geometry("the wavefront does not end"))
     }
@@ -221,6 +225,8 @@ impl Wavefront {
         }
         for corner in 0..count {
             self.expect_collapse(corner, self.corners[corner].after);
+        }
+        for corner in 0..count {
             self.expect_split(corner, ANY);
             let Pace { speed, rest } = self.traced.edges[corner].pace;
             if speed > 0.0 && rest > 0.0 && rest.is_finite() {
@@ -280,6 +286,8 @@ impl Wavefront {
             alive: true,
             spot: usize::MAX,
             foreseen: 0..0,
+            foreseen_until: f64::INFINITY,
+            shrunk: f64::INFINITY,
             older: self.pieces[edges[1]].replace(index),
         });
         self.alive[edges[1]] += 1;
@@ -402,7 +410,15 @@ impl Wavefront {
                 if after < fresh[0] {
                     self.expect_collapse(index, after);
                 }
+            }
+        }
+        for &index in fresh {
+            let WavefrontCorner { alive, before, after, .. } = self.corners[index];
+            if alive {
                 self.expect_split(index, ANY);
+                for beside in [before, after] {
+                    self.expect_later_split(beside);
+                }
             }
         }
     }
@@ -420,4 +436,4 @@ impl Wavefront {
 /// Edges that begin to move as nothing else does so at a time of which there are so many to a metre.
 const STEPS: f64 = 64.0;
 /// Before all that may happen.
-const ANY: (f64, usize) = (f64::NEG_INFINITY, 0);
+pub(super) const ANY: (f64, usize) = (f64::NEG_INFINITY, 0);
