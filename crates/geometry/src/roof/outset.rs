@@ -143,7 +143,8 @@ fn shrunk(corners: &[WallCorner], distances: &[f64]) -> Vec<(usize, f64)> {
         }
         let end = &corners[corner.next];
         let old = end.at - corner.at;
-        if old.dot(end.moved - corner.moved) > 1e-3 {
+        // What is short from the beginning may stay so.
+        if old.dot(end.moved - corner.moved) > 1e-3_f64.min(old.length_squared() / 4.0) {
             continue;
         }
         let (mut longer, mut shorter, mut guilty) = (0.0, 0.0, Vec::new());
@@ -234,4 +235,26 @@ fn moved(walls: &Polygon, corners: &[WallCorner]) -> Option<Polygon> {
     let mut rest = corners.iter().map(|corner| corner.moved);
     let rings = walls.iter().map(|ring| rest.by_ref().take(ring.len()).collect());
     Polygon::new(rings.collect::<Rings<DVec2>>()).ok()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_notch_that_is_all_but_filled_takes_the_overhang_of_its_own_edges_alone() {
+        for width in [0.2, 0.05, 0.02, 0.012] {
+            let notch = [(11.0, 12.0), (11.0, 9.0), (11.0 - width, 9.0), (11.0 - width, 12.0)];
+            let ring: Vec<DVec2> = [&[(0.0, 0.0), (20.0, 0.0), (20.0, 12.0)], &notch[..], &[(0.0, 12.0)]]
+                .concat()
+                .into_iter()
+                .map(DVec2::from)
+                .collect();
+            let walls = Polygon::new(vec![ring]).expect("a polygon");
+            let outset = Outset::new(&walls, vec![0.4; 8], |_| false);
+            for edge in [0, 1, 2, 6, 7] {
+                assert_eq!(outset.distances[edge], 0.4, "edge {edge} of {width}: {:?}", outset.distances);
+            }
+        }
+    }
 }
