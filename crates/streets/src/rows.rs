@@ -9,6 +9,7 @@ use crate::network::PieceId;
 use crate::profile::StreetProfiles;
 use crate::shape::{ArmShape, StreetShapes};
 use crate::surface::{Median, StreetSurface};
+use burgeon_geometry::Line;
 
 /// The chords of a quarter of the round end of a median.
 const NOSE: u32 = 4;
@@ -269,7 +270,7 @@ impl<'a> PieceRows<'a> {
         for line in &mut open {
             line.dedup_by(|a, b| a.distance(*b) < 1e-9);
         }
-        median.kerbs = open;
+        median.kerbs = open.into_iter().filter_map(Line::without_repeats).collect();
         Some(median)
     }
 

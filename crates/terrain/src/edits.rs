@@ -17,7 +17,7 @@ use super::local_edits::LocalEdits;
 use super::view::DEEPEST;
 use super::world::World;
 use burgeon_base::error::{Error, Result};
-use burgeon_geometry::planar::contains;
+use burgeon_geometry::planar::{contains, foot};
 
 /// A change of the ground.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -372,10 +372,9 @@ pub(super) fn to_line(points: &[[f64; 2]], place: DVec2, closed: bool) -> (f64, 
     let count = if closed { points.len() } else { points.len().saturating_sub(1) };
     let mut best = (f64::INFINITY, 0, 0.0);
     for piece in 0..count {
-        let (from, to) = (DVec2::from(points[piece]), DVec2::from(points[(piece + 1) % points.len()]));
-        let way = to - from;
-        let along = ((place - from).dot(way) / way.length_squared().max(1e-300)).clamp(0.0, 1.0);
-        let distance = place.distance(from + way * along);
+        let edge = [points[piece], points[(piece + 1) % points.len()]].map(DVec2::from);
+        let along = foot(edge, place);
+        let distance = place.distance(edge[0] + (edge[1] - edge[0]) * along);
         if distance < best.0 {
             best = (distance, piece, along);
         }

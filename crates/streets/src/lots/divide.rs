@@ -7,7 +7,7 @@ use super::measure::{FrontRun, extent};
 use super::options::{LotOptions, LotPattern};
 use super::partition::{CellId, CornerId, Cut, Partition};
 use crate::network::PieceId;
-use burgeon_geometry::Rings;
+use burgeon_geometry::{Line, Rings};
 
 /// What a part of a block is for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -49,7 +49,7 @@ pub struct Lot {
     /// Its area (m²).
     pub area: f64,
     /// Where it is on streets (m), with the lot on the left: its front first.
-    pub fronts: Vec<Vec<DVec2>>,
+    pub fronts: Vec<Line>,
     /// The length (m) of its front.
     pub front_length: f64,
     /// The piece of a street that its front is on.
@@ -211,7 +211,7 @@ impl Division<'_> {
             depth: behind,
             is_corner,
             elongation: self.partition.box_around(rings).map_or(1.0, |around| around.elongation()),
-            fronts: fronts.into_iter().map(|front| front.points).collect(),
+            fronts: fronts.into_iter().filter_map(|front| Line::without_repeats(front.points)).collect(),
         }
     }
 }
