@@ -101,7 +101,7 @@
 #![recursion_limit = "256"]
 
 pub use burgeon_base::{
-    Budget, Error, MemoryReservation, Result, Stop, Warning, WarningKind, error, text, warning,
+    Budget, Error, MemoryReservation, Result, Stop, Warning, WarningKind, error, locks, text, warning,
 };
 pub use burgeon_data as sources;
 pub use burgeon_engine::run::{Run, RunTimes, ScriptCheck, check, check_package, run, run_session};

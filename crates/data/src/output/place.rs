@@ -36,7 +36,7 @@ impl<'a> Outward<'a> {
 
     fn of(frame: Option<&'a ReferenceFrame>, other: impl Fn(&ReferenceFrame) -> u32) -> Result<Self> {
         let Some(frame) = frame else { return Ok(Self { code: None, passage: None }) };
-        let crs = Crs::epsg(frame.epsg().map_or_else(|| other(frame), u32::from))?;
+        let crs = Crs::epsg(frame.epsg.map_or_else(|| other(frame), u32::from))?;
         Ok(Self { code: crs.code, passage: Some(frame.passage(&crs)?) })
     }
 

@@ -1,12 +1,13 @@
 //! Answers that are kept, so that the same question is asked once.
 
 use std::sync::atomic::{AtomicUsize, Ordering};
-use std::sync::{Arc, Mutex, OnceLock, PoisonError};
+use std::sync::{Arc, Mutex, OnceLock};
 
 use rustc_hash::FxHashMap;
 
 use super::{Question, RowSource, Rows};
 use burgeon_base::error::Result;
+use burgeon_base::locks::LockRecovery;
 
 /// The values of answers that are kept from step to step.
 const MOST: usize = 2_000_000;
@@ -43,7 +44,7 @@ impl KeptRows {
     /// The answer to `question`.
     pub(crate) fn ask(&self, question: &Question, asked: &AskedRows<'_>) -> Result<Arc<Rows>> {
         let slot = {
-            let mut known = self.known.lock().unwrap_or_else(PoisonError::into_inner);
+            let mut known = self.known.lock().recover();
             let kept = known
                 .entry(question.clone())
                 .or_insert_with(|| KeptAnswer { slot: Slot::default(), stays: false });
@@ -65,12 +66,12 @@ impl KeptRows {
 
     /// The same in words.
     pub(crate) fn note_answer(&self, place: usize, text: String) {
-        self.noted.lock().unwrap_or_else(PoisonError::into_inner).push((place, text));
+        self.noted.lock().recover().push((place, text));
     }
 
     /// What was noted in the step at hand, by place; of each in the order in which it was asked.
     pub(crate) fn take_noted(&self) -> Vec<(usize, String)> {
-        let mut noted = std::mem::take(&mut *self.noted.lock().unwrap_or_else(PoisonError::into_inner));
+        let mut noted = std::mem::take(&mut *self.noted.lock().recover());
         noted.sort_by_key(|(place, _)| *place);
         // Several guards often ask the same.
         noted.dedup();
@@ -80,7 +81,7 @@ impl KeptRows {
     /// Forgets answers once they are many. Nobody is asking.
     pub(crate) fn forget_many(&self) {
         if self.values.load(Ordering::Relaxed) > MOST {
-            self.known.lock().unwrap_or_else(PoisonError::into_inner).retain(|_, kept| kept.stays);
+            self.known.lock().recover().retain(|_, kept| kept.stays);
             self.values.store(0, Ordering::Relaxed);
         }
     }

@@ -34,7 +34,7 @@ pub struct Search {
     pub symbols: usize,
     /// The most rounds.
     pub rounds: usize,
-    /// The error that is small enough to stop.
+    /// The error that is small enough to stop, as a part of the target's range of heights.
     pub enough: f64,
     /// How many rounds without a better table are enough to stop.
     pub patience: usize,

@@ -3,7 +3,7 @@
 use std::fs::File;
 use std::io::{Read, Seek, SeekFrom};
 use std::sync::atomic::{AtomicUsize, Ordering};
-use std::sync::{Mutex, OnceLock, PoisonError};
+use std::sync::{Mutex, OnceLock};
 
 use flate2::{Decompress, FlushDecompress, Status};
 
@@ -11,6 +11,7 @@ use super::wire::{WireDamage, WireField, WireFields};
 use crate::formats::packed::{DEFLATED, can_hold};
 use burgeon_base::budget::Budget;
 use burgeon_base::error::{Error, Result};
+use burgeon_base::locks::LockRecovery;
 
 /// The most bytes of a blob's header, and of a blob, packed or not, that the format allows.
 const LARGEST_HEADER: usize = 64 << 10;
@@ -86,7 +87,7 @@ impl BlobFile {
     /// The kind of the blob whose header is at `at`, where it begins and how long it is; none at the end.
     fn head(&self, at: u64, budget: &Budget) -> Result<Option<(Vec<u8>, u64, usize)>> {
         budget.tick()?;
-        let mut file = self.file.lock().unwrap_or_else(PoisonError::into_inner);
+        let mut file = self.file.lock().recover();
         let ends = |_| self.damaged(&format!("the blob at byte {at} is cut short"));
         let end = file.seek(SeekFrom::End(0)).map_err(ends)?;
         if at == end {
@@ -148,7 +149,7 @@ impl BlobFile {
         }
         let mut packed = vec![0; blob.size];
         {
-            let mut file = self.file.lock().unwrap_or_else(PoisonError::into_inner);
+            let mut file = self.file.lock().recover();
             let read = file.seek(SeekFrom::Start(blob.at)).and_then(|_| file.read_exact(&mut packed));
             read.map_err(|error| self.damaged(&error.to_string()))?;
         }
