@@ -162,6 +162,21 @@ impl ReferenceFrame {
     }
 
     /// The frame that suits best what lies around the point `x`, `y` of `crs`, and is called `shown`.
+    ///
+    /// ```
+    /// use burgeon_data::{Crs, ReferenceFrame};
+    ///
+    /// // Finland's projection has its middle at 27 degrees east, where its metres say 500,000.
+    /// let frame = ReferenceFrame::around(&Crs::epsg(3067)?, [500_040.0, 6_671_460.0], "a place")?;
+    /// assert_eq!((frame.epsg, frame.origin), (Some(3067), [500_000.0, 6_671_500.0]));
+    /// let degrees = Crs::epsg(4326)?;
+    /// let passage = frame.passage(&degrees)?;
+    /// let [x, y] = passage.enter([27.0, 60.18]);
+    /// assert!(x.abs() < 1e-6);
+    /// let back = passage.leave([x, y]);
+    /// assert!((back[0] - 27.0).abs() < 1e-9 && (back[1] - 60.18).abs() < 1e-9);
+    /// # Ok::<(), burgeon_base::error::Error>(())
+    /// ```
     pub fn around(crs: &Crs, [x, y]: [f64; 2], shown: &str) -> Result<Self> {
         let source = crs.projection()?;
         let (name, definition, middle, epsg) = if crs.is_true() {

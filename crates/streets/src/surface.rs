@@ -87,6 +87,23 @@ impl StreetNetwork {
     }
 
     /// The blocks: for each face its rings (m), the outer one counter-clockwise first, inside of the sidewalks.
+    ///
+    /// ```
+    /// use burgeon_geometry::Polygon;
+    /// use burgeon_streets::{Constraints, Obstacles, StreetAttributes, StreetNetwork, SurfaceOptions};
+    /// use glam::DVec2;
+    ///
+    /// let mut network = StreetNetwork::new(Constraints { corner: 0.0, ..Constraints::default() }, Obstacles::default())?;
+    /// let street = StreetAttributes { width: 20.0, ..StreetAttributes::default() };
+    /// let mut end = network.begin(DVec2::ZERO)?;
+    /// for to in [(200.0, 0.0), (200.0, 200.0), (0.0, 200.0), (0.0, 0.0)] {
+    ///     end = network.grow(end, DVec2::from(to), street)?.end;
+    /// }
+    /// let blocks = network.blocks(SurfaceOptions::default());
+    /// assert_eq!(blocks.len(), 1);
+    /// assert!((Polygon::new(blocks[0].clone())?.area() - 180.0 * 180.0).abs() < 1e-6);
+    /// # Ok::<(), burgeon_base::error::Error>(())
+    /// ```
     pub fn blocks(&self, options: SurfaceOptions) -> Vec<Rings<DVec2>> {
         self.blocks_at(options, &StreetProfiles::default()).iter().map(Rings::flat).collect()
     }

@@ -80,6 +80,24 @@ impl StreetBlock {
     /// makes its lots independent of all others.
     ///
     /// The lots are disjoint and fill the block; those to be built on have a front of at least the least width.
+    ///
+    /// ```
+    /// use burgeon_geometry::Rings;
+    /// use burgeon_streets::{Constraints, LotOptions, LotUse, Obstacles, StreetNetwork};
+    /// use glam::DVec2;
+    ///
+    /// // Without streets every edge of a block is on one.
+    /// let network = StreetNetwork::new(Constraints::default(), Obstacles::default())?;
+    /// let ring = [(0.0, 0.0), (120.0, 0.0), (120.0, 60.0), (0.0, 60.0)].map(DVec2::from);
+    /// let block = network.block(None, &Rings(vec![ring.to_vec()]), f64::INFINITY).expect("an area");
+    /// let options = LotOptions::new(20.0, 30.0);
+    /// let lots = block.divide(&options, &mut || 0.5);
+    /// assert!(lots.len() >= 8);
+    /// assert!((lots.iter().map(|lot| lot.area).sum::<f64>() - 7200.0).abs() < 1e-6);
+    /// let mut built = lots.iter().filter(|lot| lot.purpose == LotUse::Building);
+    /// assert!(built.all(|lot| lot.front_length >= options.min_width && lot.fronts[0].length() == lot.front_length));
+    /// # Ok::<(), burgeon_base::error::Error>(())
+    /// ```
     pub fn divide(&self, options: &LotOptions, random: &mut dyn FnMut() -> f64) -> Vec<Lot> {
         let is_park = random() < options.parks;
         let Some(partition) = Partition::new(&self.rings, &self.edge_sides) else { return Vec::new() };
