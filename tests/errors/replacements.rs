@@ -1,6 +1,6 @@
 //! Packages that replace files of others.
 
-use crate::packages::{about, castle, prints, refused};
+use crate::packages::{SCRIPT, about, castle, prints, refused};
 use crate::support::Folder;
 
 #[test]

@@ -2,6 +2,7 @@
 
 use insta::assert_snapshot;
 
+use crate::networks::grown;
 use crate::support::{printed, refused};
 use crate::warnings::warned;
 

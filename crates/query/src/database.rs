@@ -11,7 +11,7 @@ use crate::ask;
 use crate::cell::{Cell, QueryAnswer};
 use crate::connection::{AttachedFile, DatabaseLink, Indexes, MOST_FILES, TableView, open_memory};
 use crate::errors;
-use crate::rewrite::{self, Catalogue, Dialect, Rewritten, TableInfo};
+use crate::rewrite::{self, Catalogue, Dialect, RewrittenQuery, TableInfo};
 use crate::tables::{self, FileLayer};
 use burgeon_base::budget::Budget;
 use burgeon_base::error::{Error, Result};
@@ -25,7 +25,7 @@ const STATEMENTS: usize = 500;
 /// The number of the next database's memory, which all of the process share.
 static MEMORIES: AtomicUsize = AtomicUsize::new(0);
 
-/// TableSet of features, and questions that are put to them in SQL.
+/// Tables of features, and questions that are put to them in SQL.
 ///
 /// Threads may ask at the same time. In statements, coordinates are those of the run's projection; what comes in and goes
 /// out is in metres around the run's origin.
@@ -73,7 +73,7 @@ pub(crate) struct PreparedStatement {
     /// As it was written.
     pub original: String,
     /// As it was rewritten, if it could be read.
-    pub rewritten: Option<Rewritten>,
+    pub rewritten: Option<RewrittenQuery>,
     /// What is known of its columns and parameters, once it was asked.
     pub shape: OnceLock<StatementShape>,
 }
@@ -245,7 +245,7 @@ impl Database {
         let tables = self.tables.read().recover();
         let error = match failure {
             ask::QueryFailure::Told(error) => error,
-            ask::QueryFailure::Sqlite(error) => errors::told(&error, sql, &tables.catalogue),
+            ask::QueryFailure::Sqlite(error) => errors::statement_error(&error, sql, &tables.catalogue),
         };
         let row = link.state.take_unreadable().and_then(|bytes| {
             let asked = tables.catalogue.values().filter(|table| names_table(sql, &table.name));
@@ -319,8 +319,9 @@ impl Database {
         });
         let (table, column) =
             found.ok_or_else(|| Error::internal(format!("no index can be made for {name}")))?;
-        let built = tables::index(&link.connection, table, column, nearest, budget)
-            .map_err(|error| errors::or_sqlite(error, |error| errors::told(error, "", catalogue)))?;
+        let built = tables::index(&link.connection, table, column, nearest, budget).map_err(|error| {
+            errors::or_sqlite(error, |error| errors::statement_error(error, "", catalogue))
+        })?;
         let mut indexes = self.indexes.write().recover();
         indexes.insert(name.to_owned(), Arc::new(built));
         Ok(())

@@ -192,7 +192,7 @@ struct EditRecord {
 /// A file of edits.
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-struct File {
+struct EditsFile {
     format: String,
     world: WorldStamp,
     cells: BTreeMap<String, Vec<EditRecord>>,
@@ -279,13 +279,13 @@ impl Edits {
     /// The text of a file that holds them.
     pub fn to_json(&self, world: &World) -> String {
         let cells = self.cells.iter().map(|((level, y, x), kept)| (format!("{level}/{x}/{y}"), kept.clone()));
-        let file = File { format: FORMAT.into(), world: WorldStamp::of(world), cells: cells.collect() };
+        let file = EditsFile { format: FORMAT.into(), world: WorldStamp::of(world), cells: cells.collect() };
         serde_json::to_string_pretty(&file).unwrap_or_default() + "\n"
     }
 
     /// Reads the text of a file called `name`, which holds edits of `world`.
     pub fn from_json(text: &str, name: &str, world: &World) -> Result<Self> {
-        let file: File = serde_json::from_str(text).map_err(|error| {
+        let file: EditsFile = serde_json::from_str(text).map_err(|error| {
             Error::data(format!("{name} holds no edits of a terrain: {error}"))
                 .help("such a file is written by burgeon run --edits FILE")
         })?;

@@ -15,7 +15,7 @@ use super::param::Param;
 use super::positions::RandomPositions;
 use super::scripts::{ScriptFiles, SourceFile, read_stdlib, unreadable};
 use super::types::DeclaredTypes;
-use crate::questions::{AskedRows, KeptRows, Question, RowSource, Rows};
+use crate::questions::{AskedRows, Question, RowCache, RowSource, Rows};
 use burgeon_base::error::{Error, Result};
 use burgeon_base::locks::LockRecovery;
 use burgeon_base::stop::Stop;
@@ -89,7 +89,7 @@ pub struct Session {
     /// The data files that were read.
     pub(crate) data: Data,
     /// What was asked of them.
-    pub(crate) rows: KeptRows,
+    pub(crate) rows: RowCache,
     /// How far its random numbers have got.
     pub(crate) drawn: RandomPositions,
     /// The types of objects that scripts have declared, and the methods that they have added to others.
@@ -109,7 +109,7 @@ pub struct Session {
     randoms: AtomicBool,
     /// Whether modules have been made that stand for others.
     pending: AtomicBool,
-    peeking: AtomicBool,
+    inspects_tables: AtomicBool,
     metatables: AtomicBool,
     kept: Mutex<Vec<f64>>,
 }
@@ -142,7 +142,7 @@ impl Session {
             packages,
             used: Mutex::default(),
             data: Data::default(),
-            rows: KeptRows::default(),
+            rows: RowCache::default(),
             drawn: RandomPositions::default(),
             declared: Mutex::default(),
             stdlib,
@@ -156,7 +156,7 @@ impl Session {
             shapes: Arc::default(),
             randoms: AtomicBool::new(false),
             pending: AtomicBool::new(false),
-            peeking: AtomicBool::new(false),
+            inspects_tables: AtomicBool::new(false),
             metatables: AtomicBool::new(false),
             kept: Mutex::default(),
         }))
@@ -256,8 +256,8 @@ impl Session {
     }
 
     /// Whether any file of the script could tell a table that is made later from one that is there.
-    pub(crate) fn peeks(&self) -> bool {
-        self.peeking.load(Ordering::Acquire)
+    pub(crate) fn inspects_tables(&self) -> bool {
+        self.inspects_tables.load(Ordering::Acquire)
     }
 
     /// Whether the functions that begin in a line of a file leave nothing behind.
@@ -327,7 +327,7 @@ impl Session {
     pub(crate) fn note(&self, analysis: &Analysis) {
         self.randoms.fetch_or(analysis.random, Ordering::AcqRel);
         self.metatables.fetch_or(has_metatables(&analysis.text), Ordering::AcqRel);
-        self.peeking.fetch_or(super::analysis::peeks(&analysis.text), Ordering::AcqRel);
+        self.inspects_tables.fetch_or(super::analysis::inspects_tables(&analysis.text), Ordering::AcqRel);
     }
 
     /// Notes that a module has been made that stands for others.

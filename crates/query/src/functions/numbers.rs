@@ -5,13 +5,13 @@ use rusqlite::functions::{Context, FunctionFlags};
 use rusqlite::types::{Value, ValueRef};
 
 /// A function of one number, by its name.
-type OfOne = (&'static str, fn(f64) -> f64);
+type NumberFunction = (&'static str, fn(f64) -> f64);
 
 /// A function of two.
 type OfTwo = (&'static str, fn(f64, f64) -> f64);
 
 /// Those of one number.
-const OF_ONE: [OfOne; 24] = [
+const OF_ONE: [NumberFunction; 24] = [
     ("acos", f64::acos),
     ("acosh", f64::acosh),
     ("asin", f64::asin),

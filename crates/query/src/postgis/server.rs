@@ -182,7 +182,7 @@ impl Server {
                 budget.check().err().unwrap_or_else(|| match failure {
                     ServerFailure::Told(error) => error,
                     ServerFailure::Server(error, asked) => {
-                        told(&self.address, &error, (sql, &asked), &known.catalogue)
+                        server_error(&self.address, &error, (sql, &asked), &known.catalogue)
                     }
                 })
             })?;
@@ -241,7 +241,7 @@ impl Server {
                         .help("run there: CREATE EXTENSION postgis")
                 }
                 ServerFailure::Server(error, asked) => {
-                    told(&self.address, &error, ("", &asked), &Catalogue::new())
+                    server_error(&self.address, &error, ("", &asked), &Catalogue::new())
                 }
             })?;
         Ok(self.known.get_or_init(|| ServerTables::read(&answer.rows)))

@@ -160,8 +160,8 @@ impl BlobFile {
         })?;
         let _held = budget.hold(size * (AROUND + 1))?;
         let bytes = match content {
-            Content::Plain(bytes) => bytes.to_vec(),
-            Content::Deflated(bytes) => inflate(bytes, size).map_err(wrong)?,
+            BlobContent::Plain(bytes) => bytes.to_vec(),
+            BlobContent::Deflated(bytes) => inflate(bytes, size).map_err(wrong)?,
         };
         let result = work(&bytes)?;
         let before = self.kept.fetch_add(size, Ordering::Relaxed);
@@ -173,13 +173,16 @@ impl BlobFile {
     }
 
     /// What a blob holds and how many bytes that are unpacked; or by what it is packed, if that is not read.
-    fn content<'a>(&self, blob: &'a [u8]) -> Result<Result<(Content<'a>, usize), &'static str>, WireDamage> {
+    fn content<'a>(
+        &self,
+        blob: &'a [u8],
+    ) -> Result<Result<(BlobContent<'a>, usize), &'static str>, WireDamage> {
         let (mut content, mut size) = (None, None);
         for field in WireFields(blob) {
             match field? {
-                (1, field) => content = Some(Content::Plain(field.bytes()?)),
+                (1, field) => content = Some(BlobContent::Plain(field.bytes()?)),
                 (2, field) => size = Some(field.number()?),
-                (3, field) => content = Some(Content::Deflated(field.bytes()?)),
+                (3, field) => content = Some(BlobContent::Deflated(field.bytes()?)),
                 (4, WireField::Bytes(_)) => return Ok(Err("LZMA")),
                 (5, WireField::Bytes(_)) => return Ok(Err("bzip2")),
                 (6, WireField::Bytes(_)) => return Ok(Err("LZ4")),
@@ -189,8 +192,8 @@ impl BlobFile {
         }
         let content = content.ok_or("holds nothing")?;
         let size = match content {
-            Content::Plain(bytes) => bytes.len(),
-            Content::Deflated(packed) => {
+            BlobContent::Plain(bytes) => bytes.len(),
+            BlobContent::Deflated(packed) => {
                 let size =
                     size.and_then(|size| usize::try_from(size).ok()).ok_or("does not tell its size")?;
                 if size > LARGEST || !can_hold(packed.len(), DEFLATED, size) {
@@ -222,7 +225,7 @@ impl BlobFile {
     }
 }
 
-enum Content<'a> {
+enum BlobContent<'a> {
     Plain(&'a [u8]),
     Deflated(&'a [u8]),
 }

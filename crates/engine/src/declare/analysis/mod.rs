@@ -10,8 +10,8 @@ mod expressions;
 mod files;
 mod held;
 mod inference;
+mod inspection;
 mod own_types;
-mod peeks;
 mod prepare;
 mod pure;
 mod queries;
@@ -20,7 +20,7 @@ mod syntax;
 mod walk;
 
 pub(crate) use files::{CheckedFile, call_problems};
-pub(crate) use peeks::peeks;
+pub(crate) use inspection::inspects_tables;
 pub(crate) use pure::has_metatables;
 pub(crate) use queries::QueryCall;
 pub(crate) use script::{Analysis, Globals, ScriptReader, analyse, unmarked};

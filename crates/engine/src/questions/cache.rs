@@ -18,14 +18,14 @@ type Slot = Arc<OnceLock<Result<Arc<Rows>>>>;
 /// The answers of a run, by question. What the top level of the script asks is kept to its end, since every virtual
 /// machine is to see the same.
 #[derive(Default)]
-pub(crate) struct KeptRows {
-    known: Mutex<FxHashMap<Question, KeptAnswer>>,
+pub(crate) struct RowCache {
+    known: Mutex<FxHashMap<Question, CacheEntry>>,
     /// The places of modules whose rules have asked data or geometries in the step at hand, and what; in words.
     noted: Mutex<Vec<(usize, String)>>,
     values: AtomicUsize,
 }
 
-struct KeptAnswer {
+struct CacheEntry {
     slot: Slot,
     stays: bool,
 }
@@ -40,14 +40,14 @@ pub(crate) struct AskedRows<'a> {
     pub stays: bool,
 }
 
-impl KeptRows {
+impl RowCache {
     /// The answer to `question`.
     pub(crate) fn ask(&self, question: &Question, asked: &AskedRows<'_>) -> Result<Arc<Rows>> {
         let slot = {
             let mut known = self.known.lock().recover();
             let kept = known
                 .entry(question.clone())
-                .or_insert_with(|| KeptAnswer { slot: Slot::default(), stays: false });
+                .or_insert_with(|| CacheEntry { slot: Slot::default(), stays: false });
             kept.stays |= asked.stays;
             Arc::clone(&kept.slot)
         };
@@ -107,7 +107,7 @@ mod tests {
 
     #[test]
     fn the_same_question_is_asked_once_whatever_the_answer_and_by_any_number_of_threads() {
-        let (kept, source) = (KeptRows::default(), CountedSource::default());
+        let (kept, source) = (RowCache::default(), CountedSource::default());
         let ask = |sql: &str| {
             let asked = AskedRows { source: &source, most: 10, stays: false };
             kept.ask(&Question::new(sql.into(), None), &asked)
