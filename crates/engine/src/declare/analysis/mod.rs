@@ -5,6 +5,7 @@
 //! returns are told apart into nothing, nil and lists; and an assignment in a function to a variable from
 //! outside it is preceded by a check that no rule is running.
 
+mod blocks;
 mod calls;
 mod expressions;
 mod files;
