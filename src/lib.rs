@@ -45,7 +45,7 @@
 //! - [`spatial`]: a [`Geometry`](spatial::Geometry) as a value, with the operations of OGC Simple Features.
 //! - [`sources`]: data files, read into a [`Layer`](sources::Layer) of features in metres, or into a
 //!   [`Relief`](sources::elevation::Relief) of measured heights.
-//! - [`query`]: SQL over layers, in a database within the program: a [`Database`](query::Database) gives an
+//! - [`query`]: SQL over layers, in a database within the program: a [`Database`](query::Database) gives a
 //!   [`QueryAnswer`](query::QueryAnswer).
 //! - [`kit`]: the contract of objects. A [`Kind`](kit::Kind) in a [`Registry`](kit::Registry) says what an
 //!   [`Object`](kit::Object) can do; a [`Grammar`](kit::rules::Grammar) of [`Pattern`](kit::rules::Pattern)s matches
@@ -101,7 +101,7 @@
 #![recursion_limit = "256"]
 
 pub use burgeon_base::{
-    Budget, Error, MemoryReservation, Result, Stop, Warning, WarningKind, error, text, warning,
+    Budget, Error, MemoryReservation, Result, Stop, Warning, WarningKind, error, locks, text, warning,
 };
 pub use burgeon_data as sources;
 pub use burgeon_engine::run::{Run, RunTimes, ScriptCheck, check, check_package, run, run_session};

@@ -5,10 +5,11 @@ use std::io::{Read, Write as _};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::channel;
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::{Arc, Mutex};
 use std::time::{Duration, Instant};
 
 use burgeon::export;
+use burgeon::locks::LockRecovery;
 use burgeon::sources::elevation::{HeightOptions, Raster};
 use burgeon::terrain::fit::{FitResult, Search, Target};
 use burgeon::text::grouped;
@@ -84,7 +85,7 @@ impl FitCommand {
         on_interrupt(move || {
             interrupted.store(true, Ordering::Release);
             // Either it is written or it takes too long.
-            let _ = done.lock().unwrap_or_else(PoisonError::into_inner).recv_timeout(PATIENCE);
+            let _ = done.lock().recover().recv_timeout(PATIENCE);
         })?;
         let (fitted, late) = self.search(&target, begin, &over)?;
         let text = fitted.module(&[
@@ -116,7 +117,7 @@ impl FitCommand {
         let rounds = self.rounds;
         let message = move || {
             let left = limit.map(|limit| limit.saturating_sub(begin.elapsed()));
-            message(*shown.lock().unwrap_or_else(PoisonError::into_inner), left, rounds)
+            message(*shown.lock().recover(), left, rounds)
         };
         let _progress = ProgressDisplay::saying(message, !self.json);
         let late = AtomicBool::new(false);
@@ -126,7 +127,7 @@ impl FitCommand {
             ended || over.load(Ordering::Acquire)
         };
         let mut tell = |fitted: &FitResult| {
-            let mut best = best.lock().unwrap_or_else(PoisonError::into_inner);
+            let mut best = best.lock().recover();
             *best = (best.0 + 1, Some((fitted.error(), fitted.tried)));
         };
         let search = Search {
@@ -141,7 +142,7 @@ impl FitCommand {
         })?;
         let fitted = pool.install(|| search.run(target, &stop, &mut tell));
         // The round in which the time ended it is not whole.
-        let whole = best.lock().unwrap_or_else(PoisonError::into_inner).0.saturating_sub(1);
+        let whole = best.lock().recover().0.saturating_sub(1);
         let late = late.into_inner() && self.rounds.is_some();
         Ok((fitted, late.then_some(whole)))
     }

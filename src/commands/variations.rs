@@ -92,7 +92,7 @@ impl VariationsCommand {
             let _progress = ProgressDisplay::saying(message, !self.script.json);
             variations.make(&picture, framing, |cell| cells.push(cell))?;
             refuse_if_all_failed(&cells)?;
-            let texts: Vec<String> = cells.iter().map(told).collect();
+            let texts: Vec<String> = cells.iter().map(failure_text).collect();
             let content = cells.iter().zip(&texts).map(|(cell, told)| {
                 (cell.label.as_str(), cell.made.as_ref().map(|made| &made.picture).map_err(|_| told.as_str()))
             });
@@ -167,7 +167,7 @@ fn refuse_if_all_failed(cells: &[Variation]) -> Result<()> {
 }
 
 /// What a cell without a picture says.
-fn told(cell: &Variation) -> String {
+fn failure_text(cell: &Variation) -> String {
     match &cell.made {
         Ok(_) => String::new(),
         Err(error) => {

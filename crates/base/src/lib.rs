@@ -7,6 +7,7 @@
 pub mod budget;
 pub mod error;
 pub mod files;
+pub mod locks;
 pub mod memory;
 pub mod stop;
 pub mod text;

@@ -1,9 +1,10 @@
 //! The end of work that nobody waits for any more.
 
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::{Arc, Mutex};
 
 use crate::error::{Error, Result};
+use crate::locks::LockRecovery;
 
 /// Tells everything that works on a run, or on what comes of it, to stop, and why.
 #[derive(Debug, Default)]
@@ -26,7 +27,7 @@ impl Stop {
 
     /// Asks for a stop; the first reason is kept.
     pub fn stop(&self, reason: Error) {
-        self.reason.lock().unwrap_or_else(PoisonError::into_inner).get_or_insert(reason);
+        self.reason.lock().recover().get_or_insert(reason);
         self.stopped.store(true, Ordering::Release);
     }
 
@@ -44,7 +45,7 @@ impl Stop {
         if let Some(parent) = self.parent.as_ref().filter(|_| !self.stopped.load(Ordering::Acquire)) {
             return parent.check();
         }
-        let reason = self.reason.lock().unwrap_or_else(PoisonError::into_inner).clone();
+        let reason = self.reason.lock().recover().clone();
         Err(reason.unwrap_or_else(|| Error::stopped("stopped")))
     }
 }

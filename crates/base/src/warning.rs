@@ -21,9 +21,10 @@
 use std::cell::RefCell;
 use std::collections::BTreeMap;
 use std::fmt;
-use std::sync::{Mutex, PoisonError};
+use std::sync::Mutex;
 
 use crate::error::{Error, ErrorKind, SourcePlace};
+use crate::locks::LockRecovery;
 
 /// What a warning is about, for code.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -238,7 +239,7 @@ pub struct Warnings(Mutex<BTreeMap<WarningOrder, Warning>>);
 impl Warnings {
     /// Adds a warning; the same text in the same place is counted.
     pub fn add(&self, warning: Warning) {
-        let mut known = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        let mut known = self.0.lock().recover();
         let key = (warning.place().is_none(), warning.place().cloned(), warning.message().to_owned());
         let count = warning.count;
         known.entry(key).and_modify(|known| known.again(count)).or_insert(warning);
@@ -246,7 +247,7 @@ impl Warnings {
 
     /// All of them, in the order of files and lines.
     pub fn list(&self) -> Vec<Warning> {
-        self.0.lock().unwrap_or_else(PoisonError::into_inner).values().cloned().collect()
+        self.0.lock().recover().values().cloned().collect()
     }
 }
 

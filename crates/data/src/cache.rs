@@ -2,12 +2,13 @@
 
 use std::fmt;
 use std::path::Path;
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::{Arc, Mutex};
 
 use super::elevation::{HeightOptions, Raster};
 use super::{Layer, ReferenceFrame, SourceOptions};
 use burgeon_base::budget::Budget;
 use burgeon_base::error::Result;
+use burgeon_base::locks::LockRecovery;
 
 /// How many layers are kept.
 const MOST: usize = 16;
@@ -45,14 +46,14 @@ impl Cache {
 
     /// The layer with this key, and the frame that it is in.
     pub fn get(&self, key: &str) -> Option<(Arc<Layer>, ReferenceFrame)> {
-        let kept = self.kept.lock().unwrap_or_else(PoisonError::into_inner);
+        let kept = self.kept.lock().recover();
         let found = kept.iter().find(|(known, ..)| known == key);
         found.map(|(_, layer, frame)| (Arc::clone(layer), frame.clone()))
     }
 
     /// Keeps a layer; the oldest goes when there are many.
     pub fn keep(&self, key: String, layer: &Arc<Layer>, frame: &ReferenceFrame) {
-        let mut kept = self.kept.lock().unwrap_or_else(PoisonError::into_inner);
+        let mut kept = self.kept.lock().recover();
         if kept.len() >= MOST {
             kept.remove(0);
         }
@@ -69,7 +70,7 @@ impl Cache {
         // What is no file is left to the reader, which says so.
         let Ok(content) = hash(path) else { return Raster::open(path, name, wanted, budget).map(Arc::new) };
         let key = format!("{} {name} {wanted:?}", content.to_hex());
-        let mut kept = self.rasters.lock().unwrap_or_else(PoisonError::into_inner);
+        let mut kept = self.rasters.lock().recover();
         if let Some((_, raster)) = kept.iter().find(|(known, _)| *known == key) {
             return Ok(Arc::clone(raster));
         }

@@ -15,12 +15,15 @@ pub(super) const FARTHEST: f64 = 2_000_000.0;
 const REMEDY: &str = "name the right one: source(file, { crs = 4326 }), or convert the file to EPSG:4326";
 
 /// A coordinate system: of the EPSG's registry, or a transverse Mercator projection around a middle.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Crs {
     /// Its number in the registry.
     pub code: Option<u16>,
     name: String,
     definition: String,
+    is_geographic: bool,
+    /// About how many metres one of its units is.
+    metres: f64,
 }
 
 impl Crs {
@@ -32,19 +35,33 @@ impl Crs {
             let message = format!("the coordinate system EPSG:{code} is not known");
             Error::not_found("coordinate system", code, [], message).help(REMEDY)
         })?;
-        Ok(Self { code: Some(code), name: format!("EPSG:{code}"), definition })
+        Ok(Self::defined(Some(code), format!("EPSG:{code}"), definition))
+    }
+
+    fn defined(code: Option<u16>, name: String, definition: String) -> Self {
+        let value = |key: &str| definition.split_whitespace().find_map(|part| part.strip_prefix(key));
+        let is_geographic = definition.contains("+proj=longlat");
+        let factor = value("+to_meter=").and_then(|factor| factor.parse::<f64>().ok());
+        let metres = match factor.filter(|factor| *factor > 0.0) {
+            _ if is_geographic => 111_320.0,
+            Some(factor) => factor,
+            None => match value("+units=") {
+                Some("us-ft" | "ft") => 0.3048,
+                Some("km") => 1000.0,
+                _ => 1.0,
+            },
+        };
+        Self { code, name, definition, is_geographic, metres }
     }
 
     /// The transverse Mercator projection around a middle, a longitude and a latitude (degrees) of WGS 84, from where
     /// its metres are counted.
     pub fn around([longitude, latitude]: [f64; 2]) -> Self {
-        Self {
-            code: None,
-            name: format!("transverse Mercator around {longitude:?}, {latitude:?}"),
-            definition: format!(
-                "+proj=tmerc +lat_0={latitude:?} +lon_0={longitude:?} +k=1 +x_0=0 +y_0=0 +datum=WGS84 +units=m +no_defs"
-            ),
-        }
+        let name = format!("transverse Mercator around {longitude:?}, {latitude:?}");
+        let definition = format!(
+            "+proj=tmerc +lat_0={latitude:?} +lon_0={longitude:?} +k=1 +x_0=0 +y_0=0 +datum=WGS84 +units=m +no_defs"
+        );
+        Self::defined(None, name, definition)
     }
 
     /// Such as `EPSG:3067`.
@@ -54,21 +71,12 @@ impl Crs {
 
     /// Whether coordinates are longitude and latitude (degrees).
     pub fn is_geographic(&self) -> bool {
-        self.definition.contains("+proj=longlat")
+        self.is_geographic
     }
 
     /// About how many metres one of its units is.
     pub(super) fn metres(&self) -> f64 {
-        let value = |key: &str| self.definition.split_whitespace().find_map(|part| part.strip_prefix(key));
-        if self.is_geographic() {
-            return 111_320.0;
-        }
-        let factor = value("+to_meter=").and_then(|factor| factor.parse::<f64>().ok());
-        factor.filter(|factor| *factor > 0.0).unwrap_or(match value("+units=") {
-            Some("us-ft" | "ft") => 0.3048,
-            Some("km") => 1000.0,
-            _ => 1.0,
-        })
+        self.metres
     }
 
     /// What its angles are multiplied by to be radians; 1 where it has none.
@@ -110,6 +118,8 @@ pub struct ReferenceFrame {
     pub origin: [f64; 2],
     /// The longitude and the latitude (degrees) that a transverse Mercator projection of the run's own is around.
     pub middle: Option<[f64; 2]>,
+    /// The EPSG code of its projection; `None` if it is none of EPSG's, or one whose unit was changed to metres.
+    pub epsg: Option<u16>,
     definition: String,
     projection: Projection,
 }
@@ -152,10 +162,27 @@ impl ReferenceFrame {
     }
 
     /// The frame that suits best what lies around the point `x`, `y` of `crs`, and is called `shown`.
+    ///
+    /// ```
+    /// use burgeon_data::{Crs, ReferenceFrame};
+    ///
+    /// // Finland's projection has its middle at 27 degrees east, where its metres say 500,000.
+    /// let frame = ReferenceFrame::around(&Crs::epsg(3067)?, [500_040.0, 6_671_460.0], "a place")?;
+    /// assert_eq!((frame.epsg, frame.origin), (Some(3067), [500_000.0, 6_671_500.0]));
+    /// let degrees = Crs::epsg(4326)?;
+    /// let passage = frame.passage(&degrees)?;
+    /// let [x, y] = passage.enter([27.0, 60.18]);
+    /// assert!(x.abs() < 1e-6);
+    /// let back = passage.leave([x, y]);
+    /// assert!((back[0] - 27.0).abs() < 1e-9 && (back[1] - 60.18).abs() < 1e-9);
+    /// # Ok::<(), burgeon_base::error::Error>(())
+    /// ```
     pub fn around(crs: &Crs, [x, y]: [f64; 2], shown: &str) -> Result<Self> {
         let source = crs.projection()?;
-        let (name, definition, middle) = if crs.is_true() {
-            (crs.name(), crs.in_metres(), None)
+        let (name, definition, middle, epsg) = if crs.is_true() {
+            let definition = crs.in_metres();
+            let epsg = crs.code.filter(|_| normal(&definition) == normal(&crs.definition));
+            (crs.name(), definition, None, epsg)
         } else {
             let degrees = if crs.is_geographic() {
                 [x, y]
@@ -168,11 +195,11 @@ impl ReferenceFrame {
             };
             let middle = degrees.map(|angle| (angle * 10.0).round() / 10.0);
             let crs = Crs::around(middle);
-            (crs.name(), crs.definition, Some(middle))
+            (crs.name(), crs.definition, Some(middle), None)
         };
         let cannot = |why| Error::argument(format!("{name} cannot be used: {why}")).help(REMEDY);
         let projection = Projection::new(&definition, cannot)?;
-        let mut frame = Self { name, origin: [0.0; 2], middle, definition, projection };
+        let mut frame = Self { name, origin: [0.0; 2], middle, epsg, definition, projection };
         let centre = frame.passage(crs)?.enter([x, y]);
         frame.origin = centre.map(|value| (value / 100.0).round() * 100.0);
         if frame.origin.iter().any(|value| !value.is_finite()) {
@@ -185,12 +212,6 @@ impl ReferenceFrame {
     pub fn passage(&self, crs: &Crs) -> Result<Passage<'_>> {
         let stays = normal(&crs.definition) == normal(&self.definition);
         Ok(Passage { frame: self, outside: crs.projection()?, unit: crs.unit(), stays })
-    }
-
-    /// The EPSG code of its projection; `None` if it is none of EPSG's, or one whose unit was changed to metres.
-    pub fn epsg(&self) -> Option<u16> {
-        let crs = Crs::epsg(self.name.strip_prefix("EPSG:")?.parse().ok()?).ok()?;
-        if normal(&crs.definition) == normal(&self.definition) { crs.code } else { None }
     }
 
     /// Brings the features of `table` into this frame; those that have no place there are left out.

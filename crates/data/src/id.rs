@@ -8,10 +8,10 @@ const SHORT: usize = 14;
 
 /// A feature's id: a text, of which a short one takes no memory of its own.
 #[derive(Clone)]
-pub struct FeatureId(Text);
+pub struct FeatureId(IdText);
 
 #[derive(Clone)]
-enum Text {
+enum IdText {
     Short {
         length: u8,
         bytes: [u8; SHORT],
@@ -25,18 +25,18 @@ impl FeatureId {
     pub fn as_str(&self) -> &str {
         match &self.0 {
             // It was a text when it was put there.
-            Text::Short { length, bytes } => {
+            IdText::Short { length, bytes } => {
                 std::str::from_utf8(&bytes[..usize::from(*length)]).unwrap_or_default()
             }
-            Text::Long(text) => text,
+            IdText::Long(text) => text,
         }
     }
 
     /// How much memory (bytes) it takes besides its own place.
     pub(crate) fn weight(&self) -> usize {
         match &self.0 {
-            Text::Short { .. } => 0,
-            Text::Long(text) => 48 + text.len(),
+            IdText::Short { .. } => 0,
+            IdText::Long(text) => 48 + text.len(),
         }
     }
 }
@@ -47,9 +47,9 @@ impl From<&str> for FeatureId {
         Self(match (bytes.get_mut(..text.len()), u8::try_from(text.len())) {
             (Some(place), Ok(length)) => {
                 place.copy_from_slice(text.as_bytes());
-                Text::Short { length, bytes }
+                IdText::Short { length, bytes }
             }
-            _ => Text::Long(Box::new(text.to_owned())),
+            _ => IdText::Long(Box::new(text.to_owned())),
         })
     }
 }

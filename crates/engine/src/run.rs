@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 use std::rc::Rc;
-use std::sync::{Arc, PoisonError};
+use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use crate::declare::{Param, RunOptions, Session};
@@ -10,6 +10,7 @@ use crate::derive::ThreadPool;
 use crate::machine::{Machine, Watchdog};
 use crate::results::{DerivedSystem, FeatureReport, Times, Trace};
 use burgeon_base::error::{Error, ErrorKind, Result};
+use burgeon_base::locks::LockRecovery;
 use burgeon_base::text::shown;
 use burgeon_base::warning::{Warning, WarningKind};
 use burgeon_data::ReferenceFrame;
@@ -180,7 +181,7 @@ fn checked(session: &Arc<Session>, run: impl FnOnce(&Machine) -> Result<()>) -> 
     let mut problems = session.problems();
     problems.extend(session.call_problems());
     // What a script adds to a type is known once it has run; whoever read the calls did not know it.
-    let declared = session.declared.lock().unwrap_or_else(PoisonError::into_inner);
+    let declared = session.declared.lock().recover();
     problems.retain(|known| {
         !matches!(known.kind(), ErrorKind::NotFound { what: "method", name, .. } if declared.has_added(name))
     });

@@ -76,6 +76,17 @@ impl Format {
     /// The format that the extension of `path` names, in upper or lower case.
     ///
     /// Fails on an unknown or missing extension and says which there are.
+    ///
+    /// ```
+    /// use burgeon_export::Format;
+    /// use std::path::Path;
+    ///
+    /// assert_eq!(Format::of(Path::new("out/Town.GLB"))?, Format::Glb);
+    /// assert_eq!(Format::of(Path::new("town.city.json"))?, Format::CityJson);
+    /// let error = Format::of(Path::new("town.blend")).expect_err("no such format");
+    /// assert!(error.to_string().contains("gltf"), "{error}");
+    /// # Ok::<(), burgeon_base::error::Error>(())
+    /// ```
     pub fn of(path: &Path) -> Result<Self> {
         let known = "the formats are .glb, .gltf, .obj, .png, .svg, .x3d, .city.json, .geojson and .gpkg";
         let Some(extension) = path.extension() else {

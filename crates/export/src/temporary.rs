@@ -1,12 +1,14 @@
 //! Files that have only a temporary name yet: they are gone once they are dropped, and when the program is told to end.
 
+use burgeon_base::locks::LockRecovery;
+
 use std::collections::BTreeSet;
 use std::ffi::OsString;
 use std::fs::{self, File};
 use std::io::{self, ErrorKind};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU64, Ordering};
-use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::sync::{Mutex, MutexGuard};
 
 /// The temporary names of this process.
 static NAMES: Mutex<BTreeSet<PathBuf>> = Mutex::new(BTreeSet::new());
@@ -21,7 +23,7 @@ pub(super) struct TemporaryNames(MutexGuard<'static, BTreeSet<PathBuf>>);
 
 impl TemporaryNames {
     pub(super) fn lock() -> Self {
-        Self(NAMES.lock().unwrap_or_else(PoisonError::into_inner))
+        Self(NAMES.lock().recover())
     }
 }
 

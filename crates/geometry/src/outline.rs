@@ -66,7 +66,7 @@ pub(super) fn numbered_rings(
     refuse_misplaced_holes(&rings, manner)?;
     let turned = rings.into_iter().enumerate().map(|(index, ring)| {
         let mut points = ring.points;
-        if (twice_area(points.iter().map(|point| point.flat())) > 0.0) != (index == 0) {
+        if (twice_area(points.iter().copied()) > 0.0) != (index == 0) {
             // The first point stays first, since texture coordinates begin there.
             points[1..].reverse();
         }

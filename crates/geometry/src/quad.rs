@@ -35,12 +35,12 @@ impl Quad {
         let along_ac = [[0, 1, 2], [0, 2, 3]];
         let along_bd = [[0, 1, 3], [1, 2, 3]];
         let [first, other] = if second { [along_bd, along_ac] } else { [along_ac, along_bd] };
-        self.kept(first).or_else(|| self.kept(other))
+        self.faces(first).or_else(|| self.faces(other))
     }
 
     /// Those of two triangles that have not shrunk to a line between two points; `None` if another is flat.
     #[inline]
-    fn kept(&self, split: [[usize; 3]; 2]) -> Option<[Option<[usize; 3]>; 2]> {
+    fn faces(&self, split: [[usize; 3]; 2]) -> Option<[Option<[usize; 3]>; 2]> {
         let mut kept = [None; 2];
         for (corners, kept) in split.into_iter().zip(&mut kept) {
             if self.has_vanished(corners) {

@@ -10,7 +10,7 @@ use rstar::primitives::{GeomWithData, Line};
 use rstar::{AABB, PointDistance, RTree};
 
 use super::outline::{OutlineOptions, is_ring, numbered_rings};
-use super::planar::{Polygon, Rings, edges, geo_polygon};
+use super::planar::{Polygon, Rings, edges, foot, geo_polygon};
 use super::ring::MOST;
 use super::section::SectionPoint;
 
@@ -259,8 +259,7 @@ fn finish(
                 return given - middle.extend(0.0);
             }
         }
-        let (a, b) = (from.truncate() - middle, to.truncate() - middle);
-        let part = ((at - a).dot(b - a) / a.distance_squared(b)).clamp(0.0, 1.0);
+        let part = foot([from, to].map(|end| end.truncate() - middle), at);
         at.extend(from.z + (to.z - from.z) * part)
     };
     let mut given = Vec::new();

@@ -63,13 +63,15 @@ pub(super) struct Knot {
 }
 
 impl Section {
-    /// A ring of points with holes, in either direction and without a repeated last point.
+    /// A ring of points and then its holes, each in either direction and without a repeated last point.
     ///
     /// Repeated points are dropped, and so are sharp points on a straight line between sharp points.
     /// Fails if a coordinate is not finite, if a ring has fewer than 3 distinct points or no area or meets
     /// itself or another ring, and if a hole is outside the outer ring or inside another hole.
-    pub fn new(outer: &[SectionPoint], holes: &[Vec<SectionPoint>]) -> Result<Self> {
-        refuse_too_many(outer.len() + holes.iter().map(Vec::len).sum::<usize>())?;
+    pub fn new(rings: &Rings<SectionPoint>) -> Result<Self> {
+        refuse_too_many(rings.iter().map(Vec::len).sum())?;
+        let (outer, holes) =
+            rings.split_first().map_or((&[][..], &[][..]), |(outer, holes)| (&outer[..], holes));
         let rings = outline::closed(outer, holes)?;
         Self::with_rings(rings.iter().map(|ring| knots(ring)).collect(), false)
     }
@@ -92,10 +94,8 @@ impl Section {
     /// # Ok::<(), burgeon_base::error::Error>(())
     /// ```
     pub fn polygon(rings: &Rings<DVec2>) -> Result<Self> {
-        let sharp = |ring: &Vec<DVec2>| ring.iter().copied().map(SectionPoint::sharp).collect::<Vec<_>>();
-        let (outer, holes) =
-            rings.split_first().map_or((Vec::new(), &[][..]), |(outer, holes)| (sharp(outer), holes));
-        Self::new(&outer, &holes.iter().map(sharp).collect::<Vec<_>>())
+        let sharp = |ring: &Vec<DVec2>| ring.iter().copied().map(SectionPoint::sharp).collect();
+        Self::new(&rings.iter().map(sharp).collect())
     }
 
     /// An open line, which gives a ribbon; fails if it has fewer than 2 distinct points or meets itself.
@@ -299,7 +299,7 @@ mod tests {
         let mut points: Vec<_> =
             vectors(&[(0., 0.), (2., 0.), (4., 0.), (4., 4.)]).into_iter().map(SectionPoint::sharp).collect();
         points[0].smooth = true;
-        assert_eq!(Section::new(&points, &[]).expect("a section").points().count(), 4);
+        assert_eq!(Section::new(&Rings(vec![points])).expect("a section").points().count(), 4);
     }
 
     #[test]

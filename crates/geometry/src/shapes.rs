@@ -20,8 +20,8 @@ impl Section {
                 .help("give at least 3 sides"));
         }
         refuse_too_many(sides)?;
-        let points: Vec<_> = (0..sides).map(|i| SectionPoint::smooth(on_circle(i, sides))).collect();
-        Self::new(&points, &[])
+        let points = (0..sides).map(|i| SectionPoint::smooth(on_circle(i, sides))).collect();
+        Self::new(&Rings(vec![points]))
     }
 
     /// A star of sharp points at 1 m from the centre, the first at (1, 0), with notches at `inner` (m) between.
@@ -51,37 +51,6 @@ impl Section {
             return Self::polygon(&Rings(vec![corners.to_vec()]));
         }
         Ok(Self::convex(corners.map(SectionPoint::sharp)))
-    }
-
-    /// A rectangle of `width` by `height` (m) whose corners are arcs of `radius` (m) in `steps` straight pieces.
-    ///
-    /// The first point is where the arc at the lower left begins. Fails if a length is not more than 0 or the
-    /// arcs do not fit.
-    pub fn rounded_rectangle(width: f64, height: f64, radius: f64, steps: usize) -> Result<Self> {
-        refuse_flat(width, height)?;
-        if !(radius > 0.0 && 2.0 * radius <= width.min(height) && steps > 0) {
-            let message = format!(
-                "corners of {radius} m in {steps} steps do not fit a rectangle of {width} by {height} m"
-            );
-            return Err(Error::geometry(message).help(
-                "give a radius of more than 0 and at most half of the shorter side, and at least 1 step",
-            ));
-        }
-        refuse_too_many(steps.saturating_mul(4))?;
-        let inner = DVec2::new(width, height) / 2.0 - radius;
-        let mut points = Vec::with_capacity(4 * (steps + 1));
-        for (quarter, corner) in [
-            (2usize, -inner),
-            (3, DVec2::new(inner.x, -inner.y)),
-            (0, inner),
-            (1, DVec2::new(-inner.x, inner.y)),
-        ] {
-            for step in 0..=steps {
-                let offset = on_circle(quarter * steps + step, 4 * steps) * radius;
-                points.push(SectionPoint::smooth(corner + offset));
-            }
-        }
-        Self::new(&points, &[])
     }
 }
 
@@ -127,9 +96,6 @@ mod tests {
         let star = Section::star(5, 0.4).expect("a star");
         assert!((star.area() - 5.0 * 0.4 * (TAU / 10.0).sin()).abs() < 1e-12);
         assert_eq!(Section::rectangle(3.0, 2.0).expect("a rectangle").area(), 6.0);
-        let rounded = Section::rounded_rectangle(3.0, 2.0, 0.5, 64).expect("a rounded rectangle");
-        let exact = 6.0 - (4.0 - TAU / 2.0) * 0.25;
-        assert!(rounded.area() < exact && exact - rounded.area() < 1e-3);
     }
 
     #[test]
@@ -158,10 +124,6 @@ mod tests {
         insta::assert_snapshot!(Section::rectangle(-1.0, 2.0).expect_err("no area"), @r"
         a rectangle of -1 by 2 m has no area
           help: give a width and a height of more than 0 m
-        ");
-        insta::assert_snapshot!(Section::rounded_rectangle(1.0, 2.0, 0.6, 4).expect_err("too round"), @r"
-        corners of 0.6 m in 4 steps do not fit a rectangle of 1 by 2 m
-          help: give a radius of more than 0 and at most half of the shorter side, and at least 1 step
         ");
         insta::assert_snapshot!(Section::regular(MOST_POINTS + 1).expect_err("too many"), @r"
         a cross-section of 10001 points is too fine

@@ -21,7 +21,7 @@ const MOST_SUMS: usize = 1 << 22;
 pub struct Sizes(SmallVec<[[f64; 2]; 2]>);
 
 impl Sizes {
-    /// All lengths from `low` to `high`, which may be infinite; none if `low` is greater.
+    /// All lengths from `low` to `high` (m), which may be infinite; none if `low` is greater.
     pub fn between(low: f64, high: f64) -> Self {
         if low > high + SAME { Self::default() } else { Self(smallvec![[low, high.max(low)]]) }
     }
@@ -31,22 +31,22 @@ impl Sizes {
         self.0.is_empty()
     }
 
-    /// The least length; infinite if there is none.
+    /// The least length (m); infinite if there is none.
     pub fn low(&self) -> f64 {
         self.0.first().map_or(f64::INFINITY, |first| first[0])
     }
 
-    /// The greatest length; 0 if there is none.
+    /// The greatest length (m); 0 if there is none.
     pub fn high(&self) -> f64 {
         self.0.last().map_or(0.0, |last| last[1])
     }
 
-    /// Whether `length` is among them.
+    /// Whether `length` (m) is among them.
     pub fn contains(&self, length: f64) -> bool {
         self.0.iter().any(|[low, high]| length >= low - SAME && length <= high + SAME)
     }
 
-    /// The length among them that is nearest to `length`, the lower of two.
+    /// The length (m) among them that is nearest to `length` (m), the lower of two; infinite if there is none.
     pub fn nearest(&self, length: f64) -> f64 {
         let clamped = self.0.iter().map(|[low, high]| length.clamp(*low, *high));
         clamped.fold(
@@ -163,12 +163,12 @@ impl Split {
         &self.rest[0]
     }
 
-    /// The length that the whole had best have, if all parts have one.
+    /// The length (m) that the whole had best have, if all parts have one.
     pub fn target(&self) -> Option<f64> {
         self.shares.iter().map(|share| share.target).sum()
     }
 
-    /// The lengths of the parts, which add up to `whole`; `None` if it is not among [`Split::sizes`].
+    /// The lengths (m) of the parts, which add up to `whole` (m); `None` if it is not among [`Split::sizes`].
     ///
     /// Each begins with its target, or with its least length. What is missing or left over is shared out evenly,
     /// lower orders first, as far as the sizes allow.

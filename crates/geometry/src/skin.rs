@@ -33,7 +33,7 @@ pub(super) struct Strip {
 }
 
 /// Texture coordinates (m) around the section.
-pub(super) type Across = SmallVec<[f64; 2 * FEW]>;
+pub(super) type SkinCoordinates = SmallVec<[f64; 2 * FEW]>;
 
 /// The division of a section's outline.
 #[derive(Debug, Clone)]
@@ -83,8 +83,8 @@ impl Skin {
     /// Texture coordinates (m) of all columns along a ring of points, after the strips' middles.
     ///
     /// They run to both sides from the middle of each strip, so that a face which tapers is not sheared.
-    pub(super) fn across(&self, points: &[DVec3], middles: &[f64]) -> Across {
-        let mut across: Across = smallvec![0.0; self.columns.len()];
+    pub(super) fn across(&self, points: &[DVec3], middles: &[f64]) -> SkinCoordinates {
+        let mut across: SkinCoordinates = smallvec![0.0; self.columns.len()];
         for (strip, middle) in self.strips.iter().zip(middles) {
             let mut sum = 0.0;
             for column in strip.columns.start + 1..strip.columns.end {
@@ -97,7 +97,7 @@ impl Skin {
     }
 
     /// The middle (m) of each strip on the way around its ring.
-    pub(super) fn middles(&self, points: &[DVec3]) -> Across {
+    pub(super) fn middles(&self, points: &[DVec3]) -> SkinCoordinates {
         let (mut ring, mut sum) = (0, 0.0);
         let middle = |strip: &Strip| {
             if strip.ring != ring {

@@ -3,6 +3,7 @@
 use glam::{DVec3, Vec3};
 use rustc_hash::FxHashMap;
 
+use super::planar::edges;
 use burgeon_scene::Part;
 
 /// What [`check`] found; nothing is wrong with a solid for which [`SolidCheck::is_solid`] holds.
@@ -155,8 +156,7 @@ fn lie_on(one: [DVec3; 3], other: [DVec3; 3], slack: f64) -> bool {
         let inward = normal.cross(one[(index + 1) % 3] - from).normalize_or_zero();
         let inside = |at: DVec3| inward.dot(at - from) - slack;
         let mut kept = Vec::with_capacity(ring.len() + 1);
-        for (index, &a) in ring.iter().enumerate() {
-            let b = ring[(index + 1) % ring.len()];
+        for [a, b] in edges(&ring) {
             let [begin, end] = [a, b].map(inside);
             if begin > 0.0 {
                 kept.push(a);

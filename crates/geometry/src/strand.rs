@@ -100,13 +100,6 @@ impl Strand {
         Ok(Self { circle, side, across: Vec3A::ZERO, position, radius, v: 0.0, last: None })
     }
 
-    /// Lets the texture coordinate v begin at `v` (m), as where a branch goes on from another.
-    #[must_use]
-    pub fn with_v(mut self, v: f64) -> Self {
-        self.v = v;
-        self
-    }
-
     /// The place (m) that the strand has come to.
     pub fn position(&self) -> DVec3 {
         self.position

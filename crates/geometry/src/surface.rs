@@ -28,7 +28,7 @@ pub(super) struct SweepSurface<'a> {
 
 /// The vertices of a ring, as one of its sides sees it.
 #[derive(Clone, Copy)]
-struct Row {
+struct SurfaceRow {
     first: u32,
 }
 
@@ -109,7 +109,7 @@ impl<'a> SweepSurface<'a> {
         };
         let middles = self.skin.middles(&wide.exact);
         let mut v = self.options.v;
-        let mut ready: Option<Row> = None;
+        let mut ready: Option<SurfaceRow> = None;
         for index in 0..self.spans.len() {
             let (a, b) = (&self.rings[index], &self.rings[(index + 1) % self.rings.len()]);
             let end = v + self.advance(a, b);
@@ -159,11 +159,11 @@ impl<'a> SweepSurface<'a> {
     }
 
     /// Adds the vertices of a span's first (`side` 0) or second ring (1).
-    fn row(&mut self, index: usize, side: usize, v: f64, middles: &[f64]) -> Row {
+    fn row(&mut self, index: usize, side: usize, v: f64, middles: &[f64]) -> SurfaceRow {
         let ring = &self.rings[(index + side) % self.rings.len()];
         let opposite = &self.rings[(index + 1 - side) % self.rings.len()];
         let first = self.part.positions.len() as u32;
-        let Some(span) = &self.spans[index] else { return Row { first } };
+        let Some(span) = &self.spans[index] else { return SurfaceRow { first } };
         let neighbour = match side {
             1 => self.joined(index).map(|next| (next, 0)),
             _ => {
@@ -184,7 +184,7 @@ impl<'a> SweepSurface<'a> {
             self.part.normals.push(normal.into());
             self.part.uvs.push(Vec2::new((span.sign * u) as f32, v as f32));
         }
-        Row { first }
+        SurfaceRow { first }
     }
 
     /// Lets the texture of a round tip run to the middle of each face, rather than to one point for all.
@@ -207,7 +207,7 @@ impl<'a> SweepSurface<'a> {
         }
     }
 
-    fn faces(&mut self, index: usize, [below, above]: [Row; 2]) -> Result<()> {
+    fn faces(&mut self, index: usize, [below, above]: [SurfaceRow; 2]) -> Result<()> {
         let (a, b) = (&self.rings[index], &self.rings[(index + 1) % self.rings.len()]);
         let Some(Span { sign, step, .. }) = self.spans[index] else { return Ok(()) };
         let mut sides: SmallVec<[f64; 1]> = smallvec![0.0; self.section.ring_count()];

@@ -8,7 +8,7 @@ use super::{BeginPrefetch, Loader, Object, ScriptType, Table, Value};
 use burgeon_base::error::{Error, Result};
 
 /// Text that a built-in type has in the program, and another brings.
-type Text = Cow<'static, str>;
+type SharedText = Cow<'static, str>;
 
 /// A type of object: what its constructor takes, its methods and its capabilities.
 ///
@@ -17,19 +17,19 @@ type Text = Cow<'static, str>;
 #[derive(Clone)]
 pub struct Kind {
     /// Its name in scripts, which is also its constructor's.
-    pub name: Text,
+    pub name: SharedText,
     /// What it is; the first line is a summary.
-    pub doc: Text,
+    pub doc: SharedText,
     /// How a script uses it; empty where nothing is to be said.
-    pub example: Text,
+    pub example: SharedText,
     /// What its constructor takes; of what something else gives, what scripts read of it.
     pub fields: Vec<Field>,
     /// The field that may be given before the table, as `geometry` in `footprint(geometry, { ... })`.
-    pub first: Option<Text>,
+    pub first: Option<SharedText>,
     /// What scripts may call.
     pub methods: Vec<Method>,
     /// What Luau calls all types of which one may stand where another does, such as `Wall`.
-    pub family: Option<Text>,
+    pub family: Option<SharedText>,
     /// How one is made.
     pub construct: Construct,
     /// Whether [`Object::begin`] forgets all that earlier passes did.
@@ -60,11 +60,11 @@ pub struct Kind {
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Deprecation {
     /// A field or a method; empty for the type itself.
-    pub name: Text,
+    pub name: SharedText,
     /// The version of the script API from which on something else is to be used.
-    pub since: Text,
+    pub since: SharedText,
     /// What is to be used.
-    pub instead: Text,
+    pub instead: SharedText,
 }
 
 impl Deprecation {
@@ -92,13 +92,13 @@ pub enum Construct {
 #[derive(Debug, Clone)]
 pub struct Field {
     /// Its name.
-    pub name: Text,
+    pub name: SharedText,
     /// What it means, with the unit.
-    pub doc: Text,
+    pub doc: SharedText,
     /// Its type in Luau.
     pub luau: String,
     /// Its unit, if it has one, such as "m".
-    pub unit: Option<Text>,
+    pub unit: Option<SharedText>,
     /// What it may have itself, where it is a table of named fields.
     pub fields: Vec<Field>,
     /// The value where it is left out, as one would write it.
@@ -109,9 +109,9 @@ pub struct Field {
 #[derive(Clone)]
 pub struct Method {
     /// Its name.
-    pub name: Text,
+    pub name: SharedText,
     /// What it does; the first sentence is its help.
-    pub doc: Text,
+    pub doc: SharedText,
     /// Its arguments, `self` not counted.
     pub arguments: Vec<Argument>,
     /// The type of its result in Luau; empty where it returns the object itself.
@@ -124,11 +124,11 @@ pub struct Method {
 #[derive(Debug, Clone)]
 pub struct Argument {
     /// Its name.
-    pub name: Text,
+    pub name: SharedText,
     /// Its type in Luau.
     pub luau: String,
     /// Its unit, if it has one, such as "m".
-    pub unit: Option<Text>,
+    pub unit: Option<SharedText>,
     /// What it may have itself, where it is a table of named fields.
     pub fields: Vec<Field>,
     /// The value where it is left out, as one would write it; empty where that is nothing special.
@@ -137,7 +137,7 @@ pub struct Argument {
 
 impl Argument {
     /// An argument of any type.
-    pub fn new(name: impl Into<Text>) -> Self {
+    pub fn new(name: impl Into<SharedText>) -> Self {
         let (luau, default) = ("any".to_owned(), String::new());
         Self { name: name.into(), luau, unit: None, fields: Vec::new(), default }
     }
@@ -145,7 +145,7 @@ impl Argument {
 
 impl Field {
     /// A field of type `luau`, which may be left out if that ends with `?`.
-    pub fn new(name: impl Into<Text>, luau: &str, doc: impl Into<Text>) -> Self {
+    pub fn new(name: impl Into<SharedText>, luau: &str, doc: impl Into<SharedText>) -> Self {
         let (luau, default) = (luau.to_owned(), String::new());
         Self { name: name.into(), doc: doc.into(), luau, unit: None, fields: Vec::new(), default }
     }
@@ -196,11 +196,11 @@ impl std::fmt::Debug for Kind {
 
 impl Kind {
     /// A type that scripts can neither make nor ask, which something else gives.
-    pub fn new(name: impl Into<Text>, doc: impl Into<Text>) -> Self {
+    pub fn new(name: impl Into<SharedText>, doc: impl Into<SharedText>) -> Self {
         Self {
             name: name.into(),
             doc: doc.into(),
-            example: Text::default(),
+            example: SharedText::default(),
             fields: Vec::new(),
             first: None,
             methods: Vec::new(),
@@ -222,7 +222,7 @@ impl Kind {
 
     /// Is used as this script shows.
     #[must_use]
-    pub fn example(self, example: impl Into<Text>) -> Self {
+    pub fn example(self, example: impl Into<SharedText>) -> Self {
         Self { example: example.into(), ..self }
     }
 
@@ -248,9 +248,9 @@ impl Kind {
     #[must_use]
     pub fn deprecates(
         mut self,
-        name: impl Into<Text>,
-        since: impl Into<Text>,
-        instead: impl Into<Text>,
+        name: impl Into<SharedText>,
+        since: impl Into<SharedText>,
+        instead: impl Into<SharedText>,
     ) -> Self {
         self.deprecated.push(Deprecation { name: name.into(), since: since.into(), instead: instead.into() });
         self
@@ -263,7 +263,7 @@ impl Kind {
 
     /// The field `first` may be given before the table.
     #[must_use]
-    pub fn first(self, first: impl Into<Text>) -> Self {
+    pub fn first(self, first: impl Into<SharedText>) -> Self {
         Self { first: Some(first.into()), ..self }
     }
 
@@ -286,7 +286,7 @@ impl Kind {
 
     /// May stand where any type of this family may, which Luau calls `family`.
     #[must_use]
-    pub fn of_family(self, family: impl Into<Text>) -> Self {
+    pub fn of_family(self, family: impl Into<SharedText>) -> Self {
         Self { family: Some(family.into()), ..self }
     }
 

@@ -14,6 +14,25 @@ pub struct Registry {
 }
 
 impl Registry {
+    /// All types of a list. Fails if two of them have one name.
+    ///
+    /// ```
+    /// use burgeon_kit::{Kind, Registry};
+    ///
+    /// let registry = Registry::try_from_kinds([Kind::new("bead", "A bead."), Kind::new("string", "Beads in a row.")])?;
+    /// assert!(registry.get("bead").is_some() && registry.get("Bead").is_none());
+    ///
+    /// let twice = Registry::try_from_kinds([Kind::new("bead", "A bead."), Kind::new("bead", "Another.")]);
+    /// let error = twice.expect_err("two of a name");
+    /// assert_eq!(error.message(), "there is a type of object called bead already");
+    /// # Ok::<(), burgeon_base::error::Error>(())
+    /// ```
+    pub fn try_from_kinds(kinds: impl IntoIterator<Item = impl Into<Arc<Kind>>>) -> Result<Self> {
+        let mut registry = Self::default();
+        kinds.into_iter().try_for_each(|kind| registry.add(kind))?;
+        Ok(registry)
+    }
+
     /// Adds a type. Fails if there is one of that name.
     pub fn add(&mut self, kind: impl Into<Arc<Kind>>) -> Result<()> {
         let kind = kind.into();
@@ -42,7 +61,7 @@ impl Registry {
 }
 
 /// All types of a list. Of two with one name only the first is there, which [`Registry::check`] tells; no script runs with
-/// such a registry.
+/// such a registry. [`Registry::try_from_kinds`] fails at once.
 impl FromIterator<Arc<Kind>> for Registry {
     fn from_iter<I: IntoIterator<Item = Arc<Kind>>>(kinds: I) -> Self {
         let mut registry = Self::default();

@@ -7,7 +7,7 @@
 use std::collections::VecDeque;
 use std::convert::Infallible;
 use std::io::ErrorKind;
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::{Arc, Mutex};
 use std::time::Duration;
 
 use axum::body::Body;
@@ -19,6 +19,7 @@ use tokio::sync::Notify;
 
 use super::Notice;
 use super::server::{Site, answer};
+use burgeon_base::locks::LockRecovery;
 
 /// How long the head of a request may take, and a connection be silent after one.
 const HEAD: Duration = Duration::from_secs(5);
@@ -37,7 +38,7 @@ impl UnprovenConnections {
     /// Takes a new one in, and sends those away that are too many.
     fn admit(&self, most: usize) -> Arc<Notify> {
         let away = Arc::new(Notify::new());
-        let mut all = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        let mut all = self.0.lock().recover();
         all.push_back(Arc::clone(&away));
         while all.len() > most {
             all.pop_front().iter().for_each(|oldest| oldest.notify_one());
@@ -47,11 +48,11 @@ impl UnprovenConnections {
 
     /// One that is none any more, or has gone.
     fn remove(&self, away: &Arc<Notify>) {
-        self.0.lock().unwrap_or_else(PoisonError::into_inner).retain(|it| !Arc::ptr_eq(it, away));
+        self.0.lock().recover().retain(|it| !Arc::ptr_eq(it, away));
     }
 
     fn close_all(&self) {
-        self.0.lock().unwrap_or_else(PoisonError::into_inner).drain(..).for_each(|it| it.notify_one());
+        self.0.lock().recover().drain(..).for_each(|it| it.notify_one());
     }
 }
 

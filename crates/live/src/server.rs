@@ -124,8 +124,12 @@ async fn route(site: &Arc<Site>, request: Request, known: impl FnOnce()) -> Resp
         Some("socket") => open_socket(site, request).await,
         Some(inner) => match inner.split_once('/') {
             Some(("model", name)) if name.ends_with(MEASURED) => measured(site, name).await,
-            Some(("model", name)) => kept(name, ".glb", "model/gltf-binary", |hash| site.state.model(hash)),
-            Some(("picture", name)) => kept(name, ".png", "image/png", |hash| site.state.picture(hash)),
+            Some(("model", name)) => {
+                content_file(name, ".glb", "model/gltf-binary", |hash| site.state.model(hash))
+            }
+            Some(("picture", name)) => {
+                content_file(name, ".png", "image/png", |hash| site.state.picture(hash))
+            }
             Some(("export", name)) if !name.contains('/') => {
                 let query = request.uri().query().unwrap_or("").to_owned();
                 save(site, name, &query).await
@@ -157,7 +161,12 @@ async fn open_socket(site: &Arc<Site>, request: Request) -> Response {
 }
 
 /// A file that is named by its content.
-fn kept(name: &str, ending: &str, kind: &'static str, find: impl Fn(&str) -> Option<Bytes>) -> Response {
+fn content_file(
+    name: &str,
+    ending: &str,
+    kind: &'static str,
+    find: impl Fn(&str) -> Option<Bytes>,
+) -> Response {
     match name.strip_suffix(ending).and_then(find) {
         Some(bytes) => {
             ([(header::CONTENT_TYPE, kind), (header::CACHE_CONTROL, FOR_EVER)], bytes).into_response()

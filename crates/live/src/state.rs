@@ -3,7 +3,7 @@
 use std::collections::{BTreeSet, VecDeque};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
+use std::sync::{Arc, Condvar, Mutex, MutexGuard};
 use std::time::{Duration, Instant};
 
 use axum::body::Bytes;
@@ -15,6 +15,7 @@ use super::open::Editor;
 use super::request::{Inputs, Request};
 use super::{Notice, Settings};
 use burgeon_base::error::{Error, SourcePlace};
+use burgeon_base::locks::LockRecovery;
 use burgeon_base::stop::Stop;
 use burgeon_base::warning::Warning;
 use burgeon_engine::run::Run;
@@ -172,7 +173,7 @@ impl ServerState {
     }
 
     pub(super) fn lock(&self) -> MutexGuard<'_, LiveState> {
-        self.inner.lock().unwrap_or_else(PoisonError::into_inner)
+        self.inner.lock().recover()
     }
 
     /// Says something to all pages. Called with the lock held, it comes in order.
@@ -188,7 +189,7 @@ impl ServerState {
 
     /// What a new page is told first, and where it hears the rest.
     pub(super) fn greet(&self) -> (Vec<Utf8Bytes>, broadcast::Receiver<Utf8Bytes>) {
-        let presets = self.presets.lock().unwrap_or_else(PoisonError::into_inner);
+        let presets = self.presets.lock().recover();
         let inner = self.lock();
         let mut texts: Vec<Utf8Bytes> = vec![Event::Hello(self.hello(presets.clone())).to_text().into()];
         if let Some(model) = inner.present() {
@@ -287,7 +288,7 @@ impl ServerState {
 
     /// Ends the variations that are being made, for they are of no use any more.
     fn stop_variations(&self, why: &str) {
-        if let Some(stop) = self.variations.lock().unwrap_or_else(PoisonError::into_inner).take() {
+        if let Some(stop) = self.variations.lock().recover().take() {
             stop.stop(Error::stopped(why));
         }
     }
@@ -295,7 +296,7 @@ impl ServerState {
     /// Takes notice of changed files.
     pub(super) fn changed(&self, change: &Change) {
         let mut presets = vec![Presets::path_of(&self.script)];
-        let of_packages = self.package_presets.lock().unwrap_or_else(PoisonError::into_inner);
+        let of_packages = self.package_presets.lock().recover();
         presets.extend(of_packages.iter().map(|(_, path)| path.clone()));
         drop(of_packages);
         if change.files.iter().any(|path| presets.contains(path)) {

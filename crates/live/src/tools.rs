@@ -2,8 +2,8 @@
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 use std::sync::mpsc::{RecvTimeoutError, channel};
-use std::sync::{Arc, PoisonError};
 use std::time::Duration;
 
 use axum::extract::ws::Utf8Bytes;
@@ -13,6 +13,7 @@ use super::message::{Cause, Event, json};
 use super::request::seed;
 use super::state::ServerState;
 use burgeon_base::error::{Error, Result};
+use burgeon_base::locks::LockRecovery;
 use burgeon_engine::script::{Param, Preset, RunOptions, Session};
 use burgeon_export::picture::{Background, Picture, Quality};
 use burgeon_presets::Presets;
@@ -36,7 +37,7 @@ fn names(presets: &Presets) -> Vec<String> {
 
 /// The names of the script's presets, and those of packages, such as `@castle/grand`.
 fn all_names(state: &ServerState, own: &Presets) -> Vec<String> {
-    let of_packages = state.package_presets.lock().unwrap_or_else(PoisonError::into_inner);
+    let of_packages = state.package_presets.lock().recover();
     let mut all = names(own);
     for (package, path) in of_packages.iter() {
         // What is wrong with their file is told to those who use one of them.
@@ -49,7 +50,7 @@ fn all_names(state: &ServerState, own: &Presets) -> Vec<String> {
 /// The preset that pages call `name`, of the script or of a package.
 fn find(state: &ServerState, own: &Presets, name: &str) -> Result<Preset> {
     let Some((package, inner)) = of_package(name) else { return own.get(name).cloned() };
-    let of_packages = state.package_presets.lock().unwrap_or_else(PoisonError::into_inner);
+    let of_packages = state.package_presets.lock().recover();
     let Some((_, path)) = of_packages.iter().find(|(known, _)| known == package) else {
         let known = of_packages.iter().map(|(known, _)| known.as_str());
         let message = format!("no package called {package} has presets");
@@ -68,7 +69,7 @@ fn of_package(name: &str) -> Option<(&str, &str)> {
 pub(super) fn find_package_presets(state: &ServerState, session: &Session) -> Vec<(PathBuf, bool)> {
     let found = session.package_presets();
     let files = found.iter().map(|(_, path)| (path.clone(), true)).collect();
-    let mut known = state.package_presets.lock().unwrap_or_else(PoisonError::into_inner);
+    let mut known = state.package_presets.lock().recover();
     let is_new = *known != found;
     *known = found;
     drop(known);
@@ -81,7 +82,7 @@ pub(super) fn find_package_presets(state: &ServerState, session: &Session) -> Ve
 /// Saves, loads or deletes a preset; one that is there is saved over only if it is to be replaced. Returns what the page
 /// that asked is answered.
 pub(super) fn preset(state: &ServerState, action: &str, name: &str, replace: bool) -> Option<Event> {
-    let mut known = state.presets.lock().unwrap_or_else(PoisonError::into_inner);
+    let mut known = state.presets.lock().recover();
     let done = match action {
         "save" | "delete" if of_package(name).is_some() => {
             Err(Error::argument(format!("{name} is a preset of a package, which is changed there"))
@@ -117,7 +118,7 @@ pub(super) fn preset(state: &ServerState, action: &str, name: &str, replace: boo
 
 /// Tells pages of presets that someone has changed in their file.
 pub(super) fn presets_changed(state: &ServerState) {
-    let mut known = state.presets.lock().unwrap_or_else(PoisonError::into_inner);
+    let mut known = state.presets.lock().recover();
     let read = Presets::read(&state.script);
     let mut inner = state.lock();
     let event = match read {
@@ -196,7 +197,7 @@ pub(super) fn variations(
         Err(error) => return Some(Event::refused(Some(id), &error)),
     };
     let stop = Arc::clone(&variations.stop);
-    let before = state.variations.lock().unwrap_or_else(PoisonError::into_inner).replace(Arc::clone(&stop));
+    let before = state.variations.lock().recover().replace(Arc::clone(&stop));
     if let Some(before) = before {
         before.stop(Error::stopped("others are made"));
     }

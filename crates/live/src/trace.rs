@@ -2,7 +2,7 @@
 //!
 //! The engine speaks of the scene's meshes and parts, pages speak of glTF's meshes and primitives (`layout`).
 
-use std::sync::{Arc, PoisonError};
+use std::sync::Arc;
 use std::time::Duration;
 
 use super::layout::Indices;
@@ -13,6 +13,7 @@ use super::message::{
 use super::state::{PresentModel, ServerState};
 use super::work;
 use burgeon_base::error::{Error, Result, SourcePlace};
+use burgeon_base::locks::LockRecovery;
 use burgeon_engine::results::{DerivedSystem, RuleName};
 use burgeon_engine::run::Run;
 use burgeon_engine::script::RunOptions;
@@ -66,7 +67,7 @@ pub(super) fn pick(state: &ServerState, pick: &PickCommand) -> Event {
         let scene = &shown.run.scene;
         let indices = Indices { scene, layout: &shown.layout };
         let wanted = indices.triangle(pick)?;
-        let _turn = state.tracing.lock().unwrap_or_else(PoisonError::into_inner);
+        let _turn = state.tracing.lock().recover();
         let found = engine::pick(&state.script, &options, scene, wanted)?;
         let tell = |made: &engine::ModuleOrigin| tell_made(state, &shown, made);
         let (main, placed) = match (&found.drawn, &found.placed) {
@@ -91,7 +92,7 @@ pub(super) fn highlight(state: &ServerState, id: u64, file: &str, line: usize) -
         }
         let name = state.engine_name(&path);
         let scene = &shown.run.scene;
-        let _turn = state.tracing.lock().unwrap_or_else(PoisonError::into_inner);
+        let _turn = state.tracing.lock().recover();
         let systems = shown.run.systems.len();
         let found = engine::highlight(&state.script, &options, scene, systems, &name, line)?;
         let mut indices = Indices { scene, layout: &shown.layout };

@@ -13,6 +13,7 @@ use super::request::Inputs;
 use super::state::{ActiveRun, DueRun, LiveState, PresentModel, ServerState};
 use super::{Notice, describe};
 use burgeon_base::error::{Error, ErrorKind, Limit, Result};
+use burgeon_base::locks::LockRecovery;
 use burgeon_base::text::panic_message;
 use burgeon_base::warning::Warning;
 use burgeon_engine::run::{Run, run_session};
@@ -57,14 +58,14 @@ enum RunOutcome {
 
 struct NewModel {
     run: Run,
-    file: File,
+    file: ModelFile,
     /// What pages are told of it, but for what depends on the request.
     message: ModelMessage,
 }
 
 /// The model as pages get it.
 #[derive(Default)]
-struct File {
+struct ModelFile {
     /// Its name, which depends on its content alone, and its content; nothing if there is nothing to show.
     content: Option<(String, Bytes)>,
     layout: Layout,
@@ -133,7 +134,7 @@ fn superseded(state: &ServerState, job: &RunJob, files: &[(PathBuf, bool)], watc
             watch.catch_up();
             return state.lock().due.is_some();
         };
-        inner = state.wake.wait_timeout(inner, left).unwrap_or_else(std::sync::PoisonError::into_inner).0;
+        inner = state.wake.wait_timeout(inner, left).recover().0;
     }
     true
 }
@@ -143,7 +144,7 @@ pub(super) fn report(state: &ServerState) {
     let mut inner = state.lock();
     while !inner.over {
         if inner.running.as_ref().is_none_or(|running| running.background) {
-            inner = state.wake.wait(inner).unwrap_or_else(std::sync::PoisonError::into_inner);
+            inner = state.wake.wait(inner).recover();
             continue;
         }
         drop(inner);
@@ -178,7 +179,7 @@ fn next(state: &ServerState) -> Option<RunJob> {
             let inputs = inner.request.inputs(inner.generation);
             return Some(RunJob { run, due, inputs });
         }
-        inner = state.wake.wait(inner).unwrap_or_else(std::sync::PoisonError::into_inner);
+        inner = state.wake.wait(inner).recover();
     }
 }
 
@@ -248,16 +249,16 @@ fn attempt(state: &ServerState, job: &RunJob, kept: &mut Option<Arc<Session>>) -
 }
 
 /// The model's bytes, and how long it took to make them.
-fn encode(run: &Run) -> Result<(File, Duration)> {
+fn encode(run: &Run) -> Result<(ModelFile, Duration)> {
     let begin = Instant::now();
     if run.scene.triangles() == 0 {
-        return Ok((File::default(), begin.elapsed()));
+        return Ok((ModelFile::default(), begin.elapsed()));
     }
-    let nothing = |note: String| File { note: Some(note), ..File::default() };
+    let nothing = |note: String| ModelFile { note: Some(note), ..ModelFile::default() };
     let file = match gltf::glb_for_viewer(&run.scene) {
         Ok((glb, layout)) if glb.len() <= LARGEST => {
             let hash = blake3::hash(&glb).to_hex()[..32].to_owned();
-            File { content: Some((hash, glb.into())), layout, note: None }
+            ModelFile { content: Some((hash, glb.into())), layout, note: None }
         }
         Ok((glb, _)) => {
             nothing(format!("the model takes {} MB, more than a page can show", glb.len() / 1_000_000))
@@ -305,7 +306,7 @@ fn finish(state: &ServerState, job: &RunJob, session: Option<&Session>, outcome:
             message.params = inner.request.params(&run.params);
             message.last_step = inner.last_step_of(&job.inputs, message.steps);
             message.preset = inner.request.preset();
-            let File { content, layout, note } = file;
+            let ModelFile { content, layout, note } = file;
             let old = content.map(|(hash, bytes)| inner.keep(hash, bytes));
             notices.push(Notice::Model {
                 triangles: message.triangles,

@@ -132,7 +132,7 @@ impl Manifest {
 
     /// Reads `text`, the content of the file that people find as `file`.
     pub fn parse(text: &str, file: &str) -> Result<Self> {
-        let file = File { text, name: file };
+        let file = ManifestFile { text, name: file };
         let table = DeTable::parse(text).map_err(|error| {
             let at = error.span().map_or(0, |span| span.start);
             let said = error.message().lines().next().unwrap_or_default();
@@ -208,15 +208,15 @@ impl ParamDefault {
 }
 
 /// A `mod.toml` that is being read.
-struct File<'a> {
+struct ManifestFile<'a> {
     text: &'a str,
     name: &'a str,
 }
 
 /// A text, and where it begins.
-type Text = (String, usize);
+type PlacedText = (String, usize);
 
-impl File<'_> {
+impl ManifestFile<'_> {
     fn line(&self, at: usize) -> usize {
         1 + self.text.as_bytes().iter().take(at).filter(|byte| **byte == b'\n').count()
     }
@@ -237,7 +237,7 @@ impl File<'_> {
             .at(Some(self.place(value.span().start)))
     }
 
-    fn text_of(&self, table: &DeTable<'_>, field: &str) -> Result<Option<Text>> {
+    fn text_of(&self, table: &DeTable<'_>, field: &str) -> Result<Option<PlacedText>> {
         let Some(value) = table.get(field) else { return Ok(None) };
         match value.get_ref().as_str() {
             Some(text) => Ok(Some((text.to_owned(), value.span().start))),

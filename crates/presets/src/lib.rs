@@ -78,7 +78,7 @@ impl Presets {
             Err(error) => return Err(cannot(&error)),
         };
         let text = String::from_utf8(bytes).map_err(|_| cannot(&"stream did not contain valid UTF-8"))?;
-        let presets = File { name: path.display().to_string(), text: &text }.presets()?;
+        let presets = PresetsFile { name: path.display().to_string(), text: &text }.presets()?;
         Ok(Self { path, presets })
     }
 
@@ -171,15 +171,15 @@ pub fn check_name(name: &str) -> Result<()> {
 }
 
 /// A file of presets that is being read.
-struct File<'a> {
+struct PresetsFile<'a> {
     name: String,
     text: &'a str,
 }
 
 /// The members of a JSON object in their order, each as it is written.
-type Members<'a> = Vec<(String, &'a RawValue)>;
+type PresetMembers<'a> = Vec<(String, &'a RawValue)>;
 
-impl<'a> File<'a> {
+impl<'a> PresetsFile<'a> {
     fn presets(&self) -> Result<Vec<Preset>> {
         let text = self.text.trim_start_matches('\u{feff}');
         let file: &RawValue = serde_json::from_str(text).map_err(|error| {
@@ -226,7 +226,7 @@ impl<'a> File<'a> {
     }
 
     /// The members of `raw`, which must be an object without repeated names.
-    fn members(&self, raw: &'a RawValue, what: &str, form: &str) -> Result<Members<'a>> {
+    fn members(&self, raw: &'a RawValue, what: &str, form: &str) -> Result<PresetMembers<'a>> {
         let refuse = |message: String, raw: &RawValue| Error::data(message).at(Some(self.place(raw)));
         let members = if raw.get().starts_with('{') { read_members(raw.get()).ok() } else { None };
         let members = members.ok_or_else(|| {
@@ -273,10 +273,10 @@ fn short(raw: &RawValue) -> String {
     if text.chars().count() <= 40 { text } else { text.chars().take(39).chain(['…']).collect() }
 }
 
-fn read_members(text: &str) -> serde_json::Result<Members<'_>> {
-    struct Reader;
-    impl<'de> Visitor<'de> for Reader {
-        type Value = Members<'de>;
+fn read_members(text: &str) -> serde_json::Result<PresetMembers<'_>> {
+    struct MembersVisitor;
+    impl<'de> Visitor<'de> for MembersVisitor {
+        type Value = PresetMembers<'de>;
 
         fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
             f.write_str("an object")
@@ -290,7 +290,7 @@ fn read_members(text: &str) -> serde_json::Result<Members<'_>> {
             Ok(members)
         }
     }
-    serde_json::Deserializer::from_str(text).deserialize_map(Reader)
+    serde_json::Deserializer::from_str(text).deserialize_map(MembersVisitor)
 }
 
 #[cfg(test)]

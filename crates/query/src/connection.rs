@@ -7,7 +7,7 @@ use std::cell::Cell;
 use std::collections::BTreeMap;
 use std::hash::BuildHasher as _;
 use std::panic::{AssertUnwindSafe, RefUnwindSafe, UnwindSafe};
-use std::sync::{Arc, Mutex, PoisonError, RwLock};
+use std::sync::{Arc, Mutex, RwLock};
 
 use rusqlite::config::DbConfig;
 use rusqlite::hooks::{AuthAction, AuthContext, Authorization};
@@ -19,6 +19,7 @@ use crate::functions::{self, GeometryArgument};
 use crate::index::SpatialIndex;
 use burgeon_base::budget::Budget;
 use burgeon_base::error::Result;
+use burgeon_base::locks::LockRecovery;
 
 /// The longest text or blob (bytes).
 const LONGEST: i32 = 200_000_000;
@@ -99,17 +100,17 @@ impl RecentGeometries {
 impl ConnectionState {
     /// What may be taken.
     pub(crate) fn budget(&self) -> Arc<Budget> {
-        Arc::clone(&self.budget.lock().unwrap_or_else(PoisonError::into_inner))
+        Arc::clone(&self.budget.lock().recover())
     }
 
     /// Lets the next statement take something.
     pub(crate) fn give(&self, budget: &Arc<Budget>) {
-        *self.budget.lock().unwrap_or_else(PoisonError::into_inner) = Arc::clone(budget);
+        *self.budget.lock().recover() = Arc::clone(budget);
     }
 
     /// The geometry in a blob. Fails with the reason.
     pub(crate) fn geometry(&self, bytes: &[u8]) -> Result<Arc<GeometryArgument>, String> {
-        let mut recent = self.recent.lock().unwrap_or_else(PoisonError::into_inner);
+        let mut recent = self.recent.lock().recover();
         let place = recent.place(bytes);
         if let Some((_, parsed)) = place.as_ref().filter(|(known, _)| known == bytes) {
             return Ok(Arc::clone(parsed));
@@ -125,12 +126,12 @@ impl ConnectionState {
         if self.budget().hold(bytes.len()).is_err() {
             return;
         }
-        *self.unreadable.lock().unwrap_or_else(PoisonError::into_inner) = Some(bytes.to_vec());
+        *self.unreadable.lock().recover() = Some(bytes.to_vec());
     }
 
     /// The last blob that was no geometry, which is forgotten.
     pub(crate) fn take_unreadable(&self) -> Option<Vec<u8>> {
-        self.unreadable.lock().unwrap_or_else(PoisonError::into_inner).take()
+        self.unreadable.lock().recover().take()
     }
 }
 
@@ -221,7 +222,7 @@ impl DatabaseLink {
         if self.makes_indexes.get() == Some(on) {
             return Ok(());
         }
-        let trust = |trusted| *self.state.trusted.lock().unwrap_or_else(PoisonError::into_inner) = trusted;
+        let trust = |trusted| *self.state.trusted.lock().recover() = trusted;
         trust(true);
         let done = self.connection.pragma_update(None, "automatic_index", on);
         trust(false);
@@ -252,7 +253,7 @@ fn lock(connection: &mut Connection, state: &Arc<ConnectionState>) -> rusqlite::
     connection.progress_handler(STEPS, Some(move || (over.0)()))?;
     let trust = AssertUnwindSafe(Arc::clone(state));
     connection.authorizer(Some(move |context: AuthContext<'_>| {
-        let trusted = || *trust.0.trusted.lock().unwrap_or_else(PoisonError::into_inner);
+        let trusted = || *trust.0.trusted.lock().recover();
         match context.action {
             // SQLite's own tables tell of its pages, and of files.
             AuthAction::Read { table_name, .. }

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 use std::sync::atomic::{AtomicUsize, Ordering};
-use std::sync::{Arc, Mutex, OnceLock, PoisonError, RwLock};
+use std::sync::{Arc, Mutex, OnceLock, RwLock};
 
 use rusqlite::Connection;
 use rustc_hash::FxHashMap;
@@ -11,10 +11,11 @@ use crate::ask;
 use crate::cell::{Cell, QueryAnswer};
 use crate::connection::{AttachedFile, DatabaseLink, Indexes, MOST_FILES, TableView, open_memory};
 use crate::errors;
-use crate::rewrite::{self, Catalogue, Dialect, Rewritten, TableInfo};
+use crate::rewrite::{self, Catalogue, Dialect, RewrittenQuery, TableInfo};
 use crate::tables::{self, FileLayer};
 use burgeon_base::budget::Budget;
 use burgeon_base::error::{Error, Result};
+use burgeon_base::locks::LockRecovery;
 use burgeon_base::text::shown;
 use burgeon_data::{Layer, ReferenceFrame};
 
@@ -24,7 +25,7 @@ const STATEMENTS: usize = 500;
 /// The number of the next database's memory, which all of the process share.
 static MEMORIES: AtomicUsize = AtomicUsize::new(0);
 
-/// TableSet of features, and questions that are put to them in SQL.
+/// Tables of features, and questions that are put to them in SQL.
 ///
 /// Threads may ask at the same time. In statements, coordinates are those of the run's projection; what comes in and goes
 /// out is in metres around the run's origin.
@@ -72,7 +73,7 @@ pub(crate) struct PreparedStatement {
     /// As it was written.
     pub original: String,
     /// As it was rewritten, if it could be read.
-    pub rewritten: Option<Rewritten>,
+    pub rewritten: Option<RewrittenQuery>,
     /// What is known of its columns and parameters, once it was asked.
     pub shape: OnceLock<StatementShape>,
 }
@@ -120,7 +121,7 @@ impl Database {
 
     /// The names of its tables, in the order of the alphabet.
     pub fn tables(&self) -> Vec<String> {
-        let tables = self.tables.read().unwrap_or_else(PoisonError::into_inner);
+        let tables = self.tables.read().recover();
         tables.catalogue.values().map(|table| table.name.clone()).collect()
     }
 
@@ -129,11 +130,11 @@ impl Database {
     /// Fails if another table is called so, or if there is no memory for it.
     pub fn add_layer(&self, name: &str, layer: &Layer, budget: &Budget) -> Result<()> {
         let origin = format!("{} {:?} {}", layer.shown, layer.origin, layer.features.len());
-        let mut tables = self.tables.write().unwrap_or_else(PoisonError::into_inner);
+        let mut tables = self.tables.write().recover();
         if tables.is_there(name, &origin)? {
             return Ok(());
         }
-        let writer = self.writer.lock().unwrap_or_else(PoisonError::into_inner);
+        let writer = self.writer.lock().recover();
         let info = tables::write_layer(&writer, name, layer, budget)?;
         tables.add(info, origin);
         Ok(())
@@ -152,7 +153,7 @@ impl Database {
         budget: &Arc<Budget>,
     ) -> Result<()> {
         let origin = format!("{}:{layer}", path.display());
-        let mut tables = self.tables.write().unwrap_or_else(PoisonError::into_inner);
+        let mut tables = self.tables.write().recover();
         if tables.is_there(name, &origin)? {
             return Ok(());
         }
@@ -160,7 +161,7 @@ impl Database {
         let known = tables.files.iter().position(|file| file.address == found.address);
         let fits = found.stays(self.frame.as_ref())? && (known.is_some() || tables.files.len() < MOST_FILES);
         if !fits {
-            let writer = self.writer.lock().unwrap_or_else(PoisonError::into_inner);
+            let writer = self.writer.lock().recover();
             let info = found.copy(&writer, name, self.frame.as_ref(), budget)?;
             tables.add(info, origin);
             return Ok(());
@@ -235,16 +236,16 @@ impl Database {
             budget.check().err().unwrap_or_else(|| self.error(sql, failure, &link))
         });
         link.state.give(&Arc::default());
-        let mut idle = self.idle.lock().unwrap_or_else(PoisonError::into_inner);
+        let mut idle = self.idle.lock().recover();
         idle.push(link);
         result
     }
 
     fn error(&self, sql: &str, failure: ask::QueryFailure, link: &DatabaseLink) -> Error {
-        let tables = self.tables.read().unwrap_or_else(PoisonError::into_inner);
+        let tables = self.tables.read().recover();
         let error = match failure {
             ask::QueryFailure::Told(error) => error,
-            ask::QueryFailure::Sqlite(error) => errors::told(&error, sql, &tables.catalogue),
+            ask::QueryFailure::Sqlite(error) => errors::statement_error(&error, sql, &tables.catalogue),
         };
         let row = link.state.take_unreadable().and_then(|bytes| {
             let asked = tables.catalogue.values().filter(|table| names_table(sql, &table.name));
@@ -258,8 +259,8 @@ impl Database {
 
     /// A connection that sees all tables.
     fn link(&self) -> rusqlite::Result<DatabaseLink> {
-        let tables = self.tables.read().unwrap_or_else(PoisonError::into_inner);
-        let mut idle = self.idle.lock().unwrap_or_else(PoisonError::into_inner);
+        let tables = self.tables.read().recover();
+        let mut idle = self.idle.lock().recover();
         while let Some(link) = idle.pop() {
             if link.generation == tables.generation {
                 return Ok(link);
@@ -277,19 +278,19 @@ impl Database {
         budget: &Arc<Budget>,
     ) -> Result<Arc<PreparedStatement>> {
         let generation = link.generation;
-        let known = self.statements.lock().unwrap_or_else(PoisonError::into_inner).get(sql).cloned();
+        let known = self.statements.lock().recover().get(sql).cloned();
         if let Some((_, known)) = known.filter(|(seen, _)| *seen == generation) {
             return Ok(known);
         }
         errors::check_length(sql)?;
-        let catalogue = self.tables.read().unwrap_or_else(PoisonError::into_inner).catalogue.clone();
+        let catalogue = self.tables.read().recover().catalogue.clone();
         let rewritten = rewrite::rewrite(sql, &catalogue, &rewrite::ChosenRows::new(), Dialect::Sqlite);
         for (name, nearest) in rewritten.iter().flat_map(|rewritten| &rewritten.indexes) {
             self.index(name, *nearest, link, &catalogue, budget)?;
         }
         let prepared =
             Arc::new(PreparedStatement { original: sql.to_owned(), rewritten, shape: OnceLock::new() });
-        let mut statements = self.statements.lock().unwrap_or_else(PoisonError::into_inner);
+        let mut statements = self.statements.lock().recover();
         if statements.len() >= STATEMENTS {
             statements.clear();
         }
@@ -306,8 +307,8 @@ impl Database {
         catalogue: &Catalogue,
         budget: &Arc<Budget>,
     ) -> Result<()> {
-        let _alone = self.building.lock().unwrap_or_else(PoisonError::into_inner);
-        let there = self.indexes.read().unwrap_or_else(PoisonError::into_inner);
+        let _alone = self.building.lock().recover();
+        let there = self.indexes.read().recover();
         if there.get(name).is_some_and(|index| index.has_lines() || !nearest) {
             return Ok(());
         }
@@ -318,9 +319,10 @@ impl Database {
         });
         let (table, column) =
             found.ok_or_else(|| Error::internal(format!("no index can be made for {name}")))?;
-        let built = tables::index(&link.connection, table, column, nearest, budget)
-            .map_err(|error| errors::or_sqlite(error, |error| errors::told(error, "", catalogue)))?;
-        let mut indexes = self.indexes.write().unwrap_or_else(PoisonError::into_inner);
+        let built = tables::index(&link.connection, table, column, nearest, budget).map_err(|error| {
+            errors::or_sqlite(error, |error| errors::statement_error(error, "", catalogue))
+        })?;
+        let mut indexes = self.indexes.write().recover();
         indexes.insert(name.to_owned(), Arc::new(built));
         Ok(())
     }

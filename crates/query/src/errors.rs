@@ -89,7 +89,7 @@ fn words(error: &rusqlite::Error) -> String {
 }
 
 /// The error of a statement `sql`.
-pub(crate) fn told(error: &rusqlite::Error, sql: &str, catalogue: &Catalogue) -> Error {
+pub(crate) fn statement_error(error: &rusqlite::Error, sql: &str, catalogue: &Catalogue) -> Error {
     let text = words(error);
     let code = error.sqlite_error_code();
     if code == Some(ErrorCode::AuthorizationForStatementDenied) || text.starts_with(NOT_ALLOWED) {

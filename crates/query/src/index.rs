@@ -3,6 +3,7 @@
 //! Comes in: keys and blobs of a column. Goes out: the keys of rows whose boxes meet a box, and of those that are nearest
 //! to a geometry. Rows without a geometry are known too, since they come last where rows are ordered by distance.
 
+use burgeon_geometry::planar::{Point, foot};
 use geo::{BoundingRect, Coord, CoordsIter, Intersects, Line, LinesIter};
 use rstar::primitives::{GeomWithData, Rectangle};
 use rstar::{AABB, Envelope, PointDistance, RTree, RTreeObject};
@@ -361,9 +362,8 @@ fn square_box_distance(a: &AABB<[f64; 2]>, b: &AABB<[f64; 2]>) -> f64 {
 
 /// The square of the distance of a point from a line.
 fn square_distance(line: &Line<f64>, at: Coord<f64>) -> f64 {
+    let part = foot([line.start, line.end], at.flat());
     let (along, to) = (line.end - line.start, at - line.start);
-    let length = along.x * along.x + along.y * along.y;
-    let part = if length > 0.0 { ((to.x * along.x + to.y * along.y) / length).clamp(0.0, 1.0) } else { 0.0 };
     let (x, y) = (to.x - along.x * part, to.y - along.y * part);
     x * x + y * y
 }

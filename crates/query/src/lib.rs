@@ -1,7 +1,7 @@
 //! SQL over layers of features: questions that are put to a database within the program, or to a PostGIS server.
 //!
 //! Comes in: layers, GeoPackages as they are, the address of a server; then statements with named parameters. Goes out:
-//! an [`QueryAnswer`] for each, rows of [`Cell`]s in one order. It never writes into a source, and no statement reaches anything
+//! a [`QueryAnswer`] for each, rows of [`Cell`]s in one order. It never writes into a source, and no statement reaches anything
 //! but the tables that it was given.
 //!
 //! Functions are those of PostGIS, as far as [`FUNCTIONS`] goes. Spatial joins use an index however they are written:

@@ -1,5 +1,6 @@
 //! Edges of geometries, arranged so that the nearest one to a place is found without asking all.
 
+use burgeon_geometry::planar::foot;
 use glam::{DVec2, DVec3};
 use rstar::{AABB, PointDistance, RTree, RTreeObject};
 
@@ -17,9 +18,7 @@ impl Edge {
     /// The point of it that is nearest to a place, with its height.
     pub(crate) fn nearest(&self, place: DVec2) -> DVec3 {
         let [a, b] = self.ends;
-        let way = (b - a).truncate();
-        let squared = way.length_squared();
-        let along = if squared > 0.0 { (place - a.truncate()).dot(way) / squared } else { 0.0 };
+        let along = foot(self.ends, place);
         // Its ends are met exactly.
         if along <= 0.0 {
             a

@@ -53,8 +53,8 @@ impl Geometry {
 
     /// A polygon from rings that may end where they begin; nothing if the outer one has no three points. Holes that
     /// have not are left out.
-    pub fn polygon(rings: Vec<Vec<DVec3>>) -> Option<Self> {
-        opened(rings).map(Self::Polygon)
+    pub fn polygon(rings: impl Into<Rings>) -> Option<Self> {
+        opened(rings.into()).map(Self::Polygon)
     }
 
     /// The empty geometry of a dimension: 0 of points, 1 of lines, 2 of areas.
@@ -265,7 +265,7 @@ impl Geometry {
 
 /// Rings without the first point again at the end; nothing if the outer one has no three points. Holes that have not
 /// are left out.
-pub(crate) fn opened(mut rings: Vec<Vec<DVec3>>) -> Option<Rings> {
+pub(crate) fn opened(Rings(mut rings): Rings) -> Option<Rings> {
     for ring in &mut rings {
         while ring.len() > 1 && ring.first() == ring.last() {
             ring.pop();

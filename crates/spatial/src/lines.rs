@@ -1,6 +1,7 @@
 //! Places along lines, and lines beside them.
 
 use burgeon_base::error::{Error, Result};
+use burgeon_geometry::planar::simplified;
 use glam::{DVec2, DVec3};
 
 use super::edges::{Edge, EdgeTree, edges, with_heights};
@@ -120,14 +121,14 @@ impl Geometry {
         }
         match self {
             Self::Point(_) | Self::MultiPoint(_) => self.clone(),
-            Self::Line(line) => Self::Line(simplified(line, tolerance)),
+            Self::Line(line) => Self::Line(simplified(line, tolerance, aside)),
             Self::MultiLine(lines) => {
-                Self::MultiLine(lines.iter().map(|line| simplified(line, tolerance)).collect())
+                Self::MultiLine(lines.iter().map(|line| simplified(line, tolerance, aside)).collect())
             }
             Self::Polygon(_) | Self::MultiPolygon(_) => {
                 let mut parts = Vec::new();
                 collect_polygons(self, &mut |rings| {
-                    let rings = rings.iter().map(|ring| simplified(&closed(ring), tolerance));
+                    let rings = rings.iter().map(|ring| simplified(&closed(ring), tolerance, aside));
                     parts.extend(Self::polygon(rings.filter(|ring| ring.len() > 3).collect()));
                 });
                 let made = Self::gathered(parts);
@@ -258,25 +259,8 @@ pub(crate) fn along(line: &[DVec3], mut far: f64) -> DVec3 {
     line.last().copied().unwrap_or_default()
 }
 
-fn simplified(line: &[DVec3], tolerance: f64) -> Vec<DVec3> {
-    let Some(last) = line.len().checked_sub(1) else { return Vec::new() };
-    let mut kept = vec![false; line.len()];
-    (kept[0], kept[last]) = (true, true);
-    let mut open = vec![(0, last)];
-    while let Some((from, to)) = open.pop() {
-        let edge = Edge { ends: [line[from], line[to]], number: 0 };
-        let far = |index: usize| {
-            let place = line[index].truncate();
-            edge.nearest(place).truncate().distance(place)
-        };
-        let farthest = (from + 1..to).map(|index| (far(index), index));
-        let farthest = farthest.reduce(|best, other| if other.0 > best.0 { other } else { best });
-        if let Some((far, index)) = farthest
-            && far > tolerance
-        {
-            kept[index] = true;
-            open.extend([(from, index), (index, to)]);
-        }
-    }
-    line.iter().zip(kept).filter(|(_, kept)| *kept).map(|(point, _)| *point).collect()
+/// How far (m) a point is from the way between two others, as seen from above.
+fn aside(point: DVec3, ends: [DVec3; 2]) -> f64 {
+    let place = point.truncate();
+    Edge { ends, number: 0 }.nearest(place).truncate().distance(place)
 }

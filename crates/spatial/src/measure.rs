@@ -1,6 +1,7 @@
 //! What is measured on one geometry, and the simple shapes around it.
 
 use burgeon_geometry::Rings;
+use burgeon_geometry::planar::twice_area;
 use geo::{Centroid, MinimumRotatedRect};
 use glam::{DVec2, DVec3};
 
@@ -22,7 +23,7 @@ impl Geometry {
         let mut sum = 0.0;
         if self.is_sound() {
             collect_polygons(self, &mut |rings| {
-                let mut areas = rings.iter().map(|ring| twice_area(ring).abs() / 2.0);
+                let mut areas = rings.iter().map(|ring| twice_area(ring.iter().copied()).abs() / 2.0);
                 sum += areas.next().unwrap_or(0.0) - areas.sum::<f64>();
             });
         }
@@ -179,17 +180,6 @@ fn shape_of(mut corners: Vec<DVec2>) -> Geometry {
         }
         _ => Geometry::Polygon(Rings(vec![corners])),
     }
-}
-
-/// Twice the area (m²) inside a ring; negative if it is clockwise.
-///
-/// Method: the triangles between its first point and its edges, so that it is as exact far from the origin.
-pub(crate) fn twice_area(ring: &[DVec3]) -> f64 {
-    let Some(first) = ring.first() else { return 0.0 };
-    let from_first = ring[1..]
-        .windows(2)
-        .map(|pair| (pair[0] - *first).truncate().perp_dot((pair[1] - *first).truncate()));
-    from_first.sum()
 }
 
 /// The length (m) of a way from point to point.

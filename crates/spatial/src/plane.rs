@@ -1,10 +1,10 @@
 //! The plane that operations work in: geometries to and from those of `geo`, around an origin of their own.
 
 use burgeon_geometry::Rings;
+use burgeon_geometry::planar::twice_area;
 use glam::{DVec2, DVec3};
 
 use super::Geometry;
-use super::measure::twice_area;
 
 /// An origin near what is worked on.
 ///
@@ -86,7 +86,7 @@ impl Plane {
     pub(crate) fn polygon(self, rings: &Rings) -> Option<geo::Polygon> {
         let turned = |ring: &Vec<DVec3>, is_outer: bool| -> geo::LineString {
             let mut turned = self.string(ring);
-            if (twice_area(ring) > 0.0) != is_outer {
+            if (twice_area(ring.iter().copied()) > 0.0) != is_outer {
                 turned.0.reverse();
             }
             turned

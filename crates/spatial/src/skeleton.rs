@@ -1,6 +1,7 @@
 //! The straight skeleton of areas, and what is left when their borders move inwards.
 
 use burgeon_base::error::{Error, Result};
+use burgeon_geometry::planar::edges;
 use burgeon_geometry::skeleton::{Pace, Skeleton};
 use burgeon_geometry::{Polygon, Rings};
 use glam::DVec2;
@@ -27,11 +28,11 @@ impl Geometry {
             let paces = vec![Pace::default(); polygon.size()];
             let skeleton = Skeleton::new(&polygon, &paces)?;
             for face in &skeleton.faces {
-                for (index, from) in face.iter().enumerate().skip(1) {
-                    let to = face[(index + 1) % face.len()];
-                    let [a, b] = [*from, to].map(|peak| skeleton.peaks[peak].at);
+                // The first is that of the plan.
+                for [from, to] in edges(face).skip(1) {
+                    let [a, b] = [from, to].map(|peak| skeleton.peaks[peak].at);
                     // Each line is the border of two faces.
-                    if *from < to && a != b {
+                    if from < to && a != b {
                         lines.push(Self::Line(vec![plane.back(a), plane.back(b)]));
                     }
                 }

@@ -1,13 +1,13 @@
 //! Whether geometries are what their kinds promise, and what can be made of those that are not.
 
 use burgeon_geometry::Rings;
+use burgeon_geometry::planar::twice_area;
 use geo::Validation;
 use geo::bool_ops::FillRule;
 use glam::DVec3;
 
 use super::Geometry;
 use super::edges::with_heights;
-use super::measure::twice_area;
 use super::overlay::filled;
 use super::plane::Plane;
 
@@ -40,7 +40,7 @@ impl Geometry {
         });
         let mut flat = None;
         super::plane::collect_polygons(self, &mut |rings: &Rings| {
-            if rings.iter().any(|ring| !ring.is_empty() && twice_area(ring) == 0.0) {
+            if rings.iter().any(|ring| !ring.is_empty() && twice_area(ring.iter().copied()) == 0.0) {
                 flat = Some("a ring has no area".to_owned());
             }
         });

@@ -10,6 +10,7 @@ use std::collections::HashSet;
 use std::time::Instant;
 
 use burgeon_geometry::Rings;
+use burgeon_geometry::planar::twice_area;
 use burgeon_streets::{
     Constraints, Lot, LotOptions, LotPattern, LotUse, Obstacles, SiteOptions, StreetBlock, StreetNetwork,
     SurfaceOptions,
@@ -20,10 +21,7 @@ use grown::{Numbers, grown};
 /// Whether lots fill their block: areas add up, and every edge has one lot on either side, or is on the border.
 fn check(block: &StreetBlock, lots: &[Lot]) {
     let area = |rings: &Rings<DVec2>| -> f64 {
-        let ring = |ring: &Vec<DVec2>| -> f64 {
-            ring.windows(2).map(|pair| (pair[0] - ring[0]).perp_dot(pair[1] - ring[0])).sum::<f64>() / 2.0
-        };
-        rings.iter().map(ring).sum()
+        rings.iter().map(|ring| twice_area(ring.iter().copied()) / 2.0).sum()
     };
     let whole = area(&block.rings);
     let sum: f64 = lots.iter().map(|lot| lot.area).sum();

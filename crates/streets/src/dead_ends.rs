@@ -57,6 +57,22 @@ impl StreetNetwork {
     }
 
     /// Takes dead ends away, and the streets that thereby become dead ends; gives how many pieces that were.
+    ///
+    /// ```
+    /// use burgeon_streets::{Constraints, Obstacles, StreetAttributes, StreetNetwork};
+    /// use glam::DVec2;
+    ///
+    /// let mut network = StreetNetwork::new(Constraints::default(), Obstacles::default())?;
+    /// let mut end = network.begin(DVec2::ZERO)?;
+    /// // Around a square, and two streets that lead away from it.
+    /// for to in [(200.0, 0.0), (200.0, 200.0), (0.0, 200.0), (0.0, 0.0), (-200.0, 0.0), (-400.0, 0.0)] {
+    ///     end = network.grow(end, DVec2::from(to), StreetAttributes::default())?.end;
+    /// }
+    /// assert_eq!((network.size(), network.dead_ends().count()), (6, 1));
+    /// assert_eq!(network.remove_dead_ends(), 2);
+    /// assert_eq!((network.size(), network.dead_ends().count()), (4, 0));
+    /// # Ok::<(), burgeon_base::error::Error>(())
+    /// ```
     pub fn remove_dead_ends(&mut self) -> usize {
         let mut due: Vec<JunctionId> = self.dead_ends().collect();
         let mut removed = 0;

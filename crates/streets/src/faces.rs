@@ -3,7 +3,7 @@
 use rustc_hash::FxHashMap;
 
 use crate::network::{JunctionId, PieceId, StreetNetwork};
-use burgeon_geometry::planar::contains;
+use burgeon_geometry::planar::{contains, twice_area};
 use glam::DVec2;
 
 /// A way along a piece, from one of its junctions to the other.
@@ -62,10 +62,7 @@ impl StreetNetwork {
 
     /// The area (m²) on the left of a way; negative if that is what lies outside of a network.
     pub fn area(&self, way: &[Course]) -> f64 {
-        let corners = self.corners(way);
-        let Some(first) = corners.first() else { return 0.0 };
-        let pairs = corners.iter().zip(corners.iter().cycle().skip(1));
-        pairs.map(|(a, b)| (*a - *first).perp_dot(*b - *first)).sum::<f64>() / 2.0
+        twice_area(way.iter().map(|course| self.at(course.from))) / 2.0
     }
 
     /// The areas that the streets enclose, in a fixed order.

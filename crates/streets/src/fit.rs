@@ -54,6 +54,24 @@ struct FitPlace {
 impl StreetNetwork {
     /// Heights of its streets on the ground, which `ground` gives for a place (m); gives the first place without ground if
     /// there is one.
+    ///
+    /// ```
+    /// use burgeon_streets::{Constraints, Obstacles, SlopeOptions, StreetAttributes, StreetNetwork, SurfaceOptions};
+    /// use glam::DVec2;
+    ///
+    /// let mut network = StreetNetwork::new(Constraints::default(), Obstacles::default())?;
+    /// let start = network.begin(DVec2::ZERO)?;
+    /// let end = network.grow(start, DVec2::new(200.0, 0.0), StreetAttributes::default())?.end;
+    /// let slopes = SlopeOptions { max_slope: 0.1, least: [None; 2] };
+    /// let rise = |slope: f64| {
+    ///     let fit = network.lay(SurfaceOptions::default(), slopes, |at| Some(slope * at.x)).expect("ground");
+    ///     fit.profiles.junction(end) - fit.profiles.junction(start)
+    /// };
+    /// // What is not too steep stays as it is, and a slope of 30 % becomes one of 10 %.
+    /// assert!((rise(0.05) - 10.0).abs() < 1e-9);
+    /// assert!((rise(0.3) - 20.0).abs() < 1e-9);
+    /// # Ok::<(), burgeon_base::error::Error>(())
+    /// ```
     pub fn lay(
         &self,
         options: SurfaceOptions,

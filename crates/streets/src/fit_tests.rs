@@ -90,7 +90,7 @@ fn what_stands_beside_streets_stands_on_sidewalks() {
         }
         let options = SurfaceOptions { turning: 11.0 };
         let [of_trees, of_lamps] =
-            [VergeThing::Tree, VergeThing::Lamp].map(|thing| network.verge(options, &flat, &kinds, thing));
+            [VergeKind::Tree, VergeKind::Lamp].map(|thing| network.verge(options, &flat, &kinds, thing));
         (trees, lamps) = (trees + of_trees.len(), lamps + of_lamps.len());
         let surfaces = network.surfaces(options, &flat);
         for (index, found) in of_trees.iter().chain(&of_lamps).enumerate() {

@@ -1,5 +1,6 @@
 //! Places on a grid of whole steps, on which sides and crossings are decided exactly.
 
+use burgeon_geometry::planar;
 use glam::DVec2;
 
 /// How many steps of the grid are a metre.
@@ -81,9 +82,8 @@ pub(crate) fn crossing([a, b]: [DVec2; 2], [c, d]: [DVec2; 2]) -> Option<f64> {
 
 /// Distance (m) from a place to the nearest of a piece, and how far along it that is, from 0 to 1.
 pub(crate) fn foot(place: DVec2, [a, b]: [DVec2; 2]) -> (f64, f64) {
-    let way = b - a;
-    let along = ((place - a).dot(way) / way.length_squared()).clamp(0.0, 1.0);
-    (place.distance(a + way * along), along)
+    let along = planar::foot([a, b], place);
+    (place.distance(a + (b - a) * along), along)
 }
 
 #[cfg(test)]

@@ -70,4 +70,4 @@ pub use profile::StreetProfiles;
 pub use spans::StreetSpan;
 pub use stretches::StreetStretch;
 pub use surface::{Median, Sidewalk, StreetFooting, StreetSurface, StreetSurfaces, SurfaceOptions};
-pub use verge::{VergePlace, VergeThing};
+pub use verge::{VergeKind, VergePlace};

@@ -35,6 +35,23 @@ pub struct Measures {
 
 impl StreetNetwork {
     /// Its measures. Junctions where a street only turns are a part of it, not junctions.
+    ///
+    /// ```
+    /// use burgeon_streets::{Constraints, Obstacles, StreetAttributes, StreetNetwork};
+    /// use glam::DVec2;
+    ///
+    /// // Four streets of 200 m from one place.
+    /// let mut network = StreetNetwork::new(Constraints::default(), Obstacles::default())?;
+    /// let middle = network.begin(DVec2::ZERO)?;
+    /// for way in [DVec2::X, DVec2::Y, -DVec2::X, -DVec2::Y] {
+    ///     network.grow(middle, 200.0 * way, StreetAttributes::default())?;
+    /// }
+    /// let measures = network.measures();
+    /// assert_eq!((measures.length, measures.degree, measures.circuity), (800.0, 8.0 / 5.0, 1.0));
+    /// assert_eq!(measures.shares, [0.8, 0.0, 0.2]);
+    /// assert!((measures.orientation_order - 1.0).abs() < 1e-9);
+    /// # Ok::<(), burgeon_base::error::Error>(())
+    /// ```
     pub fn measures(&self) -> Measures {
         let StreetRuns { lengths, straight, bins } = self.runs();
         let length = lengths.iter().sum();

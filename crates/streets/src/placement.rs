@@ -12,6 +12,7 @@ use crate::network::{PieceId, StreetNetwork};
 use crate::profile::StreetProfiles;
 use crate::surface::SurfaceOptions;
 use burgeon_base::error::{Error, Result};
+use burgeon_geometry::planar::edges;
 
 /// The most places that are looked at.
 const MOST_PLACES: f64 = 20_000_000.0;
@@ -306,10 +307,7 @@ fn reaches(edge: [FinePlace; 2], corners: &Corners) -> bool {
 /// Method: if not, a side of one of them has all of the other on its outer side (separating axes), exactly.
 pub(crate) fn overlap(a: &[FinePlace], b: &[FinePlace]) -> bool {
     let separates = |one: &[FinePlace], other: &[FinePlace]| {
-        (0..one.len()).any(|index| {
-            let (from, to) = (one[index], one[(index + 1) % one.len()]);
-            other.iter().all(|place| fine_side(from, to, *place) <= 0)
-        })
+        edges(one).any(|[from, to]| other.iter().all(|place| fine_side(from, to, *place) <= 0))
     };
     !separates(a, b) && !separates(b, a)
 }

@@ -9,6 +9,7 @@ use crate::network::PieceId;
 use crate::profile::StreetProfiles;
 use crate::shape::{ArmShape, StreetShapes};
 use crate::surface::{Median, StreetSurface};
+use burgeon_geometry::Line;
 
 /// The chords of a quarter of the round end of a median.
 const NOSE: u32 = 4;
@@ -26,12 +27,12 @@ pub(crate) struct PieceRows<'a> {
     depth: u32,
     start: DVec2,
     way: DVec2,
-    rows: Vec<Row>,
+    rows: Vec<PieceRow>,
 }
 
 /// Places (m) across a piece, on its right and on its left.
 #[derive(Debug, Clone, Copy)]
-struct Row {
+struct PieceRow {
     sides: [DVec2; 2],
     /// Those of the median, if there is one.
     median: Option<[DVec2; 2]>,
@@ -128,7 +129,7 @@ impl<'a> PieceRows<'a> {
         let row = |along: f64| {
             let at = start + way * along;
             let across = |aside: f64| [at - way.perp() * aside, at + way.perp() * aside];
-            Row {
+            PieceRow {
                 sides: across(half),
                 median: (stretch[0]..=stretch[1]).contains(&along).then(|| across(aside)),
                 height: profiles.along(piece, along),
@@ -139,7 +140,7 @@ impl<'a> PieceRows<'a> {
             let across =
                 |aside: f64| [-aside, aside].map(|aside| shapes.end(ends[side], piece, sign * aside));
             let through = median.is_some_and(|ends| ends[side] == MedianEnd::Through);
-            Row {
+            PieceRow {
                 sides: across(half),
                 median: through.then(|| across(aside)),
                 height: profiles.junction(ends[side]),
@@ -269,7 +270,7 @@ impl<'a> PieceRows<'a> {
         for line in &mut open {
             line.dedup_by(|a, b| a.distance(*b) < 1e-9);
         }
-        median.kerbs = open;
+        median.kerbs = open.into_iter().filter_map(Line::without_repeats).collect();
         Some(median)
     }
 

@@ -11,7 +11,7 @@ use crate::network::{JunctionId, PieceId, StreetNetwork};
 use crate::profile::StreetProfiles;
 use crate::rows::{PieceRows, alongs_of};
 use crate::shape::{StreetShapes, is_same, without_repeats};
-use burgeon_geometry::Rings;
+use burgeon_geometry::{Line, Rings};
 
 /// How streets are made of their lines.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -50,7 +50,7 @@ pub struct Median {
     /// Its top, at the height of the street.
     pub top: StreetSurface,
     /// Its kerb (m), with the median on its left; one that goes on in the next piece is open there.
-    pub kerbs: Vec<Vec<DVec3>>,
+    pub kerbs: Vec<Line<DVec3>>,
 }
 
 /// All surfaces of a network.
@@ -87,13 +87,29 @@ impl StreetNetwork {
     }
 
     /// The blocks: for each face its rings (m), the outer one counter-clockwise first, inside of the sidewalks.
+    ///
+    /// ```
+    /// use burgeon_geometry::Polygon;
+    /// use burgeon_streets::{Constraints, Obstacles, StreetAttributes, StreetNetwork, SurfaceOptions};
+    /// use glam::DVec2;
+    ///
+    /// let mut network = StreetNetwork::new(Constraints { corner: 0.0, ..Constraints::default() }, Obstacles::default())?;
+    /// let street = StreetAttributes { width: 20.0, ..StreetAttributes::default() };
+    /// let mut end = network.begin(DVec2::ZERO)?;
+    /// for to in [(200.0, 0.0), (200.0, 200.0), (0.0, 200.0), (0.0, 0.0)] {
+    ///     end = network.grow(end, DVec2::from(to), street)?.end;
+    /// }
+    /// let blocks = network.blocks(SurfaceOptions::default());
+    /// assert_eq!(blocks.len(), 1);
+    /// assert!((Polygon::new(blocks[0].clone())?.area() - 180.0 * 180.0).abs() < 1e-6);
+    /// # Ok::<(), burgeon_base::error::Error>(())
+    /// ```
     pub fn blocks(&self, options: SurfaceOptions) -> Vec<Rings<DVec2>> {
-        let rings = self.blocks_at(options, &StreetProfiles::default());
-        rings.into_iter().map(|rings| rings.iter().map(|ring| flat(ring)).collect()).collect()
+        self.blocks_at(options, &StreetProfiles::default()).iter().map(Rings::flat).collect()
     }
 
     /// The same, at the heights of `profiles`.
-    pub fn blocks_at(&self, options: SurfaceOptions, profiles: &StreetProfiles) -> Vec<Vec<Vec<DVec3>>> {
+    pub fn blocks_at(&self, options: SurfaceOptions, profiles: &StreetProfiles) -> Vec<Rings> {
         let shapes = StreetShapes::new(self, options.turning);
         let ring = |way: &[Course]| {
             let sides = sides(&shapes, profiles, way);
@@ -160,10 +176,6 @@ fn outline(shapes: &StreetShapes<'_>, junction: JunctionId, line: StreetLine) ->
     }
     without_repeats(&mut outline, is_same);
     outline
-}
-
-fn flat(ring: &[DVec3]) -> Vec<DVec2> {
-    ring.iter().map(|at| at.truncate()).collect()
 }
 
 /// What lies between the ends of the streets at a junction: triangles around its middle.

@@ -2,23 +2,18 @@
 
 use std::collections::BTreeMap;
 
+use burgeon_geometry::planar::twice_area;
 use glam::{DVec2, DVec3};
 use rustc_hash::FxHashMap;
 
 use super::*;
 use crate::tests::{grown, kinds};
 
-fn twice_area(ring: &[DVec3]) -> f64 {
-    let Some(first) = ring.first() else { return 0.0 };
-    let pairs = ring.iter().zip(ring.iter().cycle().skip(1));
-    pairs.map(|(a, b)| (*a - *first).truncate().perp_dot((*b - *first).truncate())).sum()
-}
-
 /// The area (m²) of a surface, whose triangles all look up.
 fn area(surface: &StreetSurface) -> f64 {
     let twice = surface.triangles.iter().map(|corners| {
         let corners = corners.map(|corner| surface.points[corner as usize]);
-        let twice = twice_area(&corners);
+        let twice = twice_area(corners);
         assert!(twice > 1e-7, "a triangle of {twice} at {corners:?}");
         twice
     });
@@ -39,12 +34,12 @@ pub(crate) fn check_surfaces(network: &StreetNetwork, options: SurfaceOptions, p
             let next = (index + 1) % walk.kerb.len();
             let [a, b, c, d] = [walk.kerb[index], walk.kerb[next], walk.edge[next], walk.edge[index]];
             for triangle in [[a, b, c], [a, c, d]] {
-                let twice = twice_area(&triangle);
+                let twice = twice_area(triangle);
                 assert!(twice > -1e-6, "a triangle of {twice} at {triangle:?}");
                 walks += twice / 2.0;
             }
         }
-        let area = twice_area(&walk.edge) / 2.0;
+        let area = twice_area(walk.edge.iter().copied()) / 2.0;
         assert!(!walk.is_around_block || area > 0.0, "a block of {area}");
         inside += area;
     }
@@ -165,7 +160,7 @@ fn markings_lie_on_carriageways_and_never_on_one_another() {
         count += markings.len();
         let mut by_piece: BTreeMap<PieceId, Vec<[DVec2; 2]>> = BTreeMap::new();
         for Marking { corners, piece } in markings {
-            assert!(twice_area(&corners) > 1e-3, "{corners:?}");
+            assert!(twice_area(corners) > 1e-3, "{corners:?}");
             let middle = corners.iter().map(|at| at.truncate()).sum::<DVec2>() / 4.0;
             let corners = corners.map(|at| on_piece(&network, piece, at.truncate()));
             let (low, high) = corners

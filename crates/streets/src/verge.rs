@@ -22,7 +22,7 @@ const APART: f64 = 2.0;
 
 /// What stands along streets.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum VergeThing {
+pub enum VergeKind {
     /// A tree.
     Tree,
     /// A lamp.
@@ -48,13 +48,13 @@ impl StreetNetwork {
         options: SurfaceOptions,
         profiles: &StreetProfiles,
         kinds: &[StreetKind],
-        thing: VergeThing,
+        thing: VergeKind,
     ) -> Vec<VergePlace> {
         let shapes = StreetShapes::new(self, options.turning);
         let mut places = Vec::new();
         for (piece, known) in self.pieces() {
             let kind = StreetKind::of(kinds, known.attributes.depth);
-            if known.is_bridge && thing == VergeThing::Tree {
+            if known.is_bridge && thing == VergeKind::Tree {
                 continue;
             }
             let [start, stop] = self.line(piece);
@@ -73,13 +73,13 @@ impl StreetNetwork {
             let right = std::f64::consts::FRAC_PI_2;
             let behind = |[most, part]: [f64; 2]| kind.carriageway() / 2.0 + most.min(part * kind.sidewalk);
             match thing {
-                VergeThing::Lamp => {
+                VergeKind::Lamp => {
                     for along in lamps {
                         add(along, behind(LAMP), -right);
                         add(along, -behind(LAMP), right);
                     }
                 }
-                VergeThing::Tree => {
+                VergeKind::Tree => {
                     let is_free = |along: &f64| lamps.iter().all(|lamp| (lamp - along).abs() >= APART);
                     for along in evenly(stretch, kind.trees).into_iter().filter(is_free) {
                         add(along, behind(TREE), -right);

@@ -17,7 +17,7 @@ use super::local_edits::LocalEdits;
 use super::view::DEEPEST;
 use super::world::World;
 use burgeon_base::error::{Error, Result};
-use burgeon_geometry::planar::contains;
+use burgeon_geometry::planar::{contains, foot};
 
 /// A change of the ground.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -192,7 +192,7 @@ struct EditRecord {
 /// A file of edits.
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-struct File {
+struct EditsFile {
     format: String,
     world: WorldStamp,
     cells: BTreeMap<String, Vec<EditRecord>>,
@@ -279,13 +279,13 @@ impl Edits {
     /// The text of a file that holds them.
     pub fn to_json(&self, world: &World) -> String {
         let cells = self.cells.iter().map(|((level, y, x), kept)| (format!("{level}/{x}/{y}"), kept.clone()));
-        let file = File { format: FORMAT.into(), world: WorldStamp::of(world), cells: cells.collect() };
+        let file = EditsFile { format: FORMAT.into(), world: WorldStamp::of(world), cells: cells.collect() };
         serde_json::to_string_pretty(&file).unwrap_or_default() + "\n"
     }
 
     /// Reads the text of a file called `name`, which holds edits of `world`.
     pub fn from_json(text: &str, name: &str, world: &World) -> Result<Self> {
-        let file: File = serde_json::from_str(text).map_err(|error| {
+        let file: EditsFile = serde_json::from_str(text).map_err(|error| {
             Error::data(format!("{name} holds no edits of a terrain: {error}"))
                 .help("such a file is written by burgeon run --edits FILE")
         })?;
@@ -372,10 +372,9 @@ pub(super) fn to_line(points: &[[f64; 2]], place: DVec2, closed: bool) -> (f64, 
     let count = if closed { points.len() } else { points.len().saturating_sub(1) };
     let mut best = (f64::INFINITY, 0, 0.0);
     for piece in 0..count {
-        let (from, to) = (DVec2::from(points[piece]), DVec2::from(points[(piece + 1) % points.len()]));
-        let way = to - from;
-        let along = ((place - from).dot(way) / way.length_squared().max(1e-300)).clamp(0.0, 1.0);
-        let distance = place.distance(from + way * along);
+        let edge = [points[piece], points[(piece + 1) % points.len()]].map(DVec2::from);
+        let along = foot(edge, place);
+        let distance = place.distance(edge[0] + (edge[1] - edge[0]) * along);
         if distance < best.0 {
             best = (distance, piece, along);
         }

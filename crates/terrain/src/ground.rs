@@ -18,6 +18,39 @@ use super::world::{Divide, Tables, World};
 use burgeon_base::error::Result;
 
 /// A world and the tiles of it that are expanded.
+///
+/// ```
+/// use std::sync::Arc;
+///
+/// use burgeon_terrain::{Edit, Edits, Ground, LevelRules, Rules, Tables, View, World};
+/// use glam::DVec2;
+///
+/// // A plain 12 m high, which nothing divides, and a place on it that is level at 15 m.
+/// let plain =
+///     LevelRules { from: 0, rules: Rules::None, start: 0, height: 12.0, rest: vec![], names: Arc::default() };
+/// let world = World {
+///     corner: DVec2::ZERO,
+///     size: 1024.0,
+///     layers: vec![plain],
+///     smooth: false,
+///     key: None,
+///     remap: vec![],
+///     measured: None,
+/// };
+/// let mut edits = Edits::default();
+/// let outline = vec![[500.0, 500.0], [600.0, 500.0], [600.0, 600.0], [500.0, 600.0]];
+/// edits.add(&world, Edit::Flatten { outline, height: 15.0, margin: 40.0 })?;
+///
+/// let view = View::whole(&world, 7);
+/// let mut ground = Ground::new(Arc::new(world));
+/// ground.edit(&Arc::new(edits));
+/// assert_eq!(ground.height(DVec2::splat(550.0)), None);
+/// ground.focus(DVec2::splat(512.0), &view, &Tables)?;
+/// let [inside, beside, far] = [550.0, 620.0, 700.0].map(|at| ground.height(DVec2::new(at, 550.0)));
+/// assert_eq!((inside, far), (Some(15.0), Some(12.0)));
+/// assert!(beside.is_some_and(|height| height > 12.0 && height < 15.0));
+/// # Ok::<(), burgeon_base::error::Error>(())
+/// ```
 #[derive(Clone)]
 pub struct Ground {
     world: Arc<World>,

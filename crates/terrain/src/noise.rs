@@ -15,6 +15,21 @@ fn noise(place: DVec2, seed: u64) -> f64 {
 }
 
 /// Noise of `octaves` sizes, each half as large and half as strong as the one before.
+///
+/// Method: value noise with quintic steps (K. Perlin, "Improving noise", 2002).
+///
+/// ```
+/// use burgeon_terrain::octaves;
+/// use glam::DVec2;
+///
+/// let at = |x: f64| octaves(DVec2::new(x, 7.3), 4, 5);
+/// assert_eq!(at(0.25), at(0.25));
+/// assert_ne!(at(0.25), octaves(DVec2::new(0.25, 7.3), 4, 6));
+/// for step in 0..1000 {
+///     let x = f64::from(step) * 0.01;
+///     assert!(at(x).abs() <= 1.0 && (at(x) - at(x + 1e-6)).abs() < 1e-4);
+/// }
+/// ```
 pub fn octaves(place: DVec2, octaves: u32, seed: u64) -> f64 {
     let (mut sum, mut whole, mut strength, mut scale) = (0.0, 0.0, 1.0, 1.0);
     for octave in 0..octaves {

@@ -46,6 +46,19 @@ impl VariationAxis {
 
     /// Reads a parameter and its values: `NAME=LOW..HIGH:STEP`, both ends included, `NAME=A,B,C`, or `NAME` alone
     /// for every choice. The step is 1 unless given.
+    ///
+    /// ```
+    /// use burgeon_variations::VariationAxis;
+    ///
+    /// let values = |text: &str| match VariationAxis::sweep(text) {
+    ///     Ok(VariationAxis::Param { values, .. }) => values.join(" "),
+    ///     other => format!("{other:?}"),
+    /// };
+    /// assert_eq!(values("twist=0..90:30"), "0 30 60 90");
+    /// assert_eq!(values("kind=hip, flat"), "hip flat");
+    /// assert_eq!(VariationAxis::seeds("1..3,7")?, VariationAxis::Seeds(vec![1, 2, 3, 7]));
+    /// # Ok::<(), burgeon_base::error::Error>(())
+    /// ```
     pub fn sweep(text: &str) -> Result<Self> {
         let (name, values) = match text.split_once('=') {
             Some((name, values)) => (name.trim(), Some(values.trim())),

@@ -15,9 +15,10 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::mpsc::{Sender, channel};
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::{Arc, Mutex};
 
 use burgeon_base::error::{Error, Result};
+use burgeon_base::locks::LockRecovery;
 use burgeon_base::stop::Stop;
 use burgeon_base::warning::Warning;
 use burgeon_engine::run::{declare, no_such, run_session};
@@ -169,7 +170,7 @@ impl Variations {
                 )?;
                 self.each(
                     |number| {
-                        let ran = waiting[number].lock().unwrap_or_else(PoisonError::into_inner).take();
+                        let ran = waiting[number].lock().recover().take();
                         let ran = ran.unwrap_or_else(|| Err(Error::internal("it was made twice")))?;
                         self.render(number, ran, &extent, picture)
                     },

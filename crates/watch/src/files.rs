@@ -22,12 +22,12 @@ pub(super) struct WatchedFiles {
 
 #[derive(Debug, Clone, PartialEq)]
 struct FileState {
-    content: Content,
+    content: FileContent,
     stamp: Option<FileStamp>,
 }
 
 #[derive(Debug, Clone, PartialEq)]
-enum Content {
+enum FileContent {
     /// Never looked at, so any look finds a change.
     Unknown,
     /// Not there, or not to be read.
@@ -73,7 +73,7 @@ impl FileChange {
     pub(super) fn looks_unfinished(&self) -> bool {
         let nothing = matches!(
             self.now.content,
-            Content::Missing | Content::File { empty: true, .. } | Content::NoFile
+            FileContent::Missing | FileContent::File { empty: true, .. } | FileContent::NoFile
         );
         self.was_there && nothing
     }
@@ -83,7 +83,7 @@ impl FileState {
     /// Where a regular file lies.
     fn place(&self) -> Option<&PathBuf> {
         match &self.content {
-            Content::File { place, .. } | Content::Large { place, .. } => Some(place),
+            FileContent::File { place, .. } | FileContent::Large { place, .. } => Some(place),
             _ => None,
         }
     }
@@ -92,7 +92,7 @@ impl FileState {
     fn is_newer(&self, since: SystemTime, there: bool) -> bool {
         let modified = self.stamp.and_then(|stamp| stamp.modified);
         let written = self.place().is_some() && modified.is_some_and(|modified| modified + GRAIN > since);
-        written || there == (self.content == Content::Missing)
+        written || there == (self.content == FileContent::Missing)
     }
 }
 
@@ -119,7 +119,7 @@ impl WatchedFiles {
                     }
                     if since.is_some_and(|since| seen.is_newer(since, there)) {
                         late = true;
-                        seen = FileState { content: Content::Unknown, stamp: None };
+                        seen = FileState { content: FileContent::Unknown, stamp: None };
                     }
                     seen
                 }
@@ -136,7 +136,8 @@ impl WatchedFiles {
     pub(super) fn changed(&self, by_stamp: bool) -> Vec<FileChange> {
         let mut found = Vec::new();
         for (path, seen) in &self.known {
-            let settled = seen.content != Content::Unknown && !seen.stamp.is_some_and(|stamp| stamp.is_new());
+            let settled =
+                seen.content != FileContent::Unknown && !seen.stamp.is_some_and(|stamp| stamp.is_new());
             if by_stamp && settled && stamp_of(path) == seen.stamp {
                 continue;
             }
@@ -144,7 +145,7 @@ impl WatchedFiles {
             if now.content != seen.content {
                 let was_there = matches!(
                     seen.content,
-                    Content::File { empty: false, .. } | Content::Large { .. } | Content::Unknown
+                    FileContent::File { empty: false, .. } | FileContent::Large { .. } | FileContent::Unknown
                 );
                 found.push(FileChange { path: path.clone(), now, was_there });
             }
@@ -201,19 +202,19 @@ pub(super) fn hops(path: &Path) -> Vec<PathBuf> {
 
 fn look(path: &Path) -> FileState {
     let Ok(metadata) = fs::metadata(path) else {
-        return FileState { content: Content::Missing, stamp: None };
+        return FileState { content: FileContent::Missing, stamp: None };
     };
     let stamp = stamp(&metadata);
     let content = if !metadata.is_file() {
-        Content::NoFile
+        FileContent::NoFile
     } else if metadata.len() > LARGE {
-        Content::Large { place: place(path), stamp }
+        FileContent::Large { place: place(path), stamp }
     } else {
         match fs::read(path) {
             Ok(bytes) => {
-                Content::File { place: place(path), hash: blake3::hash(&bytes), empty: bytes.is_empty() }
+                FileContent::File { place: place(path), hash: blake3::hash(&bytes), empty: bytes.is_empty() }
             }
-            Err(_) => Content::Missing,
+            Err(_) => FileContent::Missing,
         }
     };
     FileState { content, stamp: Some(stamp) }

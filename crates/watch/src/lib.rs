@@ -97,13 +97,13 @@ enum Signal {
 }
 
 /// What is told why only polling is left.
-type Complain = dyn FnOnce(&str) + Send;
+type ComplaintHandler = dyn FnOnce(&str) + Send;
 
 struct Watcher {
     files: WatchedFiles,
     folders: Folders,
     /// Is told once that only polling is left.
-    complain: Option<Box<Complain>>,
+    complain: Option<Box<ComplaintHandler>>,
     /// When the first sign of a change was seen that has not been looked into.
     first: Option<Instant>,
     /// What someone has written into since the last look, and whether it has not been closed yet, where the system tells

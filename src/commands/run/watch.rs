@@ -3,9 +3,10 @@
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{Sender, channel};
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::{Arc, Mutex};
 use std::time::{Duration, Instant, SystemTime};
 
+use burgeon::locks::LockRecovery;
 use burgeon::script::Session;
 use burgeon::watch::{Watch, unsettled};
 use burgeon::{Error, Result};
@@ -30,7 +31,7 @@ impl WatchState {
     /// Stops the run that is under way, and wakes whoever waits for the next one.
     fn stop(&self, wake: &Sender<()>) {
         self.stale.store(true, Ordering::Release);
-        if let Some(session) = &*self.session.lock().unwrap_or_else(PoisonError::into_inner) {
+        if let Some(session) = &*self.session.lock().recover() {
             session.stop.stop(Error::stopped("there is something newer"));
         }
         // Nobody waits any more at the end.
@@ -67,7 +68,7 @@ pub(super) fn again_and_again(command: &RunCommand) -> Result<()> {
         let session = command.session();
         let made = match &session {
             Ok(session) => {
-                *now.session.lock().unwrap_or_else(PoisonError::into_inner) = Some(Arc::clone(session));
+                *now.session.lock().recover() = Some(Arc::clone(session));
                 if now.is_stale() {
                     session.stop.stop(Error::stopped("there is something newer"));
                 }
@@ -75,7 +76,7 @@ pub(super) fn again_and_again(command: &RunCommand) -> Result<()> {
             }
             Err(error) => Err(error.clone()),
         };
-        now.session.lock().unwrap_or_else(PoisonError::into_inner).take();
+        now.session.lock().recover().take();
         let mut sought = session.map(|session| session.sought()).unwrap_or_default();
         // These are watched from the beginning.
         sought.extend(command.script.files().into_iter().map(|path| (path, true)));

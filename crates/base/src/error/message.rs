@@ -65,10 +65,10 @@ impl fmt::Display for SourcePlace {
 ///   help: give the last part a smaller minimum
 /// ```
 #[derive(Debug, Clone)]
-pub struct Error(Box<Parts>);
+pub struct Error(Box<ErrorParts>);
 
 #[derive(Debug, Clone)]
-struct Parts {
+struct ErrorParts {
     kind: ErrorKind,
     message: String,
     place: Option<SourcePlace>,
@@ -96,7 +96,7 @@ enum Fault {
 impl Error {
     /// An error of a kind that says `message`, a clause without a full stop.
     pub fn of(kind: ErrorKind, message: impl fmt::Display) -> Self {
-        Self(Box::new(Parts {
+        Self(Box::new(ErrorParts {
             kind,
             message: shortened(&message.to_string(), LONGEST).into_owned(),
             place: None,

@@ -448,7 +448,7 @@ mod tests {
         let mut frame = None;
         let relief = Relief::new(raster((20, 20), grid, Some(3067), |x, y| x + y), &mut frame).unwrap();
         let frame = frame.unwrap();
-        assert_eq!((frame.epsg(), frame.origin), (Some(3067), [385_500.0, 6_671_500.0]));
+        assert_eq!((frame.epsg, frame.origin), (Some(3067), [385_500.0, 6_671_500.0]));
         assert!(matches!(relief.way, RasterMapping::Straight { .. }));
         assert_eq!((relief.low().x, relief.high().y), (-100.0, 100.0));
         assert_eq!(relief.height(DVec2::new(-95.0, 95.0)), Some(0.0));

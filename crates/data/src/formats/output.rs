@@ -7,7 +7,7 @@ use rusqlite::{Connection, params, params_from_iter};
 use super::projection::definition;
 use crate::Attribute;
 use crate::frame::ReferenceFrame;
-use crate::output::{ColumnKind, Outward, Record, RecordTable, column_kinds};
+use crate::output::{ColumnKind, OutputPlacement, Record, RecordTable, column_kinds};
 use burgeon_base::error::{Error, Result};
 use burgeon_base::stop::Stop;
 use burgeon_spatial::Geometry;
@@ -58,7 +58,7 @@ pub fn write_geopackage(
     frame: Option<&ReferenceFrame>,
     stop: &Stop,
 ) -> Result<Vec<u8>> {
-    let outward = Outward::native(frame)?;
+    let outward = OutputPlacement::native(frame)?;
     let mut package =
         PackageWriter { database: Connection::open_in_memory().map_err(failed)?, outward, names: Vec::new() };
     package.database.execute_batch(SCHEMA).map_err(failed)?;
@@ -78,7 +78,7 @@ fn failed(error: rusqlite::Error) -> Error {
 /// A GeoPackage that is being written.
 struct PackageWriter<'a> {
     database: Connection,
-    outward: Outward<'a>,
+    outward: OutputPlacement<'a>,
     names: Vec<String>,
 }
 
@@ -300,7 +300,7 @@ fn triggers(name: &str) -> String {
 
 /// Writes the geometries of a layer.
 struct BlobWriter<'a> {
-    outward: &'a Outward<'a>,
+    outward: &'a OutputPlacement<'a>,
     /// Whether the layer has heights.
     high: bool,
     /// The box around what was written.

@@ -11,7 +11,7 @@ use burgeon_base::budget::Budget;
 use burgeon_base::error::{Error, Limit, Result};
 
 /// A PNG in memory that is being read.
-type Png<'a> = Decoder<Cursor<&'a [u8]>>;
+type PngDecoder<'a> = Decoder<Cursor<&'a [u8]>>;
 
 /// Reads a picture called `name`.
 ///
@@ -54,7 +54,7 @@ impl Samples {
     /// Those of all rows, and of grey the height (m) of black and that of a step.
     fn read(
         &self,
-        decoder: Png<'_>,
+        decoder: PngDecoder<'_>,
         bytes: &[u8],
         (name, wanted): (&str, &HeightOptions),
         count: usize,

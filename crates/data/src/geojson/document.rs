@@ -31,14 +31,14 @@ pub(super) fn document<'t>(
     text: &'t str,
 ) -> Result<(DocumentHeader<'t>, &'t str), serde_json::Error> {
     let mut parser = serde_json::Deserializer::from_str(text);
-    let head = Members(reader).deserialize(&mut parser)?;
+    let head = DocumentMembers(reader).deserialize(&mut parser)?;
     let end = parser.into_iter::<IgnoredAny>().byte_offset();
     Ok((head, text.get(end..).unwrap_or_default()))
 }
 
-struct Members<'r, 'a>(&'r mut FeatureReader<'a>);
+struct DocumentMembers<'r, 'a>(&'r mut FeatureReader<'a>);
 
-impl<'t> DeserializeSeed<'t> for Members<'_, '_> {
+impl<'t> DeserializeSeed<'t> for DocumentMembers<'_, '_> {
     type Value = DocumentHeader<'t>;
 
     fn deserialize<D: serde::Deserializer<'t>>(
@@ -49,7 +49,7 @@ impl<'t> DeserializeSeed<'t> for Members<'_, '_> {
     }
 }
 
-impl<'t> Visitor<'t> for Members<'_, '_> {
+impl<'t> Visitor<'t> for DocumentMembers<'_, '_> {
     type Value = DocumentHeader<'t>;
 
     fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {

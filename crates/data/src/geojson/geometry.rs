@@ -136,15 +136,19 @@ fn members(
         .transpose()
         .map_err(|error| error.message().to_owned())?;
     match kind {
-        "Point" => parts.push(Geometry::point(read_as(text, One(budget))?)),
-        "MultiPoint" => parts.extend(read_as(text, ListOf(One(budget)))?.into_iter().map(Geometry::point)),
-        "LineString" => parts.extend(Geometry::line(read_as(text, ListOf(One(budget)))?)),
-        "MultiLineString" => {
-            parts.extend(read_as(text, ListOf(ListOf(One(budget))))?.into_iter().filter_map(Geometry::line));
+        "Point" => parts.push(Geometry::point(read_as(text, PointSeed(budget))?)),
+        "MultiPoint" => {
+            parts.extend(read_as(text, ListOf(PointSeed(budget)))?.into_iter().map(Geometry::point))
         }
-        "Polygon" => parts.extend(Geometry::polygon(read_as(text, ListOf(ListOf(One(budget))))?)),
+        "LineString" => parts.extend(Geometry::line(read_as(text, ListOf(PointSeed(budget)))?)),
+        "MultiLineString" => {
+            parts.extend(
+                read_as(text, ListOf(ListOf(PointSeed(budget))))?.into_iter().filter_map(Geometry::line),
+            );
+        }
+        "Polygon" => parts.extend(Geometry::polygon(read_as(text, ListOf(ListOf(PointSeed(budget))))?)),
         _ => {
-            let polygons = read_as(text, ListOf(ListOf(ListOf(One(budget)))))?;
+            let polygons = read_as(text, ListOf(ListOf(ListOf(PointSeed(budget)))))?;
             parts.extend(polygons.into_iter().filter_map(Geometry::polygon));
         }
     }
@@ -168,9 +172,9 @@ fn read_as<'t, S: DeserializeSeed<'t>>(text: &'t str, seed: S) -> Result<S::Valu
 
 /// One point.
 #[derive(Clone, Copy)]
-struct One<'b>(&'b Budget);
+struct PointSeed<'b>(&'b Budget);
 
-impl<'t> DeserializeSeed<'t> for One<'_> {
+impl<'t> DeserializeSeed<'t> for PointSeed<'_> {
     type Value = DVec3;
 
     fn deserialize<D: Deserializer<'t>>(self, deserializer: D) -> Result<DVec3, D::Error> {
@@ -179,7 +183,7 @@ impl<'t> DeserializeSeed<'t> for One<'_> {
     }
 }
 
-impl<'t> Visitor<'t> for One<'_> {
+impl<'t> Visitor<'t> for PointSeed<'_> {
     type Value = DVec3;
 
     fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {

@@ -5,7 +5,7 @@ use std::io::{self, Write};
 use glam::DVec3;
 use serde_json::{Map, Value as Json, json};
 
-use super::{Outward, Record, RecordTable};
+use super::{OutputPlacement, Record, RecordTable};
 use crate::Attribute;
 use crate::frame::ReferenceFrame;
 use burgeon_base::error::{Error, Result};
@@ -23,7 +23,7 @@ pub fn write_geojson(
 ) -> Result<()> {
     let places = tables.iter().flat_map(|table| &table.records).any(|record| record.geometry.is_some());
     let outward = match frame {
-        Some(frame) => Some(Outward::degrees(frame)?),
+        Some(frame) => Some(OutputPlacement::degrees(frame)?),
         None if places => {
             return Err(Error::script("the model has no place on the earth, which GeoJSON counts its degrees on")
                 .help("read data that has one with source(FILE), or write a .gpkg, which takes metres from anywhere"));
@@ -51,7 +51,7 @@ fn feature(
     table: &RecordTable,
     record: &Record,
     layer: Option<&str>,
-    outward: Option<&Outward<'_>>,
+    outward: Option<&OutputPlacement<'_>>,
 ) -> Result<Json> {
     let mut properties = Map::new();
     if let Some(layer) = layer {
@@ -85,7 +85,7 @@ fn feature(
 
 /// Brings the geometry of a record to degrees.
 struct DegreeWriter<'a> {
-    outward: &'a Outward<'a>,
+    outward: &'a OutputPlacement<'a>,
     record: &'a Record,
     table: &'a RecordTable,
 }

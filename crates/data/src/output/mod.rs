@@ -12,5 +12,5 @@ mod tests;
 
 pub use column::{ColumnKind, column_kinds};
 pub use geojson::write_geojson;
-pub use place::Outward;
+pub use place::OutputPlacement;
 pub use table::{Record, RecordTable};

@@ -6,7 +6,7 @@ use crate::frame::{Crs, Passage, ReferenceFrame};
 use burgeon_base::error::Result;
 
 /// The way of a run's places into a coordinate system that other programs know.
-pub struct Outward<'a> {
+pub struct OutputPlacement<'a> {
     /// Its EPSG code; none where the run's places are nowhere on the earth.
     pub code: Option<u16>,
     passage: Option<Passage<'a>>,
@@ -15,7 +15,7 @@ pub struct Outward<'a> {
 /// Longitude and latitude of WGS 84.
 const DEGREES: u32 = 4326;
 
-impl<'a> Outward<'a> {
+impl<'a> OutputPlacement<'a> {
     /// Into the projection of the run's data, or into degrees if it has one of its own; metres stay as they are without a
     /// frame.
     pub fn native(frame: Option<&'a ReferenceFrame>) -> Result<Self> {
@@ -36,7 +36,7 @@ impl<'a> Outward<'a> {
 
     fn of(frame: Option<&'a ReferenceFrame>, other: impl Fn(&ReferenceFrame) -> u32) -> Result<Self> {
         let Some(frame) = frame else { return Ok(Self { code: None, passage: None }) };
-        let crs = Crs::epsg(frame.epsg().map_or_else(|| other(frame), u32::from))?;
+        let crs = Crs::epsg(frame.epsg.map_or_else(|| other(frame), u32::from))?;
         Ok(Self { code: crs.code, passage: Some(frame.passage(&crs)?) })
     }
 

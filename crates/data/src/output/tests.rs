@@ -98,7 +98,7 @@ fn a_geopackage_reads_back_with_its_projection_its_attributes_and_what_is_missin
 #[test]
 fn what_has_no_projection_that_others_know_is_written_in_degrees_and_what_is_nowhere_in_metres() {
     let own = frame(4326, [7.42, 43.73]);
-    assert_eq!(own.epsg(), None);
+    assert_eq!(own.epsg, None);
     let (table, _) = read(&write_geopackage(&[lots()], Some(&own), &Stop::default()).unwrap(), "gpkg", None);
     assert_eq!(table.crs.as_ref().unwrap().code, Some(4326));
     let back = Layer::new(table, &mut Some(own.clone())).unwrap();
@@ -257,7 +257,7 @@ fn samples_are_written_for_other_programs() {
         let mut text = Vec::new();
         write_geojson(&[lots()], Some(frame), &mut text).unwrap();
         std::fs::write(folder.join(format!("{name}.geojson")), text).unwrap();
-        let origin = format!("{:?} {:?}", frame.origin, frame.epsg());
+        let origin = format!("{:?} {:?}", frame.origin, frame.epsg);
         std::fs::write(folder.join(format!("{name}.txt")), origin).unwrap();
     }
     assert!(folder.join("degrees.gpkg").metadata().unwrap().len() > 10_000);

@@ -2,13 +2,14 @@
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::{Arc, Mutex};
 
 use super::paths::{is_absolute, lead};
 use super::session::Session;
 use super::tables::{ListTable, SourceTable, SourceTables, TableContent};
 use burgeon_base::budget::Budget;
 use burgeon_base::error::{Error, Result};
+use burgeon_base::locks::LockRecovery;
 use burgeon_data::output::RecordTable;
 use burgeon_data::{Cache, Layer, ReferenceFrame, Source, SourceOptions, nearest_file, split_name};
 use burgeon_kit::{LoadRequest, LoadedObject, Loader, Resources, Table};
@@ -54,7 +55,7 @@ impl Data {
         mut wanted: SourceOptions,
         table: Option<&str>,
     ) -> Result<Arc<Layer>> {
-        let mut known = self.known.lock().unwrap_or_else(PoisonError::into_inner);
+        let mut known = self.known.lock().recover();
         let key = format!("{:?} {text:?} {wanted:?} {table:?}", asker.map(|asker| &asker.manifest.name));
         if let Some(loaded) = known.loaded.get(&key) {
             return loaded.clone();
@@ -91,7 +92,7 @@ impl Data {
             Some(located) => (located.path, located.name.to_string(), Some(located.package)),
             None => (find(session, asker, loader.what, name)?, name.to_owned(), asker),
         };
-        let mut known = self.known.lock().unwrap_or_else(PoisonError::into_inner);
+        let mut known = self.known.lock().recover();
         let key =
             format!("{kind} {} {:?} {fields:?}", path.display(), asker.map(|asker| &asker.manifest.name));
         if let Some(loaded) = known.objects.get(&key) {
@@ -116,13 +117,13 @@ impl Data {
 
     /// Adds a list that the script made as the table `name`.
     pub(crate) fn add_list(&self, name: &str, list: ListTable) {
-        let mut known = self.known.lock().unwrap_or_else(PoisonError::into_inner);
+        let mut known = self.known.lock().recover();
         known.tables.add(SourceTable { name: name.to_owned(), content: TableContent::List(list) });
     }
 
     /// The lists that the script made tables of, with the names of those.
     pub(crate) fn lists(&self) -> Vec<RecordTable> {
-        self.known.lock().unwrap_or_else(PoisonError::into_inner).tables.lists()
+        self.known.lock().recover().tables.lists()
     }
 
     /// What comes of the tables, the projection of the run, and what reading them may take.
@@ -132,7 +133,7 @@ impl Data {
         session: &Session,
         act: impl FnOnce(&mut SourceTables, Option<&ReferenceFrame>, &Arc<Budget>) -> Result<T>,
     ) -> Result<T> {
-        let mut known = self.known.lock().unwrap_or_else(PoisonError::into_inner);
+        let mut known = self.known.lock().recover();
         let budget = known.budget(session);
         let LayerStore { frame, tables, .. } = &mut *known;
         act(tables, frame.as_ref(), &budget)
@@ -140,7 +141,7 @@ impl Data {
 
     /// The projection and the origin of the run, if any data has decided them.
     pub(crate) fn frame(&self) -> Option<ReferenceFrame> {
-        self.known.lock().unwrap_or_else(PoisonError::into_inner).frame.clone()
+        self.known.lock().recover().frame.clone()
     }
 }
 

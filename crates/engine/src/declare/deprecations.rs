@@ -1,10 +1,11 @@
 //! Names that will go: scripts that use one are told once, with the first line on which they do.
 
 use std::collections::BTreeMap;
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::{Arc, Mutex};
 
 use super::session::Session;
 use burgeon_base::error::SourcePlace;
+use burgeon_base::locks::LockRecovery;
 use burgeon_base::warning::{Warning, WarningKind};
 use burgeon_kit::{Deprecation, Registry};
 use burgeon_language::deprecated_names;
@@ -25,7 +26,7 @@ impl Deprecations {
 
     /// A warning for each name that was used.
     pub(super) fn warnings(&self) -> Vec<Warning> {
-        let used = self.used.lock().unwrap_or_else(PoisonError::into_inner);
+        let used = self.used.lock().recover();
         let warning = |(name, (deprecation, place)): (&String, &(Deprecation, Option<SourcePlace>))| {
             let warning = Warning::new(WarningKind::Deprecated, deprecation.message(name));
             warning.help(format!("use {} instead", deprecation.instead)).at(place.clone())
@@ -42,7 +43,7 @@ impl Session {
 
     /// Takes notice that a script uses `name`, as people write it, in `place`.
     pub(crate) fn use_deprecated(&self, name: &str, deprecation: &Deprecation, place: Option<SourcePlace>) {
-        let mut used = self.deprecated.used.lock().unwrap_or_else(PoisonError::into_inner);
+        let mut used = self.deprecated.used.lock().recover();
         match used.get_mut(name) {
             Some((_, first)) => {
                 if place.is_some() && (first.is_none() || place < *first) {

@@ -1,11 +1,11 @@
 //! The files of packages, as a run's scripts ask for them.
 
 use std::path::{Path, PathBuf};
-use std::sync::PoisonError;
 
 use super::param::Param;
 use super::session::Session;
 use burgeon_base::error::{Error, Result, SourcePlace};
+use burgeon_base::locks::LockRecovery;
 use burgeon_data::split_name;
 use burgeon_packages::{FileName, Package, PackageFile};
 
@@ -36,7 +36,7 @@ impl Session {
 
     /// The files of presets that packages have: of those that are there for this script, and of others that it has used.
     pub fn package_presets(&self) -> Vec<(String, PathBuf)> {
-        let used = self.used.lock().unwrap_or_else(PoisonError::into_inner).clone();
+        let used = self.used.lock().recover().clone();
         let meant = |package: &&Package| package.is_replacing || used.contains(&package.manifest.name);
         let found = self.packages().order().iter().filter(meant).filter_map(|package| {
             let name = package.manifest.name.clone();
@@ -54,7 +54,7 @@ impl Session {
 
     /// Refuses packages that cannot be used with others whose files were asked for before.
     fn together(&self, package: &Package) -> Result<()> {
-        let mut used = self.used.lock().unwrap_or_else(PoisonError::into_inner);
+        let mut used = self.used.lock().recover();
         if used.contains(&package.manifest.name) {
             return Ok(());
         }

@@ -2,13 +2,14 @@
 
 use std::collections::VecDeque;
 use std::path::{Path, PathBuf};
-use std::sync::{Arc, MutexGuard, PoisonError};
+use std::sync::{Arc, MutexGuard};
 
 use rustc_hash::FxHashMap;
 
 use super::analysis::{Analysis, Globals, ScriptReader};
 use super::session::Session;
 use burgeon_base::error::{Error, Limit, Result, SourcePlace};
+use burgeon_base::locks::LockRecovery;
 use burgeon_packages::FileName;
 
 /// The most (bytes) that one file of a script may have; reading it takes 300 times as much memory.
@@ -61,7 +62,7 @@ impl ScriptFiles {
 impl Session {
     /// The files of its scripts.
     pub(super) fn script_files(&self) -> MutexGuard<'_, ScriptFiles> {
-        self.scripts.lock().unwrap_or_else(PoisonError::into_inner)
+        self.scripts.lock().recover()
     }
 
     /// Begins to read the main file, so that it is read while a machine is made.

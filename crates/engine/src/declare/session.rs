@@ -3,7 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::{Arc, Mutex};
 use std::time::Duration;
 
 use super::analysis::{Analysis, CheckedFile, QueryCall, call_problems, has_metatables};
@@ -15,8 +15,9 @@ use super::param::Param;
 use super::positions::RandomPositions;
 use super::scripts::{ScriptFiles, SourceFile, read_stdlib, unreadable};
 use super::types::DeclaredTypes;
-use crate::questions::{AskedRows, KeptRows, Question, RowSource, Rows};
+use crate::questions::{AskedRows, Question, RowCache, RowSource, Rows};
 use burgeon_base::error::{Error, Result};
+use burgeon_base::locks::LockRecovery;
 use burgeon_base::stop::Stop;
 use burgeon_base::warning::{Warning, Warnings};
 use burgeon_kit::rules::Values;
@@ -88,7 +89,7 @@ pub struct Session {
     /// The data files that were read.
     pub(crate) data: Data,
     /// What was asked of them.
-    pub(crate) rows: KeptRows,
+    pub(crate) rows: RowCache,
     /// How far its random numbers have got.
     pub(crate) drawn: RandomPositions,
     /// The types of objects that scripts have declared, and the methods that they have added to others.
@@ -108,7 +109,7 @@ pub struct Session {
     randoms: AtomicBool,
     /// Whether modules have been made that stand for others.
     pending: AtomicBool,
-    peeking: AtomicBool,
+    inspects_tables: AtomicBool,
     metatables: AtomicBool,
     kept: Mutex<Vec<f64>>,
 }
@@ -141,7 +142,7 @@ impl Session {
             packages,
             used: Mutex::default(),
             data: Data::default(),
-            rows: KeptRows::default(),
+            rows: RowCache::default(),
             drawn: RandomPositions::default(),
             declared: Mutex::default(),
             stdlib,
@@ -155,7 +156,7 @@ impl Session {
             shapes: Arc::default(),
             randoms: AtomicBool::new(false),
             pending: AtomicBool::new(false),
-            peeking: AtomicBool::new(false),
+            inspects_tables: AtomicBool::new(false),
             metatables: AtomicBool::new(false),
             kept: Mutex::default(),
         }))
@@ -191,7 +192,7 @@ impl Session {
     /// Every file that decides what the run makes, and whether it was there: the script, the standard library's
     /// replacement, and all that was read or looked for, in the order of their paths.
     pub fn sought(&self) -> Vec<(PathBuf, bool)> {
-        let mut files = self.sought.lock().unwrap_or_else(PoisonError::into_inner).clone();
+        let mut files = self.sought.lock().recover().clone();
         let read = self.files().into_iter().chain([self.script.clone()]).chain(self.options.stdlib.clone());
         files.extend(read.chain(self.packages.manifests()).map(|path| (path, true)));
         files.into_iter().collect()
@@ -199,7 +200,7 @@ impl Session {
 
     /// Takes notice of a file that was looked for, and whether it was there.
     pub(crate) fn seek(&self, path: &Path, there: bool) {
-        self.sought.lock().unwrap_or_else(PoisonError::into_inner).insert(path.to_path_buf(), there);
+        self.sought.lock().recover().insert(path.to_path_buf(), there);
     }
 
     /// The name and the text of the file in the place of the standard library, if there is one.
@@ -209,7 +210,7 @@ impl Session {
 
     /// The values that a forgiving run did not use: the parameter's name and what is wrong.
     pub fn left_out(&self) -> Vec<(String, Error)> {
-        self.left_out.lock().unwrap_or_else(PoisonError::into_inner).clone()
+        self.left_out.lock().recover().clone()
     }
 
     /// Passes `error` on, or notes it if the run forgives that a value of `name` cannot be used.
@@ -217,7 +218,7 @@ impl Session {
         if !self.options.forgiving {
             return Err(error);
         }
-        let mut left_out = self.left_out.lock().unwrap_or_else(PoisonError::into_inner);
+        let mut left_out = self.left_out.lock().recover();
         if !left_out.iter().any(|(known, _)| known == name) {
             left_out.push((name.to_owned(), error));
         }
@@ -239,11 +240,11 @@ impl Session {
 
     /// The parameters that the script declared, in order.
     pub fn params(&self) -> Vec<Param> {
-        self.params.lock().unwrap_or_else(PoisonError::into_inner).clone()
+        self.params.lock().recover().clone()
     }
 
     pub(crate) fn add_param(&self, param: Param) {
-        let mut params = self.params.lock().unwrap_or_else(PoisonError::into_inner);
+        let mut params = self.params.lock().recover();
         if !params.iter().any(|known| known.name == param.name) {
             params.push(param);
         }
@@ -255,8 +256,8 @@ impl Session {
     }
 
     /// Whether any file of the script could tell a table that is made later from one that is there.
-    pub(crate) fn peeks(&self) -> bool {
-        self.peeking.load(Ordering::Acquire)
+    pub(crate) fn inspects_tables(&self) -> bool {
+        self.inspects_tables.load(Ordering::Acquire)
     }
 
     /// Whether the functions that begin in a line of a file leave nothing behind.
@@ -282,13 +283,13 @@ impl Session {
 
     /// Takes notice that the file `asker` means the file `meant` by `require(name)`.
     pub(crate) fn note_required(&self, asker: &str, name: &str, meant: &str) {
-        let mut required = self.required.lock().unwrap_or_else(PoisonError::into_inner);
+        let mut required = self.required.lock().recover();
         required.entry(asker.to_owned()).or_default().insert(name.to_owned(), meant.to_owned());
     }
 
     /// What is wrong with the calls of all files that were read, once the script has declared its types of objects.
     pub(crate) fn call_problems(&self) -> Vec<Error> {
-        let required = self.required.lock().unwrap_or_else(PoisonError::into_inner).clone();
+        let required = self.required.lock().recover().clone();
         let scripts = self.script_files();
         let mut files: Vec<CheckedFile> = scripts
             .read
@@ -326,7 +327,7 @@ impl Session {
     pub(crate) fn note(&self, analysis: &Analysis) {
         self.randoms.fetch_or(analysis.random, Ordering::AcqRel);
         self.metatables.fetch_or(has_metatables(&analysis.text), Ordering::AcqRel);
-        self.peeking.fetch_or(super::analysis::peeks(&analysis.text), Ordering::AcqRel);
+        self.inspects_tables.fetch_or(super::analysis::inspects_tables(&analysis.text), Ordering::AcqRel);
     }
 
     /// Notes that a module has been made that stands for others.
@@ -360,12 +361,12 @@ impl Session {
     /// Keeps the values that `params` names for the rest of the run.
     pub(crate) fn keep(&self, params: &[f64]) {
         let boxed = params.iter().filter(|stored| stored.is_nan());
-        self.kept.lock().unwrap_or_else(PoisonError::into_inner).extend(boxed);
+        self.kept.lock().recover().extend(boxed);
     }
 
     /// Drops the values that neither `params` nor earlier systems name, once they are many.
     pub(crate) fn forget_unused(&self, params: &[f64]) {
-        let kept = self.kept.lock().unwrap_or_else(PoisonError::into_inner);
+        let kept = self.kept.lock().recover();
         self.values.retain_if_many(&[params, &kept]);
     }
 

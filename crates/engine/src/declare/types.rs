@@ -1,8 +1,9 @@
 //! What a run's scripts have declared of types of objects, for those who want to know afterwards.
 
-use std::sync::{Arc, PoisonError};
+use std::sync::Arc;
 
 use super::session::Session;
+use burgeon_base::locks::LockRecovery;
 use burgeon_kit::{Kind, Method, Registry};
 
 /// Types of objects that scripts have declared, and methods that they have added to others.
@@ -23,7 +24,7 @@ impl DeclaredTypes {
 impl Session {
     /// Takes notice of a type that a script declares; each machine of a run tells of it.
     pub(crate) fn note_type(&self, kind: &Arc<Kind>) {
-        let mut declared = self.declared.lock().unwrap_or_else(PoisonError::into_inner);
+        let mut declared = self.declared.lock().recover();
         if !declared.types.iter().any(|known| known.name == kind.name) {
             declared.types.push(Arc::clone(kind));
         }
@@ -31,7 +32,7 @@ impl Session {
 
     /// Takes notice of a method that a script adds to the type called `kind`.
     pub(crate) fn note_method(&self, kind: &str, method: Method) {
-        let mut declared = self.declared.lock().unwrap_or_else(PoisonError::into_inner);
+        let mut declared = self.declared.lock().recover();
         if !declared.methods.iter().any(|(of, known)| of == kind && known.name == method.name) {
             declared.methods.push((kind.to_owned(), method));
         }
@@ -46,7 +47,7 @@ impl Session {
 
     /// The types of objects that the scripts have declared, in order, and those that they have added methods to.
     pub fn types(&self) -> Vec<Arc<Kind>> {
-        let declared = self.declared.lock().unwrap_or_else(PoisonError::into_inner);
+        let declared = self.declared.lock().recover();
         let mut types = declared.types.clone();
         for (of, method) in &declared.methods {
             let known = types.iter_mut().find(|known| known.name == *of);

@@ -50,7 +50,7 @@ struct Growth<'a> {
     interpretations: Vec<Use>,
     /// What objects have warned of before the first pass, and since.
     first: Vec<Warning>,
-    said: Vec<Warning>,
+    later: Vec<Warning>,
     steps: Vec<Step>,
 }
 
@@ -75,7 +75,7 @@ impl<'a> Growth<'a> {
             times: Times::default(),
             interpretations: vec![Use::default(); derivation.plan.interpretations.list.len()],
             first: Vec::new(),
-            said: Vec::new(),
+            later: Vec::new(),
             steps: Vec::new(),
         }
     }
@@ -118,14 +118,14 @@ impl<'a> Growth<'a> {
         if interprets && derivation.last_only {
             chain = self.interpret(chain, done)?;
         }
-        let said = self.said;
-        self.first.retain(|warning| said.iter().all(|later| later.message() != warning.message()));
+        let later = self.later;
+        self.first.retain(|warning| later.iter().all(|other| other.message() != warning.message()));
         Ok(StepResults {
             chain,
             done,
             times: self.times,
             rules: reports(plan, self.stepper.uses(), &self.interpretations),
-            warnings: self.first.into_iter().chain(said).collect(),
+            warnings: self.first.into_iter().chain(later).collect(),
             steps: self.steps,
         })
     }
@@ -173,12 +173,12 @@ impl<'a> Growth<'a> {
         let plan = &self.derivation.plan;
         if self.derivation.draws_afresh {
             // What only earlier passes drew is gone.
-            self.said.clear();
+            self.later.clear();
         }
         let threads = (self.machine, self.threads);
         let chain =
-            InterpretationPass::pass(threads, plan, chain, step, &mut self.interpretations, &mut self.said)?;
-        plan.expand(&self.rewriter, &mut self.said)?;
+            InterpretationPass::pass(threads, plan, chain, step, &mut self.interpretations, &mut self.later)?;
+        plan.expand(&self.rewriter, &mut self.later)?;
         self.times.interpretation += begin.elapsed();
         Ok(chain)
     }

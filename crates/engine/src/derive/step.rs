@@ -1,7 +1,7 @@
 //! One derivation step: hands out pieces of the chain and puts the results together in their order.
 
 use std::sync::atomic::{AtomicUsize, Ordering};
-use std::sync::{Arc, Condvar, Mutex, PoisonError};
+use std::sync::{Arc, Condvar, Mutex};
 
 use super::batch::{Batch, ChainPiece, Scratch};
 use super::functions::LuaFunctions;
@@ -11,6 +11,7 @@ use super::threads::{ThreadJob, ThreadPool};
 use crate::machine::{Machine, SystemFunctions};
 use crate::results::Use;
 use burgeon_base::error::{Error, Limit, Result};
+use burgeon_base::locks::LockRecovery;
 use burgeon_base::memory::make_exact_room;
 use burgeon_kit::rules::{Chain, Links, Mark};
 
@@ -48,13 +49,13 @@ impl RewritingStep {
             links: &self.links,
             step: self.step,
         };
-        let spare = self.spare.lock().unwrap_or_else(PoisonError::into_inner).pop().unwrap_or_default();
+        let spare = self.spare.lock().recover().pop().unwrap_or_default();
         let result =
             machine.session.stop.check().and_then(|()| batch.rewrite(self.pieces[index], scratch, spare));
         if result.is_err() {
             self.failed.fetch_min(index, Ordering::Relaxed);
         }
-        self.results.lock().unwrap_or_else(PoisonError::into_inner)[index] = Some(result);
+        self.results.lock().recover()[index] = Some(result);
         self.ready.notify_all();
         true
     }
@@ -66,15 +67,15 @@ impl RewritingStep {
     }
 
     fn take(&self, index: usize) -> Option<Result<Output>> {
-        self.results.lock().unwrap_or_else(PoisonError::into_inner)[index].take()
+        self.results.lock().recover()[index].take()
     }
 
     fn wait(&self, index: usize) -> Result<Output> {
-        let mut results = self.results.lock().unwrap_or_else(PoisonError::into_inner);
+        let mut results = self.results.lock().recover();
         loop {
             match results[index].take() {
                 Some(result) => return result,
-                None => results = self.ready.wait(results).unwrap_or_else(PoisonError::into_inner),
+                None => results = self.ready.wait(results).recover(),
             }
         }
     }
@@ -153,7 +154,7 @@ impl Stepper {
         let rewriting = threads.reclaim(rewriting);
         let StepTotals { ran, changed, applied } = result?;
         self.links = rewriting.links;
-        self.outputs = rewriting.spare.into_inner().unwrap_or_else(PoisonError::into_inner);
+        self.outputs = rewriting.spare.into_inner().recover();
         let made = std::mem::replace(&mut self.spare, rewriting.chain);
         Ok(StepOutcome { chain: made, ran, changed, applied })
     }
@@ -211,7 +212,7 @@ impl Stepper {
             }
             applied.append(&mut output.applied);
             output.clear();
-            rewriting.spare.lock().unwrap_or_else(PoisonError::into_inner).push(output);
+            rewriting.spare.lock().recover().push(output);
             if made.symbols.len() > limit {
                 return Err(self.runaway(&growth, limit, rewriting.step));
             }

@@ -1,7 +1,7 @@
 //! Stops scripts that run too long, at no cost until it happens.
 
 use std::ffi::c_int;
-use std::sync::{Arc, Condvar, Mutex, PoisonError};
+use std::sync::{Arc, Condvar, Mutex};
 use std::thread::JoinHandle;
 use std::time::{Duration, Instant};
 
@@ -9,6 +9,7 @@ use mlua::{Lua, ffi};
 
 use crate::declare::Session;
 use burgeon_base::error::{Error, Limit};
+use burgeon_base::locks::LockRecovery;
 use burgeon_base::text::grouped;
 
 /// How often the watchdog looks whether a stop was asked for.
@@ -52,7 +53,7 @@ pub(crate) struct Registration {
 impl Registration {
     /// Does something short in the machine even though its run was stopped.
     pub(crate) fn despite_stop<T>(&self, act: impl FnOnce() -> T) -> T {
-        let inner = self.shared.inner.lock().unwrap_or_else(PoisonError::into_inner);
+        let inner = self.shared.inner.lock().recover();
         if inner.stopped {
             set_interrupt(self.state, None);
         }
@@ -72,13 +73,13 @@ impl Watchdog {
         let deadline = Instant::now() + session.options.limits.time;
         let watched = Arc::clone(session);
         let watch = move || {
-            let mut inner = theirs.inner.lock().unwrap_or_else(PoisonError::into_inner);
+            let mut inner = theirs.inner.lock().recover();
             while !inner.over && !stop.is_stopped() {
                 if Instant::now() >= deadline {
                     stop.stop(overdue(&watched));
                     break;
                 }
-                inner = theirs.wake.wait_timeout(inner, PERIOD).unwrap_or_else(PoisonError::into_inner).0;
+                inner = theirs.wake.wait_timeout(inner, PERIOD).recover().0;
             }
             if !inner.over {
                 inner.stopped = true;
@@ -94,7 +95,7 @@ impl Watchdog {
         // SAFETY: the function neither reads nor changes the stack.
         let taken: mlua::Result<()> = unsafe { lua.exec_raw((), |raw| state = raw) };
         let state = StatePointer(if taken.is_ok() { state } else { std::ptr::null_mut() });
-        let mut inner = self.shared.inner.lock().unwrap_or_else(PoisonError::into_inner);
+        let mut inner = self.shared.inner.lock().recover();
         inner.states.push(state);
         if inner.stopped {
             interrupt(state);
@@ -122,7 +123,7 @@ fn overdue(session: &Session) -> Error {
 
 impl Drop for Watchdog {
     fn drop(&mut self) {
-        self.shared.inner.lock().unwrap_or_else(PoisonError::into_inner).over = true;
+        self.shared.inner.lock().recover().over = true;
         self.shared.wake.notify_all();
         if let Some(thread) = self.thread.take() {
             // A watchdog that panicked has nothing left to stop.
@@ -133,7 +134,7 @@ impl Drop for Watchdog {
 
 impl Drop for Registration {
     fn drop(&mut self) {
-        let mut inner = self.shared.inner.lock().unwrap_or_else(PoisonError::into_inner);
+        let mut inner = self.shared.inner.lock().recover();
         if let Some(index) = inner.states.iter().position(|state| *state == self.state) {
             inner.states.swap_remove(index);
         }

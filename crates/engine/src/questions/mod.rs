@@ -4,12 +4,12 @@
 //! out: [`Rows`], the same for the same question for as long as they are kept, and which of their columns fits which
 //! parameter of a module. It never runs Lua, and knows no database.
 
+mod cache;
 mod fit;
-mod kept;
 mod parameters;
 mod question;
 
+pub(crate) use cache::{AskedRows, RowCache};
 pub(crate) use fit::{fit, listed};
-pub(crate) use kept::{AskedRows, KeptRows};
 pub(crate) use parameters::sql_parameters;
 pub use question::{Question, RowSource, Rows};

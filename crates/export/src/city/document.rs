@@ -5,7 +5,7 @@ use std::path::Path;
 
 use burgeon_base::error::Result;
 use burgeon_data::Attribute;
-use burgeon_data::output::Outward;
+use burgeon_data::output::OutputPlacement;
 use burgeon_scene::SurfaceMeaning;
 use glam::DVec3;
 use rayon::prelude::*;
@@ -26,7 +26,7 @@ const CHUNK: usize = 512;
 /// Writes a `.city.json` file to `path`.
 pub(crate) fn write(export: &Export<'_>, path: &Path, files: &mut Files) -> Result<()> {
     let checked = check(export.scene)?;
-    let outward = Outward::metric(export.facts.frame)?;
+    let outward = OutputPlacement::metric(export.facts.frame)?;
     let low = checked.scene.bounds().map_or(DVec3::ZERO, |(low, _)| low);
     let origin = outward.place(low).unwrap_or_default().floor() + 0.0;
     let quantiser = Quantiser { outward: &outward, origin };

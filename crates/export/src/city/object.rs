@@ -1,7 +1,7 @@
 //! The city objects: which there are, what they are called, and what they are made of.
 
 use burgeon_base::error::{Error, Result};
-use burgeon_data::output::{Outward, Record};
+use burgeon_data::output::{OutputPlacement, Record};
 use burgeon_scene::{CityClass, Instance, Origin, Scene, SurfaceMeaning};
 use glam::{DAffine3, DMat3, DVec3};
 use rustc_hash::FxHashMap;
@@ -31,7 +31,7 @@ pub(super) struct ObjectShape {
 
 /// Where points of the scene are in the file.
 pub(super) struct Quantiser<'a> {
-    pub(super) outward: &'a Outward<'a>,
+    pub(super) outward: &'a OutputPlacement<'a>,
     /// Where the numbers are counted from.
     pub(super) origin: DVec3,
 }

@@ -7,11 +7,12 @@
 
 use super::super::check::{shown, triangles};
 use super::body::{tex_coord, y_up};
+use burgeon_base::locks::LockRecovery;
 use burgeon_scene::{Normal, Part};
 use bytemuck::cast;
 use glam::Vec3;
 use std::ops::Range;
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::{Arc, Mutex};
 
 /// No corner.
 const NONE: u32 = u32::MAX;
@@ -142,13 +143,13 @@ impl<'a> FaceCorners<'a> {
 
     /// They themselves.
     pub(super) fn list(&self) -> Arc<CornerList> {
-        let mut list = self.list.lock().unwrap_or_else(PoisonError::into_inner);
+        let mut list = self.list.lock().recover();
         Arc::clone(list.get_or_insert_with(|| Arc::new(CornerList::of(&self.faces))))
     }
 
     /// Gives up the memory that they take.
     pub(super) fn release(&self) {
-        self.list.lock().unwrap_or_else(PoisonError::into_inner).take();
+        self.list.lock().recover().take();
     }
 }
 

@@ -140,7 +140,7 @@ impl HeightMap {
 
     /// The EPSG code of its projection.
     pub(super) fn epsg(&self) -> Option<u16> {
-        self.frame.as_ref().and_then(ReferenceFrame::epsg)
+        self.frame.as_ref().and_then(|frame| frame.epsg)
     }
 }
 

@@ -56,7 +56,7 @@ struct X3dContent {
 }
 
 /// Reads a file and checks all of it.
-struct Reader<'a> {
+struct X3dReader<'a> {
     text: &'a str,
     named: HashMap<&'a str, Node<'a, 'a>>,
     prototypes: HashMap<&'a str, (Node<'a, 'a>, HashSet<&'a str>)>,
@@ -88,7 +88,7 @@ fn place(values: &HashMap<&str, &str>) -> DAffine3 {
         * DAffine3::from_quat(axes.inverse())
 }
 
-impl<'a> Reader<'a> {
+impl<'a> X3dReader<'a> {
     /// Checks that all nodes and their attributes are known and in their order, and that nothing is used that is not
     /// there before.
     fn check(&mut self, node: Node<'a, 'a>) {
@@ -208,7 +208,7 @@ fn read(path: &Path) -> (X3dContent, String) {
     let text = std::fs::read_to_string(path).unwrap();
     let options = ParsingOptions { allow_dtd: true, ..ParsingOptions::default() };
     let document = Document::parse_with_options(&text, options).unwrap();
-    let mut reader = Reader {
+    let mut reader = X3dReader {
         text: &text,
         named: HashMap::new(),
         prototypes: HashMap::new(),

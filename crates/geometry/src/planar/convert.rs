@@ -1,11 +1,17 @@
 //! Shapes of the plane to and from those of `geo`, whose rings are closed by their first point again.
 
-use geo::LineString;
+use geo::{Coord, LineString};
 use glam::DVec2;
 
 use super::measure::coord;
 use super::{Line, Point, Polygon, Ring, Rings};
 use burgeon_base::error::{Error, Result};
+
+impl Point for Coord {
+    fn flat(self) -> DVec2 {
+        DVec2::new(self.x, self.y)
+    }
+}
 
 /// The line through points, as they are.
 fn string<P: Point>(points: &[P]) -> LineString {
@@ -13,7 +19,7 @@ fn string<P: Point>(points: &[P]) -> LineString {
 }
 
 fn points(line: &LineString) -> Vec<DVec2> {
-    line.coords().map(|at| DVec2::new(at.x, at.y)).collect()
+    line.coords().map(|at| at.flat()).collect()
 }
 
 /// The points of a closed line but the last.

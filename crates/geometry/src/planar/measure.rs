@@ -10,11 +10,21 @@ pub fn edges<T: Copy>(ring: &[T]) -> impl Iterator<Item = [T; 2]> + Clone + '_ {
     (0..ring.len()).map(|index| [ring[index], ring[(index + 1) % ring.len()]])
 }
 
-/// Twice the area (m²) inside a ring of points; negative if it is clockwise.
+/// Twice the area (m²) inside a ring of points as seen from above; negative if it is clockwise. Whether its first point
+/// comes once more at the end makes no difference.
 ///
 /// Method: the triangles between its first point and its edges, so that it is as exact far from the origin.
-pub(crate) fn twice_area(ring: impl IntoIterator<Item = DVec2>) -> f64 {
-    let mut ring = ring.into_iter();
+///
+/// ```
+/// use burgeon_geometry::planar::twice_area;
+///
+/// let ring = [[0.0, 0.0], [4.0, 0.0], [4.0, 3.0]];
+/// assert_eq!(twice_area(ring), 12.0);
+/// assert_eq!(twice_area(ring.into_iter().rev()), -12.0);
+/// assert_eq!(twice_area(ring.map(|[x, y]| [x + 1e9, y - 1e9])), 12.0);
+/// ```
+pub fn twice_area<P: Point>(ring: impl IntoIterator<Item = P>) -> f64 {
+    let mut ring = ring.into_iter().map(Point::flat);
     let (Some(from), Some(mut last)) = (ring.next(), ring.next()) else { return 0.0 };
     let mut sum = 0.0;
     for next in ring {
@@ -56,6 +66,74 @@ pub fn contains<P: Point>(ring: &[P], place: DVec2) -> bool {
         (upwards && on(Orientation::CounterClockwise)) || (downwards && on(Orientation::Clockwise))
     });
     crossed.count() % 2 == 1
+}
+
+/// How far along an edge, from 0 at its first end to 1 at its second, it is nearest to a place as seen from above; 0 on
+/// an edge without length.
+///
+/// ```
+/// use burgeon_geometry::planar::foot;
+/// use glam::DVec2;
+///
+/// let edge = [[2.0, 1.0], [6.0, 1.0]];
+/// assert_eq!(foot(edge, DVec2::new(3.0, 9.0)), 0.25);
+/// assert_eq!(foot(edge, DVec2::new(8.0, 9.0)), 1.0);
+/// ```
+pub fn foot<P: Point>(edge: [P; 2], place: DVec2) -> f64 {
+    let [a, b] = edge.map(Point::flat);
+    let way = b - a;
+    let squared = way.length_squared();
+    if squared > 0.0 { ((place - a).dot(way) / squared).clamp(0.0, 1.0) } else { 0.0 }
+}
+
+/// How far (m) a place is from an edge as seen from above.
+///
+/// ```
+/// use burgeon_geometry::planar::distance;
+/// use glam::DVec2;
+///
+/// let edge = [[2.0, 1.0], [6.0, 1.0]];
+/// assert_eq!(distance(edge, DVec2::new(3.0, 9.0)), 8.0);
+/// assert_eq!(distance(edge, DVec2::new(9.0, 5.0)), 5.0);
+/// ```
+pub fn distance<P: Point>(edge: [P; 2], place: DVec2) -> f64 {
+    let [a, b] = edge.map(Point::flat);
+    place.distance(a + (b - a) * foot(edge, place))
+}
+
+/// A line with fewer points: its ends, and those that would be more than `tolerance` from the line through the others.
+///
+/// `aside` measures how far a point is from the way between two others, in the unit of `tolerance`: [`distance`] does for
+/// points in metres. Of points that are equally far from a way, the first one stays.
+///
+/// Method: D. Douglas and T. Peucker, "Algorithms for the reduction of the number of points required to represent a
+/// digitized line or its caricature", 1973.
+///
+/// ```
+/// use burgeon_geometry::planar::{distance, simplified};
+/// use glam::DVec2;
+///
+/// let line = [(0.0, 0.0), (5.0, 0.1), (10.0, 0.0), (10.0, 6.0)].map(DVec2::from);
+/// let corner = simplified(&line, 0.2, |point, way| distance(way, point));
+/// assert_eq!(corner, [line[0], line[2], line[3]]);
+/// assert_eq!(simplified(&line, 0.05, |point, way| distance(way, point)), line);
+/// ```
+pub fn simplified<T: Copy>(line: &[T], tolerance: f64, aside: impl Fn(T, [T; 2]) -> f64) -> Vec<T> {
+    let Some(last) = line.len().checked_sub(1) else { return Vec::new() };
+    let mut stays = vec![false; line.len()];
+    (stays[0], stays[last]) = (true, true);
+    let mut ways = vec![(0, last)];
+    while let Some((from, to)) = ways.pop() {
+        let far = (from + 1..to).map(|index| (aside(line[index], [line[from], line[to]]), index));
+        let farthest = far.reduce(|best, other| if other.0 > best.0 { other } else { best });
+        if let Some((far, index)) = farthest
+            && far > tolerance
+        {
+            stays[index] = true;
+            ways.extend([(from, index), (index, to)]);
+        }
+    }
+    line.iter().zip(stays).filter(|(_, stays)| *stays).map(|(point, _)| *point).collect()
 }
 
 /// The convex hull of `points`, counter-clockwise from its westernmost corner on; `None` if they lie on one line.

@@ -24,11 +24,11 @@ mod rings;
 mod tests;
 
 pub use line::Line;
-pub use measure::{contains, edges, hull};
+pub use measure::{contains, distance, edges, foot, hull, simplified, twice_area};
 pub use point::Point;
 pub use polygon::Polygon;
 pub use ring::Ring;
 pub use rings::Rings;
 
 pub(crate) use convert::geo_polygon;
-pub(crate) use measure::{coord, orientation, twice_area};
+pub(crate) use measure::{coord, orientation};

@@ -84,7 +84,7 @@ impl<P: Point> Ring<P> {
     }
 
     pub(super) fn twice_area(&self) -> f64 {
-        twice_area(self.points.iter().map(|point| point.flat()))
+        twice_area(self.points.iter().copied())
     }
 
     /// Whether it turns counter-clockwise as seen from above.

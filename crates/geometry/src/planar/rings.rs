@@ -20,12 +20,19 @@ impl Rings<DVec2> {
     }
 }
 
+impl Rings {
+    /// The rings as seen from above.
+    pub fn flat(&self) -> Rings<DVec2> {
+        self.iter().map(|ring| ring.iter().map(|at| at.truncate()).collect()).collect()
+    }
+}
+
 impl<P: Point> Rings<P> {
     /// Turns those rings around that run the wrong way: the outer one is to be counter-clockwise, holes clockwise. A ring
     /// without area is taken for clockwise.
     pub fn turn(&mut self) {
         for (index, ring) in self.0.iter_mut().enumerate() {
-            if (twice_area(ring.iter().map(|point| point.flat())) > 0.0) != (index == 0) {
+            if (twice_area(ring.iter().copied()) > 0.0) != (index == 0) {
                 ring.reverse();
             }
         }

@@ -3,7 +3,7 @@
 use geo::line_intersection::line_intersection;
 use glam::DVec2;
 
-use crate::planar::{Polygon, Rings, coord};
+use crate::planar::{Polygon, Rings, coord, distance};
 
 /// An outline, and how far (m) it is from the walls over each edge.
 #[derive(Debug, Clone, Default)]
@@ -218,11 +218,7 @@ fn crossing(corners: &[WallCorner], distances: &[f64]) -> Vec<(usize, f64)> {
 
 /// How far (m) two edges are from each other that do not meet.
 fn gap([a, b]: [[DVec2; 2]; 2]) -> f64 {
-    let to = |[from, to]: [DVec2; 2], at: DVec2| {
-        let way = to - from;
-        at.distance(from + way * ((at - from).dot(way) / way.length_squared().max(1e-12)).clamp(0.0, 1.0))
-    };
-    b.map(|at| to(a, at)).into_iter().chain(a.map(|at| to(b, at))).fold(f64::INFINITY, f64::min)
+    b.map(|at| distance(a, at)).into_iter().chain(a.map(|at| distance(b, at))).fold(f64::INFINITY, f64::min)
 }
 
 fn line(ends: [DVec2; 2]) -> geo::Line {

@@ -176,9 +176,8 @@ fn divide(
     above: &mut Vec<Vec<usize>>,
 ) -> Vec<usize> {
     let mut ring = Vec::with_capacity(piece.len() + 2);
-    for (index, &a) in piece.iter().enumerate() {
+    for [a, b] in edges(piece) {
         ring.push(a);
-        let b = piece[(index + 1) % piece.len()];
         let [low, high] = if points[a].z < points[b].z { [a, b] } else { [b, a] };
         if points[low].z < level && points[high].z > level {
             ring.push(*passes.entry([low, high]).or_insert_with(|| {

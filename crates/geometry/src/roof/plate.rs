@@ -4,6 +4,7 @@ use glam::{DVec2, DVec3};
 use rustc_hash::FxHashMap;
 
 use super::patches::at_level;
+use crate::planar::edges;
 
 /// Where a slope meets the top of the walls, it is within this distance (m) of their corner.
 const AT_CORNER: f64 = 5e-3;
@@ -29,9 +30,8 @@ pub(super) fn at_walls(
     stand_still(rings, &before, points, rests);
     for (face, &[left, right]) in rings.iter().zip(ends) {
         let mut ring = Vec::with_capacity(face.len() + 2);
-        for (index, &a) in face.iter().enumerate() {
+        for [a, b] in edges(face) {
             ring.push(a);
-            let b = face[(index + 1) % face.len()];
             let [low, high] = if points[a].z < points[b].z { [a, b] } else { [b, a] };
             if points[low].z < beyond && points[high].z > beyond {
                 ring.push(*between.entry([low, high]).or_insert_with(|| {

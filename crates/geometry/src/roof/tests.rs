@@ -6,8 +6,7 @@ use super::super::skeleton::{Pace, Skeleton};
 use super::super::solid;
 use super::shape::Profile;
 use super::*;
-use crate::planar::Polygon;
-use crate::planar::Ring;
+use crate::planar::{Polygon, Ring, edges};
 use burgeon_scene::Part;
 use glam::{DVec2, DVec3};
 
@@ -84,8 +83,7 @@ fn integral(cover: &RoofCover) -> (f64, f64) {
 /// The part of a ring on one side of a level.
 fn clipped(ring: &[DVec3], level: f64, side: f64) -> Vec<DVec3> {
     let mut kept = Vec::new();
-    for (index, &a) in ring.iter().enumerate() {
-        let b = ring[(index + 1) % ring.len()];
+    for [a, b] in edges(ring) {
         let [from, to] = [a, b].map(|point| side * (point.z - level));
         if from >= 0.0 {
             kept.push(a);

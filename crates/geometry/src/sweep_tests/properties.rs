@@ -26,7 +26,7 @@ fn outline(low: f64, high: f64) -> impl Strategy<Value = Vec<SectionPoint>> {
 fn any_section() -> impl Strategy<Value = Section> {
     let hole = prop::option::of(outline(0.05, 0.12));
     (outline(0.8, 1.5), hole, 0usize..40).prop_filter_map("an outline that works", |(outer, hole, around)| {
-        let section = Section::new(&outer, &hole.into_iter().collect::<Vec<_>>()).ok()?;
+        let section = Section::new(&std::iter::once(outer).chain(hole).collect()).ok()?;
         section.resampled(around).ok()
     })
 }

@@ -93,7 +93,7 @@ fn polygon(given: &[Value]) -> Result<Value> {
         return Err(Error::argument(format!("polygon: {name} has fewer than 3 points"))
             .help("write polygon({ { 0, 0 }, { 4, 0 }, { 4, 3 } })"));
     }
-    let mut made = Geometry::polygon(rings.0).unwrap_or(Geometry::empty(2));
+    let mut made = Geometry::polygon(rings).unwrap_or(Geometry::empty(2));
     made.turn();
     sound("polygon", made)
 }

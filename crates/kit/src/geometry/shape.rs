@@ -62,12 +62,12 @@ pub struct Path {
     /// The points.
     pub points: Vec<DVec3>,
     /// The holes of a polygon.
-    pub holes: Vec<Vec<DVec3>>,
+    pub holes: Rings,
 }
 
 impl From<Vec<Vector>> for Path {
     fn from(points: Vec<Vector>) -> Self {
-        Self { points: points.into_iter().map(|it| it.0).collect(), holes: Vec::new() }
+        Self { points: points.into_iter().map(|it| it.0).collect(), holes: Rings::default() }
     }
 }
 
@@ -82,7 +82,7 @@ impl Parameter for Path {
         };
         let what = || Expectation::new("a list of points, a line or a polygon");
         match GeometryObject::of(&**object).ok_or_else(what)? {
-            Geometry::Line(points) => Ok(Self { points: points.clone(), holes: Vec::new() }),
+            Geometry::Line(points) => Ok(Self { points: points.clone(), holes: Rings::default() }),
             Geometry::Polygon(rings) => {
                 let mut rings = rings.iter().cloned();
                 let points = rings.next().unwrap_or_default();

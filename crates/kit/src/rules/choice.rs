@@ -6,6 +6,23 @@ use super::grammar::Rule;
 use crate::random::Stream;
 
 /// The candidates for one module, of its symbol's rules in the order of their declaration.
+///
+/// ```
+/// use burgeon_kit::rules::{Candidates, ModuleKey, Pattern, Rule, Signature, Symbols};
+///
+/// let mut symbols = Symbols::default();
+/// symbols.declare(Signature::new("Bud", &[])?)?;
+/// let bud = Pattern::parse("Bud", &symbols)?;
+/// let rules = [Some(3.0), Some(1.0)].map(|weight| Rule::new(bud.clone(), weight, false, None));
+/// let mut candidates = Candidates::default();
+/// (0..).zip(&rules).for_each(|(number, rule)| candidates.add(number, rule));
+///
+/// let key = ModuleKey::seed(7);
+/// let chosen = (0..4000).filter_map(|child| candidates.choose(|| key.child(child).stream()));
+/// let first = chosen.filter(|rule| *rule == 0).count();
+/// assert!((2900..3100).contains(&first), "{first} of 4000, three in four");
+/// # Ok::<(), burgeon_base::error::Error>(())
+/// ```
 #[derive(Debug, Clone, Default)]
 pub struct Candidates {
     /// A candidate without a weight that came before all others.

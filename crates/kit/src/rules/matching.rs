@@ -52,6 +52,40 @@ impl Branches {
 }
 
 /// The contexts of a grammar's rules around the modules of a chain.
+///
+/// ```
+/// use std::sync::Arc;
+///
+/// use burgeon_kit::rules::{
+///     CLOSE, Chain, ContextMatcher, END, Grammar, Links, OPEN, Pattern, Rule, Signature, Symbols,
+/// };
+///
+/// // P. Prusinkiewicz and A. Lindenmayer, "The Algorithmic Beauty of Plants", 1990, page 32.
+/// let mut symbols = Symbols::default();
+/// for name in "ABCDEGHIJKLMNOS".chars() {
+///     symbols.declare(Signature::new(&name.to_string(), &[])?)?;
+/// }
+/// let text = "ABC[DE][SG[HI[JK]L]MNO]";
+/// let symbol = |letter: char| match letter {
+///     '[' => Ok(OPEN),
+///     ']' => Ok(CLOSE),
+///     _ => symbols.find(&letter.to_string()),
+/// };
+/// let mut chain = Chain::default();
+/// for letter in text.chars() {
+///     chain.symbols.push(symbol(letter)?);
+/// }
+/// chain.symbols.push(END);
+///
+/// let rule = Rule::new(Pattern::parse("B C < S > G [H] M", &symbols)?, None, false, None);
+/// let grammar = Grammar::new(Arc::new(symbols), vec![rule], &[], false);
+/// let mut links = Links::default();
+/// links.build(&chain, &grammar);
+/// let matcher = ContextMatcher { chain: &chain, links: &links, grammar: &grammar };
+/// let place = text.find('S').expect("it is there");
+/// assert!(matcher.matches(0, place));
+/// # Ok::<(), burgeon_base::error::Error>(())
+/// ```
 #[derive(Debug, Clone, Copy)]
 pub struct ContextMatcher<'a> {
     /// The chain.

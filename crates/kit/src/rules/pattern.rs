@@ -42,6 +42,22 @@ pub enum Context {
 
 impl Pattern {
     /// Reads a pattern; its symbols must be declared in `symbols`.
+    ///
+    /// ```
+    /// use burgeon_kit::rules::{Context, Pattern, Signature, Symbols};
+    ///
+    /// let mut symbols = Symbols::default();
+    /// let apex = symbols.declare(Signature::new("Apex", &["length".into()])?)?;
+    /// let leaf = symbols.declare(Signature::new("Leaf", &[])?)?;
+    /// let pattern = Pattern::parse("Apex(l)<Apex(m)>[Leaf] Apex", &symbols)?;
+    /// assert_eq!((pattern.predecessor.symbol, pattern.left[0].symbol), (apex, apex));
+    /// assert_eq!(pattern.formals, ["l", "m"]);
+    /// assert!(matches!(&pattern.right[0], Context::Branch(inner) if inner.len() == 1));
+    ///
+    /// let error = Pattern::parse("Apex(l, m)", &symbols).expect_err("it has one parameter");
+    /// assert!(error.message().contains("Apex"));
+    /// # Ok::<(), burgeon_base::error::Error>(())
+    /// ```
     pub fn parse(text: &str, symbols: &Symbols) -> Result<Self> {
         PatternReader { text, at: 0, depth: 0, symbols, formals: Vec::new() }.pattern()
     }

@@ -7,6 +7,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use rustc_hash::{FxBuildHasher, FxHashMap};
 
 use crate::{ColumnValue, Value};
+use burgeon_base::locks::LockRecovery;
 
 /// The strings, tables and objects that the modules of one derivation carry, each kept once.
 #[derive(Default)]
@@ -99,7 +100,7 @@ impl Values {
 
     fn retain(&self, columns: &[&[f64]]) {
         self.epoch.fetch_add(1, Ordering::AcqRel);
-        let mut shelf = self.shelf.write().unwrap_or_else(std::sync::PoisonError::into_inner);
+        let mut shelf = self.shelf.write().recover();
         let mut used = vec![false; shelf.list.len()];
         for stored in columns.iter().copied().flatten().filter(|stored| stored.is_nan()) {
             if let ColumnValue::Handle(handle) = ColumnValue::unpack(*stored)
@@ -121,7 +122,7 @@ impl Values {
         if let Some(handle) = self.read().handles.get(&value) {
             return *handle;
         }
-        let mut shelf = self.shelf.write().unwrap_or_else(std::sync::PoisonError::into_inner);
+        let mut shelf = self.shelf.write().recover();
         if let Some(handle) = shelf.handles.get(&value) {
             return *handle;
         }
@@ -140,7 +141,7 @@ impl Values {
     }
 
     fn read(&self) -> std::sync::RwLockReadGuard<'_, Shelf> {
-        self.shelf.read().unwrap_or_else(std::sync::PoisonError::into_inner)
+        self.shelf.read().recover()
     }
 }
 

@@ -112,7 +112,7 @@ impl Extruder {
     pub fn polygon(&mut self, outer: Path, holes: Option<Vec<Path>>) -> Result<()> {
         let Path { points, holes: own } = outer;
         let holes = holes.unwrap_or_default().into_iter().map(|hole| hole.points);
-        let section = Section::polygon(&flat(std::iter::once(points).chain(own).chain(holes)))?;
+        let section = Section::polygon(&flat(std::iter::once(points).chain(own.0).chain(holes)))?;
         self.state.section = Arc::new(shaded(section, self.state.smooth));
         Ok(())
     }

@@ -3,7 +3,7 @@
 use std::sync::{Arc, LazyLock};
 
 use super::size::{Margin, Policy, Size};
-use super::wall::{Wall, WallRule};
+use super::wall::{Wall, WallRule, wall_kind};
 use crate::MaterialOptions;
 use burgeon_base::error::{Error, Result};
 use burgeon_geometry::{Share, Split};
@@ -34,13 +34,9 @@ pub struct BorderedOptions {
 pub fn kind() -> &'static Arc<Kind> {
     static KIND: LazyLock<Arc<Kind>> = LazyLock::new(|| {
         let kind = Kind::new("bordered", "A wall between four margins.")
+            .first("wall")
             .example(include_str!("../../scripts/bordered.lua"));
-        Arc::new(
-            kind.made_of(BorderedOptions::fields(), |table| make(&BorderedOptions::from_table(table)?))
-                .first("wall")
-                .methods(Wall::methods())
-                .of_family(Wall::FAMILY),
-        )
+        wall_kind(kind, BorderedOptions::fields(), |table| make(&BorderedOptions::from_table(table)?))
     });
     &KIND
 }

@@ -4,7 +4,7 @@ use std::sync::{Arc, LazyLock};
 
 use super::fixture::{Anchor, Fixture};
 use super::size::Size;
-use super::wall::{Wall, WallRule};
+use super::wall::{Wall, WallRule, wall_kind};
 use crate::MaterialOptions;
 use burgeon_base::error::{Error, Result};
 use burgeon_kit::{Kind, Model, fields};
@@ -47,13 +47,9 @@ pub struct ExtrudedOptions {
 pub fn kind() -> &'static Arc<Kind> {
     static KIND: LazyLock<Arc<Kind>> = LazyLock::new(|| {
         let kind = Kind::new("extruded", "A wall that stands out or lies back, with faces at its sides.")
+            .first("wall")
             .example(include_str!("../../scripts/extruded.lua"));
-        Arc::new(
-            kind.made_of(ExtrudedOptions::fields(), |table| make(&ExtrudedOptions::from_table(table)?))
-                .first("wall")
-                .methods(Wall::methods())
-                .of_family(Wall::FAMILY),
-        )
+        wall_kind(kind, ExtrudedOptions::fields(), |table| make(&ExtrudedOptions::from_table(table)?))
     });
     &KIND
 }

@@ -3,7 +3,7 @@
 use std::sync::{Arc, LazyLock};
 
 use super::size::{Count, Size};
-use super::wall::{Wall, WallRule};
+use super::wall::{Wall, WallRule, wall_kind};
 use burgeon_base::error::{Error, Result};
 use burgeon_geometry::{SAME, Sizes};
 use burgeon_kit::{Kind, fields};
@@ -30,13 +30,9 @@ pub fn kind() -> &'static Arc<Kind> {
             "grid",
             "One wall, repeated in rows and columns as often as fits its preferred size best.",
         )
+        .first("wall")
         .example(include_str!("../../scripts/grid.lua"));
-        Arc::new(
-            kind.made_of(GridOptions::fields(), |table| make(&GridOptions::from_table(table)?))
-                .first("wall")
-                .methods(Wall::methods())
-                .of_family(Wall::FAMILY),
-        )
+        wall_kind(kind, GridOptions::fields(), |table| make(&GridOptions::from_table(table)?))
     });
     &KIND
 }

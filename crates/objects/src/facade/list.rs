@@ -3,7 +3,7 @@
 use std::sync::{Arc, LazyLock};
 
 use super::size::Size;
-use super::wall::{Wall, WallRule, range};
+use super::wall::{Wall, WallRule, range, wall_kind};
 use crate::MaterialOptions;
 use burgeon_base::error::{Error, Limit, Result};
 use burgeon_geometry::{Share, Split};
@@ -27,13 +27,9 @@ pub struct ListOptions {
 pub fn kind() -> &'static Arc<Kind> {
     static KIND: LazyLock<Arc<Kind>> = LazyLock::new(|| {
         let kind = Kind::new("list", "Walls from left to right, or from the bottom up.")
+            .first("walls")
             .example(include_str!("../../scripts/list.lua"));
-        Arc::new(
-            kind.made_of(ListOptions::fields(), |table| make(&ListOptions::from_table(table)?))
-                .first("walls")
-                .methods(Wall::methods())
-                .of_family(Wall::FAMILY),
-        )
+        wall_kind(kind, ListOptions::fields(), |table| make(&ListOptions::from_table(table)?))
     });
     &KIND
 }

@@ -4,7 +4,7 @@ use std::sync::{Arc, LazyLock};
 
 use super::fixture::{Anchor, Fixture, PanelMeaning};
 use super::size::Size;
-use super::wall::{Wall, WallRule};
+use super::wall::{Wall, WallRule, wall_kind};
 use crate::MaterialOptions;
 use burgeon_base::error::Result;
 use burgeon_geometry::Sizes;
@@ -40,11 +40,7 @@ pub fn kind() -> &'static Arc<Kind> {
     static KIND: LazyLock<Arc<Kind>> = LazyLock::new(|| {
         let kind = Kind::new("panel", "A plain piece of wall, with a model or an image on it if wanted.")
             .example(include_str!("../../scripts/panel.lua"));
-        Arc::new(
-            kind.made_of(PanelOptions::fields(), |table| make(&PanelOptions::from_table(table)?))
-                .methods(Wall::methods())
-                .of_family(Wall::FAMILY),
-        )
+        wall_kind(kind, PanelOptions::fields(), |table| make(&PanelOptions::from_table(table)?))
     });
     &KIND
 }

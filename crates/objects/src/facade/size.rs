@@ -57,7 +57,7 @@ impl Size {
         Sizes::between(self.low, self.high)
     }
 
-    /// The preferred length.
+    /// The preferred length (m).
     pub fn target(&self) -> Option<f64> {
         self.target
     }

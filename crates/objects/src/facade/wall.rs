@@ -9,7 +9,7 @@ use super::{bordered, extruded, grid, list, panel};
 use crate::MaterialOptions;
 use burgeon_base::error::{Error, Limit, Result};
 use burgeon_geometry::{Sizes, Split};
-use burgeon_kit::{Expectation, Kind, Object, Parameter, Value, methods};
+use burgeon_kit::{Expectation, Field, Kind, Object, Parameter, Table, Value, methods};
 use burgeon_scene::{Material, SurfaceMeaning};
 
 /// A wall of a facade, made by one of five rules. It never changes.
@@ -59,6 +59,15 @@ pub(super) enum WallRule {
         counts: [RangeInclusive<u32>; 2],
         wall: Wall,
     },
+}
+
+/// The type `kind`, whose constructor takes `fields`, of which `make` makes a wall.
+pub(super) fn wall_kind(
+    kind: Kind,
+    fields: Vec<Field>,
+    make: impl Fn(&Table) -> Result<Wall> + Send + Sync + 'static,
+) -> Arc<Kind> {
+    Arc::new(kind.made_of(fields, make).methods(Wall::methods()).of_family(Wall::FAMILY))
 }
 
 #[methods("wall")]

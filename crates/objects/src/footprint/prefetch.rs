@@ -5,11 +5,12 @@
 //! needed: whoever makes it, it is the same.
 
 use std::collections::VecDeque;
-use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
+use std::sync::{Arc, Condvar, Mutex, MutexGuard};
 
 use glam::DVec3;
 
 use burgeon_base::error::{Error, Result};
+use burgeon_base::locks::LockRecovery;
 use burgeon_data::Layer;
 use burgeon_geometry::{Plan, Rings};
 use burgeon_kit::{Prefetch, rings};
@@ -80,7 +81,7 @@ impl PlanPrefetch {
     }
 
     fn state(&self) -> MutexGuard<'_, PrefetchState> {
-        self.state.lock().unwrap_or_else(PoisonError::into_inner)
+        self.state.lock().recover()
     }
 }
 
@@ -92,7 +93,7 @@ impl Prefetch for PlanPrefetch {
         loop {
             while !state.over && (state.asked.is_none() || state.made.len() >= READY) {
                 state.waits = true;
-                state = self.changed.wait(state).unwrap_or_else(PoisonError::into_inner);
+                state = self.changed.wait(state).recover();
                 state.waits = false;
             }
             next = next.max(state.asked.map_or(0, |asked| asked + 1));

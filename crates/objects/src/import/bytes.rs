@@ -82,7 +82,7 @@ impl<'a> NumberColumns<'a> {
     /// The items of an accessor, each of two numbers; whole numbers are scaled to 1 where they are normalized.
     pub(super) fn pairs(&mut self, index: Index<Accessor>) -> Result<Rc<[[f32; 2]]>> {
         let mut known = std::mem::take(&mut self.pairs);
-        let column = self.kept(&mut known, index, Self::column);
+        let column = self.cached(&mut known, index, Self::column);
         self.pairs = known;
         column
     }
@@ -90,7 +90,7 @@ impl<'a> NumberColumns<'a> {
     /// The same, of three numbers.
     pub(super) fn triples(&mut self, index: Index<Accessor>) -> Result<Rc<[[f32; 3]]>> {
         let mut known = std::mem::take(&mut self.triples);
-        let column = self.kept(&mut known, index, Self::column);
+        let column = self.cached(&mut known, index, Self::column);
         self.triples = known;
         column
     }
@@ -98,7 +98,7 @@ impl<'a> NumberColumns<'a> {
     /// The same, of four numbers.
     pub(super) fn fours(&mut self, index: Index<Accessor>) -> Result<Rc<[[f32; 4]]>> {
         let mut known = std::mem::take(&mut self.fours);
-        let column = self.kept(&mut known, index, Self::column);
+        let column = self.cached(&mut known, index, Self::column);
         self.fours = known;
         column
     }
@@ -106,12 +106,12 @@ impl<'a> NumberColumns<'a> {
     /// The items of an accessor of whole numbers.
     pub(super) fn indices(&mut self, index: Index<Accessor>) -> Result<Rc<[u32]>> {
         let mut known = std::mem::take(&mut self.indices);
-        let column = self.kept(&mut known, index, Self::whole);
+        let column = self.cached(&mut known, index, Self::whole);
         self.indices = known;
         column
     }
 
-    fn kept<T>(
+    fn cached<T>(
         &self,
         known: &mut ColumnCache<T>,
         index: Index<Accessor>,

@@ -8,7 +8,7 @@ use super::bytes::NumberColumns;
 use burgeon_base::error::{Error, Result};
 
 /// Triangles by what their material's colour is multiplied by.
-type Apart = Vec<([f32; 4], Vec<[u32; 3]>)>;
+type TintedTriangles = Vec<([f32; 4], Vec<[u32; 3]>)>;
 
 /// Shades of a channel: those of an image, or fewer where there would be too many colours.
 const SHADES: [f32; 2] = [255.0, 15.0];
@@ -21,7 +21,7 @@ pub(super) fn apart(
     colors: Option<Index<Accessor>>,
     count: usize,
     triangles: Vec<[u32; 3]>,
-) -> Result<Apart> {
+) -> Result<TintedTriangles> {
     if triangles.is_empty() {
         return Ok(Vec::new());
     }

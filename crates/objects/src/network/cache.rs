@@ -1,8 +1,9 @@
 //! Answers that are asked for again with the same words: every machine that runs a script asks all of its questions.
 
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::{Arc, Mutex};
 
 use burgeon_base::error::Result;
+use burgeon_base::locks::LockRecovery;
 use burgeon_base::warning::{Warning, defer_warning};
 use burgeon_kit::Value;
 
@@ -39,7 +40,7 @@ impl AnswerCache {
         }
         let key = key();
         let slot = {
-            let mut known = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+            let mut known = self.0.lock().recover();
             match known.iter().find(|(other, _)| *other == key) {
                 Some((_, slot)) => Arc::clone(slot),
                 None => {
@@ -53,7 +54,7 @@ impl AnswerCache {
                 }
             }
         };
-        let mut slot = slot.lock().unwrap_or_else(PoisonError::into_inner);
+        let mut slot = slot.lock().recover();
         let found = match slot.take() {
             Some(found) => found,
             None => find()?,

@@ -5,6 +5,7 @@ use glam::{DVec2, DVec3};
 use super::Network;
 use super::draw::{add_points, upright};
 use burgeon_base::error::Result;
+use burgeon_geometry::planar::distance;
 use burgeon_geometry::{Polygon, Rings};
 use burgeon_kit::Color;
 use burgeon_scene::Part;
@@ -26,7 +27,7 @@ impl Network {
         let is_flat = self.options.on.is_none();
         let level = self.water_level().unwrap_or(WATER_LEVEL);
         for rings in self.network.blocks_at(self.surface_options(), &fit.profiles) {
-            let block: Polygon<DVec3> = Polygon::new(Rings(rings))?;
+            let block: Polygon<DVec3> = Polygon::new(rings)?;
             let outline = block.flat();
             let is_wet = is_flat && self.water.iter().any(|water| meets(&outline, water));
             if !is_wet {
@@ -40,7 +41,7 @@ impl Network {
                 // Its banks: what the water has cut, and not what the streets bound.
                 for [a, b] in dry.edges() {
                     let middle = (a + b) / 2.0;
-                    if outline.edges().all(|edge| distance(middle, edge) > ON) {
+                    if outline.edges().all(|edge| distance(edge, middle) > ON) {
                         let depth = kerb - level + BANK;
                         upright(part, [a, b].map(|at| at.extend(kerb - depth)), depth);
                     }
@@ -76,11 +77,4 @@ fn meets(a: &Polygon, b: &Polygon) -> bool {
         (Some([a, b]), Some([c, d])) => a.cmple(d).all() && c.cmple(b).all(),
         _ => false,
     }
-}
-
-/// Distance (m) of a place from an edge.
-fn distance(place: DVec2, [a, b]: [DVec2; 2]) -> f64 {
-    let way = b - a;
-    let along = ((place - a).dot(way) / way.length_squared().max(1e-12)).clamp(0.0, 1.0);
-    place.distance(a + way * along)
 }

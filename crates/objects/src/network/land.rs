@@ -9,7 +9,7 @@ use burgeon_base::error::{Error, Result};
 use burgeon_base::warning::{Warning, WarningKind};
 use burgeon_data::Geometry;
 use burgeon_kit::{Answer, Parameter, Table, TableKey, Value, Vector};
-use burgeon_streets::{PieceId, SlopeOptions, StreetFit, StreetFooting, VergeThing};
+use burgeon_streets::{PieceId, SlopeOptions, StreetFit, StreetFooting, VergeKind};
 use burgeon_terrain::{Edit, GroundBed};
 
 /// How far (m) the ground stays below a carriageway at least.
@@ -148,8 +148,8 @@ impl Network {
     /// Places for something beside the streets.
     pub(super) fn verge_of(&self, what: &str) -> Result<VergeRecords> {
         let thing = match what {
-            "tree" => VergeThing::Tree,
-            "lamp" => VergeThing::Lamp,
+            "tree" => VergeKind::Tree,
+            "lamp" => VergeKind::Lamp,
             _ => {
                 let message = format!("there is nothing called {what:?} beside streets");
                 return Err(Error::not_found("thing", what, ["tree", "lamp"], message)

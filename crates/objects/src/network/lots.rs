@@ -7,6 +7,7 @@ use burgeon_base::text::listed;
 use burgeon_base::warning::{Warning, WarningKind};
 use burgeon_data::Geometry;
 use burgeon_geometry::Rings;
+use burgeon_geometry::planar::twice_area;
 use burgeon_kit::rules::ModuleKey;
 use burgeon_kit::{Answer, Expectation, Parameter, Seed, Table, TableKey, Value, fields};
 use burgeon_streets::{FARTHEST, Lot, LotOptions, LotPattern, LotUse, PieceId, StreetBlock, StreetNetwork};
@@ -91,7 +92,7 @@ impl Parameter for BlockArea {
 
     fn into_value(self) -> Value {
         let id = self.id.map_or(Value::Nil, |id| Value::Text(id.into()));
-        record([("id", id), ("geometry", polygon(&flat(&self.rings)))])
+        record([("id", id), ("geometry", polygon(&self.rings.flat()))])
     }
 }
 
@@ -274,7 +275,7 @@ impl Network {
             None => self.network.lot_blocks(self.surface_options()),
             Some(areas) => {
                 let block = |area: &BlockArea| {
-                    self.network.block(area.id.as_deref(), &flat(&area.rings), settings.reach)
+                    self.network.block(area.id.as_deref(), &area.rings.flat(), settings.reach)
                 };
                 let blocks: Vec<StreetBlock> = areas.par_iter().filter_map(block).collect();
                 omissions.undivided = areas.len() - blocks.len();
@@ -405,15 +406,6 @@ fn polygon(rings: &Rings<DVec2>) -> Value {
     Geometry::Polygon(rings.at_height(0.0)).into_value()
 }
 
-fn flat(rings: &Rings) -> Rings<DVec2> {
-    rings.iter().map(|ring| ring.iter().copied().map(DVec3::truncate).collect()).collect()
-}
-
 fn area_of(block: &StreetBlock) -> f64 {
-    block.rings.iter().map(|ring| area(ring)).sum()
-}
-
-fn area(ring: &[DVec2]) -> f64 {
-    let Some(from) = ring.first() else { return 0.0 };
-    ring.windows(2).map(|pair| (pair[0] - *from).perp_dot(pair[1] - *from)).sum::<f64>() / 2.0
+    block.rings.iter().map(|ring| twice_area(ring.iter().copied()) / 2.0).sum()
 }

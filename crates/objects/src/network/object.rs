@@ -132,9 +132,9 @@ pub struct Network {
     pub(super) answers: AnswerCache,
     warnings: Vec<Warning>,
     /// Whether it was told that no street was built.
-    is_told: bool,
+    has_warned_of_none: bool,
     /// Whether it was told that the ground hides streets.
-    is_hidden_told: bool,
+    has_warned_of_hiding: bool,
 }
 
 #[methods("network")]
@@ -368,8 +368,8 @@ impl Network {
             walk: NetworkWalk::default(),
             answers: AnswerCache::default(),
             warnings,
-            is_told: false,
-            is_hidden_told: false,
+            has_warned_of_none: false,
+            has_warned_of_hiding: false,
         })
     }
 
@@ -435,14 +435,14 @@ impl Network {
             self.fit = OnceLock::new();
         }
         // Where there is no ground is told when the streets are drawn.
-        if !self.is_hidden_told
+        if !self.has_warned_of_hiding
             && let Ok(Some(warning)) = self.hidden()
         {
-            self.is_hidden_told = true;
+            self.has_warned_of_hiding = true;
             self.warnings.push(warning);
         }
-        if self.network.size() == 0 && !self.growths.is_empty() && !self.is_told {
-            self.is_told = true;
+        if self.network.size() == 0 && !self.growths.is_empty() && !self.has_warned_of_none {
+            self.has_warned_of_none = true;
             self.warnings.push(answers::unbuilt(self.growths.values().map(|growth| growth.fate)));
         }
         Ok(())

@@ -12,6 +12,7 @@ use super::{GeometryArgument, SpatialFunction};
 use crate::blob;
 use crate::connection::ConnectionState;
 use crate::index::SpatialIndex;
+use burgeon_base::locks::LockRecovery;
 use burgeon_spatial::Geometry;
 
 /// What a function gives.
@@ -248,7 +249,7 @@ fn index(context: &Context<'_>, state: &ConnectionState) -> rusqlite::Result<Arc
     // Kept as long as the statement runs.
     let found = context.get_or_create_aux(0, |name| -> Result<Arc<SpatialIndex>, rusqlite::Error> {
         let name = name.as_str().map_err(|error| failed(error.to_string()))?;
-        let indexes = state.indexes.read().unwrap_or_else(std::sync::PoisonError::into_inner);
+        let indexes = state.indexes.read().recover();
         indexes.get(name).cloned().ok_or_else(|| failed(format!("there is no index {name}")))
     })?;
     Ok(Arc::clone(&found))

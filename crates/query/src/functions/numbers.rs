@@ -5,13 +5,13 @@ use rusqlite::functions::{Context, FunctionFlags};
 use rusqlite::types::{Value, ValueRef};
 
 /// A function of one number, by its name.
-type OfOne = (&'static str, fn(f64) -> f64);
+type UnaryFunction = (&'static str, fn(f64) -> f64);
 
 /// A function of two.
-type OfTwo = (&'static str, fn(f64, f64) -> f64);
+type BinaryFunction = (&'static str, fn(f64, f64) -> f64);
 
 /// Those of one number.
-const OF_ONE: [OfOne; 24] = [
+const OF_ONE: [UnaryFunction; 24] = [
     ("acos", f64::acos),
     ("acosh", f64::acosh),
     ("asin", f64::asin),
@@ -39,7 +39,7 @@ const OF_ONE: [OfOne; 24] = [
 ];
 
 /// Those of two.
-const OF_TWO: [OfTwo; 5] = [
+const OF_TWO: [BinaryFunction; 5] = [
     ("atan2", f64::atan2),
     ("log", |base, number| number.ln() / base.ln()),
     ("mod", |number, by| number % by),

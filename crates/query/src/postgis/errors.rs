@@ -39,7 +39,7 @@ fn cause(error: &postgres::Error) -> String {
 }
 
 /// The error of a statement `sql` that was asked as `asked`.
-pub(super) fn told(
+pub(super) fn server_error(
     address: &ServerAddress,
     error: &postgres::Error,
     (sql, asked): (&str, &str),

@@ -75,7 +75,7 @@ impl Server {
             let error = match failure {
                 ServerFailure::Told(error) => error,
                 ServerFailure::Server(error, asked) => {
-                    super::errors::told(self.address(), &error, (&asked, &asked), &known.catalogue)
+                    super::errors::server_error(self.address(), &error, (&asked, &asked), &known.catalogue)
                 }
             };
             budget.check().err().unwrap_or(error).about(&label)

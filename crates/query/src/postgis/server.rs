@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::fmt;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{RecvTimeoutError, channel};
-use std::sync::{Arc, Mutex, OnceLock, PoisonError};
+use std::sync::{Arc, Mutex, OnceLock};
 use std::time::Duration;
 
 use postgres::fallible_iterator::FallibleIterator;
@@ -21,6 +21,7 @@ use crate::place::Move;
 use crate::rewrite::{self, Catalogue, ChosenRows, Dialect, TableInfo, find_word};
 use burgeon_base::budget::Budget;
 use burgeon_base::error::{Error, Result};
+use burgeon_base::locks::LockRecovery;
 use burgeon_base::text::shown;
 use burgeon_data::{Crs, ReferenceFrame};
 
@@ -181,7 +182,7 @@ impl Server {
                 budget.check().err().unwrap_or_else(|| match failure {
                     ServerFailure::Told(error) => error,
                     ServerFailure::Server(error, asked) => {
-                        told(&self.address, &error, (sql, &asked), &known.catalogue)
+                        server_error(&self.address, &error, (sql, &asked), &known.catalogue)
                     }
                 })
             })?;
@@ -204,13 +205,13 @@ impl Server {
 
     /// Lets statements see no more of a table than what was read of it.
     pub(super) fn see(&self, table: &str, select: Option<String>) {
-        let mut seen = self.seen.lock().unwrap_or_else(PoisonError::into_inner);
+        let mut seen = self.seen.lock().recover();
         seen.entry(table.to_ascii_lowercase()).or_default().insert(select);
     }
 
     /// What a statement sees of the tables that it names. Fails if several parts of one were read.
     fn chosen(&self, sql: &str) -> Result<ChosenRows> {
-        let seen = self.seen.lock().unwrap_or_else(PoisonError::into_inner);
+        let seen = self.seen.lock().recover();
         let mut chosen = ChosenRows::new();
         for (table, parts) in seen.iter().filter(|(table, _)| find_word(sql, table).is_some()) {
             let mut parts = parts.iter();
@@ -240,7 +241,7 @@ impl Server {
                         .help("run there: CREATE EXTENSION postgis")
                 }
                 ServerFailure::Server(error, asked) => {
-                    told(&self.address, &error, ("", &asked), &Catalogue::new())
+                    server_error(&self.address, &error, ("", &asked), &Catalogue::new())
                 }
             })?;
         Ok(self.known.get_or_init(|| ServerTables::read(&answer.rows)))
@@ -255,7 +256,7 @@ impl Server {
         place: &Move<'_>,
         budget: &Arc<Budget>,
     ) -> Result<ServerAnswer, ServerFailure> {
-        let kept = self.idle.lock().unwrap_or_else(PoisonError::into_inner).pop();
+        let kept = self.idle.lock().recover().pop();
         let again = kept.is_some();
         let mut connection = match kept {
             Some(kept) => kept,
@@ -268,7 +269,7 @@ impl Server {
             done = connection.ask(sql, srid, given, place, budget);
         }
         let clean = connection.client.batch_execute(if done.is_ok() { "COMMIT" } else { "ROLLBACK" }).is_ok();
-        let mut idle = self.idle.lock().unwrap_or_else(PoisonError::into_inner);
+        let mut idle = self.idle.lock().recover();
         if clean && idle.len() < MOST_IDLE {
             idle.push(connection);
         }

@@ -21,4 +21,4 @@ pub(crate) use guard::check;
 #[cfg(feature = "postgis")]
 pub(crate) use parse::placeholder_ranges;
 pub(crate) use parse::{find_word, second_statement};
-pub(crate) use statement::{Catalogue, Dialect, Rewritten, TableInfo, rewrite};
+pub(crate) use statement::{Catalogue, Dialect, RewrittenQuery, TableInfo, rewrite};

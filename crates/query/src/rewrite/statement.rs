@@ -53,7 +53,7 @@ pub(crate) enum Dialect {
 
 /// A statement that is ready to be asked.
 #[derive(Debug, Clone, Default)]
-pub(crate) struct Rewritten {
+pub(crate) struct RewrittenQuery {
     /// What is asked.
     pub sql: String,
     /// Whether an index is used that the statement as it was written would not use.
@@ -74,7 +74,7 @@ pub(crate) fn rewrite(
     catalogue: &Catalogue,
     chosen: &ChosenRows,
     dialect: Dialect,
-) -> Option<Rewritten> {
+) -> Option<RewrittenQuery> {
     with_stack(|| {
         let mut tree = parse(sql).ok()?;
         Some(rewritten(&mut tree, catalogue, chosen, dialect))
@@ -96,7 +96,7 @@ fn rewritten(
     catalogue: &Catalogue,
     chosen: &ChosenRows,
     dialect: Dialect,
-) -> Rewritten {
+) -> RewrittenQuery {
     let booleans = booleans(&parsed.query);
     if dialect == Dialect::Sqlite {
         operators::translate(&mut parsed.query);
@@ -118,7 +118,7 @@ fn rewritten(
         _ => {}
     });
     chosen::put_in(&mut parsed.query, &tables, chosen);
-    Rewritten { indexed: !indexes.is_empty(), indexes, ordered, booleans, sql: parsed.query.to_string() }
+    RewrittenQuery { indexed: !indexes.is_empty(), indexes, ordered, booleans, sql: parsed.query.to_string() }
 }
 
 /// Which columns of the result are true or false; empty where a star hides how many there are.

@@ -85,10 +85,10 @@ fn write([width, height]: [u32; 2], color: ColorType, channels: &[u8]) -> Result
     Ok(bytes)
 }
 
-type Png<'a> = png::Reader<Cursor<&'a [u8]>>;
+type PngReader<'a> = png::Reader<Cursor<&'a [u8]>>;
 
 /// Opens a PNG; its samples will have 8 or 16 bits, and no palette.
-fn open_png(bytes: &[u8]) -> Result<Png<'_>> {
+fn open_png(bytes: &[u8]) -> Result<PngReader<'_>> {
     let mut decoder = png::Decoder::new_with_limits(Cursor::new(bytes), png::Limits { bytes: MOST });
     decoder.set_transformations(Transformations::EXPAND);
     decoder.read_info().map_err(damaged)

@@ -49,12 +49,12 @@ pub(super) struct Arrangement {
 /// The part of the extent within which places are one: what rounding makes of the place where two edges cross.
 const SAME: f64 = 1e-12;
 
-struct IndexedEdge {
+struct ArrangedEdge {
     ends: [DVec2; 2],
     number: usize,
 }
 
-impl RTreeObject for IndexedEdge {
+impl RTreeObject for ArrangedEdge {
     type Envelope = AABB<[f64; 2]>;
 
     fn envelope(&self) -> Self::Envelope {
@@ -128,7 +128,7 @@ impl Arrangement {
 fn cuts(edges: &[[DVec2; 2]], points: &[DVec2], near: f64) -> Vec<Vec<DVec2>> {
     let mut cuts: Vec<Vec<DVec2>> = vec![Vec::new(); edges.len()];
     let tree = RTree::bulk_load(
-        edges.iter().enumerate().map(|(number, ends)| IndexedEdge { ends: *ends, number }).collect(),
+        edges.iter().enumerate().map(|(number, ends)| ArrangedEdge { ends: *ends, number }).collect(),
     );
     let around =
         |a: DVec2, b: DVec2| AABB::from_corners((a.min(b) - near).to_array(), (a.max(b) + near).to_array());

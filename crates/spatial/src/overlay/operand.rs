@@ -1,5 +1,6 @@
 //! A geometry as its areas, lines and points, with nothing of them twice.
 
+use burgeon_geometry::planar::twice_area;
 use geo::bool_ops::FillRule;
 use geo::{BooleanOps, MultiPolygon, Validation};
 use glam::DVec2;
@@ -62,7 +63,7 @@ const NARROW: f64 = 1e-9;
 /// Those areas that have a width, and the rings of those that go back the way they came, which are lines.
 pub(crate) fn with_width(areas: MultiPolygon) -> (MultiPolygon, Vec<geo::LineString>) {
     let (thin, wide): (Vec<_>, Vec<_>) = areas.into_iter().partition(|area| {
-        twice_area_of(area.exterior()).abs() < NARROW
+        twice_area(area.exterior().coords().copied()).abs() < NARROW
             && filled(&MultiPolygon(vec![area.clone()]), FILL).0.is_empty()
     });
     (MultiPolygon(wide), thin.into_iter().map(|area| area.into_inner().0).collect())
@@ -76,18 +77,9 @@ pub(crate) fn dissolved(areas: MultiPolygon) -> MultiPolygon {
 /// Whether the rings of areas neither cross nor overlap.
 fn are_disjoint(areas: &MultiPolygon) -> bool {
     // A ring that goes back the way it came is taken for valid.
-    let has_width = |ring: &geo::LineString| twice_area_of(ring) != 0.0;
+    let has_width = |ring: &geo::LineString| twice_area(ring.coords().copied()) != 0.0;
     let are_wide = |it: &geo::Polygon| has_width(it.exterior()) && it.interiors().iter().all(has_width);
     areas.iter().all(are_wide) && areas.is_valid()
-}
-
-/// Twice the area in a ring, as triangles with its first corner; less than 0 if it is clockwise.
-fn twice_area_of(ring: &geo::LineString) -> f64 {
-    let Some(first) = ring.0.first() else { return 0.0 };
-    let cross = |pair: &[geo::Coord]| {
-        (pair[0].x - first.x) * (pair[1].y - first.y) - (pair[0].y - first.y) * (pair[1].x - first.x)
-    };
-    ring.0.windows(2).map(cross).sum()
 }
 
 /// What rings go around, by a rule.

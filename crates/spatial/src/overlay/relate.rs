@@ -14,7 +14,7 @@ use crate::plane::Plane;
 
 /// Where something lies to a geometry.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Position {
+enum TopologicalPosition {
     Interior,
     Boundary,
     Exterior,
@@ -45,7 +45,7 @@ pub(crate) fn relate(one: &Geometry, two: &Geometry) -> [u8; 9] {
     let coord = |at: DVec2| Coord { x: at.x, y: at.y };
     let mut cells = [b'F'; 9];
     cells[8] = b'2';
-    let mut note = |[first, second]: [Position; 2], dimension: u8| {
+    let mut note = |[first, second]: [TopologicalPosition; 2], dimension: u8| {
         let cell = &mut cells[first as usize * 3 + second as usize];
         if *cell == b'F' || *cell < dimension {
             *cell = dimension;
@@ -58,16 +58,18 @@ pub(crate) fn relate(one: &Geometry, two: &Geometry) -> [u8; 9] {
             [false, false] => [inside[geometry].holds(coord((from + to) / 2.0)); 2],
             sides => sides,
         });
-        let place = |is_inside: bool| if is_inside { Position::Interior } else { Position::Exterior };
+        let place = |is_inside: bool| {
+            if is_inside { TopologicalPosition::Interior } else { TopologicalPosition::Exterior }
+        };
         let [first, second] = sides;
         for (one, two) in first.into_iter().zip(second) {
             note([place(one), place(two)], b'2');
         }
         note(
             [0, 1].map(|geometry| match sides[geometry] {
-                [true, true] => Position::Interior,
+                [true, true] => TopologicalPosition::Interior,
                 [false, false] => place(piece.line[geometry]),
-                _ => Position::Boundary,
+                _ => TopologicalPosition::Boundary,
             }),
             b'1',
         );
@@ -105,15 +107,19 @@ pub(crate) fn relate(one: &Geometry, two: &Geometry) -> [u8; 9] {
         note(
             [0, 1].map(|geometry| {
                 if node.ring[geometry] {
-                    Position::Boundary
+                    TopologicalPosition::Boundary
                 } else if node.area[geometry] || !node.is_met && inside[geometry].holds(coord(*place)) {
-                    Position::Interior
+                    TopologicalPosition::Interior
                 } else if node.line[geometry] {
-                    if node.ends[geometry] % 2 == 1 { Position::Boundary } else { Position::Interior }
+                    if node.ends[geometry] % 2 == 1 {
+                        TopologicalPosition::Boundary
+                    } else {
+                        TopologicalPosition::Interior
+                    }
                 } else if node.point[geometry] {
-                    Position::Interior
+                    TopologicalPosition::Interior
                 } else {
-                    Position::Exterior
+                    TopologicalPosition::Exterior
                 }
             }),
             b'0',

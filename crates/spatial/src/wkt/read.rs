@@ -206,7 +206,7 @@ impl WktReader<'_> {
         if rings.iter().all(Vec::is_empty) {
             return Ok(burgeon_geometry::Rings::default());
         }
-        opened(rings).ok_or_else(|| self.expected("a third point in the ring before this"))
+        opened(rings.into()).ok_or_else(|| self.expected("a third point in the ring before this"))
     }
 
     /// A name, and what its points have.

@@ -7,7 +7,7 @@ use super::measure::{FrontRun, extent};
 use super::options::{LotOptions, LotPattern};
 use super::partition::{CellId, CornerId, Cut, Partition};
 use crate::network::PieceId;
-use burgeon_geometry::Rings;
+use burgeon_geometry::{Line, Rings};
 
 /// What a part of a block is for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -49,7 +49,7 @@ pub struct Lot {
     /// Its area (m²).
     pub area: f64,
     /// Where it is on streets (m), with the lot on the left: its front first.
-    pub fronts: Vec<Vec<DVec2>>,
+    pub fronts: Vec<Line>,
     /// The length (m) of its front.
     pub front_length: f64,
     /// The piece of a street that its front is on.
@@ -80,6 +80,24 @@ impl StreetBlock {
     /// makes its lots independent of all others.
     ///
     /// The lots are disjoint and fill the block; those to be built on have a front of at least the least width.
+    ///
+    /// ```
+    /// use burgeon_geometry::Rings;
+    /// use burgeon_streets::{Constraints, LotOptions, LotUse, Obstacles, StreetNetwork};
+    /// use glam::DVec2;
+    ///
+    /// // Without streets every edge of a block is on one.
+    /// let network = StreetNetwork::new(Constraints::default(), Obstacles::default())?;
+    /// let ring = [(0.0, 0.0), (120.0, 0.0), (120.0, 60.0), (0.0, 60.0)].map(DVec2::from);
+    /// let block = network.block(None, &Rings(vec![ring.to_vec()]), f64::INFINITY).expect("an area");
+    /// let options = LotOptions::new(20.0, 30.0);
+    /// let lots = block.divide(&options, &mut || 0.5);
+    /// assert!(lots.len() >= 8);
+    /// assert!((lots.iter().map(|lot| lot.area).sum::<f64>() - 7200.0).abs() < 1e-6);
+    /// let mut built = lots.iter().filter(|lot| lot.purpose == LotUse::Building);
+    /// assert!(built.all(|lot| lot.front_length >= options.min_width && lot.fronts[0].length() == lot.front_length));
+    /// # Ok::<(), burgeon_base::error::Error>(())
+    /// ```
     pub fn divide(&self, options: &LotOptions, random: &mut dyn FnMut() -> f64) -> Vec<Lot> {
         let is_park = random() < options.parks;
         let Some(partition) = Partition::new(&self.rings, &self.edge_sides) else { return Vec::new() };
@@ -211,7 +229,7 @@ impl Division<'_> {
             depth: behind,
             is_corner,
             elongation: self.partition.box_around(rings).map_or(1.0, |around| around.elongation()),
-            fronts: fronts.into_iter().map(|front| front.points).collect(),
+            fronts: fronts.into_iter().filter_map(|front| Line::without_repeats(front.points)).collect(),
         }
     }
 }

@@ -1,5 +1,6 @@
 //! Places on a grid of about a micrometre, on which the borders of lots are decided exactly.
 
+use burgeon_geometry::planar::edges;
 use glam::DVec2;
 
 use crate::grid::{FARTHEST, WholePlace, touch};
@@ -71,8 +72,7 @@ pub(crate) fn meet([a, b]: [FinePlace; 2], [c, d]: [FinePlace; 2]) -> bool {
 
 /// Whether a place is inside a ring, whichever way that runs; on its border the answer may be either.
 pub(crate) fn is_inside(ring: &[FinePlace], place: FinePlace) -> bool {
-    let edges = (0..ring.len()).map(|index| [ring[index], ring[(index + 1) % ring.len()]]);
-    let crossed = edges.filter(|[a, b]| {
+    let crossed = edges(ring).filter(|[a, b]| {
         let upwards = a.y <= place.y && place.y < b.y;
         let downwards = b.y <= place.y && place.y < a.y;
         (upwards && side(*a, *b, place) > 0) || (downwards && side(*a, *b, place) < 0)
@@ -82,20 +82,20 @@ pub(crate) fn is_inside(ring: &[FinePlace], place: FinePlace) -> bool {
 
 /// Whether no two edges of some rings meet but at the end of both, which only neighbours in a ring have in common.
 pub(crate) fn are_simple(rings: &[Vec<FinePlace>]) -> bool {
-    let mut edges: Vec<[FinePlace; 2]> = Vec::new();
+    let mut all: Vec<[FinePlace; 2]> = Vec::new();
     let mut corners: Vec<FinePlace> = Vec::new();
     for ring in rings {
         if ring.len() < 3 {
             return false;
         }
-        edges.extend((0..ring.len()).map(|index| [ring[index], ring[(index + 1) % ring.len()]]));
+        all.extend(edges(ring));
         corners.extend(ring);
     }
     corners.sort_unstable();
     if corners.windows(2).any(|pair| pair[0] == pair[1]) {
         return false;
     }
-    are_apart(edges)
+    are_apart(all)
 }
 
 /// Whether no two edges meet but at the end of both.

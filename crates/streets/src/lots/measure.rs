@@ -89,8 +89,7 @@ impl Partition {
     pub(super) fn fronts(&self, rings: &[Vec<CornerId>], cut: Option<&Cut>) -> Vec<FrontRun> {
         let mut runs = Vec::new();
         for ring in rings {
-            let sides: Vec<Option<u32>> =
-                super::partition::edges(ring).map(|edge| self.side(edge, cut)).collect();
+            let sides: Vec<Option<u32>> = planar::edges(ring).map(|edge| self.side(edge, cut)).collect();
             // Begin where a run begins, so that none is told in two.
             let begins = |index: &usize| sides[*index] != sides[(*index + ring.len() - 1) % ring.len()];
             let start = (0..ring.len()).find(begins).unwrap_or(0);

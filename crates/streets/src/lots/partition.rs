@@ -4,6 +4,7 @@ use glam::DVec2;
 use rustc_hash::{FxHashMap, FxHashSet};
 
 use super::fine::{self, FinePlace};
+use burgeon_geometry::planar::{edges, twice_area};
 
 /// The number of a corner.
 pub(super) type CornerId = u32;
@@ -38,10 +39,6 @@ pub(super) struct Cut {
     splits: Vec<([CornerId; 2], CornerId)>,
     /// What the cell falls apart into.
     pub(super) pieces: Vec<CellRings>,
-}
-
-pub(super) fn edges(ring: &[CornerId]) -> impl Iterator<Item = [CornerId; 2]> + '_ {
-    (0..ring.len()).map(|index| [ring[index], ring[(index + 1) % ring.len()]])
 }
 
 impl Partition {
@@ -171,9 +168,7 @@ impl Partition {
 
     /// The area (m²) inside a ring; negative if it is clockwise.
     fn ring_area(&self, ring: &[CornerId]) -> f64 {
-        let from = self.at(ring[0]);
-        let pairs = ring[1..].windows(2);
-        pairs.map(|pair| (self.at(pair[0]) - from).perp_dot(self.at(pair[1]) - from)).sum::<f64>() / 2.0
+        twice_area(ring.iter().map(|corner| self.at(*corner))) / 2.0
     }
 
     /// The area (m²) of a cell, or of what would be one.

@@ -187,7 +187,7 @@ impl Division<'_> {
 
     /// Whether a corner of a cell ends one of its edges on a street.
     fn is_on_front(&self, corner: CornerId, cell: CellId) -> bool {
-        let edges = self.partition.rings(cell).iter().flat_map(|ring| super::partition::edges(ring));
+        let edges = self.partition.rings(cell).iter().flat_map(|ring| burgeon_geometry::planar::edges(ring));
         edges.into_iter().any(|edge| edge.contains(&corner) && self.partition.side(edge, None).is_some())
     }
 

@@ -21,12 +21,7 @@ pub(super) fn check(block: &StreetBlock, lots: &[Lot], options: &LotOptions) {
     let placed: Vec<Vec<Vec<FinePlace>>> = lots.iter().map(places).collect();
     let edges: Vec<Vec<[FinePlace; 2]>> = placed
         .iter()
-        .map(|rings| {
-            let of = |ring: &Vec<FinePlace>| -> Vec<[FinePlace; 2]> {
-                (0..ring.len()).map(|index| [ring[index], ring[(index + 1) % ring.len()]]).collect()
-            };
-            rings.iter().flat_map(of).collect()
-        })
+        .map(|rings| rings.iter().flat_map(|ring| burgeon_geometry::planar::edges(ring)).collect())
         .collect();
     for (index, lot) in lots.iter().enumerate() {
         assert!(fine::are_simple(&placed[index]), "lot {} of {} meets itself", lot.number, block.id);
@@ -97,8 +92,7 @@ fn lots_of_polygons_at_random_are_disjoint_and_fill_them() {
 fn bent(random: &mut TestNumbers, rings: &Rings<DVec2>) -> Rings<DVec2> {
     let ring = &rings.0[0];
     let mut bent = Vec::new();
-    for (index, &from) in ring.iter().enumerate() {
-        let to = ring[(index + 1) % ring.len()];
+    for [from, to] in burgeon_geometry::planar::edges(ring) {
         let across = (to - from).normalize_or_zero().perp();
         bent.push(from);
         let mut at: Vec<f64> = (0..random.below(4.0) as usize).map(|_| random.below(1.0)).collect();

@@ -8,7 +8,7 @@
 pub(super) struct SymbolRule {
     /// The symbol of each quadrant.
     pub symbols: [usize; 4],
-    /// What is added to the height, as a multiple of the decay.
+    /// What is added to the height (of 0 to 1), as a multiple of the decay.
     pub change: [f64; 4],
     /// What the decay is multiplied by.
     pub factor: [f64; 4],
@@ -19,7 +19,7 @@ pub(super) struct SymbolRule {
 pub(super) struct Code {
     /// What each symbol becomes.
     pub rules: Vec<SymbolRule>,
-    /// The height of the whole.
+    /// The height of the whole, where the lowest of the target is 0 and the highest 1.
     pub height: f64,
 }
 

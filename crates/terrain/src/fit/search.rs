@@ -34,7 +34,7 @@ pub struct Search {
     pub symbols: usize,
     /// The most rounds.
     pub rounds: usize,
-    /// The error that is small enough to stop.
+    /// The error that is small enough to stop, as a part of the target's range of heights.
     pub enough: f64,
     /// How many rounds without a better table are enough to stop.
     pub patience: usize,
@@ -61,6 +61,23 @@ impl Search {
     ///
     /// `tell` is told of the best table after each round. The same for the same search and target, on any number of
     /// threads, unless `stop` ends it.
+    ///
+    /// ```
+    /// use burgeon_terrain::fit::{Search, Target};
+    ///
+    /// // Each quadrant is like the whole, half as high: one symbol makes all of it.
+    /// let target = Target::new(4, vec![
+    ///     0.0, 1.0, 2.0, 3.0, //
+    ///     2.0, 3.0, 4.0, 5.0, //
+    ///     4.0, 5.0, 6.0, 7.0, //
+    ///     6.0, 7.0, 8.0, 9.0,
+    /// ])?;
+    /// let search = Search { symbols: 1, rounds: 200, ..Search::default() };
+    /// let found = search.run(&target, &|| false, &mut |_| {});
+    /// assert_eq!(found.symbols(), 1);
+    /// assert!(found.error() < 0.01 && target.error(&found.map()?) == found.error());
+    /// # Ok::<(), burgeon_base::error::Error>(())
+    /// ```
     pub fn run(
         &self,
         target: &Target,

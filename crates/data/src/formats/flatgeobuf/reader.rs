@@ -138,15 +138,15 @@ impl FlatGeobuf {
         Ok(())
     }
 
-    fn reader(&self, at: u64) -> Reader<'_> {
-        let file = BufReader::with_capacity(1 << 16, Position { file: &self.file, at });
-        Reader { file, at, name: &self.name, bytes: Vec::new() }
+    fn reader(&self, at: u64) -> FgbReader<'_> {
+        let file = BufReader::with_capacity(1 << 16, FilePosition { file: &self.file, at });
+        FgbReader { file, at, name: &self.name, bytes: Vec::new() }
     }
 
     /// Reads the feature that the reader is at, which has a number and perhaps a box in the index.
     fn feature(
         &self,
-        reader: &mut Reader<'_>,
+        reader: &mut FgbReader<'_>,
         (number, entry): (u64, Option<BoxEntry>),
         table: &mut FeatureTable,
         wanted: &SourceOptions,
@@ -243,12 +243,12 @@ fn lies([x, y]: [f64; 2], [west, south, east, north]: [f64; 4]) -> bool {
 }
 
 /// A place in a file that others read too.
-struct Position<'a> {
+struct FilePosition<'a> {
     file: &'a File,
     at: u64,
 }
 
-impl Read for Position<'_> {
+impl Read for FilePosition<'_> {
     fn read(&mut self, into: &mut [u8]) -> std::io::Result<usize> {
         let mut file = self.file;
         file.seek(SeekFrom::Start(self.at))?;
@@ -258,7 +258,7 @@ impl Read for Position<'_> {
     }
 }
 
-impl Seek for Position<'_> {
+impl Seek for FilePosition<'_> {
     fn seek(&mut self, to: SeekFrom) -> std::io::Result<u64> {
         let at = match to {
             SeekFrom::Start(at) => Some(at),
@@ -271,14 +271,14 @@ impl Seek for Position<'_> {
 }
 
 /// The file at a place.
-struct Reader<'a> {
-    file: BufReader<Position<'a>>,
+struct FgbReader<'a> {
+    file: BufReader<FilePosition<'a>>,
     at: u64,
     name: &'a str,
     bytes: Vec<u8>,
 }
 
-impl Reader<'_> {
+impl FgbReader<'_> {
     /// Goes on at another place.
     fn seek_relative_to(&mut self, at: u64) -> Result<()> {
         let offset = at.cast_signed() - self.at.cast_signed();

@@ -46,7 +46,7 @@ impl Element {
 
 /// A file that is read from the front to the end.
 pub(super) struct Xml {
-    reader: Reader<BoundedReader<BufReader<Text>>>,
+    reader: Reader<BoundedReader<BufReader<XmlText>>>,
     buffer: Vec<u8>,
     /// The text since an element began or ended.
     text: String,
@@ -68,7 +68,7 @@ impl Xml {
         file.rewind().map_err(cannot)?;
         let unread = Rc::new(Cell::new(0));
         let longest = LONGEST.min(budget.memory() / 4);
-        let text = Text { file, is_latin: is_latin(&head[..count], name)?, held: Vec::new() };
+        let text = XmlText { file, is_latin: is_latin(&head[..count], name)?, held: Vec::new() };
         let bounded = BoundedReader {
             inner: BufReader::with_capacity(1 << 16, text),
             unread: Rc::clone(&unread),
@@ -191,14 +191,14 @@ fn is_latin(head: &[u8], name: &str) -> Result<bool> {
 }
 
 /// A file as UTF-8.
-struct Text {
+struct XmlText {
     file: File,
     is_latin: bool,
     /// What did not fit last time.
     held: Vec<u8>,
 }
 
-impl Read for Text {
+impl Read for XmlText {
     fn read(&mut self, into: &mut [u8]) -> std::io::Result<usize> {
         if !self.is_latin {
             return self.file.read(into);

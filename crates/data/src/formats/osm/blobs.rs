@@ -3,7 +3,7 @@
 use std::fs::File;
 use std::io::{Read, Seek, SeekFrom};
 use std::sync::atomic::{AtomicUsize, Ordering};
-use std::sync::{Mutex, OnceLock, PoisonError};
+use std::sync::{Mutex, OnceLock};
 
 use flate2::{Decompress, FlushDecompress, Status};
 
@@ -11,6 +11,7 @@ use super::wire::{WireDamage, WireField, WireFields};
 use crate::formats::packed::{DEFLATED, can_hold};
 use burgeon_base::budget::Budget;
 use burgeon_base::error::{Error, Result};
+use burgeon_base::locks::LockRecovery;
 
 /// The most bytes of a blob's header, and of a blob, packed or not, that the format allows.
 const LARGEST_HEADER: usize = 64 << 10;
@@ -86,7 +87,7 @@ impl BlobFile {
     /// The kind of the blob whose header is at `at`, where it begins and how long it is; none at the end.
     fn head(&self, at: u64, budget: &Budget) -> Result<Option<(Vec<u8>, u64, usize)>> {
         budget.tick()?;
-        let mut file = self.file.lock().unwrap_or_else(PoisonError::into_inner);
+        let mut file = self.file.lock().recover();
         let ends = |_| self.damaged(&format!("the blob at byte {at} is cut short"));
         let end = file.seek(SeekFrom::End(0)).map_err(ends)?;
         if at == end {
@@ -148,7 +149,7 @@ impl BlobFile {
         }
         let mut packed = vec![0; blob.size];
         {
-            let mut file = self.file.lock().unwrap_or_else(PoisonError::into_inner);
+            let mut file = self.file.lock().recover();
             let read = file.seek(SeekFrom::Start(blob.at)).and_then(|_| file.read_exact(&mut packed));
             read.map_err(|error| self.damaged(&error.to_string()))?;
         }
@@ -159,8 +160,8 @@ impl BlobFile {
         })?;
         let _held = budget.hold(size * (AROUND + 1))?;
         let bytes = match content {
-            Content::Plain(bytes) => bytes.to_vec(),
-            Content::Deflated(bytes) => inflate(bytes, size).map_err(wrong)?,
+            BlobContent::Plain(bytes) => bytes.to_vec(),
+            BlobContent::Deflated(bytes) => inflate(bytes, size).map_err(wrong)?,
         };
         let result = work(&bytes)?;
         let before = self.kept.fetch_add(size, Ordering::Relaxed);
@@ -172,13 +173,16 @@ impl BlobFile {
     }
 
     /// What a blob holds and how many bytes that are unpacked; or by what it is packed, if that is not read.
-    fn content<'a>(&self, blob: &'a [u8]) -> Result<Result<(Content<'a>, usize), &'static str>, WireDamage> {
+    fn content<'a>(
+        &self,
+        blob: &'a [u8],
+    ) -> Result<Result<(BlobContent<'a>, usize), &'static str>, WireDamage> {
         let (mut content, mut size) = (None, None);
         for field in WireFields(blob) {
             match field? {
-                (1, field) => content = Some(Content::Plain(field.bytes()?)),
+                (1, field) => content = Some(BlobContent::Plain(field.bytes()?)),
                 (2, field) => size = Some(field.number()?),
-                (3, field) => content = Some(Content::Deflated(field.bytes()?)),
+                (3, field) => content = Some(BlobContent::Deflated(field.bytes()?)),
                 (4, WireField::Bytes(_)) => return Ok(Err("LZMA")),
                 (5, WireField::Bytes(_)) => return Ok(Err("bzip2")),
                 (6, WireField::Bytes(_)) => return Ok(Err("LZ4")),
@@ -188,8 +192,8 @@ impl BlobFile {
         }
         let content = content.ok_or("holds nothing")?;
         let size = match content {
-            Content::Plain(bytes) => bytes.len(),
-            Content::Deflated(packed) => {
+            BlobContent::Plain(bytes) => bytes.len(),
+            BlobContent::Deflated(packed) => {
                 let size =
                     size.and_then(|size| usize::try_from(size).ok()).ok_or("does not tell its size")?;
                 if size > LARGEST || !can_hold(packed.len(), DEFLATED, size) {
@@ -221,7 +225,7 @@ impl BlobFile {
     }
 }
 
-enum Content<'a> {
+enum BlobContent<'a> {
     Plain(&'a [u8]),
     Deflated(&'a [u8]),
 }

@@ -106,8 +106,8 @@ impl<'a> OsmBlock<'a> {
     }
 
     /// Which kinds of things it holds.
-    pub(super) fn holds(&self) -> Result<Holds, WireDamage> {
-        let mut holds = Holds::default();
+    pub(super) fn holds(&self) -> Result<BlockContents, WireDamage> {
+        let mut holds = BlockContents::default();
         for group in &self.groups {
             // A group holds one kind.
             if let Some(field) = WireFields(group).next() {
@@ -223,7 +223,7 @@ impl<'a> OsmBlock<'a> {
 
 /// Which kinds of things a block holds.
 #[derive(Clone, Copy, Default)]
-pub(super) struct Holds {
+pub(super) struct BlockContents {
     pub(super) nodes: bool,
     pub(super) ways: bool,
 }

@@ -55,7 +55,7 @@ pub(super) enum TagValue<'v> {
 }
 
 /// What tags mean, name by name; `value` gives the value of a key.
-pub(super) fn told<'v>(
+pub(super) fn meanings<'v>(
     value: impl Fn(&str) -> Option<&'v str>,
 ) -> impl Iterator<Item = (&'static str, TagValue<'v>)> {
     NAMES.iter().filter_map(move |(name, keys, meaning)| {
@@ -202,7 +202,7 @@ mod tests {
             ("roof:shape", "gabled"),
             ("direction", "forward"),
         ];
-        let told: Vec<_> = told(|key| tags.iter().find(|tag| tag.0 == key).map(|tag| tag.1)).collect();
+        let told: Vec<_> = meanings(|key| tags.iter().find(|tag| tag.0 == key).map(|tag| tag.1)).collect();
         let expected = [
             ("height", TagValue::Unread("tall")),
             ("levels", TagValue::Number(3.0)),

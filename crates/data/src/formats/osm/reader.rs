@@ -7,7 +7,7 @@ use rayon::prelude::*;
 use rustc_hash::{FxHashMap, FxHashSet};
 
 use super::blobs::{BlobFile, is_extract};
-use super::block::{Holds, OsmBlock, Visitor};
+use super::block::{BlockContents, OsmBlock, Visitor};
 use super::choosing::{PlaceSearch, TagChoice, TagSearch, WaySearch};
 use super::layers::{LAYERS, ReadyLayer};
 use super::meaning::{TagValue, told};
@@ -146,7 +146,7 @@ impl OsmFile {
     fn collect<V: Visitor + Send>(
         &self,
         budget: &Budget,
-        holds: impl Fn(Holds) -> bool + Sync,
+        holds: impl Fn(BlockContents) -> bool + Sync,
         visitor: impl Fn() -> V + Sync,
     ) -> Result<Vec<V>> {
         let visit = |index| {
@@ -218,7 +218,7 @@ impl OsmFile {
             let found = record.tags.iter().find(|(known, _)| known == key);
             found.map(|(_, value)| value.as_str())
         };
-        let mut plain: Vec<(&str, Option<Attribute>)> = told(value)
+        let mut plain: Vec<(&str, Option<Attribute>)> = meanings(value)
             .map(|(name, told)| match told {
                 TagValue::Number(number) => (name, Some(Attribute::Number(number))),
                 TagValue::Text(text) => (name, Some(table.text(text))),

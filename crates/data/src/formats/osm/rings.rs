@@ -51,7 +51,7 @@ struct Graph {
     next: Vec<usize>,
 }
 
-fn told(budget: &Budget) -> Result<(), String> {
+fn tick(budget: &Budget) -> Result<(), String> {
     budget.tick().map_err(|error| error.message().to_owned())
 }
 
@@ -131,7 +131,7 @@ impl Graph {
         for (at, [a, b]) in segments.iter().enumerate() {
             let (low, high) = (a.0[1].min(b.0[1]), a.0[1].max(b.0[1]));
             for [c, d] in segments[at + 1..].iter().take_while(|[c, _]| c.0[0] <= b.0[0]) {
-                told(budget)?;
+                tick(budget)?;
                 if c.0[1].max(d.0[1]) < low || c.0[1].min(d.0[1]) > high {
                     continue;
                 }
@@ -188,7 +188,7 @@ impl Graph {
                 sides[walk] = Some(WalkSide { is_inside, component });
                 members.push(walk);
                 for edge in self.walk(walks.begins[walk]) {
-                    told(budget)?;
+                    tick(budget)?;
                     let beyond = walks.of[edge ^ 1];
                     if sides[beyond].is_none() {
                         stack.push((beyond, !is_inside));
@@ -204,7 +204,7 @@ impl Graph {
             let at = self.place(walks.begins[first]);
             let mut odd = false;
             for segment in 0..self.from.len() / 2 {
-                told(budget)?;
+                tick(budget)?;
                 let own = sides[walks.of[2 * segment]].is_some_and(|side| side.component == component);
                 let [a, b] = self.ends(segment);
                 odd ^= !own && at.sees(a, b);
@@ -228,7 +228,7 @@ impl Graph {
     ) -> Result<Vec<PolygonRings>, String> {
         let (mut polygons, mut loose): (Vec<PolygonRings>, Vec<Vec<Place>>) = (Vec::new(), Vec::new());
         for (begin, side) in walks.begins.iter().zip(sides) {
-            told(budget)?;
+            tick(budget)?;
             if !side.is_inside {
                 continue;
             }
@@ -251,7 +251,7 @@ impl Graph {
             let at = hole[0];
             let mut around: Option<usize> = None;
             for (index, polygon) in polygons.iter().enumerate() {
-                told(budget)?;
+                tick(budget)?;
                 let ring = &polygon[0];
                 let pairs = ring.iter().zip(ring.iter().cycle().skip(1));
                 let is_in = pairs.filter(|(a, b)| at.sees(**a, **b)).count() % 2 == 1;

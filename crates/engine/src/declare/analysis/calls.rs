@@ -10,11 +10,12 @@ use std::sync::Arc;
 use full_moon::ast::punctuated::Punctuated;
 use full_moon::ast::{
     Ast, Block, Call, Expression, Field, FunctionArgs, FunctionBody, FunctionCall, Index, LastStmt,
-    Parameter, Prefix, Stmt, Suffix, TableConstructor, UnOp, Var,
+    NumericFor, Parameter, Prefix, Stmt, Suffix, TableConstructor, UnOp, Var,
 };
 use full_moon::node::Node;
 use full_moon::tokenizer::TokenReference;
 
+use super::blocks::ScopeWalk;
 use super::inference::Inference;
 use super::syntax::{string_of, text_of};
 use super::walk::FunctionRole;
@@ -63,6 +64,33 @@ fn collect_assigned(ast: &Ast, names: &mut BTreeSet<String>) {
     AssignmentNames(names).visit_ast(ast);
 }
 
+impl ScopeWalk for CallCheck<'_> {
+    fn in_scope(&self) -> usize {
+        self.scope.len()
+    }
+
+    fn leave(&mut self, outside: usize) {
+        self.scope.truncate(outside);
+    }
+
+    fn term(&mut self, expression: &Expression) {
+        self.expression(expression);
+    }
+
+    fn counter(&mut self, numeric: &NumericFor) {
+        self.declare(numeric.index_variable(), Inference::Value(Literal::Number));
+    }
+
+    fn open_block(&mut self, block: &Block) {
+        for statement in block.stmts() {
+            self.statement(statement);
+        }
+        if let Some(LastStmt::Return(last)) = block.last_stmt() {
+            self.expressions(last.returns());
+        }
+    }
+}
+
 impl<'a> CallCheck<'a> {
     pub(super) fn new(
         file: &'a str,
@@ -102,21 +130,6 @@ impl<'a> CallCheck<'a> {
         }
     }
 
-    fn block(&mut self, block: &Block) {
-        let outside = self.scope.len();
-        self.open_block(block);
-        self.scope.truncate(outside);
-    }
-
-    fn open_block(&mut self, block: &Block) {
-        for statement in block.stmts() {
-            self.statement(statement);
-        }
-        if let Some(LastStmt::Return(last)) = block.last_stmt() {
-            self.expressions(last.returns());
-        }
-    }
-
     fn statement(&mut self, statement: &Stmt) {
         match statement {
             Stmt::Assignment(assignment) => {
@@ -132,7 +145,6 @@ impl<'a> CallCheck<'a> {
                 self.expression(assignment.rhs());
                 self.assigned_to(assignment.lhs());
             }
-            Stmt::Do(inner) => self.block(inner.block()),
             Stmt::FunctionCall(call) => {
                 self.call(call);
             }
@@ -156,39 +168,7 @@ impl<'a> CallCheck<'a> {
                 self.block(generic.block());
                 self.scope.truncate(outside);
             }
-            Stmt::NumericFor(numeric) => {
-                self.expression(numeric.start());
-                self.expression(numeric.end());
-                if let Some(step) = numeric.step() {
-                    self.expression(step);
-                }
-                let outside = self.scope.len();
-                self.declare(numeric.index_variable(), Inference::Value(Literal::Number));
-                self.block(numeric.block());
-                self.scope.truncate(outside);
-            }
-            Stmt::If(branches) => {
-                self.expression(branches.condition());
-                self.block(branches.block());
-                for branch in branches.else_if().into_iter().flatten() {
-                    self.expression(branch.condition());
-                    self.block(branch.block());
-                }
-                if let Some(block) = branches.else_block() {
-                    self.block(block);
-                }
-            }
-            Stmt::Repeat(repeat) => {
-                let outside = self.scope.len();
-                self.open_block(repeat.block());
-                self.expression(repeat.until());
-                self.scope.truncate(outside);
-            }
-            Stmt::While(repeat) => {
-                self.expression(repeat.condition());
-                self.block(repeat.block());
-            }
-            _ => {}
+            other => self.nested(other),
         }
     }
 

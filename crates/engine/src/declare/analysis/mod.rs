@@ -5,13 +5,14 @@
 //! returns are told apart into nothing, nil and lists; and an assignment in a function to a variable from
 //! outside it is preceded by a check that no rule is running.
 
+mod blocks;
 mod calls;
 mod expressions;
 mod files;
 mod held;
 mod inference;
+mod inspection;
 mod own_types;
-mod peeks;
 mod prepare;
 mod pure;
 mod queries;
@@ -20,7 +21,7 @@ mod syntax;
 mod walk;
 
 pub(crate) use files::{CheckedFile, call_problems};
-pub(crate) use peeks::peeks;
+pub(crate) use inspection::inspects_tables;
 pub(crate) use pure::has_metatables;
 pub(crate) use queries::QueryCall;
 pub(crate) use script::{Analysis, Globals, ScriptReader, analyse, unmarked};

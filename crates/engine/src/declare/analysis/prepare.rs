@@ -7,6 +7,7 @@ use full_moon::node::Node;
 use full_moon::tokenizer::{StringLiteralQuoteType, TokenReference, TokenType};
 use std::sync::atomic::Ordering;
 
+use super::blocks::ScopeWalk;
 use super::syntax::{end_of, first_position, is_open, string_of, text_of};
 use super::walk::{Fact, Function, FunctionRole, Variable, Walk};
 use burgeon_kit::Argument;

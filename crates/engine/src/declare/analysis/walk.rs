@@ -3,11 +3,12 @@
 use std::collections::BTreeMap;
 
 use full_moon::ast::punctuated::Punctuated;
-use full_moon::ast::{Ast, Block, Expression, FunctionBody, LastStmt, Stmt, Var};
+use full_moon::ast::{Ast, Block, Expression, FunctionBody, LastStmt, NumericFor, Stmt, Var};
 use full_moon::node::Node;
 use full_moon::tokenizer::TokenReference;
 
 use super::Globals;
+use super::blocks::ScopeWalk;
 use super::queries::QueryCall;
 use super::syntax::{declared_module, end_of, first_position, instead_of, text_of};
 use burgeon_base::error::{Error, SourcePlace};
@@ -113,6 +114,33 @@ pub(super) struct Walk<'a> {
     pub(super) deprecated: Vec<(String, usize)>,
 }
 
+impl ScopeWalk for Walk<'_> {
+    fn in_scope(&self) -> usize {
+        self.variables.len()
+    }
+
+    fn leave(&mut self, outside: usize) {
+        self.variables.truncate(outside);
+    }
+
+    fn term(&mut self, expression: &Expression) {
+        self.expression(expression);
+    }
+
+    fn counter(&mut self, numeric: &NumericFor) {
+        self.declare(numeric.index_variable(), first_position(numeric.block(), numeric.end_token()));
+    }
+
+    fn open_block(&mut self, block: &Block) {
+        for statement in block.stmts() {
+            self.statement(statement);
+        }
+        if let Some(LastStmt::Return(statement)) = block.last_stmt() {
+            self.returns(statement.token(), statement.returns());
+        }
+    }
+}
+
 impl<'a> Walk<'a> {
     pub(super) fn new(file: &'a str, globals: &'a Globals, known: Facts) -> Self {
         Self {
@@ -141,22 +169,6 @@ impl<'a> Walk<'a> {
         self.block(ast.nodes());
     }
 
-    pub(super) fn block(&mut self, block: &Block) {
-        let outside = self.variables.len();
-        self.open_block(block);
-        self.variables.truncate(outside);
-    }
-
-    /// Walks a block and leaves its variables in scope.
-    pub(super) fn open_block(&mut self, block: &Block) {
-        for statement in block.stmts() {
-            self.statement(statement);
-        }
-        if let Some(LastStmt::Return(statement)) = block.last_stmt() {
-            self.returns(statement.token(), statement.returns());
-        }
-    }
-
     pub(super) fn statement(&mut self, statement: &Stmt) {
         match statement {
             Stmt::Assignment(assignment) => {
@@ -174,7 +186,6 @@ impl<'a> Walk<'a> {
                 }
                 self.assign(assignment.lhs(), statement);
             }
-            Stmt::Do(inner) => self.block(inner.block()),
             Stmt::FunctionCall(call) => self.call(call),
             Stmt::FunctionDeclaration(declaration) => {
                 let names = declaration.name().names();
@@ -207,39 +218,7 @@ impl<'a> Walk<'a> {
                 self.block(generic.block());
                 self.variables.truncate(outside);
             }
-            Stmt::NumericFor(numeric) => {
-                self.expression(numeric.start());
-                self.expression(numeric.end());
-                if let Some(step) = numeric.step() {
-                    self.expression(step);
-                }
-                let outside = self.variables.len();
-                self.declare(numeric.index_variable(), first_position(numeric.block(), numeric.end_token()));
-                self.block(numeric.block());
-                self.variables.truncate(outside);
-            }
-            Stmt::If(branches) => {
-                self.expression(branches.condition());
-                self.block(branches.block());
-                for branch in branches.else_if().into_iter().flatten() {
-                    self.expression(branch.condition());
-                    self.block(branch.block());
-                }
-                if let Some(block) = branches.else_block() {
-                    self.block(block);
-                }
-            }
-            Stmt::Repeat(repeat) => {
-                let outside = self.variables.len();
-                self.open_block(repeat.block());
-                self.expression(repeat.until());
-                self.variables.truncate(outside);
-            }
-            Stmt::While(repeat) => {
-                self.expression(repeat.condition());
-                self.block(repeat.block());
-            }
-            _ => {}
+            other => self.nested(other),
         }
     }
 

@@ -5,8 +5,9 @@
 //! how many there were.
 
 use std::collections::BTreeMap;
-use std::sync::{Mutex, PoisonError};
+use std::sync::Mutex;
 
+use burgeon_base::locks::LockRecovery;
 use burgeon_base::warning::Warning;
 use burgeon_kit::rules::Symbol;
 
@@ -52,7 +53,7 @@ impl Notices {
             }
             _ => false,
         };
-        let lock = || self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        let lock = || self.0.lock().recover();
         if again(&mut lock()) {
             return;
         }
@@ -71,7 +72,7 @@ impl Notices {
 
     /// All of them, by symbol; `of_symbol` counts the modules with a symbol.
     pub(super) fn into_list(self, of_symbol: impl Fn(Symbol) -> usize) -> impl Iterator<Item = Warning> {
-        let known = self.0.into_inner().unwrap_or_else(PoisonError::into_inner);
+        let known = self.0.into_inner().recover();
         known.into_iter().filter_map(move |((symbol, _), known)| {
             let some = known.warning.is_of_all() && known.modules < of_symbol(symbol);
             (!some).then_some(known.warning)

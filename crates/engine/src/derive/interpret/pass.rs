@@ -2,7 +2,6 @@
 
 use std::sync::Arc;
 use std::sync::Mutex;
-use std::sync::PoisonError;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::{Duration, Instant};
 
@@ -13,6 +12,7 @@ use crate::derive::threads::{ThreadJob, ThreadPool};
 use crate::machine::{Flusher, Machine, write_column};
 use crate::results::Use;
 use burgeon_base::error::{Error, Limit, Result, SourcePlace};
+use burgeon_base::locks::LockRecovery;
 use burgeon_base::warning::Warning;
 use burgeon_kit::rules::{CLOSE, Chain, END, Mark, ModuleKey, OPEN, Symbol, module_brief};
 
@@ -76,11 +76,11 @@ impl InterpretationPass {
         threads.hand_out(machine, count, 2, || ThreadJob::Interpret(Arc::downgrade(&interpreting)))?;
         while interpreting.work(machine) {}
         let done = threads.reclaim(interpreting);
-        let counted = done.uses.into_inner().unwrap_or_else(PoisonError::into_inner);
+        let counted = done.uses.into_inner().recover();
         uses.iter_mut().zip(counted).for_each(|(sum, more)| *sum += more);
         let of_symbol = |symbol: Symbol| done.chain.symbols.iter().filter(|other| **other == symbol).count();
         said.extend(done.notices.into_list(of_symbol));
-        match done.failure.into_inner().unwrap_or_else(PoisonError::into_inner) {
+        match done.failure.into_inner().recover() {
             Some((_, error)) => Err(error),
             None => Ok(done.chain),
         }
@@ -94,11 +94,11 @@ impl InterpretationPass {
         }
         let failed =
             |failure: &Option<(usize, Error)>| failure.as_ref().is_some_and(|(first, _)| *first < index);
-        if failed(&self.failure.lock().unwrap_or_else(PoisonError::into_inner)) {
+        if failed(&self.failure.lock().recover()) {
             return true;
         }
         if let Err(error) = self.piece(machine, self.pieces[index], self.pieces[index + 1]) {
-            let mut failure = self.failure.lock().unwrap_or_else(PoisonError::into_inner);
+            let mut failure = self.failure.lock().recover();
             if !failed(&failure) {
                 *failure = Some((index, error));
             }
@@ -339,7 +339,7 @@ impl InterpretationPass {
     /// Adds a batch of entries with the rules `ids` to what the rules have done: it took `time`, of which `applying`
     /// is known by entry, while what Lua took is shared out evenly.
     fn count_uses(&self, ids: &[u16], time: Duration, applying: Vec<Duration>) {
-        let mut uses = self.uses.lock().unwrap_or_else(PoisonError::into_inner);
+        let mut uses = self.uses.lock().recover();
         let count = u32::try_from(ids.len().max(1)).unwrap_or(u32::MAX);
         let each = if self.plan.profiled {
             time.saturating_sub(applying.iter().sum()) / count

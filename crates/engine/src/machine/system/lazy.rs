@@ -58,7 +58,7 @@ pub(super) fn unread(
     layer: &Arc<Layer>,
     prefetch: Option<&Arc<dyn Prefetch>>,
 ) -> mlua::Result<Option<LazyLayer>> {
-    if lua.app_data_ref::<EagerMark>().is_none_or(|eager| eager.0.peeks()) {
+    if lua.app_data_ref::<EagerMark>().is_none_or(|eager| eager.0.inspects_tables()) {
         return Ok(None);
     }
     let names = (0..).zip(&layer.names).map(|(index, name)| (name.clone(), index)).collect();
@@ -184,16 +184,20 @@ fn from_json(json: &serde_json::Value) -> Value {
 }
 
 /// A field that has been kept, or the value that is made of it and kept.
-fn kept(table: &Table, name: &str, make: impl FnOnce() -> mlua::Result<LuaValue>) -> mlua::Result<LuaValue> {
+fn cached(
+    table: &Table,
+    name: &str,
+    make: impl FnOnce() -> mlua::Result<LuaValue>,
+) -> mlua::Result<LuaValue> {
     match table.raw_get(name)? {
         LuaValue::Nil => {}
         known => return Ok(known),
     }
     let made = make()?;
     table.set_readonly(false);
-    let kept = table.raw_set(name, &made);
+    let done = table.raw_set(name, &made);
     table.set_readonly(true);
-    kept.map(|()| made)
+    done.map(|()| made)
 }
 
 /// A field of a feature.
@@ -206,7 +210,7 @@ fn of_feature(lua: &Lua, table: &Table, name: &str) -> mlua::Result<LuaValue> {
         "id" => return text(&feature.id),
         "layer" => return text(&held.layer.name),
         "geometry" => {
-            return kept(table, name, || geometry(lua, &held.layer, index, held.prefetch.as_ref()));
+            return cached(table, name, || geometry(lua, &held.layer, index, held.prefetch.as_ref()));
         }
         _ => {}
     }
@@ -217,7 +221,7 @@ fn of_feature(lua: &Lua, table: &Table, name: &str) -> mlua::Result<LuaValue> {
         Some(Attribute::Boolean(value)) => Ok(LuaValue::Boolean(*value)),
         Some(Attribute::Number(value)) => Ok(LuaValue::Number(*value)),
         Some(Attribute::Text(value)) => text(value),
-        Some(Attribute::Nested(json)) => kept(table, name, || nested(lua, json)),
+        Some(Attribute::Nested(json)) => cached(table, name, || nested(lua, json)),
     }
 }
 

@@ -1,7 +1,7 @@
 //! Objects and derived systems as scripts hold them.
 
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::{Arc, OnceLock, PoisonError, RwLock};
+use std::sync::{Arc, OnceLock, RwLock};
 
 use mlua::{AnyUserData, Lua, LuaString, MetaMethod, Table, UserData, UserDataMethods, Value as LuaValue};
 
@@ -11,6 +11,7 @@ use super::geometries::geometry_field;
 use crate::machine::convert::to_lua;
 use crate::results::DerivedSystem;
 use burgeon_base::error::{Error, Result};
+use burgeon_base::locks::LockRecovery;
 use burgeon_base::text::panic_message;
 use burgeon_kit::declare::as_ref;
 use burgeon_kit::{Kind, Object, ScriptObject, Value};
@@ -62,7 +63,7 @@ impl Objects {
 
     pub(crate) fn read<T>(&self, chain: usize, ask: impl FnOnce(&dyn Object) -> Result<T>) -> Result<T> {
         let object = self.list.get(chain).ok_or_else(no_object)?;
-        guarded(|| ask(&**object.read().unwrap_or_else(PoisonError::into_inner)))
+        guarded(|| ask(&**object.read().recover()))
     }
 
     pub(crate) fn write<T>(
@@ -71,17 +72,13 @@ impl Objects {
         change: impl FnOnce(&mut dyn Object) -> Result<T>,
     ) -> Result<T> {
         let object = self.list.get(chain).ok_or_else(no_object)?;
-        guarded(|| change(&mut **object.write().unwrap_or_else(PoisonError::into_inner)))
+        guarded(|| change(&mut **object.write().recover()))
     }
 
     /// The objects, each with what its data is at fault for.
     pub(crate) fn into_owned(self) -> Vec<(Box<dyn Object>, Option<Error>)> {
         let objects = self.list.into_iter().zip(self.failures);
-        objects
-            .map(|(object, failure)| {
-                (object.into_inner().unwrap_or_else(PoisonError::into_inner), failure.into_inner())
-            })
-            .collect()
+        objects.map(|(object, failure)| (object.into_inner().recover(), failure.into_inner())).collect()
     }
 }
 

@@ -51,8 +51,10 @@ impl ScriptTypeEntry {
         check_name(machine, name)?;
         refuse_unknown(&format!("object {name}"), declared, &OBJECT.part_names())?;
         let mut entry = match declared.raw_get::<LuaValue>("extends").map_err(internal)? {
-            LuaValue::Nil => Parts::default(),
-            LuaValue::Function(function) => Parts::of(machine, &function).ok_or_else(|| not_a_type(name))?,
+            LuaValue::Nil => ScriptTypeParts::default(),
+            LuaValue::Function(function) => {
+                ScriptTypeParts::of(machine, &function).ok_or_else(|| not_a_type(name))?
+            }
             _ => return Err(not_a_type(name)),
         };
         let what = |part: &str| format!("{part} of object {name}");
@@ -121,19 +123,19 @@ impl ScriptTypeEntry {
         let methods = methods.map(|it| it.method(&machine.session));
         let kind = entry.declaration.clone().kind(name, &doc, methods.collect())?;
         let table = entry.table(machine, &kind).map_err(|error| machine.translate(error))?;
-        let Parts { declaration, functions } = entry;
+        let ScriptTypeParts { declaration, functions } = entry;
         Ok(Self { kind, table, declaration, functions, place: Machine::place(machine.lua()) })
     }
 }
 
 /// What a type is put together of.
 #[derive(Default)]
-struct Parts {
+struct ScriptTypeParts {
     declaration: ScriptType,
     functions: Vec<ScriptFunction>,
 }
 
-impl Parts {
+impl ScriptTypeParts {
     /// What a type has that extends the one that `constructor` makes; `None` if it is no constructor.
     fn of(machine: &Machine, constructor: &Function) -> Option<Self> {
         let kind = machine.library.kind_of(constructor)?;
@@ -305,7 +307,7 @@ pub(in crate::machine) fn extend_type(
         return Err(Error::argument("extend takes a table after the type").help(usage));
     };
     refuse_unknown("extend", declared, &EXTEND.part_names())?;
-    let mut parts = Parts::default();
+    let mut parts = ScriptTypeParts::default();
     parts.add(declared, &|part| format!("{part} of extend({})", kind.name))?;
     let lua = machine.lua();
     let types = machine.library.script_types.borrow();

@@ -11,10 +11,10 @@ const CELLS: usize = 72;
 
 /// A grid of brightness on the ground.
 pub(super) struct Floor {
-    /// The ground's height on the stage.
+    /// The ground's height on the stage, where the radius of the model is 1.
     pub height: f32,
     corner: Vec2,
-    /// Cells per unit.
+    /// Cells per radius of the model.
     scale: Vec2,
     /// Light of sun and sky compared with that far from the model, row by row.
     light: Vec<f32>,

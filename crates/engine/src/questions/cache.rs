@@ -1,12 +1,13 @@
 //! Answers that are kept, so that the same question is asked once.
 
 use std::sync::atomic::{AtomicUsize, Ordering};
-use std::sync::{Arc, Mutex, OnceLock, PoisonError};
+use std::sync::{Arc, Mutex, OnceLock};
 
 use rustc_hash::FxHashMap;
 
 use super::{Question, RowSource, Rows};
 use burgeon_base::error::Result;
+use burgeon_base::locks::LockRecovery;
 
 /// The values of answers that are kept from step to step.
 const MOST: usize = 2_000_000;
@@ -17,14 +18,14 @@ type Slot = Arc<OnceLock<Result<Arc<Rows>>>>;
 /// The answers of a run, by question. What the top level of the script asks is kept to its end, since every virtual
 /// machine is to see the same.
 #[derive(Default)]
-pub(crate) struct KeptRows {
-    known: Mutex<FxHashMap<Question, KeptAnswer>>,
+pub(crate) struct RowCache {
+    known: Mutex<FxHashMap<Question, CacheEntry>>,
     /// The places of modules whose rules have asked data or geometries in the step at hand, and what; in words.
     noted: Mutex<Vec<(usize, String)>>,
     values: AtomicUsize,
 }
 
-struct KeptAnswer {
+struct CacheEntry {
     slot: Slot,
     stays: bool,
 }
@@ -39,14 +40,14 @@ pub(crate) struct AskedRows<'a> {
     pub stays: bool,
 }
 
-impl KeptRows {
+impl RowCache {
     /// The answer to `question`.
     pub(crate) fn ask(&self, question: &Question, asked: &AskedRows<'_>) -> Result<Arc<Rows>> {
         let slot = {
-            let mut known = self.known.lock().unwrap_or_else(PoisonError::into_inner);
+            let mut known = self.known.lock().recover();
             let kept = known
                 .entry(question.clone())
-                .or_insert_with(|| KeptAnswer { slot: Slot::default(), stays: false });
+                .or_insert_with(|| CacheEntry { slot: Slot::default(), stays: false });
             kept.stays |= asked.stays;
             Arc::clone(&kept.slot)
         };
@@ -65,12 +66,12 @@ impl KeptRows {
 
     /// The same in words.
     pub(crate) fn note_answer(&self, place: usize, text: String) {
-        self.noted.lock().unwrap_or_else(PoisonError::into_inner).push((place, text));
+        self.noted.lock().recover().push((place, text));
     }
 
     /// What was noted in the step at hand, by place; of each in the order in which it was asked.
     pub(crate) fn take_noted(&self) -> Vec<(usize, String)> {
-        let mut noted = std::mem::take(&mut *self.noted.lock().unwrap_or_else(PoisonError::into_inner));
+        let mut noted = std::mem::take(&mut *self.noted.lock().recover());
         noted.sort_by_key(|(place, _)| *place);
         // Several guards often ask the same.
         noted.dedup();
@@ -80,7 +81,7 @@ impl KeptRows {
     /// Forgets answers once they are many. Nobody is asking.
     pub(crate) fn forget_many(&self) {
         if self.values.load(Ordering::Relaxed) > MOST {
-            self.known.lock().unwrap_or_else(PoisonError::into_inner).retain(|_, kept| kept.stays);
+            self.known.lock().recover().retain(|_, kept| kept.stays);
             self.values.store(0, Ordering::Relaxed);
         }
     }
@@ -106,7 +107,7 @@ mod tests {
 
     #[test]
     fn the_same_question_is_asked_once_whatever_the_answer_and_by_any_number_of_threads() {
-        let (kept, source) = (KeptRows::default(), CountedSource::default());
+        let (kept, source) = (RowCache::default(), CountedSource::default());
         let ask = |sql: &str| {
             let asked = AskedRows { source: &source, most: 10, stays: false };
             kept.ask(&Question::new(sql.into(), None), &asked)

@@ -1,10 +1,12 @@
-//! The tables that scripts ask: the sources that they have loaded, in a database that is made once somebody asks.
+//! The sources that the scripts of a run have loaded.
 
 use std::path::PathBuf;
 use std::sync::Arc;
 #[cfg(feature = "postgis")]
 use std::time::Duration;
 
+#[cfg(feature = "data")]
+use super::database::SourceDatabase;
 use burgeon_data::output::{Record, RecordTable};
 use burgeon_data::{Feature, Layer};
 #[cfg(feature = "postgis")]
@@ -12,7 +14,7 @@ use burgeon_query::postgis::{Server, ServerAddress};
 
 /// A source as a table.
 #[cfg_attr(not(feature = "data"), allow(dead_code, reason = "nobody can ask"))]
-pub(super) struct SourceTable {
+pub(in crate::declare) struct SourceTable {
     /// What statements call it.
     pub name: String,
     pub content: TableContent,
@@ -20,7 +22,7 @@ pub(super) struct SourceTable {
 
 /// What a table holds.
 #[cfg_attr(not(feature = "data"), allow(dead_code, reason = "nobody can ask"))]
-pub(super) enum TableContent {
+pub(in crate::declare) enum TableContent {
     /// The features as they were read.
     Layer(Arc<Layer>),
     /// A layer of a GeoPackage, as it is in the file.
@@ -43,7 +45,7 @@ pub(crate) struct ListTable {
 
 impl ListTable {
     /// Its features as records.
-    fn records(&self, name: &str) -> RecordTable {
+    pub(super) fn records(&self, name: &str) -> RecordTable {
         let record = |feature: &Feature| Record {
             id: feature.id.as_str().to_owned(),
             geometry: Some(feature.geometry.clone()),
@@ -56,10 +58,10 @@ impl ListTable {
 
 /// The tables of a run, in the order in which they were loaded.
 #[derive(Default)]
-pub(super) struct SourceTables {
-    loaded: Vec<SourceTable>,
+pub(in crate::declare) struct SourceTables {
+    pub(super) loaded: Vec<SourceTable>,
     #[cfg(feature = "data")]
-    database: Option<database::SourceDatabase>,
+    pub(super) database: Option<SourceDatabase>,
     /// The servers that were asked.
     #[cfg(feature = "postgis")]
     servers: Vec<Arc<Server>>,
@@ -67,12 +69,12 @@ pub(super) struct SourceTables {
 
 impl SourceTables {
     /// Adds what a source is.
-    pub(super) fn add(&mut self, table: SourceTable) {
+    pub(in crate::declare) fn add(&mut self, table: SourceTable) {
         self.loaded.push(table);
     }
 
     /// The lists that the script made.
-    pub(super) fn lists(&self) -> Vec<RecordTable> {
+    pub(in crate::declare) fn lists(&self) -> Vec<RecordTable> {
         let list = |table: &SourceTable| match &table.content {
             TableContent::List(list) => Some(list.records(&table.name)),
             _ => None,
@@ -82,7 +84,7 @@ impl SourceTables {
 
     /// The server at an address; no question to it takes longer than `most`.
     #[cfg(feature = "postgis")]
-    pub(super) fn server(&mut self, address: &ServerAddress, most: Duration) -> Arc<Server> {
+    pub(in crate::declare) fn server(&mut self, address: &ServerAddress, most: Duration) -> Arc<Server> {
         if let Some(known) = self.servers.iter().find(|known| known.address() == address) {
             return Arc::clone(known);
         }
@@ -93,7 +95,7 @@ impl SourceTables {
 
     /// The server that has a table which a statement names.
     #[cfg(feature = "postgis")]
-    fn asked_server(&self, sql: &str) -> Option<Arc<Server>> {
+    pub(super) fn asked_server(&self, sql: &str) -> Option<Arc<Server>> {
         self.loaded.iter().find_map(|table| match &table.content {
             TableContent::Server(server) if burgeon_query::names_table(sql, &table.name) => {
                 Some(Arc::clone(server))
@@ -102,6 +104,3 @@ impl SourceTables {
         })
     }
 }
-
-#[cfg(feature = "data")]
-mod database;

@@ -1,0 +1,10 @@
+//! The tables that scripts ask: the sources that they have loaded, in a database that is made once somebody asks.
+//!
+//! Comes in: the sources of a run, as they are loaded, and questions. Goes out: rows. Nobody writes into a source.
+
+#[cfg(feature = "data")]
+mod database;
+mod sources;
+
+pub(crate) use sources::ListTable;
+pub(super) use sources::{SourceTable, SourceTables, TableContent};
