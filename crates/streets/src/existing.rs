@@ -173,10 +173,9 @@ impl StreetNetwork {
         let mut keeps = vec![false; line.len()];
         let mut due = vec![(0, line.len() - 1)];
         while let Some((from, to)) = due.pop() {
-            // Of places that are equally far aside the last one stays, and what comes back to where it began has no side:
-            // unlike with `planar::simplified`, and the streets that are laid depend on it.
-            let [begin, end] = [line[from], line[to]];
-            let aside = |index: &usize| if begin == end { 0.0 } else { foot(line[*index], [begin, end]).0 };
+            // Of places that are equally far aside the last one stays, unlike with `planar::simplified`: the streets that are
+            // laid depend on it.
+            let aside = |index: &usize| foot(line[*index], [line[from], line[to]]).0;
             let far = (from + 1..to).max_by(|a, b| aside(a).total_cmp(&aside(b)));
             if let Some(far) = far.filter(|far| aside(far) > TOLERANCE) {
                 keeps[far] = true;

@@ -145,6 +145,37 @@ fn existing_streets_meet_at_junctions_where_they_cross_and_touch() {
     assert!(network.grow(end, DVec2::new(-80.0, 0.0), street(&[], false).attributes).is_ok());
 }
 
+#[test]
+fn existing_streets_that_come_back_to_where_they_began_are_laid_and_those_that_are_there_twice_once() {
+    let square = [(0.0, 0.0), (200.0, 0.0), (200.0, 200.0), (0.0, 200.0), (0.0, 0.0)];
+    let round: Vec<(f64, f64)> = (0..=40)
+        .map(|step| std::f64::consts::TAU * f64::from(step % 40) / 40.0)
+        .map(|angle| (60.0 * angle.cos(), 60.0 * angle.sin()))
+        .collect();
+    let spur = [(60.0, 0.0), (200.0, 0.0)];
+    let way = [(0.0, 300.0), (200.0, 300.0)];
+    let back = [way[1], way[0]];
+    for (lines, pieces, blocks) in [
+        (vec![&square[..]], 4, 1),
+        (vec![&square[..3], &square[2..]], 4, 1),
+        (vec![&way[..], &way[..]], 1, 0),
+        (vec![&way[..], &back[..]], 1, 0),
+        (vec![&way[..], &way[..], &[(0.0, 0.0), (200.0, 0.0)]], 2, 0),
+    ] {
+        let mut network = StreetNetwork::new(Constraints::default(), Obstacles::default()).expect("defaults");
+        let streets: Vec<ExistingStreet> = lines.iter().map(|line| street(line, false)).collect();
+        let losses = network.add_existing(&streets).expect("room");
+        assert_eq!(losses, ExistingLosses::default(), "{lines:?}");
+        assert_eq!((network.size(), network.faces().len()), (pieces, blocks), "{lines:?}");
+        check(&network);
+    }
+    let mut network = StreetNetwork::new(Constraints::default(), Obstacles::default()).expect("defaults");
+    network.add_existing(&[street(&round, false), street(&spur, false)]).expect("room");
+    assert_eq!((network.faces().len(), network.dead_ends().count(), network.components()), (1, 1, 1));
+    let all: f64 = network.pieces().map(|(piece, _)| network.length(piece)).sum();
+    assert!((all / (std::f64::consts::TAU * 60.0 + 140.0) - 1.0).abs() < 0.05, "{all}");
+}
+
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(150))]
 

@@ -4,10 +4,13 @@ use glam::DVec2;
 use smallvec::SmallVec;
 
 use crate::corner::{Arm, Corner, StreetLine};
+use crate::grid::foot;
 use crate::network::{JunctionId, PieceId, StreetNetwork};
 
 /// Places (m) that are nearer are one.
 const SAME: f64 = 1e-6;
+/// How far (m) the circle around a dead end stays from what is beside it.
+const BESIDE_CIRCLE: f64 = 0.5;
 
 /// All junctions of a network, by number.
 pub(crate) struct StreetShapes<'a> {
@@ -105,6 +108,20 @@ impl<'a> StreetShapes<'a> {
     }
 }
 
+/// The greatest radius (m), up to `turning`, of a circle around a dead end that meets neither other streets nor their circles.
+fn room_around(network: &StreetNetwork, dead_end: JunctionId, turning: f64) -> f64 {
+    let at = network.at(dead_end);
+    let streets = network.pieces_near([at; 2], turning + network.widest() / 2.0);
+    let beside = streets
+        .filter(|piece| !network.ends(*piece).contains(&dead_end))
+        .map(|piece| foot(at, network.line(piece)).0 - network.half(piece));
+    let ends = network.junctions_near([at; 2], 2.0 * turning);
+    let others = ends
+        .filter(|other| *other != dead_end && network.junctions[*other as usize].degree() == 1)
+        .map(|other| network.at(other).distance(at) / 2.0);
+    beside.chain(others).map(|room| room - BESIDE_CIRCLE).fold(turning, f64::min)
+}
+
 impl JunctionShape {
     fn new(network: &StreetNetwork, junction: JunctionId, turning: f64) -> Self {
         let at = network.at(junction);
@@ -116,7 +133,8 @@ impl JunctionShape {
                 1 => network.length(piece) * 0.45,
                 _ => (network.length(piece) - network.reach_at(far, piece)) * 0.9,
             };
-            let corner = Corner::around(arm, turning.min(room.hypot(arm.half)));
+            let radius = turning.min(room.hypot(arm.half)).min(room_around(network, junction, turning));
+            let corner = Corner::around(arm, radius);
             let arm = ArmShape { piece, arm, corner, reach: corner.reaches[0], skew: 0.0 };
             return Self { at, arms: SmallVec::from_iter([arm]), is_mitred: false };
         }
@@ -163,4 +181,47 @@ pub(crate) fn without_repeats<T: Copy>(ring: &mut Vec<T>, is_same: impl Fn(T, T)
 /// Whether two places are one.
 pub(crate) fn is_same(a: DVec2, b: DVec2) -> bool {
     a.distance(b) < SAME
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::constraints::Constraints;
+    use crate::obstacles::Obstacles;
+    use crate::tests::grown;
+
+    #[test]
+    fn circles_around_dead_ends_meet_no_other_street() {
+        let mut shortened = 0;
+        for (seed, turning) in (1..=20).flat_map(|seed| [(seed, 14.0), (seed, 100.0)]) {
+            let network = grown(seed, 150, Constraints::default(), Obstacles::default());
+            let shapes = StreetShapes::new(&network, turning);
+            let circle = |end: JunctionId| -> f64 {
+                let arm = shapes.junction(end).arms[0];
+                arm.reach.hypot(arm.arm.half)
+            };
+            let ends: Vec<JunctionId> = network.dead_ends().collect();
+            for &end in &ends {
+                let (at, radius) = (network.at(end), circle(end));
+                shortened += usize::from(radius < turning - 1e-9);
+                let half = shapes.junction(end).arms[0].arm.half;
+                if radius <= half + 1e-9 {
+                    continue;
+                }
+                for (piece, _) in network.pieces().filter(|(piece, _)| !network.ends(*piece).contains(&end)) {
+                    assert!(
+                        foot(at, network.line(piece)).0 >= radius + network.half(piece),
+                        "seed {seed}: {end}"
+                    );
+                }
+                for &other in ends.iter().filter(|other| **other != end) {
+                    assert!(
+                        network.at(other).distance(at) >= radius + circle(other),
+                        "seed {seed}: {end}, {other}"
+                    );
+                }
+            }
+        }
+        assert!(shortened > 100, "{shortened} circles had less room");
+    }
 }
