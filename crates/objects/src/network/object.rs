@@ -12,6 +12,7 @@ use super::existing::{self, ExistingLines};
 use super::kinds::StreetOptions;
 use super::land::VergeRecords;
 use super::lots::{BlockRecords, LotRecords, LotSettings};
+use super::proposals::ProposalTally;
 use super::sites::{SiteRecords, SiteSettings};
 use super::streets::{JunctionRecords, StreetRecords};
 use super::walk::NetworkWalk;
@@ -131,8 +132,10 @@ pub struct Network {
     /// What scripts have asked of blocks and lots.
     pub(super) answers: AnswerCache,
     warnings: Vec<Warning>,
-    /// Whether it was told that no street was built.
-    has_warned_of_none: bool,
+    /// What became of all that was proposed.
+    proposals: ProposalTally,
+    /// Whether it was told that streets were refused.
+    has_warned_of_refusals: bool,
     /// Whether it was told that the ground hides streets.
     has_warned_of_hiding: bool,
 }
@@ -144,6 +147,7 @@ impl Network {
     pub fn grow(&mut self, junction: u32, heading: f64, length: f64, depth: u32) -> Result<()> {
         let (from, to) = self.proposed("grow", junction, heading, length)?;
         let growth = self.network.grow(from, to, self.attributes(depth))?;
+        self.proposals.count(growth.fate);
         self.growths.insert((junction, heading.to_bits()), growth);
         Ok(())
     }
@@ -170,6 +174,7 @@ impl Network {
         }
         let attributes = self.attributes(self.walk.depth());
         if let Some((junction, heading, growth)) = self.walk.ahead(&mut self.network, length, attributes)? {
+            self.proposals.count(growth.fate);
             self.growths.insert((junction + 1, heading.to_bits()), growth);
         }
         Ok(())
@@ -368,7 +373,8 @@ impl Network {
             walk: NetworkWalk::default(),
             answers: AnswerCache::default(),
             warnings,
-            has_warned_of_none: false,
+            proposals: ProposalTally::default(),
+            has_warned_of_refusals: false,
             has_warned_of_hiding: false,
         })
     }
@@ -417,6 +423,7 @@ impl Network {
 
     fn restart(&mut self) {
         self.growths.clear();
+        self.proposals.begin();
         self.walk.restart();
     }
 
@@ -429,7 +436,7 @@ impl Network {
         Ok(())
     }
 
-    /// Tells if a pass proposed streets and there is none.
+    /// Tells if a pass proposed streets and there is none, or hardly any has room.
     fn finish(&mut self) -> Result<()> {
         if self.fit.get().is_some_and(|(version, _)| *version != self.network.version()) {
             self.fit = OnceLock::new();
@@ -441,9 +448,11 @@ impl Network {
             self.has_warned_of_hiding = true;
             self.warnings.push(warning);
         }
-        if self.network.size() == 0 && !self.growths.is_empty() && !self.has_warned_of_none {
-            self.has_warned_of_none = true;
-            self.warnings.push(answers::unbuilt(self.growths.values().map(|growth| growth.fate)));
+        if !self.has_warned_of_refusals
+            && let Some(warning) = self.proposals.warning(self.network.size())
+        {
+            self.has_warned_of_refusals = true;
+            self.warnings.push(warning);
         }
         Ok(())
     }
