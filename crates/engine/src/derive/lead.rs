@@ -119,7 +119,7 @@ impl<'a> Growth<'a> {
             chain = self.interpret(chain, done)?;
         }
         let said = self.said;
-        self.first.retain(|warning| said.iter().all(|later| later.message() != warning.message()));
+        self.first.retain(|warning| said.iter().all(|later| !later.says_the_same(warning)));
         Ok(StepResults {
             chain,
             done,

@@ -288,14 +288,9 @@ impl InterpretationPass {
     /// Adds what objects have warned of in the batch that was interpreted last.
     fn note_all(&self, machine: &Machine, notices: &[ObjectNotice]) {
         for (index, notice) in notices.iter().enumerate() {
-            let same = |other: &ObjectNotice| {
-                other.module == notice.module && other.warning.message() == notice.warning.message()
-            };
-            self.note(
-                machine,
-                notice,
-                !notices[..index].iter().rev().take_while(|it| it.module == notice.module).any(same),
-            );
+            let mut earlier = notices[..index].iter().rev().take_while(|it| it.module == notice.module);
+            let is_first = !earlier.any(|it| it.warning.says_the_same(&notice.warning));
+            self.note(machine, notice, is_first);
         }
     }
 

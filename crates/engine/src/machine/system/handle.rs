@@ -115,7 +115,7 @@ impl SystemHandle {
             let mut problems = self.library.problems.borrow_mut();
             let same = |known: &Error| known.place() == error.place() && known.message() == error.message();
             // What a loop declares again and again is wrong once.
-            if !problems.last().is_some_and(same) {
+            if !problems.last().is_some_and(|known| known.is_same(&error)) {
                 problems.push(error);
             }
         }
