@@ -4,7 +4,7 @@ use std::sync::LazyLock;
 
 use burgeon_kit::{Argument, Field};
 
-use super::name::{Name, field};
+use super::name::{Name, Operator, field};
 use crate::form::argument;
 
 /// All of them.
@@ -350,6 +350,7 @@ pub static SOURCE: LazyLock<Name> = LazyLock::new(|| {
 pub static LAYER: LazyLock<Name> = LazyLock::new(|| {
     Name::given("layer", "Layer", "Features, as source gives them: for index, feature in it do, and #it.")
         .fields([
+        .items("Feature")
             Field::new("features", "{ Feature }", "The features as a list."),
             metres(
                 "bounds",
@@ -399,6 +400,14 @@ pub static VECTOR: LazyLock<Name> = LazyLock::new(|| {
     )
     .instead("{ number }")
     .fields([
+    .items("number")
+    .operators([
+        Operator { name: "add", other: "VectorLike", returns: "Vector" },
+        Operator { name: "sub", other: "VectorLike", returns: "Vector" },
+        Operator { name: "mul", other: "VectorLike | number", returns: "Vector" },
+        Operator { name: "div", other: "number", returns: "Vector" },
+        Operator { name: "unm", other: "", returns: "Vector" },
+    ])
         metres("x", "number", "To the east (m)."),
         metres("y", "number", "To the north (m)."),
         metres("z", "number", "Upwards (m)."),

@@ -32,10 +32,25 @@ pub struct Name {
     pub fields: Vec<Field>,
     /// Its methods; of a library, its functions.
     pub functions: Vec<Name>,
+    /// What stands between it and others.
+    pub operators: Vec<Operator>,
+    /// The type of what it has by numbers, as a list does; empty if it has none.
+    pub items: Text,
     /// What is left behind by a call.
     pub effect: Effect,
     /// That it will go, and what is used instead.
     pub deprecated: Option<Deprecation>,
+}
+
+/// An operator of what a name gives.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Operator {
+    /// What Luau calls it, without the underscores: `add`.
+    pub name: &'static str,
+    /// The type of what stands behind it; empty where nothing does.
+    pub other: &'static str,
+    /// The type of what it gives.
+    pub returns: &'static str,
 }
 
 /// What a name is.
@@ -84,6 +99,8 @@ impl Name {
             doc,
             fields,
             functions,
+            operators: Vec::new(),
+            items: Text::default(),
             effect: Effect::Other,
             deprecated: None,
         }
@@ -148,6 +165,19 @@ impl Name {
     /// The names of the fields that it takes or has, and of its functions.
     pub fn part_names(&self) -> Vec<&str> {
         let fields = self.options().chain(&self.fields).map(|field| &*field.name);
+    pub(super) fn operators(self, operators: impl Into<Vec<Operator>>) -> Self {
+        Self { operators: operators.into(), ..self }
+    }
+
+    pub(super) fn items(self, items: &'static str) -> Self {
+        Self { items: items.into(), ..self }
+    }
+
+    /// Whether its type in Luau has a parameter, as `System<T>` has.
+    pub fn is_generic(&self) -> bool {
+        self.luau.ends_with("<T>")
+    }
+
         fields.chain(self.functions.iter().map(|function| &*function.name)).collect()
     }
 
