@@ -9,7 +9,7 @@ use std::time::{Duration, Instant};
 use super::Applier;
 use super::notices::{Notices, ObjectNotice};
 use crate::derive::plan::DerivationPlan;
-use crate::derive::threads::{ThreadJob, ThreadPool};
+use crate::derive::threads::{LeadingMachine, ThreadJob};
 use crate::machine::{Flusher, Machine, write_column};
 use crate::results::Use;
 use burgeon_base::error::{Error, Limit, Result, SourcePlace};
@@ -41,7 +41,7 @@ impl InterpretationPass {
     /// Interprets `chain` as it stands after `step` steps, and gives it back; adds to `uses` what each rule did, and to
     /// `said` what the objects warned of.
     pub(crate) fn pass(
-        (machine, threads): (&Machine, &ThreadPool),
+        LeadingMachine { machine, threads }: LeadingMachine<'_>,
         plan: &Arc<DerivationPlan>,
         chain: Chain,
         step: usize,
