@@ -2,8 +2,8 @@
 //!
 //! Comes in: values from scripts. Goes out: geometry for the scene. Objects never know of Lua or of chains.
 //!
-//! A new type is a new file and one line in [`registry`]: a struct with `#[object]`, and `#[methods]` for what scripts may
-//! call.
+//! A new type is a new file and a line in [`registry`]: a struct with `#[object]`, and `#[methods]` for what scripts may
+//! call. What else it takes, its examples and its page, stands in CONTRIBUTING.md.
 
 mod elevation;
 mod examples;
