@@ -6,6 +6,7 @@
 
 mod definitions;
 mod editor;
+mod examples;
 mod form;
 mod luau_type;
 mod names;
@@ -13,6 +14,7 @@ mod notation;
 
 pub use definitions::{Definitions, definitions};
 pub use editor::{EditorFile, SETTINGS, editor_files, merged_settings};
+pub use examples::EXAMPLES;
 pub use form::{CallForm, argument};
 pub use luau_type::{Literal, LuauType};
 pub use names::{

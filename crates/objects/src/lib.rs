@@ -21,7 +21,7 @@ mod turtle;
 mod universe;
 
 pub use elevation::{Elevation, ElevationOptions};
-pub use examples::{EXAMPLES, MemberExample};
+pub use examples::{EXAMPLES, PLAIN_EXAMPLES};
 pub use extruder::Extruder;
 pub use facade::{Facade, Template, Templates, Wall};
 pub use footprint::{EdgeKeywords, Footprint, Roof, RoofDetail, Walls};

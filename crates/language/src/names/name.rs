@@ -134,14 +134,22 @@ impl Name {
     }
 
     /// May be called with these arguments, and then gives a value of type `returns`.
-    pub(super) fn form(mut self, arguments: impl Into<Vec<Argument>>, returns: &str) -> Self {
-        self.forms.push(CallForm::new(arguments.into(), returns));
-        self
+    pub(super) fn form(self, arguments: impl Into<Vec<Argument>>, returns: &str) -> Self {
+        self.called(CallForm::new(arguments.into(), returns))
     }
 
     /// May be called as this type says.
-    pub(super) fn read(mut self, luau: &str) -> Self {
-        self.forms.extend(CallForm::read(luau));
+    pub(super) fn read(self, luau: &str) -> Self {
+        match CallForm::read(luau) {
+            Some(form) => self.called(form),
+            None => self,
+        }
+    }
+
+    /// May be called so, with the units and the defaults that its doc tells.
+    fn called(mut self, form: CallForm) -> Self {
+        let arguments = form.arguments.into_iter().map(|argument| argument.described(&self.doc)).collect();
+        self.forms.push(CallForm { arguments, ..form });
         self
     }
 
@@ -157,14 +165,6 @@ impl Name {
         Self { functions: functions.into(), ..self }
     }
 
-    /// The fields of the table that it takes.
-    pub fn options(&self) -> impl Iterator<Item = &Field> {
-        self.forms.last().into_iter().flat_map(|form| &form.arguments).flat_map(|argument| &argument.fields)
-    }
-
-    /// The names of the fields that it takes or has, and of its functions.
-    pub fn part_names(&self) -> Vec<&str> {
-        let fields = self.options().chain(&self.fields).map(|field| &*field.name);
     pub(super) fn operators(self, operators: impl Into<Vec<Operator>>) -> Self {
         Self { operators: operators.into(), ..self }
     }
@@ -178,6 +178,14 @@ impl Name {
         self.luau.ends_with("<T>")
     }
 
+    /// The fields of the table that it takes.
+    pub fn options(&self) -> impl Iterator<Item = &Field> {
+        self.forms.last().into_iter().flat_map(|form| &form.arguments).flat_map(|argument| &argument.fields)
+    }
+
+    /// The names of the fields that it takes or has, and of its functions.
+    pub fn part_names(&self) -> Vec<&str> {
+        let fields = self.options().chain(&self.fields).map(|field| &*field.name);
         fields.chain(self.functions.iter().map(|function| &*function.name)).collect()
     }
 
