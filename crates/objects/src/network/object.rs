@@ -142,8 +142,8 @@ pub struct Network {
 
 #[methods("network")]
 impl Network {
-    /// Proposes a street from a junction: its heading (degrees from east, counter-clockwise), its length (m) and how often its
-    /// way has branched off.
+    /// Proposes a street from a junction: its `heading` (degrees from east, counter-clockwise), its `length` (m) and how often
+    /// its way has branched off.
     pub fn grow(&mut self, junction: u32, heading: f64, length: f64, depth: u32) -> Result<()> {
         let (from, to) = self.proposed("grow", junction, heading, length)?;
         let growth = self.network.grow(from, to, self.attributes(depth))?;
@@ -163,7 +163,7 @@ impl Network {
         Ok(())
     }
 
-    /// Walks ahead from where the way is by a street of a length (m), if that is not refused, and goes on from where it ends.
+    /// Walks ahead from where the way is by a street of a `length` (m), if that is not refused, and goes on from where it ends.
     ///
     /// A way begins at the first start, towards the east; a branch begins where it leaves, and its depth is one more. What
     /// is refused ends its way.
@@ -180,19 +180,20 @@ impl Network {
         Ok(())
     }
 
-    /// Turns the way by an angle (degrees), counter-clockwise.
+    /// Turns the way by `angle` (degrees), counter-clockwise.
     pub fn turn(&mut self, angle: f64) {
         self.walk.turn(angle);
     }
 
-    /// Lets the way go on from a junction towards a heading (degrees from east, counter-clockwise).
+    /// Lets the way go on from a junction towards a `heading` (degrees from east, counter-clockwise).
     pub fn stand(&mut self, junction: u32, heading: f64) -> Result<()> {
         let at = self.known(junction)?;
         self.walk.stand(at, heading);
         Ok(())
     }
 
-    /// Joins dead ends to the streets within a radius (m) to which the way along the streets is so many times longer.
+    /// Joins dead ends to the streets within `radius` (m, 150 unless given) to which the way along the streets is `detour` (2
+    /// unless given) times longer.
     pub fn join_dead_ends(&mut self, radius: Option<f64>, detour: Option<f64>) -> Result<()> {
         self.network.join_dead_ends(answers::dead_end_options("join_dead_ends", radius, detour)?);
         Ok(())
@@ -203,27 +204,30 @@ impl Network {
         self.network.remove_dead_ends();
     }
 
-    /// The junction where a street ends that was proposed, if others may go on from there; nil if it joined others or was refused.
+    /// The junction where a street ends that was proposed with this `heading` (degrees), if others may go on from there; nil if
+    /// it joined others or was refused.
     pub fn reached(&self, junction: u32, heading: f64) -> Option<u32> {
         let growth = self.growths.get(&(junction, heading.to_bits()))?;
         matches!(growth.fate, Fate::Built | Fate::Bent | Fate::Shortened).then_some(growth.end + 1)
     }
 
-    /// The junction where a street ends that was proposed, whatever it joined; nil if it was refused.
+    /// The junction where a street ends that was proposed with this `heading` (degrees), whatever it joined; nil if it was
+    /// refused.
     pub fn arrived(&self, junction: u32, heading: f64) -> Option<u32> {
         let growth = self.growths.get(&(junction, heading.to_bits()))?;
         (!matches!(growth.fate, Fate::Refused(_))).then_some(growth.end + 1)
     }
 
-    /// What became of a street that was proposed: "built", "bent", "shortened", "snapped" to a junction, "joined" to a street, or
-    /// why it was refused: "too short", "angle", "too near", "corners", "obstacle", "outside"; "unknown" if it was not proposed.
+    /// What became of a street that was proposed with this `heading` (degrees): "built", "bent", "shortened", "snapped" to a
+    /// junction, "joined" to a street, or why it was refused: "too short", "angle", "too near", "corners", "obstacle",
+    /// "outside"; "unknown" if it was not proposed.
     pub fn fate(&self, junction: u32, heading: f64) -> String {
         let growth = self.growths.get(&(junction, heading.to_bits()));
         growth.map_or("unknown", |growth| answers::fate(growth.fate)).into()
     }
 
-    /// What would become of a street, as the network is now: a table with its `fate`, whether it would be `built`, the `place`
-    /// (m) where it would end, and the `junction` if one is there.
+    /// What would become of a street with this `heading` (degrees) and `length` (m), as the network is now: a table with its
+    /// `fate`, whether it would be `built`, the `place` (m) where it would end, and the `junction` if one is there.
     pub fn probe(&self, junction: u32, heading: f64, length: f64, depth: u32) -> Result<Value> {
         let (from, to) = self.proposed("probe", junction, heading, length)?;
         Ok(answers::prospect(self.network.probe(from, to, self.attributes(depth))))
@@ -234,7 +238,8 @@ impl Network {
         answers::open_ends(&self.network)
     }
 
-    /// How many dead ends `join_dead_ends` would join with the same radius (m) and detour.
+    /// How many dead ends `join_dead_ends` would join within the same `radius` (m, 150 unless given) and with the same
+    /// `detour` (2 unless given).
     pub fn joinable(&self, radius: Option<f64>, detour: Option<f64>) -> Result<u32> {
         let options = answers::dead_end_options("joinable", radius, detour)?;
         Ok(u32::try_from(self.network.joinable_dead_ends(options)).unwrap_or(u32::MAX))
