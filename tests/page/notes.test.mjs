@@ -21,6 +21,12 @@ const hidden = (page, name) => seen(page, name).waitFor({ state: "hidden", timeo
 /** A script that runs until it is stopped, and tells its progress. */
 const ENDLESS = BLOCKS.replace("if n == 0 then return nil end", "if n > -1 then return Block(n) end");
 
+/** Has no end where `count` is 6, and fails where it is 7. */
+const HEAVY = BLOCKS.replace("if n == 0", 'if n == 7 then error("too many") end if n == 6 then return Block(n) end if n == 0').replace(
+  "local color",
+  'local tiny = param("tiny", { default = 1 })\nlocal color',
+);
+
 /** What reaches as far below zero as above it. */
 const PLANET = `local radius = param("radius", { default = 63710000, min = 1, max = 637100000, unit = "m" })
 local Body = module("Body")
@@ -152,6 +158,35 @@ test("a cancelled run leaves the model marked as stale, with a way to run again"
     await drawn(page, first);
     await hidden(page, "stale");
     await hidden(page, "cancelled");
+  }));
+
+test("a value that is cancelled goes back to the picture's, and one that fails is seen to be in force", () =>
+  open(HEAVY, async ({ page }) => {
+    const first = await drawn(page);
+    const count = seen(page, "param-count");
+    const put = async (name, value) => {
+      await seen(page, name).fill(value);
+      await seen(page, name).press("Enter");
+    };
+    await put("param-count", "6");
+    await visible(page, "cancel");
+    await seen(page, "cancel").click();
+    await hidden(page, "working");
+    await page.waitForFunction(() => document.querySelector("[data-testid=param-count]").value === "3");
+    await hidden(page, "cancelled");
+    await hidden(page, "stale");
+    await hidden(page, "reset-all");
+    await put("param-tiny", "2");
+    await drawn(page, first);
+    assert.equal(await count.inputValue(), "3");
+    await put("param-count", "7");
+    await visible(page, "error");
+    await visible(page, "param-count-reset");
+    await visible(page, "reset-all");
+    await page.reload();
+    await visible(page, "error");
+    await visible(page, "param-count-reset");
+    assert.equal(await count.inputValue(), "7");
   }));
 
 test("notes, tools and cards leave each other room at any width", () =>

@@ -204,6 +204,11 @@ socket.on('error', (message) => {
   stop();
   steps.pause();
   trouble.error(message, state.model !== null);
+  // What is requested now is not what the model was made from.
+  if (message.params.length) {
+    params.show(message.params);
+    seed.show(message.seed);
+  }
   document.documentElement.dataset.failed = message.run;
 });
 socket.on('waiting', (message) => {

@@ -36,6 +36,9 @@ impl ServerState {
                 let mut inner = self.lock();
                 let waiting = inner.due.take().is_some();
                 let running = inner.stop("it was cancelled");
+                if waiting || running {
+                    inner.take_back(self);
+                }
                 if waiting && !running {
                     let run = inner.runs + 1;
                     inner.cancelled(self, run);

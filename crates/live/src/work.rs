@@ -8,8 +8,8 @@ use std::time::{Duration, Instant, SystemTime};
 
 use axum::body::Bytes;
 
-use super::message::{Cause, Event, ModelMessage};
-use super::request::Inputs;
+use super::message::{Cause, Event, ModelMessage, ParamMessage};
+use super::request::{Inputs, Request};
 use super::state::{ActiveRun, DueRun, LiveState, PresentModel, ServerState};
 use super::{Notice, describe};
 use burgeon_base::error::{Error, ErrorKind, Limit, Result};
@@ -45,6 +45,7 @@ const IDLE_LIMITS: Limits =
 pub(super) struct RunJob {
     pub run: u64,
     pub due: DueRun,
+    pub request: Request,
     pub inputs: Inputs,
 }
 
@@ -176,8 +177,9 @@ fn next(state: &ServerState) -> Option<RunJob> {
             inner.runs += 1;
             let run = inner.runs;
             state.send(&Event::Working { run, cause: due.cause, files: due.files.clone() });
-            let inputs = inner.request.inputs(inner.generation);
-            return Some(RunJob { run, due, inputs });
+            let request = inner.request.clone();
+            let inputs = request.inputs(inner.generation);
+            return Some(RunJob { run, due, request, inputs });
         }
         inner = state.wake.wait(inner).recover();
     }
@@ -281,7 +283,11 @@ fn finish(state: &ServerState, job: &RunJob, session: Option<&Session>, outcome:
     if !matches!(outcome, RunOutcome::Cancelled) {
         inner.doubts = None;
     }
-    let quick = inner.running.take().map(|running| running.begin.elapsed());
+    let running = inner.running.take();
+    let quick = running.as_ref().map(|running| running.begin.elapsed());
+    // A page has cancelled it while its end was on the way, and the request is another one already.
+    let stopped = running.is_some_and(|running| running.cancelled.load(Ordering::Acquire));
+    let outcome = if stopped && inner.due.is_none() { RunOutcome::Cancelled } else { outcome };
     if let Some(session) = session.filter(|_| !matches!(outcome, RunOutcome::Cancelled)) {
         inner.files = session.files();
     }
@@ -298,12 +304,18 @@ fn finish(state: &ServerState, job: &RunJob, session: Option<&Session>, outcome:
             let number = error.problems().count();
             let errors = error.problems().take(PROBLEMS).map(|problem| state.error_json(problem)).collect();
             let (run, cause) = (job.run, job.due.cause);
-            inner.end_badly(state, job, Event::Error { run, cause, text: error.to_string(), errors, number });
+            let text = error.to_string();
+            let params = inner.requested_params();
+            let seed = inner.request.seed().to_string();
+            let event = Event::Error { run, cause, text, errors, number, params, seed };
+            inner.end_badly(state, job, event);
             notices.push(Notice::Failed(error));
         }
         RunOutcome::NewModel(made) => {
             let NewModel { run, file, mut message } = *made;
-            message.params = inner.request.params(&run.params);
+            let mut request = job.request.clone();
+            message.params = request.params(&run.params);
+            inner.request.params(&run.params);
             message.last_step = inner.last_step_of(&job.inputs, message.steps);
             message.preset = inner.request.preset();
             let ModelFile { content, layout, note } = file;
@@ -330,7 +342,8 @@ fn finish(state: &ServerState, job: &RunJob, session: Option<&Session>, outcome:
                 notices.push(Notice::Note(text));
             }
             let (run, inputs, layout) = (Arc::new(run), job.inputs.clone(), Arc::new(layout));
-            gone = Some((inner.shown.replace(Arc::new(PresentModel { run, inputs, layout, message })), old));
+            let model = PresentModel { run, request, inputs, layout, message };
+            gone = Some((inner.shown.replace(Arc::new(model)), old));
         }
     }
     drop(inner);
@@ -342,6 +355,12 @@ fn finish(state: &ServerState, job: &RunJob, session: Option<&Session>, outcome:
 }
 
 impl LiveState {
+    /// The parameters of the model that is shown with the values that are requested; none if there is no model.
+    fn requested_params(&mut self) -> Vec<ParamMessage> {
+        let shown = self.shown.clone();
+        shown.map(|shown| self.request.requested(&shown.run.params)).unwrap_or_default()
+    }
+
     fn end_badly(&mut self, state: &ServerState, job: &RunJob, event: Event) {
         self.params = None;
         self.cancelled = None;
@@ -433,6 +452,7 @@ fn note_last_step(state: &ServerState, inputs: Inputs, found: Option<usize>) {
     let Some(shown) = inner.shown.as_mut() else { return };
     let message = ModelMessage { last_step, ..shown.message.clone() };
     let (run, layout) = (Arc::clone(&shown.run), Arc::clone(&shown.layout));
-    *shown = Arc::new(PresentModel { run, inputs: shown.inputs.clone(), layout, message });
+    let (request, inputs) = (shown.request.clone(), shown.inputs.clone());
+    *shown = Arc::new(PresentModel { run, request, inputs, layout, message });
     inner.present().into_iter().for_each(|model| state.send(&Event::Model(Box::new(model))));
 }

@@ -27,7 +27,7 @@ pub enum PageCommand {
         /// The limit.
         steps: Option<usize>,
     },
-    /// Stops the run.
+    /// Stops the run, and takes its values, seed and limit back to those of the model that is shown.
     Cancel {},
     /// Opens a line in the editor.
     Open {

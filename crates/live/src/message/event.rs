@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use super::{AroundMessage, HighlightMessage, ModelMessage, PickMessage, bounded};
+use super::{AroundMessage, HighlightMessage, ModelMessage, ParamMessage, PickMessage, bounded};
 use burgeon_base::error::Error;
 use serde::Serialize;
 use serde_json::Value;
@@ -55,12 +55,16 @@ pub enum Event {
         errors: Vec<Value>,
         /// How many problems there are.
         number: usize,
+        /// The parameters of the model that is shown, with the values that led to the error; none without a model.
+        params: Vec<ParamMessage>,
+        /// The seed that led to it.
+        seed: String,
     },
     /// A run was stopped, by a page or by a newer run.
     Cancelled {
         /// The run's number.
         run: u64,
-        /// Whether nothing newer is on its way, so that the model that is shown is not the present one.
+        /// Whether nothing newer is on its way, and yet the model that is shown is not the present one.
         stale: bool,
     },
     /// The module that made a triangle.
