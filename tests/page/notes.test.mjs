@@ -118,11 +118,16 @@ test("a line is looked for in the script, and one that is not there leaves no ma
     };
     await says("13", "blocks.lua:13.*3 modules");
     await says("900", "no line 900");
+    // It is told once, beside the field.
+    assert.ok(await seen(page, "toast").isHidden());
     await says("blocks.lua:13", "3 modules");
     await says("aaa.lua:7", "1 line");
     await says("none.lua:1", "not a file of the script");
     await says("what", "write a line as");
     await says("1", "nothing in the model");
+    await visible(page, "toast");
+    await says("what", "write a line as");
+    assert.ok(await seen(page, "toast").isHidden(), "an older line stands beside the newer one");
   }));
 
 test("a message of millions of letters is shown in part, with the lines that it is about", () =>
@@ -187,6 +192,31 @@ test("a value that is cancelled goes back to the picture's, and one that fails i
     await visible(page, "error");
     await visible(page, "param-count-reset");
     assert.equal(await count.inputValue(), "7");
+  }));
+
+test("a number goes to the nearest step, and what the server does not take is put back and told", () =>
+  open(BLOCKS, async ({ page }) => {
+    await page.routeWebSocket(/socket/, (socket) => {
+      const server = socket.connectToServer();
+      socket.onMessage((message) => server.send(message.replace('"count":"9"', '"count":"9.5"')));
+    });
+    await page.reload();
+    let last = await drawn(page);
+    const put = async (value) => {
+      await seen(page, "param-count").fill(value);
+      await seen(page, "param-count").press("Enter");
+    };
+    await put("4.4");
+    last = await drawn(page, last);
+    assert.equal(await seen(page, "param-count").inputValue(), "4");
+    await put("9");
+    await visible(page, "toast");
+    assert.match(await seen(page, "toast").textContent(), /between two steps/);
+    assert.equal(await seen(page, "param-count").inputValue(), "4");
+    assert.equal(await seen(page, "param-count-slider").inputValue(), "4");
+    await put("5");
+    await drawn(page, last);
+    assert.equal(await seen(page, "param-count").inputValue(), "5");
   }));
 
 test("notes, tools and cards leave each other room at any width", () =>

@@ -24,8 +24,9 @@ import { Stage } from './stage.js';
 import { Steps } from './steps.js';
 import * as theme from './theme.js';
 import { Ticks } from './ticks.js';
+import { toast } from './toast.js';
 import { tools } from './tools.js';
-import { Trouble, Working, connection, toast } from './trouble.js';
+import { Trouble, Working, connection } from './trouble.js';
 import { Variations } from './variations.js';
 
 addIcons(document);

@@ -218,17 +218,6 @@ export class Working {
   }
 }
 
-const LONGEST = 400; // letters of a line that goes away
-
-/** A line that goes away by itself. */
-export function toast(text) {
-  const place = find('#toast');
-  say(place, text.length > LONGEST ? `${text.slice(0, LONGEST)}…` : text);
-  place.hidden = false;
-  clearTimeout(toast.timer);
-  toast.timer = setTimeout(() => (place.hidden = true), 5000);
-}
-
 export function connection(state) {
   const place = find('#connection');
   place.dataset.state = state;

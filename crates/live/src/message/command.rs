@@ -12,6 +12,8 @@ use burgeon_base::error::Error;
 pub enum PageCommand {
     /// Sets parameters, by name; nothing puts the default back.
     Set {
+        /// Comes back if they are refused.
+        id: Option<u64>,
         /// Values as text; numbers and switches may come as they are.
         params: serde_json::Map<String, Value>,
     },
