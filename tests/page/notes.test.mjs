@@ -323,6 +323,36 @@ test("a planet stands free, its size is in kilometres, and its radius is seen wh
     },
   ));
 
+test("a slab with a base below zero has a ground, and what is a body or far from zero has none", () => {
+  const block = (low, wide, tall) => `local Part = module("Part")
+local block = lsystem({ object = extruder({ smooth = false }) })
+block:axiom(Part())
+block:interpret("Part", function(this)
+  this:jump({ 0, 0, ${low} }):rectangle(${wide}, ${wide}):extrude(${tall})
+end)
+block:derive()
+`;
+  const blocks = [
+    [0, 4, 6, true],
+    [3, 6, 4, true],
+    [-23.5, 660, 69, true],
+    [-5, 100, 5, true],
+    [-30, 10, 140, true],
+    [-1, 2, 2, false],
+    [100, 3, 4, false],
+    [1_198_000, 151_000, 3000, false],
+    [500_000, 2_000_000, 700_000, false],
+  ];
+  return open(block(...blocks[0]), async ({ page, script }) => {
+    let last = await drawn(page);
+    for (const [low, wide, tall, stands] of blocks) {
+      save(script, `${block(low, wide, tall)}-- ${low}`);
+      last = await drawn(page, last);
+      assert.equal(await seen(page, "grid").getAttribute("aria-pressed"), String(stands), `${wide} x ${tall} m at ${low} m`);
+    }
+  });
+});
+
 test("an empty model says why, and one that grows out of the view is offered to be fitted", () =>
   open(BLOCKS.replace("tower:axiom(Block(count))", "tower:axiom(Block(0))"), async ({ page, script }) => {
     let last = await drawn(page);
