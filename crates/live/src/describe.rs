@@ -73,6 +73,9 @@ fn nothing(run: &Run, limit: Option<usize>) -> String {
         format!("nothing is drawn after {after}: look at a later one")
     } else if modules == 0 {
         format!("no module is left after {after}: let the rules end in modules that are drawn")
+    } else if let Some(warning) = run.emptiness() {
+        let message = warning.message();
+        warning.remedy().map_or_else(|| message.to_owned(), |remedy| format!("{message}: {remedy}"))
     } else {
         let counts = run.systems.iter().flat_map(|system| trace::symbols(system));
         let most = counts.max_by_key(|symbol| symbol.count).map_or_else(String::new, |symbol| symbol.name);
