@@ -126,12 +126,12 @@ fn values_that_a_new_script_does_not_take_are_told_once_left_out_and_used_again_
     server.write("s.lua", script(3).replace("max = 9", "max = 4"));
     let model = page.next("model");
     assert_eq!((&model["params"][0]["value"], &model["params"][0]["changed"]), (&json!(1.0), &json!(false)));
-    assert!(page.next("refused")["text"].as_str().unwrap().contains("length is 7"));
+    assert!(page.next("note")["text"].as_str().unwrap().contains("length is 7"));
     server.write("s.lua", script(2).replace("max = 9", "max = 4"));
     page.next("model");
     server.write("s.lua", script(2).replace("\"length\"", "\"size\""));
     page.next("model");
-    assert!(page.next("refused")["text"].as_str().unwrap().contains("no parameter called length"));
+    assert!(page.next("note")["text"].as_str().unwrap().contains("no parameter called length"));
     server.write("s.lua", script(3));
     assert_eq!(page.next("model")["params"][0]["value"], 7.0);
 }

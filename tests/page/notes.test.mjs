@@ -353,6 +353,26 @@ block:derive()
   });
 });
 
+test("features that are simplified are told beside the warnings, and cover nothing", () =>
+  open(
+    `local A = module("A")
+local s = lsystem({ object = footprint })
+s:axiom(source({ { id = "hourglass", rings = { { 0, 0 }, { 8, 8 }, { 8, 0 }, { 0, 8 } } } }), function(f)
+  return footprint(f.rings, { height = 3 }), A()
+end)
+s:interpret("A", function(this) this:walls():roof({ kind = "flat" }) end)
+s:derive()
+`,
+    async ({ page }) => {
+      await drawn(page);
+      const warnings = seen(page, "warnings");
+      assert.match(await warnings.textContent(), /^1 note/);
+      await warnings.getByRole("button", { name: "Fold" }).click();
+      assert.match(await warnings.locator("article").textContent(), /1 of 1 feature simplified.*burgeon run .*blocks\.lua --report/s);
+      assert.ok(await seen(page, "toast").isHidden());
+    },
+  ));
+
 test("an empty model says why, and one that grows out of the view is offered to be fitted", () =>
   open(BLOCKS.replace("tower:axiom(Block(count))", "tower:axiom(Block(0))"), async ({ page, script }) => {
     let last = await drawn(page);

@@ -161,7 +161,7 @@ function tell(message) {
   readouts.model(message);
   profile.show(message);
   presets.choose(message.preset);
-  trouble.warnings(message.warnings ?? []);
+  trouble.warnings(message.warnings ?? [], message.notes ?? []);
   trouble.nothing(message.nothing);
 }
 
@@ -225,7 +225,7 @@ socket.on('cancelled', ({ stale }) => {
 });
 find('#run-again').addEventListener('click', () => socket.send({ type: 'set', params: {} }));
 socket.on('presets', ({ names, chosen }) => presets.show(names, chosen));
-socket.on('refused', ({ text }) => toast(text));
+for (const type of ['note', 'refused']) socket.on(type, ({ text }) => toast(text));
 
 // The view
 

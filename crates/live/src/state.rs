@@ -90,6 +90,8 @@ pub(super) struct LiveState {
     pub left_out: BTreeSet<String>,
     /// The warnings of the last model, as far as they have been told.
     pub warnings: BTreeSet<String>,
+    /// The same of its notes.
+    pub notes: BTreeSet<String>,
     /// The script's files, which an editor may open.
     pub files: Vec<PathBuf>,
     /// Ends what is made besides models, for it is about a script that has changed.
@@ -155,6 +157,7 @@ impl ServerState {
             last_step: None,
             left_out: BTreeSet::new(),
             warnings: BTreeSet::new(),
+            notes: BTreeSet::new(),
             files: Vec::new(),
             aside: Arc::default(),
             over: false,

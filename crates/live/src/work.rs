@@ -1,5 +1,6 @@
 //! The worker: one thread that runs the script as it was last requested and makes the model's bytes.
 
+use std::collections::BTreeSet;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -334,13 +335,10 @@ fn finish(state: &ServerState, job: &RunJob, session: Option<&Session>, outcome:
             let left_out = session.map(Session::left_out).unwrap_or_default();
             notices.extend(inner.tell_left_out(state, &left_out));
             notices.extend(inner.new_warnings(&run.warnings));
-            let report = run.report();
-            let remarks = (!report.is_clean())
-                .then(|| format!("{report}: burgeon run SCRIPT --report FILE lists them"));
-            for text in remarks.into_iter().chain(note) {
-                state.send(&Event::note(text.clone()));
-                notices.push(Notice::Note(text));
-            }
+            let remark = describe::remark(state, &run).map(|(text, help)| format!("{text}: {help}"));
+            let new: BTreeSet<String> = remark.into_iter().chain(note).collect();
+            notices.extend(new.difference(&inner.notes).cloned().map(Notice::Note));
+            inner.notes = new;
             let (run, inputs, layout) = (Arc::new(run), job.inputs.clone(), Arc::new(layout));
             let model = PresentModel { run, request, inputs, layout, message };
             gone = Some((inner.shown.replace(Arc::new(model)), old));
@@ -386,7 +384,7 @@ impl LiveState {
             .collect();
         let mut notices = Vec::new();
         for text in texts.iter().filter(|text| !self.left_out.contains(*text)) {
-            state.send(&Event::note(text.clone()));
+            state.send(&Event::Note { text: text.clone() });
             notices.push(Notice::Note(text.clone()));
         }
         self.left_out = texts.into_iter().collect();

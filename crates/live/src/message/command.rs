@@ -149,7 +149,7 @@ mod tests {
         let Event::Refused { id, text, code } = *read(r#"{"type":"pick","id":9}"#).unwrap_err() else {
             panic!()
         };
-        assert_eq!((id, code), (Some(9), Some("argument")));
+        assert_eq!((id, code), (Some(9), "argument"));
         assert!(text.contains("mesh"), "{text}");
         assert!(read(&"[".repeat(100_000)).is_err());
     }

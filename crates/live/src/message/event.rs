@@ -122,12 +122,17 @@ pub enum Event {
         /// Why it failed.
         error: Option<String>,
     },
+    /// Something that is worth knowing, once.
+    Note {
+        /// What it is.
+        text: String,
+    },
     /// A message that could not be done.
     Refused {
         /// The message's id, if it had one.
         id: Option<u64>,
-        /// The [code](burgeon_base::error::ErrorKind::code) of the error; none for a note about something that was done.
-        code: Option<&'static str>,
+        /// The [code](burgeon_base::error::ErrorKind::code) of the error.
+        code: &'static str,
         /// Why, and what can be done.
         text: String,
     },
@@ -171,12 +176,7 @@ pub enum Cause {
 impl Event {
     /// What is said of a message that led to `error`.
     pub fn refused(id: Option<u64>, error: &Error) -> Self {
-        Self::Refused { id, code: Some(error.kind().code()), text: error.to_string() }
-    }
-
-    /// What is said of something that was done, though not wholly.
-    pub fn note(text: String) -> Self {
-        Self::Refused { id: None, code: None, text }
+        Self::Refused { id, code: error.kind().code(), text: error.to_string() }
     }
 
     /// The message as it travels. Texts that no page could show are cut.
