@@ -49,6 +49,75 @@ fn values_are_set_shared_kept_across_saves_and_put_back() {
     other.is_quiet(Duration::from_millis(50));
 }
 
+/// Has no end where `count` is 6, and fails where it is 7.
+const HEAVY: &str = r#"local count = param("count", { default = 3, min = 1, max = 9, step = 1 })
+local tiny = param("tiny", { default = 1 })
+local A, S = module("A", "n"), module("S")
+local s = lsystem({ object = turtle() })
+s:axiom(A(count))
+s:rule("A(n)", function(this, n)
+  if n == 7 then error("too many") end
+  if n == 6 then return A(n) end
+  if n > 0 then return S(), A(n - 1) end
+  return nil
+end)
+s:interpret("S", function(this) this:forward(tiny) end)
+s:derive()
+"#;
+
+#[test]
+fn what_a_page_cancels_does_not_come_with_the_next_change() {
+    let server = Server::new(Some(HEAVY));
+    let mut page = server.page();
+    let first = page.next("model");
+    page.say(&json!({ "type": "seed", "seed": "5" }));
+    page.next("model");
+    page.say(&json!({ "type": "set", "params": { "count": 6 } }));
+    page.until("progress");
+    page.say(&json!({ "type": "cancel" }));
+    let back = page.until("model");
+    assert_eq!((&back["params"], &back["seed"]), (&first["params"], &json!("5")));
+    assert_eq!(page.next("cancelled")["stale"], false);
+    let mut late = server.page();
+    assert_eq!(late.next("model")["params"], first["params"]);
+    late.is_quiet(Duration::from_millis(50));
+    let next = page.model_of(json!({ "type": "set", "params": { "tiny": 2 } }));
+    assert_eq!((&next["params"][0], &next["params"][1]["value"]), (&first["params"][0], &json!(2.0)));
+    // Of a script that was saved meanwhile no model is there to go back to, but the values are.
+    server.write("s.lua", format!("{HEAVY}-- saved"));
+    page.next("model");
+    page.say(&json!({ "type": "set", "params": { "count": 6 } }));
+    page.until("progress");
+    server.write("s.lua", format!("{HEAVY}-- saved again"));
+    page.until("cancelled");
+    page.until("progress");
+    page.say(&json!({ "type": "cancel" }));
+    assert_eq!(page.until("model")["params"][0]["value"], 3.0);
+    assert_eq!(page.next("cancelled")["stale"], true);
+}
+
+#[test]
+fn an_error_tells_the_values_that_led_to_it_and_a_cancelled_change_of_them_leads_back_to_the_model() {
+    let server = Server::new(Some(HEAVY));
+    let mut page = server.page();
+    page.next("model");
+    page.say(&json!({ "type": "set", "params": { "count": 7 } }));
+    let error = page.next("error");
+    let count = &error["params"][0];
+    assert_eq!((&count["value"], &count["changed"]), (&json!(7.0), &json!(true)), "{error}");
+    let mut late = server.page();
+    late.next("model");
+    assert_eq!(late.next("error")["params"], error["params"]);
+    page.say(&json!({ "type": "set", "params": { "count": 6 } }));
+    page.until("progress");
+    page.say(&json!({ "type": "cancel" }));
+    assert_eq!(page.until("model")["params"][0]["value"], 3.0);
+    assert_eq!(page.next("cancelled")["stale"], false);
+    let mut late = server.page();
+    late.next("model");
+    late.is_quiet(Duration::from_millis(50));
+}
+
 #[test]
 fn values_that_a_new_script_does_not_take_are_told_once_left_out_and_used_again_later() {
     let server = Server::with(Some(&script(3)), &["--set", "length=7"]);
@@ -57,12 +126,12 @@ fn values_that_a_new_script_does_not_take_are_told_once_left_out_and_used_again_
     server.write("s.lua", script(3).replace("max = 9", "max = 4"));
     let model = page.next("model");
     assert_eq!((&model["params"][0]["value"], &model["params"][0]["changed"]), (&json!(1.0), &json!(false)));
-    assert!(page.next("refused")["text"].as_str().unwrap().contains("length is 7"));
+    assert!(page.next("note")["text"].as_str().unwrap().contains("length is 7"));
     server.write("s.lua", script(2).replace("max = 9", "max = 4"));
     page.next("model");
     server.write("s.lua", script(2).replace("\"length\"", "\"size\""));
     page.next("model");
-    assert!(page.next("refused")["text"].as_str().unwrap().contains("no parameter called length"));
+    assert!(page.next("note")["text"].as_str().unwrap().contains("no parameter called length"));
     server.write("s.lua", script(3));
     assert_eq!(page.next("model")["params"][0]["value"], 7.0);
 }

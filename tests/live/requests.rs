@@ -342,3 +342,30 @@ fn a_model_brings_its_warnings_and_a_strict_server_an_error() {
     let strict = Server::with(Some(twice), &["--strict"]);
     assert_eq!(strict.page().next("error")["errors"][0]["line"], 4);
 }
+
+#[test]
+fn what_became_of_features_comes_with_the_model_and_names_the_script() {
+    let crossed = r#"local A = module("A")
+local s = lsystem({ object = footprint })
+s:axiom(source({
+  { id = "hourglass", rings = { { 0, 0 }, { 8, 8 }, { 8, 0 }, { 0, 8 } } },
+  { id = "sound", rings = { { 0, 0 }, { 4, 0 }, { 8, 0 }, { 0, 8 } } },
+}), function(f)
+  return footprint(f.rings, { height = 3 }), A()
+end)
+s:interpret("A", function(this) this:walls():roof({ kind = "flat" }) end)
+s:derive()
+"#;
+    let server = Server::new(Some(crossed));
+    let mut page = server.page();
+    let told = json!([{
+        "message": "1 of 2 features simplified",
+        "help": "burgeon run s.lua --report FILE lists them",
+    }]);
+    assert_eq!(page.next("model")["notes"], told);
+    page.is_quiet(Duration::from_millis(50));
+    assert_eq!(page.model_of(json!({ "type": "seed", "seed": "2" }))["notes"], told);
+    page.is_quiet(Duration::from_millis(50));
+    server.write("s.lua", script(3));
+    assert_eq!(page.next("model")["notes"], json!([]));
+}

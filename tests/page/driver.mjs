@@ -151,7 +151,11 @@ export function different(a, b) {
   return count;
 }
 
-/** Opens a script's page and hands everything to `act`; the console must stay free of errors. */
+/** Warnings that tell of a mistake in what is drawn; that pixels are waited for is none. */
+const GRAPHICS = /^(?!.*GPU stall).*(WebGL|THREE|texSub|texImage)/;
+
+/** Opens a script's page and hands everything to `act`; the console must stay free of errors, and of warnings about what is
+ *  drawn. */
 export async function show(browser, text, act, { flags = [], fails = false } = {}) {
   const script = join(folder(), "blocks.lua");
   if (text !== null) writeFileSync(script, text);
@@ -161,7 +165,8 @@ export async function show(browser, text, act, { flags = [], fails = false } = {
   const complaints = [];
   page.on("pageerror", (error) => complaints.push(String(error)));
   page.on("console", (message) => {
-    if (message.type() === "error") complaints.push(message.text());
+    const bad = message.type() === "error" || (message.type() === "warning" && GRAPHICS.test(message.text()));
+    if (bad) complaints.push(message.text());
   });
   try {
     await page.goto(server.address);

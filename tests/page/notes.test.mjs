@@ -21,6 +21,12 @@ const hidden = (page, name) => seen(page, name).waitFor({ state: "hidden", timeo
 /** A script that runs until it is stopped, and tells its progress. */
 const ENDLESS = BLOCKS.replace("if n == 0 then return nil end", "if n > -1 then return Block(n) end");
 
+/** Has no end where `count` is 6, and fails where it is 7. */
+const HEAVY = BLOCKS.replace("if n == 0", 'if n == 7 then error("too many") end if n == 6 then return Block(n) end if n == 0').replace(
+  "local color",
+  'local tiny = param("tiny", { default = 1 })\nlocal color',
+);
+
 /** What reaches as far below zero as above it. */
 const PLANET = `local radius = param("radius", { default = 63710000, min = 1, max = 637100000, unit = "m" })
 local Body = module("Body")
@@ -112,11 +118,16 @@ test("a line is looked for in the script, and one that is not there leaves no ma
     };
     await says("13", "blocks.lua:13.*3 modules");
     await says("900", "no line 900");
+    // It is told once, beside the field.
+    assert.ok(await seen(page, "toast").isHidden());
     await says("blocks.lua:13", "3 modules");
     await says("aaa.lua:7", "1 line");
     await says("none.lua:1", "not a file of the script");
     await says("what", "write a line as");
     await says("1", "nothing in the model");
+    await visible(page, "toast");
+    await says("what", "write a line as");
+    assert.ok(await seen(page, "toast").isHidden(), "an older line stands beside the newer one");
   }));
 
 test("a message of millions of letters is shown in part, with the lines that it is about", () =>
@@ -152,6 +163,60 @@ test("a cancelled run leaves the model marked as stale, with a way to run again"
     await drawn(page, first);
     await hidden(page, "stale");
     await hidden(page, "cancelled");
+  }));
+
+test("a value that is cancelled goes back to the picture's, and one that fails is seen to be in force", () =>
+  open(HEAVY, async ({ page }) => {
+    const first = await drawn(page);
+    const count = seen(page, "param-count");
+    const put = async (name, value) => {
+      await seen(page, name).fill(value);
+      await seen(page, name).press("Enter");
+    };
+    await put("param-count", "6");
+    await visible(page, "cancel");
+    await seen(page, "cancel").click();
+    await hidden(page, "working");
+    await page.waitForFunction(() => document.querySelector("[data-testid=param-count]").value === "3");
+    await hidden(page, "cancelled");
+    await hidden(page, "stale");
+    await hidden(page, "reset-all");
+    await put("param-tiny", "2");
+    await drawn(page, first);
+    assert.equal(await count.inputValue(), "3");
+    await put("param-count", "7");
+    await visible(page, "error");
+    await visible(page, "param-count-reset");
+    await visible(page, "reset-all");
+    await page.reload();
+    await visible(page, "error");
+    await visible(page, "param-count-reset");
+    assert.equal(await count.inputValue(), "7");
+  }));
+
+test("a number goes to the nearest step, and what the server does not take is put back and told", () =>
+  open(BLOCKS, async ({ page }) => {
+    await page.routeWebSocket(/socket/, (socket) => {
+      const server = socket.connectToServer();
+      socket.onMessage((message) => server.send(message.replace('"count":"9"', '"count":"9.5"')));
+    });
+    await page.reload();
+    let last = await drawn(page);
+    const put = async (value) => {
+      await seen(page, "param-count").fill(value);
+      await seen(page, "param-count").press("Enter");
+    };
+    await put("4.4");
+    last = await drawn(page, last);
+    assert.equal(await seen(page, "param-count").inputValue(), "4");
+    await put("9");
+    await visible(page, "toast");
+    assert.match(await seen(page, "toast").textContent(), /between two steps/);
+    assert.equal(await seen(page, "param-count").inputValue(), "4");
+    assert.equal(await seen(page, "param-count-slider").inputValue(), "4");
+    await put("5");
+    await drawn(page, last);
+    assert.equal(await seen(page, "param-count").inputValue(), "5");
   }));
 
 test("notes, tools and cards leave each other room at any width", () =>
@@ -255,6 +320,56 @@ test("a planet stands free, its size is in kilometres, and its radius is seen wh
       await page.waitForFunction(() => / m$/.test(document.querySelector("[data-testid=size]").textContent));
       assert.equal(await seen(page, "grid").getAttribute("aria-pressed"), "true");
       assert.ok(first > 0);
+    },
+  ));
+
+test("a slab with a base below zero has a ground, and what is a body or far from zero has none", () => {
+  const block = (low, wide, tall) => `local Part = module("Part")
+local block = lsystem({ object = extruder({ smooth = false }) })
+block:axiom(Part())
+block:interpret("Part", function(this)
+  this:jump({ 0, 0, ${low} }):rectangle(${wide}, ${wide}):extrude(${tall})
+end)
+block:derive()
+`;
+  const blocks = [
+    [0, 4, 6, true],
+    [3, 6, 4, true],
+    [-23.5, 660, 69, true],
+    [-5, 100, 5, true],
+    [-30, 10, 140, true],
+    [-1, 2, 2, false],
+    [100, 3, 4, false],
+    [1_198_000, 151_000, 3000, false],
+    [500_000, 2_000_000, 700_000, false],
+  ];
+  return open(block(...blocks[0]), async ({ page, script }) => {
+    let last = await drawn(page);
+    for (const [low, wide, tall, stands] of blocks) {
+      save(script, `${block(low, wide, tall)}-- ${low}`);
+      last = await drawn(page, last);
+      assert.equal(await seen(page, "grid").getAttribute("aria-pressed"), String(stands), `${wide} x ${tall} m at ${low} m`);
+    }
+  });
+});
+
+test("features that are simplified are told beside the warnings, and cover nothing", () =>
+  open(
+    `local A = module("A")
+local s = lsystem({ object = footprint })
+s:axiom(source({ { id = "hourglass", rings = { { 0, 0 }, { 8, 8 }, { 8, 0 }, { 0, 8 } } } }), function(f)
+  return footprint(f.rings, { height = 3 }), A()
+end)
+s:interpret("A", function(this) this:walls():roof({ kind = "flat" }) end)
+s:derive()
+`,
+    async ({ page }) => {
+      await drawn(page);
+      const warnings = seen(page, "warnings");
+      assert.match(await warnings.textContent(), /^1 note/);
+      await warnings.getByRole("button", { name: "Fold" }).click();
+      assert.match(await warnings.locator("article").textContent(), /1 of 1 feature simplified.*burgeon run .*blocks\.lua --report/s);
+      assert.ok(await seen(page, "toast").isHidden());
     },
   ));
 

@@ -415,6 +415,31 @@ test("texture coordinates come only when they are shown, and triangles stay wher
     assert.deepEqual(whole.slice(-3), [true, true, false]);
   }));
 
+test("a picture that has gone is not drawn any more, nor by shadows", () => {
+  const walls = (texture) =>
+    BLOCKS.replace("this:color(color)", texture ? `this:material({ texture = "${texture}", texture_size = { 1, 1 } })` : "this:color(color)");
+  return open(BLOCKS, async ({ page, script }) => {
+    let last = await drawn(page);
+    const pictures = await page.evaluate(() =>
+      ["#804020", "#208040"].map((color) => {
+        const canvas = document.createElement("canvas");
+        [canvas.width, canvas.height] = [64, 64];
+        const context = canvas.getContext("2d");
+        context.fillStyle = color;
+        context.fillRect(0, 0, 64, 64);
+        return canvas.toDataURL("image/png").split(",")[1];
+      }),
+    );
+    for (const [i, name] of ["a.png", "b.png"].entries()) writeFileSync(join(script, "..", name), Buffer.from(pictures[i], "base64"));
+    for (const texture of ["a.png", "b.png", null, "a.png", null]) {
+      save(script, walls(texture));
+      last = await drawn(page, last);
+      // The finer frame, which has shadows.
+      await page.waitForTimeout(1000);
+    }
+  });
+});
+
 test("a page of another site, a wrong token and a path that leads away are refused", () =>
   open(BLOCKS, async ({ page, server, context }) => {
     await drawn(page);

@@ -3,6 +3,7 @@
 import { find, make } from './dom.js';
 import { count, short } from './format.js';
 import { icon } from './icons.js';
+import { toast } from './toast.js';
 
 // What made a module: a rule, what a query or a fragmentation stood for, or the axiom.
 const madeBy = (it) =>
@@ -33,7 +34,7 @@ export class Card {
     this.socket.ask(
       { type: 'pick', mesh, primitive, triangle: hit.triangle, instance: hit.instance, node },
       (answer) => {
-        if (answer.type === 'refused') return;
+        if (answer.type === 'refused') return toast(answer.text);
         if (!answer.found)
           return this.#fill(make('p', { class: 'none', text: 'No module is known for this triangle.' }));
         this.#mark(answer, hit);

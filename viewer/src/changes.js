@@ -4,11 +4,14 @@
 const PATIENCE = 1500;
 
 export class Changes {
+  /** Is called with the names of parameters whose values the server does not take, and why. */
+  refused = () => {};
   #socket;
   #waiting = {};
   #sent = new Set();
   #busy = false;
   #timer = 0;
+  #id = undefined;
 
   constructor(socket) {
     this.#socket = socket;
@@ -40,8 +43,11 @@ export class Changes {
     if (this.#busy || messages.length === 0 || !this.#socket.open) return;
     this.#waiting = {};
     for (const message of messages) {
-      this.#socket.send(message);
-      for (const name of Object.keys(message.params ?? {})) this.#sent.add(name);
+      const names = Object.keys(message.params ?? {});
+      if (message.type === 'set')
+        this.#id = this.#socket.ask(message, ({ text }) => this.#refuse(names, text), this.#id);
+      else this.#socket.send(message);
+      for (const name of names) this.#sent.add(name);
     }
     this.#busy = true;
     this.#restart(PATIENCE);
@@ -50,6 +56,11 @@ export class Changes {
   #restart(patience) {
     clearTimeout(this.#timer);
     if (this.#busy) this.#timer = setTimeout(() => this.#settle(), patience);
+  }
+
+  #refuse(names, text) {
+    this.#settle();
+    this.refused(names, text);
   }
 
   #settle() {

@@ -29,6 +29,17 @@ export function milliseconds(ms) {
 /** A parameter's number without the noise of binary fractions. */
 export const plain = (number) => String(Number(Number(number).toPrecision(9)));
 
+/** The value next to `number` that a parameter may have. */
+export function nearest(number, { min, max, step }) {
+  const [low, high] = [min ?? -Infinity, max ?? Infinity];
+  const within = Math.min(Math.max(number, low), high);
+  if (!step) return within;
+  const from = min ?? 0;
+  const stepped = from + Math.round((within - from) / step) * step;
+  // The last step may end before the greatest value.
+  return stepped > high ? stepped - step : stepped;
+}
+
 export function age(seconds) {
   if (seconds < 60) return `${Math.floor(seconds)} s`;
   if (seconds < 3600) return `${Math.floor(seconds / 60)} min`;

@@ -53,8 +53,11 @@ void main() {
 /** How many pixels the finest cells measure at least. */
 const FINEST = 9;
 
-/** How much of a model's height lies below zero if it stands on no ground. */
+/** How much of a model's height, and of its width, lies below zero if it is a body around zero. */
 const FREE = 0.25;
+
+/** The height (m) of a model that is a body among others in space. */
+const VAST = 50_000;
 
 export class Ground {
   cell = 1;
@@ -108,15 +111,20 @@ export class Ground {
     this.shade.material.opacity = dark ? 0.5 : 0.3;
   }
 
-  /** The ground lies under `box` and is never above zero; `origin` is where the model's zero is.
+  /** The ground lies under `box`, at zero or below where that is near; `origin` is where the model's zero is.
    *
-   *  What reaches far below zero, as a planet does, does not stand on anything, so there is no ground unless someone
-   *  wants one. */
+   *  A body around zero, as a planet is, and what is farther from zero than it is large do not stand on anything, so there
+   *  is no ground unless someone wants one: then it is as high as they are. A slab has a ground though its base lies
+   *  below zero. */
   under(box, origin) {
     const zero = -origin.y;
-    this.free = !box.isEmpty() && zero - box.min.y > FREE * (box.max.y - box.min.y);
-    this.height = box.isEmpty() ? zero : Math.min(zero, box.min.y);
-    const size = box.isEmpty() ? 1 : Math.max(box.max.x - box.min.x, box.max.y - box.min.y, box.max.z - box.min.z);
+    const { min, max } = box;
+    const [wide, tall] = box.isEmpty() ? [1, 1] : [Math.max(max.x - min.x, max.z - min.z), max.y - min.y];
+    const size = Math.max(wide, tall);
+    const around = zero - min.y > FREE * tall && zero - min.y > FREE * wide;
+    const far = min.y - zero > size || zero - max.y > size;
+    this.free = !box.isEmpty() && (around || far || tall > VAST);
+    this.height = box.isEmpty() ? zero : far ? min.y : Math.min(zero, min.y);
     this.origin = origin;
     // A hair lower than what stands on it.
     this.shade.position.set(0, this.height - size * 2e-4, 0);

@@ -24,8 +24,9 @@ import { Stage } from './stage.js';
 import { Steps } from './steps.js';
 import * as theme from './theme.js';
 import { Ticks } from './ticks.js';
+import { toast } from './toast.js';
 import { tools } from './tools.js';
-import { Trouble, Working, connection, toast } from './trouble.js';
+import { Trouble, Working, connection } from './trouble.js';
 import { Variations } from './variations.js';
 
 addIcons(document);
@@ -160,7 +161,7 @@ function tell(message) {
   readouts.model(message);
   profile.show(message);
   presets.choose(message.preset);
-  trouble.warnings(message.warnings ?? []);
+  trouble.warnings(message.warnings ?? [], message.notes ?? []);
   trouble.nothing(message.nothing);
 }
 
@@ -204,6 +205,11 @@ socket.on('error', (message) => {
   stop();
   steps.pause();
   trouble.error(message, state.model !== null);
+  // What is requested now is not what the model was made from.
+  if (message.params.length) {
+    params.show(message.params);
+    seed.show(message.seed);
+  }
   document.documentElement.dataset.failed = message.run;
 });
 socket.on('waiting', (message) => {
@@ -219,7 +225,7 @@ socket.on('cancelled', ({ stale }) => {
 });
 find('#run-again').addEventListener('click', () => socket.send({ type: 'set', params: {} }));
 socket.on('presets', ({ names, chosen }) => presets.show(names, chosen));
-socket.on('refused', ({ text }) => toast(text));
+for (const type of ['note', 'refused']) socket.on(type, ({ text }) => toast(text));
 
 // The view
 

@@ -5,6 +5,7 @@ import {
   FrontSide,
   LinearFilter,
   LinearMipmapLinearFilter,
+  MeshDepthMaterial,
   MeshStandardMaterial,
   RepeatWrapping,
   SRGBColorSpace,
@@ -64,6 +65,20 @@ export class Materials {
       return false;
     });
   }
+}
+
+const depths = new WeakMap();
+
+/** What a material with a picture throws its shadow by; it goes when that goes. Nothing for the others: they share the
+ *  renderer's own, which would keep the last picture that it had, also when that has gone. */
+export function depth(material) {
+  if (!material.map) return undefined;
+  if (!depths.has(material)) {
+    const made = new MeshDepthMaterial();
+    material.addEventListener('dispose', () => made.dispose());
+    depths.set(material, made);
+  }
+  return depths.get(material);
 }
 
 function material(given, picture, dull) {

@@ -14,6 +14,7 @@ import {
   Vector3,
 } from 'three';
 import { faceted } from './faceted.js';
+import { depth } from './materials.js';
 import { merge } from './merge.js';
 
 const ONE = new Vector3(1, 1, 1);
@@ -110,6 +111,7 @@ export class Model {
     this.meshes = merge(this.parts);
     for (const mesh of this.meshes) {
       Object.assign(mesh, { castShadow: true, receiveShadow: true, matrixAutoUpdate: false });
+      mesh.customDepthMaterial = depth(mesh.material);
       this.geometries.add(mesh.geometry);
       this.group.add(mesh);
     }

@@ -2,7 +2,8 @@
 
 import { find, make, say } from './dom.js';
 import { icon } from './icons.js';
-import { plain } from './format.js';
+import { nearest, plain } from './format.js';
+import { toast } from './toast.js';
 
 const SEGMENTS = 4;
 
@@ -13,6 +14,10 @@ export class Params {
 
   constructor(changes) {
     this.changes = changes;
+    changes.refused = (names, text) => {
+      for (const name of names) this.#rows.get(name)?.putBack();
+      toast(text);
+    };
     this.#all.addEventListener('click', () => {
       changes.send({ type: 'reset' });
       for (const row of this.#rows.values()) row.reset();
@@ -127,6 +132,11 @@ class Row {
     if (this.param) this.input.put(this.param.default);
   }
 
+  /** Shows what the server has, unless something newer is on its way there. */
+  putBack() {
+    if (!this.busy && !this.changes.holds(this.name)) this.input.put(this.param.value);
+  }
+
   send(value) {
     this.changes.set(this.name, String(value));
   }
@@ -142,9 +152,8 @@ class Row {
       onblur: () => (this.typing = false),
       onchange: () => {
         this.typing = false;
-        const { min, max } = this.param.control;
         if (field.value === '' || !Number.isFinite(field.valueAsNumber)) return put(this.param.value);
-        const value = Math.min(Math.max(field.valueAsNumber, min ?? -Infinity), max ?? Infinity);
+        const value = nearest(field.valueAsNumber, this.param.control);
         put(value);
         this.send(plain(value));
       },

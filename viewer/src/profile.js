@@ -3,6 +3,7 @@
 import { find, make, say } from './dom.js';
 import { count, many, milliseconds } from './format.js';
 import { icon } from './icons.js';
+import { clearToast, toast } from './toast.js';
 
 const COLUMNS = { applied: 'applied', made: 'made', ms: 'time' };
 const MOST = 8; // symbols shown of each system before the rest is folded
@@ -50,8 +51,10 @@ export class Profile {
     );
   }
 
-  /** Why a line cannot be shown. */
+  /** Why a line cannot be shown. Whoever asks from elsewhere does not see this panel. */
   refused(text) {
+    if (this.#panel.open) clearToast();
+    else toast(text);
     const place = find('#line-result');
     place.hidden = false;
     place.replaceChildren(make('span', { class: 'refused', text }));

@@ -41,9 +41,9 @@ export class Socket {
     return true;
   }
 
-  /** Sends a message with an id and calls `answer` with each message that carries the id. Returns the id. */
-  ask(message, answer) {
-    const id = this.#next++;
+  /** Sends a message with an id and calls `answer` with each message that carries the id. Returns the id, which another
+   *  question may have that takes the place of this one. */
+  ask(message, answer, id = this.#next++) {
     this.#answers.set(id, answer);
     if (this.#answers.size > 64) this.#answers.delete(this.#answers.keys().next().value);
     this.send({ ...message, id });
@@ -81,7 +81,7 @@ export class Socket {
       const message = JSON.parse(data);
       const answer = message.id !== undefined && message.id !== null && this.#answers.get(message.id);
       if (answer) answer(message);
-      if (!answer || message.type === 'refused') this.#tell(message.type, message);
+      else this.#tell(message.type, message);
     };
     socket.onclose = () => {
       if (socket !== this.#socket) return;

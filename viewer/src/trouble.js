@@ -33,14 +33,16 @@ export class Trouble {
   }
 
   /** What should be known of a good model, folded until someone wants to read it. */
-  warnings(warnings) {
-    if (warnings.length === 0) {
+  warnings(warnings, notes) {
+    const all = [...warnings, ...notes];
+    if (all.length === 0) {
       this.#warnings.hidden = true;
       this.#warnings.replaceChildren();
       return;
     }
     if (this.#warnings.childElementCount === 0) this.#warnings.classList.add('folded');
-    this.#list(this.#warnings, warnings.length > 1 ? `${warnings.length} warnings` : '1 warning', warnings);
+    const titles = [warnings.length && many(warnings.length, 'warning'), notes.length && many(notes.length, 'note')];
+    this.#list(this.#warnings, titles.filter(Boolean).join(', '), all);
   }
 
   /** Lists errors or warnings in a card that can be folded. */
@@ -216,17 +218,6 @@ export class Working {
     this.#done.style.width = part === null ? '' : `${part * 100}%`;
     this.#pill.hidden = this.#track.hidden = false;
   }
-}
-
-const LONGEST = 400; // letters of a line that goes away
-
-/** A line that goes away by itself. */
-export function toast(text) {
-  const place = find('#toast');
-  say(place, text.length > LONGEST ? `${text.slice(0, LONGEST)}…` : text);
-  place.hidden = false;
-  clearTimeout(toast.timer);
-  toast.timer = setTimeout(() => (place.hidden = true), 5000);
 }
 
 export function connection(state) {

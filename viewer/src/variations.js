@@ -1,7 +1,7 @@
 // Variations: small pictures of other seeds, or of one parameter from here to there. A click takes one over.
 
 import { find, make, say } from './dom.js';
-import { plain } from './format.js';
+import { nearest, plain } from './format.js';
 import { icon } from './icons.js';
 
 const NUMBERS = [4, 9, 16];
@@ -164,12 +164,9 @@ export class Variations {
     if (control.type === 'choice') return control.choices.map(String);
     const [from, to] = [this.#parts.from.valueAsNumber, this.#parts.to.valueAsNumber];
     if (!Number.isFinite(from) || !Number.isFinite(to)) return [plain(value)];
-    const { min, max, step } = control;
-    const values = Array.from({ length: this.#number }, (_, i) => {
-      const exact = from + ((to - from) * i) / (this.#number - 1);
-      const stepped = step ? (min ?? 0) + Math.round((exact - (min ?? 0)) / step) * step : exact;
-      return plain(Math.min(Math.max(stepped, min ?? -Infinity), max ?? Infinity));
-    });
+    const values = Array.from({ length: this.#number }, (_, i) =>
+      plain(nearest(from + ((to - from) * i) / (this.#number - 1), control)),
+    );
     return [...new Set(values)];
   }
 

@@ -42,6 +42,16 @@ impl Run {
         }
         report
     }
+
+    /// The warning that tells why nothing of a model is seen, also of one that was to be seen in part only; `None` if
+    /// something is seen, and if nothing is known of why.
+    pub fn emptiness(&self) -> Option<Warning> {
+        if self.scene.triangles() > 0 {
+            return None;
+        }
+        let reason = self.warnings.iter().find(|warning| tells_of_emptiness(warning)).cloned();
+        reason.or_else(|| emptiness(&self.warnings, &self.systems))
+    }
 }
 
 /// What a script declares, without deriving anything.
@@ -108,8 +118,10 @@ pub fn run_session(session: &Arc<Session>) -> Result<Run> {
     systems.iter().filter_map(|system| left_out(system)).for_each(|warning| session.warn(warning));
     find_textures(&mut scene, session)?;
     times.scene = begin.elapsed();
-    if let Some(warning) = emptiness(session, &scene, &systems) {
-        session.warn(warning);
+    // Where someone has asked to see less, nothing may be what is there.
+    let whole = session.options.steps.is_none() && session.options.lod == RunOptions::default().lod;
+    if scene.triangles() == 0 && whole {
+        emptiness(&session.warnings(), &systems).into_iter().for_each(|warning| session.warn(warning));
     }
     let warnings = session.warnings();
     if session.options.strict && !warnings.is_empty() {
@@ -118,19 +130,17 @@ pub fn run_session(session: &Arc<Session>) -> Result<Run> {
     Ok(Run { scene, systems, params, frame: session.data.frame(), warnings, times })
 }
 
-/// The warning for a model of drawing objects that is empty, unless someone has asked to see less of it.
-fn emptiness(session: &Session, scene: &Scene, systems: &[Arc<DerivedSystem>]) -> Option<Warning> {
+/// Whether a warning tells why nothing of some module is seen.
+fn tells_of_emptiness(warning: &Warning) -> bool {
+    use WarningKind::{DrawsNothing, HiddenModule, ReturnedModules, UndrawnModule};
+    matches!(warning.kind(), DrawsNothing | HiddenModule | ReturnedModules | UndrawnModule)
+}
+
+/// The warning for an empty model of drawing objects, of which `warnings` are known.
+fn emptiness(warnings: &[Warning], systems: &[Arc<DerivedSystem>]) -> Option<Warning> {
     let mut drawing = systems.iter().filter(|system| system.draws);
     let drawing = drawing.clone().find(|system| !system.is_placed()).or_else(|| drawing.next())?;
-    let whole = session.options.steps.is_none() && session.options.lod == RunOptions::default().lod;
-    if scene.triangles() > 0 || !whole {
-        return None;
-    }
-    let tells = |warning: &Warning| {
-        use WarningKind::{DrawsNothing, HiddenModule, ReturnedModules, UndrawnModule};
-        matches!(warning.kind(), DrawsNothing | HiddenModule | ReturnedModules | UndrawnModule)
-    };
-    let help = if session.warnings().iter().any(tells) {
+    let help = if warnings.iter().any(tells_of_emptiness) {
         "another warning tells why"
     } else if systems.iter().any(|system| system.is_placed()) {
         "a system that another one is to place is not shown by itself: see that it is placed"

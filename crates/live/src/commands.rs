@@ -36,6 +36,9 @@ impl ServerState {
                 let mut inner = self.lock();
                 let waiting = inner.due.take().is_some();
                 let running = inner.stop("it was cancelled");
+                if waiting || running {
+                    inner.take_back(self);
+                }
                 if waiting && !running {
                     let run = inner.runs + 1;
                     inner.cancelled(self, run);
@@ -43,33 +46,35 @@ impl ServerState {
                 let idle = !waiting && !running;
                 idle.then(|| Event::refused(None, &Error::unavailable("nothing is running")))
             }
-            Ok(PageCommand::Set { params }) => {
-                self.change(Cause::Parameters, |inner| inner.request.set(&params, inner.params.as_deref()))
-            }
-            Ok(PageCommand::Reset {}) => self.change(Cause::Parameters, |inner| {
+            Ok(PageCommand::Set { id, params }) => self.change(id, Cause::Parameters, |inner| {
+                inner.request.set(&params, inner.params.as_deref())
+            }),
+            Ok(PageCommand::Reset {}) => self.change(None, Cause::Parameters, |inner| {
                 inner.request.reset();
                 Ok(())
             }),
-            Ok(PageCommand::Seed { seed: wished }) => self.change(Cause::Seed, |inner| {
+            Ok(PageCommand::Seed { seed: wished }) => self.change(None, Cause::Seed, |inner| {
                 inner.request.set_seed(seed(&wished)?);
                 Ok(())
             }),
-            Ok(PageCommand::Steps { steps }) => self.change(Cause::Steps, |inner| {
+            Ok(PageCommand::Steps { steps }) => self.change(None, Cause::Steps, |inner| {
                 inner.request.steps = steps;
                 Ok(())
             }),
         }
     }
 
-    /// Changes the request and has a run made of it, or answers with what there is already.
+    /// Changes the request and has a run made of it, or answers with what there is already. `id` is that of the message, if it
+    /// had one.
     pub(super) fn change(
         &self,
+        id: Option<u64>,
         cause: Cause,
         change: impl FnOnce(&mut LiveState) -> Result<()>,
     ) -> Option<Event> {
         let mut inner = self.lock();
         if let Err(error) = change(&mut inner) {
-            return Some(Event::refused(None, &error));
+            return Some(Event::refused(id, &error));
         }
         let same = inner.finished.as_ref() == Some(&inner.request.inputs(inner.generation));
         let idle = inner.due.is_none() && inner.running.as_ref().is_none_or(|running| running.background);

@@ -8,6 +8,7 @@ use super::trace;
 use super::work::{PROBLEMS, RunJob};
 use burgeon_engine::run::Run;
 use burgeon_engine::script::Session;
+use serde_json::json;
 
 /// What pages are told of a run, but for what depends on the request and on the model's bytes.
 pub(super) fn describe(state: &ServerState, job: &RunJob, session: &Session, run: &Run) -> ModelMessage {
@@ -58,7 +59,15 @@ pub(super) fn describe(state: &ServerState, job: &RunJob, session: &Session, run
         },
         files,
         warnings: run.warnings.iter().take(PROBLEMS).map(|warning| state.warning_json(warning)).collect(),
+        notes: remark(state, run).map(|(message, help)| json!({ "message": message, "help": help })).into_iter().collect(),
     }
+}
+
+/// What became of features that could not be built as asked, and how to see which they are.
+pub(super) fn remark(state: &ServerState, run: &Run) -> Option<(String, String)> {
+    let report = run.report();
+    let help = || format!("burgeon run {} --report FILE lists them", state.script.display());
+    (!report.is_clean()).then(|| (report.to_string(), help()))
 }
 
 /// Why a run shows nothing, and what to do about it.
@@ -73,6 +82,9 @@ fn nothing(run: &Run, limit: Option<usize>) -> String {
         format!("nothing is drawn after {after}: look at a later one")
     } else if modules == 0 {
         format!("no module is left after {after}: let the rules end in modules that are drawn")
+    } else if let Some(warning) = run.emptiness() {
+        let message = warning.message();
+        warning.remedy().map_or_else(|| message.to_owned(), |remedy| format!("{message}: {remedy}"))
     } else {
         let counts = run.systems.iter().flat_map(|system| trace::symbols(system));
         let most = counts.max_by_key(|symbol| symbol.count).map_or_else(String::new, |symbol| symbol.name);

@@ -152,6 +152,16 @@ impl Request {
         used.collect()
     }
 
+    /// `params`, those of an earlier run, with the values that are requested now, as far as they take them.
+    pub(super) fn requested(&mut self, params: &[Param]) -> Vec<ParamMessage> {
+        let mut requested = params.to_vec();
+        for param in &mut requested {
+            let given = self.values.get(&param.name).map(|given| param.accept(&given.text));
+            param.value = given.and_then(Result::ok).unwrap_or_else(|| param.default.clone());
+        }
+        self.params(&requested)
+    }
+
     /// The parameters of a run as pages show them. Notes the defaults of values whose default was not known.
     pub(super) fn params(&mut self, params: &[Param]) -> Vec<ParamMessage> {
         let mut messages = Vec::with_capacity(params.len());

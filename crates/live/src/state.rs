@@ -90,6 +90,8 @@ pub(super) struct LiveState {
     pub left_out: BTreeSet<String>,
     /// The warnings of the last model, as far as they have been told.
     pub warnings: BTreeSet<String>,
+    /// The same of its notes.
+    pub notes: BTreeSet<String>,
     /// The script's files, which an editor may open.
     pub files: Vec<PathBuf>,
     /// Ends what is made besides models, for it is about a script that has changed.
@@ -121,6 +123,8 @@ pub(super) struct ActiveRun {
 /// The present model.
 pub(super) struct PresentModel {
     pub run: Arc<Run>,
+    /// What had been requested.
+    pub request: Request,
     /// What it was made from.
     pub inputs: Inputs,
     /// Where the scene's things are in the model's bytes.
@@ -153,6 +157,7 @@ impl ServerState {
             last_step: None,
             left_out: BTreeSet::new(),
             warnings: BTreeSet::new(),
+            notes: BTreeSet::new(),
             files: Vec::new(),
             aside: Arc::default(),
             over: false,
@@ -353,9 +358,32 @@ impl LiveState {
         Some(ModelMessage { preset: self.request.preset(), ..shown.message.clone() })
     }
 
+    /// Takes the request back to that of the model that is shown, and tells pages its values again: what was cancelled
+    /// must not come with the next change.
+    pub(super) fn take_back(&mut self, state: &ServerState) {
+        let Some(shown) = self.shown.clone() else { return };
+        let before = self.request.inputs(self.generation);
+        self.request = shown.request.clone();
+        if self.is_present() {
+            self.trouble = None;
+            self.cancelled = None;
+            self.finished = Some(shown.inputs.clone());
+            self.params = Some(shown.run.params.clone());
+        }
+        if self.request.inputs(self.generation) != before {
+            let model = self.present().map(|model| Event::Model(Box::new(model)));
+            model.iter().chain(&self.trouble).for_each(|event| state.send(event));
+        }
+    }
+
+    /// Whether the model that is shown is that of the request and of the files as they are.
+    fn is_present(&self) -> bool {
+        self.shown.as_ref().is_some_and(|shown| shown.inputs == self.request.inputs(self.generation))
+    }
+
     /// Tells that `run` was stopped, and keeps in mind whether the model is older than what is requested.
     pub(super) fn cancelled(&mut self, state: &ServerState, run: u64) {
-        let stale = self.due.is_none();
+        let stale = self.due.is_none() && !self.is_present();
         let event = Event::Cancelled { run, stale };
         state.send(&event);
         if stale {

@@ -92,7 +92,7 @@ pub(super) fn preset(state: &ServerState, action: &str, name: &str, replace: boo
         "delete" => Presets::remove(&state.script, name).map(Some),
         "load" => match Presets::read(&state.script).and_then(|presets| find(state, &presets, name)) {
             Ok(preset) => {
-                return state.change(Cause::Preset, |inner| {
+                return state.change(None, Cause::Preset, |inner| {
                     inner.request.load(&preset);
                     Ok(())
                 });

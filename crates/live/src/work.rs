@@ -1,5 +1,6 @@
 //! The worker: one thread that runs the script as it was last requested and makes the model's bytes.
 
+use std::collections::BTreeSet;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -8,8 +9,8 @@ use std::time::{Duration, Instant, SystemTime};
 
 use axum::body::Bytes;
 
-use super::message::{Cause, Event, ModelMessage};
-use super::request::Inputs;
+use super::message::{Cause, Event, ModelMessage, ParamMessage};
+use super::request::{Inputs, Request};
 use super::state::{ActiveRun, DueRun, LiveState, PresentModel, ServerState};
 use super::{Notice, describe};
 use burgeon_base::error::{Error, ErrorKind, Limit, Result};
@@ -45,6 +46,7 @@ const IDLE_LIMITS: Limits =
 pub(super) struct RunJob {
     pub run: u64,
     pub due: DueRun,
+    pub request: Request,
     pub inputs: Inputs,
 }
 
@@ -176,8 +178,9 @@ fn next(state: &ServerState) -> Option<RunJob> {
             inner.runs += 1;
             let run = inner.runs;
             state.send(&Event::Working { run, cause: due.cause, files: due.files.clone() });
-            let inputs = inner.request.inputs(inner.generation);
-            return Some(RunJob { run, due, inputs });
+            let request = inner.request.clone();
+            let inputs = request.inputs(inner.generation);
+            return Some(RunJob { run, due, request, inputs });
         }
         inner = state.wake.wait(inner).recover();
     }
@@ -281,7 +284,11 @@ fn finish(state: &ServerState, job: &RunJob, session: Option<&Session>, outcome:
     if !matches!(outcome, RunOutcome::Cancelled) {
         inner.doubts = None;
     }
-    let quick = inner.running.take().map(|running| running.begin.elapsed());
+    let running = inner.running.take();
+    let quick = running.as_ref().map(|running| running.begin.elapsed());
+    // A page has cancelled it while its end was on the way, and the request is another one already.
+    let stopped = running.is_some_and(|running| running.cancelled.load(Ordering::Acquire));
+    let outcome = if stopped && inner.due.is_none() { RunOutcome::Cancelled } else { outcome };
     if let Some(session) = session.filter(|_| !matches!(outcome, RunOutcome::Cancelled)) {
         inner.files = session.files();
     }
@@ -298,12 +305,18 @@ fn finish(state: &ServerState, job: &RunJob, session: Option<&Session>, outcome:
             let number = error.problems().count();
             let errors = error.problems().take(PROBLEMS).map(|problem| state.error_json(problem)).collect();
             let (run, cause) = (job.run, job.due.cause);
-            inner.end_badly(state, job, Event::Error { run, cause, text: error.to_string(), errors, number });
+            let text = error.to_string();
+            let params = inner.requested_params();
+            let seed = inner.request.seed().to_string();
+            let event = Event::Error { run, cause, text, errors, number, params, seed };
+            inner.end_badly(state, job, event);
             notices.push(Notice::Failed(error));
         }
         RunOutcome::NewModel(made) => {
             let NewModel { run, file, mut message } = *made;
-            message.params = inner.request.params(&run.params);
+            let mut request = job.request.clone();
+            message.params = request.params(&run.params);
+            inner.request.params(&run.params);
             message.last_step = inner.last_step_of(&job.inputs, message.steps);
             message.preset = inner.request.preset();
             let ModelFile { content, layout, note } = file;
@@ -322,15 +335,13 @@ fn finish(state: &ServerState, job: &RunJob, session: Option<&Session>, outcome:
             let left_out = session.map(Session::left_out).unwrap_or_default();
             notices.extend(inner.tell_left_out(state, &left_out));
             notices.extend(inner.new_warnings(&run.warnings));
-            let report = run.report();
-            let remarks = (!report.is_clean())
-                .then(|| format!("{report}: burgeon run SCRIPT --report FILE lists them"));
-            for text in remarks.into_iter().chain(note) {
-                state.send(&Event::note(text.clone()));
-                notices.push(Notice::Note(text));
-            }
+            let remark = describe::remark(state, &run).map(|(text, help)| format!("{text}: {help}"));
+            let new: BTreeSet<String> = remark.into_iter().chain(note).collect();
+            notices.extend(new.difference(&inner.notes).cloned().map(Notice::Note));
+            inner.notes = new;
             let (run, inputs, layout) = (Arc::new(run), job.inputs.clone(), Arc::new(layout));
-            gone = Some((inner.shown.replace(Arc::new(PresentModel { run, inputs, layout, message })), old));
+            let model = PresentModel { run, request, inputs, layout, message };
+            gone = Some((inner.shown.replace(Arc::new(model)), old));
         }
     }
     drop(inner);
@@ -342,6 +353,12 @@ fn finish(state: &ServerState, job: &RunJob, session: Option<&Session>, outcome:
 }
 
 impl LiveState {
+    /// The parameters of the model that is shown with the values that are requested; none if there is no model.
+    fn requested_params(&mut self) -> Vec<ParamMessage> {
+        let shown = self.shown.clone();
+        shown.map(|shown| self.request.requested(&shown.run.params)).unwrap_or_default()
+    }
+
     fn end_badly(&mut self, state: &ServerState, job: &RunJob, event: Event) {
         self.params = None;
         self.cancelled = None;
@@ -367,7 +384,7 @@ impl LiveState {
             .collect();
         let mut notices = Vec::new();
         for text in texts.iter().filter(|text| !self.left_out.contains(*text)) {
-            state.send(&Event::note(text.clone()));
+            state.send(&Event::Note { text: text.clone() });
             notices.push(Notice::Note(text.clone()));
         }
         self.left_out = texts.into_iter().collect();
@@ -433,6 +450,7 @@ fn note_last_step(state: &ServerState, inputs: Inputs, found: Option<usize>) {
     let Some(shown) = inner.shown.as_mut() else { return };
     let message = ModelMessage { last_step, ..shown.message.clone() };
     let (run, layout) = (Arc::clone(&shown.run), Arc::clone(&shown.layout));
-    *shown = Arc::new(PresentModel { run, inputs: shown.inputs.clone(), layout, message });
+    let (request, inputs) = (shown.request.clone(), shown.inputs.clone());
+    *shown = Arc::new(PresentModel { run, request, inputs, layout, message });
     inner.present().into_iter().for_each(|model| state.send(&Event::Model(Box::new(model))));
 }

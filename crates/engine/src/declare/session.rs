@@ -19,6 +19,7 @@ use crate::questions::{AskedRows, Question, RowCache, RowSource, Rows};
 use burgeon_base::error::{Error, Result};
 use burgeon_base::locks::LockRecovery;
 use burgeon_base::stop::Stop;
+use burgeon_base::text::grouped;
 use burgeon_base::warning::{Warning, Warnings};
 use burgeon_kit::rules::Values;
 use burgeon_language::CallForm;
@@ -53,6 +54,9 @@ impl RunProgress {
     pub fn message(&self, elapsed: Duration) -> String {
         let load = |count: &AtomicUsize| count.load(Ordering::Relaxed);
         let (step, steps) = (load(&self.step), load(&self.steps));
+        if steps == 0 {
+            return "running the script".to_owned();
+        }
         #[allow(clippy::cast_precision_loss, reason = "shown with three digits")]
         let rate = load(&self.total) as f64 / elapsed.as_secs_f64().max(1e-3) / 1e6;
         let modules = load(&self.modules);
@@ -66,7 +70,7 @@ impl RunProgress {
             }
             _ => String::new(),
         };
-        format!("step {step}{of}, {modules} modules, {rate:.1} M modules/s{left}")
+        format!("step {step}{of}, {} modules, {rate:.1} M modules/s{left}", grouped(modules))
     }
 }
 
@@ -405,9 +409,10 @@ mod tests {
     #[test]
     fn progress_tells_the_time_left_once_there_is_some() {
         let progress = RunProgress::default();
-        progress.note(5, 20, 1_000_000);
         let after = |seconds: f64| progress.message(Duration::from_secs_f64(seconds));
-        assert_eq!(after(0.2), "step 5 of 20, 1000000 modules, 5.0 M modules/s");
-        assert_eq!(after(4.0), "step 5 of 20, 1000000 modules, 0.2 M modules/s, at least 12 s left");
+        assert_eq!(after(0.2), "running the script");
+        progress.note(5, 20, 1_000_000);
+        assert_eq!(after(0.2), "step 5 of 20, 1,000,000 modules, 5.0 M modules/s");
+        assert_eq!(after(4.0), "step 5 of 20, 1,000,000 modules, 0.2 M modules/s, at least 12 s left");
     }
 }

@@ -12,6 +12,8 @@ use burgeon_base::error::Error;
 pub enum PageCommand {
     /// Sets parameters, by name; nothing puts the default back.
     Set {
+        /// Comes back if they are refused.
+        id: Option<u64>,
         /// Values as text; numbers and switches may come as they are.
         params: serde_json::Map<String, Value>,
     },
@@ -27,7 +29,7 @@ pub enum PageCommand {
         /// The limit.
         steps: Option<usize>,
     },
-    /// Stops the run.
+    /// Stops the run, and takes its values, seed and limit back to those of the model that is shown.
     Cancel {},
     /// Opens a line in the editor.
     Open {
@@ -147,7 +149,7 @@ mod tests {
         let Event::Refused { id, text, code } = *read(r#"{"type":"pick","id":9}"#).unwrap_err() else {
             panic!()
         };
-        assert_eq!((id, code), (Some(9), Some("argument")));
+        assert_eq!((id, code), (Some(9), "argument"));
         assert!(text.contains("mesh"), "{text}");
         assert!(read(&"[".repeat(100_000)).is_err());
     }

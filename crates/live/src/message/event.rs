@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use super::{AroundMessage, HighlightMessage, ModelMessage, PickMessage, bounded};
+use super::{AroundMessage, HighlightMessage, ModelMessage, ParamMessage, PickMessage, bounded};
 use burgeon_base::error::Error;
 use serde::Serialize;
 use serde_json::Value;
@@ -55,12 +55,16 @@ pub enum Event {
         errors: Vec<Value>,
         /// How many problems there are.
         number: usize,
+        /// The parameters of the model that is shown, with the values that led to the error; none without a model.
+        params: Vec<ParamMessage>,
+        /// The seed that led to it.
+        seed: String,
     },
     /// A run was stopped, by a page or by a newer run.
     Cancelled {
         /// The run's number.
         run: u64,
-        /// Whether nothing newer is on its way, so that the model that is shown is not the present one.
+        /// Whether nothing newer is on its way, and yet the model that is shown is not the present one.
         stale: bool,
     },
     /// The module that made a triangle.
@@ -118,12 +122,17 @@ pub enum Event {
         /// Why it failed.
         error: Option<String>,
     },
+    /// Something that is worth knowing, once.
+    Note {
+        /// What it is.
+        text: String,
+    },
     /// A message that could not be done.
     Refused {
         /// The message's id, if it had one.
         id: Option<u64>,
-        /// The [code](burgeon_base::error::ErrorKind::code) of the error; none for a note about something that was done.
-        code: Option<&'static str>,
+        /// The [code](burgeon_base::error::ErrorKind::code) of the error.
+        code: &'static str,
         /// Why, and what can be done.
         text: String,
     },
@@ -167,12 +176,7 @@ pub enum Cause {
 impl Event {
     /// What is said of a message that led to `error`.
     pub fn refused(id: Option<u64>, error: &Error) -> Self {
-        Self::Refused { id, code: Some(error.kind().code()), text: error.to_string() }
-    }
-
-    /// What is said of something that was done, though not wholly.
-    pub fn note(text: String) -> Self {
-        Self::Refused { id: None, code: None, text }
+        Self::Refused { id, code: error.kind().code(), text: error.to_string() }
     }
 
     /// The message as it travels. Texts that no page could show are cut.

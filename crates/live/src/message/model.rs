@@ -49,6 +49,8 @@ pub struct ModelMessage {
     pub files: Vec<String>,
     /// What people should know of it: as errors are told, each with its `kind` and how often it was found, its `count`.
     pub warnings: Vec<Value>,
+    /// What became of features that could not be built as asked, each `{ message, help }`.
+    pub notes: Vec<Value>,
 }
 
 /// A box (m).
