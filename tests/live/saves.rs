@@ -315,7 +315,8 @@ fn a_model_of_nothing_says_why() {
     server.write("s.lua", empty("s:rule(\"A\", function() return B(), B() end)\n"));
     says(&mut page, "system:interpret(\"B\"");
     // What has an interpretation is not asked for one.
-    server.write("s.lua", empty("s:interpret(\"A\", function(this) if false then this:forward(1) end end)\n"));
+    server
+        .write("s.lua", empty("s:interpret(\"A\", function(this) if false then this:forward(1) end end)\n"));
     says(&mut page, "its interpretations draw nothing");
     server.write("s.lua", script(3));
     assert_eq!(page.until("model")["nothing"], json!(null));

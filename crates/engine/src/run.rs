@@ -108,12 +108,12 @@ pub fn run_session(session: &Arc<Session>) -> Result<Run> {
     let begin = Instant::now();
     let mut scene = Scene::default();
     for system in systems.iter_mut().filter(|system| !system.is_placed()) {
-        let place = system.place.clone();
+        let (place, caller) = (system.place.clone(), system.caller.clone());
         let shown = match Arc::get_mut(system) {
             Some(system) => system.hand_over(&mut scene),
             None => system.add_to(&mut scene),
         };
-        shown.map_err(|error| error.rather_at(place))?;
+        shown.map_err(|error| error.rather_at(place).called_at(caller))?;
     }
     systems.iter().filter_map(|system| left_out(system)).for_each(|warning| session.warn(warning));
     find_textures(&mut scene, session)?;
@@ -154,7 +154,7 @@ fn emptiness(warnings: &[Warning], systems: &[Arc<DerivedSystem>]) -> Option<War
         "no module of its final chain is drawn: write system:interpret(pattern, function(this, ...) ... end)"
     };
     let warning = Warning::new(WarningKind::EmptyModel, "the model is empty, for this system draws nothing");
-    Some(warning.at(drawing.place.clone()).help(help))
+    Some(warning.at(drawing.place.clone()).called_at(drawing.caller.clone()).help(help))
 }
 
 /// Reads the script and everything it requires, compiles every rule, and tells all problems at once; those that a strict
@@ -304,7 +304,8 @@ fn left_out(system: &DerivedSystem) -> Option<Warning> {
         1 => format!("left out feature{id}{source}: {why}"),
         _ => format!("left out {count} of {} features, such as feature{id}{source}: {why}", system.given),
     };
-    let warning = Warning::new(WarningKind::Data, text).at(system.place.clone());
+    let warning = Warning::new(WarningKind::Data, text);
+    let warning = warning.at(system.place.clone()).called_at(system.caller.clone());
     Some(warning.help("--report FILE lists all of them; with --strict they are errors"))
 }
 

@@ -145,6 +145,7 @@ impl RunCommand {
             let text = "there are no layers to write, for no module of the final chains has a geometry";
             let warning = Warning::new(WarningKind::EmptyModel, text)
                 .at(run.systems.first().and_then(|system| system.place.clone()))
+                .called_at(run.systems.first().and_then(|system| system.caller.clone()))
                 .help("pass a geometry on, such as Lot(feature.geometry, area)");
             if session.options.strict {
                 return Err(warning.into_error());
@@ -152,8 +153,9 @@ impl RunCommand {
             run.warnings.push(warning);
         }
         let known = run.warnings.iter().any(|warning| warning.kind() == WarningKind::EmptyModel);
-        let place = run.systems.first().map(|system| system.place.clone());
-        let (Some(place), false) = (place, known || !self.writes(|format| !format.has_layers())) else {
+        let places = run.systems.first().map(|system| (system.place.clone(), system.caller.clone()));
+        let (Some((place, caller)), false) = (places, known || !self.writes(|format| !format.has_layers()))
+        else {
             return Ok(());
         };
         if run.scene.triangles() > 0 || session.options.steps.is_some() {
@@ -162,6 +164,7 @@ impl RunCommand {
         let text = "the model is empty, for no system has an object that draws";
         let warning = Warning::new(WarningKind::EmptyModel, text)
             .at(place)
+            .called_at(caller)
             .help("give one, such as lsystem({ object = turtle() }); chains are written with --chain FILE");
         if session.options.strict {
             return Err(warning.into_error());

@@ -211,13 +211,20 @@ impl Error {
         self
     }
 
-    /// Says which line of the script led there, unless that is known already. It is told if the place is in another file
-    /// and in no rule: no line calls a rule.
+    /// Says which line of the script led there, unless that is known already. It is told if the place is in another file.
     #[must_use]
     pub fn called_at(mut self, caller: Option<SourcePlace>) -> Self {
         if self.0.caller.is_none() {
             self.0.caller = caller;
         }
+        self
+    }
+
+    /// Says which line of the script led there more exactly than is known so far: no line calls a rule, so what led there is
+    /// what made its system.
+    #[must_use]
+    pub fn rather_called_at(mut self, caller: Option<SourcePlace>) -> Self {
+        self.0.caller = caller;
         self
     }
 
@@ -261,7 +268,7 @@ impl Error {
     /// The line that led to the place, if it is to be told.
     fn caller(&self) -> Option<&SourcePlace> {
         let (place, caller) = (self.0.place.as_ref()?, self.0.caller.as_ref()?);
-        (self.0.rule.is_none() && place.file != caller.file).then_some(caller)
+        (place.file != caller.file).then_some(caller)
     }
 
     /// Whether it is of the kind of `other` and tells people the same, wherever that is.

@@ -191,9 +191,9 @@ struct StepChange {
 /// Takes leave of the machine: tells what is to be told, and gives the objects to who looks at them.
 fn settle(machine: &Machine, derivation: Derivation, grown: StepResults) -> Result<Ending> {
     let session = &machine.session;
-    let Derivation { mut axiom, plan, declared, traced, place, axiom_place, draws, .. } = derivation;
+    let Derivation { mut axiom, plan, declared, traced, place, caller, axiom_place, draws, .. } = derivation;
     for warning in grown.warnings {
-        session.warn(warning.at(place.clone()));
+        session.warn(warning.at(place.clone()).called_at(caller.clone()));
     }
     let undrawn =
         machine.library.systems.borrow()[plan.system].undrawn(&machine.library, &grown.chain.symbols);
@@ -242,6 +242,7 @@ fn settle(machine: &Machine, derivation: Derivation, grown: StepResults) -> Resu
         times: grown.times,
         rules: grown.rules,
         place,
+        caller,
         given: axiom.given,
         remarks: axiom.remarks,
         city,

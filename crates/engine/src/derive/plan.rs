@@ -68,6 +68,8 @@ pub(super) struct Derivation {
     pub traced: Option<TraceRequest>,
     /// Where the system was made.
     pub place: Option<SourcePlace>,
+    /// The line of the script that led there.
+    pub caller: Option<SourcePlace>,
     /// Where its axiom was set.
     pub axiom_place: Option<SourcePlace>,
     /// Whether only the last pass is made, as nobody could see the others.
@@ -122,10 +124,11 @@ impl Derivation {
             declared,
             traced,
             place: system.place.clone(),
+            caller: system.caller.clone(),
             axiom_place: system.axiom_place.clone(),
             last_only: system.shows_last_only(),
             draws_afresh,
-            draws: draws_afresh && system.object.is_some(),
+            draws: system.object.as_ref().is_some_and(|object| object.kind().show.is_some()),
             limit: if options.check { 0 } else { limit },
         })
     }

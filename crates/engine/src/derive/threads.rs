@@ -175,6 +175,10 @@ impl Driver for ThreadPool {
                 Err(Error::stopped("the traced system is derived"))
             }
         });
+        let derived = derived.map_err(|error: Error| {
+            // Which machine came upon it must not show.
+            error.rather_called_at(machine.library.systems.borrow()[index].caller.clone())
+        });
         machine.current.objects.replace(None);
         self.finished(&derived);
         derived

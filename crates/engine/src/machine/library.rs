@@ -351,7 +351,8 @@ impl Library {
                         LuaValue::Table(options) => Some(options),
                         other => return Err(no_table("lsystem", &other)),
                     };
-                    SystemHandle::create(&library, options.as_ref(), Machine::place(lua))
+                    let places = [Machine::place(lua), Machine::outermost(lua)];
+                    SystemHandle::create(&library, options.as_ref(), places)
                 };
                 create().map_err(mlua::Error::external)
             })?,

@@ -237,7 +237,7 @@ impl Machine {
     }
 
     /// The line from which all is called that is being run.
-    fn outermost(lua: &Lua) -> Option<SourcePlace> {
+    pub(crate) fn outermost(lua: &Lua) -> Option<SourcePlace> {
         (1..200).map_while(|level| Self::frame(lua, level)).flatten().last()
     }
 

@@ -61,6 +61,8 @@ pub struct DerivedSystem {
     pub rules: Vec<RuleReport>,
     /// Where the system was made.
     pub place: Option<SourcePlace>,
+    /// The line of the script that led there.
+    pub caller: Option<SourcePlace>,
     /// The number of features that it was given, those that were left out among them.
     pub given: usize,
     /// What could not be built as asked: features that got no chain, then the chains in their order.

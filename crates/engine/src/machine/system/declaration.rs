@@ -28,6 +28,8 @@ pub(crate) struct SystemDeclaration {
     pub index: usize,
     /// Where it was made.
     pub place: Option<SourcePlace>,
+    /// The line of the script that led there.
+    pub caller: Option<SourcePlace>,
     /// Where its axiom was set.
     pub axiom_place: Option<SourcePlace>,
     pub(crate) axiom: Option<DeclaredAxiom>,

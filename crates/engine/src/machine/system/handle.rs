@@ -28,7 +28,7 @@ impl SystemHandle {
     pub(crate) fn create(
         library: &Rc<Library>,
         options: Option<&Table>,
-        place: Option<SourcePlace>,
+        [place, caller]: [Option<SourcePlace>; 2],
     ) -> Result<Self> {
         let mut system = SystemDeclaration {
             object: None,
@@ -37,6 +37,7 @@ impl SystemHandle {
             seed: None,
             index: library.systems.borrow().len(),
             place,
+            caller,
             axiom_place: None,
             axiom: None,
             rules: Vec::new(),
