@@ -247,7 +247,10 @@ fn machines_get_the_same_as_people() {
     let bend = methods.iter().find(|method| method["name"] == "bend").unwrap();
     assert_eq!(bend["changes"], true);
     assert_eq!(bend["arguments"][0]["unit"], "degrees");
-    assert_eq!((&bend["arguments"][0]["default"], &bend["arguments"][1]["default"]), (&"".into(), &"0".into()));
+    assert_eq!(
+        (&bend["arguments"][0]["default"], &bend["arguments"][1]["default"]),
+        (&"".into(), &"0".into())
+    );
     assert!(bend["example"].as_str().unwrap().contains("this:bend(0)"));
     let all = Folder::new().burgeon(&["api", "--json"]).done().json();
     assert!(all["entries"].as_array().unwrap().len() > 80);
