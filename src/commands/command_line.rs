@@ -51,7 +51,7 @@ pub(crate) fn main() -> ExitCode {
         Command::New(command) => (command.json(), command.run()),
         Command::Setup(command) => (command.json(), command.run()),
         Command::Sources(command) => (command.json(), command.run()),
-        Command::Completions(command) => (false, command.run()),
+        Command::Completions(command) => (command.json(), command.run()),
     };
     match result {
         // Whoever reads no further knows it; whoever asks how it ended is told that something was left out.

@@ -3,18 +3,31 @@
 use burgeon::Result;
 use clap::{Args, CommandFactory};
 use clap_complete::Shell;
+use serde_json::json;
 
 /// Prints a script that completes the command line in a shell
 #[derive(Args)]
 pub(crate) struct CompletionsCommand {
     /// The shell
     shell: Shell,
+
+    /// Prints one JSON document, for machines, in place of text for people
+    #[arg(long)]
+    json: bool,
 }
 
 impl CompletionsCommand {
+    pub(crate) fn json(&self) -> bool {
+        self.json
+    }
+
     pub(crate) fn run(&self) -> Result<()> {
         let mut script = Vec::new();
         clap_complete::generate(self.shell, &mut super::command_line::Cli::command(), "burgeon", &mut script);
-        super::report::print(&String::from_utf8_lossy(&script))
+        let script = String::from_utf8_lossy(&script);
+        super::report::print(&match self.json {
+            true => format!("{}\n", json!({ "ok": true, "script": script })),
+            false => script.into_owned(),
+        })
     }
 }

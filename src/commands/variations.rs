@@ -128,9 +128,7 @@ impl VariationsCommand {
         let mut warnings: Vec<&Warning> = Vec::new();
         for warning in cells.iter().filter_map(|cell| cell.made.as_ref().ok()).flat_map(|made| &made.warnings)
         {
-            let same =
-                |known: &&Warning| known.place() == warning.place() && known.message() == warning.message();
-            if !warnings.iter().any(same) {
+            if !warnings.iter().any(|known| known.is_same(warning)) {
                 warnings.push(warning);
             }
         }

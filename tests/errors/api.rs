@@ -40,7 +40,7 @@ fn a_type_is_told_with_its_fields_and_methods_and_an_example() {
       local star = all:star(galaxy, 1)
       print(galaxy.kind, star.kind, star.planets)
     ");
-    assert_snapshot!(api(&["system"]), @r"
+    assert_snapshot!(api(&["system"]), @r#"
     system
       A system of rules, as lsystem gives it; T is the type of its object.
 
@@ -61,7 +61,21 @@ fn a_type_is_told_with_its_fields_and_methods_and_an_example() {
           Names the only modules that matching of contexts sees.
       derive(steps: number?) -> Derived
           Applies the rules step by step, to the end where no number of steps is given.
-    ");
+
+    Example
+      -- All that a system is told, with rules that look at their neighbours.
+      local Signal, Wait = module("Signal"), module("Wait")
+      local row = lsystem({ object = turtle() })
+      row:axiom(Signal(), Turn(5), Wait(), Turn(5), Wait())
+      row:ignore("Turn")
+      row:rule("Signal < Wait", function()
+        return Signal()
+      end)
+      row:interpret("Signal", function(this)
+        this:forward(1)
+      end)
+      row:derive(2)
+    "#);
     assert_snapshot!(api(&["source"]), @r#"
     source(what: string | { any }, options: { ... }?) -> Layer
       The features of a data file, or of a list; what it has is told of under layer.
@@ -86,15 +100,31 @@ fn a_type_is_told_with_its_fields_and_methods_and_an_example() {
           The layer, if its name does not stand behind a colon.
       table: string?
           What query calls it, in place of its layer's name.
+
+    Example
+      -- A house for each feature of a list; a file is named instead: source("town.gpkg:buildings").
+      local houses = source({
+        { id = "inn", geometry = polygon({ 0, 0 }, { 10, 0 }, { 10, 8 }, { 0, 8 }), height = 6 },
+        { id = "barn", geometry = polygon({ 14, 0 }, { 30, 0 }, { 30, 8 }, { 14, 8 }), height = 4 },
+      })
+      local House = module("House", "height")
+      local village = lsystem({ object = footprint })
+      village:axiom(houses, function(feature)
+        return footprint(feature.geometry), House(feature.height)
+      end)
+      village:interpret("House(height)", function(this, height)
+        this:walls({ height = height })
+      end)
+      village:derive()
     "#);
 }
 
 #[test]
 fn a_field_or_a_method_is_told_by_itself() {
     assert_snapshot!(api(&["extruder:bend"]), @r##"
-    extruder:bend(angle: number, toward: number?)
-      Bends the following segments by `angle` (degrees) each, to the side at `toward` (degrees): 0 is
-      left.
+    extruder:bend(angle: number, toward: number? = 0)
+      Bends the following segments by `angle` (degrees) each, to the side at `toward` (degrees, 0 unless
+      given), where 0 is left.
       It changes the object: only interpretations may call it.
 
     Example
@@ -111,11 +141,17 @@ fn a_field_or_a_method_is_told_by_itself() {
       end)
       parts:derive()
     "##);
-    assert_snapshot!(api(&["footprint:area"]), @r"
+    assert_snapshot!(api(&["footprint:area"]), @r#"
     footprint:area() -> number
       Its area (m²) without the holes.
       It only reads: rules and interpretations may call it.
-    ");
+
+    Example
+      -- What a footprint knows of its shape and of the ground under it.
+      local plan = footprint({ { 0, 0 }, { 10, 0 }, { 10, 8 }, { 0, 8 } }, { height = 6 })
+      print(plan:area(), plan:perimeter(), plan:convexity(), plan:height())
+      print(plan:lowest(), plan:highest())
+    "#);
     assert_snapshot!(api(&["extruder.heading"]), @r"
     extruder.heading: Vector = vec(0, 0, 1)
       The direction of extruding at first.
@@ -138,16 +174,27 @@ fn a_field_or_a_method_is_told_by_itself() {
     footprint:roof.details.every: number?
       Distance between two along the line (m); one in the middle if left out.
     ");
-    assert_snapshot!(api(&["lerp"]), @r"
+    assert_snapshot!(api(&["lerp"]), @r#"
     lerp(a: number, b: number, t: number) -> number
     lerp(a: Vector, b: Vector, t: number) -> Vector
       From `a` to `b` as `t` goes from 0 to 1: numbers, or vectors.
-    ");
-    assert_snapshot!(api(&["F"]), @r"
-    F(length: number?) -> Module
-      Goes forward by `length` (m) and draws a branch; within a polygon it only moves. Calls
-      turtle:forward where it is interpreted.
-    ");
+
+    Example
+      -- Half of the way between two numbers, and between two vectors.
+      print(lerp(2, 6, 0.5))
+      print(lerp(vec(0, 0, 0), vec(4, 2, 0), 0.5))
+    "#);
+    assert_snapshot!(api(&["F"]), @r#"
+    F(length: number? = turtle.step) -> Module
+      Goes forward by `length` (m, turtle.step unless given) and draws a branch; within a polygon it
+      only moves. Calls turtle:forward where it is interpreted.
+
+    Example
+      -- A line that is drawn, a gap, and a line again.
+      local line = lsystem({ object = turtle({ step = 2 }) })
+      line:axiom(F(), G(0.5), F(1))
+      line:derive()
+    "#);
 }
 
 #[test]
@@ -200,6 +247,11 @@ fn machines_get_the_same_as_people() {
     let bend = methods.iter().find(|method| method["name"] == "bend").unwrap();
     assert_eq!(bend["changes"], true);
     assert_eq!(bend["arguments"][0]["unit"], "degrees");
+    assert_eq!(
+        (&bend["arguments"][0]["default"], &bend["arguments"][1]["default"]),
+        (&"".into(), &"0".into())
+    );
+    assert!(bend["example"].as_str().unwrap().contains("this:bend(0)"));
     let all = Folder::new().burgeon(&["api", "--json"]).done().json();
     assert!(all["entries"].as_array().unwrap().len() > 80);
     let said = Folder::new().burgeon(&["api", "extuder", "--json"]);
@@ -244,8 +296,15 @@ fn editors_are_given_definitions() {
 
 #[test]
 fn every_example_runs() {
-    let mut folders = vec![Path::new(env!("CARGO_MANIFEST_DIR")).join("crates/objects/scripts")];
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let mut folders = vec![root.join("crates/objects/scripts"), root.join("crates/language/scripts")];
     let mut count = 0;
+    // What they name lies beside them.
+    let beside = Folder::new()
+        .with("window.lua", "local W = module(\"W\") local s = lsystem({ object = extruder }) s:axiom(W()) s:interpret(\"W\", function(this) this:extrude(1) end) s:derive()");
+    beside.burgeon(&["run", "window.lua", "-o", "window.glb"]).done();
+    let window = std::fs::read(beside.path().join("window.glb")).unwrap();
+    let ground = "ncols 2\nnrows 2\nxllcorner 0\nyllcorner 0\ncellsize 10\n0 1\n1 2\n";
     while let Some(folder) = folders.pop() {
         for file in std::fs::read_dir(folder).unwrap() {
             let path = file.unwrap().path();
@@ -254,10 +313,12 @@ fn every_example_runs() {
                 continue;
             }
             let script = std::fs::read_to_string(&path).unwrap();
-            let said = Folder::new().with("example.lua", script).burgeon(&["run", "example.lua", "--strict"]);
+            let folder = Folder::new().with("example.lua", script).with("window.glb", &window);
+            let folder = folder.with("ground.asc", ground).with("towers.lua", "return { height = 24 }");
+            let said = folder.burgeon(&["run", "example.lua", "--strict"]);
             assert_eq!(said.status, 0, "{}: {}", path.display(), said.stderr);
             count += 1;
         }
     }
-    assert!(count >= 55, "{count}");
+    assert!(count >= 130, "{count}");
 }

@@ -133,6 +133,29 @@ fn what_scripts_add_to_types_is_known() {
 }
 
 #[test]
+fn what_scripts_add_to_one_type_no_other_has() {
+    let lamps = |added: &str| {
+        format!(
+            "{added}(footprint, {{ reads = {{ lamps = function(self) return 1 end }} }})\n\
+             local A = module(\"A\")\n\
+             local t = lsystem({{ object = turtle }})\n\
+             t:axiom(A())\n\
+             t:interpret(\"A\", function(this) print(this:lamps()) end)\n\
+             t:derive(0)\n"
+        )
+    };
+    let folder = Folder::new().with("s.lua", &lamps("extend"));
+    for command in [&["check", "s.lua"][..], &["run", "s.lua", "-o", "s.glb"]] {
+        let told = folder.burgeon(command).failed();
+        assert!(told.contains("turtle has no method or field called lamps"), "{command:?}: {told}");
+    }
+    // Nobody can tell to which type this one is added before it runs, and it ends before it comes to it.
+    let unknown = lamps("error(\"no\")\nextend").replace("(footprint", "(({ turtle })[1]");
+    let told = Folder::new().with("s.lua", &unknown).burgeon(&["check", "s.lua"]).failed();
+    assert!(!told.contains("lamps"), "{told}");
+}
+
+#[test]
 fn nothing_is_found_in_scripts_that_run() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
     let mut count = 0;

@@ -195,6 +195,8 @@ fn completions_are_scripts_for_the_shell() {
         for word in ["completions", "memory-limit", "chain"] {
             assert!(said.stdout.contains(word), "{shell} lacks {word}");
         }
+        let told = Folder::new().burgeon(&["completions", shell, "--json"]).done().json();
+        assert_eq!((&told["ok"], told["script"].as_str()), (&true.into(), Some(said.stdout.as_str())));
     }
 }
 
@@ -338,7 +340,7 @@ fn help_reads_well() {
           --threads <N>         Works with N threads; the result does not depend on it [default: one for each core]
           --stdlib <FILE>       Reads this file in the place of the built-in standard library
           --json                Prints one JSON document, for machines, in place of text for people
-      -o, --output <FILE>       Writes the model; the extension picks the format: .glb, .gltf, .obj, .x3d, .city.json, .geojson, .gpkg, .png or .svg. May be repeated
+      -o, --output <FILE>       Writes the model; the extension picks the format: .glb, .gltf, .obj, .png, .svg, .x3d, .city.json, .geojson or .gpkg. May be repeated
           --metadata            Tells the ids and the attributes of features in .glb and .gltf files
           --chain <FILE>        Writes the final chains as text, a line for each; - is standard output, in the JSON document if there is one
           --heights <FILE>      Writes the heights of the terrain as a map; the extension picks the format: .png, .asc, .tif, .r32 or .r64

@@ -145,6 +145,21 @@ fn a_circle_is_found() {
 }
 
 #[test]
+fn folders_of_the_engine_use_only_those_that_stand_before_them_in_the_page_for_contributors() {
+    let page = text("CONTRIBUTING.md");
+    let (_, stated) = page.split_once("folders use only those before them: ").unwrap();
+    let (stated, _) = stated.split_once("\n\n").unwrap();
+    let uses = folders("engine");
+    let order: Vec<String> = quoted(stated).into_iter().filter(|name| !name.contains('/')).collect();
+    assert_eq!(order.iter().collect::<BTreeSet<_>>(), uses.keys().collect(), "{stated}");
+    for (place, folder) in order.iter().enumerate() {
+        for used in &uses[folder] {
+            assert!(order[..place].contains(used), "{folder} uses {used}, which does not stand before it");
+        }
+    }
+}
+
+#[test]
 fn no_circle_leads_through_the_folders_of_a_member() {
     for member in members() {
         let folders = folders(&member);
@@ -299,16 +314,17 @@ fn the_page_for_those_who_change_burgeon_names_what_is_there() {
     }
     let code: String = files.iter().map(text).collect();
     let known: BTreeSet<&str> = words(&code).collect();
+    let members: Vec<PathBuf> =
+        members().into_iter().map(|member| Path::new("crates").join(member)).collect();
     for name in quoted(&page) {
         if name.contains(['"', ' ', '=']) || name.contains("NAME") {
             continue;
         }
         if name.contains('/') {
-            // Long paths are from the root; short ones end as a file of a member does.
-            let ends = |file: &PathBuf| {
-                file.ends_with(&name) || file.to_string_lossy().contains(&format!("/{name}/"))
-            };
-            assert!(root().join(&name).exists() || files.iter().any(ends), "there is no {name}");
+            // Long paths are from the root or from `crates`; short ones lie in the sources of a member.
+            let inner = members.iter().map(|member| member.join("src").join(&name));
+            let mut all = inner.chain([PathBuf::from(&name), Path::new("crates").join(&name)]);
+            assert!(all.any(|path| root().join(path).exists()), "there is no {name}");
         } else if !name.contains('.') && name.contains(|c: char| c.is_ascii_uppercase() || "_:".contains(c)) {
             for word in words(&name) {
                 assert!(known.contains(word), "{name} is nowhere in the code");

@@ -191,6 +191,16 @@ impl Warning {
         self.told.place()
     }
 
+    /// Whether it is of the kind of `other` and tells people the same, wherever that is.
+    pub fn says_the_same(&self, other: &Self) -> bool {
+        self.told.says_the_same(&other.told)
+    }
+
+    /// Whether it tells people the same as `other`, in the same place.
+    pub fn is_same(&self, other: &Self) -> bool {
+        self.told.is_same(&other.told)
+    }
+
     /// How often it was found in this place.
     pub fn count(&self) -> usize {
         self.count

@@ -45,12 +45,12 @@ impl fmt::Debug for SourceOptions {
 }
 
 impl SourceOptions {
-    /// What is read of a file of a `format` before a condition is asked. GeoPackages ask it themselves; of others it comes
-    /// afterwards, and how many features are wanted counts those that meet it.
-    fn without_condition(&self, format: &str) -> Self {
+    /// What is read of a file that does not ask a condition itself: that comes afterwards, and how many features are wanted
+    /// counts those that meet it.
+    fn without_condition(&self) -> Self {
         match &self.condition {
-            Some(_) if format != "GeoPackage" => Self { condition: None, limit: None, ..self.clone() },
-            _ => self.clone(),
+            Some(_) => Self { condition: None, limit: None, ..self.clone() },
+            None => self.clone(),
         }
     }
 }
@@ -112,7 +112,7 @@ impl Source {
         if GmlFile::is_one(&head) {
             return Ok(Self::Gml(Box::new(GmlFile::open(file, path, name, wanted)?)));
         }
-        Self::geojson(file, meta.len(), path, (name, &wanted.without_condition("GeoJSON")), cannot)
+        Self::geojson(file, meta.len(), path, (name, &wanted.without_condition()), cannot)
     }
 
     /// Reads GeoJSON, all of it.
@@ -156,6 +156,14 @@ impl Source {
         }
     }
 
+    /// Whether it asks conditions itself while it is read, and tells its features apart, as databases do.
+    fn asks_conditions(&self) -> bool {
+        match self {
+            Self::GeoPackage(_) => true,
+            Self::GeoJson(_) | Self::FlatGeobuf(_) | Self::Gml(_) | Self::Osm(_) => false,
+        }
+    }
+
     /// The names of its layers.
     pub fn layers(&self) -> Vec<String> {
         match self {
@@ -169,12 +177,13 @@ impl Source {
 
     /// Reads what is `wanted`, in the order of the file.
     pub fn read(self, name: &str, wanted: &SourceOptions) -> Result<FeatureTable> {
-        let format = self.format();
         if wanted.tags.is_some() && !matches!(self, Self::Osm(_)) {
-            return Err(Error::argument(format!("{name} is {format}, which takes no tags"))
+            return Err(Error::argument(format!("{name} is {}, which takes no tags", self.format()))
                 .help("tags are for extracts of OpenStreetMap, .osm.pbf; leave them out"));
         }
-        let (asked, wanted) = (wanted, &wanted.without_condition(format));
+        let (asked, asks_itself) = (wanted, self.asks_conditions());
+        let wanted = if asks_itself { asked.clone() } else { asked.without_condition() };
+        let wanted = &wanted;
         let mut table = match self {
             Self::Osm(file) => file.read(wanted)?,
             Self::GeoPackage(package) => {
@@ -194,7 +203,7 @@ impl Source {
                 *table
             }
         };
-        if format != "GeoPackage" {
+        if !asks_itself {
             table.identify(wanted.id.as_deref())?;
             if let Some(condition) = &asked.condition {
                 let kept = condition::meeting(&table, condition, asked)?;

@@ -10,7 +10,6 @@ use crate::derive::ThreadPool;
 use crate::machine::{Machine, Watchdog};
 use crate::results::{DerivedSystem, FeatureReport, Times, Trace};
 use burgeon_base::error::{Error, ErrorKind, Result};
-use burgeon_base::locks::LockRecovery;
 use burgeon_base::text::shown;
 use burgeon_base::warning::{Warning, WarningKind};
 use burgeon_data::ReferenceFrame;
@@ -190,19 +189,13 @@ fn checked(session: &Arc<Session>, run: impl FnOnce(&Machine) -> Result<()>) -> 
     let ran = declare_with(session, &mut found, run);
     let mut problems = session.problems();
     problems.extend(session.call_problems());
-    // What a script adds to a type is known once it has run; whoever read the calls did not know it.
-    let declared = session.declared.lock().recover();
-    problems.retain(|known| {
-        !matches!(known.kind(), ErrorKind::NotFound { what: "method", name, .. } if declared.has_added(name))
-    });
-    drop(declared);
-    problems.retain(|known| !found.iter().any(|found| is_same(known, found)));
+    problems.retain(|known| !found.iter().any(|found| misses_same(known, found)));
     problems.extend(found);
     if let Err(error) = ran {
         for problem in error.problems() {
             let told =
                 problems.iter().any(|known| known.place().is_some() && known.place() == problem.place());
-            match problems.iter_mut().find(|known| is_same(known, problem)) {
+            match problems.iter_mut().find(|known| misses_same(known, problem)) {
                 // Whoever ran into it knows more of it than whoever read it.
                 Some(known) => *known = problem.alone(),
                 None if told => {}
@@ -225,7 +218,7 @@ fn checked(session: &Arc<Session>, run: impl FnOnce(&Machine) -> Result<()>) -> 
 }
 
 /// Whether two errors miss the same name in the same place.
-fn is_same(one: &Error, other: &Error) -> bool {
+fn misses_same(one: &Error, other: &Error) -> bool {
     let missed = |error: &Error| match error.kind() {
         ErrorKind::NotFound { name, .. } => Some(name.clone()),
         _ => None,

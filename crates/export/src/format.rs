@@ -59,6 +59,12 @@ impl Format {
         }
     }
 
+    /// The extensions of all formats, with `word` before the last one: ".glb, .gltf and .obj".
+    pub fn listed(word: &str) -> String {
+        let [others @ .., last] = Self::ALL.map(|format| format!(".{}", format.extension()));
+        format!("{} {word} {last}", others.join(", "))
+    }
+
     /// Whether it holds layers of what rules made and nothing of the scene.
     pub fn has_layers(self) -> bool {
         matches!(self, Self::GeoJson | Self::GeoPackage)
@@ -88,7 +94,7 @@ impl Format {
     /// # Ok::<(), burgeon_base::error::Error>(())
     /// ```
     pub fn of(path: &Path) -> Result<Self> {
-        let known = "the formats are .glb, .gltf, .obj, .png, .svg, .x3d, .city.json, .geojson and .gpkg";
+        let known = format!("the formats are {}", Self::listed("and"));
         let Some(extension) = path.extension() else {
             let message = format!("cannot write {}: its name does not end in a format", path.display());
             return Err(Error::usage(message).help(known));

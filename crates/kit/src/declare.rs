@@ -2,6 +2,7 @@
 
 use std::any::Any;
 
+pub use super::argument::unit;
 use super::{ColumnValue, Object, Parameter, Table, TableKey, Value};
 use burgeon_base::error::{Error, Result};
 

@@ -4,7 +4,7 @@ use std::borrow::Cow;
 use std::sync::Arc;
 
 use super::capability::{self, Capability, Draw, Expand, Gather, HasLayers, LevelOfDetail, Report, Show};
-use super::{BeginPrefetch, Loader, Object, ScriptType, Table, Value};
+use super::{Argument, BeginPrefetch, Loader, Object, ScriptType, Table, Value};
 use burgeon_base::error::{Error, Result};
 
 /// Text that a built-in type has in the program, and another brings.
@@ -118,29 +118,6 @@ pub struct Method {
     pub returns: String,
     /// The function.
     pub call: Call,
-}
-
-/// An argument of a method.
-#[derive(Debug, Clone)]
-pub struct Argument {
-    /// Its name.
-    pub name: SharedText,
-    /// Its type in Luau.
-    pub luau: String,
-    /// Its unit, if it has one, such as "m".
-    pub unit: Option<SharedText>,
-    /// What it may have itself, where it is a table of named fields.
-    pub fields: Vec<Field>,
-    /// The value where it is left out, as one would write it; empty where that is nothing special.
-    pub default: String,
-}
-
-impl Argument {
-    /// An argument of any type.
-    pub fn new(name: impl Into<SharedText>) -> Self {
-        let (luau, default) = ("any".to_owned(), String::new());
-        Self { name: name.into(), luau, unit: None, fields: Vec::new(), default }
-    }
 }
 
 impl Field {

@@ -8,6 +8,7 @@ extern crate self as burgeon_kit;
 
 pub mod declare;
 
+mod argument;
 mod buffer_bytes;
 mod capability;
 mod color;
@@ -15,6 +16,7 @@ mod colors;
 mod column_value;
 mod distance;
 mod drawing;
+mod example;
 mod features;
 mod fields;
 mod geometry;
@@ -37,17 +39,17 @@ mod script_type;
 mod seed;
 mod value;
 
+pub use argument::Argument;
 pub use buffer_bytes::BufferBytes;
 pub use capability::{Capability, Draw, Expand, Gather, HasLayers, LevelOfDetail, Report, Show};
 pub use color::Color;
 pub use column_value::ColumnValue;
 pub use drawing::Drawing;
+pub use example::ScriptExample;
 pub use features::Features;
 pub use fields::{Fields, TableOf};
 pub use geometry::{Constructor, GeometryObject, Path, Shape, constructors};
-pub use kind::{
-    Argument, Call, Construct, Deprecation, Field, Kind, Make, Method, ReadCall, Write, WriteNumbers,
-};
+pub use kind::{Call, Construct, Deprecation, Field, Kind, Make, Method, ReadCall, Write, WriteNumbers};
 pub use loading::{LoadRequest, LoadedObject, Loader, Resources};
 pub use makers::Makers;
 pub use model::Model;

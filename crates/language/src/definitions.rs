@@ -11,7 +11,7 @@ use burgeon_kit::{Argument, Construct, Field, Kind, Method, Registry, is_keyword
 
 use crate::form::{is_name, may_be_left_out};
 use crate::luau_type::LuauType;
-use crate::names::{Name, NameKind, names};
+use crate::names::{Name, NameKind, Operator, names};
 use crate::notation::{capital, is_plain, key, merged, module_form, optional, with_parameters};
 
 /// What editors are given.
@@ -55,8 +55,10 @@ pub fn definitions(registry: &Registry) -> Definitions {
                 let method = registry.get(kind).and_then(|kind| kind.method(method));
                 writer.module(&mut body, name, method);
             }
-            NameKind::Global if writer.returns_system(name) => writer.lsystem(&mut body, name, registry),
-            NameKind::Global => writer.global(&mut body, name),
+            NameKind::Global => match generic_returns(name) {
+                Some(generic) => writer.object_function(&mut body, name, generic, registry),
+                None => writer.global(&mut body, name),
+            },
         }
     }
     let mut luau = String::from(
@@ -80,6 +82,13 @@ pub fn definitions(registry: &Registry) -> Definitions {
 /// What Luau calls what a name gives: `Vector` of vector.
 fn type_name(name: &Name) -> String {
     Kind::new(name.name.clone(), "").luau()
+}
+
+/// What a function gives that has a type as a parameter, without that: `System`.
+fn generic_returns(name: &Name) -> Option<&str> {
+    let mut returns = name.forms.iter().map(|form| form.returns.as_str());
+    let generic = returns.find(|returns| names().iter().any(|it| it.is_generic() && it.luau == *returns))?;
+    generic.strip_suffix("<T>")
 }
 
 #[derive(Default)]
@@ -116,8 +125,8 @@ impl Writer {
         if !name.extends.is_empty() {
             return;
         }
-        if name.luau == "System<T>" {
-            return self.system(out, name);
+        if name.is_generic() {
+            return self.generic(out, &own, name);
         }
         if !name.functions.is_empty() {
             return self.class(out, &own, name, "Object");
@@ -129,8 +138,9 @@ impl Writer {
         }
         let _ = writeln!(out, "export type {own} = {{");
         // What is taken out of a list stands in brackets, as attributes of a feature do.
-        let items = if own == "Layer" { "  [number]: Feature,\n" } else { "" };
-        out.push_str(items);
+        if !name.items.is_empty() {
+            let _ = writeln!(out, "  [number]: {},", name.items);
+        }
         for field in &name.fields {
             let luau = self.got(field.luau.trim_end_matches('?'));
             if field.name.starts_with('[') {
@@ -138,7 +148,8 @@ impl Writer {
                 continue;
             }
             self.doc(out, &format!("globaltype/{own}.{}", field.name), &field.doc, "  ");
-            let optional = if own == "Rule" { "?" } else { "" };
+            // What scripts give they may leave out.
+            let optional = if field.default == "nil" { "?" } else { "" };
             let _ = writeln!(out, "  read {}: {luau}{optional},", field.name);
         }
         out.push_str("}\n\n");
@@ -159,28 +170,24 @@ impl Writer {
             let returns = self.got(&form.returns);
             let _ = writeln!(out, "  function {}({arguments}): {returns}", function.name);
         }
-        if own == "Vector" {
-            for (operator, other, gives) in [
-                ("add", "VectorLike", "Vector"),
-                ("sub", "VectorLike", "Vector"),
-                ("mul", "VectorLike | number", "Vector"),
-                ("div", "number", "Vector"),
-            ] {
-                let _ = writeln!(out, "  function __{operator}(self, other: {other}): {gives}");
-            }
-            out.push_str("  function __unm(self): Vector\n  [number]: number\n");
+        for Operator { name, other, returns } in &name.operators {
+            let other = if other.is_empty() { String::new() } else { format!(", other: {other}") };
+            let _ = writeln!(out, "  function __{name}(self{other}): {returns}");
+        }
+        if !name.items.is_empty() {
+            let _ = writeln!(out, "  [number]: {}", name.items);
         }
         out.push_str("end\n\n");
     }
 
-    /// A system, which has its object's type as a parameter: no class of Luau has that.
-    fn system(&mut self, out: &mut String, name: &Name) {
-        self.doc(out, "globaltype/System", &name.doc, "");
-        out.push_str("export type System<T> = {\n");
+    /// What has a type as a parameter, such as a system its object's: no class of Luau has that.
+    fn generic(&mut self, out: &mut String, own: &str, name: &Name) {
+        self.doc(out, &format!("globaltype/{own}"), &name.doc, "");
+        let _ = writeln!(out, "export type {} = {{", name.luau);
         for function in &name.functions {
-            self.doc(out, &format!("globaltype/System.{}", function.name), &function.doc, "  ");
+            self.doc(out, &format!("globaltype/{own}.{}", function.name), &function.doc, "  ");
             let form = merged(&function.forms);
-            let mut arguments = vec!["self: System<T>".to_owned()];
+            let mut arguments = vec![format!("self: {}", name.luau)];
             arguments.extend(form.arguments.iter().map(|argument| match &*argument.name {
                 "..." => format!("...{}", argument.luau),
                 name => format!("{name}: {}", with_parameters(&argument.luau)),
@@ -269,17 +276,16 @@ impl Writer {
         let _ = writeln!(out, "declare function {}({arguments}): Module\n", name.name);
     }
 
-    fn returns_system(&self, name: &Name) -> bool {
-        name.forms.iter().any(|form| form.returns == "System<T>")
-    }
-
-    /// The function that makes a system: it knows the type of the object by the object or by its constructor.
-    fn lsystem(&mut self, out: &mut String, name: &Name, registry: &Registry) {
+    /// The function that gives what has its object's type as a parameter: it knows that by the object or by its constructor.
+    fn object_function(&mut self, out: &mut String, name: &Name, generic: &str, registry: &Registry) {
+        let given = |of: &str| format!("{generic}<{of}>");
         self.doc(out, &format!("global/{}", name.name), &name.doc, "");
         let _ = writeln!(out, "declare {}:", name.name);
-        let _ = writeln!(out, "  (<T>(options: {{ read object: T & Object }}) -> System<T>)");
-        out.push_str(
-            "  & ((options: { read object: (fields: any?) -> ScriptObject }) -> System<ScriptObject>)\n",
+        let _ = writeln!(out, "  (<T>(options: {{ read object: T & Object }}) -> {})", given("T"));
+        let _ = writeln!(
+            out,
+            "  & ((options: {{ read object: (fields: any?) -> ScriptObject }}) -> {})",
+            given("ScriptObject")
         );
         // Those that neither draw nor divide anything are of no use to a system.
         let of_use = |kind: &&std::sync::Arc<Kind>| kind.show.is_some() || kind.expand.is_some();
@@ -288,16 +294,17 @@ impl Writer {
                 let own = kind.luau();
                 let _ = writeln!(
                     out,
-                    "  & ((options: {{ read object: ({arguments}) -> {own} }}) -> System<{own}>)"
+                    "  & ((options: {{ read object: ({arguments}) -> {own} }}) -> {})",
+                    given(&own)
                 );
             }
         }
         // Without an object only the seed says anything; Luau gives up on more forms.
         for field in name.options().filter(|field| field.name == "seed") {
             let luau = field.luau.trim_end_matches('?');
-            let _ = writeln!(out, "  & ((options: {{ read seed: {luau} }}) -> System<any>)");
+            let _ = writeln!(out, "  & ((options: {{ read seed: {luau} }}) -> {})", given("any"));
         }
-        out.push_str("  & (() -> System<any>)\n\n");
+        let _ = writeln!(out, "  & (() -> {})\n", given("any"));
     }
 
     fn global(&mut self, out: &mut String, name: &Name) {

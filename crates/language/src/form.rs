@@ -13,7 +13,7 @@ pub struct CallForm {
 
 /// An argument called `name`, of type `luau`; one whose type ends with `?` may be left out.
 pub fn argument(name: &'static str, luau: &str) -> Argument {
-    Argument { luau: luau.to_owned(), ..Argument::new(name) }
+    Argument::typed(name, luau)
 }
 
 impl CallForm {
@@ -33,7 +33,7 @@ impl CallForm {
                 _ if part == "..." => ("...", "any"),
                 _ => ("...", part.trim_start_matches("...")),
             };
-            Argument { luau: luau.to_owned(), ..Argument::new(name.to_owned()) }
+            Argument::typed(name.to_owned(), luau)
         });
         Some(Self { arguments: arguments.collect(), returns: returns.to_owned() })
     }
@@ -68,7 +68,7 @@ impl std::fmt::Display for CallForm {
                 "..." => write!(f, "...{luau}")?,
                 name => write!(f, "{name}: {luau}")?,
             }
-            if !default.is_empty() {
+            if !default.is_empty() && default != "nil" {
                 write!(f, " = {default}")?;
             }
         }

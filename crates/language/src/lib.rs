@@ -6,6 +6,7 @@
 
 mod definitions;
 mod editor;
+mod examples;
 mod form;
 mod luau_type;
 mod names;
@@ -13,10 +14,11 @@ mod notation;
 
 pub use definitions::{Definitions, definitions};
 pub use editor::{EditorFile, SETTINGS, editor_files, merged_settings};
+pub use examples::EXAMPLES;
 pub use form::{CallForm, argument};
 pub use luau_type::{Literal, LuauType};
 pub use names::{
-    DERIVED, EXTEND, Effect, LAYER, LOCKED, LSYSTEM, Name, NameKind, OBJECT, PARAM, RULE, SOURCE, SYSTEM,
-    VECTOR, deprecated_names, is_pure_function, is_pure_method, library_effect, names,
+    DERIVED, EXTEND, Effect, LAYER, LOCKED, LSYSTEM, Name, NameKind, OBJECT, Operator, PARAM, RULE, SOURCE,
+    SYSTEM, VECTOR, deprecated_names, is_pure_function, is_pure_method, library_effect, names,
 };
 pub use notation::module_form;

@@ -42,6 +42,10 @@ pub fn module_form(name: &Name, method: Option<&Method>) -> CallForm {
             let optional = if argument.luau.ends_with('?') && !known.luau.ends_with('?') { "?" } else { "" };
             argument.luau = format!("{}{optional}", known.luau);
             argument.unit.clone_from(&known.unit);
+            match known.default.as_str() {
+                "" => {}
+                default => default.clone_into(&mut argument.default),
+            }
             argument.fields.clone_from(&known.fields);
         }
     }

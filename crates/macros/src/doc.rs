@@ -1,9 +1,6 @@
-//! Doc comments: their text, and the units that it tells.
+//! Doc comments: their text.
 
 use syn::{Attribute, Expr, ExprLit, Lit, Meta};
-
-/// The units that a doc gives in round brackets.
-const UNITS: [&str; 9] = ["m", "m²", "m³", "1/m", "m/m", "degrees", "s", "bytes", "light years"];
 
 /// The text of a doc comment, or `None` where there is none.
 pub(crate) fn text(attributes: &[Attribute]) -> Option<String> {
@@ -25,52 +22,9 @@ fn line(attribute: &Attribute) -> Option<String> {
     meta.path.is_ident("doc").then(|| text.strip_prefix(' ').unwrap_or(&text).trim_end().to_owned())
 }
 
-/// The first unit of a doc: `m` of "Its height (m)." and of "Its height (m, 5 unless given)."
-pub(crate) fn unit(doc: &str) -> Option<&'static str> {
-    doc.match_indices('(').find_map(|(at, _)| bracketed(&doc[at..]))
-}
-
-/// The unit of an argument: the one right after its name.
-pub(crate) fn unit_of(doc: &str, argument: &str) -> Option<&'static str> {
-    let name = format!("`{argument}` ");
-    doc.match_indices(&name).find_map(|(at, name)| bracketed(&doc[at + name.len()..]))
-}
-
-/// The unit in the round brackets that `text` begins with.
-fn bracketed(text: &str) -> Option<&'static str> {
-    let inner = text.strip_prefix('(')?.split([')', ',']).next()?;
-    let inner = inner.split(" from ").next()?;
-    UNITS.into_iter().find(|unit| *unit == inner)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn a_unit_stands_in_round_brackets() {
-        for (doc, expected) in [
-            ("Its height (m).", Some("m")),
-            ("Its area (m²) without the holes.", Some("m²")),
-            ("Height (m): preferred, or { least, greatest }.", Some("m")),
-            ("How far it reaches (m, 5 unless given).", Some("m")),
-            ("Where it stands (m from the star).", Some("m")),
-            ("As `footprint(geometry)` takes it, how far it turns (degrees).", Some("degrees")),
-            ("How rough it is (0 to 1).", None),
-            ("Turns by more than a little (8 degrees).", None),
-            ("It has m and (no end", None),
-        ] {
-            assert_eq!(unit(doc), expected, "{doc}");
-        }
-    }
-
-    #[test]
-    fn an_arguments_unit_follows_its_name() {
-        let doc = "Raises it by `height` (m) within `time` (s), turned by `angle`, all in all (bytes).";
-        assert_eq!(unit_of(doc, "height"), Some("m"));
-        assert_eq!(unit_of(doc, "time"), Some("s"));
-        assert_eq!(unit_of(doc, "angle"), None);
-    }
 
     #[test]
     fn a_first_paragraph_ends_at_an_empty_line() {

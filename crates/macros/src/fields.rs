@@ -7,7 +7,7 @@ use syn::{Attribute, Error, Expr, Field, Fields, Ident, ItemStruct, Result, Type
 
 use crate::attribute::{AttributeArguments, collect};
 use crate::doc;
-use crate::methods::{at, option};
+use crate::methods::at;
 
 /// The struct and how it is read; the struct and an error where scripts could not give all that it has.
 pub(crate) fn expand(
@@ -170,14 +170,13 @@ impl<'a> Declaration<'a> {
     fn describe(&self, declared: &AttributeArguments) -> TokenStream {
         let kit = &declared.kit;
         let Self { text, doc, of, default, .. } = self;
-        let unit = option(doc::unit(doc));
         let luau = quote_spanned! { at(of) => <#of as #kit::Parameter>::luau() };
         quote! {
             #kit::Field {
                 name: #text.into(),
                 doc: #doc.into(),
                 luau: #luau,
-                unit: #unit,
+                unit: #kit::declare::unit(#doc).map(::std::convert::Into::into),
                 fields: <#of as #kit::Parameter>::fields(),
                 default: {
                     let value: #of = #default;

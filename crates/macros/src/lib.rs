@@ -21,7 +21,8 @@ use proc_macro::TokenStream;
 /// that implement `Parameter`, results of types that implement `Answer`.
 ///
 /// Every method is public, takes `self`, has no type parameters, and has a doc comment, which is also its help in
-/// scripts. An argument's unit is the one in round brackets after its name in the doc: "by `height` (m)".
+/// scripts. An argument's unit is the one in round brackets after its name in the doc, "by `height` (m)", and so is its
+/// default: "over `margin` (m, 5 unless given)".
 ///
 /// ```
 /// # use burgeon_kit::{methods, object};

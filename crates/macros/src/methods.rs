@@ -96,14 +96,10 @@ impl<'a> MethodSource<'a> {
         let doc = &self.doc;
         let arguments = self.arguments.iter().map(|(argument, of)| {
             let name = argument.to_string();
-            let unit = option(doc::unit_of(doc, &name));
             let luau = quote_spanned! { at(of) => <#of as #kit::Parameter>::luau() };
             quote! { #kit::Argument {
-                name: #name.into(),
-                luau: #luau,
-                unit: #unit,
                 fields: <#of as #kit::Parameter>::fields(),
-                default: ::std::string::String::new(),
+                ..#kit::Argument::typed(#name, #luau).described(#doc)
             } }
         });
         let returns = match self.returns {
@@ -217,14 +213,6 @@ fn named(argument: &PatType) -> Result<(&Ident, &Type)> {
 /// Where an error about a type points, for code that is not the user's.
 pub(crate) fn at(of: &Type) -> Span {
     Span::mixed_site().located_at(of.span())
-}
-
-/// An optional text as an expression.
-pub(crate) fn option(text: Option<&str>) -> TokenStream {
-    match text {
-        Some(text) => quote! { ::std::option::Option::Some(#text.into()) },
-        None => quote! { ::std::option::Option::None },
-    }
 }
 
 #[cfg(test)]

@@ -1,28 +1,9 @@
-//! Scripts that show what methods and fields do, for the reference: each draws one picture.
+//! Scripts that show what methods and fields do, for the reference.
 
-/// A script that shows what some methods or fields do.
-#[derive(Debug, Clone, Copy)]
-pub struct MemberExample {
-    /// Its file's name without the extension, from the folder `scripts`: `extruder/bend`.
-    pub name: &'static str,
-    /// What it shows, as `burgeon api` takes it: `extruder:bend`, `extruder.along`, or a type alone.
-    pub shows: &'static [&'static str],
-    /// Its text.
-    pub script: &'static str,
-}
+use burgeon_kit::{ScriptExample, examples};
 
-macro_rules! examples {
-    ($($name:literal shows $($shown:literal)+;)*) => {
-        &[$(MemberExample {
-            name: $name,
-            shows: &[$($shown),+],
-            script: include_str!(concat!("../scripts/", $name, ".lua")),
-        }),*]
-    };
-}
-
-/// All of them.
-pub const EXAMPLES: &[MemberExample] = examples! {
+/// Those that draw: each has one picture.
+pub const EXAMPLES: &[ScriptExample] = examples! {
     "extruder" shows "extruder";
     "footprint" shows "footprint";
     "planet" shows "planet";
@@ -76,6 +57,61 @@ pub const EXAMPLES: &[MemberExample] = examples! {
     "turtle/width" shows "turtle:width" "turtle.width";
 };
 
+/// Those of which no picture is drawn: most ask something.
+pub const PLAIN_EXAMPLES: &[ScriptExample] = examples! {
+    "elevation/height" shows "elevation:height" "elevation:low" "elevation:high" "elevation:step";
+    "extruder/position" shows "extruder:position" "extruder:heading" "extruder:distance"
+        "extruder:open_edges";
+    "facade/fits" shows "facade:fits";
+    "facade/sizes" shows "bordered:min_width" "bordered:max_width" "bordered:min_height"
+        "bordered:max_height" "bordered:fits" "extruded:min_width" "extruded:max_width"
+        "extruded:min_height" "extruded:max_height" "extruded:fits" "grid:min_width" "grid:max_width"
+        "grid:min_height" "grid:max_height" "grid:fits" "list:min_width" "list:max_width"
+        "list:min_height" "list:max_height" "list:fits" "panel:min_width" "panel:max_width"
+        "panel:min_height" "panel:max_height" "panel:fits";
+    "footprint/edges" shows "footprint:edges" "footprint:edge_length" "footprint:edge_start"
+        "footprint:edge_facing" "footprint:edge_has" "footprint:street_edge";
+    "footprint/keywords" shows "footprint:attribute" "footprint:has";
+    "footprint/measures" shows "footprint:area" "footprint:perimeter" "footprint:convexity"
+        "footprint:lowest" "footprint:highest" "footprint:height";
+    "footprint/neighbors" shows "footprint:shared" "footprint:neighbors" "footprint:distance";
+    "geometry/around" shows "geometry:envelope" "geometry:convex_hull" "geometry:oriented_envelope";
+    "geometry/line" shows "geometry:point_n" "geometry:start_point" "geometry:end_point"
+        "geometry:offset" "geometry:simplify" "geometry:direction" "geometry:line_interpolate"
+        "geometry:line_substring" "geometry:line_locate";
+    "geometry/measures" shows "geometry:num_points" "geometry:x" "geometry:y" "geometry:z"
+        "geometry:place" "geometry:area" "geometry:length" "geometry:perimeter" "geometry:envelope_width"
+        "geometry:envelope_height" "geometry:distance" "geometry:nearest_point" "geometry:wkt";
+    "geometry/parts" shows "geometry:exterior_ring" "geometry:interior_rings" "geometry:point_on_surface"
+        "geometry:segments" "geometry:boundary" "geometry:geometries" "geometry:num_geometries"
+        "geometry:is_empty";
+    "geometry/relate" shows "geometry:equals" "geometry:disjoint" "geometry:intersects"
+        "geometry:touches" "geometry:crosses" "geometry:within" "geometry:contains" "geometry:covers"
+        "geometry:overlaps" "geometry:relate";
+    "geometry/skeleton" shows "geometry:straight_skeleton" "geometry:skeleton_faces" "geometry:inset";
+    "geometry/together" shows "geometry:union" "geometry:intersection" "geometry:sym_difference";
+    "geometry/valid" shows "geometry:is_valid" "geometry:validity" "geometry:make_valid";
+    "model/size" shows "model:low" "model:high";
+    "network/dead_ends" shows "network:grow" "network:join_dead_ends" "network:remove_dead_ends"
+        "network:open_ends" "network:joinable" "network:dead_ends";
+    "network/fate" shows "network:arrived" "network:fate" "network:probe" "network:place"
+        "network:degree";
+    "network/lots" shows "network:measures" "network:size" "network:distance" "network:streets"
+        "network:junctions" "network:blocks" "network:lots" "network:height" "network:verge"
+        "network:sites";
+    "network/walk" shows "network:lead" "network:walk" "network:turn" "network:stand";
+    "planet/height" shows "planet:focus" "planet:height" "planet:surface" "planet:symbol"
+        "planet:heights";
+    "streets/distance" shows "streets:distance";
+    "terrain/height" shows "terrain:focus" "terrain:height" "terrain:normal" "terrain:slope"
+        "terrain:symbol" "terrain:heights";
+    "turtle/material" shows "turtle:material";
+    "turtle/position" shows "turtle:position" "turtle:heading" "turtle:left" "turtle:up"
+        "turtle:distance";
+    "universe/planet" shows "universe:galaxy" "universe:star" "universe:planet";
+    "template" shows "template:fits";
+};
+
 #[cfg(test)]
 mod tests {
     use std::path::Path;
@@ -85,7 +121,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn every_script_shows_something_that_there_is_and_every_method_that_draws_is_shown() {
+    fn every_script_shows_something_that_there_is_and_every_method_is_shown() {
         let registry = crate::registry();
         let named = |name: &str| {
             let (kind, member) = name.split_once([':', '.']).unwrap_or((name, ""));
@@ -97,15 +133,23 @@ mod tests {
                     kind.fields.iter().any(|it| it.name == member)
                 }
         };
-        for shown in EXAMPLES.iter().flat_map(|example| example.shows) {
+        for shown in EXAMPLES.iter().chain(PLAIN_EXAMPLES).flat_map(|example| example.shows) {
             assert!(named(shown), "{shown}");
         }
-        for kind in registry.kinds().filter(|kind| kind.draw.is_some()) {
-            for method in kind.methods.iter().filter(|method| method.call.changes()) {
+        for kind in registry.kinds() {
+            for method in &kind.methods {
                 let name = format!("{}:{}", kind.name, method.name);
-                let shown = EXAMPLES.iter().any(|example| example.shows.contains(&&*name));
-                assert!(shown || ["turtle:material"].contains(&&*name), "{name} is shown by no script");
+                let shows = |list: &[ScriptExample]| list.iter().any(|it| it.shows.contains(&&*name));
+                let drawn = kind.draw.is_some() && method.call.changes() && name != "turtle:material";
+                assert!(!drawn || shows(EXAMPLES), "no picture shows {name}");
+                let called = kind.example.contains(&format!(":{}(", method.name));
+                assert!(called || shows(EXAMPLES) || shows(PLAIN_EXAMPLES), "{name} is shown by no script");
             }
+        }
+        for example in PLAIN_EXAMPLES {
+            let called =
+                |name: &&str| example.script.contains(&format!(":{}(", name.split(':').nth(1).unwrap()));
+            assert!(example.shows.iter().all(called), "{} calls not all that it shows", example.name);
         }
     }
 
@@ -121,10 +165,11 @@ mod tests {
             for script in std::fs::read_dir(&kind).unwrap() {
                 let path = script.unwrap().path().with_extension("");
                 let name = path.strip_prefix(&folder).unwrap().display().to_string();
-                assert!(EXAMPLES.iter().any(|example| example.name == name), "{name}");
+                let mut all = EXAMPLES.iter().chain(PLAIN_EXAMPLES);
+                assert!(all.any(|example| example.name == name), "{name}");
                 count += 1;
             }
         }
-        assert!(count > 40, "{count}");
+        assert!(count > 65, "{count}");
     }
 }

@@ -2,8 +2,8 @@
 //!
 //! Comes in: values from scripts. Goes out: geometry for the scene. Objects never know of Lua or of chains.
 //!
-//! A new type is a new file and one line in [`registry`]: a struct with `#[object]`, and `#[methods]` for what scripts may
-//! call.
+//! A new type is a new file and a line in [`registry`]: a struct with `#[object]`, and `#[methods]` for what scripts may
+//! call. What else it takes, its examples and its page, stands in CONTRIBUTING.md.
 
 mod elevation;
 mod examples;
@@ -21,7 +21,7 @@ mod turtle;
 mod universe;
 
 pub use elevation::{Elevation, ElevationOptions};
-pub use examples::{EXAMPLES, MemberExample};
+pub use examples::{EXAMPLES, PLAIN_EXAMPLES};
 pub use extruder::Extruder;
 pub use facade::{Facade, Template, Templates, Wall};
 pub use footprint::{EdgeKeywords, Footprint, Roof, RoofDetail, Walls};

@@ -117,48 +117,48 @@ struct Branch {
 
 #[methods("turtle")]
 impl Turtle {
-    /// Goes forward by `length` (m) and draws a branch; within a polygon it only moves.
+    /// Goes forward by `length` (m, turtle.step unless given) and draws a branch; within a polygon it only moves.
     pub fn forward(&mut self, length: Option<f64>) -> Result<()> {
         self.draw(length.unwrap_or(self.options.step))
     }
 
-    /// Goes forward by `length` (m) without drawing.
+    /// Goes forward by `length` (m, turtle.step unless given) without drawing.
     pub fn advance(&mut self, length: Option<f64>) {
         self.lift();
         self.state.frame.forward(length.unwrap_or(self.options.step));
     }
 
-    /// Turns to the left by `angle` (degrees); a negative one turns right.
+    /// Turns to the left by `angle` (degrees, turtle.angle unless given); a negative one turns right.
     pub fn turn(&mut self, angle: Option<f64>) {
         let angle = self.angle(angle);
         self.state.frame.turn_by(angle);
     }
 
-    /// Pitches down by `angle` (degrees); a negative one pitches up.
+    /// Pitches down by `angle` (degrees, turtle.angle unless given); a negative one pitches up.
     pub fn pitch(&mut self, angle: Option<f64>) {
         let angle = self.angle(angle);
         self.state.frame.pitch_by(angle);
     }
 
-    /// Rolls about the heading by `angle` (degrees), the left side up; a negative one rolls back.
+    /// Rolls about the heading by `angle` (degrees, turtle.angle unless given), the left side up; a negative one rolls back.
     pub fn roll(&mut self, angle: Option<f64>) {
         let angle = self.angle(angle);
         self.state.frame.roll_by(angle);
     }
 
-    /// Turns to the right by `angle` (degrees).
+    /// Turns to the right by `angle` (degrees, turtle.angle unless given).
     pub fn turn_right(&mut self, angle: Option<f64>) {
         let angle = self.angle(angle);
         self.state.frame.turn_by((-angle.0, angle.1));
     }
 
-    /// Pitches up by `angle` (degrees).
+    /// Pitches up by `angle` (degrees, turtle.angle unless given).
     pub fn pitch_up(&mut self, angle: Option<f64>) {
         let angle = self.angle(angle);
         self.state.frame.pitch_by((-angle.0, angle.1));
     }
 
-    /// Rolls about the heading by `angle` (degrees), the right side up.
+    /// Rolls about the heading by `angle` (degrees, turtle.angle unless given), the right side up.
     pub fn roll_back(&mut self, angle: Option<f64>) {
         let angle = self.angle(angle);
         self.state.frame.roll_by((-angle.0, angle.1));
@@ -190,7 +190,7 @@ impl Turtle {
         self.state.frame.position = position.0 - self.drawing.origin();
     }
 
-    /// Sets the diameter of what is drawn (m); a branch tapers to it along the next step.
+    /// Sets the diameter of what is drawn to `width` (m); a branch tapers to it along the next step.
     pub fn width(&mut self, width: f64) -> Result<()> {
         if width < 0.0 {
             return Err(Error::argument(format!("turtle:width: width must not be negative, and is {width}")));
@@ -265,7 +265,7 @@ impl Turtle {
         sphere(self.drawing.part(self.state.part), self.state.frame.position, radius, sides)
     }
 
-    /// Places what another system has drawn at the turtle's frame, scaled.
+    /// Places what another system has drawn at the turtle's frame, with this `scale` (1 unless given).
     pub fn place(&mut self, model: Arc<Model>, scale: Option<f64>) {
         let scale = DAffine3::from_scale(DVec3::splat(scale.unwrap_or(1.0)));
         self.drawing.place(&model, self.state.frame.transform() * scale);

@@ -1,6 +1,7 @@
 //! Places along lines, and lines beside them.
 
 use burgeon_base::error::{Error, Result};
+use burgeon_geometry::Rings;
 use burgeon_geometry::planar::simplified;
 use glam::{DVec2, DVec3};
 
@@ -129,7 +130,7 @@ impl Geometry {
                 let mut parts = Vec::new();
                 collect_polygons(self, &mut |rings| {
                     let rings = rings.iter().map(|ring| simplified(&closed(ring), tolerance, aside));
-                    parts.extend(Self::polygon(rings.filter(|ring| ring.len() > 3).collect()));
+                    parts.extend(Self::polygon(rings.filter(|ring| ring.len() > 3).collect::<Rings>()));
                 });
                 let made = Self::gathered(parts);
                 if made.is_empty() {

@@ -61,9 +61,14 @@ impl StreetNetwork {
                 let text = format!("a street cannot begin at {place}, for that is outside of the limit");
                 return Err(Error::argument(text).help("begin inside of it, or give a wider limit"));
             }
-            Some(_) => {
-                let text = format!("a street cannot begin at {place}, for an obstacle is there");
-                return Err(Error::argument(text).help("begin elsewhere, or leave the obstacle out"));
+            Some(area) => {
+                let (what, remedy) = if area.can_be_bridged {
+                    ("water is there", "begin beside it: bridges lead over water")
+                } else {
+                    ("an obstacle is there", "begin elsewhere, or leave the obstacle out")
+                };
+                let text = format!("a street cannot begin at {place}, for {what}");
+                return Err(Error::argument(text).help(remedy));
             }
             None => {}
         }

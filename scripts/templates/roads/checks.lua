@@ -31,7 +31,8 @@ function checks.number(
 ): number
   local given = if value == nil then usual else value
   if type(given) ~= "number" or not (given >= least and given <= greatest) then
-    error(`{name} must be a number from {least} to {greatest}, not {given}`, (...) or 3)
+    local range = if greatest < math.huge then ` from {least} to {greatest}` else ""
+    error(`{name} must be a number{range}, not {given}`, (...) or 3)
   end
   return given
 end

@@ -141,13 +141,22 @@ function growth.system(options: RoadOptions, ...: number)
     extent = number("roads.system: extent", extent, 500, 1, 500000, level)
   end
   local inside: (x: number, y: number) -> boolean = if type(extent) == "function"
-    then extent
+    then function(x, y)
+      local is_inside = extent(x, y)
+      if type(is_inside) ~= "boolean" then
+        error(`the extent at {x}, {y} must be true or false, not {is_inside}`, 2)
+      end
+      return is_inside
+    end
     else function(x, y)
       return x * x + y * y < extent * extent
     end
   local people = options.population
   local deepest = number("roads.system: deepest", options.deepest, 4, 0, 20, level)
   local steps = number("roads.system: steps", options.steps, 24, 1, 10000, level)
+  if steps % 1 ~= 0 then
+    error(`roads.system: steps must be a whole number, not {steps}`, level - 1)
+  end
   local detour = number("roads.system: detour", options.detour, 2.5, 1, 100, level)
   local dead_ends = options.dead_ends or "keep"
   if dead_ends ~= "keep" and dead_ends ~= "remove" then
@@ -183,6 +192,8 @@ function growth.system(options: RoadOptions, ...: number)
   end
   if options.onto then
     fields.starts = fields.starts or {}
+  elseif fields.starts then
+    error("roads.system: network has starts, but streets begin at centres: give centres = \{ \{ x, y } }", level - 1)
   else
     fields.starts = centres
   end

@@ -4,7 +4,8 @@ use std::fmt::Write as _;
 
 use super::entry::{Entry, EntryGroup, Member, MemberKind};
 use super::pictures::{example_of, file_of};
-use burgeon::objects::MemberExample;
+use burgeon::kit::ScriptExample;
+use burgeon::objects::PLAIN_EXAMPLES;
 
 /// The types in whose pictures the axes are.
 const AXES: [&str; 2] = ["extruder", "turtle"];
@@ -79,9 +80,7 @@ fn body(text: &mut String, entry: &Entry, level: usize) {
     }
     let _ = writeln!(text, "{}", plain(&entry.doc));
     if !entry.example.is_empty() {
-        // What needs a file runs only beside one.
-        let language = if entry.usage.contains("(file") { "text" } else { "lua" };
-        let _ = writeln!(text, "\n```{language}\n{}\n```", entry.example.trim_end());
+        let _ = writeln!(text, "\n```{}\n{}\n```", language_of(entry), entry.example.trim_end());
     }
     if let Some(example) = example_of(&entry.name) {
         let _ = writeln!(text, "\n![What it draws]({})", file_of(example));
@@ -105,9 +104,14 @@ fn body(text: &mut String, entry: &Entry, level: usize) {
         if what == MemberKind::Field {
             fields(text, &entry.name, &members, "");
         } else {
-            members.into_iter().for_each(|member| method(text, &entry.name, member));
+            members.into_iter().for_each(|member| method(text, entry, member));
         }
     }
+}
+
+/// What a script that shows an entry is to mdBook: what needs a file runs only beside one.
+fn language_of(entry: &Entry) -> &'static str {
+    if entry.usage.contains("(file") || entry.name == "require" { "text" } else { "lua" }
 }
 
 /// A list of fields, each followed by those of the table that it is; `indent` stands before each line.
@@ -130,16 +134,22 @@ fn collect<'a>(rows: &mut Vec<(String, &'a Member)>, owner: &str, member: &'a Me
     member.fields.iter().for_each(|field| collect(rows, &format!("{name}."), field));
 }
 
-fn method(text: &mut String, owner: &str, member: &Member) {
+fn method(text: &mut String, entry: &Entry, member: &Member) {
     for line in member.usage().lines() {
         let _ = writeln!(text, "- `{line}`  ");
     }
     let _ = writeln!(text, "  {}", plain(&member.doc));
-    let full = member.full_name(owner);
+    let full = member.full_name(&entry.name);
+    let shows_first = |example: &&ScriptExample| example.shows.first() == Some(&&*full);
     match example_of(&full) {
-        Some(example) if example.shows.first() == Some(&&*full) => picture(text, &full, example),
+        Some(example) if shows_first(&example) => picture(text, &full, example),
         Some(example) => {
             let _ = writeln!(text, "  ([Picture]({}).)", file_of(example));
+        }
+        // A script that shows several methods stands with the first of them.
+        None if PLAIN_EXAMPLES.iter().any(|example| shows_first(&example)) => {
+            text.push('\n');
+            script(text, language_of(entry), &member.example);
         }
         None => {}
     }
@@ -150,15 +160,20 @@ fn method(text: &mut String, owner: &str, member: &Member) {
 }
 
 /// What an example draws, and its script, within an item of a list.
-fn picture(text: &mut String, name: &str, example: &MemberExample) {
+fn picture(text: &mut String, name: &str, example: &ScriptExample) {
     let _ = writeln!(text, "\n  ![{name}]({})  ", file_of(example));
     // The first line of the script says what there is to see.
     if let Some(caption) = example.script.strip_prefix("-- ").and_then(|rest| rest.lines().next()) {
         let _ = writeln!(text, "  *{}*", plain(caption));
     }
     text.push('\n');
-    let _ = writeln!(text, "  <details><summary>Script</summary>\n\n  ```lua");
-    for line in example.script.trim_end().lines() {
+    script(text, "lua", example.script);
+}
+
+/// A script within an item of a list.
+fn script(text: &mut String, language: &str, script: &str) {
+    let _ = writeln!(text, "  <details><summary>Script</summary>\n\n  ```{language}");
+    for line in script.trim_end().lines() {
         let indent = if line.is_empty() { "" } else { "  " };
         let _ = writeln!(text, "{indent}{line}");
     }

@@ -119,7 +119,7 @@ fn write_book(folder: &Path, entries: &[Entry]) -> Result<()> {
 }
 
 /// All that scripts can use, by name.
-fn entries(registry: &Registry) -> Vec<Entry> {
+pub(super) fn entries(registry: &Registry) -> Vec<Entry> {
     let types = registry.kinds().map(|kind| Entry::of_kind(kind));
     let mut entries: Vec<Entry> =
         types.chain(names().iter().map(|name| Entry::of_name(name, registry))).collect();
@@ -217,8 +217,13 @@ mod tests {
         assert!(entries.len() > 80, "{}", entries.len());
         let mut members = 0;
         for entry in &entries {
-            let has_example = entry.usage.is_empty() || !entry.example.is_empty();
-            assert!(has_example || entry.group != entry::EntryGroup::Type, "{}", entry.name);
+            let is_luau = entry.group == entry::EntryGroup::Luau;
+            let is_part = entry.group == entry::EntryGroup::Type && entry.usage.is_empty();
+            assert!(is_luau || is_part || !entry.example.is_empty(), "{} has no example", entry.name);
+            for member in entry.members.iter().filter(|member| member.what != entry::MemberKind::Field) {
+                let name = member.full_name(&entry.name);
+                assert!(is_luau || !member.example.is_empty(), "{name} has no example");
+            }
             assert!(entry.doc.ends_with('.') && entry.doc.len() > 15, "{}: {}", entry.name, entry.doc);
             members += check(&entries, &entry.name, &entry.members);
         }

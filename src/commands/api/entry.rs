@@ -1,7 +1,8 @@
 //! What there is to tell of a name that scripts can use.
 
-use burgeon::kit::{Construct, Deprecation, Field, Kind, Method, Registry};
-use burgeon::language::{CallForm, Name, NameKind, module_form};
+use burgeon::kit::{Construct, Deprecation, Field, Kind, Method, Registry, ScriptExample};
+use burgeon::language::{self, CallForm, Name, NameKind, module_form};
+use burgeon::objects;
 use serde_json::{Value, json};
 
 /// A name that scripts can use.
@@ -48,6 +49,8 @@ pub(super) struct Member {
     pub doc: String,
     /// What the table may have that it is or takes.
     pub fields: Vec<Member>,
+    /// A script that uses it; empty where there is none.
+    pub example: String,
 }
 
 /// What a member is.
@@ -79,6 +82,7 @@ impl Entry {
         let mut members: Vec<Member> = fields.chain(kind.methods.iter().map(Member::of_method)).collect();
         for member in &mut members {
             member.doc += &deprecation(kind.deprecation(&member.name));
+            member.example = example_of_member(kind, member);
         }
         let (name, doc) =
             (kind.name.to_string(), format!("{}{}", kind.doc, deprecation(kind.deprecation(""))));
@@ -117,8 +121,12 @@ impl Entry {
         let fields = name.options().chain(&name.fields).map(Member::of_field);
         let what = if group == EntryGroup::Given { MemberKind::Declares } else { MemberKind::Function };
         let functions = name.functions.iter().map(|function| Member::of_function(function, what));
-        let members = fields.chain(functions).collect();
-        Self { name: name.name.to_string(), group, usage, forms, doc, members, example: String::new() }
+        let mut members: Vec<Member> = fields.chain(functions).collect();
+        for member in &mut members {
+            member.example = example_in(language::EXAMPLES, &member.full_name(&name.name));
+        }
+        let example = example_in(language::EXAMPLES, &name.name);
+        Self { name: name.name.to_string(), group, usage, forms, doc, members, example }
     }
 
     /// Those of its members that are `what`.
@@ -145,6 +153,21 @@ impl Entry {
     }
 }
 
+/// The script in a list that shows `name`; empty if none does.
+fn example_in(list: &[ScriptExample], name: &str) -> String {
+    let found = list.iter().find(|example| example.shows.contains(&name));
+    found.map_or_else(String::new, |example| example.script.to_owned())
+}
+
+/// The script that shows a field or a method of a type: its own, or the type's if that calls the method.
+fn example_of_member(kind: &Kind, member: &Member) -> String {
+    let name = member.full_name(&kind.name);
+    let lists = [objects::EXAMPLES, objects::PLAIN_EXAMPLES];
+    let own = lists.into_iter().map(|list| example_in(list, &name)).find(|found| !found.is_empty());
+    let calls = member.what != MemberKind::Field && kind.example.contains(&format!(":{}(", member.name));
+    own.unwrap_or_else(|| if calls { kind.example.to_string() } else { String::new() })
+}
+
 /// What is told of a name that will go, behind what it does.
 fn deprecation(found: Option<&Deprecation>) -> String {
     found.map_or_else(String::new, |it| format!(" Deprecated since {}: use {}.", it.since, it.instead))
@@ -161,6 +184,7 @@ impl Member {
             unit: field.unit.as_ref().map(ToString::to_string),
             doc: field.doc.to_string(),
             fields: field.fields.iter().map(Self::of_field).collect(),
+            example: String::new(),
         }
     }
 
@@ -174,6 +198,7 @@ impl Member {
             unit: None,
             doc: function.doc.to_string(),
             fields: function.options().map(Self::of_field).collect(),
+            example: String::new(),
         }
     }
 
@@ -188,6 +213,7 @@ impl Member {
             unit: None,
             doc: method.doc.to_string(),
             fields: method.arguments.iter().flat_map(|it| &it.fields).map(Self::of_field).collect(),
+            example: String::new(),
         }
     }
 
@@ -219,7 +245,7 @@ impl Member {
         if self.what == MemberKind::Field {
             return json!({
                 "name": self.name, "what": "field", "of": owner, "type": self.luau, "unit": self.unit,
-                "default": self.default, "doc": self.doc, "fields": fields,
+                "default": self.default, "doc": self.doc, "fields": fields, "example": self.example,
             });
         }
         let kind = if self.what == MemberKind::Function { "function" } else { "method" };
@@ -227,10 +253,11 @@ impl Member {
             (MemberKind::Reads | MemberKind::Changes, [form]) => json!({
                 "name": self.name, "what": kind, "of": owner, "changes": self.what == MemberKind::Changes,
                 "arguments": arguments_json(form), "returns": form.returns, "doc": self.doc, "fields": fields,
+                "example": self.example,
             }),
             (_, forms) => json!({
                 "name": self.name, "what": kind, "of": owner, "type": self.luau, "forms": forms_json(forms),
-                "doc": self.doc, "fields": fields,
+                "doc": self.doc, "fields": fields, "example": self.example,
             }),
         }
     }

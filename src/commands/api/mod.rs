@@ -7,5 +7,7 @@ mod command;
 mod entry;
 mod pictures;
 mod text;
+#[cfg(test)]
+mod units;
 
 pub(crate) use command::ApiCommand;

@@ -5,7 +5,8 @@ use std::path::Path;
 
 use crate::commands::report;
 use burgeon::geometry::face;
-use burgeon::objects::{EXAMPLES, MemberExample};
+use burgeon::kit::ScriptExample;
+use burgeon::objects::EXAMPLES;
 use burgeon::picture::Picture;
 use burgeon::scene::{Instance, Material, Mesh, Part, Scene, image};
 use burgeon::script::Print;
@@ -22,12 +23,12 @@ const LIST: &str = "pictures.txt";
 const LOOK: &str = "1";
 
 /// The example that shows what is called `name`.
-pub(super) fn example_of(name: &str) -> Option<&'static MemberExample> {
+pub(super) fn example_of(name: &str) -> Option<&'static ScriptExample> {
     EXAMPLES.iter().find(|example| example.shows.contains(&name))
 }
 
 /// The picture of an example, from the folder of the pages.
-pub(super) fn file_of(example: &MemberExample) -> String {
+pub(super) fn file_of(example: &ScriptExample) -> String {
     format!("pictures/{}.png", example.name.replace('/', "-"))
 }
 
@@ -76,7 +77,7 @@ fn mark(script: &str) -> u64 {
     bytes.fold(0xcbf2_9ce4_8422_2325, |hash, byte| (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3))
 }
 
-fn picture(example: &MemberExample) -> Result<Vec<u8>> {
+fn picture(example: &ScriptExample) -> Result<Vec<u8>> {
     let folder = std::env::temp_dir().join(format!("burgeon-example-{}", std::process::id()));
     let path = folder.join("example.lua");
     let wrong =

@@ -4,7 +4,6 @@ use std::fmt::Write as _;
 use std::path::Path;
 
 use super::entry::{Entry, EntryGroup, Member, MemberKind};
-use super::pictures::example_of;
 
 /// The longest line of a doc.
 const WIDTH: usize = 100;
@@ -65,13 +64,19 @@ pub(super) fn entry(entry: &Entry) -> String {
             brief(&mut text, &entry.name, member);
         }
     }
-    if !entry.example.is_empty() {
-        text.push_str("\nExample\n");
-        for line in entry.example.trim_end().lines() {
-            let _ = writeln!(text, "  {line}");
-        }
-    }
+    example(&mut text, &entry.example);
     text
+}
+
+/// A script that uses what is told of, if there is one.
+fn example(text: &mut String, script: &str) {
+    if !script.is_empty() {
+        text.push_str("\nExample\n");
+    }
+    for line in script.trim_end().lines() {
+        // Writing into a string cannot fail.
+        let _ = writeln!(text, "  {line}");
+    }
 }
 
 /// A field or a method by itself; `owner` is what has it.
@@ -85,12 +90,7 @@ pub(super) fn member(owner: &str, member: &Member) -> String {
         MemberKind::Reads => wrap(&mut text, "It only reads: rules and interpretations may call it.", 2),
         MemberKind::Changes => wrap(&mut text, "It changes the object: only interpretations may call it.", 2),
     }
-    if let Some(example) = example_of(&member.full_name(owner)) {
-        text.push_str("\nExample\n");
-        for line in example.script.trim_end().lines() {
-            let _ = writeln!(text, "  {line}");
-        }
-    }
+    example(&mut text, &member.example);
     for (index, field) in member.fields.iter().enumerate() {
         if index == 0 {
             text.push_str("\nFields of its table\n");

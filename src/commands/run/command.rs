@@ -1,7 +1,7 @@
 //! The command `run`.
 
 use std::path::PathBuf;
-use std::sync::Arc;
+use std::sync::{Arc, LazyLock};
 use std::time::Instant;
 
 use super::watch;
@@ -21,9 +21,8 @@ pub(crate) struct RunCommand {
     #[command(flatten)]
     pub(super) script: ScriptFlags,
 
-    /// Writes the model; the extension picks the format: .glb, .gltf, .obj, .x3d, .city.json,
-    /// .geojson, .gpkg, .png or .svg. May be repeated
-    #[arg(short, long, value_name = "FILE", value_parser = output)]
+    /// Files of the model
+    #[arg(short, long, value_name = "FILE", value_parser = output, help = output_help())]
     pub(super) output: Vec<PathBuf>,
 
     /// Tells the ids and the attributes of features in .glb and .gltf files
@@ -64,6 +63,15 @@ pub(crate) struct RunCommand {
     /// Saves the seed and the values of --set and --preset under a name, once the run has succeeded
     #[arg(long, value_name = "NAME")]
     save_preset: Option<String>,
+}
+
+/// What `--output` does, with the formats that there are.
+fn output_help() -> &'static str {
+    static HELP: LazyLock<String> = LazyLock::new(|| {
+        let formats = Format::listed("or");
+        format!("Writes the model; the extension picks the format: {formats}. May be repeated")
+    });
+    &HELP
 }
 
 impl RunCommand {

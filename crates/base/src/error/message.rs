@@ -264,6 +264,16 @@ impl Error {
         (self.0.rule.is_none() && place.file != caller.file).then_some(caller)
     }
 
+    /// Whether it is of the kind of `other` and tells people the same, wherever that is.
+    pub fn says_the_same(&self, other: &Self) -> bool {
+        self.0.kind == other.0.kind && self.0.message == other.0.message
+    }
+
+    /// Whether it tells people the same as `other`, in the same place.
+    pub fn is_same(&self, other: &Self) -> bool {
+        self.0.place == other.0.place && self.says_the_same(other)
+    }
+
     /// This problem without those reported with it.
     #[must_use]
     pub fn alone(&self) -> Self {
@@ -398,6 +408,18 @@ mod tests {
         assert_eq!(error("b.lua").to_json()["called_at"]["line"], 7);
         assert_eq!(error("a.lua").to_string(), "a.lua:3: no\n  help: yes");
         assert_eq!(error("b.lua").rule("A").to_string(), "b.lua:3: rule A: no\n  help: yes");
+    }
+
+    #[test]
+    fn the_same_is_of_one_kind_and_in_one_place() {
+        let at = |error: Error, line| error.at(Some(SourcePlace { file: "a.lua".into(), line }));
+        let error = at(Error::argument("no"), 3);
+        assert!(error.is_same(&at(Error::argument("no").help("yes").module("A", 2), 3)));
+        let elsewhere = at(Error::argument("no"), 4);
+        assert!(!error.is_same(&elsewhere) && error.says_the_same(&elsewhere));
+        for other in [at(Error::argument("never"), 3), at(Error::script("no"), 3)] {
+            assert!(!error.is_same(&other) && !error.says_the_same(&other), "{other}");
+        }
     }
 
     #[test]

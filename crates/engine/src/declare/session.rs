@@ -74,6 +74,17 @@ impl RunProgress {
     }
 }
 
+/// What any of the files of a script may do, as far as their texts tell.
+#[derive(Default)]
+struct ScriptFacts {
+    /// Draw random numbers.
+    randoms: AtomicBool,
+    /// Tell a table that is made later from one that is there.
+    inspects_tables: AtomicBool,
+    /// Give tables metatables.
+    metatables: AtomicBool,
+}
+
 /// One run of a script.
 pub struct Session {
     /// How to run it.
@@ -110,11 +121,9 @@ pub struct Session {
     pub(super) deprecated: Deprecations,
     /// Counts the shapes of the rules' returns.
     pub(crate) shapes: Arc<AtomicUsize>,
-    randoms: AtomicBool,
+    facts: ScriptFacts,
     /// Whether modules have been made that stand for others.
     pending: AtomicBool,
-    inspects_tables: AtomicBool,
-    metatables: AtomicBool,
     kept: Mutex<Vec<f64>>,
 }
 
@@ -158,10 +167,8 @@ impl Session {
             warnings,
             deprecated,
             shapes: Arc::default(),
-            randoms: AtomicBool::new(false),
+            facts: ScriptFacts::default(),
             pending: AtomicBool::new(false),
-            inspects_tables: AtomicBool::new(false),
-            metatables: AtomicBool::new(false),
             kept: Mutex::default(),
         }))
     }
@@ -256,17 +263,17 @@ impl Session {
 
     /// Whether any file of the script names `random`.
     pub(crate) fn draws_random(&self) -> bool {
-        self.randoms.load(Ordering::Acquire)
+        self.facts.randoms.load(Ordering::Acquire)
     }
 
     /// Whether any file of the script could tell a table that is made later from one that is there.
     pub(crate) fn inspects_tables(&self) -> bool {
-        self.inspects_tables.load(Ordering::Acquire)
+        self.facts.inspects_tables.load(Ordering::Acquire)
     }
 
     /// Whether the functions that begin in a line of a file leave nothing behind.
     pub(crate) fn is_pure(&self, file: &str, line: usize) -> bool {
-        !self.metatables.load(Ordering::Acquire)
+        !self.facts.metatables.load(Ordering::Acquire)
             && self.source_called(file).is_some_and(|source| source.analysis.pure.contains(&line))
     }
 
@@ -329,9 +336,11 @@ impl Session {
 
     /// Takes notice of what a piece of the script may do.
     pub(crate) fn note(&self, analysis: &Analysis) {
-        self.randoms.fetch_or(analysis.random, Ordering::AcqRel);
-        self.metatables.fetch_or(has_metatables(&analysis.text), Ordering::AcqRel);
-        self.inspects_tables.fetch_or(super::analysis::inspects_tables(&analysis.text), Ordering::AcqRel);
+        self.facts.randoms.fetch_or(analysis.random, Ordering::AcqRel);
+        self.facts.metatables.fetch_or(has_metatables(&analysis.text), Ordering::AcqRel);
+        self.facts
+            .inspects_tables
+            .fetch_or(super::analysis::inspects_tables(&analysis.text), Ordering::AcqRel);
     }
 
     /// Notes that a module has been made that stands for others.

@@ -14,13 +14,6 @@ pub(crate) struct DeclaredTypes {
     methods: Vec<(String, Method)>,
 }
 
-impl DeclaredTypes {
-    /// Whether a method of this name was added to some type.
-    pub(crate) fn has_added(&self, name: &str) -> bool {
-        self.methods.iter().any(|(_, method)| method.name == name)
-    }
-}
-
 impl Session {
     /// Takes notice of a type that a script declares; each machine of a run tells of it.
     pub(crate) fn note_type(&self, kind: &Arc<Kind>) {

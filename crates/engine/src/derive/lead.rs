@@ -9,10 +9,10 @@ use super::pending::{Resolution, resolve};
 use super::plan::{Derivation, DerivationPlan};
 use super::rewriter::SystemRewriter;
 use super::step::Stepper;
-use super::threads::ThreadPool;
+use super::threads::{LeadingMachine, ThreadPool};
 use crate::declare::TraceRequest;
 use crate::machine::{Axiom, Machine, Objects};
-use crate::results::{DerivedSystem, Remark, RuleName, RuleReport, Step, Times, Trace, Use};
+use crate::results::{DerivedSystem, Remark, RuleName, RuleReport, Step, SystemUses, Times, Trace, Use};
 use burgeon_base::error::{Error, Result, SourcePlace};
 use burgeon_base::warning::Warning;
 use burgeon_kit::Object;
@@ -35,14 +35,13 @@ pub(super) fn lead(
 ) -> Result<Ending> {
     let mut derivation = Derivation::plan(machine, index, steps)?;
     let chain = std::mem::take(&mut derivation.axiom.chain);
-    let grown = Growth::new(machine, threads, &derivation).grow(chain)?;
+    let grown = Growth::new(LeadingMachine { machine, threads }, &derivation).grow(chain)?;
     settle(machine, derivation, grown)
 }
 
 /// The steps of a derivation, and what is counted on the way.
 struct Growth<'a> {
-    machine: &'a Machine,
-    threads: &'a ThreadPool,
+    leader: LeadingMachine<'a>,
     derivation: &'a Derivation,
     rewriter: SystemRewriter<'a>,
     stepper: Stepper,
@@ -65,12 +64,11 @@ struct StepResults {
 }
 
 impl<'a> Growth<'a> {
-    fn new(machine: &'a Machine, threads: &'a ThreadPool, derivation: &'a Derivation) -> Self {
+    fn new(leader: LeadingMachine<'a>, derivation: &'a Derivation) -> Self {
         Self {
-            machine,
-            threads,
+            leader,
             derivation,
-            rewriter: SystemRewriter::new(machine, threads),
+            rewriter: SystemRewriter::new(leader),
             stepper: Stepper::new(Arc::clone(&derivation.plan)),
             times: Times::default(),
             interpretations: vec![Use::default(); derivation.plan.interpretations.list.len()],
@@ -82,7 +80,7 @@ impl<'a> Growth<'a> {
 
     /// Makes steps from the first `chain` on, until nothing can change or there have been enough.
     fn grow(mut self, mut chain: Chain) -> Result<StepResults> {
-        let (derivation, session) = (self.derivation, &self.machine.session);
+        let (derivation, session) = (self.derivation, &self.leader.machine.session);
         let plan = &derivation.plan;
         chain.mark(plan.batch, plan.grammar.arities());
         if !session.options.check {
@@ -119,7 +117,7 @@ impl<'a> Growth<'a> {
             chain = self.interpret(chain, done)?;
         }
         let later = self.later;
-        self.first.retain(|warning| later.iter().all(|other| other.message() != warning.message()));
+        self.first.retain(|warning| later.iter().all(|other| !other.says_the_same(warning)));
         Ok(StepResults {
             chain,
             done,
@@ -135,11 +133,10 @@ impl<'a> Growth<'a> {
         let begin = Instant::now();
         self.times.read += chain.symbols.len();
         let before = self.noted(&chain);
-        let outcome =
-            self.stepper.step((self.machine, self.threads), &self.derivation.declared, chain, step)?;
+        let outcome = self.stepper.step(self.leader, &self.derivation.declared, chain, step)?;
         self.times.rewriting += begin.elapsed();
         if self.derivation.traced.is_some() {
-            let (applied, asked) = (outcome.applied, self.machine.session.rows.take_noted());
+            let (applied, asked) = (outcome.applied, self.leader.machine.session.rows.take_noted());
             self.steps.push(Step { number: step, chain: before, applied, answers: Vec::new(), asked });
         }
         Ok((outcome.chain, StepChange { ran: outcome.ran, changed: outcome.changed }))
@@ -156,7 +153,7 @@ impl<'a> Growth<'a> {
     /// Puts in what modules of the chain stand for, as it is after `step` steps.
     fn resolve(&mut self, chain: Chain, step: usize) -> Result<Chain> {
         let begin = Instant::now();
-        let resolved = resolve((self.machine, self.threads), &self.derivation.plan, &chain, step)?;
+        let resolved = resolve(self.leader, &self.derivation.plan, &chain, step)?;
         let Some(Resolution { chain: made, applied, answers }) = resolved else { return Ok(chain) };
         if self.derivation.traced.is_some() {
             let before = self.noted(&chain);
@@ -175,9 +172,8 @@ impl<'a> Growth<'a> {
             // What only earlier passes drew is gone.
             self.later.clear();
         }
-        let threads = (self.machine, self.threads);
-        let chain =
-            InterpretationPass::pass(threads, plan, chain, step, &mut self.interpretations, &mut self.later)?;
+        let (leader, uses) = (self.leader, &mut self.interpretations);
+        let chain = InterpretationPass::pass(leader, plan, chain, step, uses, &mut self.later)?;
         plan.expand(&self.rewriter, &mut self.later)?;
         self.times.interpretation += begin.elapsed();
         Ok(chain)
@@ -234,22 +230,26 @@ fn settle(machine: &Machine, derivation: Derivation, grown: StepResults) -> Resu
         }
         None => Vec::new(),
     };
-    let mut derived = DerivedSystem::new(
+    Ok(Ending::Derived(DerivedSystem {
         system,
-        grown.chain,
-        Arc::clone(grammar.symbols()),
-        Arc::clone(&session.values),
+        modules: grown.chain.modules(),
+        chain: grown.chain,
+        symbols: Arc::clone(grammar.symbols()),
+        values: Arc::clone(&session.values),
         objects,
-        axiom.features,
-        grown.done,
-        grown.times,
-        grown.rules,
+        features: axiom.features,
+        steps: grown.done,
+        times: grown.times,
+        rules: grown.rules,
         place,
-    );
-    (derived.given, derived.remarks, derived.undrawn) = (axiom.given, axiom.remarks, undrawn);
-    derived.draws = draws;
-    (derived.source, derived.city) = (axiom.known, city);
-    Ok(Ending::Derived(derived))
+        given: axiom.given,
+        remarks: axiom.remarks,
+        city,
+        source: axiom.known,
+        draws,
+        undrawn,
+        uses: SystemUses::default(),
+    }))
 }
 
 /// The objects as they are after the last pass, and what is to be remarked on them. Fails if all of them have failed.

@@ -8,16 +8,15 @@ use rustc_hash::FxHashMap;
 use super::pending::{Resolution, resolve};
 use super::plan::DerivationPlan;
 use super::step::{StepOutcome, Stepper};
-use super::threads::ThreadPool;
-use crate::machine::{Interpretations, Machine, SystemFunctions};
+use super::threads::LeadingMachine;
+use crate::machine::{Interpretations, SystemFunctions};
 use burgeon_base::error::{Error, Result};
 use burgeon_kit::rules::{Chain, ModuleKey};
 use burgeon_kit::{RewriteOutcome, Rewriter, RuleSet};
 
 /// The systems of a machine's script whose rules objects apply.
 pub(super) struct SystemRewriter<'a> {
-    machine: &'a Machine,
-    threads: &'a ThreadPool,
+    leader: LeadingMachine<'a>,
     known: RefCell<FxHashMap<usize, Arc<RuleSet>>>,
     ready: RefCell<FxHashMap<usize, Ready>>,
     axioms: RefCell<FxHashMap<usize, Chain>>,
@@ -31,14 +30,8 @@ struct Ready {
 }
 
 impl<'a> SystemRewriter<'a> {
-    pub(super) fn new(machine: &'a Machine, threads: &'a ThreadPool) -> Self {
-        Self {
-            machine,
-            threads,
-            known: RefCell::default(),
-            ready: RefCell::default(),
-            axioms: RefCell::default(),
-        }
+    pub(super) fn new(leader: LeadingMachine<'a>) -> Self {
+        Self { leader, known: RefCell::default(), ready: RefCell::default(), axioms: RefCell::default() }
     }
 
     /// Makes system `index` ready to be derived.
@@ -56,7 +49,7 @@ impl<'a> SystemRewriter<'a> {
             notes_questions: false,
             profiled: false,
         });
-        let declared = self.machine.library.systems.borrow()[index].prepare(self.machine)?;
+        let declared = self.leader.machine.library.systems.borrow()[index].prepare(self.leader.machine)?;
         Ok(Ready { declared, stepper: Stepper::new(Arc::clone(&plan)), plan })
     }
 
@@ -76,11 +69,11 @@ impl Rewriter for SystemRewriter<'_> {
         if let Some(known) = self.known.borrow().get(&index) {
             return Ok(Arc::clone(known));
         }
-        let session = &self.machine.session;
-        let systems = self.machine.library.systems.borrow();
+        let session = &self.leader.machine.session;
+        let systems = self.leader.machine.library.systems.borrow();
         let system = &systems[index];
         let rules = Arc::new(RuleSet {
-            grammar: system.grammar(&self.machine.library, session.draws_random()),
+            grammar: system.grammar(&self.leader.machine.library, session.draws_random()),
             values: Arc::clone(&session.values),
             place: system.place.clone(),
             has_object: system.object.is_some(),
@@ -95,10 +88,13 @@ impl Rewriter for SystemRewriter<'_> {
             return Ok(chain.clone());
         }
         let random = self.rules(index)?.grammar.draws_random();
-        let axiom =
-            self.machine.library.systems.borrow()[index].axiom(self.machine, ModuleKey::default(), random)?;
+        let axiom = self.leader.machine.library.systems.borrow()[index].axiom(
+            self.leader.machine,
+            ModuleKey::default(),
+            random,
+        )?;
         let plan = Arc::clone(&self.ready(index)?.plan);
-        let chain = match resolve((self.machine, self.threads), &plan, &axiom.chain, 0)? {
+        let chain = match resolve(self.leader, &plan, &axiom.chain, 0)? {
             Some(resolution) => resolution.chain,
             None => axiom.chain,
         };
@@ -108,9 +104,9 @@ impl Rewriter for SystemRewriter<'_> {
 
     fn rewrite(&self, index: usize, chain: Chain, step: usize) -> Result<RewriteOutcome> {
         let ready = &mut *self.ready(index)?;
-        let threads = (self.machine, self.threads);
-        let StepOutcome { chain, applied, .. } = ready.stepper.step(threads, &ready.declared, chain, step)?;
-        Ok(match resolve(threads, &ready.plan, &chain, step)? {
+        let StepOutcome { chain, applied, .. } =
+            ready.stepper.step(self.leader, &ready.declared, chain, step)?;
+        Ok(match resolve(self.leader, &ready.plan, &chain, step)? {
             Some(resolution) => {
                 ready.stepper.reuse(chain);
                 let applied = together(applied, &resolution);
@@ -127,7 +123,7 @@ impl Rewriter for SystemRewriter<'_> {
     }
 
     fn check(&self) -> Result<()> {
-        self.machine.session.stop.check()
+        self.leader.machine.session.stop.check()
     }
 }
 

@@ -7,7 +7,7 @@ use super::batch::{Batch, ChainPiece, Scratch};
 use super::functions::LuaFunctions;
 use super::output::Output;
 use super::plan::DerivationPlan;
-use super::threads::{ThreadJob, ThreadPool};
+use super::threads::{LeadingMachine, ThreadJob};
 use crate::machine::{Machine, SystemFunctions};
 use crate::results::Use;
 use burgeon_base::error::{Error, Limit, Result};
@@ -123,7 +123,7 @@ impl Stepper {
     /// Makes step number `step` on `chain`.
     pub(crate) fn step(
         &mut self,
-        (machine, threads): (&Machine, &ThreadPool),
+        LeadingMachine { machine, threads }: LeadingMachine<'_>,
         declared: &SystemFunctions,
         chain: Chain,
         step: usize,

@@ -41,6 +41,13 @@ struct Helper {
 /// About what it costs to start a helper.
 const STARTING: Duration = Duration::from_millis(20);
 
+/// The machine whose result counts, and the threads that help it.
+#[derive(Clone, Copy)]
+pub(crate) struct LeadingMachine<'a> {
+    pub machine: &'a Machine,
+    pub threads: &'a ThreadPool,
+}
+
 /// The threads of a run, as one machine sees them: it leads the others, or follows.
 pub(crate) struct ThreadPool {
     /// What each derivation has given so far, in order.

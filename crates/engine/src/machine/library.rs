@@ -246,6 +246,9 @@ impl Library {
         coroutine.raw_set("resume", globals.raw_get::<LuaValue>("resume")?)?;
         globals.raw_set("resume", LuaValue::Nil)?;
         self.install_plain(machine, &globals)?;
+        self.install_systems(machine, &globals)?;
+        self.install_files(machine, &globals)?;
+        self.install_api(machine, &globals)?;
         lua.set_app_data(EagerMark(Arc::clone(&machine.session)));
         install_lazy(lua, self)?;
         install_geometries(machine, &globals)?;
@@ -279,6 +282,7 @@ impl Library {
         )
     }
 
+    /// What declares modules and parameters, and what tells of the run.
     fn install_plain(&self, machine: &Machine, globals: &Table) -> mlua::Result<()> {
         let lua = machine.lua();
         let library = std::rc::Rc::clone(&machine.library);
@@ -330,7 +334,12 @@ impl Library {
                 Some(hook) => print(lua, &values, hook),
                 None => Ok(()),
             })?,
-        )?;
+        )
+    }
+
+    /// What declares systems and types of objects.
+    fn install_systems(&self, machine: &Machine, globals: &Table) -> mlua::Result<()> {
+        let lua = machine.lua();
         let library = std::rc::Rc::clone(&machine.library);
         globals.raw_set(
             "lsystem",
@@ -362,7 +371,12 @@ impl Library {
                 let machine = library.machine().map_err(mlua::Error::external)?;
                 extend_type(&machine, &constructor, &declared).map_err(mlua::Error::external)
             })?,
-        )?;
+        )
+    }
+
+    /// What brings data and other files.
+    fn install_files(&self, machine: &Machine, globals: &Table) -> mlua::Result<()> {
+        let lua = machine.lua();
         let library = std::rc::Rc::clone(&machine.library);
         globals.raw_set(
             "source",
@@ -385,7 +399,12 @@ impl Library {
                     library.at_top_level("require").and_then(|()| require(&library, &session, lua, &name));
                 required.map_err(mlua::Error::external)
             })?,
-        )?;
+        )
+    }
+
+    /// What scripts can rely on.
+    fn install_api(&self, machine: &Machine, globals: &Table) -> mlua::Result<()> {
+        let lua = machine.lua();
         let api = lua.create_table()?;
         api.raw_set("version", API_VERSION)?;
         let session = Arc::clone(&machine.session);

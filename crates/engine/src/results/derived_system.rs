@@ -72,51 +72,24 @@ pub struct DerivedSystem {
     pub(crate) draws: bool,
     /// What its chains hold that nothing draws; it counts unless the script reads the chains.
     pub(crate) undrawn: Vec<Warning>,
+    /// The number of modules in all chains, without brackets.
+    pub(crate) modules: usize,
+    /// What the script has done with it since.
+    pub(crate) uses: SystemUses,
+}
+
+/// What a script has done with a derived system.
+#[derive(Default)]
+pub(crate) struct SystemUses {
+    /// Whether it has read the chains.
     read: AtomicBool,
-    modules: usize,
+    /// What it places.
     model: OnceLock<Arc<Model>>,
+    /// Whether it has placed it.
     placed: AtomicBool,
 }
 
 impl DerivedSystem {
-    #[allow(clippy::too_many_arguments, reason = "called once, with everything that a derivation knows")]
-    pub(crate) fn new(
-        system: usize,
-        chain: Chain,
-        symbols: Arc<Symbols>,
-        values: Arc<Values>,
-        objects: Vec<Arc<dyn Object>>,
-        features: Vec<Option<String>>,
-        steps: usize,
-        times: Times,
-        rules: Vec<RuleReport>,
-        place: Option<SourcePlace>,
-    ) -> Self {
-        let modules = chain.modules();
-        Self {
-            system,
-            chain,
-            symbols,
-            values,
-            objects,
-            features,
-            steps,
-            times,
-            rules,
-            place,
-            given: 0,
-            remarks: Vec::new(),
-            city: None,
-            source: SourceFeatures::None,
-            draws: false,
-            undrawn: Vec::new(),
-            read: AtomicBool::new(false),
-            modules,
-            model: OnceLock::new(),
-            placed: AtomicBool::new(false),
-        }
-    }
-
     /// The number of modules in all chains, without brackets.
     pub fn modules(&self) -> usize {
         self.modules
@@ -135,13 +108,13 @@ impl DerivedSystem {
 
     /// The chains as text for the script, which may make of their modules what it likes.
     pub(crate) fn read_chains(&self) -> String {
-        self.read.store(true, Ordering::Relaxed);
+        self.uses.read.store(true, Ordering::Relaxed);
         self.chain_text()
     }
 
     /// Whether the script has read its chains.
     pub(crate) fn is_read(&self) -> bool {
-        self.read.load(Ordering::Relaxed)
+        self.uses.read.load(Ordering::Relaxed)
     }
 
     /// Writes the chains as text, a line for each.
@@ -153,19 +126,19 @@ impl DerivedSystem {
     ///
     /// A system that is placed somewhere is not shown by itself.
     pub fn model(&self) -> Result<Arc<dyn Object>> {
-        self.placed.store(true, Ordering::Relaxed);
-        if let Some(model) = self.model.get() {
+        self.uses.placed.store(true, Ordering::Relaxed);
+        if let Some(model) = self.uses.model.get() {
             return Ok(Arc::clone(model) as Arc<dyn Object>);
         }
         let mut scene = Scene::default();
         self.add_to(&mut scene)?;
-        let model = Arc::clone(self.model.get_or_init(|| Arc::new(Model::new(scene))));
+        let model = Arc::clone(self.uses.model.get_or_init(|| Arc::new(Model::new(scene))));
         Ok(model as Arc<dyn Object>)
     }
 
     /// Whether another system has placed it.
     pub fn is_placed(&self) -> bool {
-        self.placed.load(Ordering::Relaxed)
+        self.uses.placed.load(Ordering::Relaxed)
     }
 
     /// As [`DerivedSystem::add_to`], but the objects that nobody else holds give away what they have drawn.

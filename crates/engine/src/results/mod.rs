@@ -10,6 +10,7 @@ mod remark;
 mod trace;
 mod uses;
 
+pub(crate) use derived_system::SystemUses;
 pub use derived_system::{DerivedSystem, RuleReport, Times};
 pub use layers::layers;
 pub(crate) use records::SourceFeatures;

@@ -35,6 +35,9 @@ pub(super) struct VisibleFace {
     normal: DVec3,
 }
 
+/// A side of a face: the numbers of the points at its ends, the lower one first, the face, and its ends.
+type PaperSide = (u32, u32, u32, [PaperPoint; 2]);
+
 /// A side of a face that matters.
 pub(super) struct VisibleLine {
     /// Its ends.
@@ -96,7 +99,7 @@ impl VisibleFaces {
     ) {
         let matrix = view.matrix();
         let mirrored = instance.transform.matrix3.determinant() < 0.0;
-        let mut edges = Vec::new();
+        let mut edges: Vec<PaperSide> = Vec::new();
         // Points that are one on paper, where a triangle between them has vanished.
         let mut merged: FxHashMap<u32, u32> = FxHashMap::default();
         let first_face = self.faces.len();
@@ -150,6 +153,11 @@ impl VisibleFaces {
             }
         }
         edges.sort_unstable();
+        self.add_lines(&edges, first_face);
+    }
+
+    /// Adds the lines between the faces from `first_face` on, of which `edges` are in order.
+    fn add_lines(&mut self, edges: &[PaperSide], first_face: usize) {
         // By material, the area and the length of the lines around it.
         let mut sizes: FxHashMap<u32, (f64, f64)> = FxHashMap::default();
         for face in &self.faces[first_face..] {

@@ -4,7 +4,7 @@ use std::sync::LazyLock;
 
 use burgeon_kit::{Argument, Field};
 
-use super::name::{Name, field};
+use super::name::{Name, Operator, field};
 use crate::form::argument;
 
 /// All of them.
@@ -23,7 +23,8 @@ pub(super) fn names() -> Vec<Name> {
         .form([argument("name", "string"), argument("...", "string")], "(...any) -> Module"),
         Name::global(
             "random",
-            "A random number of the module that is rewritten or drawn: from 0 to 1, or between a and b.",
+            "A random number of the module that is rewritten or drawn: between `a` (0 unless given) and `b` (1 unless given), \
+             which are given together.",
         )
         .form([argument("a", "number?"), argument("b", "number?")], "number")
         .pure(),
@@ -73,7 +74,7 @@ pub(super) fn names() -> Vec<Name> {
         )
         .form([argument("text", "string | Geometry | { any }")], "Geometry")
         .pure(),
-        Name::global("point", "A point: where it is to the east and to the north, and its height (m); or a vector.")
+        Name::global("point", "A point: where it is to the east, `x` (m), and to the north, `y` (m), and its height `z` (m); or a vector.")
             .form([argument("x", "number"), argument("y", "number"), argument("z", "number?")], "Geometry")
             .form([argument("place", "Vector | Geometry")], "Geometry")
             .pure(),
@@ -349,6 +350,7 @@ pub static SOURCE: LazyLock<Name> = LazyLock::new(|| {
 /// What a source has.
 pub static LAYER: LazyLock<Name> = LazyLock::new(|| {
     Name::given("layer", "Layer", "Features, as source gives them: for index, feature in it do, and #it.")
+        .items("Feature")
         .fields([
             Field::new("features", "{ Feature }", "The features as a list."),
             metres(
@@ -398,6 +400,14 @@ pub static VECTOR: LazyLock<Name> = LazyLock::new(|| {
         "Three numbers that never change, as vec gives them: +, - and * with vectors and lists, * and / with numbers.",
     )
     .instead("{ number }")
+    .items("number")
+    .operators([
+        Operator { name: "add", other: "VectorLike", returns: "Vector" },
+        Operator { name: "sub", other: "VectorLike", returns: "Vector" },
+        Operator { name: "mul", other: "VectorLike | number", returns: "Vector" },
+        Operator { name: "div", other: "number", returns: "Vector" },
+        Operator { name: "unm", other: "", returns: "Vector" },
+    ])
     .fields([
         metres("x", "number", "To the east (m)."),
         metres("y", "number", "To the north (m)."),

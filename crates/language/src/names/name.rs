@@ -32,10 +32,25 @@ pub struct Name {
     pub fields: Vec<Field>,
     /// Its methods; of a library, its functions.
     pub functions: Vec<Name>,
+    /// What stands between it and others.
+    pub operators: Vec<Operator>,
+    /// The type of what it has by numbers, as a list does; empty if it has none.
+    pub items: Text,
     /// What is left behind by a call.
     pub effect: Effect,
     /// That it will go, and what is used instead.
     pub deprecated: Option<Deprecation>,
+}
+
+/// An operator of what a name gives.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Operator {
+    /// What Luau calls it, without the underscores: `add`.
+    pub name: &'static str,
+    /// The type of what stands behind it; empty where nothing does.
+    pub other: &'static str,
+    /// The type of what it gives.
+    pub returns: &'static str,
 }
 
 /// What a name is.
@@ -84,6 +99,8 @@ impl Name {
             doc,
             fields,
             functions,
+            operators: Vec::new(),
+            items: Text::default(),
             effect: Effect::Other,
             deprecated: None,
         }
@@ -117,14 +134,22 @@ impl Name {
     }
 
     /// May be called with these arguments, and then gives a value of type `returns`.
-    pub(super) fn form(mut self, arguments: impl Into<Vec<Argument>>, returns: &str) -> Self {
-        self.forms.push(CallForm::new(arguments.into(), returns));
-        self
+    pub(super) fn form(self, arguments: impl Into<Vec<Argument>>, returns: &str) -> Self {
+        self.called(CallForm::new(arguments.into(), returns))
     }
 
     /// May be called as this type says.
-    pub(super) fn read(mut self, luau: &str) -> Self {
-        self.forms.extend(CallForm::read(luau));
+    pub(super) fn read(self, luau: &str) -> Self {
+        match CallForm::read(luau) {
+            Some(form) => self.called(form),
+            None => self,
+        }
+    }
+
+    /// May be called so, with the units and the defaults that its doc tells.
+    fn called(mut self, form: CallForm) -> Self {
+        let arguments = form.arguments.into_iter().map(|argument| argument.described(&self.doc)).collect();
+        self.forms.push(CallForm { arguments, ..form });
         self
     }
 
@@ -138,6 +163,19 @@ impl Name {
 
     pub(super) fn functions(self, functions: impl Into<Vec<Name>>) -> Self {
         Self { functions: functions.into(), ..self }
+    }
+
+    pub(super) fn operators(self, operators: impl Into<Vec<Operator>>) -> Self {
+        Self { operators: operators.into(), ..self }
+    }
+
+    pub(super) fn items(self, items: &'static str) -> Self {
+        Self { items: items.into(), ..self }
+    }
+
+    /// Whether its type in Luau has a parameter, as `System<T>` has.
+    pub fn is_generic(&self) -> bool {
+        self.luau.ends_with("<T>")
     }
 
     /// The fields of the table that it takes.

@@ -19,9 +19,9 @@ pub(super) fn names() -> Vec<Name> {
             && is_given(name)
         {
             let doc = doc(&lines[..at]);
-            let mut forms = vec![with_units(form, &doc)];
-            forms.extend(above(&lines[..at]).into_iter().filter_map(CallForm::read));
-            names.push(Name { forms, doc: doc.into(), ..Name::global(name, "") }.pure());
+            let name = Name { doc: doc.into(), ..Name::global(name, "") };
+            let name = name.form(form.arguments, &form.returns);
+            names.push(above(&lines[..at]).into_iter().fold(name, Name::read).pure());
         } else if let Some(name) = line.strip_prefix("local ").and_then(|rest| rest.strip_suffix(" = {"))
             && is_given(name)
         {
@@ -65,15 +65,6 @@ fn function(line: &'static str) -> Option<(&'static str, CallForm)> {
     let (parameters, returns) = line.split_once('(')?.1.rsplit_once(')')?;
     let returns = returns.strip_prefix(": ").unwrap_or("any");
     Some((name, CallForm::read(&format!("({parameters}) -> {returns}"))?))
-}
-
-/// The form with the units that a doc gives right after the names of arguments.
-fn with_units(mut form: CallForm, doc: &str) -> CallForm {
-    for argument in &mut form.arguments {
-        let after = doc.split_once(&format!("`{}` (", argument.name)).map(|(_, rest)| rest);
-        argument.unit = after.and_then(|rest| Some(rest.split_once(')')?.0.to_owned().into()));
-    }
-    form
 }
 
 /// Whether the library gives a value of this name to scripts.

@@ -103,7 +103,7 @@ impl Extruder {
         self.set(SectionShape::Star(points, inner))
     }
 
-    /// Sets the cross-section to a rectangle around the middle (m).
+    /// Sets the cross-section to a rectangle around the middle, `width` (m) by `height` (m).
     pub fn rectangle(&mut self, width: f64, height: f64) -> Result<()> {
         self.set(SectionShape::Rectangle(width, height))
     }
@@ -142,18 +142,20 @@ impl Extruder {
         Ok(())
     }
 
-    /// Sets the scale of the cross-section at once, in both directions or in each.
+    /// Sets the scale of the cross-section at once: to the right `scale`, and up `y` (`scale` unless given).
     pub fn scale(&mut self, scale: f64, y: Option<f64>) {
         self.state.scale = DVec2::new(scale, y.unwrap_or(scale));
         self.state.taper = self.state.scale;
     }
 
-    /// Sets the scale that the next segment ends with; it changes evenly along the segment.
+    /// Sets the scale that the next segment ends with, to the right `scale`, and up `y` (`scale` unless given); it changes
+    /// evenly along the segment.
     pub fn taper(&mut self, scale: f64, y: Option<f64>) {
         self.state.taper = DVec2::new(scale, y.unwrap_or(scale));
     }
 
-    /// Bends the following segments by `angle` (degrees) each, to the side at `toward` (degrees): 0 is left.
+    /// Bends the following segments by `angle` (degrees) each, to the side at `toward` (degrees, 0 unless
+    /// given), where 0 is left.
     pub fn bend(&mut self, angle: f64, toward: Option<f64>) {
         self.state.bend = angle.to_radians();
         self.state.toward = toward.unwrap_or(0.0).to_radians();
@@ -164,7 +166,7 @@ impl Extruder {
         self.state.twist = angle.to_radians();
     }
 
-    /// Sets whether the start and the end are closed.
+    /// Sets whether the start is closed, and the `end` (`start` unless given).
     pub fn caps(&mut self, start: bool, end: Option<bool>) {
         self.state.caps = [start, end.unwrap_or(start)];
     }
@@ -184,7 +186,7 @@ impl Extruder {
         self.state.frame.forward(length);
     }
 
-    /// Goes sideways (m): to the right and up across the extruding direction.
+    /// Goes sideways across the extruding direction: to the right by `right` (m), and up by `up` (m).
     pub fn shift(&mut self, right: f64, up: f64) {
         let frame = &mut self.state.frame;
         frame.position += frame.left * -right - frame.up * up;
@@ -230,7 +232,7 @@ impl Extruder {
         draw_mesh(to, &self.state.frame, &points, &faces, &options.unwrap_or_default())
     }
 
-    /// Places what another system has drawn at the extruder's frame, scaled.
+    /// Places what another system has drawn at the extruder's frame, with this `scale` (1 unless given).
     pub fn place(&mut self, model: Arc<Model>, scale: Option<f64>) {
         let scale = DAffine3::from_scale(DVec3::splat(scale.unwrap_or(1.0)));
         self.drawing.place(&model, self.state.frame.transform() * scale);

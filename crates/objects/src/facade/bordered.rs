@@ -16,11 +16,11 @@ pub struct BorderedOptions {
     pub wall: Option<Wall>,
     /// The left margin: a size (m), or { size, "min" | "max" | "fixed" }; a size alone is the least.
     pub left: Margin,
-    /// The right margin.
+    /// The right margin (m), in the same way.
     pub right: Margin,
-    /// The margin below.
+    /// The margin below (m), in the same way.
     pub bottom: Margin,
-    /// The margin above.
+    /// The margin above (m), in the same way.
     pub top: Margin,
     /// Width (m): preferred, { least, greatest } or { least, preferred, greatest }.
     pub width: Option<Size>,

@@ -51,7 +51,7 @@ struct TemplateData {
 
 #[methods("template")]
 impl Template {
-    /// Whether a frontage may be exactly this wide and this high (m).
+    /// Whether a frontage may be exactly `width` (m) wide and `height` (m) high.
     pub fn fits(&self, width: f64, height: f64) -> bool {
         self.0.wall.fits(width, height)
     }
@@ -99,7 +99,7 @@ pub struct Facade(Templates);
 
 #[methods("facade")]
 impl Facade {
-    /// Whether some template fits a frontage that is exactly this wide and this high (m).
+    /// Whether some template fits a frontage that is exactly `width` (m) wide and `height` (m) high.
     pub fn fits(&self, width: f64, height: f64) -> bool {
         self.0.0.iter().any(|template| template.fits(width, height))
     }

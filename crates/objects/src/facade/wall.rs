@@ -92,7 +92,7 @@ impl Wall {
         self.0.sizes[1].high()
     }
 
-    /// Whether it can be exactly this wide and this high (m).
+    /// Whether it can be exactly `width` (m) wide and `height` (m) high.
     pub fn fits(&self, width: f64, height: f64) -> bool {
         self.0.sizes[0].contains(width) && self.0.sizes[1].contains(height)
     }

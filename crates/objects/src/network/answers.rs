@@ -78,20 +78,6 @@ pub(super) fn open_ends(network: &StreetNetwork) -> Value {
     ends.collect::<Vec<_>>().into_value()
 }
 
-/// What to tell where streets were proposed and none is there, by what became of them.
-pub(super) fn unbuilt(fates: impl ExactSizeIterator<Item = Fate>) -> Warning {
-    let count = fates.len();
-    let refusals = fates.filter_map(|fate| match fate {
-        Fate::Refused(why) => Some(why.name()),
-        _ => None,
-    });
-    let mut reasons: Vec<&str> = refusals.collect();
-    reasons.sort_unstable();
-    reasons.dedup();
-    let text = format!("network: no street was built of {count} that were proposed: {}", reasons.join(", "));
-    Warning::new(WarningKind::DrawsNothing, text).help("network:fate tells of each what became of it")
-}
-
 /// What to tell of a street that was to lead from one place to another and ends elsewhere; the places are where it begins, where
 /// it ends, and where it was to lead.
 pub(super) fn misled(fate: Fate, [from, end, to]: [DVec2; 3]) -> Option<Warning> {

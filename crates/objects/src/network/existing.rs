@@ -66,6 +66,12 @@ pub(super) fn add(
         (over, "of bridges that cross other streets".to_owned()),
     ];
     losses.extend(by_reason.into_iter().map(|(why, count)| (count, format!("refused ({why})"))));
+    if network.size() == 0 && !existing.is_empty() && losses.iter().all(|(count, _)| *count == 0) {
+        let text = "network: existing gives no line, so that no street is there";
+        return Ok(Some(
+            Warning::new(WarningKind::Data, text).help("give lines: a layer of streets, not of areas"),
+        ));
+    }
     let losses: Vec<String> = losses
         .into_iter()
         .filter(|(count, _)| *count > 0)

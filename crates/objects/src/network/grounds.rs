@@ -1,12 +1,12 @@
 //! The ground of blocks as a network shows it, and the water between.
 
-use glam::{DVec2, DVec3};
+use glam::DVec3;
 
 use super::Network;
 use super::draw::{add_points, upright};
 use burgeon_base::error::Result;
+use burgeon_geometry::Polygon;
 use burgeon_geometry::planar::distance;
-use burgeon_geometry::{Polygon, Rings};
 use burgeon_kit::Color;
 use burgeon_scene::Part;
 use burgeon_streets::StreetFit;

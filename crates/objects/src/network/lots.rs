@@ -11,7 +11,7 @@ use burgeon_geometry::planar::twice_area;
 use burgeon_kit::rules::ModuleKey;
 use burgeon_kit::{Answer, Expectation, Parameter, Seed, Table, TableKey, Value, fields};
 use burgeon_streets::{FARTHEST, Lot, LotOptions, LotPattern, LotUse, PieceId, StreetBlock, StreetNetwork};
-use glam::{DVec2, DVec3};
+use glam::DVec2;
 use rayon::prelude::*;
 
 use super::Network;

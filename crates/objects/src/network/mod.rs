@@ -11,6 +11,7 @@ mod kinds;
 mod land;
 mod lots;
 mod object;
+mod proposals;
 mod sites;
 mod streets;
 mod walk;

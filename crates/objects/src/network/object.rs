@@ -12,6 +12,7 @@ use super::existing::{self, ExistingLines};
 use super::kinds::StreetOptions;
 use super::land::VergeRecords;
 use super::lots::{BlockRecords, LotRecords, LotSettings};
+use super::proposals::ProposalTally;
 use super::sites::{SiteRecords, SiteSettings};
 use super::streets::{JunctionRecords, StreetRecords};
 use super::walk::NetworkWalk;
@@ -131,19 +132,22 @@ pub struct Network {
     /// What scripts have asked of blocks and lots.
     pub(super) answers: AnswerCache,
     warnings: Vec<Warning>,
-    /// Whether it was told that no street was built.
-    has_warned_of_none: bool,
+    /// What became of all that was proposed.
+    proposals: ProposalTally,
+    /// Whether it was told that streets were refused.
+    has_warned_of_refusals: bool,
     /// Whether it was told that the ground hides streets.
     has_warned_of_hiding: bool,
 }
 
 #[methods("network")]
 impl Network {
-    /// Proposes a street from a junction: its heading (degrees from east, counter-clockwise), its length (m) and how often its
-    /// way has branched off.
+    /// Proposes a street from a junction: its `heading` (degrees from east, counter-clockwise), its `length` (m) and how often
+    /// its way has branched off.
     pub fn grow(&mut self, junction: u32, heading: f64, length: f64, depth: u32) -> Result<()> {
         let (from, to) = self.proposed("grow", junction, heading, length)?;
         let growth = self.network.grow(from, to, self.attributes(depth))?;
+        self.proposals.count(growth.fate);
         self.growths.insert((junction, heading.to_bits()), growth);
         Ok(())
     }
@@ -159,7 +163,7 @@ impl Network {
         Ok(())
     }
 
-    /// Walks ahead from where the way is by a street of a length (m), if that is not refused, and goes on from where it ends.
+    /// Walks ahead from where the way is by a street of a `length` (m), if that is not refused, and goes on from where it ends.
     ///
     /// A way begins at the first start, towards the east; a branch begins where it leaves, and its depth is one more. What
     /// is refused ends its way.
@@ -170,24 +174,26 @@ impl Network {
         }
         let attributes = self.attributes(self.walk.depth());
         if let Some((junction, heading, growth)) = self.walk.ahead(&mut self.network, length, attributes)? {
+            self.proposals.count(growth.fate);
             self.growths.insert((junction + 1, heading.to_bits()), growth);
         }
         Ok(())
     }
 
-    /// Turns the way by an angle (degrees), counter-clockwise.
+    /// Turns the way by `angle` (degrees), counter-clockwise.
     pub fn turn(&mut self, angle: f64) {
         self.walk.turn(angle);
     }
 
-    /// Lets the way go on from a junction towards a heading (degrees from east, counter-clockwise).
+    /// Lets the way go on from a junction towards a `heading` (degrees from east, counter-clockwise).
     pub fn stand(&mut self, junction: u32, heading: f64) -> Result<()> {
         let at = self.known(junction)?;
         self.walk.stand(at, heading);
         Ok(())
     }
 
-    /// Joins dead ends to the streets within a radius (m) to which the way along the streets is so many times longer.
+    /// Joins dead ends to the streets within `radius` (m, 150 unless given) to which the way along the streets is `detour` (2
+    /// unless given) times longer.
     pub fn join_dead_ends(&mut self, radius: Option<f64>, detour: Option<f64>) -> Result<()> {
         self.network.join_dead_ends(answers::dead_end_options("join_dead_ends", radius, detour)?);
         Ok(())
@@ -198,27 +204,30 @@ impl Network {
         self.network.remove_dead_ends();
     }
 
-    /// The junction where a street ends that was proposed, if others may go on from there; nil if it joined others or was refused.
+    /// The junction where a street ends that was proposed with this `heading` (degrees), if others may go on from there; nil if
+    /// it joined others or was refused.
     pub fn reached(&self, junction: u32, heading: f64) -> Option<u32> {
         let growth = self.growths.get(&(junction, heading.to_bits()))?;
         matches!(growth.fate, Fate::Built | Fate::Bent | Fate::Shortened).then_some(growth.end + 1)
     }
 
-    /// The junction where a street ends that was proposed, whatever it joined; nil if it was refused.
+    /// The junction where a street ends that was proposed with this `heading` (degrees), whatever it joined; nil if it was
+    /// refused.
     pub fn arrived(&self, junction: u32, heading: f64) -> Option<u32> {
         let growth = self.growths.get(&(junction, heading.to_bits()))?;
         (!matches!(growth.fate, Fate::Refused(_))).then_some(growth.end + 1)
     }
 
-    /// What became of a street that was proposed: "built", "bent", "shortened", "snapped" to a junction, "joined" to a street, or
-    /// why it was refused: "too short", "angle", "too near", "corners", "obstacle", "outside"; "unknown" if it was not proposed.
+    /// What became of a street that was proposed with this `heading` (degrees): "built", "bent", "shortened", "snapped" to a
+    /// junction, "joined" to a street, or why it was refused: "too short", "angle", "too near", "corners", "obstacle",
+    /// "outside"; "unknown" if it was not proposed.
     pub fn fate(&self, junction: u32, heading: f64) -> String {
         let growth = self.growths.get(&(junction, heading.to_bits()));
         growth.map_or("unknown", |growth| answers::fate(growth.fate)).into()
     }
 
-    /// What would become of a street, as the network is now: a table with its `fate`, whether it would be `built`, the `place`
-    /// (m) where it would end, and the `junction` if one is there.
+    /// What would become of a street with this `heading` (degrees) and `length` (m), as the network is now: a table with its
+    /// `fate`, whether it would be `built`, the `place` (m) where it would end, and the `junction` if one is there.
     pub fn probe(&self, junction: u32, heading: f64, length: f64, depth: u32) -> Result<Value> {
         let (from, to) = self.proposed("probe", junction, heading, length)?;
         Ok(answers::prospect(self.network.probe(from, to, self.attributes(depth))))
@@ -229,7 +238,8 @@ impl Network {
         answers::open_ends(&self.network)
     }
 
-    /// How many dead ends `join_dead_ends` would join with the same radius (m) and detour.
+    /// How many dead ends `join_dead_ends` would join within the same `radius` (m, 150 unless given) and with the same
+    /// `detour` (2 unless given).
     pub fn joinable(&self, radius: Option<f64>, detour: Option<f64>) -> Result<u32> {
         let options = answers::dead_end_options("joinable", radius, detour)?;
         Ok(u32::try_from(self.network.joinable_dead_ends(options)).unwrap_or(u32::MAX))
@@ -368,7 +378,8 @@ impl Network {
             walk: NetworkWalk::default(),
             answers: AnswerCache::default(),
             warnings,
-            has_warned_of_none: false,
+            proposals: ProposalTally::default(),
+            has_warned_of_refusals: false,
             has_warned_of_hiding: false,
         })
     }
@@ -417,6 +428,7 @@ impl Network {
 
     fn restart(&mut self) {
         self.growths.clear();
+        self.proposals.begin();
         self.walk.restart();
     }
 
@@ -429,7 +441,7 @@ impl Network {
         Ok(())
     }
 
-    /// Tells if a pass proposed streets and there is none.
+    /// Tells if a pass proposed streets and there is none, or hardly any has room.
     fn finish(&mut self) -> Result<()> {
         if self.fit.get().is_some_and(|(version, _)| *version != self.network.version()) {
             self.fit = OnceLock::new();
@@ -441,9 +453,11 @@ impl Network {
             self.has_warned_of_hiding = true;
             self.warnings.push(warning);
         }
-        if self.network.size() == 0 && !self.growths.is_empty() && !self.has_warned_of_none {
-            self.has_warned_of_none = true;
-            self.warnings.push(answers::unbuilt(self.growths.values().map(|growth| growth.fate)));
+        if !self.has_warned_of_refusals
+            && let Some(warning) = self.proposals.warning(self.network.size())
+        {
+            self.has_warned_of_refusals = true;
+            self.warnings.push(warning);
         }
         Ok(())
     }

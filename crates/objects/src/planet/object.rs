@@ -91,8 +91,8 @@ pub struct Planet {
 
 #[methods("planet")]
 impl Planet {
-    /// Expands what is seen from a place (m) when the pass ends: the nearer to it, the further. The last focus of a
-    /// pass counts.
+    /// Expands what is seen from the place at `x` (m), `y` (m) and `z` (m) when the pass ends: the nearer to it, the further.
+    /// The last focus of a pass counts.
     pub fn focus(&mut self, x: f64, y: f64, z: f64) -> Result<()> {
         let (eye, radius) = (DVec3::new(x, y, z) - self.options.position.0, self.options.radius);
         if eye.length() < radius * (1.0 - DEEP) {

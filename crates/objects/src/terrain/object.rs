@@ -112,9 +112,9 @@ pub struct Terrain {
 
 #[methods("terrain")]
 impl Terrain {
-    /// Expands what `view` shows from a place (m), and contracts everything else, when the pass ends; until then the
-    /// ground answers as it was. The last focus of a pass counts. A view is the size (m) of cells, and rings around
-    /// the place: how many cells across, and how often each is divided.
+    /// Expands what `view` shows from the place at `x` (m) and `y` (m), and contracts everything else, when the pass ends;
+    /// until then the ground answers as it was. The last focus of a pass counts. A view is the size (m) of cells, and rings
+    /// around the place: how many cells across, and how often each is divided.
     pub fn focus(&mut self, x: f64, y: f64, view: View) -> Result<()> {
         // What cannot be is told where it is asked for.
         view.check(self.ground.world(), DVec2::new(x, y))?;
@@ -138,7 +138,7 @@ impl Terrain {
     }
 
     /// Gives the ground along a path the heights of the path, over `width` (m), when the pass ends; beside it the
-    /// ground changes less and less over `margin` (m, the width unless given).
+    /// ground changes less and less over `margin` (m, `width` unless given).
     pub fn cut(&mut self, path: Path, width: f64, margin: Option<f64>) -> Result<()> {
         let lift = self.options.position.0.z;
         let path = path.points.iter().map(|at| [at.x, at.y, at.z - lift]).collect();

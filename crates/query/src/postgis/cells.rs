@@ -167,6 +167,48 @@ fn uuid(raw: &[u8]) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use proptest::prelude::*;
+
+    /// Types whose values are read, and one that is not.
+    const KINDS: [Type; 16] = [
+        Type::BOOL,
+        Type::INT2,
+        Type::INT4,
+        Type::INT8,
+        Type::OID,
+        Type::FLOAT4,
+        Type::FLOAT8,
+        Type::NUMERIC,
+        Type::JSON,
+        Type::JSONB,
+        Type::UUID,
+        Type::BYTEA,
+        Type::TEXT,
+        Type::BPCHAR,
+        Type::NAME,
+        Type::INT4_ARRAY,
+    ];
+
+    proptest! {
+        #[test]
+        fn whatever_a_server_sends_is_a_cell_or_refused_and_never_a_panic(
+            mut raw in prop::collection::vec(any::<u8>(), 0..80),
+            groups in 0u8..20,
+        ) {
+            for is_number in [false, true] {
+                if is_number {
+                    // As numbers of any length begin that have so many groups of digits.
+                    raw.splice(0..0, [0, groups, 0, 1, 0, 0, 0, 0]);
+                }
+                let read = KINDS.map(|kind| ServerCell::from_sql(&kind, &raw));
+                prop_assert!(matches!(read[12], Ok(ServerCell::Cell(Cell::Text(_)))));
+                prop_assert!(read[15].is_err());
+                if let Ok(ServerCell::Cell(Cell::Geometry(geometry))) = &read[11] {
+                    prop_assert!(geometry.is_sound());
+                }
+            }
+        }
+    }
 
     #[test]
     fn numbers_of_any_length_become_the_nearest_of_ours() {

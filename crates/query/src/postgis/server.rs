@@ -13,7 +13,7 @@ use rustc_hash::FxHashMap;
 
 use super::ServerAddress;
 use super::cells::{BoundCell, COME_AS_THEY_ARE, ServerCell};
-use super::errors::{is_lost, told, unreachable};
+use super::errors::{is_lost, server_error, unreachable};
 use super::numbered::{NumberedStatement, ParameterTypes, numbered};
 use crate::cell::{Cell, QueryAnswer};
 use crate::errors;

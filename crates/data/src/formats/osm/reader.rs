@@ -10,7 +10,7 @@ use super::blobs::{BlobFile, is_extract};
 use super::block::{BlockContents, OsmBlock, Visitor};
 use super::choosing::{PlaceSearch, TagChoice, TagSearch, WaySearch};
 use super::layers::{LAYERS, ReadyLayer};
-use super::meaning::{TagValue, told};
+use super::meaning::{TagValue, meanings};
 use super::places::Place;
 use super::shapes::{BuildResult, OsmRecord, build};
 use crate::{Attribute, Crs, FeatureTable, SourceOptions};

@@ -96,7 +96,7 @@ fn polygons(rings: Vec<rings::PolygonRings>) -> Vec<Geometry> {
     let points = |ring: Vec<Place>| ring.into_iter().map(Place::degrees).collect();
     rings
         .into_iter()
-        .filter_map(|polygon| Geometry::polygon(polygon.into_iter().map(points).collect()))
+        .filter_map(|polygon| Geometry::polygon(polygon.into_iter().map(points).collect::<Vec<_>>()))
         .collect()
 }
 

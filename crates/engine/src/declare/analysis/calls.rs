@@ -31,8 +31,8 @@ pub(super) struct CallCheck<'a> {
     pub(super) scope: Vec<(String, Inference)>,
     /// The names of variables that are set more than once.
     assigned: BTreeSet<String>,
-    /// The names of functions that the file adds to types.
-    pub(super) added: BTreeSet<String>,
+    /// The functions that the file adds to types: the type's name, if it is known, and the function's.
+    pub(super) added: BTreeSet<(Option<String>, String)>,
     /// What the function is for that is being walked.
     pub(super) role: FunctionRole,
     /// The rule that it belongs to, as errors name it.

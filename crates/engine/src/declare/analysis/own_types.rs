@@ -48,7 +48,8 @@ impl CallCheck<'_> {
                 self.declaration(table, kind.as_ref());
                 if word == "extend" {
                     // Where the script ends before it comes to this, nobody else knows of it.
-                    self.added.extend(added_names(table));
+                    let of = kind.as_ref().map(|kind| kind.name.to_string());
+                    self.added.extend(added_names(table).into_iter().map(|name| (of.clone(), name)));
                 }
             }
             Some(other) => drop(self.expression(other)),
@@ -128,13 +129,14 @@ impl CallCheck<'_> {
         Inference::Unknown
     }
 
-    /// Whether an object of type `kind` may have the method `name`, though the type is not known to have it: it was added, or
-    /// the object is of a type that extends it.
+    /// Whether an object of type `kind` may have the method `name`, though the type is not known to have it: it is added to
+    /// that type, or to one that nobody can tell, or the object is of a type that extends it.
     pub(super) fn may_be_above(&self, kind: &Kind, name: &str) -> bool {
         let above = |other: &Kind| {
             other.script.as_ref().is_some_and(|script| script.above.iter().any(|above| **above == *kind.name))
         };
-        self.added.contains(name)
+        let added_to = |of: &Option<String>| of.as_ref().is_none_or(|of| *of == kind.name);
+        self.added.iter().any(|(of, added)| added == name && added_to(of))
             || matches!(self.role, FunctionRole::Reading | FunctionRole::Changing)
                 && self.registry.kinds().any(|other| above(other) && other.method(name).is_some())
     }

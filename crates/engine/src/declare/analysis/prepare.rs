@@ -361,7 +361,7 @@ fn signature(body: &FunctionBody) -> CallForm {
             Parameter::Name(name) => text_of(name),
             _ => "...".to_owned(),
         };
-        Argument { luau: luau(of), ..Argument::new(name) }
+        Argument::typed(name, luau(of))
     });
     CallForm { arguments: arguments.collect(), returns: luau(body.return_type()) }
 }

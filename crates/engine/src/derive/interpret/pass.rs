@@ -8,7 +8,7 @@ use std::time::{Duration, Instant};
 use super::Applier;
 use super::notices::{Notices, ObjectNotice};
 use crate::derive::plan::DerivationPlan;
-use crate::derive::threads::{ThreadJob, ThreadPool};
+use crate::derive::threads::{LeadingMachine, ThreadJob};
 use crate::machine::{Flusher, Machine, write_column};
 use crate::results::Use;
 use burgeon_base::error::{Error, Limit, Result, SourcePlace};
@@ -41,7 +41,7 @@ impl InterpretationPass {
     /// Interprets `chain` as it stands after `step` steps, and gives it back; adds to `uses` what each rule did, and to
     /// `said` what the objects warned of.
     pub(crate) fn pass(
-        (machine, threads): (&Machine, &ThreadPool),
+        LeadingMachine { machine, threads }: LeadingMachine<'_>,
         plan: &Arc<DerivationPlan>,
         chain: Chain,
         step: usize,
@@ -288,14 +288,9 @@ impl InterpretationPass {
     /// Adds what objects have warned of in the batch that was interpreted last.
     fn note_all(&self, machine: &Machine, notices: &[ObjectNotice]) {
         for (index, notice) in notices.iter().enumerate() {
-            let same = |other: &ObjectNotice| {
-                other.module == notice.module && other.warning.message() == notice.warning.message()
-            };
-            self.note(
-                machine,
-                notice,
-                !notices[..index].iter().rev().take_while(|it| it.module == notice.module).any(same),
-            );
+            let mut earlier = notices[..index].iter().rev().take_while(|it| it.module == notice.module);
+            let is_first = !earlier.any(|it| it.warning.says_the_same(&notice.warning));
+            self.note(machine, notice, is_first);
         }
     }
 

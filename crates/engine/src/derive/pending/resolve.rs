@@ -8,7 +8,7 @@ use super::fragment::Fragmentation;
 use super::query::{QuestionSet, RowModules};
 use super::sites::{PendingSite, sites};
 use crate::derive::plan::DerivationPlan;
-use crate::derive::threads::ThreadPool;
+use crate::derive::threads::{LeadingMachine, ThreadPool};
 use crate::machine::Machine;
 use crate::questions::{Question, Rows};
 use crate::results::{PendingAnswer, RESOLVED};
@@ -33,7 +33,7 @@ pub(in crate::derive) struct Resolution {
 
 /// Puts in what modules of `chain` stand for, as it is after `step` steps.
 pub(in crate::derive) fn resolve(
-    (machine, threads): (&Machine, &ThreadPool),
+    LeadingMachine { machine, threads }: LeadingMachine<'_>,
     plan: &DerivationPlan,
     chain: &Chain,
     step: usize,

@@ -9,7 +9,7 @@ use mlua::{Lua, MultiValue, Table, UserData, UserDataMethods, UserDataRef, Value
 use crate::machine::Machine;
 use crate::machine::convert::to_value;
 use crate::machine::library::Library;
-use crate::machine::types::{DerivedHandle, ObjectHandle};
+use crate::machine::types::{DerivedHandle, ObjectHandle, object_of_system};
 use burgeon_base::error::{Error, Result, SourcePlace};
 use burgeon_kit::rules::Symbol;
 use burgeon_kit::{Object, Value};
@@ -113,9 +113,8 @@ impl SystemHandle {
         if let Err(error) = result {
             let error = error.at(place);
             let mut problems = self.library.problems.borrow_mut();
-            let same = |known: &Error| known.place() == error.place() && known.message() == error.message();
             // What a loop declares again and again is wrong once.
-            if !problems.last().is_some_and(same) {
+            if !problems.last().is_some_and(|known| known.is_same(&error)) {
                 problems.push(error);
             }
         }
@@ -138,15 +137,16 @@ fn prototype(library: &Library, value: LuaValue) -> Result<Arc<dyn Object>> {
         }
         value => value,
     };
-    match value {
-        LuaValue::UserData(data) => match data.borrow::<ObjectHandle>() {
-            Ok(handle) => Ok(Arc::clone(&handle.0)),
-            Err(_) => {
-                Err(Error::argument("lsystem: object must be an object").help("write object = turtle()"))
-            }
-        },
-        _ => Err(Error::argument("lsystem: object must be an object").help("write object = turtle()")),
+    if let LuaValue::UserData(data) = &value
+        && let Ok(handle) = data.borrow::<ObjectHandle>()
+    {
+        return Ok(Arc::clone(&handle.0));
     }
+    let error = Error::argument("lsystem: object must be an object");
+    Err(match object_of_system(&library.machine()?.session.options.registry) {
+        Some(object) => error.help(format!("write {object}")),
+        None => error,
+    })
 }
 
 impl UserData for SystemHandle {

@@ -7,6 +7,7 @@ use rustc_hash::{FxHashMap, FxHashSet};
 
 use crate::machine::Machine;
 use crate::machine::library::{Library, StandardInterpretation};
+use crate::machine::types::object_of_system;
 use crate::results::DerivedSystem;
 use burgeon_base::error::SourcePlace;
 use burgeon_base::warning::{Warning, WarningKind};
@@ -31,9 +32,11 @@ impl SystemDeclaration {
             let text = "the system has no object, so its interpretations are never run";
             let warning = Warning::new(WarningKind::NoObject, text);
             let warning = warning.rule(format!("{} (interpretation)", first.pattern.text));
-            machine.warn(
-                warning.at(first.place.clone()).help("give it one, such as lsystem({ object = turtle() })"),
-            );
+            let warning = warning.at(first.place.clone());
+            machine.warn(match object_of_system(&machine.session.options.registry) {
+                Some(object) => warning.help(format!("give it one, such as lsystem({{ {object} }})")),
+                None => warning,
+            });
         }
         let mut sure = CandidateRules::default();
         for rule in grammar.rules().iter().filter(|rule| rule.weight != Some(0.0)) {

@@ -92,7 +92,7 @@ fn guarded<T>(act: impl FnOnce() -> Result<T>) -> Result<T> {
 }
 
 fn no_object() -> Error {
-    Error::script("the system has no object").help("give it one: lsystem { object = turtle() }")
+    Error::script("the system has no object").help("give it one: lsystem({ object = ... })")
 }
 
 /// An object as a value of a script; read-only.

@@ -6,6 +6,7 @@
 mod geometries;
 mod handles;
 mod kinds;
+mod mentions;
 mod script_types;
 
 pub(crate) use geometries::POINTS;
@@ -13,4 +14,5 @@ pub(super) use geometries::install_geometries;
 pub(super) use handles::{DerivedHandle, methods_key};
 pub(crate) use handles::{ObjectHandle, Objects};
 pub(super) use kinds::{install_kind, named_fields, no_table};
+pub(super) use mentions::object_of_system;
 pub(super) use script_types::{ScriptFunction, ScriptTypeEntry, declare_type, extend_type};

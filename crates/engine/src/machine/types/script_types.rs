@@ -6,6 +6,7 @@ use mlua::{Function, Table, Value as LuaValue};
 
 use super::handles::{ObjectHandle, methods_key};
 use super::kinds::{constructor, install_methods};
+use super::mentions::{drawing_kind, extended_kind};
 use crate::declare::Session;
 use crate::machine::Machine;
 use crate::machine::convert::{to_lua, to_value};
@@ -53,9 +54,9 @@ impl ScriptTypeEntry {
         let mut entry = match declared.raw_get::<LuaValue>("extends").map_err(internal)? {
             LuaValue::Nil => ScriptTypeParts::default(),
             LuaValue::Function(function) => {
-                ScriptTypeParts::of(machine, &function).ok_or_else(|| not_a_type(name))?
+                ScriptTypeParts::of(machine, &function).ok_or_else(|| not_a_type(machine, name))?
             }
-            _ => return Err(not_a_type(name)),
+            _ => return Err(not_a_type(machine, name)),
         };
         let what = |part: &str| format!("{part} of object {name}");
         let inherited = entry.declaration.fields.len();
@@ -294,14 +295,15 @@ pub(in crate::machine) fn extend_type(
     declared: &LuaValue,
 ) -> Result<()> {
     machine.library.at_top_level("extend")?;
-    let usage = "write extend(footprint, { reads = { ... }, changes = { ... } })";
+    let named = extended_kind(&machine.session.options.registry).unwrap_or("constructor");
+    let usage = format!("write extend({named}, {{ reads = {{ ... }}, changes = {{ ... }} }})");
     let kind = match constructor {
         LuaValue::Function(function) => machine.library.kind_of(function),
         _ => None,
     };
     let kind = kind.ok_or_else(|| {
         Error::argument(format!("extend takes a type of object first, not a {}", constructor.type_name()))
-            .help(usage)
+            .help(&usage)
     })?;
     let LuaValue::Table(declared) = declared else {
         return Err(Error::argument("extend takes a table after the type").help(usage));
@@ -423,9 +425,12 @@ fn named_part(error: Error, name: &str, part: &str) -> Error {
         .help("state is numbers, booleans, strings, tables of these, and objects")
 }
 
-fn not_a_type(name: &str) -> Error {
-    Error::argument(format!("object {name}: extends must be the constructor of a type"))
-        .help("write extends = extruder, without a table after it")
+fn not_a_type(machine: &Machine, name: &str) -> Error {
+    let error = Error::argument(format!("object {name}: extends must be the constructor of a type"));
+    match drawing_kind(&machine.session.options.registry) {
+        Some(kind) => error.help(format!("write extends = {kind}, without a table after it")),
+        None => error,
+    }
 }
 
 fn not_a_function(what: &str, found: &LuaValue) -> Error {

@@ -1,0 +1,53 @@
+//! Which types of objects remedies name: those that the registry has, whatever it holds.
+
+use burgeon_kit::{Construct, Kind, Registry};
+use burgeon_language::{NameKind, names};
+
+/// The types that draw and that scripts can make, in the order of the registry.
+fn drawing(registry: &Registry) -> impl Iterator<Item = &Kind> {
+    let kinds = registry.kinds().map(|kind| &**kind);
+    kinds.filter(|kind| kind.draw.is_some() && !matches!(kind.construct, Construct::Given))
+}
+
+/// The constructor that a script extends, if there is one.
+pub(in crate::machine) fn drawing_kind(registry: &Registry) -> Option<&str> {
+    drawing(registry).next().map(|kind| &*kind.name)
+}
+
+/// The constructor of a type to which functions are added: rather one that is made of something that they measure.
+pub(in crate::machine) fn extended_kind(registry: &Registry) -> Option<&str> {
+    let measured = drawing(registry).find(|kind| kind.first.is_some());
+    measured.map(|kind| &*kind.name).or_else(|| drawing_kind(registry))
+}
+
+/// How a system is given an object, if there is a type that draws: rather the one that modules of the standard library
+/// draw with.
+pub(in crate::machine) fn object_of_system(registry: &Registry) -> Option<String> {
+    let drawn_with = |kind: &&Kind| {
+        let mut sorts = names().iter().map(|name| name.sort);
+        sorts.any(|sort| matches!(sort, NameKind::Module { kind: known, .. } if kind.name == known))
+    };
+    let name =
+        drawing(registry).find(drawn_with).map(|kind| &*kind.name).or_else(|| drawing_kind(registry))?;
+    Some(format!("object = {name}()"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn only_types_that_there_are_are_named() {
+        let all = burgeon_objects::registry();
+        assert_eq!(object_of_system(&all).as_deref(), Some("object = turtle()"));
+        assert_eq!((extended_kind(&all), drawing_kind(&all)), (Some("footprint"), Some("extruder")));
+        let without = |names: &[&str]| -> Registry {
+            all.kinds().filter(|kind| !names.contains(&&*kind.name)).cloned().collect()
+        };
+        let some = without(&["turtle", "footprint"]);
+        assert_eq!(object_of_system(&some).as_deref(), Some("object = extruder()"));
+        assert_eq!((extended_kind(&some), drawing_kind(&some)), (Some("extruder"), Some("extruder")));
+        let none = without(&["turtle", "footprint", "extruder"]);
+        assert_eq!((object_of_system(&none), extended_kind(&none), drawing_kind(&none)), (None, None, None));
+    }
+}

@@ -1,0 +1,107 @@
+//! An argument of a function that scripts call, and what docs tell of units and defaults.
+
+use std::borrow::Cow;
+
+use super::Field;
+
+/// Text that a built-in type has in the program, and another brings.
+type Text = Cow<'static, str>;
+
+/// The units that a doc gives in round brackets.
+const UNITS: [&str; 10] = ["m", "m²", "m³", "1/m", "m/m", "%", "degrees", "s", "bytes", "light years"];
+
+/// An argument of a method.
+#[derive(Debug, Clone)]
+pub struct Argument {
+    /// Its name.
+    pub name: Text,
+    /// Its type in Luau.
+    pub luau: String,
+    /// Its unit, if it has one, such as "m".
+    pub unit: Option<Text>,
+    /// What it may have itself, where it is a table of named fields.
+    pub fields: Vec<Field>,
+    /// The value where it is left out, as one would write it: `nil` where nothing stands for it; empty of what must be given.
+    pub default: String,
+}
+
+impl Argument {
+    /// An argument of any type.
+    pub fn new(name: impl Into<Text>) -> Self {
+        Self::typed(name, "any")
+    }
+
+    /// An argument of type `luau`, which may be left out if that ends with `?`.
+    pub fn typed(name: impl Into<Text>, luau: impl Into<String>) -> Self {
+        let luau = luau.into();
+        let default = if luau.ends_with('?') { "nil" } else { "" }.to_owned();
+        Self { name: name.into(), luau, unit: None, fields: Vec::new(), default }
+    }
+
+    /// With the unit and the default that the function's doc gives in round brackets right behind its name, such as
+    /// `margin` (m, 5 unless given).
+    #[must_use]
+    pub fn described(mut self, doc: &str) -> Self {
+        let name = format!("`{}` ", self.name);
+        let told = || doc.match_indices(&name).filter_map(|(at, name)| bracketed(&doc[at + name.len()..]));
+        self.unit = told().find_map(unit_in).map(Text::from);
+        if let Some(default) =
+            told().flat_map(|told| told.split(", ")).find_map(|part| part.strip_suffix(" unless given"))
+        {
+            self.default = default.replace('`', "");
+        }
+        self
+    }
+}
+
+/// The first unit that a doc gives in round brackets: `m` of "Its height (m)." and of "Its height (m, 5 unless given)."
+pub fn unit(doc: &str) -> Option<&'static str> {
+    doc.match_indices('(').find_map(|(at, _)| bracketed(&doc[at..]).and_then(unit_in))
+}
+
+/// What stands in the round brackets that `text` begins with.
+fn bracketed(text: &str) -> Option<&str> {
+    Some(text.strip_prefix('(')?.split_once(')')?.0)
+}
+
+/// The unit that what stands in brackets begins with.
+fn unit_in(told: &str) -> Option<&'static str> {
+    let first = told.split(',').next()?.split(" from ").next()?;
+    UNITS.into_iter().find(|unit| *unit == first)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_unit_stands_in_round_brackets() {
+        for (doc, expected) in [
+            ("Its height (m).", Some("m")),
+            ("Its area (m²) without the holes.", Some("m²")),
+            ("Height (m): preferred, or { least, greatest }.", Some("m")),
+            ("How far it reaches (m, 5 unless given).", Some("m")),
+            ("Where it stands (m from the star).", Some("m")),
+            ("As `footprint(geometry)` takes it, how far it turns (degrees).", Some("degrees")),
+            ("How rough it is (0 to 1).", None),
+            ("Turns by more than a little (8 degrees).", None),
+            ("It has m and (no end", None),
+        ] {
+            assert_eq!(unit(doc), expected, "{doc}");
+        }
+    }
+
+    #[test]
+    fn an_arguments_unit_and_its_default_follow_its_name() {
+        let doc = "Raises it by `height` (m) within `time` (s, `tower.time` unless given), turned by `angle`, `often` \
+                   (3 unless given), all in all (bytes).";
+        let told = |name: &'static str, luau: &str| {
+            let argument = Argument::typed(name, luau).described(doc);
+            (argument.unit.map(Cow::into_owned), argument.default)
+        };
+        assert_eq!(told("height", "number"), (Some("m".to_owned()), String::new()));
+        assert_eq!(told("time", "number?"), (Some("s".to_owned()), "tower.time".to_owned()));
+        assert_eq!(told("often", "number?"), (None, "3".to_owned()));
+        assert_eq!(told("angle", "number?"), (None, "nil".to_owned()));
+    }
+}

@@ -1,0 +1,11 @@
+-- A cone, made once and placed three times, ever smaller.
+local Cone = module("Cone")
+local cone = lsystem({ object = extruder() })
+cone:axiom(Cone())
+cone:interpret("Cone", function(this)
+  this:scale(0.5):taper(0):extrude(1)
+end)
+local model = cone:derive()
+local row = lsystem({ object = turtle() })
+row:axiom(Place(model), G(2), Place(model, 0.7), G(2), Place(model, 0.4))
+row:derive()

@@ -1,0 +1,7 @@
+-- Four twigs: the stem is rolled by 120 degrees, by as many again, and back by 60.
+local stem = lsystem({ object = turtle({ step = 1 }) })
+local function twig()
+  return { Turn(50), F() }
+end
+stem:axiom(F(), twig(), Roll(120), F(), twig(), RollLeft(120), F(), twig(), RollRight(60), F(), twig())
+stem:derive()

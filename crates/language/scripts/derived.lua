@@ -1,0 +1,8 @@
+-- What has come of a derivation.
+local line = lsystem({ object = turtle() })
+line:axiom(F())
+line:rule("F", function()
+  return F(), F()
+end)
+local derived = line:derive(2)
+print(derived.steps, derived.modules, derived.chains[1], derived.objects[1]:position())

@@ -1,0 +1,5 @@
+-- What a source has of each house.
+local houses = source({ { id = "inn", geometry = point(3, 4), height = 6 } })
+for _, feature in houses do
+  print(feature.id, feature.layer, feature.height, feature.geometry:x())
+end

@@ -1,0 +1,11 @@
+-- A post that draws itself where it begins, made once and placed three times.
+local post = object("post", {
+  extends = extruder,
+  begin = function(self)
+    self:scale(0.1):extrude(2)
+  end,
+})
+local model = prototype(post)
+local fence = lsystem({ object = turtle() })
+fence:axiom(Place(model), G(2), Place(model), G(2), Place(model))
+fence:derive()

@@ -1,0 +1,20 @@
+-- A bud becomes a leaf three times in four, and a flower else; one that is too old does neither.
+local Bud, Leaf, Flower = module("Bud", "age"), module("Leaf"), module("Flower")
+local function is_young(this, age)
+  return age < 5
+end
+local plant = lsystem({ object = turtle() })
+plant:axiom({ Bud(1) }, { Bud(2) }, { Bud(9) })
+plant:rule("Bud(age)", { weight = 3, when = is_young }, function()
+  return F(1), Leaf()
+end)
+plant:rule("Bud(age)", { weight = 1, when = is_young }, function()
+  return F(1), Flower()
+end)
+plant:interpret("Leaf", function(this)
+  this:color("#5b8a3a"):sphere(0.1)
+end)
+plant:interpret("Flower", function(this)
+  this:color("#c04060"):sphere(0.2)
+end)
+plant:derive(1)

@@ -1,0 +1,12 @@
+-- All that a system is told, with rules that look at their neighbours.
+local Signal, Wait = module("Signal"), module("Wait")
+local row = lsystem({ object = turtle() })
+row:axiom(Signal(), Turn(5), Wait(), Turn(5), Wait())
+row:ignore("Turn")
+row:rule("Signal < Wait", function()
+  return Signal()
+end)
+row:interpret("Signal", function(this)
+  this:forward(1)
+end)
+row:derive(2)

@@ -1,0 +1,83 @@
+//! Scripts that show what the names of the language do, for the reference.
+
+use burgeon_kit::{ScriptExample, examples};
+
+/// All of them.
+pub const EXAMPLES: &[ScriptExample] = examples! {
+    "BeginPolygon" shows "BeginPolygon" "Point" "EndPolygon";
+    "Color" shows "Color";
+    "Elasticity" shows "Elasticity";
+    "F" shows "F" "G";
+    "Level" shows "Level";
+    "Material" shows "Material";
+    "Paint" shows "Paint";
+    "Pitch" shows "Pitch" "Down" "Up";
+    "Place" shows "Place";
+    "Roll" shows "Roll" "RollLeft" "RollRight";
+    "Sphere" shows "Sphere";
+    "Turn" shows "Turn" "Left" "Right";
+    "TurnAround" shows "TurnAround";
+    "Width" shows "Width";
+    "api" shows "api" "api.has";
+    "color" shows "color";
+    "consider" shows "system:consider";
+    "derived" shows "derived";
+    "ease" shows "ease" "ease.in" "ease.out" "ease.inout" "ease.smooth" "ease.sine" "ease.back";
+    "extend" shows "extend";
+    "feature" shows "feature";
+    "fragment" shows "fragment";
+    "geometry" shows "geometry";
+    "hsv" shows "hsv";
+    "layer" shows "layer";
+    "lerp" shows "lerp";
+    "line" shows "line";
+    "lod" shows "lod";
+    "lsystem" shows "lsystem";
+    "mix" shows "mix";
+    "module" shows "module";
+    "noise" shows "noise";
+    "object" shows "object";
+    "param" shows "param";
+    "point" shows "point";
+    "polygon" shows "polygon";
+    "prototype" shows "prototype";
+    "query" shows "query";
+    "random" shows "random";
+    "remap" shows "remap";
+    "require" shows "require";
+    "rgb" shows "rgb";
+    "rule" shows "rule" "system:rule";
+    "source" shows "source";
+    "system" shows "system" "system:axiom" "system:ignore" "system:interpret" "system:derive";
+    "vec" shows "vec";
+    "vector" shows "vector" "vector:dot" "vector:cross" "vector:length" "vector:unit" "vector:distance"
+        "vector:lerp";
+};
+
+#[cfg(test)]
+mod tests {
+    use std::collections::BTreeSet;
+    use std::path::Path;
+
+    use super::*;
+    use crate::names::{NameKind, names};
+
+    #[test]
+    fn every_name_of_burgeon_is_shown_by_a_script_and_nothing_else_is() {
+        let mut wanted = BTreeSet::new();
+        for name in names().iter().filter(|name| name.sort != NameKind::Luau) {
+            wanted.insert(name.name.to_string());
+            let separator = if name.sort == NameKind::Given { ':' } else { '.' };
+            wanted
+                .extend(name.functions.iter().map(|inner| format!("{}{separator}{}", name.name, inner.name)));
+        }
+        let shown: Vec<&str> = EXAMPLES.iter().flat_map(|example| example.shows).copied().collect();
+        assert_eq!(shown.iter().map(|name| (*name).to_owned()).collect::<BTreeSet<_>>(), wanted);
+        assert_eq!(shown.len(), wanted.len(), "a name is shown by two scripts");
+        for example in EXAMPLES {
+            assert!(example.script.starts_with("-- "), "{} does not say what there is to see", example.name);
+        }
+        let folder = std::fs::read_dir(Path::new(env!("CARGO_MANIFEST_DIR")).join("scripts")).unwrap();
+        assert_eq!(folder.count(), EXAMPLES.len(), "a script is not in the list");
+    }
+}

@@ -1,0 +1,12 @@
+-- A rule asks where the extruder is, how it stands, and what it has drawn.
+local Post = module("Post", "height")
+local post = lsystem({ object = extruder({ caps = false }) })
+post:axiom(Post(2))
+post:rule("Post(height)", function(this, height)
+  print(this:position(), this:heading(), this:distance(vec(5, 0, 0)), this:open_edges())
+  return Post(height / 2)
+end)
+post:interpret("Post(height)", function(this, height)
+  this:scale(0.3):extrude(height)
+end)
+post:derive(1)

@@ -1,0 +1,3 @@
+-- How large a model is: one box around all of it.
+local window = model("window.glb")
+print(window:high() - window:low())

@@ -1,0 +1,16 @@
+-- A rule asks what became of a street that was proposed, and what would become of another one.
+local Tip = module("Tip")
+local roads = lsystem({ object = network({}) })
+roads:axiom(Tip())
+roads:rule("Tip", function(this)
+  local junction = this:arrived(1, 0)
+  print(this:fate(1, 0), junction, this:probe(1, 90, 60, 0).fate)
+  if junction then
+    print(this:place(junction), this:degree(junction))
+  end
+  return Tip()
+end)
+roads:interpret("Tip", function(this)
+  this:grow(1, 0, 60, 0)
+end)
+roads:derive(1)

@@ -1,0 +1,9 @@
+-- A street that turns as it goes on, and a second one from where the first began.
+local Walk = module("Walk")
+local roads = lsystem({ object = network({}) })
+roads:axiom(Walk())
+roads:interpret("Walk", function(this)
+  this:stand(1, 0):walk(60):turn(20):walk(60)
+  this:lead(1, vec(0, 80, 0), 1)
+end)
+roads:derive()

@@ -1,0 +1,3 @@
+-- How far a place is from the nearest street.
+local lanes = streets({ { { 0, -5 }, { 40, -5 } } })
+print(lanes:distance(vec(10, 3, 0)))

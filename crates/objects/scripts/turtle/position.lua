@@ -1,0 +1,12 @@
+-- A rule asks where the turtle is, which way it looks, and how far a place is from what it has drawn.
+local Step = module("Step", "length")
+local walk = lsystem({ object = turtle() })
+walk:axiom(Turn(30), Step(1))
+walk:rule("Step(length)", function(this, length)
+  print(this:position(), this:heading(), this:left(), this:up())
+  return Step(1 + this:distance(vec(0, 3, 0)))
+end)
+walk:interpret("Step(length)", function(this, length)
+  this:forward(length)
+end)
+walk:derive(1)

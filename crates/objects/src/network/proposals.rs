@@ -1,0 +1,103 @@
+//! How many streets were proposed to a network, and what to tell where hardly any has room.
+
+use burgeon_base::warning::{Warning, WarningKind};
+use burgeon_streets::{Fate, Refusal};
+
+/// So many streets tell what becomes of most.
+const ENOUGH: usize = 8;
+
+/// What became of the streets that were proposed.
+#[derive(Debug, Clone, Default)]
+pub(super) struct ProposalTally {
+    proposed: usize,
+    /// How many of them were refused, by the reason, in the order of [`Refusal::ALL`].
+    refused: [usize; Refusal::ALL.len()],
+    /// How many were proposed in this pass, and how many of these were not refused.
+    of_pass: [usize; 2],
+}
+
+impl ProposalTally {
+    /// Begins a pass.
+    pub(super) fn begin(&mut self) {
+        self.of_pass = [0; 2];
+    }
+
+    pub(super) fn count(&mut self, fate: Fate) {
+        self.proposed += 1;
+        self.of_pass[0] += 1;
+        match fate {
+            Fate::Refused(why) => self.refused[why as usize] += 1,
+            _ => self.of_pass[1] += 1,
+        }
+    }
+
+    /// What to tell after a pass that proposed streets and built none, with so many pieces of streets in all: that there is
+    /// none, or that most that were proposed are too short for their widths, so that growth ends early.
+    pub(super) fn warning(&self, size: usize) -> Option<Warning> {
+        if self.of_pass[0] == 0 || self.of_pass[1] > 0 {
+            return None;
+        }
+        let proposed = self.proposed;
+        let narrow = self.refused[Refusal::Corners as usize] + self.refused[Refusal::TooShort as usize];
+        let (text, help) = if size == 0 {
+            let reasons: Vec<&str> = self.reasons().map(|(why, _)| why.name()).collect();
+            let text = format!(
+                "network: no street was built of {proposed} that were proposed: {}",
+                reasons.join(", ")
+            );
+            (text, "network:fate tells of each what became of it")
+        } else if proposed >= ENOUGH && 2 * narrow > proposed {
+            let refused: usize = self.refused.iter().sum();
+            let reasons: Vec<String> =
+                self.reasons().map(|(why, count)| format!("{} ({count})", why.name())).collect();
+            let text = format!(
+                "network: {refused} of {proposed} streets that were proposed were refused, so that growth ended with {size} \
+                 pieces: {}",
+                reasons.join(", ")
+            );
+            (text, "propose longer streets, make them narrower, or give the network a smaller `corner`")
+        } else {
+            return None;
+        };
+        Some(Warning::new(WarningKind::DrawsNothing, text).help(help))
+    }
+
+    /// The reasons that there were, each with how many were refused for it, by name.
+    fn reasons(&self) -> impl Iterator<Item = (Refusal, usize)> {
+        let mut reasons: Vec<(Refusal, usize)> =
+            Refusal::ALL.into_iter().zip(self.refused).filter(|(_, count)| *count > 0).collect();
+        reasons.sort_unstable_by_key(|(why, _)| why.name());
+        reasons.into_iter()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn growth_that_ends_for_want_of_room_is_told_and_growth_that_goes_on_is_not() {
+        let mut tally = ProposalTally::default();
+        (0..4).for_each(|_| tally.count(Fate::Built));
+        assert!(tally.warning(4).is_none());
+        tally.begin();
+        assert!(tally.warning(4).is_none(), "nothing was proposed");
+        (0..5).for_each(|_| tally.count(Fate::Refused(Refusal::Corners)));
+        tally.count(Fate::Refused(Refusal::Angle));
+        tally.count(Fate::Built);
+        assert!(tally.warning(5).is_none(), "one was built");
+        tally.begin();
+        (0..3).for_each(|_| tally.count(Fate::Refused(Refusal::TooShort)));
+        let told = tally.warning(5).expect("a warning");
+        assert_eq!(
+            told.message(),
+            "network: 9 of 14 streets that were proposed were refused, so that growth ended with 5 pieces: angle (1), \
+             corners (5), too short (3)"
+        );
+        let mut crowded = ProposalTally::default();
+        (0..3).for_each(|_| crowded.count(Fate::Built));
+        crowded.begin();
+        (0..90).for_each(|_| crowded.count(Fate::Refused(Refusal::TooNear)));
+        assert!(crowded.warning(3).is_none(), "streets that are near others have had their room");
+    }
+}

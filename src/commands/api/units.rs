@@ -1,0 +1,192 @@
+//! The numbers that scripts give or read and that have no unit: a new number has one in its doc, or stands here.
+
+use std::collections::BTreeSet;
+
+use super::entry::{Entry, EntryGroup, Member, MemberKind};
+use burgeon::language::CallForm;
+
+/// How many.
+const COUNTS: [&str; 29] = [
+    "derived.modules",
+    "derived.steps",
+    "extruder.along",
+    "extruder.around",
+    "extruder.sides",
+    "extruder:regular sides",
+    "extruder:resolution along",
+    "extruder:resolution around",
+    "extruder:star points",
+    "footprint:roof.details.count",
+    "footprint:roof.details.flap",
+    "footprint:roof.details.rows",
+    "geometry:buffer.quadrant_segments",
+    "geometry:offset.quadrant_segments",
+    "grid.columns",
+    "grid.rows",
+    "network.existing.depth",
+    "network.most",
+    "network.streets.lanes",
+    "network:grow depth",
+    "network:lead depth",
+    "network:probe depth",
+    "planet.levels",
+    "source.limit",
+    "system:derive steps",
+    "terrain.levels",
+    "terrain.plants.density",
+    "terrain:focus view",
+    "turtle.sides",
+];
+
+/// Parts of something, chances, weights, and what sizes are multiplied by.
+const FACTORS: [&str; 50] = [
+    ".amount",
+    ".metallic",
+    ".noise",
+    ".patches",
+    ".roughness",
+    "Elasticity elasticity",
+    "Place scale",
+    "ease.back t",
+    "ease.in t",
+    "ease.inout t",
+    "ease.out t",
+    "ease.sine t",
+    "ease.smooth t",
+    "extruder:place scale",
+    "extruder:scale scale",
+    "extruder:scale y",
+    "extruder:star inner",
+    "extruder:taper scale",
+    "extruder:taper y",
+    "footprint:roof.details.chance",
+    "footprint:roof.details.scale",
+    "geometry:line_interpolate part",
+    "geometry:line_substring from",
+    "geometry:line_substring to",
+    "geometry:random_point u",
+    "geometry:random_point v",
+    "hsv saturation",
+    "hsv value",
+    "lerp t",
+    "mix t",
+    "network:join_dead_ends detour",
+    "network:joinable detour",
+    "network:lots.elongation",
+    "network:lots.jitter",
+    "network:lots.parks",
+    "network:sites.shrink",
+    "noise x",
+    "noise y",
+    "noise z",
+    "planet.closeness",
+    "planet.error",
+    "rule.weight",
+    "system:rule.weight",
+    "template.weight",
+    "terrain.plants.size",
+    "turtle.elasticity",
+    "turtle:elasticity elasticity",
+    "turtle:place scale",
+    "turtle:tropism elasticity",
+    "vector:lerp t",
+];
+
+/// Which one: numbers of things, codes and seeds.
+const NUMBERS: [&str; 29] = [
+    ".seed",
+    "Paint number",
+    "elevation.crs",
+    "extruder:mesh faces",
+    "footprint:edge_facing edge",
+    "footprint:edge_has edge",
+    "footprint:edge_length edge",
+    "footprint:edge_start edge",
+    "footprint:shared edge",
+    "geometry:geometry_n number",
+    "geometry:point_n number",
+    "network:arrived junction",
+    "network:degree junction",
+    "network:fate junction",
+    "network:grow junction",
+    "network:lead junction",
+    "network:place junction",
+    "network:probe junction",
+    "network:reached junction",
+    "network:stand junction",
+    "noise seed",
+    "source.crs",
+    "turtle:mesh faces",
+    "turtle:paint number",
+    "universe:galaxy x",
+    "universe:galaxy y",
+    "universe:galaxy z",
+    "universe:planet index",
+    "universe:star index",
+];
+
+/// Whatever the script, or the file, measures them in.
+const ANY: [&str; 15] = [
+    "elevation.bounds",
+    "lerp a",
+    "lerp b",
+    "param.default",
+    "param.max",
+    "param.min",
+    "param.step",
+    "random a",
+    "random b",
+    "remap from",
+    "remap high",
+    "remap low",
+    "remap to",
+    "remap x",
+    "source.within",
+];
+
+/// Whether a value of this type is a number, or holds some.
+fn is_number(luau: &str) -> bool {
+    luau.replace(": number", "").replace("[number]", "").contains("number")
+}
+
+fn of_forms(found: &mut BTreeSet<String>, name: &str, forms: &[CallForm]) {
+    let arguments = forms.iter().flat_map(|form| &form.arguments);
+    let alone = arguments.filter(|argument| argument.fields.is_empty() && argument.unit.is_none());
+    let without = alone.filter(|argument| is_number(&argument.luau));
+    found.extend(without.map(|argument| format!("{name} {}", argument.name)));
+}
+
+fn of_members(found: &mut BTreeSet<String>, owner: &str, members: &[Member]) {
+    for member in members {
+        let name = member.full_name(owner);
+        let is_alone = member.what == MemberKind::Field && member.fields.is_empty();
+        if is_alone && member.unit.is_none() && is_number(&member.luau) {
+            found.insert(name.clone());
+        }
+        of_forms(found, &name, &member.forms);
+        of_members(found, &name, &member.fields);
+    }
+}
+
+/// The numbers without a unit in `entries`, as `burgeon api` names their owners.
+fn without_unit(entries: &[Entry]) -> BTreeSet<String> {
+    let mut found = BTreeSet::new();
+    for entry in entries.iter().filter(|entry| entry.group != EntryGroup::Luau) {
+        of_forms(&mut found, &entry.name, &entry.forms);
+        of_members(&mut found, &entry.name, &entry.members);
+    }
+    found
+}
+
+#[test]
+fn every_number_has_a_unit_or_a_reason_to_have_none() {
+    let found = without_unit(&super::command::entries(&burgeon::objects::registry()));
+    let listed: Vec<&str> = [&COUNTS[..], &FACTORS, &NUMBERS, &ANY].concat();
+    // What many tables have is listed by its own name.
+    let matches = |name: &str, known: &str| name == known || known.starts_with('.') && name.ends_with(known);
+    let new: Vec<&String> = found.iter().filter(|name| !listed.iter().any(|it| matches(name, it))).collect();
+    assert_eq!(new, [""; 0], "tell the unit of each in round brackets in its doc, or list it here");
+    let gone: Vec<&&str> = listed.iter().filter(|it| !found.iter().any(|name| matches(name, it))).collect();
+    assert_eq!(gone, [&""; 0], "these have a unit, or are gone");
+    assert_eq!(listed.iter().collect::<BTreeSet<_>>().len(), listed.len(), "one is listed twice");
+}
