@@ -415,6 +415,54 @@ test("texture coordinates come only when they are shown, and triangles stay wher
     assert.deepEqual(whole.slice(-3), [true, true, false]);
   }));
 
+test("labels of the axes stand neither over the model nor over the picture's edge", () =>
+  open(
+    `local Part = module("Part")
+local wall = lsystem({ object = extruder({ smooth = false }) })
+wall:axiom(Part())
+wall:interpret("Part", function(this)
+  this:jump({ 0, 0, 0 }):color("#d02010"):rectangle(60, 6):extrude(12)
+end)
+wall:derive()
+`,
+    async ({ page }) => {
+      await drawn(page);
+      const box = await page.locator("canvas#view").boundingBox();
+      await page.mouse.move(box.x + box.width / 2, box.y + box.height * 0.55);
+      const labels = () =>
+        page.evaluate(() =>
+          [...document.querySelectorAll("#ticks span")]
+            .filter((it) => it.checkVisibility())
+            .map((it) => it.getBoundingClientRect())
+            .map(({ left, right, top, bottom }) => ({ left, right, top, bottom })),
+        );
+      let seenAtAll = 0;
+      for (const view of ["view-iso", "view-front", "view-left", "view-right"]) {
+        await seen(page, "views").click();
+        await seen(page, view).click();
+        await page.waitForTimeout(400);
+        for (let near = 0; near < 8; near += 1) {
+          await page.keyboard.press("ArrowUp");
+          await page.mouse.wheel(0, -150);
+          await page.waitForTimeout(250);
+          const all = await labels();
+          const picture = await pixels(page);
+          seenAtAll += all.length;
+          for (const { left, right, top, bottom } of all) {
+            const where = `${view} ${near}: ${[left, right, top, bottom].map(Math.round)}`;
+            assert.ok(left >= box.x && right <= box.x + box.width && top >= box.y && bottom <= box.y + box.height, where);
+            for (const x of [left, (left + right) / 2, right - 1]) {
+              const at = (Math.floor((top + bottom) / 2 - box.y) * Math.round(box.width) + Math.floor(x - box.x)) * 4;
+              const [red, green] = picture.subarray(at, at + 2);
+              assert.ok(red < green * 2, `${where} stands over the wall`);
+            }
+          }
+        }
+      }
+      assert.ok(seenAtAll > 10, String(seenAtAll));
+    },
+  ));
+
 test("a picture that has gone is not drawn any more, nor by shadows", () => {
   const walls = (texture) =>
     BLOCKS.replace("this:color(color)", texture ? `this:material({ texture = "${texture}", texture_size = { 1, 1 } })` : "this:color(color)");

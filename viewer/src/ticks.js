@@ -1,12 +1,17 @@
 // Labels in metres on the ground's axes, at the grid's lines.
 
-import { Vector3 } from 'three';
+import { Ray, Vector3 } from 'three';
 import { make, say } from './dom.js';
 import { label } from './readouts.js';
 
 const SIDE = 6; // labels on each side of zero
 const APART = 46; // pixels between labels at least
 const LABEL = 50; // pixels that a label is wide at most
+const LINE = 16; // and high
+const BESIDE = [4, 2]; // pixels from its point to its left top corner
+
+/** The corners of a label, in pixels from its point. */
+const CORNERS = [0, LABEL].flatMap((x) => [0, LINE].map((y) => [BESIDE[0] + x, BESIDE[1] + y]));
 
 /** Whether a label at a pixel would be partly behind a bar. */
 const meets = ({ left, right, top, bottom }, [x, y]) =>
@@ -45,9 +50,9 @@ export class Ticks {
           const pixel = stage.pixel(at);
           if (!pixel) continue;
           const [x, y] = [pixel[0] - box.left, pixel[1] - box.top];
-          if (cover && cover(pixel, at)) continue;
+          if (cover?.(at)) continue;
           if (bars.some((bar) => meets(bar, pixel))) continue;
-          if (x < 8 || y < 8 || x > box.width - 8 || y > box.height - 8) continue;
+          if (x < 8 || y < 8 || x + BESIDE[0] + LABEL > box.width || y + BESIDE[1] + LINE > box.height) continue;
           if (shown.some((other) => Math.abs(other.x - x) < APART && Math.abs(other.y - y) < 18)) continue;
           shown.push({ x, y, text: label(Math.abs(i * cell)), axis });
         }
@@ -64,20 +69,26 @@ export class Ticks {
     for (const tick of this.#pool.slice(shown.length)) tick.hidden = true;
   }
 
-  /** Tells whether the model may stand in front of a point, by the rectangle that its box fills. */
+  /** Tells whether the model's box stands between the camera and the label of a point. */
   #cover() {
-    const { stage } = this;
-    const { box } = stage.model;
+    const { camera, model, size } = this.stage;
+    const { box } = model;
     if (box.isEmpty()) return null;
-    const { min, max } = box;
-    const corners = Array.from({ length: 8 }, (_, i) =>
-      stage.pixel(new Vector3(i & 1 ? min.x : max.x, i & 2 ? min.y : max.y, i & 4 ? min.z : max.z)),
-    ).filter(Boolean);
-    const [xs, ys] = [0, 1].map((k) => corners.map((corner) => corner[k]));
-    const [left, right, top, bottom] = [Math.min(...xs), Math.max(...xs), Math.min(...ys), Math.max(...ys)];
-    const { back } = stage.camera;
-    const middle = box.getCenter(new Vector3()).dot(back);
-    return ([x, y], at) => x > left - 30 && x < right && y > top - 16 && y < bottom && at.dot(back) < middle;
+    const { back, right, up, distance, flat } = camera;
+    const eye = camera.target.clone().addScaledVector(back, distance);
+    const [ray, hit, way] = [new Ray(), new Vector3(), new Vector3()];
+    return (at) => {
+      const depth = flat ? distance : way.subVectors(eye, at).dot(back);
+      const pixel = ((2 * camera.reach) / size[1]) * (depth / distance);
+      return CORNERS.some(([x, y]) => {
+        ray.origin.copy(at).addScaledVector(right, x * pixel).addScaledVector(up, -y * pixel);
+        ray.direction.copy(back);
+        if (flat) return ray.intersectsBox(box);
+        const length = way.subVectors(eye, ray.origin).length();
+        ray.direction.copy(way).divideScalar(length);
+        return ray.intersectBox(box, hit) !== null && hit.distanceTo(ray.origin) < length;
+      });
+    };
   }
 
   /** A multiple of the grid's cell far enough apart to be read. */
