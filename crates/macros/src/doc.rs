@@ -43,7 +43,7 @@ mod tests {
         assert_eq!(text(&item.attrs).as_deref(), Some("Raises it,\n  and more."));
         let item: syn::ItemStruct = syn::parse_quote! {
             ///
-            struct Tower;
+            struct Slab;
         };
         assert_eq!(text(&item.attrs), None);
     }
