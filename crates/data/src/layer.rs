@@ -88,7 +88,8 @@ impl Layer {
             feature.geometry.points().fold(nothing(), |bounds, point| around(bounds, [point.to_array(); 2]))
         });
         let bounds = turned.reduce(nothing, around);
-        table.notes.extend(invalid(&table));
+        let invalid = invalid(&table)?;
+        table.notes.extend(invalid);
         Ok(Self {
             name: table.layer,
             shown: table.shown,
@@ -105,18 +106,21 @@ impl Layer {
 }
 
 /// Which features have lines or areas that are not valid, in words: what is computed with them may not be what they look like.
-fn invalid(table: &FeatureTable) -> Option<String> {
-    let features = table.features.par_iter().enumerate();
-    let wrong: Vec<usize> =
-        features.filter(|(_, feature)| !feature.geometry.is_valid()).map(|(number, _)| number).collect();
-    let first = &table.features[*wrong.first()?];
+fn invalid(table: &FeatureTable) -> Result<Option<String>> {
+    let reason = |feature: &Feature| feature.geometry.validity_reason_within(&table.budget);
+    let wrong = table.features.par_iter().enumerate().filter_map(|(number, feature)| match reason(feature) {
+        Ok(why) => why.map(|_| Ok(number)),
+        Err(error) => Some(Err(error)),
+    });
+    let wrong: Vec<usize> = wrong.collect::<Result<_>>()?;
+    let Some(first) = wrong.first().map(|number| &table.features[*number]) else { return Ok(None) };
     let (file, id) = (&table.shown, shown(&first.id));
-    let why = first.geometry.validity_reason().unwrap_or_default();
+    let why = reason(first)?.unwrap_or_default();
     let remedy = "geometry:make_valid() and ST_MakeValid repair it, footprints repair it by themselves";
-    Some(match wrong.len() {
+    Ok(Some(match wrong.len() {
         1 => format!("{file}: feature {id} is not valid: {why}; {remedy}"),
         count => format!("{file}: {count} features are not valid, such as {id}: {why}; {remedy}"),
-    })
+    }))
 }
 
 /// The bounds around two; which of the two zeros a coordinate is does not depend on their order.
@@ -176,3 +180,28 @@ mod tests {
         );
     }
 }
+
+    #[test]
+    fn whether_areas_are_valid_is_asked_for_no_longer_than_there_is_time() {
+        use std::sync::atomic::{AtomicBool, Ordering};
+
+        static IS_OVER: AtomicBool = AtomicBool::new(false);
+        let budget =
+            burgeon_base::budget::Budget::new(usize::MAX, || match IS_OVER.load(Ordering::Relaxed) {
+                true => Err(Error::stopped("over")),
+                false => Ok(()),
+            });
+        let ring = |x: f64, y: f64, size: f64| {
+            [[x, y], [x + size, y], [x + size, y + size], [x, y + size]]
+                .map(|[x, y]| DVec3::new(x, y, 0.0))
+                .to_vec()
+        };
+        let holes =
+            (0..1600u32).map(|index| ring(1.0 + f64::from(index % 40), 1.0 + f64::from(index / 40), 0.5));
+        let rings = std::iter::once(ring(0.0, 0.0, 42.0)).chain(holes).collect();
+        let wanted = crate::SourceOptions { budget, ..crate::SourceOptions::default() };
+        let mut table = FeatureTable::new("a", "a", Crs::epsg(3067), &wanted);
+        table.push("1", vec![Geometry::Polygon(rings)], Vec::new()).unwrap();
+        IS_OVER.store(true, Ordering::Relaxed);
+        assert_eq!(Layer::new(table, &mut None).unwrap_err().message(), "over");
+    }

@@ -69,7 +69,8 @@ pub struct FeatureTable {
     pool: AttributePool,
     /// The numbers of the features that are further parts of the record before, in their order.
     further: Vec<usize>,
-    budget: Arc<Budget>,
+    /// What finding out about them may take.
+    pub(super) budget: Arc<Budget>,
 }
 
 /// Which features are kept as they are read.
