@@ -97,13 +97,22 @@ pub fn run_session(session: &Arc<Session>) -> Result<Run> {
         begin.elapsed().saturating_sub(times.derivation.rewriting + times.derivation.interpretation);
     let begin = Instant::now();
     let mut scene = Scene::default();
-    for system in systems.iter_mut().filter(|system| !system.is_placed()) {
+    let mut idle = Vec::new();
+    for system in systems.iter_mut() {
+        if system.is_placed() {
+            let is_empty = system.placed_model().is_some_and(|model| model.size() == 0);
+            idle.extend(is_empty.then(|| Arc::clone(system)));
+            continue;
+        }
         let place = system.place.clone();
+        let known = scene.instances.len();
         let shown = match Arc::get_mut(system) {
             Some(system) => system.hand_over(&mut scene),
             None => system.add_to(&mut scene),
         };
         shown.map_err(|error| error.rather_at(place))?;
+        let mut meshes = scene.instances[known..].iter().map(|instance| &scene.meshes[instance.mesh]);
+        idle.extend((!meshes.any(|mesh| mesh.triangles() > 0)).then(|| Arc::clone(system)));
     }
     systems.iter().filter_map(|system| left_out(system)).for_each(|warning| session.warn(warning));
     find_textures(&mut scene, session)?;
@@ -111,6 +120,8 @@ pub fn run_session(session: &Arc<Session>) -> Result<Run> {
     if let Some(warning) = emptiness(session, &scene, &systems) {
         session.warn(warning);
     }
+    let idle: Vec<Warning> = idle.iter().filter_map(|system| idleness(session, &scene, system)).collect();
+    idle.into_iter().for_each(|warning| session.warn(warning));
     let warnings = session.warnings();
     if session.options.strict && !warnings.is_empty() {
         return Err(Error::several(warnings.into_iter().map(Warning::into_error).collect()));
@@ -122,22 +133,17 @@ pub fn run_session(session: &Arc<Session>) -> Result<Run> {
 fn emptiness(session: &Session, scene: &Scene, systems: &[Arc<DerivedSystem>]) -> Option<Warning> {
     let mut drawing = systems.iter().filter(|system| system.draws);
     let drawing = drawing.clone().find(|system| !system.is_placed()).or_else(|| drawing.next())?;
-    let whole = session.options.steps.is_none() && session.options.lod == RunOptions::default().lod;
-    if scene.triangles() > 0 || !whole {
+    if scene.triangles() > 0 || !is_whole(session) {
         return None;
     }
-    let tells = |warning: &Warning| {
-        use WarningKind::{DrawsNothing, HiddenModule, ReturnedModules, UndrawnModule};
-        matches!(warning.kind(), DrawsNothing | HiddenModule | ReturnedModules | UndrawnModule)
-    };
-    let help = if session.warnings().iter().any(tells) {
+    let help = if session.warnings().iter().any(tells_why) {
         "another warning tells why"
     } else if systems.iter().any(|system| system.is_placed()) {
         "a system that another one is to place is not shown by itself: see that it is placed"
     } else if drawing.objects.is_empty() {
         "its source has no features"
-    } else if drawing.rules.iter().any(|rule| rule.interprets && rule.done.applied > 0) {
-        "its interpretations draw nothing: see that lengths and scales are above 0"
+    } else if is_interpreted(drawing) {
+        NO_EXTENT
     } else if drawing.steps == 0 {
         "it was derived by 0 steps: see that a rule applies to the axiom, or interpret the axiom's modules"
     } else {
@@ -145,6 +151,35 @@ fn emptiness(session: &Session, scene: &Scene, systems: &[Arc<DerivedSystem>]) -
     };
     let warning = Warning::new(WarningKind::EmptyModel, "the model is empty, for this system draws nothing");
     Some(warning.at(drawing.place.clone()).help(help))
+}
+
+/// What to look for where interpretations draw nothing.
+const NO_EXTENT: &str = "its interpretations draw nothing: see that lengths and scales are above 0";
+
+/// The warning for a system that draws nothing in a model where others do, though its interpretations ran.
+fn idleness(session: &Session, scene: &Scene, system: &DerivedSystem) -> Option<Warning> {
+    let is_told = scene.triangles() == 0 || session.warnings().iter().any(tells_why);
+    if is_told || !system.draws || !is_interpreted(system) || !is_whole(session) {
+        return None;
+    }
+    let warning = Warning::new(WarningKind::DrawsNothing, "this system draws nothing");
+    Some(warning.at(system.place.clone()).help(NO_EXTENT))
+}
+
+/// Whether nobody has asked to see less of the model.
+fn is_whole(session: &Session) -> bool {
+    session.options.steps.is_none() && session.options.lod == RunOptions::default().lod
+}
+
+/// Whether interpretation rules of a system ran.
+fn is_interpreted(system: &DerivedSystem) -> bool {
+    system.rules.iter().any(|rule| rule.interprets && rule.done.applied > 0)
+}
+
+/// Whether a warning may tell why a system draws nothing.
+fn tells_why(warning: &Warning) -> bool {
+    use WarningKind::{DrawsNothing, HiddenModule, ReturnedModules, UndrawnModule};
+    matches!(warning.kind(), DrawsNothing | HiddenModule | ReturnedModules | UndrawnModule)
 }
 
 /// Reads the script and everything it requires, compiles every rule, and tells all problems at once; those that a strict
