@@ -27,6 +27,8 @@ pub struct Layer {
     pub bounds: [[f64; 3]; 2],
     /// How many features had no geometry, or one without extent, and were left out.
     pub empty: usize,
+    /// How many of them had points, but too few that differ for a line or an area.
+    pub collapsed: usize,
     /// The ids of features whose geometry cannot be read or has no place, and why; they are left out.
     pub refused: Vec<(String, Error)>,
     /// What people should know of how it was read, besides what was left out.
@@ -39,10 +41,13 @@ impl Layer {
         let features = |count: usize| if count == 1 { "feature" } else { "features" };
         let shown = &self.shown;
         let mut warnings = Vec::new();
-        if self.empty > 0 {
-            let what = features(self.empty);
-            let text = format!("{shown}: left out {} {what} without a geometry", self.empty);
-            warnings.push(Warning::new(WarningKind::Data, text).help("take them out of the file"));
+        let (bare, collapsed) = (self.empty.saturating_sub(self.collapsed), self.collapsed);
+        let why = "with too few different points for a line or an area";
+        for (count, why) in [(bare, "without a geometry"), (collapsed, why)] {
+            if count > 0 {
+                let text = format!("{shown}: left out {count} {} {why}", features(count));
+                warnings.push(Warning::new(WarningKind::Data, text).help("take them out of the file"));
+            }
         }
         if let Some((_, error)) = self.refused.first() {
             let (count, such) =
@@ -99,6 +104,7 @@ impl Layer {
             features: table.features,
             bounds,
             empty: table.empty,
+            collapsed: table.collapsed,
             refused: table.refused,
             notes: table.notes,
         })
@@ -155,6 +161,37 @@ mod tests {
     }
 
     #[test]
+    fn what_has_points_but_no_extent_is_not_without_a_geometry() {
+        let feature =
+            |geometry: &str| format!(r#"{{"type":"Feature","properties":{{}},"geometry":{geometry}}}"#);
+        let text = [
+            r#"{"type":"Point","coordinates":[7,43]}"#,
+            r#"{"type":"Polygon","coordinates":[[[7,43],[7,43],[7,43],[7,43]]]}"#,
+            r#"{"type":"LineString","coordinates":[[7,43]]}"#,
+            r#"{"type":"Polygon","coordinates":[]}"#,
+            "null",
+        ];
+        let features = text.map(feature).join(",");
+        let text = format!(r#"{{"type":"FeatureCollection","features":[{features}]}}"#);
+        let table = crate::geojson::read(
+            text.as_bytes(),
+            std::path::Path::new("a.geojson"),
+            "a.geojson",
+            &crate::SourceOptions::default(),
+        );
+        let table = table.unwrap();
+        let warnings = Layer::new(table, &mut None).unwrap().warnings();
+        let told: Vec<&str> = warnings.iter().map(Warning::message).collect();
+        assert_eq!(
+            told,
+            [
+                "a.geojson: left out 2 features without a geometry",
+                "a.geojson: left out 2 features with too few different points for a line or an area"
+            ]
+        );
+    }
+
+    #[test]
     fn areas_that_cross_themselves_are_told_with_the_reason() {
         let ring = |points: [[f64; 2]; 4]| {
             vec![Geometry::Polygon(Rings(vec![points.map(|[x, y]| DVec3::new(x, y, 0.0)).to_vec()]))]
@@ -179,7 +216,6 @@ mod tests {
             "{several:?}"
         );
     }
-}
 
     #[test]
     fn whether_areas_are_valid_is_asked_for_no_longer_than_there_is_time() {
@@ -205,3 +241,4 @@ mod tests {
         IS_OVER.store(true, Ordering::Relaxed);
         assert_eq!(Layer::new(table, &mut None).unwrap_err().message(), "over");
     }
+}

@@ -6,6 +6,7 @@ use super::river::River;
 use super::{EditFile, GroundCover, Plants, RuleLayers, Water, build};
 use crate::{Elevation, Network};
 use burgeon_base::error::{Error, Result};
+use burgeon_base::text::number;
 use burgeon_base::warning::{Warning, WarningKind};
 use burgeon_kit::rules::ModuleKey;
 use burgeon_kit::{Color, ObjectParameter, Path, Vector, fields, methods, object};
@@ -155,9 +156,8 @@ impl Terrain {
     /// bed is dug when the pass ends. There is none from a place under water.
     pub fn river(&mut self, source: Vector, width: f64) -> Result<()> {
         if !(width > 0.0 && width <= self.options.size) {
-            return Err(
-                Error::argument(format!("terrain:river: width is {width} m")).help("give metres above 0")
-            );
+            return Err(Error::argument(format!("terrain:river: width is {} m", number(width)))
+                .help("give metres above 0"));
         }
         let at = source.0.truncate();
         let height = self.ground.height(at).ok_or_else(|| self.nothing(at))?;
