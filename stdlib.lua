@@ -34,7 +34,16 @@ end
 
 -- A vector is read like a list, too: 1, 2 and 3 are x, y and z.
 function Vec.__index(vector, key)
-  return if type(key) == "number" then rawget(vector, AXES[key]) else Vec[key]
+  local axis = AXES[key]
+  if axis then
+    return rawget(vector, axis)
+  end
+  local method = Vec[key]
+  if method == nil then
+    local named = if type(key) == "string" or type(key) == "number" then key else describe(key)
+    refuse(`a vector has no {named}`, "it has x, y and z, or 1 to 3, and methods such as length")
+  end
+  return method
 end
 
 function Vec.__len()
@@ -49,6 +58,20 @@ local function made(x, y, z)
   return setmetatable({ x = x, y = y, z = z }, Vec)
 end
 
+local function finite(x: number, y: number, z: number)
+  -- What is not finite is not 0 away from itself.
+  if x - x + (y - y) + (z - z) ~= 0 then
+    local axis, value = "z", z
+    if x - x ~= 0 then
+      axis, value = "x", x
+    elseif y - y ~= 0 then
+      axis, value = "y", y
+    end
+    refuse(`{axis} of vec is {describe(value)}`, "a vector has finite numbers")
+  end
+  return made(x, y, z)
+end
+
 -- What is not just three numbers: a list, or fewer numbers.
 local function from_others(...: any)
   local count = select("#", ...)
@@ -61,7 +84,7 @@ local function from_others(...: any)
         "write vec({ 1, 2, 3 }) or vec(1, 2, 3)"
       )
     end
-    return made(x, y, z or 0)
+    return finite(x, y, z or 0)
   elseif count > 3 then
     refuse(`vec takes three numbers, not {count}`, "write vec(x, y, z)")
   end
@@ -79,7 +102,7 @@ local function from_others(...: any)
     end
   end
   local x, y, z = ...
-  return made(x or 0, y or 0, z or 0)
+  return finite(x or 0, y or 0, z or 0)
 end
 
 -- For those who read the library; it is told of in Rust, with its methods.
@@ -89,7 +112,7 @@ type Vector = any
 local function vec(...: any): Vector
   local x, y, z, more = ...
   if type(x) == "number" and type(y) == "number" and type(z) == "number" and more == nil then
-    return made(x, y, z)
+    return finite(x, y, z)
   end
   return from_others(...)
 end

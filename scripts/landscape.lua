@@ -181,8 +181,8 @@ for index = 1, shape.rivers or 0 do
 end
 land:axiom(table.unpack(springs))
 land:interpret("Spring(x, y)", function(this, x, y)
-  -- None rises in the water or at its shore.
-  if this:height({ x, y }) > shore + size / 200 then
+  -- None rises in the water or near its shore.
+  if this:height({ x, y }) > shore + size / 200 and this:is_source({ x, y }) then
     this:river({ x, y }, size / 170)
   end
 end)

@@ -91,6 +91,65 @@ fn modules_that_an_interpretation_returns() {
 }
 
 #[test]
+fn values_that_an_interpretation_returns() {
+    insta::assert_snapshot!(warned(&[
+        &with("s:interpret(\"A(x)\", function(this, x)\n  this:forward(x)\n  return x\nend)\ns:derive(0)"),
+    ]), @r#"
+    s:interpret("A(x)", function(this, x)
+      this:forward(x)
+      return x
+    end)
+    s:derive(0)
+    warning: s.lua:3: rule A(x) (interpretation): an interpretation returns the number 1, and nobody takes it
+      | s:interpret("A(x)", function(this, x)
+      module: A(1), step 0
+      help: an interpretation calls methods of this, and returns nothing
+    "#);
+    silent(&[&with(
+        "s:interpret(\"A(x)\", function(this, x) this:forward(x) return x > 3 and this:forward(x) end) s:derive(0)",
+    )]);
+}
+
+#[test]
+fn systems_that_draw_nothing_beside_others() {
+    let nothing = "local A, B = module(\"A\"), module(\"B\")\nlocal s = lsystem({ object = extruder })\ns:axiom(A())\n\
+        s:interpret(\"A\", function(this) this:extrude(0) end)\nlocal model = s:derive(0)\n\
+        local t = lsystem({ object = extruder })\nt:axiom(B())\n";
+    insta::assert_snapshot!(warned(&[
+        &format!("{nothing}t:interpret(\"B\", function(this) this:extrude(1) end)\nt:derive(0)"),
+        &format!("{nothing}t:interpret(\"B\", function(this) this:extrude(1):place(model) end)\nt:derive(0)"),
+    ]), @r#"
+    local A, B = module("A"), module("B")
+    local s = lsystem({ object = extruder })
+    s:axiom(A())
+    s:interpret("A", function(this) this:extrude(0) end)
+    local model = s:derive(0)
+    local t = lsystem({ object = extruder })
+    t:axiom(B())
+    t:interpret("B", function(this) this:extrude(1) end)
+    t:derive(0)
+    warning: s.lua:2: this system draws nothing
+      | local s = lsystem({ object = extruder })
+      help: its interpretations draw nothing: see that lengths and scales are above 0
+
+    local A, B = module("A"), module("B")
+    local s = lsystem({ object = extruder })
+    s:axiom(A())
+    s:interpret("A", function(this) this:extrude(0) end)
+    local model = s:derive(0)
+    local t = lsystem({ object = extruder })
+    t:axiom(B())
+    t:interpret("B", function(this) this:extrude(1):place(model) end)
+    t:derive(0)
+    warning: s.lua:2: this system draws nothing
+      | local s = lsystem({ object = extruder })
+      help: its interpretations draw nothing: see that lengths and scales are above 0
+    "#);
+    silent(&[&format!("{nothing}t:interpret(\"B\", function(this) this:extrude(1) end)\nt:derive(0)")
+        .replace("extrude(0)", "extrude(2)")]);
+}
+
+#[test]
 fn interpretations_without_an_object() {
     insta::assert_snapshot!(warned(&[
         "local A = module(\"A\")\nlocal s = lsystem()\ns:axiom(A())\ns:interpret(\"A\", function(this) this:forward(1) end)\ns:derive(0)",

@@ -72,6 +72,11 @@ pub fn grouped(number: usize) -> String {
     text
 }
 
+/// A number for a message. The exponent of what is very large tells more than all of its digits.
+pub fn number(value: f64) -> String {
+    if value.is_finite() && value.abs() >= 1e15 { format!("{value:e}") } else { value.to_string() }
+}
+
 /// What a panic says of itself.
 pub fn panic_message(panic: &(dyn std::any::Any + Send)) -> &str {
     let text = panic.downcast_ref::<String>().map(String::as_str).or(panic.downcast_ref::<&str>().copied());
@@ -90,6 +95,12 @@ mod tests {
         for letter in (0..=0x10_ffff).filter_map(char::from_u32) {
             assert!(!escaped(&letter.to_string()).contains(char::is_control), "{letter:?}");
         }
+    }
+
+    #[test]
+    fn very_large_numbers_are_written_with_an_exponent() {
+        let written = [1e300, -1.5e15, 999_999_999_999_999.0, 0.25, f64::INFINITY].map(number);
+        assert_eq!(written, ["1e300", "-1.5e15", "999999999999999", "0.25", "inf"]);
     }
 
     #[test]

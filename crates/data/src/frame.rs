@@ -6,7 +6,7 @@ use rayon::prelude::*;
 use super::formats::projection::{Projection, known};
 use super::table::{Feature, FeatureTable};
 use burgeon_base::error::{Error, Result};
-use burgeon_base::text::shown;
+use burgeon_base::text::{number, shown};
 
 /// The farthest (m) that a coordinate may lie from the origin.
 pub(super) const FARTHEST: f64 = 2_000_000.0;
@@ -230,8 +230,6 @@ impl ReferenceFrame {
             let at = feature.geometry.points_mut().find_map(place)?;
             let feature = format!("feature {} of {name}", shown(&feature.id));
             let [x, y] = passage.enter([at[0], at[1]]);
-            // The exponent of what is very large tells more than all of its digits.
-            let number = |at: f64| if at.abs() < 1e15 { at.to_string() } else { format!("{at:e}") };
             let at = format!("{}, {}", number(at[0]), number(at[1]));
             Some(if x.is_finite() && y.is_finite() {
                 Error::data(format!("{feature} lies more than 2,000 km from the middle, at {at}")).help(
@@ -304,7 +302,7 @@ fn refuse_odd_degrees(crs: &Crs, table: &mut FeatureTable) -> Result<()> {
     table.refuse_those(|feature| {
         let DVec3 { x, y, .. } =
             *feature.geometry.points().find(|at| at.x.abs() > 360.0 || at.y.abs() > 90.0)?;
-        let id = shown(&feature.id);
+        let (id, x, y) = (shown(&feature.id), number(x), number(y));
         let message = format!("feature {id} of {name} lies at {x}, {y}, which is no longitude and latitude");
         let help = "name the coordinate system of the file: source(file, { crs = 3067 })";
         Some(Error::data(message).help(help))

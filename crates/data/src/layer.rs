@@ -27,6 +27,8 @@ pub struct Layer {
     pub bounds: [[f64; 3]; 2],
     /// How many features had no geometry, or one without extent, and were left out.
     pub empty: usize,
+    /// How many of them had points, but too few that differ for a line or an area.
+    pub collapsed: usize,
     /// The ids of features whose geometry cannot be read or has no place, and why; they are left out.
     pub refused: Vec<(String, Error)>,
     /// What people should know of how it was read, besides what was left out.
@@ -39,10 +41,13 @@ impl Layer {
         let features = |count: usize| if count == 1 { "feature" } else { "features" };
         let shown = &self.shown;
         let mut warnings = Vec::new();
-        if self.empty > 0 {
-            let what = features(self.empty);
-            let text = format!("{shown}: left out {} {what} without a geometry", self.empty);
-            warnings.push(Warning::new(WarningKind::Data, text).help("take them out of the file"));
+        let (bare, collapsed) = (self.empty.saturating_sub(self.collapsed), self.collapsed);
+        let why = "with too few different points for a line or an area";
+        for (count, why) in [(bare, "without a geometry"), (collapsed, why)] {
+            if count > 0 {
+                let text = format!("{shown}: left out {count} {} {why}", features(count));
+                warnings.push(Warning::new(WarningKind::Data, text).help("take them out of the file"));
+            }
         }
         if let Some((_, error)) = self.refused.first() {
             let (count, such) =
@@ -88,7 +93,8 @@ impl Layer {
             feature.geometry.points().fold(nothing(), |bounds, point| around(bounds, [point.to_array(); 2]))
         });
         let bounds = turned.reduce(nothing, around);
-        table.notes.extend(invalid(&table));
+        let invalid = invalid(&table)?;
+        table.notes.extend(invalid);
         Ok(Self {
             name: table.layer,
             shown: table.shown,
@@ -98,6 +104,7 @@ impl Layer {
             features: table.features,
             bounds,
             empty: table.empty,
+            collapsed: table.collapsed,
             refused: table.refused,
             notes: table.notes,
         })
@@ -105,18 +112,21 @@ impl Layer {
 }
 
 /// Which features have lines or areas that are not valid, in words: what is computed with them may not be what they look like.
-fn invalid(table: &FeatureTable) -> Option<String> {
-    let features = table.features.par_iter().enumerate();
-    let wrong: Vec<usize> =
-        features.filter(|(_, feature)| !feature.geometry.is_valid()).map(|(number, _)| number).collect();
-    let first = &table.features[*wrong.first()?];
+fn invalid(table: &FeatureTable) -> Result<Option<String>> {
+    let reason = |feature: &Feature| feature.geometry.validity_reason_within(&table.budget);
+    let wrong = table.features.par_iter().enumerate().filter_map(|(number, feature)| match reason(feature) {
+        Ok(why) => why.map(|_| Ok(number)),
+        Err(error) => Some(Err(error)),
+    });
+    let wrong: Vec<usize> = wrong.collect::<Result<_>>()?;
+    let Some(first) = wrong.first().map(|number| &table.features[*number]) else { return Ok(None) };
     let (file, id) = (&table.shown, shown(&first.id));
-    let why = first.geometry.validity_reason().unwrap_or_default();
+    let why = reason(first)?.unwrap_or_default();
     let remedy = "geometry:make_valid() and ST_MakeValid repair it, footprints repair it by themselves";
-    Some(match wrong.len() {
+    Ok(Some(match wrong.len() {
         1 => format!("{file}: feature {id} is not valid: {why}; {remedy}"),
         count => format!("{file}: {count} features are not valid, such as {id}: {why}; {remedy}"),
-    })
+    }))
 }
 
 /// The bounds around two; which of the two zeros a coordinate is does not depend on their order.
@@ -151,6 +161,37 @@ mod tests {
     }
 
     #[test]
+    fn what_has_points_but_no_extent_is_not_without_a_geometry() {
+        let feature =
+            |geometry: &str| format!(r#"{{"type":"Feature","properties":{{}},"geometry":{geometry}}}"#);
+        let text = [
+            r#"{"type":"Point","coordinates":[7,43]}"#,
+            r#"{"type":"Polygon","coordinates":[[[7,43],[7,43],[7,43],[7,43]]]}"#,
+            r#"{"type":"LineString","coordinates":[[7,43]]}"#,
+            r#"{"type":"Polygon","coordinates":[]}"#,
+            "null",
+        ];
+        let features = text.map(feature).join(",");
+        let text = format!(r#"{{"type":"FeatureCollection","features":[{features}]}}"#);
+        let table = crate::geojson::read(
+            text.as_bytes(),
+            std::path::Path::new("a.geojson"),
+            "a.geojson",
+            &crate::SourceOptions::default(),
+        );
+        let table = table.unwrap();
+        let warnings = Layer::new(table, &mut None).unwrap().warnings();
+        let told: Vec<&str> = warnings.iter().map(Warning::message).collect();
+        assert_eq!(
+            told,
+            [
+                "a.geojson: left out 2 features without a geometry",
+                "a.geojson: left out 2 features with too few different points for a line or an area"
+            ]
+        );
+    }
+
+    #[test]
     fn areas_that_cross_themselves_are_told_with_the_reason() {
         let ring = |points: [[f64; 2]; 4]| {
             vec![Geometry::Polygon(Rings(vec![points.map(|[x, y]| DVec3::new(x, y, 0.0)).to_vec()]))]
@@ -174,5 +215,30 @@ mod tests {
             several[0].starts_with(&format!("a: 2 features are not valid, such as 0: {why}")),
             "{several:?}"
         );
+    }
+
+    #[test]
+    fn whether_areas_are_valid_is_asked_for_no_longer_than_there_is_time() {
+        use std::sync::atomic::{AtomicBool, Ordering};
+
+        static IS_OVER: AtomicBool = AtomicBool::new(false);
+        let budget =
+            burgeon_base::budget::Budget::new(usize::MAX, || match IS_OVER.load(Ordering::Relaxed) {
+                true => Err(Error::stopped("over")),
+                false => Ok(()),
+            });
+        let ring = |x: f64, y: f64, size: f64| {
+            [[x, y], [x + size, y], [x + size, y + size], [x, y + size]]
+                .map(|[x, y]| DVec3::new(x, y, 0.0))
+                .to_vec()
+        };
+        let holes =
+            (0..1600u32).map(|index| ring(1.0 + f64::from(index % 40), 1.0 + f64::from(index / 40), 0.5));
+        let rings = std::iter::once(ring(0.0, 0.0, 42.0)).chain(holes).collect();
+        let wanted = crate::SourceOptions { budget, ..crate::SourceOptions::default() };
+        let mut table = FeatureTable::new("a", "a", Crs::epsg(3067), &wanted);
+        table.push("1", vec![Geometry::Polygon(rings)], Vec::new()).unwrap();
+        IS_OVER.store(true, Ordering::Relaxed);
+        assert_eq!(Layer::new(table, &mut None).unwrap_err().message(), "over");
     }
 }

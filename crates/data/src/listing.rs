@@ -11,7 +11,7 @@ use serde_json::{Value, json};
 use super::{Attribute, FeatureTable, GeometryKind, Source, SourceOptions};
 use burgeon_base::budget::Budget;
 use burgeon_base::error::{Error, Result};
-use burgeon_base::text::{escaped, shown};
+use burgeon_base::text::{escaped, number, shown};
 
 /// How many texts are shown of an attribute.
 const EXAMPLES: usize = 3;
@@ -74,25 +74,25 @@ impl Listing {
         let format = source.format();
         let mut layers = Vec::new();
         match source {
-            Source::GeoJson(table) => layers.push(LayerListing::of(&table)),
+            Source::GeoJson(table) => layers.push(LayerListing::of(*table)?),
             Source::GeoPackage(package) => {
                 for layer in package.layers() {
                     let Source::GeoPackage(package) = open()? else { continue };
-                    layers.push(LayerListing::of(&package.read(&layer, &wanted)?));
+                    layers.push(LayerListing::of(package.read(&layer, &wanted)?)?);
                     budget.settle(before, 0);
                 }
             }
-            Source::FlatGeobuf(file) => layers.push(LayerListing::of(&file.read(&wanted)?)),
+            Source::FlatGeobuf(file) => layers.push(LayerListing::of(file.read(&wanted)?)?),
             Source::Gml(file) => {
                 for layer in file.layers() {
-                    layers.push(LayerListing::of(&file.read(&layer, &wanted)?));
+                    layers.push(LayerListing::of(file.read(&layer, &wanted)?)?);
                     budget.settle(before, 0);
                 }
             }
             Source::Osm(file) => {
                 for layer in file.layers() {
                     let wanted = SourceOptions { layer: Some(layer), ..wanted.clone() };
-                    let layer = LayerListing::of(&file.read(&wanted)?);
+                    let layer = LayerListing::of(file.read(&wanted)?)?;
                     // Those are offered that the extract has something of.
                     if layer.records > 0 || layer.refused.is_some() {
                         layers.push(layer);
@@ -154,7 +154,9 @@ pub fn nearest_file(folder: &Path, wanted: &str) -> Option<String> {
 }
 
 impl LayerListing {
-    fn of(table: &FeatureTable) -> Self {
+    /// What is in a table, without places that are no numbers, which every run leaves out.
+    fn of(mut table: FeatureTable) -> Result<Self> {
+        table.refuse_endless()?;
         let mut kinds = BTreeMap::new();
         let mut attributes: Vec<AttributeListing> = table
             .names
@@ -172,7 +174,7 @@ impl LayerListing {
                 (*west, *south, *east, *north) = (west.min(*x), south.min(*y), east.max(*x), north.max(*y));
             }
         }
-        Self {
+        Ok(Self {
             name: table.layer.clone(),
             crs: table.crs.as_ref().map(super::Crs::name).map_err(Clone::clone),
             records: table.records,
@@ -184,7 +186,7 @@ impl LayerListing {
                 .map(|(_, error)| (table.refused.len(), error.message().to_owned())),
             extent,
             attributes,
-        }
+        })
     }
 
     fn to_json(&self) -> Value {
@@ -232,6 +234,7 @@ impl LayerListing {
             let _ = writeln!(text, "    {count} left out, such as: {}", escaped(why));
         }
         if let Some([west, south, east, north]) = self.extent {
+            let [west, south, east, north] = [west, south, east, north].map(number);
             let _ = writeln!(text, "    from {west}, {south} to {east}, {north}");
         }
         let names: Vec<_> = self.attributes.iter().map(|known| shown(&known.name)).collect();
@@ -288,5 +291,27 @@ impl AttributeListing {
             let _ = write!(text, ", such as {}", shown.join(", "));
         }
         text
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::{Crs, Geometry, Layer};
+    use super::*;
+
+    #[test]
+    fn a_listing_leaves_out_the_places_that_every_run_leaves_out() {
+        let table = || {
+            let mut table = FeatureTable::new("a", "a", Crs::epsg(3067), &SourceOptions::default());
+            for x in [1.0, f64::NAN, 2.0, f64::INFINITY] {
+                table.push("1", vec![Geometry::point(DVec3::new(x, 5.0, 0.0))], Vec::new()).unwrap();
+            }
+            table.refuse("2".to_owned(), Error::data("odd")).unwrap();
+            table
+        };
+        let layer = Layer::new(table(), &mut None).unwrap();
+        let listing = LayerListing::of(table()).unwrap();
+        assert_eq!((listing.refused.map(|(count, _)| count), layer.refused.len()), (Some(3), 3));
+        assert_eq!((listing.records, listing.extent), (2, Some([1.0, 5.0, 2.0, 5.0])));
     }
 }

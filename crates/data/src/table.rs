@@ -56,6 +56,8 @@ pub struct FeatureTable {
     pub records: usize,
     /// How many features had no geometry, or one without extent, and were left out.
     pub empty: usize,
+    /// How many of them had points, but too few that differ.
+    pub(super) collapsed: usize,
     /// The ids of features whose geometry cannot be read, and why; they are left out.
     pub refused: Vec<(String, Error)>,
     /// What people should know of how it was read, besides what was left out.
@@ -69,7 +71,8 @@ pub struct FeatureTable {
     pool: AttributePool,
     /// The numbers of the features that are further parts of the record before, in their order.
     further: Vec<usize>,
-    budget: Arc<Budget>,
+    /// What finding out about them may take.
+    pub(super) budget: Arc<Budget>,
 }
 
 /// Which features are kept as they are read.
@@ -126,6 +129,7 @@ impl FeatureTable {
             features: Vec::new(),
             records: 0,
             empty: 0,
+            collapsed: 0,
             refused: Vec::new(),
             notes: Vec::new(),
             selection: Selection { kind, within, limit, seen: [false; 3] },
@@ -302,12 +306,13 @@ impl FeatureTable {
         if wrong.iter().all(Option::is_none) {
             return Ok(());
         }
-        for (feature, wrong) in std::mem::take(&mut self.features).into_iter().zip(wrong) {
-            match wrong {
-                Some(error) => self.refuse(feature.id.to_string(), error)?,
-                None => self.features.push(feature),
+        let kept: Vec<usize> = (0..wrong.len()).filter(|number| wrong[*number].is_none()).collect();
+        for (number, error) in wrong.into_iter().enumerate() {
+            if let Some(error) = error {
+                self.refuse(self.features[number].id.to_string(), error)?;
             }
         }
+        self.keep(&kept, None);
         Ok(())
     }
 

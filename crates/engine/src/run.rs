@@ -107,22 +107,31 @@ pub fn run_session(session: &Arc<Session>) -> Result<Run> {
         begin.elapsed().saturating_sub(times.derivation.rewriting + times.derivation.interpretation);
     let begin = Instant::now();
     let mut scene = Scene::default();
-    for system in systems.iter_mut().filter(|system| !system.is_placed()) {
+    let mut idle = Vec::new();
+    for system in systems.iter_mut() {
+        if system.is_placed() {
+            let is_empty = system.placed_model().is_some_and(|model| model.size() == 0);
+            idle.extend(is_empty.then(|| Arc::clone(system)));
+            continue;
+        }
         let (place, caller) = (system.place.clone(), system.caller.clone());
+        let known = scene.instances.len();
         let shown = match Arc::get_mut(system) {
             Some(system) => system.hand_over(&mut scene),
             None => system.add_to(&mut scene),
         };
         shown.map_err(|error| error.rather_at(place).called_at(caller))?;
+        let mut meshes = scene.instances[known..].iter().map(|instance| &scene.meshes[instance.mesh]);
+        idle.extend((!meshes.any(|mesh| mesh.triangles() > 0)).then(|| Arc::clone(system)));
     }
     systems.iter().filter_map(|system| left_out(system)).for_each(|warning| session.warn(warning));
     find_textures(&mut scene, session)?;
     times.scene = begin.elapsed();
-    // Where someone has asked to see less, nothing may be what is there.
-    let whole = session.options.steps.is_none() && session.options.lod == RunOptions::default().lod;
-    if scene.triangles() == 0 && whole {
+    if scene.triangles() == 0 && is_whole(session) {
         emptiness(&session.warnings(), &systems).into_iter().for_each(|warning| session.warn(warning));
     }
+    let idle: Vec<Warning> = idle.iter().filter_map(|system| idleness(session, &scene, system)).collect();
+    idle.into_iter().for_each(|warning| session.warn(warning));
     let warnings = session.warnings();
     if session.options.strict && !warnings.is_empty() {
         return Err(Error::several(warnings.into_iter().map(Warning::into_error).collect()));
@@ -138,7 +147,8 @@ fn tells_of_emptiness(warning: &Warning) -> bool {
 
 /// The warning for an empty model of drawing objects, of which `warnings` are known.
 fn emptiness(warnings: &[Warning], systems: &[Arc<DerivedSystem>]) -> Option<Warning> {
-    let mut drawing = systems.iter().filter(|system| system.draws);
+    let shows = |system: &DerivedSystem| system.objects.iter().any(|object| object.kind().show.is_some());
+    let mut drawing = systems.iter().filter(|system| system.draws || shows(system));
     let drawing = drawing.clone().find(|system| !system.is_placed()).or_else(|| drawing.next())?;
     let help = if warnings.iter().any(tells_of_emptiness) {
         "another warning tells why"
@@ -146,8 +156,8 @@ fn emptiness(warnings: &[Warning], systems: &[Arc<DerivedSystem>]) -> Option<War
         "a system that another one is to place is not shown by itself: see that it is placed"
     } else if drawing.objects.is_empty() {
         "its source has no features"
-    } else if drawing.rules.iter().any(|rule| rule.interprets && rule.done.applied > 0) {
-        "its interpretations draw nothing: see that lengths and scales are above 0"
+    } else if is_interpreted(drawing) {
+        NO_EXTENT
     } else if drawing.steps == 0 {
         "it was derived by 0 steps: see that a rule applies to the axiom, or interpret the axiom's modules"
     } else {
@@ -155,6 +165,29 @@ fn emptiness(warnings: &[Warning], systems: &[Arc<DerivedSystem>]) -> Option<War
     };
     let warning = Warning::new(WarningKind::EmptyModel, "the model is empty, for this system draws nothing");
     Some(warning.at(drawing.place.clone()).called_at(drawing.caller.clone()).help(help))
+}
+
+/// What to look for where interpretations draw nothing.
+const NO_EXTENT: &str = "its interpretations draw nothing: see that lengths and scales are above 0";
+
+/// The warning for a system that draws nothing in a model where others do, though its interpretations ran.
+fn idleness(session: &Session, scene: &Scene, system: &DerivedSystem) -> Option<Warning> {
+    let is_told = scene.triangles() == 0 || session.warnings().iter().any(tells_of_emptiness);
+    if is_told || !system.draws || !is_interpreted(system) || !is_whole(session) {
+        return None;
+    }
+    let warning = Warning::new(WarningKind::DrawsNothing, "this system draws nothing");
+    Some(warning.at(system.place.clone()).called_at(system.caller.clone()).help(NO_EXTENT))
+}
+
+/// Whether nobody has asked to see less of the model.
+fn is_whole(session: &Session) -> bool {
+    session.options.steps.is_none() && session.options.lod == RunOptions::default().lod
+}
+
+/// Whether interpretation rules of a system ran.
+fn is_interpreted(system: &DerivedSystem) -> bool {
+    system.rules.iter().any(|rule| rule.interprets && rule.done.applied > 0)
 }
 
 /// Reads the script and everything it requires, compiles every rule, and tells all problems at once; those that a strict

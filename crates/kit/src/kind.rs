@@ -172,6 +172,12 @@ impl std::fmt::Debug for Kind {
 }
 
 impl Kind {
+    /// Its name for a message: "an extruder", "a panel".
+    pub fn with_article(&self) -> String {
+        let name = &self.name;
+        format!("{} {name}", if name.starts_with(['a', 'e', 'i', 'o', 'u']) { "an" } else { "a" })
+    }
+
     /// A type that scripts can neither make nor ask, which something else gives.
     pub fn new(name: impl Into<SharedText>, doc: impl Into<SharedText>) -> Self {
         Self {

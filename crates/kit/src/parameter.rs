@@ -64,10 +64,7 @@ fn shown(value: &Value) -> String {
             let text = value.to_string();
             if text.len() <= LONGEST { text } else { value.describe().to_owned() }
         }
-        Value::Object(object) => {
-            let name = &object.kind().name;
-            format!("{} {name}", if name.starts_with(['a', 'e', 'i', 'o', 'u']) { "an" } else { "a" })
-        }
+        Value::Object(object) => object.kind().with_article(),
         other => other.describe().to_owned(),
     }
 }

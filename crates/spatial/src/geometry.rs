@@ -1,6 +1,7 @@
 //! The value that all the rest is about.
 
 use burgeon_base::error::{Error, Result};
+use burgeon_base::text::number;
 use burgeon_geometry::Rings;
 use glam::{DVec2, DVec3};
 
@@ -246,8 +247,9 @@ impl Geometry {
     /// Fails unless it is [sound](Self::is_sound), and names the first point that is not.
     pub fn check(&self) -> Result<()> {
         let wrong = self.points().find(|point| point.is_nan() || point.abs().max_element() > FARTHEST);
-        let Some(DVec3 { x, y, z }) = wrong else { return Ok(()) };
-        let place = if *z == 0.0 { format!("({x}, {y})") } else { format!("({x}, {y}, {z})") };
+        let Some(point) = wrong else { return Ok(()) };
+        let [x, y, z] = point.to_array().map(number);
+        let place = if point.z == 0.0 { format!("({x}, {y})") } else { format!("({x}, {y}, {z})") };
         Err(Error::geometry(format!("a geometry has the point {place}"))
             .help("give coordinates that are finite and at most 1e15"))
     }

@@ -2,7 +2,6 @@
 
 use burgeon_geometry::Rings;
 use burgeon_geometry::planar::twice_area;
-use geo::Validation;
 use geo::bool_ops::FillRule;
 use glam::DVec3;
 
@@ -10,6 +9,9 @@ use super::Geometry;
 use super::edges::with_heights;
 use super::overlay::filled;
 use super::plane::Plane;
+use super::topology::{multi_polygon_flaw, polygon_flaw};
+use burgeon_base::budget::Budget;
+use burgeon_base::error::Result;
 
 impl Geometry {
     /// Whether its rings neither cross nor overlap and holes lie inside, and no line is without length.
@@ -28,8 +30,13 @@ impl Geometry {
     /// # Ok::<(), burgeon_base::error::Error>(())
     /// ```
     pub fn validity_reason(&self) -> Option<String> {
+        self.validity_reason_within(&Budget::default()).ok().flatten()
+    }
+
+    /// The same, if finding out takes no longer than a budget allows.
+    pub fn validity_reason_within(&self, budget: &Budget) -> Result<Option<String>> {
         if let Err(error) = self.check() {
-            return Some(error.message().to_owned());
+            return Ok(Some(error.message().to_owned()));
         }
         let mut short = None;
         super::plane::collect_lines(self, &mut |line: &[DVec3]| {
@@ -44,8 +51,10 @@ impl Geometry {
                 flat = Some("a ring has no area".to_owned());
             }
         });
-        let plane = Plane::of(&[self]);
-        short.or_else(|| plane.geo(self).check_validation().err().map(|reason| reason.to_string())).or(flat)
+        if short.is_some() {
+            return Ok(short);
+        }
+        Ok(area_flaw(&Plane::of(&[self]).geo(self), budget)?.or(flat))
     }
 
     /// The same where it is valid; else the valid geometry that is most like it: of areas, what its rings go around an odd
@@ -72,5 +81,22 @@ impl Geometry {
             other => Self::gathered(other.parts().iter().map(Self::make_valid).collect()),
         };
         with_heights(made, &[self])
+    }
+}
+
+/// Why areas of a geometry are not valid; none if they are.
+fn area_flaw(geometry: &geo::Geometry, budget: &Budget) -> Result<Option<String>> {
+    match geometry {
+        geo::Geometry::Polygon(polygon) => polygon_flaw(polygon, budget),
+        geo::Geometry::MultiPolygon(polygons) => multi_polygon_flaw(polygons, budget),
+        geo::Geometry::GeometryCollection(members) => {
+            for (number, member) in members.iter().enumerate() {
+                if let Some(flaw) = area_flaw(member, budget)? {
+                    return Ok(Some(format!("geometry at index {number} is invalid: {flaw}")));
+                }
+            }
+            Ok(None)
+        }
+        _ => Ok(None),
     }
 }

@@ -17,6 +17,7 @@ use super::local_edits::LocalEdits;
 use super::view::DEEPEST;
 use super::world::World;
 use burgeon_base::error::{Error, Result};
+use burgeon_base::text::number;
 use burgeon_geometry::planar::{contains, foot};
 
 /// A change of the ground.
@@ -229,8 +230,12 @@ impl Edits {
         let (low, high) = edit.bounds();
         let (corner, far) = (world.corner, world.corner + world.size);
         if low.x > far.x || low.y > far.y || high.x < corner.x || high.y < corner.y {
-            return Err(Error::argument(format!("({}, {}) is outside the terrain", low.x, low.y))
-                .help(format!("it reaches from ({}, {}) to ({}, {}) m", corner.x, corner.y, far.x, far.y)));
+            return Err(Error::argument(format!(
+                "({}, {}) is outside the terrain",
+                number(low.x),
+                number(low.y)
+            ))
+            .help(format!("it reaches from ({}, {}) to ({}, {}) m", corner.x, corner.y, far.x, far.y)));
         }
         let cell = smallest(world, low, high);
         let mut hasher = FxHasher::default();

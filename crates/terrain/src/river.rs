@@ -36,6 +36,9 @@ pub enum Dry {
 /// The most cells along a side that are looked at.
 const MOST: usize = 1024;
 
+/// As many cells as this are no river.
+const SHORTEST: usize = 2;
+
 impl Drainage {
     /// The ways down on `map`, to its rim and to all ground below `water` (m).
     pub fn new(map: &GroundMap, water: Option<f64>) -> Self {
@@ -103,34 +106,43 @@ impl Drainage {
     /// The way (m) of a river from `source` (m) to an outlet or into an earlier river, never rising. Fails where the way
     /// is shorter than two cells.
     pub fn river(&mut self, source: DVec2) -> Result<Vec<DVec3>, Dry> {
-        let along = DVec2::new(source.x - self.corner.x, self.corner.y - source.y) / self.step;
+        let cells: Vec<usize> = self.cell(source).into_iter().flat_map(|cell| self.way(cell)).collect();
+        if cells.len() <= SHORTEST {
+            let is_wet = cells.last().is_some_and(|cell| self.wet[*cell]);
+            return Err(if is_wet { Dry::River } else { Dry::Outlet });
+        }
+        let mut level = f64::INFINITY;
+        let mut way = Vec::with_capacity(cells.len());
+        for cell in cells {
+            level = level.min(self.heights[cell]);
+            way.push(self.middle(cell).extend(level));
+            self.wet[cell] = true;
+        }
+        Ok(rounded(rounded(way)))
+    }
+
+    /// Whether a river has a way from `source` (m).
+    pub fn is_source(&self, source: DVec2) -> bool {
+        self.cell(source).is_some_and(|cell| self.way(cell).nth(SHORTEST).is_some())
+    }
+
+    /// The cells that water runs through from one, until an outlet or an earlier river.
+    fn way(&self, cell: usize) -> impl Iterator<Item = usize> + '_ {
+        std::iter::successors(Some(cell), move |cell| {
+            let next = self.next[*cell] as usize;
+            (!self.wet[*cell] && next != *cell && next < self.heights.len()).then_some(next)
+        })
+    }
+
+    /// The cell that a place (m) is in.
+    fn cell(&self, place: DVec2) -> Option<usize> {
+        let along = DVec2::new(place.x - self.corner.x, self.corner.y - place.y) / self.step;
         if along.min_element() < 0.0 {
-            return Err(Dry::Outlet);
+            return None;
         }
         #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "not below 0")]
         let (column, row) = (along.x as usize, along.y as usize);
-        if column >= self.columns || row >= self.rows {
-            return Err(Dry::Outlet);
-        }
-        let mut cell = row * self.columns + column;
-        let mut level = f64::INFINITY;
-        let (mut way, mut cells) = (Vec::new(), Vec::new());
-        let why = loop {
-            level = level.min(self.heights[cell]);
-            way.push(self.middle(cell).extend(level));
-            let met = self.wet[cell];
-            cells.push(cell);
-            let next = self.next[cell] as usize;
-            if met || next == cell || next >= self.heights.len() {
-                break if met { Dry::River } else { Dry::Outlet };
-            }
-            cell = next;
-        };
-        if way.len() <= 2 {
-            return Err(why);
-        }
-        cells.into_iter().for_each(|cell| self.wet[cell] = true);
-        Ok(rounded(rounded(way)))
+        (column < self.columns && row < self.rows).then_some(row * self.columns + column)
     }
 
     #[allow(clippy::cast_precision_loss, reason = "few cells")]

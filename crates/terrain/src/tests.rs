@@ -243,7 +243,7 @@ fn low_of(origin: &DVec3) -> DVec2 {
 #[test]
 fn rivers_never_rise_and_end_at_the_rim_in_water_or_in_another() {
     let mut stream = Stream::new(2);
-    let mut count = 0;
+    let (mut count, mut dry) = (0, 0);
     for seed in 0..8 {
         let world = Arc::new(World { size: 4096.0, ..world(seed, true, true) });
         let mut ground = Ground::new(Arc::clone(&world));
@@ -257,7 +257,13 @@ fn rivers_never_rise_and_end_at_the_rim_in_water_or_in_another() {
         let mut ways: Vec<Vec<DVec3>> = Vec::new();
         for _ in 0..12 {
             let source = world.corner + DVec2::new(stream.uniform(), stream.uniform()) * world.size;
-            let Ok(way) = drainage.river(source) else { continue };
+            let is_source = drainage.is_source(source);
+            let way = drainage.river(source);
+            assert_eq!(is_source, way.is_ok(), "{seed}: {source}");
+            let Ok(way) = way else {
+                dry += 1;
+                continue;
+            };
             assert!(way.windows(2).all(|pair| pair[1].z <= pair[0].z + 1e-9), "{seed}");
             assert!(way[0].truncate().distance(source) < 64.0);
             let end = way[way.len() - 1];
@@ -268,7 +274,7 @@ fn rivers_never_rise_and_end_at_the_rim_in_water_or_in_another() {
             count += 1;
         }
     }
-    assert!(count > 60, "{count} rivers");
+    assert!(count > 60 && dry > 0, "{count} rivers, {dry} places without");
 }
 
 #[test]

@@ -6,6 +6,7 @@ use super::block::Area;
 use super::tile::TilePlace;
 use super::world::World;
 use burgeon_base::error::{Error, Limit, Result};
+use burgeon_base::text::number;
 
 /// The most heights that may be expanded at once.
 pub const MOST_HEIGHTS: u64 = 1 << 26;
@@ -53,8 +54,12 @@ impl View {
         let to = eye - world.corner;
         if !(0.0..=world.size).contains(&to.x) || !(0.0..=world.size).contains(&to.y) {
             let (low, high) = (world.corner, world.corner + world.size);
-            return Err(Error::argument(format!("the focus ({}, {}) is outside the terrain", eye.x, eye.y))
-                .help(format!("it reaches from ({}, {}) to ({}, {}) m", low.x, low.y, high.x, high.y)));
+            return Err(Error::argument(format!(
+                "the focus ({}, {}) is outside the terrain",
+                number(eye.x),
+                number(eye.y)
+            ))
+            .help(format!("it reaches from ({}, {}) to ({}, {}) m", low.x, low.y, high.x, high.y)));
         }
         let level = self.level(world)?;
         let across = World::across(level);

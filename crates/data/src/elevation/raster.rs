@@ -9,6 +9,7 @@ use crate::Crs;
 use crate::heights::{HeightOptions, RasterHeader, SampleGrid, count};
 use burgeon_base::budget::Budget;
 use burgeon_base::error::{Error, Limit, Result};
+use burgeon_base::text::number;
 use burgeon_base::warning::{Warning, WarningKind};
 
 /// The largest file (bytes).
@@ -152,13 +153,18 @@ fn check_grid(name: &str, grid: &SampleGrid, columns: usize, rows: usize, crs: O
     let last = [x + dx * count(columns - 1), y - dy * count(rows - 1)];
     if [x, y, dx, dy, last[0], last[1]].iter().any(|value| !value.is_finite()) || dx <= 0.0 || dy <= 0.0 {
         return Err(Error::data(format!(
-            "{name} lies at {x}, {y} with steps of {dx}, {dy}, which is nowhere"
+            "{name} lies at {}, {} with steps of {}, {}, which is nowhere",
+            number(x),
+            number(y),
+            number(dx),
+            number(dy)
         ))
         .help("name its edges: elevation(file, { bounds = { west, south, east, north } })"));
     }
     if crs.is_some_and(Crs::is_geographic) {
         // A pole may be half a step away.
         if y > 90.0 + dy || last[1] < -90.0 - dy || x < -360.0 - dx || last[0] > 540.0 + dx {
+            let (x, y) = (number(x), number(y));
             return Err(Error::data(format!("{name} lies at {x}, {y}, which is no longitude and latitude"))
                 .help("name the coordinate system of the file: elevation(file, { crs = 3067 })"));
         }

@@ -237,6 +237,12 @@ impl<'a> FeatureReader<'a> {
             attributes.extend(value.map(|value| (number, value)));
         }
         let parts = feature.geometry.map_or(Ok(Vec::new()), |text| geometry::read(text, self.wanted));
+        // There are points, though no geometry comes of them.
+        let has_points =
+            feature.geometry.is_some_and(|text| text.get().contains(|it: char| it.is_ascii_digit()));
+        if has_points && parts.as_ref().is_ok_and(Vec::is_empty) {
+            self.table.collapsed += 1;
+        }
         self.add(id, parts, attributes)
     }
 

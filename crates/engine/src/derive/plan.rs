@@ -128,7 +128,7 @@ impl Derivation {
             axiom_place: system.axiom_place.clone(),
             last_only: system.shows_last_only(),
             draws_afresh,
-            draws: system.object.as_ref().is_some_and(|object| object.kind().show.is_some()),
+            draws: draws_afresh && system.object.is_some(),
             limit: if options.check { 0 } else { limit },
         })
     }

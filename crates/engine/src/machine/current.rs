@@ -23,8 +23,8 @@ pub(crate) trait Flusher: std::any::Any {
     /// Takes what the object of the chain has warned of.
     fn warn(&mut self, said: Vec<Warning>);
 
-    /// Notes that the interpretation rule of `entry` has returned modules.
-    fn lost(&mut self, entry: usize);
+    /// Notes that the interpretation rule of `entry` has returned a `value`, in words, or modules where there is none.
+    fn lost(&mut self, entry: usize, value: Option<&str>);
 }
 
 /// What a prepared return makes: the symbols of its modules and brackets.

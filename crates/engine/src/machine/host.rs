@@ -176,9 +176,9 @@ fn add_applications(lua: &Lua, host: &Table, current: &Rc<WorkState>) -> mlua::R
     let state = Rc::clone(current);
     host.set(
         "lost",
-        lua.create_function(move |_, entry: usize| {
+        lua.create_function(move |_, (entry, value): (usize, Option<String>)| {
             if let Some(flusher) = state.flusher.borrow_mut().as_mut() {
-                flusher.lost(entry);
+                flusher.lost(entry, value.as_deref());
             }
             Ok(())
         })?,

@@ -138,6 +138,11 @@ impl DerivedSystem {
         Ok(model as Arc<dyn Object>)
     }
 
+    /// What others place of it, once one has asked for it.
+    pub(crate) fn placed_model(&self) -> Option<&Model> {
+        self.model.get().map(Arc::as_ref)
+    }
+
     /// Whether another system has placed it.
     pub fn is_placed(&self) -> bool {
         self.uses.placed.load(Ordering::Relaxed)

@@ -7,6 +7,7 @@ use super::size::Size;
 use super::wall::{Wall, WallRule, wall_kind};
 use crate::MaterialOptions;
 use burgeon_base::error::{Error, Result};
+use burgeon_base::text::number;
 use burgeon_kit::{Kind, Model, fields};
 
 /// What `extruded { ... }` takes.
@@ -63,7 +64,7 @@ fn make(options: &ExtrudedOptions) -> Result<Wall> {
             .help("write extruded { wall = panel { }, depth = 0.3 }"));
     };
     if options.depth.abs() > FURTHEST {
-        return Err(Error::argument(format!("extruded: depth is {} m", options.depth))
+        return Err(Error::argument(format!("extruded: depth is {} m", number(options.depth)))
             .help(format!("give metres from -{FURTHEST} to {FURTHEST}")));
     }
     let model = options.model.clone();

@@ -1,10 +1,12 @@
 //! What the footprints of a system learn from one another: which parts of their edges others touch.
 
+use std::hash::Hasher;
 use std::sync::{Arc, OnceLock};
 
 use glam::DVec2;
 use rstar::primitives::{GeomWithData, Rectangle};
 use rstar::{AABB, RTree};
+use rustc_hash::{FxHashMap, FxHasher};
 use smallvec::SmallVec;
 
 use super::Footprint;
@@ -31,26 +33,71 @@ pub(super) struct Neighborhood {
     map: OnceLock<FootprintMap>,
 }
 
-/// Where the footprints are.
+/// Where the footprints are. Those with the same walls are there once.
 struct FootprintMap {
-    /// The walls of all.
+    /// The walls of all outlines.
     walls: Vec<WallEnds>,
-    /// Where the walls of each begin among them; one more for the end.
+    /// Where the walls of each outline begin among them; one more for the end.
     begins: Vec<usize>,
+    /// By footprint: its outline.
+    outlines: Vec<u32>,
+    /// By outline: whose it is.
+    owners: Vec<OutlineOwners>,
     boxes: RTree<IndexedBox>,
 }
 
-impl FootprintMap {
-    fn new(plans: &[(Arc<Plan>, DVec2)]) -> Self {
-        let mut walls = Vec::with_capacity(plans.iter().map(|(plan, _)| plan.polygon().size()).sum());
-        let mut begins = vec![0];
-        for (plan, origin) in plans {
-            walls.extend(plan.polygon().edges().map(|edge| edge.map(|point| point.truncate() + *origin)));
-            begins.push(walls.len());
+/// The footprints that have the same walls.
+#[derive(Default)]
+struct OutlineOwners {
+    count: u32,
+    /// The one whose walls end highest (m), and where those of the next one end.
+    highest: Option<(usize, f64)>,
+    second: f64,
+}
+
+impl OutlineOwners {
+    fn add(&mut self, footprint: usize, top: f64) {
+        self.count += 1;
+        let other = match self.highest {
+            Some((_, known)) if known >= top => top,
+            known => {
+                self.highest = Some((footprint, top));
+                known.map_or(f64::NEG_INFINITY, |(_, top)| top)
+            }
+        };
+        self.second = if self.count > 2 { self.second.max(other) } else { other };
+    }
+
+    /// Where the highest walls (m) of those end that are not `own`.
+    fn top_besides(&self, own: usize) -> f64 {
+        match self.highest {
+            Some((highest, top)) if highest != own => top,
+            _ => self.second,
         }
-        let mut map = Self { walls, begins, boxes: RTree::default() };
-        let boxes = (0u32..).zip(0..plans.len()).filter_map(|(index, own)| {
-            let [low, high] = bounds(map.walls_of(own))?;
+    }
+}
+
+impl FootprintMap {
+    fn new(plans: &[(Arc<Plan>, DVec2)], tops: &[Option<f64>]) -> Self {
+        let mut map = Self {
+            walls: Vec::new(),
+            begins: vec![0],
+            outlines: Vec::with_capacity(plans.len()),
+            owners: Vec::new(),
+            boxes: RTree::default(),
+        };
+        // By hash: the outlines that have it.
+        let mut known: FxHashMap<u64, SmallVec<[u32; 1]>> = FxHashMap::default();
+        for (footprint, ((plan, origin), top)) in plans.iter().zip(tops).enumerate() {
+            let outline = map.outline(&mut known, plan, *origin);
+            map.outlines.push(outline);
+            if let Some(owners) = map.owners.get_mut(outline as usize) {
+                // Where walls end that are not built yet may be anywhere.
+                owners.add(footprint, top.unwrap_or(f64::INFINITY));
+            }
+        }
+        let boxes = (0u32..).zip(0..map.owners.len()).filter_map(|(index, outline)| {
+            let [low, high] = bounds(map.walls_of(outline))?;
             let (low, high) = (low - APART, high + APART);
             Some(GeomWithData::new(Rectangle::from_corners(low.to_array(), high.to_array()), index))
         });
@@ -58,8 +105,47 @@ impl FootprintMap {
         map
     }
 
-    fn walls_of(&self, index: usize) -> &[WallEnds] {
-        match self.begins.get(index..index + 2) {
+    /// The outline of a plan at a place, which is added unless there is one with the same walls.
+    fn outline(&mut self, known: &mut FxHashMap<u64, SmallVec<[u32; 1]>>, plan: &Plan, origin: DVec2) -> u32 {
+        let begin = self.walls.len();
+        self.walls.extend(plan.polygon().edges().map(|edge| edge.map(|point| point.truncate() + origin)));
+        let mut hasher = FxHasher::default();
+        for number in self.walls[begin..].iter().flatten().flat_map(|end| end.to_array()) {
+            hasher.write_u64(number.to_bits());
+        }
+        let alike = known.entry(hasher.finish()).or_default();
+        if let Some(same) = alike.iter().find(|other| self.walls_of(**other as usize) == &self.walls[begin..])
+        {
+            self.walls.truncate(begin);
+            return *same;
+        }
+        let outline = u32::try_from(self.owners.len()).unwrap_or(u32::MAX);
+        alike.push(outline);
+        self.begins.push(self.walls.len());
+        self.owners.push(OutlineOwners::default());
+        outline
+    }
+
+    /// The outlines whose boxes meet another, and how many of those that have each are not `own`, in order.
+    fn around(&self, own: usize, around: &AABB<[f64; 2]>) -> SmallVec<[(&IndexedBox, u32); 16]> {
+        let found = self.boxes.locate_in_envelope_intersecting(around).filter_map(|found| {
+            let count = self.owners.get(found.data as usize)?.count;
+            let others = count - u32::from(self.outlines.get(own) == Some(&found.data));
+            (others > 0).then_some((found, others))
+        });
+        let mut found: SmallVec<[_; 16]> = found.collect();
+        found.sort_unstable_by_key(|(found, _)| found.data);
+        found
+    }
+
+    /// The walls of a footprint.
+    fn walls_at(&self, own: usize) -> &[WallEnds] {
+        self.outlines.get(own).map_or(&[], |outline| self.walls_of(*outline as usize))
+    }
+
+    /// The walls of an outline.
+    fn walls_of(&self, outline: usize) -> &[WallEnds] {
+        match self.begins.get(outline..outline + 2) {
             Some(&[begin, end]) => &self.walls[begin..end],
             _ => &[],
         }
@@ -101,22 +187,18 @@ fn bounds(walls: &[WallEnds]) -> Option<[DVec2; 2]> {
 
 impl Neighborhood {
     fn map(&self) -> &FootprintMap {
-        self.map.get_or_init(|| FootprintMap::new(&self.plans))
+        self.map.get_or_init(|| FootprintMap::new(&self.plans, &self.tops))
     }
 
     /// What the others touch of footprint `own`: walls that run the other way, at most 8 degrees askew and 0.3 m away.
     pub(super) fn touch(&self, own: usize) -> Touch {
         let map = self.map();
-        let walls = map.walls_of(own);
+        let walls = map.walls_at(own);
         let Some([low, high]) = bounds(walls) else { return Touch::default() };
         let mut covered: Vec<Vec<[f64; 2]>> = vec![Vec::new(); walls.len()];
         let mut neighbors = 0;
         let around = AABB::from_corners(low.to_array(), high.to_array());
-        let found = map.boxes.locate_in_envelope_intersecting(&around);
-        let mut others: SmallVec<[&IndexedBox; 16]> =
-            found.filter(|found| found.data as usize != own).collect();
-        others.sort_unstable_by_key(|other| other.data);
-        for other in others {
+        for (other, count) in map.around(own, &around) {
             let near = |[a, b]: &&WallEnds| {
                 a.max(*b).cmpge(low - APART).all() && a.min(*b).cmple(high + APART).all()
             };
@@ -134,7 +216,7 @@ impl Neighborhood {
                     covered.push(part);
                 }
             }
-            neighbors += u32::from(longest >= LEAST);
+            neighbors += if longest >= LEAST { count } else { 0 };
         }
         let shared = walls.iter().zip(&mut covered).map(|([a, b], parts)| {
             let length = a.distance(*b);
@@ -147,16 +229,15 @@ impl Neighborhood {
     /// up to `furthest`; 0 where they touch. Only what ends above `height` (m), or may do so, is in the way.
     pub(super) fn reach(&self, own: usize, furthest: f64, height: f64) -> Vec<f64> {
         let map = self.map();
-        let walls = map.walls_of(own);
+        let walls = map.walls_at(own);
         let mut reach = vec![f64::INFINITY; walls.len()];
         let (Some([low, high]), Some((plan, _))) = (bounds(walls), self.plans.get(own)) else { return reach };
         let search = 2.0 * furthest + APART;
         let (low, high) = (low - search, high + search);
         let around = AABB::from_corners(low.to_array(), high.to_array());
         let is_near = |[a, b]: &&WallEnds| a.max(*b).cmpge(low).all() && a.min(*b).cmple(high).all();
-        let others = map.boxes.locate_in_envelope_intersecting(&around).map(|found| found.data as usize);
-        let in_the_way =
-            others.filter(|&other| other != own && self.tops[other].is_none_or(|top| top > height));
+        let others = map.around(own, &around).into_iter().map(|(found, _)| found.data as usize);
+        let in_the_way = others.filter(|&other| map.owners[other].top_besides(own) > height);
         let theirs: Vec<WallEnds> =
             in_the_way.flat_map(|other| map.walls_of(other).iter().filter(is_near)).copied().collect();
         for (wall, reach) in walls.iter().zip(&mut reach) {
@@ -311,6 +392,31 @@ mod tests {
         let touch = all(&[&long, &left, &right]).touch(0);
         assert_eq!(touch.neighbors, 2);
         assert!((touch.shared[2] - 0.9).abs() < 1e-9, "{touch:?}");
+    }
+
+    #[test]
+    fn outlines_that_are_there_several_times_count_as_often_and_are_compared_once() {
+        let (house, beside) = (rectangle(0.0, 0.0, 10.0, 8.0), rectangle(10.0, 0.0, 10.0, 8.0));
+        // So thin that each wall lies where an equal one's opposite does.
+        let thin = rectangle(0.0, 50.0, 10.0, 0.2);
+        let mut rings: Vec<&[[f64; 2]]> = vec![&house; 500];
+        rings.extend([&beside[..], &beside, &thin, &thin, &thin]);
+        let mut all = all(&rings);
+        assert_eq!(all.touch(0), Touch { shared: vec![0.0, 1.0, 0.0, 0.0], neighbors: 2 });
+        assert_eq!(all.touch(500), Touch { shared: vec![0.0, 0.0, 0.0, 1.0], neighbors: 500 });
+        assert_eq!((all.touch(504).neighbors, all.touch(504).shared[0]), (2, 1.0));
+        assert_eq!(all.map().owners.len(), 3);
+        // Of those beside it, only the second is high enough to be in the way.
+        assert_eq!(all.reach(0, 1.0, 5.0)[1], 0.0);
+        all.tops = vec![Some(3.0); rings.len()];
+        all.tops[501] = Some(6.0);
+        all.map = OnceLock::new();
+        assert_eq!(all.reach(0, 1.0, 5.0)[1], 0.0);
+        assert_eq!(all.reach(0, 1.0, 6.0)[1], f64::INFINITY);
+        all.tops[503] = Some(6.0);
+        all.map = OnceLock::new();
+        // It is not in its own way, but in that of those like it.
+        assert_eq!([502, 503, 504].map(|own| all.reach(own, 1.0, 5.0)[0]), [0.0, f64::INFINITY, 0.0]);
     }
 
     #[test]

@@ -139,6 +139,7 @@ mod tests {
             features: (0..count).map(square).collect(),
             bounds: [[0.0; 3]; 2],
             empty: 0,
+            collapsed: 0,
             refused: Vec::new(),
             notes: Vec::new(),
         })

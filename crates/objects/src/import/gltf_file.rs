@@ -10,7 +10,7 @@ use super::{instances, look, shape};
 use burgeon_base::budget::Budget;
 use burgeon_base::error::{Error, Limit, Result};
 use burgeon_kit::{Kind, LoadRequest, LoadedObject, Loader, Model, Table};
-use burgeon_scene::{Instance, Mesh, Scene};
+use burgeon_scene::{Instance, Mesh, Part, Scene};
 use glam::{DAffine3, DMat3, DMat4, DQuat, DVec3};
 use gltf_json::{Index, Root, scene::Node};
 
@@ -228,6 +228,9 @@ impl Import<'_> {
         let Some(described) = self.root.get(index) else { return Ok(None) };
         let name = described.name.clone().unwrap_or_default();
         let mut mesh = Mesh { name, ..Mesh::default() };
+        // By part of the mesh: what it is made of. Parts of the same material stay apart in the file; here they are one.
+        let mut pieces: Vec<Vec<Part>> = Vec::new();
+        let mut triangles = 0;
         for primitive in &described.primitives {
             self.columns.budget.check()?;
             let look =
@@ -243,20 +246,22 @@ impl Import<'_> {
             })?;
             for TintedPart { tint, part } in shapes {
                 let material = self.scene.material(&look.tinted(tint));
-                // Parts of the same material stay apart in the file; here they are one.
-                let whole = mesh.part(material);
-                let first = u32::try_from(whole.positions.len())
-                    .map_err(|_| broken(self.name, "a mesh has more than 2^32 points"))?;
-                whole.positions.extend(part.positions);
-                whole.normals.extend(part.normals);
-                whole.uvs.extend(part.uvs);
-                whole
-                    .triangles
-                    .extend(part.triangles.iter().map(|corners| corners.map(|corner| corner + first)));
+                triangles += part.triangles.len();
+                match mesh.parts.iter().position(|part| part.material == material) {
+                    Some(place) => pieces[place].push(part),
+                    None => {
+                        mesh.part(material);
+                        pieces.push(vec![part]);
+                    }
+                }
             }
-            if mesh.triangles() > self.left {
+            if triangles > self.left {
                 return Err(self.too_many());
             }
+        }
+        for (whole, pieces) in mesh.parts.iter_mut().zip(pieces) {
+            shape::join(whole, pieces, self.columns.budget)
+                .map_err(|error| damaged(self.name, self.columns.budget, &error))?;
         }
         if mesh.parts.is_empty() {
             return Ok(None);

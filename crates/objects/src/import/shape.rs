@@ -7,6 +7,7 @@ use gltf_json::{Accessor, Index};
 
 use super::bytes::{MANY, NumberColumns};
 use super::tints;
+use burgeon_base::budget::Budget;
 use burgeon_base::error::{Error, Limit, Result};
 use burgeon_scene::{Normal, Part};
 
@@ -107,6 +108,46 @@ fn triangles(
         }
     }
     Ok(triangles)
+}
+
+/// Makes the empty part `whole` of pieces, one after the other: column by column, so that never more than one of them
+/// is there twice.
+pub(super) fn join(whole: &mut Part, mut pieces: Vec<Part>, budget: &Budget) -> Result<()> {
+    if let [piece] = &mut pieces[..] {
+        *whole = Part { material: whole.material, ..std::mem::take(piece) };
+        return Ok(());
+    }
+    let points: usize = pieces.iter().map(|piece| piece.positions.len()).sum();
+    if u32::try_from(points).is_err() {
+        return Err(Error::data("a mesh has more than 2^32 points"));
+    }
+    let count: usize = pieces.iter().map(|piece| piece.triangles.len()).sum();
+    let mut first = 0;
+    let _held = budget.hold(count.saturating_mul(size_of::<[u32; 3]>()))?;
+    whole.triangles.make_room(count);
+    for piece in &mut pieces {
+        let triangles = std::mem::take(&mut piece.triangles);
+        whole.triangles.extend(triangles.iter().map(|corners| corners.map(|corner| corner + first)));
+        first = first.saturating_add(u32::try_from(piece.positions.len()).unwrap_or(u32::MAX));
+    }
+    whole.positions = column(&mut pieces, points, budget, |piece| &mut piece.positions)?;
+    whole.normals = column(&mut pieces, points, budget, |piece| &mut piece.normals)?;
+    whole.uvs = column(&mut pieces, points, budget, |piece| &mut piece.uvs)?;
+    Ok(())
+}
+
+/// A column of `count` values in all, taken from pieces.
+fn column<T>(
+    pieces: &mut [Part],
+    count: usize,
+    budget: &Budget,
+    of: impl Fn(&mut Part) -> &mut Vec<T>,
+) -> Result<Vec<T>> {
+    budget.check()?;
+    let _held = budget.hold(count.saturating_mul(size_of::<T>()))?;
+    let mut whole = Vec::with_capacity(count);
+    pieces.iter_mut().for_each(|piece| whole.append(&mut std::mem::take(of(piece))));
+    Ok(whole)
 }
 
 /// The columns of a primitive.

@@ -411,6 +411,16 @@ fn many_primitives_over_one_list_of_points_keep_to_the_limits() {
     };
     // One small triangle each is no work, however long the list is.
     assert_eq!(told(&model(3000, true), 10.0, 100_000_000, 5000), "3000");
+    // A few become one part, without the room that a growing list has left.
+    let budget = Budget::default();
+    let mut beside = |name: &str| Err(Error::other(name));
+    let mut wanted = ImportOptions { name: "a", triangles: usize::MAX, budget: &budget, beside: &mut beside };
+    let [mesh] = &read(&model(5, false), &mut wanted).unwrap().meshes[..] else { panic!("one mesh") };
+    let [part] = &mesh.parts[..] else { panic!("one part") };
+    assert_eq!(part.triangles.len() % 5, 0);
+    assert!(part.triangles.iter().flatten().all(|corner| (corner as usize) < part.positions.len()));
+    let room = [part.positions.capacity(), part.normals.capacity(), part.uvs.capacity()];
+    assert_eq!(room, [part.positions.len(); 3]);
     let all = model(3000, false);
     assert!(told(&all, 60.0, 100_000_000, usize::MAX).contains("100 MB of memory"));
     assert!(told(&all, 60.0, usize::MAX, 20_000).contains("more than 20000 triangles"));

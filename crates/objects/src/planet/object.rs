@@ -5,6 +5,7 @@ use std::sync::Arc;
 use super::looks;
 use crate::terrain::{GroundCover, RuleLayers, Water, lost_focus, rules};
 use burgeon_base::error::{Error, Result};
+use burgeon_base::text::number;
 use burgeon_base::warning::Warning;
 use burgeon_kit::rules::ModuleKey;
 use burgeon_kit::{Color, Expand, Rewriter, Seed, Show, Vector, fields, methods, object};
@@ -150,7 +151,7 @@ impl Planet {
     /// A planet of which nothing is expanded.
     pub fn new(options: PlanetOptions) -> Result<Self> {
         if !(options.radius > 0.0 && options.radius <= 1e9) {
-            return Err(Error::argument(format!("planet: radius is {} m", options.radius))
+            return Err(Error::argument(format!("planet: radius is {} m", number(options.radius)))
                 .help("give a length above 0 and up to 1e9 m"));
         }
         if options.error < 0.0 {

@@ -7,13 +7,14 @@ use glam::DVec2;
 use super::{TerrainOptions, rules};
 use crate::Elevation;
 use burgeon_base::error::{Error, Result};
+use burgeon_base::text::number;
 use burgeon_kit::rules::ModuleKey;
 use burgeon_terrain::{HeightSource, LevelRules, Rules, World};
 
 /// The world that `options` describe. Fails for what cannot be.
 pub(super) fn world(options: &TerrainOptions) -> Result<World> {
     if !(options.size > 0.0 && options.size <= 1e9) {
-        return Err(Error::argument(format!("terrain: size is {} m", options.size))
+        return Err(Error::argument(format!("terrain: size is {} m", number(options.size)))
             .help("give a length above 0 and up to 1e9 m"));
     }
     if options.error.is_some_and(|error| error < 0.0) {

@@ -1,11 +1,12 @@
 //! The object: what scripts see of a terrain.
 
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 use super::river::River;
 use super::{EditFile, GroundCover, Plants, RuleLayers, Water, build};
 use crate::{Elevation, Network};
 use burgeon_base::error::{Error, Result};
+use burgeon_base::text::number;
 use burgeon_base::warning::{Warning, WarningKind};
 use burgeon_kit::rules::ModuleKey;
 use burgeon_kit::{Color, ObjectParameter, Path, Vector, fields, methods, object};
@@ -91,7 +92,7 @@ pub struct Terrain {
     /// What the present pass has asked for: a place and what is seen from there.
     wanted: Option<(DVec2, View)>,
     /// The ways down on the ground as it is expanded, once a river has asked.
-    drainage: Option<Drainage>,
+    drainage: OnceLock<Drainage>,
     /// The rivers that the present pass has let run.
     pub(super) rivers: Vec<River>,
     /// The changes of the ground that come from a file.
@@ -155,14 +156,16 @@ impl Terrain {
     /// bed is dug when the pass ends. There is none from a place under water.
     pub fn river(&mut self, source: Vector, width: f64) -> Result<()> {
         if !(width > 0.0 && width <= self.options.size) {
-            return Err(
-                Error::argument(format!("terrain:river: width is {width} m")).help("give metres above 0")
-            );
+            return Err(Error::argument(format!("terrain:river: width is {} m", number(width)))
+                .help("give metres above 0"));
         }
         let at = source.0.truncate();
         let height = self.ground.height(at).ok_or_else(|| self.nothing(at))?;
         let sunk = self.options.water.as_ref().map(|water| water.level).filter(|level| height <= *level);
-        let way = match (self.drainage()?.river(at), sunk) {
+        self.drainage()?;
+        let drainage =
+            self.drainage.get_mut().ok_or_else(|| Error::internal("terrain: there are no ways down"))?;
+        let way = match (drainage.river(at), sunk) {
             (Ok(way), _) => way,
             // Water runs there already.
             (Err(Dry::River), None) => return Ok(()),
@@ -196,6 +199,13 @@ impl Terrain {
         Ok(up.z.clamp(-1.0, 1.0).acos().to_degrees())
     }
 
+    /// Whether a river can begin at a place: not in standing water, at the shore or the rim, or in an earlier river.
+    pub fn is_source(&self, place: Vector) -> Result<bool> {
+        let at = place.0.truncate();
+        let found = self.ground.height(at).map(|_| self.drainage()).transpose()?;
+        self.known(at, found.map(|drainage| drainage.is_source(at)), true)
+    }
+
     /// The symbol of the cell at a place.
     pub fn symbol(&self, place: Vector) -> Result<String> {
         let at = place.0.truncate();
@@ -224,7 +234,7 @@ impl Terrain {
             ground: Ground::new(world),
             options: Arc::new(options),
             wanted: None,
-            drainage: None,
+            drainage: OnceLock::new(),
             rivers: Vec::new(),
             kept: Arc::default(),
             edits: Arc::default(),
@@ -297,12 +307,13 @@ impl Terrain {
         Some(Warning::new(WarningKind::Doubtful, text).help(help))
     }
 
-    fn drainage(&mut self) -> Result<&mut Drainage> {
-        if self.drainage.is_none() {
-            let water = self.options.water.as_ref().map(|water| water.level);
-            self.drainage = Some(Drainage::new(&self.ground.map()?, water));
+    fn drainage(&self) -> Result<&Drainage> {
+        if let Some(known) = self.drainage.get() {
+            return Ok(known);
         }
-        self.drainage.as_mut().ok_or_else(|| Error::internal("terrain: there are no ways down"))
+        let water = self.options.water.as_ref().map(|water| water.level);
+        let map = self.ground.map()?;
+        Ok(self.drainage.get_or_init(|| Drainage::new(&map, water)))
     }
 
     fn change(&mut self, edit: Edit) -> Result<()> {
@@ -399,7 +410,7 @@ impl Terrain {
         self.ground = self.plain.clone();
         self.begun = true;
         self.wanted = None;
-        self.drainage = None;
+        self.drainage = OnceLock::new();
         self.rivers.clear();
         self.edits = Arc::clone(&self.kept);
     }

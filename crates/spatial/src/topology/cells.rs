@@ -97,7 +97,7 @@ fn areas(
     all: bool,
 ) -> RelationCells {
     let mut cells = RelationCells::new();
-    let contacts = Contacts::new(one, two, !all);
+    let contacts = Contacts::new((one.0.bounds, one.1), (two.0.bounds, two.1), !all);
     let [same, opposite] = contacts.shares;
     cells.note_if(!contacts.is_empty(), BOUNDARY, BOUNDARY, b'0');
     cells.note_if(contacts.has_shared(), BOUNDARY, BOUNDARY, b'1');
@@ -122,7 +122,7 @@ fn area_and_line(
     ends: &[DVec2],
 ) -> RelationCells {
     let mut cells = RelationCells::new();
-    let contacts = Contacts::new(area, line, false);
+    let contacts = Contacts::new((area.0.bounds, area.1), (line.0.bounds, line.1), false);
     cells.note(INTERIOR, EXTERIOR, b'2');
     cells.note_if(contacts.of(0).has_own(area.1), BOUNDARY, EXTERIOR, b'1');
     let sides = if contacts.cross() { WalkSides::BOTH } else { contacts.of(1).walk(line.1, area.1) };
@@ -153,7 +153,7 @@ type LineParts<'a> = (&'a PreparedGeometry, &'a WayEdges, &'a [DVec2]);
 
 fn lines(one: LineParts<'_>, two: LineParts<'_>) -> RelationCells {
     let mut cells = RelationCells::new();
-    let contacts = Contacts::new((one.0, one.1), (two.0, two.1), false);
+    let contacts = Contacts::new((one.0.bounds, one.1), (two.0.bounds, two.1), false);
     cells.note_if(contacts.has_shared(), INTERIOR, INTERIOR, b'1');
     cells.note_if(contacts.cross(), INTERIOR, INTERIOR, b'0');
     cells.note_if(contacts.of(0).has_own(one.1), INTERIOR, EXTERIOR, b'1');

@@ -5,7 +5,7 @@ use std::cmp::Ordering;
 use glam::DVec2;
 
 use super::locate::{begins_inside, is_between, is_on, place_in, side};
-use super::prepared::{DirectedEdge, PreparedGeometry, WayEdges};
+use super::prepared::{DirectedEdge, WayEdges};
 
 /// A place where an edge of one geometry meets an edge of the other.
 #[derive(Debug, Clone, Copy)]
@@ -46,14 +46,15 @@ impl WalkSides {
 }
 
 impl Contacts {
-    /// The contacts of two geometries with these edges; without any but the first where edges cross, if `until_crossing`.
+    /// The contacts of two geometries with these bounds and edges; without any but the first where edges cross, if
+    /// `until_crossing`.
     pub(super) fn new(
-        (one, first): (&PreparedGeometry, &WayEdges),
-        (two, second): (&PreparedGeometry, &WayEdges),
+        (one, first): (Option<[DVec2; 2]>, &WayEdges),
+        (two, second): (Option<[DVec2; 2]>, &WayEdges),
         until_crossing: bool,
     ) -> Self {
         let mut made = Self::default();
-        let (Some([a, b]), Some([c, d])) = (one.bounds, two.bounds) else { return made };
+        let (Some([a, b]), Some([c, d])) = (one, two) else { return made };
         let (low, high) = (a.max(c), b.min(d));
         if !low.cmple(high).all() {
             return made;

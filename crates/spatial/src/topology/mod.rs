@@ -12,6 +12,8 @@ mod locate;
 mod prepared;
 #[cfg(test)]
 mod tests;
+mod validity;
 
 pub(crate) use cells::relate;
 pub use prepared::PreparedGeometry;
+pub(crate) use validity::{multi_polygon_flaw, polygon_flaw};

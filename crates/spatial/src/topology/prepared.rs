@@ -160,7 +160,7 @@ impl DirectedEdge {
 }
 
 impl WayEdges {
-    fn new(ways: &[Vec<DVec2>]) -> Self {
+    pub(super) fn new(ways: &[Vec<DVec2>]) -> Self {
         let mut made = Self::default();
         for way in ways {
             let edges = way.windows(2).filter(|pair| pair[0] != pair[1]);

@@ -2,7 +2,7 @@
 //!
 //! Source: ISO/IEC 13249-3 (SQL/MM), circular strings: each arc is told by its ends and a point between them.
 
-use std::f64::consts::TAU;
+use std::f64::consts::PI;
 
 use glam::{DVec2, DVec3};
 
@@ -13,10 +13,16 @@ pub const NEAR: f64 = 0.01;
 const MOST: f64 = 65_536.0;
 
 /// Adds the points of the arc from `from` by `by` to `to`, without the first, so that lines between them are at most
-/// `near` from it; all three are among them. Heights change evenly from each to the next.
+/// `near` from it; all three are among them. Heights change evenly from each to the next. Fails where `room` does, which
+/// is asked for so many points before they are made.
 ///
 /// Where both ends are the same place, it is a circle, and `by` lies opposite. What lies on one line stays one.
-pub fn add_arc(points: &mut Vec<DVec3>, [from, by, to]: [DVec3; 3], near: f64) {
+pub fn add_arc<E>(
+    points: &mut Vec<DVec3>,
+    [from, by, to]: [DVec3; 3],
+    near: f64,
+    mut room: impl FnMut(usize) -> Result<(), E>,
+) -> Result<(), E> {
     // All as seen from the first point.
     let start = from.truncate();
     let [a, b] = [by, to].map(|point| point.truncate() - start);
@@ -28,24 +34,33 @@ pub fn add_arc(points: &mut Vec<DVec3>, [from, by, to]: [DVec3; 3], near: f64) {
     };
     let radius = centre.length();
     if !radius.is_finite() || radius <= near {
+        room(2)?;
         points.extend([by, to]);
-        return;
+        return Ok(());
     }
     // To the left if the point between lies to the right of the way from end to end.
-    let left = is_circle || twice > 0.0;
-    let piece = 2.0 * (1.0 - near / radius).acos();
-    for (begin, end, [one, two]) in [(DVec2::ZERO, a, [from, by]), (a, b, [by, to])] {
-        let [first, last] = [begin, end].map(|place| (place - centre).to_angle());
-        let turn = if left { (last - first).rem_euclid(TAU) } else { -(first - last).rem_euclid(TAU) };
-        let count = (turn.abs() / piece).ceil().clamp(1.0, MOST);
+    let side = if is_circle || twice > 0.0 { 1.0 } else { -1.0 };
+    // A line over an angle is radius * (1 - cos(angle / 2)) from its arc. Of a large radius nothing is left of that cosine.
+    let piece = 4.0 * (near / (2.0 * radius)).sqrt().asin();
+    // The angle at the centre is twice that at the third point, which a difference of directions from afar is not.
+    let seen = |one: DVec2, two: DVec2| match is_circle {
+        true => PI,
+        false => 2.0 * one.perp_dot(two).abs().atan2(one.dot(two)),
+    };
+    for (begin, turn, [one, two]) in [(DVec2::ZERO, seen(-b, a - b), [from, by]), (a, seen(a, b), [by, to])] {
+        let count = (turn / piece).ceil().clamp(1.0, MOST);
         #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "the range is checked")]
-        for step in 1..count as u32 {
+        let pieces = count as u32;
+        room(pieces as usize)?;
+        let first = (begin - centre).to_angle();
+        for step in 1..pieces {
             let part = f64::from(step) / count;
-            let at = start + centre + DVec2::from_angle(first + turn * part) * radius;
+            let at = start + centre + DVec2::from_angle(first + side * turn * part) * radius;
             points.push(at.extend(one.z + (two.z - one.z) * part));
         }
         points.push(two);
     }
+    Ok(())
 }
 
 #[cfg(test)]
@@ -55,7 +70,7 @@ mod tests {
     fn arc(places: [[f64; 3]; 3]) -> Vec<DVec3> {
         let places = places.map(DVec3::from);
         let mut points = vec![places[0]];
-        add_arc(&mut points, places, NEAR);
+        add_arc(&mut points, places, NEAR, |_| Ok::<(), ()>(())).unwrap();
         points
     }
 
@@ -97,5 +112,26 @@ mod tests {
         for odd in [[f64::NAN; 3], [f64::INFINITY; 3], [1e300; 3], [0.0; 3]] {
             assert!(arc([[0.0; 3], odd, [1.0, 0.0, 0.0]]).len() < 10);
         }
+    }
+
+    #[test]
+    fn arcs_that_are_nearly_straight_have_no_more_points_than_a_centimetre_takes() {
+        // A millimetre off a line of 2,000 km, and less than rounding leaves of it.
+        for off in [1e-3, 1e-9, 1e-300] {
+            let given = [[0.0; 3], [1e6, off, 0.0], [2e6, 0.0, 0.0]];
+            assert_eq!(arc(given), given.map(DVec3::from));
+            let far = given.map(|[x, y, z]| [x + 0.1, y - 1e6, z]);
+            assert_eq!(arc(far).len(), 3);
+        }
+        // A metre off it, each half a quarter of that from its chord: five pieces of less than a centimetre each.
+        assert_eq!(arc([[0.0; 3], [1e6, 1.0, 0.0], [2e6, 0.0, 0.0]]).len(), 1 + 2 * 5);
+    }
+
+    #[test]
+    fn room_is_asked_for_before_there_are_points() {
+        let mut points = Vec::new();
+        let places = [[0.0; 3], [2e6, 0.0, 0.0], [0.0; 3]].map(DVec3::from);
+        let asked = add_arc(&mut points, places, NEAR, Err);
+        assert!(asked.unwrap_err() > 10_000 && points.is_empty());
     }
 }

@@ -245,12 +245,11 @@ impl WkbReader<'_> {
                 }
                 let mut points = vec![given[0]];
                 for from in (0..given.len() - 2).step_by(2) {
-                    let before = points.len();
-                    add_arc(&mut points, [given[from], given[from + 1], given[from + 2]], self.near);
-                    self.budget
-                        .take((points.len() - before) * 24)
+                    let arc = [given[from], given[from + 1], given[from + 2]];
+                    let room = |count: usize| self.budget.take(count * 24);
+                    add_arc(&mut points, arc, self.near, room)
+                        .and_then(|()| self.budget.tick())
                         .map_err(|error| error.message().to_owned())?;
-                    self.budget.tick().map_err(|error| error.message().to_owned())?;
                 }
                 Ok(points)
             }

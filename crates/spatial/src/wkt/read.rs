@@ -327,9 +327,8 @@ impl WktReader<'_> {
             }
             let mut points = vec![given[0]];
             for from in (0..given.len() - 2).step_by(2) {
-                let before = points.len();
-                add_arc(&mut points, [given[from], given[from + 1], given[from + 2]], NEAR);
-                self.budget.take((points.len() - before) * 24)?;
+                let arc = [given[from], given[from + 1], given[from + 2]];
+                add_arc(&mut points, arc, NEAR, |count| self.budget.take(count * 24))?;
                 self.budget.tick()?;
             }
             return Ok(points);

@@ -230,17 +230,16 @@ impl GeometryReader<'_> {
             return wrong(format!("has a curve that is an {} of {} places", element.name, given.len()));
         }
         let near = NEAR / context.known().map_or(1.0, |system| system.crs.metres());
+        let room = |count: usize| self.budget.take(count * 24);
         let mut places = vec![given[0]];
         for from in (0..given.len() - 2).step_by(2) {
-            let before = places.len();
-            add_arc(&mut places, [given[from], given[from + 1], given[from + 2]], near);
-            self.budget.take((places.len() - before) * 24)?;
+            add_arc(&mut places, [given[from], given[from + 1], given[from + 2]], near, room)?;
             self.budget.tick()?;
         }
         if element.name == "Circle" {
             // Three places tell it, of which the last goes on to the first: the other half of its way.
             let opposite = around(given);
-            add_arc(&mut places, [given[2], opposite, given[0]], near);
+            add_arc(&mut places, [given[2], opposite, given[0]], near, room)?;
         }
         Ok(places)
     }

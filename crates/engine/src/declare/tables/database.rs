@@ -52,6 +52,7 @@ impl SourceTables {
                         features: list.features.clone(),
                         bounds: [[0.0; 3]; 2],
                         empty: 0,
+                        collapsed: 0,
                         refused: Vec::new(),
                         notes: Vec::new(),
                     };

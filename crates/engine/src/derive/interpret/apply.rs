@@ -7,7 +7,7 @@ use mlua::Buffer;
 
 use super::InterpretationPass;
 use super::notices::ObjectNotice;
-use crate::machine::{Flusher, Machine, Objects, read_column, returns_modules};
+use crate::machine::{Flusher, Machine, Objects, read_column, returns_modules, returns_value};
 use burgeon_base::error::{Error, Limit, Result};
 use burgeon_base::warning::Warning;
 use burgeon_kit::rules::{CLOSE, END, Mark, OPEN, Values, module_brief};
@@ -379,12 +379,13 @@ impl Flusher for Applier {
         self.note(said, None);
     }
 
-    fn lost(&mut self, entry: usize) {
+    fn lost(&mut self, entry: usize, value: Option<&str>) {
         let Some(module) = self.entries.get(entry).copied() else { return };
         let interpretations = &self.pass.plan.interpretations;
         let id = interpretations.by_symbol[usize::from(self.pass.chain.symbols[module.0])];
         if interpretations.list.get(usize::from(id)).is_some_and(|known| !known.loses) {
-            self.notices.push(ObjectNotice { warning: returns_modules(), module, call: None });
+            let warning = value.map_or_else(returns_modules, returns_value);
+            self.notices.push(ObjectNotice { warning, module, call: None });
         }
     }
 }

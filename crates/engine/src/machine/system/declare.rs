@@ -154,6 +154,13 @@ pub(crate) fn returns_modules() -> Warning {
         .help("return them from a rule, system:rule(pattern, function); an interpretation calls methods of this")
 }
 
+/// The warning for an interpretation that returns a `value`, in words, that is no module.
+pub(crate) fn returns_value(value: &str) -> Warning {
+    let text = format!("an interpretation returns {value}, and nobody takes it");
+    Warning::new(WarningKind::NoEffect, text)
+        .help("an interpretation calls methods of this, and returns nothing")
+}
+
 /// The file and the line on which a function of the script begins.
 fn begin_of(function: &Function) -> Option<(String, usize)> {
     let info = function.info();

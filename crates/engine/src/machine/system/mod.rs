@@ -15,7 +15,7 @@ mod unseen;
 pub(crate) use axiom::Axiom;
 pub(super) use declaration::{DeclaredAxiom, DeclaredInterpretation, DeclaredRule, DerivationRecord};
 pub(crate) use declaration::{Interpretations, SystemDeclaration, SystemFunctions};
-pub(crate) use declare::returns_modules;
+pub(crate) use declare::{returns_modules, returns_value};
 pub(crate) use handle::SystemHandle;
 pub(crate) use lazy::{EagerMark, UNREAD, feature_of, install as install_lazy};
 pub(crate) use source::SourceHandle;

@@ -177,6 +177,10 @@ pub(in crate::machine) fn named_fields(what: &str, options: LuaValue) -> Result<
 }
 
 pub(in crate::machine) fn no_table(what: &str, given: &LuaValue) -> Error {
-    Error::argument(format!("{what} takes a table of named fields, not a {}", given.type_name()))
+    let given = match to_field(given) {
+        Ok(Value::Object(object)) => object.kind().with_article(),
+        _ => format!("a {}", given.type_name()),
+    };
+    Error::argument(format!("{what} takes a table of named fields, not {given}"))
         .help(format!("write {what} {{ name = value }}"))
 }

@@ -4,6 +4,7 @@ use super::super::object::unknown;
 use super::Roof;
 use crate::footprint::object::check_height;
 use burgeon_base::error::{Error, Result};
+use burgeon_base::text::number;
 use burgeon_geometry::roof::{Border, Eaves, Ends, Rise, RoofShape, RoofSurface};
 
 /// A kind: what stands at the ends of wings, and the bends of its slopes between eaves and ridge, as parts of the
@@ -90,8 +91,11 @@ fn check(options: &Roof) -> Result<()> {
         }
     }
     if !(0.05..=100.0).contains(&options.border_width) {
-        return Err(Error::argument(format!("footprint:roof: border_width is {} m", options.border_width))
-            .help("give 0.05 to 100 m"));
+        return Err(Error::argument(format!(
+            "footprint:roof: border_width is {} m",
+            number(options.border_width)
+        ))
+        .help("give 0.05 to 100 m"));
     }
     Ok(())
 }
