@@ -108,14 +108,45 @@ local function ground(streets: Network?): Terrain
 end
 local bare = if hills > 0 then ground() else nil
 
--- Quarters: which is where, and how its streets run.
+-- Whether a street may be proposed: bridges lead over the river within the town alone, and not side by side.
+local function allowed(streets: Network, from: Vector, to: Vector, depth: number): boolean
+  local length = from:distance(to)
+  local off = from.y - midstream(from.x)
+  if not with_river or math.abs(off) > 1.5 * length + wide + 20 then
+    return true
+  end
+  local out, at, touches = (to - from):unit(), from, false
+  for far = 0, length + 3 * wide, 6 do
+    at += 6 * out
+    local here = at.y - midstream(at.x)
+    touches = touches or math.abs(here) < wide / 2 + 8
+    if not touches and far > length + 12 then
+      return true
+    elseif (here > 0) ~= (off > 0) then
+      local apart = math.clamp(extent * 0.17, 60, 150)
+      for aside = -apart, apart, 10 do
+        local x = at.x + aside
+        if streets:distance(vec(x, midstream(x), 0)) < wide / 2 + 4 then
+          return false
+        end
+      end
+      return math.abs(at.x) < extent * (if depth < 2 then 0.66 else 0.5)
+    end
+  end
+  return true
+end
+
+-- Quarters: which is where, and how its streets run. Main streets lead out to the rim of the country around.
+local RIM = extent * 1.1 + 60
 local places = quarters.places(extent, heart)
 local streets = roads.grow({
   pattern = quarters.pattern(places),
   centres = { middle },
   extent = extent,
-  steps = math.ceil(extent / 22),
+  steps = math.ceil(extent / 22) + 4,
   dead_ends = "remove",
+  exits = { count = 6, rim = if bare then size / 2 - 16 else RIM - 14 },
+  allowed = allowed,
   network = {
     streets = {
       { width = 25, lanes = 4, median = 2, sidewalk = 4, trees = 11, lamps = 30 },
@@ -146,12 +177,46 @@ if not land then
   local country = {}
   for step = 1, 72 do
     local angle = math.rad(step * 5)
-    table.insert(country, { math.cos(angle) * (extent * 1.1 + 60), math.sin(angle) * (extent * 1.1 + 60) })
+    table.insert(country, { math.cos(angle) * RIM, math.sin(angle) * RIM })
   end
   local plate = polygon(country)
   quarters.areas({ if with_river then plate:difference(water) else plate }, -7, -0.06, "#7c8a58")
   if with_river then
     quarters.areas({ plate:intersection(water) }, -7, WATER, "#56727c")
+  end
+end
+
+-- Fields in the country around, where the ground is flat.
+local FIELD = { 74, 50 }
+local FIELDS = { "#8d9a58", "#a39f63", "#768452", "#93a066", "#b0a56b" }
+if not land then
+  local fields: { { any } } = {}
+  local along = vec(math.cos(course), math.sin(course), 0)
+  local across = vec(-along.y, along.x, 0)
+  local columns, rows = math.ceil(RIM / FIELD[1]), math.ceil(RIM / FIELD[2])
+  for column = -columns, columns do
+    for row = -rows, rows do
+      local ring, is_free = {}, random() < 0.85
+      for _, corner in { { 0.03, 0.03 }, { 0.97, 0.03 }, { 0.97, 0.97 }, { 0.03, 0.97 } } do
+        -- Every other column is shifted.
+        local up = row + corner[2] + 0.5 * (column % 2)
+        local at = along * (FIELD[1] * (column + corner[1])) + across * (FIELD[2] * up)
+        is_free = is_free
+          and at.x * at.x + at.y * at.y < (RIM - 4) ^ 2
+          and streets:distance(at) > 22
+          and not (with_river and math.abs(at.y - midstream(at.x)) < wide / 2 + 16)
+        table.insert(ring, { at.x, at.y })
+      end
+      local middle = polygon(ring):centroid():place() :: Vector
+      if is_free and streets:distance(middle) > 36 then
+        local number = 1 + math.floor(random() * #FIELDS)
+        fields[number] = fields[number] or {}
+        table.insert(fields[number], polygon(ring))
+      end
+    end
+  end
+  for number, of_color in fields do
+    quarters.areas(of_color, -0.5, 0, FIELDS[number])
   end
 end
 
@@ -255,7 +320,7 @@ if with_trees then
   -- Woods in the country around.
   for wood = 1, 26 do
     local angle, away = math.rad(random(0, 360)), extent * random(0.8, 1.12)
-    for number = 1, 22 do
+    for number = 1, 16 do
       local x = math.cos(angle) * away + random(-1, 1) * random(5, 45)
       local y = math.sin(angle) * away + random(-1, 1) * random(5, 45)
       local place = vec(x, y, height(x, y))

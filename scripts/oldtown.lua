@@ -30,9 +30,11 @@ local patterns = {
 local lanes = roads.grow({
   pattern = patterns[plan],
   extent = extent,
-  steps = math.ceil(extent / 7),
+  steps = math.ceil(extent / 7) + 4,
   join = 170,
   detour = 1.8,
+  dead_ends = "remove",
+  exits = { count = if extent < 150 then 3 elseif extent < 250 then 4 else 5, length = 26 },
   headings = { 10, 130, 250 },
   network = {
     streets = {
@@ -70,29 +72,55 @@ local function church_in(block: any): any
   return nil
 end
 
--- The market is the block next to the middle, if possible one with room for a church; all others are divided into narrow
--- lots.
+-- The streets that lead out end where none goes on; the wall goes around all others.
 local blocks = lanes:blocks()
+local leads_out: { [number]: boolean } = {}
+for _, open in lanes:open_ends() do
+  leads_out[open.junction] = true
+end
+local exits: { any }, corners = {}, {}
+for _, street in lanes:streets() do
+  if leads_out[street.from] or leads_out[street.to] then
+    table.insert(exits, street)
+  else
+    for _, place in street.geometry.points do
+      table.insert(corners, { place[1], place[2] })
+    end
+  end
+end
+-- Without a street the wall goes around the middle.
+local hull = if #corners > 2 then line(corners):convex_hull() else point(0, 0):buffer(extent / 2)
+local centre = hull:centroid()
+
+-- The market is the block next to the middle, if possible one with room for a church; all others are divided into narrow
+-- lots, and so is what of a great one lies farther from the church than a market reaches.
+local MARKET = 2400
 local market, church, least = nil :: any, nil :: any, math.huge
 for _, block in blocks do
-  local far = block.geometry:distance(point(0, 0)) + math.abs(block.area - 2200) / 60
+  local far = block.geometry:distance(centre) + math.abs(block.area - MARKET) / 40
   local place = if church and far >= least then nil else church_in(block)
   if place and not church or (place ~= nil) == (church ~= nil) and far < least then
     market, church, least = block, place, far
   end
 end
+local square: any = if market then market.geometry else nil
 local built = {}
-local corners = {}
 for _, block in blocks do
   if block ~= market then
     table.insert(built, block)
-  end
-  for _, place in block.geometry.rings[1] do
-    table.insert(corners, place)
+  elseif church and block.area > MARKET then
+    local middle = church:centroid()
+    local open = block.geometry:exterior_ring():nearest_point(middle)
+    local entry = line({ { middle:x(), middle:y() }, { open:x(), open:y() } }):buffer(9)
+    square = block.geometry:intersection(church:buffer(10):convex_hull():union(entry))
+    -- Parts that touch in a corner alone come apart.
+    for number, part in block.geometry:difference(square):inset(0.05):geometries() do
+      if part:area() > 60 then
+        table.insert(built, { id = `{block.id} {number}`, geometry = part })
+      end
+    end
   end
 end
--- Without a block the wall goes around the middle.
-local hull = if #corners > 0 then line(corners):convex_hull() else point(0, 0):buffer(extent / 2)
 
 -- Houses, the front ones in rows that touch.
 local STYLES = { "half_timbered", "half_timbered", "porto", "terrace_house", "half_timbered", "porto" }
@@ -131,31 +159,43 @@ do
   end
 end
 
--- Where streets leave the town; a path does, where none of them goes so far.
-local exits: { any }, path: any = {}, nil
-for _, open in lanes:open_ends() do
-  local way = math.rad(open.heading)
-  local out = vec(math.cos(way), math.sin(way), 0)
-  local from, to = open.place - out * 200, open.place + out * 60
-  if not point(open.place.x, open.place.y):within(hull:buffer(14)) then
-    table.insert(exits, line({ { from.x, from.y }, { to.x, to.y } }))
+-- Paths go on where the streets end that lead out, or begin at the wall, where no street does.
+local REACH = extent * 1.2 + 110
+local country = point(centre:x(), centre:y()):buffer(REACH)
+local paths: { any }, path: any = {}, nil
+local function track(from: Vector, heading: number): any
+  local places, turned, at = { { from.x, from.y } }, heading, from
+  while point(at.x, at.y):within(country) do
+    at += 24 * vec(math.cos(math.rad(turned)), math.sin(math.rad(turned)), 0)
+    -- It swings, and leads away from the town.
+    local out = math.deg(math.atan2(at.y - centre:y(), at.x - centre:x()))
+    turned += 0.4 * ((out - turned + 180) % 360 - 180) + random(-12, 12)
+    table.insert(places, { at.x, at.y })
   end
+  return line(places)
+end
+for _, open in lanes:open_ends() do
+  local out = vec(math.cos(math.rad(open.heading)), math.sin(math.rad(open.heading)), 0)
+  -- It begins below the sidewalk around the street's end.
+  table.insert(paths, track(open.place + out * 4.4, open.heading):buffer(2):intersection(country))
 end
 if #exits == 0 then
-  local from, nearest = vec(0, 0, 0), math.huge
+  local from, nearest = vec(centre:x(), centre:y(), 0), math.huge
   for _, corner in hull.rings[1] do
     local place = vec(corner[1], corner[2], 0)
     if lanes:distance(place) < nearest then
       from, nearest = place, lanes:distance(place)
     end
   end
-  local to = from + from:unit() * 80
-  local way = line({ { from.x, from.y }, { to.x, to.y } })
+  local out = from - vec(centre:x(), centre:y(), 0)
+  local way = track(from + 5 * out:unit(), math.deg(math.atan2(out.y, out.x)))
   path = way:buffer(2.6)
-  table.insert(exits, way)
+  table.insert(paths, path:intersection(country))
+  table.insert(exits, { geometry = way, width = 5.2 })
 end
 
 -- Between the lanes and the wall houses stand by themselves.
+local yard = hull:buffer(8)
 for _, site in
   lanes:sites({
     sizes = { { 11, 9 }, { 9, 8 } },
@@ -166,7 +206,7 @@ for _, site in
     gap = 1.5,
   })
 do
-  local is_free = site.geometry:within(hull:buffer(6)) and not (path and site.geometry:intersects(path))
+  local is_free = site.geometry:within(yard) and not (path and site.geometry:intersects(path))
   for _, block in blocks do
     is_free = is_free and not site.geometry:intersects(block.geometry)
   end
@@ -196,7 +236,6 @@ end)
 town:derive()
 
 -- The ground: fields, a ditch, the yards of the blocks and the paved market.
-local country = point(0, 0):buffer(extent * 1.45 + 60)
 quarters.areas({ country:difference(hull:buffer(24)) }, -5, -0.05, "#8b9a5b")
 quarters.areas({ hull:buffer(24) }, -5, -0.06, if wall_height > 0 then "#8f8a68" else "#8b9a5b")
 local ground = {}
@@ -204,27 +243,79 @@ for _, block in built do
   table.insert(ground, block.geometry)
 end
 quarters.areas(ground, -0.3, 0.14, "#8d8a6c")
-if path then
-  quarters.areas({ path }, -0.3, 0, "#8a8074")
-end
+quarters.areas(paths, -0.3, 0, "#8a8074")
 if market then
-  quarters.areas({ market.geometry }, -0.3, 0.14, "#b0a492")
+  -- It is paved below the lots around it too, for what is too small for them.
+  quarters.areas({ market.geometry }, -0.3, 0.13, "#b0a492")
 end
 
--- The wall with its towers. A gate stands where a street leaves.
+-- A fountain and stalls on the market, away from the church and from what lies around.
+local Stall, Model, Fountain =
+  module("Stall", "turned"), module("Model", "color"), module("Fountain", "place")
+if market then
+  local open = square:buffer(-3.5)
+  local spots: { any } = {}
+  for _ = 1, 90 do
+    if #spots < 12 and not open:is_empty() then
+      local at = open:random_point(random(), random())
+      local is_free = not (church and at:distance(church) < 6)
+      for _, spot in spots do
+        is_free = is_free and at:distance(spot.geometry) > (if spot == spots[1] then 7 else 5.5)
+      end
+      if is_free then
+        table.insert(spots, { id = `stall {#spots}`, geometry = at })
+      end
+    end
+  end
+  if #spots > 0 then
+    local first = table.remove(spots, 1).geometry
+    local fountain = lsystem({ object = extruder({ smooth = false, roughness = 0.9 }) })
+    fountain:axiom(Fountain(vec(first:x(), first:y(), 0.14)))
+    fountain:interpret("Fountain(place)", function(this, place)
+      this:color("#97917f"):regular(12):scale(2.1):jump(place):extrude(0.6)
+      this:color("#5f7f8c"):scale(1.75):jump(place + vec(0, 0, 0.6)):extrude(0.04)
+      this:color("#97917f"):scale(0.4):jump(place + vec(0, 0, 0.6)):extrude(1.9)
+    end)
+    fountain:derive(0)
+  end
+  if #spots > 0 then
+    local models = {}
+    for number, color in { "#b5584a", "#d9c9a0", "#5f7a8a" } do
+      local stall = lsystem({ object = extruder({ smooth = false, roughness = 1 }) })
+      stall:axiom(Model(color))
+      stall:interpret("Model(color)", function(this, cloth)
+        this:color("#7a5f43"):rectangle(2.4, 1.3):jump({ 0, 0, 0 }):extrude(0.9)
+        this:rectangle(2.6, 0.14):jump({ 0, 0.75, 0 }):extrude(2.4)
+        this:color(cloth):rectangle(3, 2.2):jump({ 0, 0, 2.3 }):taper(0.4):extrude(0.7)
+      end)
+      models[number] = stall:derive(0)
+    end
+    local stalls = lsystem({ object = turtle() })
+    stalls:axiom(source(spots), function(spot)
+      return turtle({ position = vec(spot.geometry:x(), spot.geometry:y(), 0.14) }), Stall(random(0, 360))
+    end)
+    stalls:interpret("Stall(turned)", function(this, turned)
+      this:roll(turned):place(models[1 + math.floor(turned) % #models])
+    end)
+    stalls:derive(0)
+  end
+end
+
+-- The wall with its towers. A gate stands where a street crosses it, as wide as the street.
 local Wall = module("Wall", "shape", "height", "color")
 local Tower = module("Tower", "place", "radius", "height")
+local TOWER, GATE_TOWER = 3.6, 3.1
 if wall_height > 0 then
   local inner, outer = hull:buffer(12), hull:buffer(14.6)
   local ring = inner:buffer(1.3):exterior_ring()
   local wall = outer:difference(inner)
   local gates = {}
   for _, street in exits do
-    local crossing = street:intersection(ring)
+    local crossing = street.geometry:intersection(ring)
     if not crossing:is_empty() then
       local at = crossing:centroid()
-      table.insert(gates, vec(at:x(), at:y(), 0))
-      wall = wall:difference(street:buffer(4.2))
+      table.insert(gates, { place = vec(at:x(), at:y(), 0), street = street })
+      wall = wall:difference(street.geometry:buffer(street.width / 2 + 0.2))
     end
   end
   local walls = lsystem({ object = extruder({ smooth = false, roughness = 0.95 }) })
@@ -242,18 +333,23 @@ if wall_height > 0 then
     local place = vec(at:x(), at:y(), 0)
     local is_free = true
     for _, gate in gates do
-      is_free = is_free and gate:distance(place) > 20
+      is_free = is_free and gate.place:distance(place) > 22
     end
     if is_free then
-      table.insert(modules, Tower(place, 3.6, wall_height + 3.5))
+      table.insert(modules, Tower(place, TOWER, wall_height + 3.5))
     end
   end
   for _, gate in gates do
-    local near = ring:nearest_point(point(gate.x, gate.y))
-    local at = ring:line_locate(near) * ring:length()
+    local length = ring:length()
+    local at = ring:line_locate(point(gate.place.x, gate.place.y)) * length
     for side = -1, 1, 2 do
-      local beside = ring:line_interpolate(((at + side * 7.4) / ring:length()) % 1)
-      table.insert(modules, Tower(vec(beside:x(), beside:y(), 0), 3.1, wall_height + 6))
+      -- Beside the street, however it meets the wall.
+      local away, beside: any = 0, nil
+      repeat
+        away += 0.5
+        beside = ring:line_interpolate(((at + side * away) / length) % 1)
+      until away > 20 or beside:distance(gate.street.geometry) > gate.street.width / 2 + GATE_TOWER * 1.12
+      table.insert(modules, Tower(vec(beside:x(), beside:y(), 0), GATE_TOWER, wall_height + 6))
     end
   end
   walls:axiom(table.unpack(modules))
@@ -284,15 +380,24 @@ if with_trees then
       plant(at:x(), at:y(), 0.1, random(4, 8))
     end
   end
+  local function near_path(at: any): boolean
+    for _, each in paths do
+      if each:distance(at) < 3 then
+        return true
+      end
+    end
+    return false
+  end
   for number = 1, 500 do
-    local angle, far = random(0, 2 * math.pi), extent * random(1.1, 1.75) + 30
-    local x, y = far * math.cos(angle), far * math.sin(angle)
+    local angle, far = random(0, 2 * math.pi), REACH * math.sqrt(random(0.1, 1))
+    local x, y = centre:x() + far * math.cos(angle), centre:y() + far * math.sin(angle)
     local at = point(x, y)
     if
       noise(x / 70, y / 70) > 0.1
       and at:within(country)
       and at:distance(hull) > 30
       and lanes:distance(vec(x, y, 0)) > 9
+      and not near_path(at)
     then
       plant(x, y, -0.1, random(5, 11))
     end

@@ -8,7 +8,7 @@ local roads = require("templates/roads")
 
 local extent = param("extent", { default = 210, min = 150, max = 600, unit = "m", text = "From the middle" })
 local hills =
-  param("hills", { default = 26, min = 0, max = 80, unit = "m", text = "How high the ground rises" })
+  param("hills", { default = 26, min = 0, max = 50, unit = "m", text = "How high the ground rises" })
 local with_trees = param("trees", { default = true })
 
 -- The ground: once to be asked, and once with the lanes that lie on it. A lane may lead out of the village, and have
@@ -26,12 +26,13 @@ local function ground(lanes: Network?): Terrain
       rules = { Land = rolling },
       under = lanes,
       shown = lanes ~= nil,
-      base = -hills - 25,
+      -- Below all that change and decay can add up to.
+      base = math.min(-hills - 25, -1.85 * hills - 2),
       covers = {
         { color = "#7f8d55" },
         { color = "#93a05e", on = { patches = 0.8, scale = 130 } },
         { color = "#b0a868", on = { patches = 0.9, scale = 210 } },
-        { color = "#8b7d5d", on = { slope = { 24, 34 } } },
+        { color = "#8b7d5d", on = { slope = { 37, 46 } } },
       },
     }),
     seed = form,
@@ -52,7 +53,8 @@ local lanes = roads.grow({
   detour = 2,
   network = {
     on = bare,
-    max_slope = 11,
+    -- On steep ground lanes rather climb than cut deep.
+    max_slope = 11 + math.max(0, hills - 26) * 0.2,
     turning = 6,
     streets = { { width = 9.4, lanes = 2, sidewalk = 1.3 }, { width = 6.2, lanes = 1, sidewalk = 0.7 } },
     snap = 20,
@@ -83,6 +85,15 @@ local sites = lanes:sites({
   gap = 5,
 })
 local church: any, least = nil, math.huge
+-- What stands where the ground falls more than a storey would have a blind wall below it; it stays free.
+local function is_level(geometry: any, most: number): boolean
+  local low, high = math.huge, -math.huge
+  for _, point in geometry:buffer(1.5).rings[1] do
+    local at = land:height(vec(point[1], point[2], 0))
+    low, high = math.min(low, at), math.max(high, at)
+  end
+  return high - low <= most
+end
 local church_sites = lanes:sites({
   sizes = { { 12, 24 } },
   along = 5,
@@ -94,7 +105,7 @@ local church_sites = lanes:sites({
 })
 for _, site in church_sites do
   local off = math.abs(math.sqrt(site.access.x ^ 2 + site.access.y ^ 2) - 40)
-  if site.row == 0 and off < least then
+  if site.row == 0 and off < least and is_level(site.geometry, 3.2) then
     church, least = site, off
   end
 end
@@ -102,7 +113,7 @@ local houses, gardens = {}, {}
 for _, site in sites do
   local ring = site.geometry.rings[1]
   local away = math.sqrt(site.access.x ^ 2 + site.access.y ^ 2)
-  if church and site.geometry:distance(church.geometry) < 5 then
+  if church and site.geometry:distance(church.geometry) < 5 or not is_level(site.geometry, 2.4) then
     continue
   elseif random() < 0.93 - 0.45 * away / extent then
     local is_barn = site.row > 0 or (away > extent * 0.6 and random() < 0.35)

@@ -247,8 +247,14 @@ fn every_lua_block_of_the_guide_runs() {
     let folder = tempfile::tempdir().unwrap();
     // What the guide's scripts require.
     fs::create_dir_all(folder.path().join("templates/roads")).unwrap();
-    for name in ["roads.lua", "roads/checks.lua", "roads/patterns.lua", "roads/growth.lua", "roads/words.lua"]
-    {
+    for name in [
+        "roads.lua",
+        "roads/checks.lua",
+        "roads/exits.lua",
+        "roads/patterns.lua",
+        "roads/growth.lua",
+        "roads/words.lua",
+    ] {
         let library = Path::new("templates").join(name);
         fs::copy(root().join("scripts").join(&library), folder.path().join(library)).unwrap();
     }

@@ -57,12 +57,17 @@ local function one<T>(list: { T }, draw: number): T
   return list[math.min(#list, 1 + math.floor(draw * #list))]
 end
 
--- Buildings of rows that touch, as high as `low` to `high` (m) by whole storeys of 3.1 m; and the lots that have none.
+-- How much of the height of rows is by the depth of their street, and how much of that is left at each deeper one.
+local BY_DEPTH, FALLOFF = 0.75, 0.5
+
+-- Buildings of rows that touch, as high as `low` to `high` (m) by whole storeys of 3.1 m, the higher the greater their street;
+-- and the lots that have none.
 local function row(lots: { any }, low: number, high: number, look: string, style: string): ({ any }, { any })
   local features, empty = {}, {}
   for _, lot in lots do
     local draw = skyline.stream(lot.id, 7)
-    local height = 3.1 * math.floor((low + (high - low) * draw()) / 3.1 + 0.5)
+    local share = BY_DEPTH * FALLOFF ^ (lot.street_depth or 0) + (1 - BY_DEPTH) * draw()
+    local height = 3.1 * math.floor((low + (high - low) * share) / 3.1 + 0.5)
     local before = #features
     for number, part in lot.terrace do
       if part:area() > 30 then
@@ -92,7 +97,7 @@ local function flats(lots: { any }): ({ any }, { any })
   for _, lot in lots do
     local draw = skyline.stream(lot.id, 5)
     local building = skyline.building(lot, {
-      by = { noise = 0.6, depth = 0.4 },
+      by = { noise = 0.4, depth = 0.6 },
       low = 11,
       high = 30,
       detached = 0,
@@ -145,7 +150,7 @@ quarters.kinds = {
     lots = { kind = "boxes", width = 34, depth = 36, jitter = 0.4, parks = 0.04 },
     buildings = function(lots: { any }, highest: number, extent: number)
       return standing(lots, {
-        by = { centres = 0.7, depth = 0.3 },
+        by = { centres = 0.6, depth = 0.4 },
         low = 17,
         high = highest,
         reach = extent * 0.16,
@@ -171,7 +176,7 @@ quarters.kinds = {
       terrace = 12,
     },
     buildings = function(lots: { any })
-      return row(lots, 9, 16, "old", "porto")
+      return row(lots, 8, 19, "old", "porto")
     end,
   },
   blocks = {
@@ -187,7 +192,7 @@ quarters.kinds = {
       terrace = 13.5,
     },
     buildings = function(lots: { any })
-      return row(lots, 15, 23, "blocks", "haussmann")
+      return row(lots, 13, 27, "blocks", "haussmann")
     end,
   },
   flats = {
@@ -208,7 +213,7 @@ quarters.kinds = {
       terrace = 10,
     },
     buildings = function(lots: { any })
-      return row(lots, 6, 9.4, "rows", "terrace_house")
+      return row(lots, 5, 13, "rows", "terrace_house")
     end,
   },
   villas = {
@@ -218,8 +223,8 @@ quarters.kinds = {
       return standing(
         lots,
         {
-          low = 5.8,
-          high = 6.6,
+          low = 5,
+          high = 7.6,
           detached = 30,
           tall = 100,
         },

@@ -18,8 +18,14 @@ pub(crate) fn grown(fields: &str, proposal: &str) -> String {
 /// A folder with a script that uses the library of roads.
 fn with_roads(script: &str) -> Folder {
     let templates = Path::new(env!("CARGO_MANIFEST_DIR")).join("scripts/templates");
-    let files =
-        ["roads.lua", "roads/checks.lua", "roads/growth.lua", "roads/patterns.lua", "roads/words.lua"];
+    let files = [
+        "roads.lua",
+        "roads/checks.lua",
+        "roads/exits.lua",
+        "roads/growth.lua",
+        "roads/patterns.lua",
+        "roads/words.lua",
+    ];
     let folder =
         Folder::new().with("s.lua", format!("local roads = require(\"templates/roads\")\n{script}\n"));
     files.into_iter().fold(folder, |folder, file| {

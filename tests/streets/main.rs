@@ -108,8 +108,14 @@ fn refused(line: &str) -> String {
     let library = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("scripts/templates");
     let templates = folder.path().join("templates");
     std::fs::create_dir_all(templates.join("roads")).expect("a folder");
-    for file in ["roads.lua", "roads/checks.lua", "roads/patterns.lua", "roads/growth.lua", "roads/words.lua"]
-    {
+    for file in [
+        "roads.lua",
+        "roads/checks.lua",
+        "roads/exits.lua",
+        "roads/patterns.lua",
+        "roads/growth.lua",
+        "roads/words.lua",
+    ] {
         std::fs::copy(library.join(file), templates.join(file)).expect("the library");
     }
     let path = folder.path().join("s.lua");

@@ -1,6 +1,7 @@
 --!strict
 -- Growth: the rules by which streets follow a pattern, from junction to junction.
 local checks = require("checks")
+local exits = require("exits")
 local patterns = require("patterns")
 
 local growth = {}
@@ -23,6 +24,8 @@ export type RoadOptions = {
   join: number?,
   detour: number?,
   dead_ends: string?,
+  exits: exits.Exits?,
+  allowed: ((network: Network, from: Vector, to: Vector, depth: number) -> boolean)?,
 }
 
 local KNOWN: { [string]: string } = {
@@ -38,26 +41,30 @@ local KNOWN: { [string]: string } = {
   join = "number",
   detour = "number",
   dead_ends = "string",
+  exits = "table",
+  allowed = "function",
 }
 
 -- A street grows at a tip: from a junction, towards a heading, with a length (m) and how often its way has branched off.
--- It counts its junctions since it divided, and how often it was refused.
-local Tip = module("Tip", "junction", "heading", "length", "depth", "run", "tries")
+-- It counts its junctions since it divided, how often it was refused, and the steps that are left.
+local Tip = module("Tip", "junction", "heading", "length", "depth", "run", "tries", "left")
 -- Where a side street is to leave after some steps.
-local Bud = module("Bud", "junction", "heading", "depth", "wait")
+local Bud = module("Bud", "junction", "heading", "depth", "wait", "left")
 -- A highway on its way to the start with a number.
-local Highway = module("Highway", "junction", "heading", "length", "goal", "tries")
+local Highway = module("Highway", "junction", "heading", "length", "goal", "tries", "left")
 -- The last stretch of a highway; when all tries are refused, it is led to its goal, and the network tells if it cannot be.
 local Arrival = module("Arrival", "junction", "heading", "length", "goal", "tries")
 -- Where a town begins to grow after some steps.
-local Town = module("Town", "junction", "wait")
+local Town = module("Town", "junction", "wait", "left")
 -- A side street that leaves around a green after some steps: its heading, that of the street it leaves, and the side (m) of the
 -- green that lies between them.
-local Fork = module("Fork", "junction", "heading", "along", "side", "depth", "wait")
+local Fork = module("Fork", "junction", "heading", "along", "side", "depth", "wait", "left")
 -- The third side of a green.
 local ForkArm = module("ForkArm", "junction", "heading", "length", "depth")
 -- The open ends of streets that were there before.
 local Outskirts = module("Outskirts")
+-- A street that leads out of the town: what is left of it (m), and in how many pieces.
+local Exit = module("Exit", "junction", "heading", "rest", "pieces")
 -- Counts the steps, and tidies up after the last.
 local Clock = module("Clock", "left")
 
@@ -119,7 +126,8 @@ end
 -- gives one), fields of the `network`, the `extent` (m) from the middle or a function that says whether a place is
 -- within, the `population` of a place from 0 to 1, `centres` that highways join, `headings` of the first streets,
 -- `onto` true to grow from the open ends of streets that are there, the `deepest` side streets, `join` (m) and `detour`
--- for dead ends, and `dead_ends`, which are what is left of them to "keep" or to "remove".
+-- for dead ends, and `dead_ends`, which are what is left of them to "keep" or to "remove". `exits` are streets that lead out
+-- of the town when all is done, which takes the last four of the steps; `allowed` says which streets may be proposed.
 function growth.system(options: RoadOptions, ...: number)
   -- How many functions are called between this and the script, for errors.
   local level = 3 + ((...) or 0)
@@ -197,7 +205,22 @@ function growth.system(options: RoadOptions, ...: number)
   else
     fields.starts = centres
   end
+  local leads_out = options.exits
+  if leads_out then
+    exits.check("roads.system: exits", leads_out, level)
+  end
+  local growing = if leads_out then math.max(steps - exits.STEPS, 1) else steps
+  local allowed = options.allowed
   local system = lsystem({ object = checks.construct(network, fields, level) :: Network })
+
+  -- Proposes a street if it may be.
+  local function propose(this: Network, junction: number, heading: number, length: number, depth: number)
+    local from = this:place(junction)
+    local way = length * vec(math.cos(math.rad(heading)), math.sin(math.rad(heading)), 0)
+    if not allowed or allowed(this, from, from + way, depth) then
+      this:grow(junction, heading, length, depth)
+    end
+  end
 
   local field = math.floor(random() * 1000000)
   -- The tip of a street that leaves a junction; nil where the pattern leaves it out.
@@ -209,6 +232,7 @@ function growth.system(options: RoadOptions, ...: number)
     heading: number,
     depth: number,
     run: number,
+    left: number,
     tries: number?
   ): any
     local closed: ((x: number, y: number, heading: number, length: number, depth: number) -> boolean)? =
@@ -237,11 +261,18 @@ function growth.system(options: RoadOptions, ...: number)
         return nil
       end
     end
-    return Tip(at, aim, length, depth, run, tries or 0)
+    return Tip(at, aim, length, depth, run, tries or 0, left)
   end
 
   -- The modules that go on from a junction that a street has come to.
-  local function onward(this: Network, at: number, heading: number, depth: number, run: number): { any }
+  local function onward(
+    this: Network,
+    at: number,
+    heading: number,
+    depth: number,
+    run: number,
+    left: number
+  ): { any }
     local place = this:place(at)
     local x, y = place.x, place.y
     if not inside(x, y) then
@@ -255,7 +286,7 @@ function growth.system(options: RoadOptions, ...: number)
       return {}
     end
     local function tip(aim: number, deep: number, count: number)
-      return start(pattern, at, x, y, aim, deep, count)
+      return start(pattern, at, x, y, aim, deep, count, left)
     end
     local divides = depth == 0 and pattern.every > 0 and run >= pattern.every
     local modules = { tip(heading, depth, if divides then 0 else run + 1) }
@@ -273,18 +304,24 @@ function growth.system(options: RoadOptions, ...: number)
       -- It leans back, for the street that came here is there, and the one ahead may turn.
       local lean = (if first > 0 then 1 else -1) * random(GREEN_ANGLE[1], GREEN_ANGLE[2])
       local side = random(sides[1], sides[2])
-      table.insert(modules, Fork(at, heading + 180 + lean, heading + 180, side, depth + 1, WAIT))
+      table.insert(modules, Fork(at, heading + 180 + lean, heading + 180, side, depth + 1, WAIT, left))
     else
-      table.insert(modules, Bud(at, heading + first + random(-pattern.skew, pattern.skew), depth + 1, WAIT))
+      table.insert(
+        modules,
+        Bud(at, heading + first + random(-pattern.skew, pattern.skew), depth + 1, WAIT, left)
+      )
       if random() < pattern.both then
-        table.insert(modules, Bud(at, heading - first + random(-pattern.skew, pattern.skew), depth + 1, WAIT))
+        table.insert(
+          modules,
+          Bud(at, heading - first + random(-pattern.skew, pattern.skew), depth + 1, WAIT, left)
+        )
       end
     end
     return modules
   end
 
   -- Streets into land that growth, which chance may end early, has not come to.
-  local function belated(this: Network): { any }
+  local function belated(this: Network, left: number): { any }
     local modules = {}
     for _, junction in this:junctions() do
       local place = this:place(junction.junction)
@@ -301,7 +338,7 @@ function growth.system(options: RoadOptions, ...: number)
         local ahead = place + way
         local is_peopled = not people or (people :: any)(ahead.x, ahead.y) > 0.02
         if room > 0 and inside(ahead.x, ahead.y) and is_peopled and this:distance(ahead) > free * length then
-          local tip = start(pattern, junction.junction, place.x, place.y, heading, depth, 0)
+          local tip = start(pattern, junction.junction, place.x, place.y, heading, depth, 0, left)
           room -= if tip then 1 else 0
           table.insert(modules, tip)
         end
@@ -311,7 +348,7 @@ function growth.system(options: RoadOptions, ...: number)
   end
   local looks = {}
   for _, share in LATER do
-    looks[math.floor(steps * share)] = not options.onto and steps >= 8
+    looks[math.floor(growing * share)] = not options.onto and growing >= 8
   end
 
   local axiom = {}
@@ -321,43 +358,47 @@ function growth.system(options: RoadOptions, ...: number)
     local east, north = to[1] - from[1], to[2] - from[2]
     local far = math.sqrt(east * east + north * north)
     local least = math.ceil(far / HIGHWAY) + 1
-    if least > steps then
+    if least > growing then
       error(
-        `roads.system: the highway from centre {pair[1]} to centre {pair[2]}, {math.round(far)} m, takes {least} steps or more, and there are {steps}; give more, or centres that are nearer`,
+        `roads.system: the highway from centre {pair[1]} to centre {pair[2]}, {math.round(far)} m, takes {least} steps or more, and there are {growing}; give more, or centres that are nearer`,
         level - 1
       )
     end
-    table.insert(axiom, Highway(pair[1], math.deg(math.atan2(north, east)), HIGHWAY, pair[2], 0))
+    table.insert(axiom, Highway(pair[1], math.deg(math.atan2(north, east)), HIGHWAY, pair[2], 0, growing))
   end
   if options.onto then
     table.insert(axiom, Outskirts())
   else
     for index in centres do
-      table.insert(axiom, Town(index, if #highways > 0 then 4 else 0))
+      table.insert(axiom, Town(index, if #highways > 0 then 4 else 0, growing))
     end
   end
-  table.insert(axiom, Clock(steps))
+  table.insert(axiom, Clock(growing))
   system:axiom(table.unpack(axiom))
 
-  system:rule("Town(junction, wait)", function(this: Network, junction: number, wait: number)
-    if wait > 0 then
-      return Town(junction, wait - 1)
+  system:rule(
+    "Town(junction, wait, left)",
+    function(this: Network, junction: number, wait: number, left: number)
+      if wait > 0 then
+        return Town(junction, wait - 1, left - 1)
+      end
+      local place = this:place(junction)
+      local pattern = pattern_at(place.x, place.y)
+      local modules = {}
+      for _, heading in headings do
+        table.insert(modules, start(pattern, junction, place.x, place.y, heading, 0, 0, left - 1))
+      end
+      return table.unpack(modules)
     end
-    local place = this:place(junction)
-    local pattern = pattern_at(place.x, place.y)
-    local modules = {}
-    for _, heading in headings do
-      table.insert(modules, start(pattern, junction, place.x, place.y, heading, 0, 0))
-    end
-    return table.unpack(modules)
-  end)
+  )
 
   system:rule("Outskirts", function(this: Network)
     local modules = {}
     for _, open in this:open_ends() do
       if inside(open.place.x, open.place.y) then
         local pattern = pattern_at(open.place.x, open.place.y)
-        local tip = start(pattern, open.junction, open.place.x, open.place.y, open.heading, open.depth, 0)
+        local tip =
+          start(pattern, open.junction, open.place.x, open.place.y, open.heading, open.depth, 0, growing)
         table.insert(modules, tip)
       end
     end
@@ -365,7 +406,7 @@ function growth.system(options: RoadOptions, ...: number)
   end)
 
   system:rule(
-    "Tip(junction, heading, length, depth, run, tries)",
+    "Tip(junction, heading, length, depth, run, tries, left)",
     function(
       this: Network,
       junction: number,
@@ -373,11 +414,15 @@ function growth.system(options: RoadOptions, ...: number)
       length: number,
       depth: number,
       run: number,
-      tries: number
+      tries: number,
+      left: number
     )
+      if left <= 0 then
+        return nil
+      end
       local at = this:reached(junction, heading)
       if at then
-        return table.unpack(onward(this, at, heading, depth, run))
+        return table.unpack(onward(this, at, heading, depth, run, left - 1))
       end
       local crossed = this:arrived(junction, heading)
       if crossed then
@@ -385,13 +430,14 @@ function growth.system(options: RoadOptions, ...: number)
         local pattern = pattern_at(place.x, place.y)
         local cross = pattern.cross
         if inside(place.x, place.y) and random() < (if depth == 0 then math.max(cross, 0.2) else cross) then
-          return start(pattern, crossed, place.x, place.y, heading, depth, run, #ASIDE)
+          return start(pattern, crossed, place.x, place.y, heading, depth, run, left - 1, #ASIDE)
         end
       elseif depth == 0 and tries < #ASIDE then
         -- A pattern of straight lines gives way to obstacles alone.
         local place, fate = this:place(junction), this:fate(junction, heading)
-        if fate == "obstacle" or fate == "outside" or not pattern_at(place.x, place.y).straight then
-          return Tip(junction, heading + ASIDE[tries + 1], length, depth, run, tries + 1)
+        local is_free = fate ~= "obstacle" and fate ~= "outside" and fate ~= "unknown"
+        if not is_free or not pattern_at(place.x, place.y).straight then
+          return Tip(junction, heading + ASIDE[tries + 1], length, depth, run, tries + 1, left - 1)
         end
       end
       return nil
@@ -399,10 +445,12 @@ function growth.system(options: RoadOptions, ...: number)
   )
 
   system:rule(
-    "Bud(junction, heading, depth, wait)",
-    function(this: Network, junction: number, heading: number, depth: number, wait: number)
-      if wait > 0 then
-        return Bud(junction, heading, depth, wait - 1)
+    "Bud(junction, heading, depth, wait, left)",
+    function(this: Network, junction: number, heading: number, depth: number, wait: number, left: number)
+      if left <= 0 then
+        return nil
+      elseif wait > 0 then
+        return Bud(junction, heading, depth, wait - 1, left - 1)
       end
       local place = this:place(junction)
       local pattern = pattern_at(place.x, place.y)
@@ -410,12 +458,12 @@ function growth.system(options: RoadOptions, ...: number)
       if this:degree(junction) > 2 and random() > pattern.both then
         return nil
       end
-      return start(pattern, junction, place.x, place.y, heading, depth, 0)
+      return start(pattern, junction, place.x, place.y, heading, depth, 0, left - 1)
     end
   )
 
   system:rule(
-    "Fork(junction, heading, along, side, depth, wait)",
+    "Fork(junction, heading, along, side, depth, wait, left)",
     function(
       this: Network,
       junction: number,
@@ -423,10 +471,13 @@ function growth.system(options: RoadOptions, ...: number)
       along: number,
       side: number,
       depth: number,
-      wait: number
+      wait: number,
+      left: number
     )
-      if wait > 0 then
-        return Fork(junction, heading, along, side, depth, wait - 1)
+      if left <= 0 then
+        return nil
+      elseif wait > 0 then
+        return Fork(junction, heading, along, side, depth, wait - 1, left - 1)
       end
       local at = this:reached(junction, heading)
       if not at then
@@ -437,7 +488,8 @@ function growth.system(options: RoadOptions, ...: number)
         return side * vec(math.cos(math.rad(aim)), math.sin(math.rad(aim)), 0)
       end
       local across = way(along) - way(heading)
-      local modules = { start(pattern_at(place.x, place.y), at, place.x, place.y, heading, depth, 1) }
+      local modules =
+        { start(pattern_at(place.x, place.y), at, place.x, place.y, heading, depth, 1, left - 1) }
       table.insert(modules, ForkArm(at, math.deg(math.atan2(across.y, across.x)), across:length(), depth))
       return table.unpack(modules)
     end
@@ -448,12 +500,20 @@ function growth.system(options: RoadOptions, ...: number)
   end)
 
   system:rule(
-    "Highway(junction, heading, length, goal, tries)",
-    function(this: Network, junction: number, heading: number, length: number, goal: number, tries: number)
+    "Highway(junction, heading, length, goal, tries, left)",
+    function(
+      this: Network,
+      junction: number,
+      heading: number,
+      length: number,
+      goal: number,
+      tries: number,
+      left: number
+    )
       local at = this:arrived(junction, heading)
       if not at then
         return if tries < #ASIDE
-          then Highway(junction, heading + ASIDE[tries + 1], length, goal, tries + 1)
+          then Highway(junction, heading + ASIDE[tries + 1], length, goal, tries + 1, left - 1)
           else Arrival(junction, heading, length, goal, #ASTRAY + 1)
       elseif at == goal then
         return nil
@@ -467,10 +527,10 @@ function growth.system(options: RoadOptions, ...: number)
       -- A highway swings a little, and turns no more than it has to.
       local swing = 12 * noise(here.x / 300, here.y / 300)
       local turn = math.clamp(between(heading, straight + swing), -20, 20)
-      local modules = { Highway(at, heading + turn, length, goal, 0) }
+      local modules = { Highway(at, heading + turn, length, goal, 0, left - 1) }
       if inside(here.x, here.y) and random() < 0.6 then
         local first = if random() < 0.5 then 90 else -90
-        table.insert(modules, Bud(at, heading + first, 1, 3))
+        table.insert(modules, Bud(at, heading + first, 1, 3, left - 1))
       end
       return table.unpack(modules)
     end
@@ -488,28 +548,56 @@ function growth.system(options: RoadOptions, ...: number)
 
   system:rule("Clock(left)", function(this: Network, left: number)
     if left == 0 then
-      return nil
+      local modules = {}
+      for _, exit in
+        if leads_out then exits.choose(this, leads_out, options.join or JOIN, detour, allowed) else {}
+      do
+        table.insert(modules, Exit(exit.junction, exit.heading, exit.length, exit.pieces))
+      end
+      return table.unpack(modules)
     end
-    local modules: { any } = if looks[left] then belated(this) else {}
+    local modules: { any } = if looks[left] then belated(this, left - 1) else {}
     -- It tidies up when all others have grown.
     table.insert(modules, Clock(left - 1))
     return table.unpack(modules)
   end)
 
+  system:rule(
+    "Exit(junction, heading, rest, pieces)",
+    function(this: Network, junction: number, heading: number, rest: number, pieces: number)
+      local at = this:reached(junction, heading)
+      if not at or pieces == 1 then
+        return nil
+      end
+      -- It swings a little, and keeps clear of its neighbours.
+      local turned = heading + random(-7, 7)
+      local left = rest - rest / pieces
+      local place = this:place(at)
+      local to = if (leads_out :: any).rim then exits.rest(place, turned, (leads_out :: any).rim) else left
+      return Exit(at, turned, to, pieces - 1)
+    end
+  )
+
   system:interpret(
-    "Tip(junction, heading, length, depth, run, tries)",
+    "Tip(junction, heading, length, depth, run, tries, left)",
     function(this: Network, junction: number, heading: number, length: number, depth: number)
-      this:grow(junction, heading, length, depth)
+      propose(this, junction, heading, length, depth)
     end
   )
   system:interpret(
-    "Highway(junction, heading, length, goal, tries)",
+    "Exit(junction, heading, rest, pieces)",
+    function(this: Network, junction: number, heading: number, rest: number, pieces: number)
+      this:grow(junction, heading, rest / pieces, 0)
+    end
+  )
+  system:interpret(
+    "Highway(junction, heading, length, goal, tries, left)",
     function(this: Network, junction: number, heading: number, length: number)
       this:grow(junction, heading, length, 0)
     end
   )
   system:interpret(
-    "Fork(junction, heading, along, side, depth, wait)",
+    "Fork(junction, heading, along, side, depth, wait, left)",
     function(
       this: Network,
       junction: number,
@@ -520,14 +608,14 @@ function growth.system(options: RoadOptions, ...: number)
       wait: number
     )
       if wait == 0 then
-        this:grow(junction, heading, side, depth)
+        propose(this, junction, heading, side, depth)
       end
     end
   )
   system:interpret(
     "ForkArm(junction, heading, length, depth)",
     function(this: Network, junction: number, heading: number, length: number, depth: number)
-      this:grow(junction, heading, length, depth)
+      propose(this, junction, heading, length, depth)
     end
   )
   system:interpret(
