@@ -140,7 +140,7 @@ impl DerivedSystem {
 
     /// What others place of it, once one has asked for it.
     pub(crate) fn placed_model(&self) -> Option<&Model> {
-        self.model.get().map(Arc::as_ref)
+        self.uses.model.get().map(Arc::as_ref)
     }
 
     /// Whether another system has placed it.
