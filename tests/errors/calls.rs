@@ -144,7 +144,7 @@ fn what_scripts_add_to_one_type_no_other_has() {
              t:derive(0)\n"
         )
     };
-    let folder = Folder::new().with("s.lua", &lamps("extend"));
+    let folder = Folder::new().with("s.lua", lamps("extend"));
     for command in [&["check", "s.lua"][..], &["run", "s.lua", "-o", "s.glb"]] {
         let told = folder.burgeon(command).failed();
         assert!(told.contains("turtle has no method or field called lamps"), "{command:?}: {told}");
