@@ -203,7 +203,7 @@ mod tests {
 
     /// Areas whose rings all go around something: what is flat, `geo` takes for valid.
     fn area() -> impl Strategy<Value = Geometry> {
-        let has_width = |ring: &Vec<DVec3>| crate::measure::twice_area(ring) != 0.0;
+        let has_width = |ring: &Vec<DVec3>| burgeon_geometry::planar::twice_area(ring.iter().copied()) != 0.0;
         let ring = move || ring().prop_filter("it is flat", has_width);
         let large =
             || [[-1.0, -1.0], [11.0, -1.0], [11.0, 11.0], [-1.0, 11.0]].map(|[x, y]| DVec3::new(x, y, 0.0));
