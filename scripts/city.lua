@@ -245,6 +245,7 @@ end
 
 -- Buildings with all of their facades, and those that are only seen from afar.
 local near: { any }, distant: { any } = {}, {}
+local yards: { any } = {}
 local plan: { any } = {}
 for kind, blocks in of do
   local quarter = quarters.kinds[kind]
@@ -270,6 +271,9 @@ for kind, blocks in of do
     end
   end
   local buildings, empty = quarter.buildings(lots, highest, extent)
+  if kind == "rows" then
+    table.move(lots, 1, #lots, #yards + 1, yards)
+  end
   -- What has no room for a building is a garden.
   table.move(empty, 1, #empty, #green + 1, green)
   for _, building in if land then quarters.raised(buildings, height) else buildings do
@@ -317,6 +321,23 @@ if with_trees then
       })
     end
   end
+  -- Behind the houses of rows there are small trees, and sheds.
+  local sheds = {}
+  for _, lot in yards do
+    local chance, behind = random(), random(15, math.max(16, lot.depth - 2.5))
+    local way = math.rad(lot.facing + 180)
+    local x, y = lot.access.x + math.cos(way) * behind, lot.access.y + math.sin(way) * behind
+    if chance < 0.8 and point(x, y):buffer(1.3):within(lot.geometry) then
+      local place = vec(x, y, height(x, y) + (if land then 0 else 0.14))
+      if chance < 0.35 then
+        local tree = { id = `yard {lot.id}`, geometry = { points = { place } }, height = random(3.5, 6) }
+        table.insert(trees, tree)
+      else
+        table.insert(sheds, { id = `shed {lot.id}`, place = place, facing = lot.facing })
+      end
+    end
+  end
+  nature.sheds(sheds)
   -- Woods in the country around.
   for wood = 1, 26 do
     local angle, away = math.rad(random(0, 360)), extent * random(0.8, 1.12)

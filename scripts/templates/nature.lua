@@ -174,6 +174,30 @@ function nature.trees(features)
   wood:derive(0)
 end
 
+local Hut, Shed = module("Hut"), module("Shed", "turned")
+
+-- Garden sheds: features with a `place` (m) and where they are `facing` (degrees).
+function nature.sheds(features)
+  if #features == 0 then
+    return
+  end
+  local hut = lsystem({ object = extruder({ smooth = false, roughness = 1 }) })
+  hut:axiom(Hut())
+  hut:interpret("Hut()", function(this)
+    this:color("#7d6a52"):rectangle(1.8, 2.4):jump({ 0, 0, -0.2 }):extrude(2.2)
+    this:color("#5d5a55"):rectangle(2.1, 2.7):jump({ 0, 0, 2 }):extrude(0.14)
+  end)
+  local model = parts.kept(hut:derive(0))
+  local row = lsystem({ object = turtle() })
+  row:axiom(source(features), function(feature)
+    return turtle({ position = feature.place }), Shed(feature.facing)
+  end)
+  row:interpret("Shed(turned)", function(this, turned)
+    this:roll(turned):place(model)
+  end)
+  row:derive(0)
+end
+
 local Pole, Lamp = module("Pole"), module("Lamp", "turned")
 
 -- Lamps at places beside streets, `height` (m) high, whose arms reach over the street: nature.lamps(roads:verge("lamp")).
