@@ -219,6 +219,30 @@ test("a number goes to the nearest step, and what the server does not take is pu
     assert.equal(await seen(page, "param-count").inputValue(), "5");
   }));
 
+test("without a graphics card the page keeps still while a script runs", () =>
+  open(BLOCKS, async ({ page, script }) => {
+    await drawn(page);
+    save(script, ENDLESS);
+    await visible(page, "cancel");
+    await page.waitForTimeout(1000);
+    const { moving, texts, seconds } = await page.evaluate(async () => {
+      const all = [];
+      const begin = performance.now();
+      const watch = new MutationObserver((records) => all.push(...records));
+      watch.observe(document.body, { subtree: true, childList: true, attributes: true, characterData: true });
+      const moving = [];
+      for (let i = 0; i < 20; i += 1) {
+        moving.push(document.getAnimations().length);
+        await new Promise((done) => setTimeout(done, 100));
+      }
+      watch.disconnect();
+      const texts = all.filter(({ target }) => target.id === "working-text").length;
+      return { moving: Math.max(...moving), texts, seconds: (performance.now() - begin) / 1000 };
+    });
+    assert.equal(moving, 0);
+    assert.ok(texts > 0 && texts / seconds < 4, `${texts} in ${seconds} s`);
+  }));
+
 test("notes, tools and cards leave each other room at any width", () =>
   open(BLOCKS, async ({ page, script }) => {
     const first = await drawn(page);
