@@ -27,17 +27,6 @@ const HEAVY = BLOCKS.replace("if n == 0", 'if n == 7 then error("too many") end 
   'local tiny = param("tiny", { default = 1 })\nlocal color',
 );
 
-/** What reaches as far below zero as above it. */
-const PLANET = `local radius = param("radius", { default = 63710000, min = 1, max = 637100000, unit = "m" })
-local Body = module("Body")
-local planet = lsystem({ object = turtle({ width = 2402051 }) })
-planet:axiom(Body())
-planet:interpret("Body", function(this)
-  this:pitch(180):forward(1200000 + radius * 0):pitch(180):forward(2402051)
-end)
-planet:derive()
-`;
-
 /** A port that is likely to stay free for a moment. */
 async function freePort() {
   const server = createServer();
@@ -219,6 +208,30 @@ test("a number goes to the nearest step, and what the server does not take is pu
     assert.equal(await seen(page, "param-count").inputValue(), "5");
   }));
 
+test("without a graphics card the page keeps still while a script runs", () =>
+  open(BLOCKS, async ({ page, script }) => {
+    await drawn(page);
+    save(script, ENDLESS);
+    await visible(page, "cancel");
+    await page.waitForTimeout(1000);
+    const { moving, texts, seconds } = await page.evaluate(async () => {
+      const all = [];
+      const begin = performance.now();
+      const watch = new MutationObserver((records) => all.push(...records));
+      watch.observe(document.body, { subtree: true, childList: true, attributes: true, characterData: true });
+      const moving = [];
+      for (let i = 0; i < 20; i += 1) {
+        moving.push(document.getAnimations().length);
+        await new Promise((done) => setTimeout(done, 100));
+      }
+      watch.disconnect();
+      const texts = all.filter(({ target }) => target.id === "working-text").length;
+      return { moving: Math.max(...moving), texts, seconds: (performance.now() - begin) / 1000 };
+    });
+    assert.equal(moving, 0);
+    assert.ok(texts > 0 && texts / seconds < 4, `${texts} in ${seconds} s`);
+  }));
+
 test("notes, tools and cards leave each other room at any width", () =>
   open(BLOCKS, async ({ page, script }) => {
     const first = await drawn(page);
@@ -301,57 +314,6 @@ test("a preset is replaced or deleted only after a question, and its name goes w
     await seen(page, "preset-yes").click();
     await names("");
   }));
-
-test("a planet stands free, its size is in kilometres, and its radius is seen whole", () =>
-  open(
-    PLANET,
-    async ({ page, script }) => {
-      const first = await drawn(page);
-      assert.match(await seen(page, "size").textContent(), /^[\d,.]+ × [\d,.]+ × [\d,.]+ km$/);
-      assert.equal(await seen(page, "grid").getAttribute("aria-pressed"), "false");
-      const [wide, inner] = await seen(page, "param-radius").evaluate((it) => [it.scrollWidth, it.clientWidth]);
-      assert.ok(wide <= inner, `${wide} in ${inner}`);
-      await seen(page, "grid").click();
-      assert.equal(await seen(page, "grid").getAttribute("aria-pressed"), "true");
-      await seen(page, "grid").click();
-      await page.reload();
-      await drawn(page);
-      save(script, BLOCKS);
-      await page.waitForFunction(() => / m$/.test(document.querySelector("[data-testid=size]").textContent));
-      assert.equal(await seen(page, "grid").getAttribute("aria-pressed"), "true");
-      assert.ok(first > 0);
-    },
-  ));
-
-test("a slab with a base below zero has a ground, and what is a body or far from zero has none", () => {
-  const block = (low, wide, tall) => `local Part = module("Part")
-local block = lsystem({ object = extruder({ smooth = false }) })
-block:axiom(Part())
-block:interpret("Part", function(this)
-  this:jump({ 0, 0, ${low} }):rectangle(${wide}, ${wide}):extrude(${tall})
-end)
-block:derive()
-`;
-  const blocks = [
-    [0, 4, 6, true],
-    [3, 6, 4, true],
-    [-23.5, 660, 69, true],
-    [-5, 100, 5, true],
-    [-30, 10, 140, true],
-    [-1, 2, 2, false],
-    [100, 3, 4, false],
-    [1_198_000, 151_000, 3000, false],
-    [500_000, 2_000_000, 700_000, false],
-  ];
-  return open(block(...blocks[0]), async ({ page, script }) => {
-    let last = await drawn(page);
-    for (const [low, wide, tall, stands] of blocks) {
-      save(script, `${block(low, wide, tall)}-- ${low}`);
-      last = await drawn(page, last);
-      assert.equal(await seen(page, "grid").getAttribute("aria-pressed"), String(stands), `${wide} x ${tall} m at ${low} m`);
-    }
-  });
-});
 
 test("features that are simplified are told beside the warnings, and cover nothing", () =>
   open(

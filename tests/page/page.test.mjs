@@ -319,38 +319,6 @@ test("everything can be done from the keyboard, and ? tells how", () =>
     assert.ok(different(before, await pixels(page)) > 500, "a standard view is another picture");
   }));
 
-test("shading modes and themes are other pictures; the camera stays across saves", () =>
-  open(BLOCKS, async ({ page, script }) => {
-    const first = await drawn(page);
-    const pictures = [];
-    for (const mode of ["lit", "wire", "normals", "uv"]) {
-      await seen(page, `mode-${mode}`).check({ force: true });
-      await page.waitForTimeout(500);
-      pictures.push(await pixels(page));
-    }
-    for (let a = 0; a < pictures.length; a += 1) {
-      for (let b = a + 1; b < pictures.length; b += 1) {
-        assert.ok(different(pictures[a], pictures[b]) > 1000, `modes ${a} and ${b}`);
-      }
-    }
-    await seen(page, "mode-lit").check({ force: true });
-    const box = await page.locator("canvas#view").boundingBox();
-    await page.mouse.move(box.x + box.width / 2, box.y + box.height / 2);
-    await page.mouse.down();
-    await page.mouse.move(box.x + box.width / 2 + 150, box.y + box.height / 2 + 20, { steps: 4 });
-    await page.mouse.up();
-    await page.waitForTimeout(400);
-    const corner = () => page.evaluate(() => JSON.stringify(window.burgeon.project([2, 2, 0])));
-    const where = await corner();
-    save(script, BLOCKS.replace("default = 3", "default = 9"));
-    await drawn(page, first);
-    assert.equal(await corner(), where);
-    const light = await pixels(page);
-    await page.emulateMedia({ colorScheme: "dark" });
-    await page.waitForTimeout(500);
-    assert.ok(different(light, await pixels(page)) > 10_000);
-  }));
-
 test("what the status line tells fits into it at any width", () =>
   open(BLOCKS, async ({ page }) => {
     await drawn(page);
@@ -363,34 +331,6 @@ test("what the status line tells fits into it at any width", () =>
         return [status.getBoundingClientRect().right, ends];
       });
       assert.ok(Math.max(...ends) <= end, `${width}: ${ends} in ${end}`);
-    }
-  }));
-
-test("a face has one shade though its corners belong to other faces too", () =>
-  open(BLOCKS, async ({ page }) => {
-    await drawn(page);
-    const canvas = await page.locator("canvas#view").boundingBox();
-    const places = [-1.5, 0, 1.5].flatMap((along) => [0.4, 1.6].map((height) => [along, height]));
-    const faces = [([along, height]) => [along, -2.06, height], ([along, height]) => [2.06, along, height]];
-    for (const [mode, most] of [["normals", 2], ["lit", 16]]) {
-      await seen(page, `mode-${mode}`).check({ force: true });
-      await page.waitForTimeout(700);
-      const picture = await pixels(page);
-      const shades = [];
-      for (const face of faces) {
-        const colors = [];
-        for (const place of places) {
-          const [x, y] = await page.evaluate((point) => window.burgeon.project(point), face(place));
-          const at = (Math.floor(y - canvas.y) * Math.round(canvas.width) + Math.floor(x - canvas.x)) * 4;
-          colors.push(picture.slice(at, at + 3));
-        }
-        for (const channel of [0, 1, 2]) {
-          const values = colors.map((color) => color[channel]);
-          assert.ok(Math.max(...values) - Math.min(...values) <= most, `${mode}: ${JSON.stringify(colors)}`);
-        }
-        shades.push(colors[0]);
-      }
-      assert.ok(shades[0].some((value, channel) => Math.abs(value - shades[1][channel]) > 24), `${mode}: ${shades}`);
     }
   }));
 
@@ -414,79 +354,6 @@ test("texture coordinates come only when they are shown, and triangles stay wher
     await drawn(page, last);
     assert.deepEqual(whole.slice(-3), [true, true, false]);
   }));
-
-test("labels of the axes stand neither over the model nor over the picture's edge", () =>
-  open(
-    `local Part = module("Part")
-local wall = lsystem({ object = extruder({ smooth = false }) })
-wall:axiom(Part())
-wall:interpret("Part", function(this)
-  this:jump({ 0, 0, 0 }):color("#d02010"):rectangle(60, 6):extrude(12)
-end)
-wall:derive()
-`,
-    async ({ page }) => {
-      await drawn(page);
-      const box = await page.locator("canvas#view").boundingBox();
-      await page.mouse.move(box.x + box.width / 2, box.y + box.height * 0.55);
-      const labels = () =>
-        page.evaluate(() =>
-          [...document.querySelectorAll("#ticks span")]
-            .filter((it) => it.checkVisibility())
-            .map((it) => it.getBoundingClientRect())
-            .map(({ left, right, top, bottom }) => ({ left, right, top, bottom })),
-        );
-      let seenAtAll = 0;
-      for (const view of ["view-iso", "view-front", "view-left", "view-right"]) {
-        await seen(page, "views").click();
-        await seen(page, view).click();
-        await page.waitForTimeout(400);
-        for (let near = 0; near < 8; near += 1) {
-          await page.keyboard.press("ArrowUp");
-          await page.mouse.wheel(0, -150);
-          await page.waitForTimeout(250);
-          const all = await labels();
-          const picture = await pixels(page);
-          seenAtAll += all.length;
-          for (const { left, right, top, bottom } of all) {
-            const where = `${view} ${near}: ${[left, right, top, bottom].map(Math.round)}`;
-            assert.ok(left >= box.x && right <= box.x + box.width && top >= box.y && bottom <= box.y + box.height, where);
-            for (const x of [left, (left + right) / 2, right - 1]) {
-              const at = (Math.floor((top + bottom) / 2 - box.y) * Math.round(box.width) + Math.floor(x - box.x)) * 4;
-              const [red, green] = picture.subarray(at, at + 2);
-              assert.ok(red < green * 2, `${where} stands over the wall`);
-            }
-          }
-        }
-      }
-      assert.ok(seenAtAll > 10, String(seenAtAll));
-    },
-  ));
-
-test("a picture that has gone is not drawn any more, nor by shadows", () => {
-  const walls = (texture) =>
-    BLOCKS.replace("this:color(color)", texture ? `this:material({ texture = "${texture}", texture_size = { 1, 1 } })` : "this:color(color)");
-  return open(BLOCKS, async ({ page, script }) => {
-    let last = await drawn(page);
-    const pictures = await page.evaluate(() =>
-      ["#804020", "#208040"].map((color) => {
-        const canvas = document.createElement("canvas");
-        [canvas.width, canvas.height] = [64, 64];
-        const context = canvas.getContext("2d");
-        context.fillStyle = color;
-        context.fillRect(0, 0, 64, 64);
-        return canvas.toDataURL("image/png").split(",")[1];
-      }),
-    );
-    for (const [i, name] of ["a.png", "b.png"].entries()) writeFileSync(join(script, "..", name), Buffer.from(pictures[i], "base64"));
-    for (const texture of ["a.png", "b.png", null, "a.png", null]) {
-      save(script, walls(texture));
-      last = await drawn(page, last);
-      // The finer frame, which has shadows.
-      await page.waitForTimeout(1000);
-    }
-  });
-});
 
 test("a page of another site, a wrong token and a path that leads away are refused", () =>
   open(BLOCKS, async ({ page, server, context }) => {

@@ -164,6 +164,7 @@ const CAUSES = {
   preset: 'Preset',
 };
 const PATIENCE = 120; // ms of work that show nothing, so that quick models do not flicker
+const SELDOM = 500; // ms between two lines of progress where each frame of the page takes time from the server
 
 /** The thin bar while the server works or a model is on its way. */
 export class Working {
@@ -174,8 +175,13 @@ export class Working {
   #timer = 0;
   busy = false;
 
-  constructor(socket) {
+  #told = 0;
+
+  /** `slow`: there is no graphics card, so the page keeps still. */
+  constructor(socket, slow) {
     this.socket = socket;
+    this.slow = slow;
+    this.#track.classList.toggle('still', slow);
     find('#cancel').addEventListener('click', () => this.cancel());
   }
 
@@ -189,7 +195,7 @@ export class Working {
   #cause = '';
 
   progress({ message, step, steps }) {
-    if (!this.busy) return;
+    if (!this.busy || (this.slow && performance.now() - this.#told < SELDOM)) return;
     clearTimeout(this.#timer);
     this.#show(message, steps ? step / steps : null);
   }
@@ -212,6 +218,7 @@ export class Working {
   }
 
   #show(text, part) {
+    this.#told = performance.now();
     say(this.#text, text);
     this.#text.title = text;
     this.#track.classList.toggle('unknown', part === null);
