@@ -138,6 +138,7 @@ test("a cancelled run leaves the model marked as stale, with a way to run again"
     const first = await drawn(page);
     save(script, ENDLESS);
     await visible(page, "cancel");
+    await page.waitForFunction(() => /step/.test(document.querySelector("[data-testid=progress]").textContent));
     const progress = await seen(page, "progress").textContent();
     assert.equal(progress.match(/step/g)?.length ?? 0, 1, progress);
     assert.equal(progress.match(/ modules,/g)?.length ?? 0, 1, progress);

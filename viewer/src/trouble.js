@@ -175,7 +175,7 @@ export class Working {
   #timer = 0;
   busy = false;
 
-  #told = 0;
+  #told = -Infinity;
 
   /** `slow`: there is no graphics card, so the page keeps still. */
   constructor(socket, slow) {
@@ -187,6 +187,7 @@ export class Working {
 
   start({ cause, files }) {
     this.busy = true;
+    this.#told = -Infinity;
     this.#cause = `${CAUSES[cause] ?? 'Working'}${cause === 'save' && files?.length ? `: ${files.join(', ')}` : ''}`;
     clearTimeout(this.#timer);
     this.#timer = setTimeout(() => this.#show(this.#cause, null), PATIENCE);
@@ -196,6 +197,7 @@ export class Working {
 
   progress({ message, step, steps }) {
     if (!this.busy || (this.slow && performance.now() - this.#told < SELDOM)) return;
+    this.#told = performance.now();
     clearTimeout(this.#timer);
     this.#show(message, steps ? step / steps : null);
   }
@@ -218,7 +220,6 @@ export class Working {
   }
 
   #show(text, part) {
-    this.#told = performance.now();
     say(this.#text, text);
     this.#text.title = text;
     this.#track.classList.toggle('unknown', part === null);
