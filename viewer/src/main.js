@@ -226,7 +226,6 @@ socket.on('cancelled', ({ stale }) => {
   if (!stale) return;
   steps.pause();
   trouble.cancelled(state.model !== null);
-  toast('Cancelled');
 });
 find('#run-again').addEventListener('click', () => socket.send({ type: 'set', params: {} }));
 socket.on('presets', ({ names, chosen }) => presets.show(names, chosen));

@@ -126,6 +126,7 @@ export class Trouble {
       {},
       file ? make('div', { class: 'error-place' }, this.places.open(file, line)) : null,
       make('p', { class: 'error-message', text: message }),
+      help ? make('p', { class: 'error-help', text: help }) : null,
       excerpt?.length
         ? make(
             'pre',
@@ -150,7 +151,6 @@ export class Trouble {
             ]),
           )
         : null,
-      help ? make('p', { class: 'error-help', text: help }) : null,
     );
   }
 }
@@ -233,10 +233,11 @@ export function connection(state) {
   place.dataset.state = state;
   const texts = {
     live: 'live',
-    lost: 'connection lost, trying again',
+    lost: 'offline',
     connecting: 'connecting',
     moved: 'the server has a new address',
   };
   say(place, texts[state]);
+  place.title = state === 'lost' ? 'The connection is lost; it is tried again' : '';
   find('#moved').hidden = state !== 'moved';
 }
