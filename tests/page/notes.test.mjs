@@ -109,6 +109,7 @@ test("a line is looked for in the script, and one that is not there leaves no ma
     await says("900", "no line 900");
     // It is told once, beside the field.
     assert.ok(await seen(page, "toast").isHidden());
+    await says("99999999999999999999", "no line 99999999999999999999");
     await says("blocks.lua:13", "3 modules");
     await says("aaa.lua:7", "1 line");
     await says("none.lua:1", "not a file of the script");
@@ -138,6 +139,7 @@ test("a cancelled run leaves the model marked as stale, with a way to run again"
     const first = await drawn(page);
     save(script, ENDLESS);
     await visible(page, "cancel");
+    await page.waitForFunction(() => /step/.test(document.querySelector("[data-testid=progress]").textContent));
     const progress = await seen(page, "progress").textContent();
     assert.equal(progress.match(/step/g)?.length ?? 0, 1, progress);
     assert.equal(progress.match(/ modules,/g)?.length ?? 0, 1, progress);
@@ -230,6 +232,68 @@ test("without a graphics card the page keeps still while a script runs", () =>
     });
     assert.equal(moving, 0);
     assert.ok(texts > 0 && texts / seconds < 4, `${texts} in ${seconds} s`);
+  }));
+
+test("texts keep their lines, fit, and stand in the order in which they are needed", () => {
+  const word = "w".repeat(300);
+  const text = BLOCKS.replace("Blocks of the tower", word);
+  return open(text, async ({ page, script, server }) => {
+    await drawn(page);
+    const help = page.locator(".help").first();
+    const [wide, inner] = await help.evaluate((it) => [it.scrollWidth, it.clientWidth]);
+    assert.ok(wide <= inner, `${wide} in ${inner}`);
+    save(script, `${text}local here = "${"long ".repeat(60)}" .. nothing.at.all\n`);
+    await visible(page, "error");
+    const { right, ...edge } = await place(page, ".error-list");
+    const code = await page.locator(".excerpt .here code").boundingBox();
+    assert.ok(code.x >= edge.left && code.x + code.width <= right, JSON.stringify([code, right]));
+    save(script, `${text}error("one\\ntwo\\nthree")\n`);
+    await page.waitForFunction(() => /three/.test(document.querySelector(".error-message")?.textContent));
+    const lines = await page.locator(".error-message").evaluate((it) => {
+      const height = parseFloat(getComputedStyle(it).lineHeight) || 20;
+      return it.getBoundingClientRect().height / height;
+    });
+    assert.ok(lines > 2.5, `${lines} lines`);
+    await page.setViewportSize({ width: 390, height: 844 });
+    await server.stop();
+    await page.locator("[data-testid=connection][data-state=lost]").waitFor({ timeout: 20_000 });
+    const [all, shown] = await seen(page, "connection").evaluate((it) => [it.scrollWidth, it.clientWidth]);
+    assert.ok(all <= shown, `${all} in ${shown}`);
+  }, { fails: true });
+});
+
+test("an error's remedy stands before the lines that it is about", () =>
+  open(BLOCKS.replace("extrude(2)", "extrud(2)"), async ({ page }) => {
+    await visible(page, "error");
+    const [remedy, lines] = [await place(page, ".error-help"), await place(page, ".excerpt")];
+    assert.ok(remedy.bottom <= lines.top, JSON.stringify([remedy, lines]));
+  }));
+
+test("the menu of exports is opened by a key with its first item, and tells what each format is", () =>
+  open(BLOCKS, async ({ page }) => {
+    await drawn(page);
+    await page.keyboard.press("e");
+    const focused = () => page.evaluate(() => document.activeElement.dataset.testid ?? "");
+    assert.match(await focused(), /^export-/);
+    for (const about of await page.locator("#exports a span").allTextContents()) assert.notEqual(about, "");
+    await page.keyboard.press("Escape");
+    assert.equal(await focused(), "export");
+  }));
+
+test("a model without steps has no timeline, and variations stay within the bounds of their parameter", () =>
+  open(BLOCKS, async ({ page, script }) => {
+    const first = await drawn(page);
+    await page.locator("#timeline").waitFor({ state: "visible" });
+    await seen(page, "vary").click();
+    await seen(page, "variations-of").selectOption("count");
+    await seen(page, "variations-4").check({ force: true });
+    await seen(page, "variations-from").fill("-50");
+    await seen(page, "variations-from").press("Enter");
+    assert.equal(await seen(page, "variations-from").inputValue(), "1");
+    await page.keyboard.press("Escape");
+    save(script, BLOCKS.replace("tower:derive()", "tower:derive(0)").replace("tower:axiom(Block(count))", "tower:axiom(Slab(count))"));
+    await drawn(page, first);
+    await page.locator("#timeline").waitFor({ state: "hidden" });
   }));
 
 test("notes, tools and cards leave each other room at any width", () =>

@@ -9,6 +9,7 @@ const ABOUT = {
   obj: 'Wavefront OBJ',
   png: 'picture from here, with soft shadows',
   svg: 'architectural drawing',
+  x3d: 'X3D 3.3, for x3dom',
 };
 
 export function name(script) {

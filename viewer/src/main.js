@@ -37,7 +37,7 @@ address.hash = '';
 const socket = new Socket(address);
 const changes = new Changes(socket);
 const canvas = find('#view');
-const state = { hello: { script: '', formats: [] }, model: null, run: null, fitted: false };
+const state = { hello: { script: '', formats: [] }, model: null, failed: null, run: null, fitted: false };
 
 let stage = null;
 try {
@@ -100,6 +100,7 @@ function clearMark() {
 
 async function show(message) {
   state.model = message;
+  state.failed = null;
   working.stop();
   trouble.clear();
   let own = { load: 0, draw: 0, total: 0 };
@@ -147,16 +148,23 @@ async function show(message) {
 function hear(message) {
   if (message.run !== state.run || message.url !== state.model.url) return show(message);
   state.model = message;
+  state.failed = null;
   stop();
   trouble.clear();
   tell(message);
 }
 
+/** Shows the values of a model, or those that led to an error after it. */
+function tellRequested(message) {
+  if (message === state.failed && message.params.length === 0) return;
+  params.show(message.params);
+  seed.show(message.seed);
+}
+
 /** Tells what is known of a model besides its picture. */
 function tell(message) {
-  params.show(message.params);
+  tellRequested(state.failed ?? message);
   variations.params(message.params);
-  seed.show(message.seed);
   steps.show(message);
   readouts.model(message);
   profile.show(message);
@@ -205,11 +213,8 @@ socket.on('error', (message) => {
   stop();
   steps.pause();
   trouble.error(message, state.model !== null);
-  // What is requested now is not what the model was made from.
-  if (message.params.length) {
-    params.show(message.params);
-    seed.show(message.seed);
-  }
+  state.failed = message;
+  tellRequested(message);
   document.documentElement.dataset.failed = message.run;
 });
 socket.on('waiting', (message) => {
@@ -221,7 +226,6 @@ socket.on('cancelled', ({ stale }) => {
   if (!stale) return;
   steps.pause();
   trouble.cancelled(state.model !== null);
-  toast('Cancelled');
 });
 find('#run-again').addEventListener('click', () => socket.send({ type: 'set', params: {} }));
 socket.on('presets', ({ names, chosen }) => presets.show(names, chosen));

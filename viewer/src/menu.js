@@ -7,10 +7,16 @@ export function menu(button, sheet, { fill } = {}) {
     if (open && opened && opened !== set) opened(false);
     opened = open ? set : opened === set ? null : opened;
     if (open) fill?.();
+    else if (sheet.contains(document.activeElement)) button.focus();
     sheet.hidden = !open;
     button.setAttribute('aria-expanded', String(open));
   };
-  button.addEventListener('click', () => set(sheet.hidden));
+  const first = () => sheet.querySelector('a, button')?.focus();
+  button.addEventListener('click', ({ detail }) => {
+    set(sheet.hidden);
+    // Keys click, too, and whoever uses them goes on with them.
+    if (detail === 0 && !sheet.hidden) first();
+  });
   sheet.addEventListener('keydown', (event) => {
     const items = [...sheet.querySelectorAll('a, button')];
     const at = items.indexOf(document.activeElement);
@@ -25,7 +31,7 @@ export function menu(button, sheet, { fill } = {}) {
     event.preventDefault();
     event.stopPropagation();
     set(true);
-    sheet.querySelector('a, button')?.focus();
+    first();
   });
   sheet.addEventListener('click', (event) => {
     if (event.target.closest('a, button')) {

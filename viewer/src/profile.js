@@ -25,8 +25,8 @@ export class Profile {
         find('#line')
           .value.trim()
           .match(/^(?:(.*?):)?(\d+)$/) ?? [];
-      if (line) return highlight(file || this.script, Number(line));
-      this.refused('write a line as 12, or as file.lua:12');
+      if (Number.isSafeInteger(Number(line))) return highlight(file || this.script, Number(line));
+      this.refused(line ? `there is no line ${line}` : 'write a line as 12, or as file.lua:12');
       find('#line').select();
     });
   }

@@ -29,6 +29,7 @@ export class Steps {
 
   show({ steps, last_step: last, step_limit: limit }) {
     this.last = Math.max(last, steps);
+    find('#timeline').hidden = this.last === 0;
     this.#slider.max = this.last;
     const at = limit === null ? this.last : Math.min(limit, this.last);
     if (!this.#held) this.#slider.value = at;

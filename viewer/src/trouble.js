@@ -126,6 +126,7 @@ export class Trouble {
       {},
       file ? make('div', { class: 'error-place' }, this.places.open(file, line)) : null,
       make('p', { class: 'error-message', text: message }),
+      help ? make('p', { class: 'error-help', text: help }) : null,
       excerpt?.length
         ? make(
             'pre',
@@ -150,7 +151,6 @@ export class Trouble {
             ]),
           )
         : null,
-      help ? make('p', { class: 'error-help', text: help }) : null,
     );
   }
 }
@@ -175,7 +175,7 @@ export class Working {
   #timer = 0;
   busy = false;
 
-  #told = 0;
+  #told = -Infinity;
 
   /** `slow`: there is no graphics card, so the page keeps still. */
   constructor(socket, slow) {
@@ -187,6 +187,7 @@ export class Working {
 
   start({ cause, files }) {
     this.busy = true;
+    this.#told = -Infinity;
     this.#cause = `${CAUSES[cause] ?? 'Working'}${cause === 'save' && files?.length ? `: ${files.join(', ')}` : ''}`;
     clearTimeout(this.#timer);
     this.#timer = setTimeout(() => this.#show(this.#cause, null), PATIENCE);
@@ -196,6 +197,7 @@ export class Working {
 
   progress({ message, step, steps }) {
     if (!this.busy || (this.slow && performance.now() - this.#told < SELDOM)) return;
+    this.#told = performance.now();
     clearTimeout(this.#timer);
     this.#show(message, steps ? step / steps : null);
   }
@@ -218,7 +220,6 @@ export class Working {
   }
 
   #show(text, part) {
-    this.#told = performance.now();
     say(this.#text, text);
     this.#text.title = text;
     this.#track.classList.toggle('unknown', part === null);
@@ -232,10 +233,11 @@ export function connection(state) {
   place.dataset.state = state;
   const texts = {
     live: 'live',
-    lost: 'connection lost, trying again',
+    lost: 'offline',
     connecting: 'connecting',
     moved: 'the server has a new address',
   };
   say(place, texts[state]);
+  place.title = state === 'lost' ? 'The connection is lost; it is tried again' : '';
   find('#moved').hidden = state !== 'moved';
 }

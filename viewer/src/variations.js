@@ -162,8 +162,11 @@ export class Variations {
 
   #values({ control, value }) {
     if (control.type === 'choice') return control.choices.map(String);
-    const [from, to] = [this.#parts.from.valueAsNumber, this.#parts.to.valueAsNumber];
-    if (!Number.isFinite(from) || !Number.isFinite(to)) return [plain(value)];
+    const ends = [this.#parts.from, this.#parts.to];
+    if (!ends.every((end) => Number.isFinite(end.valueAsNumber))) return [plain(value)];
+    // Beyond its bounds all of them would be the same.
+    for (const end of ends) end.value = plain(nearest(end.valueAsNumber, control));
+    const [from, to] = ends.map((end) => end.valueAsNumber);
     const values = Array.from({ length: this.#number }, (_, i) =>
       plain(nearest(from + ((to - from) * i) / (this.#number - 1), control)),
     );

@@ -97,7 +97,7 @@ impl Presets {
         Ok(presets)
     }
 
-    /// Removes the preset called `name` from those of `script`, and gives the others.
+    /// Removes the preset called `name` from those of `script`, and gives the others. Their file goes with the last one.
     ///
     /// Fails as [`save`](Self::save) does, and if there is no such preset.
     pub fn remove(script: &Path, name: &str) -> Result<Self> {
@@ -134,6 +134,11 @@ impl Presets {
     }
 
     fn write(&self) -> Result<()> {
+        if self.presets.is_empty() {
+            let path = self.path.display();
+            return std::fs::remove_file(&self.path)
+                .map_err(|error| Error::file(&self.path, format!("cannot remove {path}: {error}")));
+        }
         let mut file = Map::new();
         for preset in &self.presets {
             let mut object = Map::new();
@@ -354,6 +359,9 @@ mod tests {
         assert_eq!(Presets::read(&script).unwrap().names().collect::<Vec<_>>(), ["flat"]);
         assert!(Presets::remove(&script, "tall").is_err());
         assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 1);
+        Presets::remove(&script, "flat").unwrap();
+        assert_eq!(Presets::read(&script).unwrap().names().count(), 0);
+        assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 0);
     }
 
     #[test]
