@@ -39,8 +39,9 @@ function Vec.__index(vector, key)
     return rawget(vector, axis)
   end
   local method = Vec[key]
-  if method == nil then
-    local named = if type(key) == "string" or type(key) == "number" then key else describe(key)
+  -- As in a list, there is nothing behind the last number.
+  if method == nil and type(key) ~= "number" then
+    local named = if type(key) == "string" then key else describe(key)
     refuse(`a vector has no {named}`, "it has x, y and z, or 1 to 3, and methods such as length")
   end
   return method

@@ -45,7 +45,7 @@ fn what_is_too_much_or_too_little_is_found() {
     assert_snapshot!(drawn("this:taper(1, 2, 3)"), @r"
     error: s.lua:5: rule A(x) (interpretation): extruder:taper takes 1 to 2 arguments, not 3
       | this:taper(1, 2, 3)
-      help: write extruder:taper(scale: number, y: number?)
+      help: write extruder:taper(scale: number, y: number? = scale)
     ");
     assert_snapshot!(check("print(lerp(1, 2), math.max())"), @r"
     error: s.lua:4: lerp takes 3 arguments, not 2

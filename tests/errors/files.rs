@@ -124,6 +124,7 @@ fn a_rule_in_a_required_file_is_bound_by_the_same_laws() {
     assert_snapshot!(folder.refuses(&["run", "s.lua"]), @r"
     error: rules.lua:3: rule A(x): a rule assigns n, a variable from outside it
       | n = n + 1
+      called at s.lua:2
       module: A(1), step 1
       help: a rule writes only its own locals; carry it in a parameter of a module
     ");

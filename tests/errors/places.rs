@@ -97,7 +97,6 @@ fn a_mistake_with_the_library_is_told_in_the_line_of_the_script() {
         ("vec(nil, nil, nil)", "x of vec is nothing"),
         ("vec(0 / 0, 1, 1)", "x of vec is the number nan"),
         ("vec({ 1, 1 / 0 })", "y of vec is the number inf"),
-        ("vec(1, 2, 3)[4]", "a vector has no 4"),
         ("vec(1, 2, 3).foo", "a vector has no foo"),
         ("vec(1, nil, 3)", "y of vec is nothing"),
         ("vec(1, 2, 3, 4)", "vec takes three numbers, not 4"),

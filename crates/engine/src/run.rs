@@ -147,8 +147,7 @@ fn tells_of_emptiness(warning: &Warning) -> bool {
 
 /// The warning for an empty model of drawing objects, of which `warnings` are known.
 fn emptiness(warnings: &[Warning], systems: &[Arc<DerivedSystem>]) -> Option<Warning> {
-    let shows = |system: &DerivedSystem| system.objects.iter().any(|object| object.kind().show.is_some());
-    let mut drawing = systems.iter().filter(|system| system.draws || shows(system));
+    let mut drawing = systems.iter().filter(|system| system.draws);
     let drawing = drawing.clone().find(|system| !system.is_placed()).or_else(|| drawing.next())?;
     let help = if warnings.iter().any(tells_of_emptiness) {
         "another warning tells why"

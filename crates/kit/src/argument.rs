@@ -1,11 +1,7 @@
 //! An argument of a function that scripts call, and what docs tell of units and defaults.
 
-use std::borrow::Cow;
-
 use super::Field;
-
-/// Text that a built-in type has in the program, and another brings.
-type Text = Cow<'static, str>;
+use super::kind::SharedText;
 
 /// The units that a doc gives in round brackets.
 const UNITS: [&str; 10] = ["m", "m²", "m³", "1/m", "m/m", "%", "degrees", "s", "bytes", "light years"];
@@ -14,11 +10,11 @@ const UNITS: [&str; 10] = ["m", "m²", "m³", "1/m", "m/m", "%", "degrees", "s",
 #[derive(Debug, Clone)]
 pub struct Argument {
     /// Its name.
-    pub name: Text,
+    pub name: SharedText,
     /// Its type in Luau.
     pub luau: String,
     /// Its unit, if it has one, such as "m".
-    pub unit: Option<Text>,
+    pub unit: Option<SharedText>,
     /// What it may have itself, where it is a table of named fields.
     pub fields: Vec<Field>,
     /// The value where it is left out, as one would write it: `nil` where nothing stands for it; empty of what must be given.
@@ -27,12 +23,12 @@ pub struct Argument {
 
 impl Argument {
     /// An argument of any type.
-    pub fn new(name: impl Into<Text>) -> Self {
+    pub fn new(name: impl Into<SharedText>) -> Self {
         Self::typed(name, "any")
     }
 
     /// An argument of type `luau`, which may be left out if that ends with `?`.
-    pub fn typed(name: impl Into<Text>, luau: impl Into<String>) -> Self {
+    pub fn typed(name: impl Into<SharedText>, luau: impl Into<String>) -> Self {
         let luau = luau.into();
         let default = if luau.ends_with('?') { "nil" } else { "" }.to_owned();
         Self { name: name.into(), luau, unit: None, fields: Vec::new(), default }
@@ -42,9 +38,10 @@ impl Argument {
     /// `margin` (m, 5 unless given).
     #[must_use]
     pub fn described(mut self, doc: &str) -> Self {
+        let doc = doc.split_whitespace().collect::<Vec<_>>().join(" ");
         let name = format!("`{}` ", self.name);
         let told = || doc.match_indices(&name).filter_map(|(at, name)| bracketed(&doc[at + name.len()..]));
-        self.unit = told().find_map(unit_in).map(Text::from);
+        self.unit = told().find_map(unit_in).map(SharedText::from);
         if let Some(default) =
             told().flat_map(|told| told.split(", ")).find_map(|part| part.strip_suffix(" unless given"))
         {
@@ -72,6 +69,8 @@ fn unit_in(told: &str) -> Option<&'static str> {
 
 #[cfg(test)]
 mod tests {
+    use std::borrow::Cow;
+
     use super::*;
 
     #[test]

@@ -8,7 +8,7 @@ use super::{Argument, BeginPrefetch, Loader, Object, ScriptType, Table, Value};
 use burgeon_base::error::{Error, Result};
 
 /// Text that a built-in type has in the program, and another brings.
-type SharedText = Cow<'static, str>;
+pub(crate) type SharedText = Cow<'static, str>;
 
 /// A type of object: what its constructor takes, its methods and its capabilities.
 ///

@@ -2,15 +2,13 @@
 
 use burgeon_geometry::planar::twice_area;
 use geo::bool_ops::FillRule;
-use geo::{BooleanOps, MultiPolygon};
+use geo::{BooleanOps, MultiPolygon, Validation};
 use glam::DVec2;
 
 use super::areas::{FILL, corners, snap};
 use super::arrangement::{Way, WayOrigin};
 use crate::Geometry;
 use crate::plane::{Plane, collect_lines, collect_points};
-use crate::topology::multi_polygon_flaw;
-use burgeon_base::budget::Budget;
 
 /// One of the two that an operation takes.
 pub(crate) struct Operand {
@@ -81,7 +79,7 @@ fn are_disjoint(areas: &MultiPolygon) -> bool {
     // A ring that goes back the way it came is taken for valid.
     let has_width = |ring: &geo::LineString| twice_area(ring.coords().copied()) != 0.0;
     let are_wide = |it: &geo::Polygon| has_width(it.exterior()) && it.interiors().iter().all(has_width);
-    areas.iter().all(are_wide) && matches!(multi_polygon_flaw(areas, &Budget::default()), Ok(None))
+    areas.iter().all(are_wide) && areas.is_valid()
 }
 
 /// What rings go around, by a rule.
