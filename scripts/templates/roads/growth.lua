@@ -201,7 +201,10 @@ function growth.system(options: RoadOptions, ...: number)
   if options.onto then
     fields.starts = fields.starts or {}
   elseif fields.starts then
-    error("roads.system: network has starts, but streets begin at centres: give centres = \{ \{ x, y } }", level - 1)
+    error(
+      "roads.system: network has starts, but streets begin at centres: give centres = { { x, y } }",
+      level - 1
+    )
   else
     fields.starts = centres
   end
