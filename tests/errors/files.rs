@@ -134,6 +134,7 @@ fn a_rule_in_a_required_file_is_bound_by_the_same_laws() {
     assert_snapshot!(folder.refuses(&["run", "s.lua"]), @r"
     error: rules.lua:2: rule A(x): A has 1 parameter, not 2
       | return A(x, 1)
+      called at s.lua:2
       module: A(1), step 1
       help: it was declared as A(x)
     ");
