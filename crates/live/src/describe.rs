@@ -59,7 +59,10 @@ pub(super) fn describe(state: &ServerState, job: &RunJob, session: &Session, run
         },
         files,
         warnings: run.warnings.iter().take(PROBLEMS).map(|warning| state.warning_json(warning)).collect(),
-        notes: remark(state, run).map(|(message, help)| json!({ "message": message, "help": help })).into_iter().collect(),
+        notes: remark(state, run)
+            .map(|(message, help)| json!({ "message": message, "help": help }))
+            .into_iter()
+            .collect(),
     }
 }
 
