@@ -305,3 +305,16 @@ fn variations_come_as_pictures_to_the_page_that_asked() {
     }
     other.is_quiet(Duration::from_millis(50));
 }
+
+#[test]
+fn the_scripts_own_parameters_come_before_those_of_files_that_it_requires() {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("parts.lua"), "return { fine = param(\"fine\", { default = 2 }) }\n")
+        .unwrap();
+    let text = format!("local parts = require(\"parts\")\n{}", script(3));
+    std::fs::write(folder.path().join("s.lua"), text).unwrap();
+    let server = Server::start(folder, &[]);
+    let model = server.page().next("model");
+    let names: Vec<&Value> = model["params"].as_array().unwrap().iter().map(|param| &param["name"]).collect();
+    assert_eq!(names, ["length", "fine"]);
+}

@@ -409,3 +409,24 @@ fn a_package_that_is_missing_is_waited_for() {
     fs::rename(server.path("mods.new"), server.path("mods")).unwrap();
     page.next("model");
 }
+
+#[test]
+fn what_is_told_names_files_from_the_scripts_folder_on_and_how_long_a_model_has_been_stale() {
+    let server = Server::new(Some(&script(3)));
+    let mut page = server.page();
+    page.next("model");
+    server.write("none.png", "junk");
+    let texture = "this:material({ texture = \"none.png\", texture_size = { 1, 1 } }):forward(length)";
+    server.write("s.lua", script(3).replace("this:forward(length)", texture));
+    let error = page.next("error");
+    let folder = server.path("").canonicalize().unwrap();
+    for text in [&error["text"], &error["errors"][0]["message"]] {
+        let text = text.as_str().unwrap();
+        assert!(text.contains("none.png") && !text.contains(&*folder.to_string_lossy()), "{text}");
+    }
+    std::thread::sleep(Duration::from_millis(200));
+    assert!(server.hello()["stale"].as_f64().unwrap() >= 0.2);
+    server.write("s.lua", script(4));
+    page.next("model");
+    assert_eq!(server.hello()["stale"], json!(null));
+}

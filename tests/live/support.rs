@@ -128,6 +128,15 @@ impl Server {
 
     /// Opens a page, and takes its greeting.
     pub(crate) fn page(&self) -> Page {
+        self.greeted().0
+    }
+
+    /// What a page is greeted with.
+    pub(crate) fn hello(&self) -> Value {
+        self.greeted().1
+    }
+
+    fn greeted(&self) -> (Page, Value) {
         let stream = TcpStream::connect(("127.0.0.1", self.port)).unwrap();
         stream.set_read_timeout(Some(PATIENCE)).unwrap();
         stream.set_nodelay(true).unwrap();
@@ -137,7 +146,7 @@ impl Server {
         let mut page = Page { socket, last: String::new() };
         let hello = page.next("hello");
         assert_eq!(hello["script"], "s.lua");
-        page
+        (page, hello)
     }
 
     /// The number of files that it has open.

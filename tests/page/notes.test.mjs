@@ -296,6 +296,18 @@ test("a model without steps has no timeline, and variations stay within the boun
     await page.locator("#timeline").waitFor({ state: "hidden" });
   }));
 
+test("how long a model has been stale is known after the page is loaded again", () =>
+  open(BLOCKS, async ({ page, script }) => {
+    await drawn(page);
+    save(script, "broken");
+    await visible(page, "stale");
+    await page.waitForTimeout(3000);
+    await page.reload();
+    await visible(page, "stale");
+    const age = Number((await seen(page, "stale").textContent()).match(/(\d+) s/)[1]);
+    assert.ok(age >= 2, String(age));
+  }));
+
 test("notes, tools and cards leave each other room at any width", () =>
   open(BLOCKS, async ({ page, script }) => {
     const first = await drawn(page);

@@ -201,6 +201,7 @@ socket.on('hello', (hello) => {
   find('.wordmark').title = `burgeon ${hello.version}`;
   profile.script = hello.script;
   presets.show(hello.presets ?? []);
+  trouble.aged(hello.stale);
 });
 socket.on('model', hear);
 socket.on('working', (message) => {

@@ -14,6 +14,8 @@ export class Trouble {
   #stage = find('#stage');
   #clock = 0;
   #since = 0;
+  /** Since when the model has been stale that the server tells next. */
+  #known = null;
 
   constructor(places) {
     this.places = places;
@@ -84,6 +86,11 @@ export class Trouble {
     say(this.#nothing, text ? `Nothing to see: ${text}` : '');
   }
 
+  /** What the server tells is as old as this (s), or null if it is not stale. */
+  aged(seconds) {
+    this.#known = seconds === null ? null : Date.now() - seconds * 1000;
+  }
+
   /** Another run has begun. */
   again() {
     this.#cancelled.hidden = true;
@@ -106,7 +113,8 @@ export class Trouble {
   #age(drawn) {
     if (!drawn) return;
     this.#stage.classList.add('is-stale');
-    this.#since ||= Date.now();
+    this.#since ||= this.#known ?? Date.now();
+    this.#known = null;
     this.#stale.hidden = false;
     const tell = () => say(this.#stale, `stale, ${age((Date.now() - this.#since) / 1000)}`);
     clearInterval(this.#clock);

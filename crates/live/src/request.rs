@@ -162,7 +162,7 @@ impl Request {
         self.params(&requested)
     }
 
-    /// The parameters of a run as pages show them. Notes the defaults of values whose default was not known.
+    /// The parameters of a run as pages show them, the script's own first. Notes the defaults of values whose default was not known.
     pub(super) fn params(&mut self, params: &[Param]) -> Vec<ParamMessage> {
         let mut messages = Vec::with_capacity(params.len());
         for param in params {
@@ -170,9 +170,11 @@ impl Request {
             // A value that the script does not take any more is not the one that is shown.
             let used = given.filter(|given| param.accept(&given.text).is_ok());
             let old = used.map(|given| given.default.get_or_insert_with(|| param.default.clone()));
-            messages.push(ParamMessage::new(param, old.as_deref()));
+            messages.push((!param.own, ParamMessage::new(param, old.as_deref())));
         }
-        messages
+        // Those of files that the script requires are declared before it comes to its own.
+        messages.sort_by_key(|(required, _)| *required);
+        messages.into_iter().map(|(_, message)| message).collect()
     }
 }
 
@@ -200,6 +202,7 @@ mod tests {
             control: Control::Number { min: Some(1.0), max: Some(max), step: Some(1.0) },
             unit: String::new(),
             text: String::new(),
+            own: true,
         }
     }
 

@@ -90,9 +90,9 @@ async fn answer(
 ) -> bool {
     let (state, later) = (Arc::clone(state), later.clone());
     // Some answers take a while, and other pages are not to wait for them.
-    let answer = tokio::task::spawn_blocking(move || state.ask(&text, &later)).await;
-    match answer {
-        Ok(Some(event)) => send(socket, event.to_text().into()).await,
+    let ask = move || state.ask(&text, &later).map(|event| state.to_text(&event));
+    match tokio::task::spawn_blocking(ask).await {
+        Ok(Some(text)) => send(socket, text).await,
         Ok(None) => true,
         Err(_) => {
             let error = Error::internal("internal error; this is a mistake in Burgeon");

@@ -1,7 +1,7 @@
 //! What all pages share: the request, the run that is under way, the present model, and what is wrong.
 
 use std::collections::{BTreeSet, VecDeque};
-use std::path::{Path, PathBuf};
+use std::path::{MAIN_SEPARATOR, Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Condvar, Mutex, MutexGuard};
 use std::time::{Duration, Instant};
@@ -71,6 +71,8 @@ pub(super) struct LiveState {
     pub trouble: Option<Event>,
     /// That the last run was stopped by a page, so that what is shown is older than what is requested.
     pub cancelled: Option<Event>,
+    /// Since when the model that is shown has not been the present one.
+    pub stale: Option<Instant>,
     /// Since when failures are kept back because files change.
     pub doubts: Option<Instant>,
     /// What the last run that came to an end was made from.
@@ -146,6 +148,7 @@ impl ServerState {
             shown: None,
             trouble: None,
             cancelled: None,
+            stale: None,
             doubts: None,
             finished: None,
             took: Duration::ZERO,
@@ -184,7 +187,31 @@ impl ServerState {
     /// Says something to all pages. Called with the lock held, it comes in order.
     pub(super) fn send(&self, event: &Event) {
         // There may be no page.
-        let _ = self.pages.send(event.to_text().into());
+        let _ = self.pages.send(self.to_text(event));
+    }
+
+    /// `event` as it travels, with paths from the script's folder on.
+    pub(super) fn to_text(&self, event: &Event) -> Utf8Bytes {
+        if let Event::Model(_) = event {
+            return event.to_text().into();
+        }
+        let mut event = event.clone();
+        if let Some(text) = event.text_mut() {
+            *text = self.relative(text);
+        }
+        event.to_text().into()
+    }
+
+    /// `text` with the paths of files in the script's folder from there on.
+    fn relative(&self, text: &str) -> String {
+        let real = self.script.canonicalize().ok();
+        let scripts = [Some(self.script.as_path()), real.as_deref()];
+        let folders = scripts.into_iter().flatten().filter_map(Path::parent);
+        // Whatever begins with a slash is in the root.
+        let folders = folders.filter(|folder| folder.is_absolute() && folder.parent().is_some());
+        folders.fold(text.to_owned(), |text, folder| {
+            text.replace(&format!("{}{MAIN_SEPARATOR}", folder.display()), "")
+        })
     }
 
     /// Says something where the server was started.
@@ -196,20 +223,20 @@ impl ServerState {
     pub(super) fn greet(&self) -> (Vec<Utf8Bytes>, broadcast::Receiver<Utf8Bytes>) {
         let presets = self.presets.lock().recover();
         let inner = self.lock();
-        let mut texts: Vec<Utf8Bytes> = vec![Event::Hello(self.hello(presets.clone())).to_text().into()];
+        let mut texts: Vec<Utf8Bytes> =
+            vec![self.to_text(&Event::Hello(self.hello(presets.clone(), &inner)))];
         if let Some(model) = inner.present() {
-            texts.push(Event::Model(Box::new(model)).to_text().into());
+            texts.push(self.to_text(&Event::Model(Box::new(model))));
         }
-        texts.extend(inner.trouble.iter().chain(&inner.cancelled).map(|event| event.to_text().into()));
+        texts.extend(inner.trouble.iter().chain(&inner.cancelled).map(|event| self.to_text(event)));
         if let Some(running) = inner.running.as_ref().filter(|running| !running.background) {
             let (run, cause, files) = (running.run, running.cause, running.files.clone());
-            let event = Event::Working { run, cause, files };
-            texts.push(event.to_text().into());
+            texts.push(self.to_text(&Event::Working { run, cause, files }));
         }
         (texts, self.pages.subscribe())
     }
 
-    fn hello(&self, presets: Vec<String>) -> Hello {
+    fn hello(&self, presets: Vec<String>, inner: &LiveState) -> Hello {
         Hello {
             version: env!("CARGO_PKG_VERSION"),
             script: self.script_name(),
@@ -217,6 +244,7 @@ impl ServerState {
             editor: self.editor.is_some(),
             formats: Format::OF_SCENES.map(Format::extension).to_vec(),
             presets,
+            stale: inner.stale.map(|since| since.elapsed().as_secs_f64()),
         }
     }
 
@@ -250,6 +278,11 @@ impl ServerState {
     }
 
     fn placed(&self, mut object: serde_json::Value, place: Option<&SourcePlace>) -> serde_json::Value {
+        for key in ["message", "help"] {
+            if let Some(text) = object[key].as_str() {
+                object[key] = self.relative(text).into();
+            }
+        }
         if let Some(place) = place {
             object["file"] = self.short(&place.file).into();
             let excerpt = place.excerpt(AROUND, AROUND);
@@ -367,6 +400,7 @@ impl LiveState {
         if self.is_present() {
             self.trouble = None;
             self.cancelled = None;
+            self.stale = None;
             self.finished = Some(shown.inputs.clone());
             self.params = Some(shown.run.params.clone());
         }
@@ -381,12 +415,20 @@ impl LiveState {
         self.shown.as_ref().is_some_and(|shown| shown.inputs == self.request.inputs(self.generation))
     }
 
+    /// Notes that the model that is shown is not the present one any more.
+    pub(super) fn grow_stale(&mut self) {
+        if self.shown.is_some() {
+            self.stale.get_or_insert_with(Instant::now);
+        }
+    }
+
     /// Tells that `run` was stopped, and keeps in mind whether the model is older than what is requested.
     pub(super) fn cancelled(&mut self, state: &ServerState, run: u64) {
         let stale = self.due.is_none() && !self.is_present();
         let event = Event::Cancelled { run, stale };
         state.send(&event);
         if stale {
+            self.grow_stale();
             self.cancelled = Some(event);
         }
     }

@@ -212,12 +212,13 @@ pub(super) fn variations(
         };
         let of = variations.len();
         let (over, ended) = channel::<()>();
-        let (running, page, gone) = (&variations, &page, || stop.stop(Error::stopped("the page has gone")));
+        let gone = || stop.stop(Error::stopped("the page has gone"));
+        let (running, page, state) = (&variations, &page, &*state);
         let tell = move || {
             // It ends with the other end of the channel.
             while ended.recv_timeout(TICK) == Err(RecvTimeoutError::Timeout) {
                 let event = Event::Variations { id, ran: running.ran(), of };
-                if page.blocking_send(event.to_text().into()).is_err() {
+                if page.blocking_send(state.to_text(&event)).is_err() {
                     return gone();
                 }
             }
@@ -226,8 +227,8 @@ pub(super) fn variations(
             scope.spawn(tell);
             // What looks larger is larger, so that seeds and values can be compared.
             let made = variations.make(&picture, Framing::Together, |cell| {
-                let event = variation(&state, id, of, cell);
-                if page.blocking_send(event.to_text().into()).is_err() {
+                let event = variation(state, id, of, cell);
+                if page.blocking_send(state.to_text(&event)).is_err() {
                     gone();
                 }
             });
@@ -238,7 +239,7 @@ pub(super) fn variations(
             && !stop.is_stopped()
         {
             // The page may have gone.
-            let _ = page.blocking_send(Event::refused(Some(id), &error).to_text().into());
+            let _ = page.blocking_send(state.to_text(&Event::refused(Some(id), &error)));
         }
     };
     match std::thread::Builder::new().name("burgeon variations".to_owned()).spawn(make) {

@@ -329,6 +329,7 @@ fn finish(state: &ServerState, job: &RunJob, session: Option<&Session>, outcome:
             inner.params = Some(run.params.clone());
             inner.trouble = None;
             inner.cancelled = None;
+            inner.stale = None;
             inner.took = quick.unwrap_or_default();
             inner.finished = Some(job.inputs.clone());
             state.send(&Event::Model(Box::new(message.clone())));
@@ -362,6 +363,7 @@ impl LiveState {
     fn end_badly(&mut self, state: &ServerState, job: &RunJob, event: Event) {
         self.params = None;
         self.cancelled = None;
+        self.grow_stale();
         self.finished = Some(job.inputs.clone());
         state.send(&event);
         self.trouble = Some(event);

@@ -20,6 +20,8 @@ pub struct Param {
     pub unit: String,
     /// What it does, for people; may be empty.
     pub text: String,
+    /// Whether the script declares it, and no file that it requires.
+    pub own: bool,
 }
 
 /// The value of a parameter.
@@ -163,6 +165,7 @@ impl Param {
             control,
             unit: text("unit")?,
             text: text("text")?,
+            own: true,
         };
         param.check(&param.default).map_err(|error| {
             let message = format!("the default of {}", error.message());

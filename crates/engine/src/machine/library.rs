@@ -1,7 +1,7 @@
 //! The names that scripts have: `module`, `lsystem`, `param`, `require`, objects, and the standard library.
 
 use std::cell::RefCell;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::{Arc, LazyLock};
 
 use mlua::{Function, Lua, MultiValue, Table, Value as LuaValue, Variadic};
@@ -126,7 +126,8 @@ impl Library {
             }
             return Ok(());
         }
-        machine.session.add_param(param.clone());
+        let own = place.as_ref().is_none_or(|place| Path::new(&place.file) == machine.session.script());
+        machine.session.add_param(Param { own, ..param.clone() });
         params.push((param, place));
         Ok(())
     }

@@ -153,6 +153,8 @@ pub struct Hello {
     pub formats: Vec<&'static str>,
     /// The names of the presets.
     pub presets: Vec<String>,
+    /// How long (s) the model that is shown has not been the present one, if it is not.
+    pub stale: Option<f64>,
 }
 
 /// Why a run was begun.
@@ -177,6 +179,18 @@ impl Event {
     /// What is said of a message that led to `error`.
     pub fn refused(id: Option<u64>, error: &Error) -> Self {
         Self::Refused { id, code: error.kind().code(), text: error.to_string() }
+    }
+
+    /// The text for people that it consists of, if it does.
+    pub fn text_mut(&mut self) -> Option<&mut String> {
+        match self {
+            Self::Waiting { text }
+            | Self::Note { text }
+            | Self::Error { text, .. }
+            | Self::Refused { text, .. } => Some(text),
+            Self::Variation { error, .. } => error.as_mut(),
+            _ => None,
+        }
     }
 
     /// The message as it travels. Texts that no page could show are cut.

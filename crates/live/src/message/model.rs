@@ -37,7 +37,7 @@ pub struct ModelMessage {
     pub preset: Option<String>,
     /// Why there is nothing to see, if so.
     pub nothing: Option<String>,
-    /// The parameters in the script's order.
+    /// The parameters in the script's order, those of files that it requires last.
     pub params: Vec<ParamMessage>,
     /// The systems in the order in which they were derived.
     pub systems: Vec<SystemMessage>,
