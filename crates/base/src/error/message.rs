@@ -414,7 +414,11 @@ mod tests {
         ");
         assert_eq!(error("b.lua").to_json()["called_at"]["line"], 7);
         assert_eq!(error("a.lua").to_string(), "a.lua:3: no\n  help: yes");
-        assert_eq!(error("b.lua").rule("A").to_string(), "b.lua:3: rule A: no\n  help: yes");
+        insta::assert_snapshot!(error("b.lua").rule("A"), @r"
+        b.lua:3: rule A: no
+          called at a.lua:7
+          help: yes
+        ");
     }
 
     #[test]

