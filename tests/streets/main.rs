@@ -144,7 +144,10 @@ fn grammars_that_cannot_be_are_refused_in_the_line_that_gives_them() {
         ("roads.word({ productions = { ['['] = 'F' } })", "a production of [ cannot be"),
         ("roads.word({ lengths = { 0 } })", "the length for depth 0 must be a number from 1 to 10000, not 0"),
         ("roads.word({ split = 'no' })", "split is \"symmetric\", \"alternate\" or \"plain\", not \"no\""),
-        ("roads.system({ patern = 3 })", "roads.system has no option patern; it has allowed, centres, dead_ends"),
+        (
+            "roads.system({ patern = 3 })",
+            "roads.system has no option patern; it has allowed, centres, dead_ends",
+        ),
         ("roads.organic({ block = 2 })", "roads.organic: block must be a number from 20 to 500, not 2"),
         ("roads.districts({})", "roads.districts takes one district or more"),
         ("roads.districts({ { at = { 0, 0 } } })", "the pattern of district 1 must be a pattern"),

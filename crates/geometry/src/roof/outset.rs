@@ -146,7 +146,7 @@ fn shrunk(corners: &[WallCorner], distances: &[f64]) -> Vec<(usize, f64)> {
         let end = &corners[corner.next];
         let old = end.at - corner.at;
         // What is short from the beginning may stay so, unless it is so short that a roof has slivers there.
-        let least = if old.length() < SHORT { 1e-3 } else { 1e-3_f64.min(old.length_squared() / 4.0) };
+        let least = if old.length() < SHORT { 1e-3 } else { 1e-3_f64.min(0.98 * old.length_squared()) };
         if old.dot(end.moved - corner.moved) > least {
             continue;
         }
