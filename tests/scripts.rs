@@ -253,6 +253,8 @@ fn every_lua_block_of_the_guide_runs() {
         "roads/exits.lua",
         "roads/patterns.lua",
         "roads/growth.lua",
+        "roads/greens.lua",
+        "roads/highways.lua",
         "roads/words.lua",
     ] {
         let library = Path::new("templates").join(name);

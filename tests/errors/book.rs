@@ -50,6 +50,8 @@ const ROADS: [(&str, &str); 6] = [
     ("templates/roads/exits.lua", include_str!("../../scripts/templates/roads/exits.lua")),
     ("templates/roads/patterns.lua", include_str!("../../scripts/templates/roads/patterns.lua")),
     ("templates/roads/growth.lua", include_str!("../../scripts/templates/roads/growth.lua")),
+    ("templates/roads/greens.lua", include_str!("../../scripts/templates/roads/greens.lua")),
+    ("templates/roads/highways.lua", include_str!("../../scripts/templates/roads/highways.lua")),
     ("templates/roads/words.lua", include_str!("../../scripts/templates/roads/words.lua")),
 ];
 

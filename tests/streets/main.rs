@@ -114,6 +114,8 @@ fn refused(line: &str) -> String {
         "roads/exits.lua",
         "roads/patterns.lua",
         "roads/growth.lua",
+        "roads/greens.lua",
+        "roads/highways.lua",
         "roads/words.lua",
     ] {
         std::fs::copy(library.join(file), templates.join(file)).expect("the library");

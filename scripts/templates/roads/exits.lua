@@ -14,6 +14,9 @@ export type Exits = {
 
 export type Exit = { junction: number, heading: number, length: number, pieces: number }
 
+-- A street that leads out of the town: what is left of it (m), and in how many pieces.
+local Exit = module("Exit", "junction", "heading", "rest", "pieces")
+
 local KNOWN: { [string]: string } = { count = "number", length = "number", rim = "number" }
 
 -- The pieces of an exit turn a little; choosing takes a step, and each piece one more.
@@ -42,7 +45,7 @@ function exits.check(name: string, given: any, level: number)
 end
 
 -- How far (m) it is from a place to a circle around the middle.
-function exits.rest(place: Vector, heading: number, rim: number): number
+local function rest_of_way(place: Vector, heading: number, rim: number): number
   local out = vec(math.cos(math.rad(heading)), math.sin(math.rad(heading)), 0)
   local along = place.x * out.x + place.y * out.y
   local off = place.x * place.x + place.y * place.y - along * along
@@ -158,7 +161,7 @@ local function joints(network: Network, join: number, detour: number): (exit: an
 end
 
 -- Exits of a network: the best of all junctions, away from one another. Main streets that go on come first.
-function exits.choose(
+local function choose(
   network: Network,
   options: Exits,
   join: number,
@@ -203,7 +206,7 @@ function exits.choose(
       local out = vec(math.cos(math.rad(heading)), math.sin(math.rad(heading)), 0)
       local length
       if options.rim then
-        length = exits.rest(place, heading, options.rim)
+        length = rest_of_way(place, heading, options.rim)
       else
         local far = place + out * 10000
         local within = line({ { place.x, place.y }, { far.x, far.y } }):intersection(hull)
@@ -265,6 +268,46 @@ function exits.choose(
     end
   end
   return chosen
+end
+
+-- The modules of the exits of a network.
+function exits.modules(
+  network: Network,
+  options: Exits,
+  join: number,
+  detour: number,
+  allowed: ((network: Network, from: Vector, to: Vector, depth: number) -> boolean)?
+): { any }
+  local modules = {}
+  for _, exit in choose(network, options, join, detour, allowed) do
+    table.insert(modules, Exit(exit.junction, exit.heading, exit.length, exit.pieces))
+  end
+  return modules
+end
+
+-- The rules by which exits lead out.
+function exits.rules(system: System<Network>, options: Exits)
+  local rim = options.rim
+  system:rule(
+    "Exit(junction, heading, rest, pieces)",
+    function(this: Network, junction: number, heading: number, rest: number, pieces: number)
+      local at = this:reached(junction, heading)
+      if not at or pieces == 1 then
+        return nil
+      end
+      -- It swings a little, and keeps clear of its neighbours.
+      local turned = heading + random(-7, 7)
+      local left = rest - rest / pieces
+      local place = this:place(at)
+      return Exit(at, turned, if rim then rest_of_way(place, turned, rim) else left, pieces - 1)
+    end
+  )
+  system:interpret(
+    "Exit(junction, heading, rest, pieces)",
+    function(this: Network, junction: number, heading: number, rest: number, pieces: number)
+      this:grow(junction, heading, rest / pieces, 0)
+    end
+  )
 end
 
 return exits

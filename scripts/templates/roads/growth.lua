@@ -2,6 +2,8 @@
 -- Growth: the rules by which streets follow a pattern, from junction to junction.
 local checks = require("checks")
 local exits = require("exits")
+local greens = require("greens")
+local highways = require("highways")
 local patterns = require("patterns")
 
 local growth = {}
@@ -9,7 +11,7 @@ local growth = {}
 -- What the patterns of roads/patterns are.
 type Pattern = any
 
-local between, number = checks.between, checks.number
+local number = checks.number
 
 export type RoadOptions = {
   pattern: (Pattern | (x: number, y: number) -> Pattern)?,
@@ -50,28 +52,15 @@ local KNOWN: { [string]: string } = {
 local Tip = module("Tip", "junction", "heading", "length", "depth", "run", "tries", "left")
 -- Where a side street is to leave after some steps.
 local Bud = module("Bud", "junction", "heading", "depth", "wait", "left")
--- A highway on its way to the start with a number.
-local Highway = module("Highway", "junction", "heading", "length", "goal", "tries", "left")
--- The last stretch of a highway; when all tries are refused, it is led to its goal, and the network tells if it cannot be.
-local Arrival = module("Arrival", "junction", "heading", "length", "goal", "tries")
 -- Where a town begins to grow after some steps.
 local Town = module("Town", "junction", "wait", "left")
--- A side street that leaves around a green after some steps: its heading, that of the street it leaves, and the side (m) of the
--- green that lies between them.
-local Fork = module("Fork", "junction", "heading", "along", "side", "depth", "wait", "left")
--- The third side of a green.
-local ForkArm = module("ForkArm", "junction", "heading", "length", "depth")
 -- The open ends of streets that were there before.
 local Outskirts = module("Outskirts")
--- A street that leads out of the town: what is left of it (m), and in how many pieces.
-local Exit = module("Exit", "junction", "heading", "rest", "pieces")
 -- Counts the steps, and tidies up after the last.
 local Clock = module("Clock", "left")
 
 -- How far (degrees) a main street turns when it is refused, one try after the other.
-local ASIDE = { 20, -40, 55, -70 }
--- As much for the last stretch of a highway, which any street of the town may take.
-local ASTRAY = { 20, -40, 60, -80, 100, -120, 140, -160 }
+local ASIDE = highways.ASIDE
 -- What streets are made of, by depth.
 growth.STREETS = {
   { width = 24, lanes = 4, sidewalk = 4 },
@@ -82,14 +71,10 @@ growth.STREETS = {
 local LEADS_OUT = 0.3
 -- How many steps a side street waits, so that main streets come first.
 local WAIT = 2
+-- How many steps a town waits while highways are on their way to it.
+local TOWN_WAIT = 4
 -- Which shares of the steps are left when it is looked for land that growth has not come to.
 local LATER = { 0.75, 0.6, 0.45, 0.3, 0.15 }
--- How long (m) a highway is from junction to junction.
-local HIGHWAY = 90
--- How long (m) the sides of a green are, at a main street and elsewhere, and its angle (degrees): with equal sides its other
--- angles are no sharper than most networks take.
-local GREEN_SIDE = { main = { 42, 60 }, other = { 28, 42 } }
-local GREEN_ANGLE = { 62, 76 }
 -- How near (m) a junction draws a street's end, and how far dead ends are joined, where neither pattern nor script says it.
 local SNAP, JOIN = 14, 40
 
@@ -99,27 +84,6 @@ local function drawn(x: number, y: number, seed: number): number
     bit32.bxor(math.floor(x / 8 + 0.5) * 73856093 % 2 ^ 32, math.floor(y / 8 + 0.5) * 19349663 % 2 ^ 32, seed)
   mixed = bit32.bxor(mixed, bit32.rshift(mixed, 13)) % 65536
   return mixed * 40503 % 65536 / 65536
-end
-
--- The pairs of centres that highways join: those in whose circle no third one lies.
-local function joined(centres: { { number } }): { { number } }
-  local pairs = {}
-  for a = 1, #centres do
-    for b = a + 1, #centres do
-      local x, y = (centres[a][1] + centres[b][1]) / 2, (centres[a][2] + centres[b][2]) / 2
-      local reach = (centres[a][1] - x) ^ 2 + (centres[a][2] - y) ^ 2
-      local is_free = true
-      for c, other in centres do
-        if c ~= a and c ~= b and (other[1] - x) ^ 2 + (other[2] - y) ^ 2 < reach then
-          is_free = false
-        end
-      end
-      if is_free then
-        table.insert(pairs, { a, b })
-      end
-    end
-  end
-  return pairs
 end
 
 -- A system whose network grows by a pattern; derive it by `steps`. Options: `pattern` (or a function of a place that
@@ -303,11 +267,7 @@ function growth.system(options: RoadOptions, ...: number)
       return modules
     elseif keeps and random() < (pattern.greens or 0) then
       -- Where dead ends are removed, a green would be left of some.
-      local sides = if depth == 0 then GREEN_SIDE.main else GREEN_SIDE.other
-      -- It leans back, for the street that came here is there, and the one ahead may turn.
-      local lean = (if first > 0 then 1 else -1) * random(GREEN_ANGLE[1], GREEN_ANGLE[2])
-      local side = random(sides[1], sides[2])
-      table.insert(modules, Fork(at, heading + 180 + lean, heading + 180, side, depth + 1, WAIT, left))
+      table.insert(modules, greens.fork(at, heading, if first > 0 then 1 else -1, depth, WAIT, left))
     else
       table.insert(
         modules,
@@ -354,26 +314,13 @@ function growth.system(options: RoadOptions, ...: number)
     looks[math.floor(growing * share)] = not options.onto and growing >= 8
   end
 
-  local axiom = {}
-  local highways = if #centres > 1 then joined(centres) else {}
-  for _, pair in highways do
-    local from, to = centres[pair[1]], centres[pair[2]]
-    local east, north = to[1] - from[1], to[2] - from[2]
-    local far = math.sqrt(east * east + north * north)
-    local least = math.ceil(far / HIGHWAY) + 1
-    if least > growing then
-      error(
-        `roads.system: the highway from centre {pair[1]} to centre {pair[2]}, {math.round(far)} m, takes {least} steps or more, and there are {growing}; give more, or centres that are nearer`,
-        level - 1
-      )
-    end
-    table.insert(axiom, Highway(pair[1], math.deg(math.atan2(north, east)), HIGHWAY, pair[2], 0, growing))
-  end
+  local axiom: { any } = if #centres > 1 then highways.axiom(centres, growing, level) else {}
+  local wait = if #axiom > 0 then TOWN_WAIT else 0
   if options.onto then
     table.insert(axiom, Outskirts())
   else
     for index in centres do
-      table.insert(axiom, Town(index, if #highways > 0 then 4 else 0, growing))
+      table.insert(axiom, Town(index, wait, growing))
     end
   end
   table.insert(axiom, Clock(growing))
@@ -465,98 +412,11 @@ function growth.system(options: RoadOptions, ...: number)
     end
   )
 
-  system:rule(
-    "Fork(junction, heading, along, side, depth, wait, left)",
-    function(
-      this: Network,
-      junction: number,
-      heading: number,
-      along: number,
-      side: number,
-      depth: number,
-      wait: number,
-      left: number
-    )
-      if left <= 0 then
-        return nil
-      elseif wait > 0 then
-        return Fork(junction, heading, along, side, depth, wait - 1, left - 1)
-      end
-      local at = this:reached(junction, heading)
-      if not at then
-        return nil
-      end
-      local place = this:place(at)
-      local function way(aim: number): Vector
-        return side * vec(math.cos(math.rad(aim)), math.sin(math.rad(aim)), 0)
-      end
-      local across = way(along) - way(heading)
-      local modules =
-        { start(pattern_at(place.x, place.y), at, place.x, place.y, heading, depth, 1, left - 1) }
-      table.insert(modules, ForkArm(at, math.deg(math.atan2(across.y, across.x)), across:length(), depth))
-      return table.unpack(modules)
-    end
-  )
-
-  system:rule("ForkArm", function()
-    return nil
-  end)
-
-  system:rule(
-    "Highway(junction, heading, length, goal, tries, left)",
-    function(
-      this: Network,
-      junction: number,
-      heading: number,
-      length: number,
-      goal: number,
-      tries: number,
-      left: number
-    )
-      local at = this:arrived(junction, heading)
-      if not at then
-        return if tries < #ASIDE
-          then Highway(junction, heading + ASIDE[tries + 1], length, goal, tries + 1, left - 1)
-          else Arrival(junction, heading, length, goal, #ASTRAY + 1)
-      elseif at == goal then
-        return nil
-      end
-      local here, there = this:place(at), this:place(goal)
-      local rest = here:distance(there)
-      local straight = math.deg(math.atan2(there.y - here.y, there.x - here.x))
-      if rest < 1.6 * length then
-        return Arrival(at, straight, rest, goal, 0)
-      end
-      -- A highway swings a little, and turns no more than it has to.
-      local swing = 12 * noise(here.x / 300, here.y / 300)
-      local turn = math.clamp(between(heading, straight + swing), -20, 20)
-      local modules = { Highway(at, heading + turn, length, goal, 0, left - 1) }
-      if inside(here.x, here.y) and random() < 0.6 then
-        local first = if random() < 0.5 then 90 else -90
-        table.insert(modules, Bud(at, heading + first, 1, 3, left - 1))
-      end
-      return table.unpack(modules)
-    end
-  )
-
-  system:rule(
-    "Arrival(junction, heading, length, goal, tries)",
-    function(this: Network, junction: number, heading: number, length: number, goal: number, tries: number)
-      if this:arrived(junction, heading) or tries > #ASTRAY then
-        return nil
-      end
-      return Arrival(junction, heading + (ASTRAY[tries + 1] or 0), length, goal, tries + 1)
-    end
-  )
-
   system:rule("Clock(left)", function(this: Network, left: number)
     if left == 0 then
-      local modules = {}
-      for _, exit in
-        if leads_out then exits.choose(this, leads_out, options.join or JOIN, detour, allowed) else {}
-      do
-        table.insert(modules, Exit(exit.junction, exit.heading, exit.length, exit.pieces))
-      end
+      local modules = if leads_out
+        then exits.modules(this, leads_out, options.join or JOIN, detour, allowed)
+        else {}
       return table.unpack(modules)
     end
     local modules: { any } = if looks[left] then belated(this, left - 1) else {}
@@ -565,70 +425,21 @@ function growth.system(options: RoadOptions, ...: number)
     return table.unpack(modules)
   end)
 
-  system:rule(
-    "Exit(junction, heading, rest, pieces)",
-    function(this: Network, junction: number, heading: number, rest: number, pieces: number)
-      local at = this:reached(junction, heading)
-      if not at or pieces == 1 then
-        return nil
-      end
-      -- It swings a little, and keeps clear of its neighbours.
-      local turned = heading + random(-7, 7)
-      local left = rest - rest / pieces
-      local place = this:place(at)
-      local to = if (leads_out :: any).rim then exits.rest(place, turned, (leads_out :: any).rim) else left
-      return Exit(at, turned, to, pieces - 1)
-    end
-  )
+  greens.rules(system, function(this: Network, at: number, heading: number, depth: number, left: number)
+    local place = this:place(at)
+    return start(pattern_at(place.x, place.y), at, place.x, place.y, heading, depth, 1, left)
+  end, propose)
+  highways.rules(system, function(at: number, heading: number, wait: number, left: number)
+    return Bud(at, heading, 1, wait, left)
+  end, inside)
+  if leads_out then
+    exits.rules(system, leads_out)
+  end
 
   system:interpret(
     "Tip(junction, heading, length, depth, run, tries, left)",
     function(this: Network, junction: number, heading: number, length: number, depth: number)
       propose(this, junction, heading, length, depth)
-    end
-  )
-  system:interpret(
-    "Exit(junction, heading, rest, pieces)",
-    function(this: Network, junction: number, heading: number, rest: number, pieces: number)
-      this:grow(junction, heading, rest / pieces, 0)
-    end
-  )
-  system:interpret(
-    "Highway(junction, heading, length, goal, tries, left)",
-    function(this: Network, junction: number, heading: number, length: number)
-      this:grow(junction, heading, length, 0)
-    end
-  )
-  system:interpret(
-    "Fork(junction, heading, along, side, depth, wait, left)",
-    function(
-      this: Network,
-      junction: number,
-      heading: number,
-      _: number,
-      side: number,
-      depth: number,
-      wait: number
-    )
-      if wait == 0 then
-        propose(this, junction, heading, side, depth)
-      end
-    end
-  )
-  system:interpret(
-    "ForkArm(junction, heading, length, depth)",
-    function(this: Network, junction: number, heading: number, length: number, depth: number)
-      propose(this, junction, heading, length, depth)
-    end
-  )
-  system:interpret(
-    "Arrival(junction, heading, length, goal, tries)",
-    function(this: Network, junction: number, heading: number, length: number, goal: number, tries: number)
-      if tries > #ASTRAY then
-        this:lead(junction, this:place(goal), 0)
-      else
-        this:grow(junction, heading, length, 0)
-      end
     end
   )
   system:interpret("Clock(left)", function(this: Network, left: number)
