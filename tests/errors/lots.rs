@@ -375,3 +375,17 @@ print(`fine {count > 500}`)
     );
     assert!(said.contains("fine true"), "{said}");
 }
+
+#[test]
+fn blocks_that_lie_on_each_other_are_told() {
+    let square =
+        |x: f64| format!("polygon({{ {{ {x}, 0 }}, {{ {x} + 80, 0 }}, {{ {x} + 80, 60 }}, {{ {x}, 60 }} }})");
+    let divided = |places: &[f64]| {
+        let blocks: Vec<String> = places.iter().copied().map(square).collect();
+        left_out(&format!("network({{}}):lots({{ blocks = {{ {} }} }})", blocks.join(", ")))
+    };
+    assert_snapshot!(divided(&[0.0, 70.0]), @"");
+    assert_snapshot!(divided(&[0.0, 79.0, 40.0]), @"");
+    // Those that share a border do not.
+    assert_eq!(divided(&[0.0, 80.0, 160.0]), "");
+}

@@ -83,14 +83,13 @@ impl Network {
     /// the streets and meets them with slopes.
     pub(crate) fn bed(&self, cell: f64, error: f64) -> Result<Vec<Edit>> {
         let fit = self.fit()?;
-        let slope = self.options.max_slope / 100.0;
-        // Between cells the ground is straight, where a street bends.
-        let sink = BELOW + error + 0.6 * slope * cell;
         let beds: Vec<(GroundBed, Option<PieceId>)> = self
             .network
             .footings(self.surface_options(), &fit.profiles)
             .into_iter()
             .map(|StreetFooting { line, width, piece }| {
+                // Between cells the ground is straight, where a street bends.
+                let sink = BELOW + error + 0.6 * steepest(&line) * cell;
                 let depth = piece.and_then(|piece| fit.depths.get(piece as usize)).copied();
                 let margin = ((depth.unwrap_or(DEEP) + sink + 4.0) / BATTER).min(FARTHEST);
                 let line = line.iter().map(|at| [at.x, at.y, at.z - sink]).collect();
@@ -174,4 +173,13 @@ impl Network {
         };
         Ok(VergeRecords(places.iter().map(record).collect()))
     }
+}
+
+/// How steep (m/m) a line is where it is steepest.
+fn steepest(line: &[DVec3]) -> f64 {
+    let slope = |pair: &[DVec3]| {
+        let way = pair[1] - pair[0];
+        way.z.abs() / way.truncate().length().max(1e-9)
+    };
+    line.windows(2).map(slope).fold(0.0, f64::max)
 }

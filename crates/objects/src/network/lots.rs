@@ -16,6 +16,7 @@ use rayon::prelude::*;
 
 use super::Network;
 use super::cache::AnswerKey;
+use super::overlaps::overlapping;
 
 /// How far (m) terraces stay inside of the borders of their lots.
 const JOINT: f64 = 0.02;
@@ -308,6 +309,9 @@ impl Network {
         }
         let mut told = if settings.all { Vec::new() } else { omissions.lots(options) };
         told.extend(omissions.blocks(count));
+        if settings.blocks.is_some() {
+            told.extend(overlapping(&blocks));
+        }
         if records.is_empty() {
             let help = "give a smaller width and depth, or fewer parks";
             match settings.blocks {

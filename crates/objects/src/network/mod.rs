@@ -11,6 +11,7 @@ mod kinds;
 mod land;
 mod lots;
 mod object;
+mod overlaps;
 mod proposals;
 mod sites;
 mod streets;
