@@ -384,8 +384,13 @@ fn blocks_that_lie_on_each_other_are_told() {
         let blocks: Vec<String> = places.iter().copied().map(square).collect();
         left_out(&format!("network({{}}):lots({{ blocks = {{ {} }} }})", blocks.join(", ")))
     };
-    assert_snapshot!(divided(&[0.0, 70.0]), @"");
-    assert_snapshot!(divided(&[0.0, 79.0, 40.0]), @"");
+    assert_snapshot!(divided(&[0.0, 70.0]), @r#"
+    warning: s.lua:1: network:lots: the blocks "40:30" and "110:30" have 600.00 m² in common: their lots overlap
+      | network({}):lots({ blocks = { polygon({ { 0, 0 }, { 0 + 80, 0 }, { 0 + 80, 60 }, { 0, 60 } }), polygon({ { 70, 0 }, { 70 + 80, 0 }, { 70 + 80, 60 }, { 70, 60 } }) } })
+      help: give blocks that are beside each other: one:difference(other)
+    "#);
+    let told = divided(&[0.0, 79.0, 40.0]);
+    assert!(told.contains("2460.00 m² in common, and 2 more pairs of blocks do"), "{told}");
     // Those that share a border do not.
     assert_eq!(divided(&[0.0, 80.0, 160.0]), "");
 }
