@@ -4,7 +4,6 @@ use burgeon_base::warning::{Warning, WarningKind};
 use burgeon_geometry::Polygon;
 use burgeon_streets::StreetBlock;
 use glam::DVec2;
-use rayon::prelude::*;
 
 /// Blocks that have less (m²) in common are beside each other.
 const LEAST: f64 = 0.01;
@@ -21,22 +20,19 @@ pub(super) fn overlapping(blocks: &[StreetBlock]) -> Option<Warning> {
         })
         .collect();
     areas.sort_by(|(.., [one, _]), (.., [other, _])| one.x.total_cmp(&other.x));
-    let shared = |rank: usize| {
-        let (one, area, [low, high]) = &areas[rank];
-        let mut found = Vec::new();
+    let mut pairs: Vec<(f64, [usize; 2])> = Vec::new();
+    for (rank, (one, area, [low, high])) in areas.iter().enumerate() {
         for (other, near, [near_low, near_high]) in &areas[rank + 1..] {
             if near_low.x >= high.x {
                 break;
             } else if near_low.y < high.y && near_high.y > low.y {
                 let left: f64 = area.without(std::slice::from_ref(near)).iter().map(Polygon::area).sum();
                 if area.area() - left > LEAST {
-                    found.push((area.area() - left, [*one.min(other), *one.max(other)]));
+                    pairs.push((area.area() - left, [*one.min(other), *one.max(other)]));
                 }
             }
         }
-        found
-    };
-    let mut pairs: Vec<(f64, [usize; 2])> = (0..areas.len()).into_par_iter().flat_map_iter(shared).collect();
+    }
     pairs.sort_by(|one, other| other.0.total_cmp(&one.0).then(one.1.cmp(&other.1)));
     let (common, pair) = pairs.first()?;
     let [one, other] = pair.map(|index| &blocks[index].id);
