@@ -177,7 +177,8 @@ end
 for _, open in lanes:open_ends() do
   local out = vec(math.cos(math.rad(open.heading)), math.sin(math.rad(open.heading)), 0)
   -- It begins below the sidewalk around the street's end.
-  table.insert(paths, track(open.place + out * 4.4, open.heading):buffer(2):intersection(country))
+  local way = track(open.place + out * 4.4, open.heading):buffer(2):intersection(country)
+  table.insert(paths, way)
 end
 if #exits == 0 then
   local from, nearest = vec(centre:x(), centre:y(), 0), math.huge
@@ -190,7 +191,8 @@ if #exits == 0 then
   local out = from - vec(centre:x(), centre:y(), 0)
   local way = track(from + 5 * out:unit(), math.deg(math.atan2(out.y, out.x)))
   path = way:buffer(2.6)
-  table.insert(paths, path:intersection(country))
+  local outside = path:intersection(country)
+  table.insert(paths, outside)
   table.insert(exits, { geometry = way, width = 5.2 })
 end
 

@@ -87,7 +87,7 @@ local sites = lanes:sites({
 local church: any, least = nil, math.huge
 -- What stands where the ground falls more than a storey would have a blind wall below it; it stays free.
 local function is_level(geometry: any, most: number): boolean
-  local low, high = math.huge, -math.huge
+  local low: number, high: number = math.huge, -math.huge
   for _, point in geometry:buffer(1.5).rings[1] do
     local at = land:height(vec(point[1], point[2], 0))
     low, high = math.min(low, at), math.max(high, at)

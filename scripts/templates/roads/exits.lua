@@ -99,7 +99,7 @@ local function joints(network: Network, join: number, detour: number): (exit: an
   end
   -- How far (m) the points of all streets are from one.
   local function reach(from: string): { [string]: number }
-    local far: { [string]: number }, open = { [from] = 0 }, { from }
+    local far: { [string]: number }, open: { string } = { [from] = 0 }, { from }
     while #open > 0 do
       local at = table.remove(open, 1) :: string
       for _, way in ways[at] or {} do
@@ -176,7 +176,8 @@ local function choose(
       local corner = corners[key(point[1], point[2])] or { depth = street.depth, arms = {} }
       corners[key(point[1], point[2])] = corner
       corner.depth = math.min(corner.depth, street.depth)
-      for _, next in { points[index - 1] or false, points[index + 1] or false } do
+      for _, beside in { index - 1, index + 1 } do
+        local next = points[beside]
         if next then
           table.insert(corner.arms, math.deg(math.atan2(next[2] - point[2], next[1] - point[1])))
         end

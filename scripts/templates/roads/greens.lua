@@ -72,7 +72,7 @@ function greens.rules(
         return side * vec(math.cos(math.rad(aim)), math.sin(math.rad(aim)), 0)
       end
       local across = way(along) - way(heading)
-      local modules = { onward(this, at, heading, depth, left - 1) }
+      local modules: { any } = { onward(this, at, heading, depth, left - 1) }
       table.insert(modules, ForkArm(at, math.deg(math.atan2(across.y, across.x)), across:length(), depth))
       return table.unpack(modules)
     end

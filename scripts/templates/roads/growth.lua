@@ -26,7 +26,7 @@ export type RoadOptions = {
   join: number?,
   detour: number?,
   dead_ends: string?,
-  exits: exits.Exits?,
+  exits: { count: number, length: number?, rim: number? }?,
   allowed: ((network: Network, from: Vector, to: Vector, depth: number) -> boolean)?,
 }
 
@@ -267,7 +267,8 @@ function growth.system(options: RoadOptions, ...: number)
       return modules
     elseif keeps and random() < (pattern.greens or 0) then
       -- Where dead ends are removed, a green would be left of some.
-      table.insert(modules, greens.fork(at, heading, if first > 0 then 1 else -1, depth, WAIT, left))
+      local fork = greens.fork(at, heading, if first > 0 then 1 else -1, depth, WAIT, left)
+      table.insert(modules, fork)
     else
       table.insert(
         modules,

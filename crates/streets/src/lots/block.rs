@@ -37,6 +37,14 @@ pub struct StreetBlock {
 }
 
 impl StreetBlock {
+    /// The area (m²) that it has in common with another.
+    pub fn common_area(&self, other: &Self) -> f64 {
+        let [Ok(own), Ok(other)] = [self, other].map(|block| Polygon::new(block.rings.clone())) else {
+            return 0.0;
+        };
+        own.area() - own.without(&[other]).iter().map(Polygon::area).sum::<f64>()
+    }
+
     /// The piece of a street that a place on one of its sides is on.
     pub(super) fn piece_at(&self, side: u32, place: DVec2) -> Option<PieceId> {
         let mut best = (f64::INFINITY, None);
