@@ -12,7 +12,8 @@ pub(super) fn overlapping(blocks: &[StreetBlock]) -> Option<Warning> {
     let mut areas: Vec<(&StreetBlock, [DVec2; 2])> =
         blocks.iter().map(|block| (block, bounds(block))).collect();
     areas.sort_by(|(_, [one, _]), (_, [other, _])| one.x.total_cmp(&other.x));
-    let (mut count, mut greatest) = (0, None);
+    let mut count = 0;
+    let mut greatest: Option<(f64, &str, &str)> = None;
     for (rank, (one, [low, high])) in areas.iter().enumerate() {
         for (other, [near_low, near_high]) in &areas[rank + 1..] {
             if near_low.x >= high.x {
