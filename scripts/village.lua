@@ -90,7 +90,12 @@ local function is_level(geometry: any, most: number): boolean
   local low: number, high: number = math.huge, -math.huge
   for _, point in geometry:buffer(1.5).rings[1] do
     local at = land:height(vec(point[1], point[2], 0))
-    low, high = math.min(low, at), math.max(high, at)
+    if at < low then
+      low = at
+    end
+    if at > high then
+      high = at
+    end
   end
   return high - low <= most
 end

@@ -106,7 +106,8 @@ local function joints(network: Network, join: number, detour: number): (exit: an
         local length = far[at] + way.length
         if length < (far[way.to] or math.huge) then
           far[way.to] = length
-          table.insert(open, way.to)
+          local to: string = way.to
+          table.insert(open, to)
         end
       end
     end
@@ -246,13 +247,15 @@ local function choose(
       end
     end
   end
-  table.sort(found, function(one, other)
-    if one.score ~= other.score then
-      return one.score < other.score
-    elseif one.junction ~= other.junction then
-      return one.junction < other.junction
+  table.sort(found, function(one: any, other: any)
+    local left: { number } = { one.score, one.junction, one.heading }
+    local right: { number } = { other.score, other.junction, other.heading }
+    for index, number in left do
+      if number ~= right[index] then
+        return number < right[index]
+      end
     end
-    return one.heading < other.heading
+    return false
   end)
   local chosen: { any } = {}
   local is_joined = joints(network, join, detour)
