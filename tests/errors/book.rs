@@ -44,7 +44,7 @@ fn the_reference_is_what_the_program_writes() {
 }
 
 /// What scripts of the book require.
-const ROADS: [(&str, &str); 6] = [
+const ROADS: [(&str, &str); 8] = [
     ("templates/roads.lua", include_str!("../../scripts/templates/roads.lua")),
     ("templates/roads/checks.lua", include_str!("../../scripts/templates/roads/checks.lua")),
     ("templates/roads/exits.lua", include_str!("../../scripts/templates/roads/exits.lua")),
