@@ -378,19 +378,20 @@ print(`fine {count > 500}`)
 
 #[test]
 fn blocks_that_lie_on_each_other_are_told() {
-    let square =
-        |x: f64| format!("polygon({{ {{ {x}, 0 }}, {{ {x} + 80, 0 }}, {{ {x} + 80, 60 }}, {{ {x}, 60 }} }})");
-    let divided = |places: &[f64]| {
-        let blocks: Vec<String> = places.iter().copied().map(square).collect();
-        left_out(&format!("network({{}}):lots({{ blocks = {{ {} }} }})", blocks.join(", ")))
+    let divided = |places: &str| {
+        left_out(&format!(
+            "local blocks = {{}}\nfor _, x in {{ {places} }} do\n\
+             table.insert(blocks, polygon({{ {{ x, 0 }}, {{ x + 80, 0 }}, {{ x + 80, 60 }}, {{ x, 60 }} }}))\nend\n\
+             network({{}}):lots({{ blocks = blocks }})"
+        ))
     };
-    assert_snapshot!(divided(&[0.0, 70.0]), @r#"
-    warning: s.lua:1: network:lots: the blocks "40:30" and "110:30" have 600.00 m² in common: their lots overlap
-      | network({}):lots({ blocks = { polygon({ { 0, 0 }, { 0 + 80, 0 }, { 0 + 80, 60 }, { 0, 60 } }), polygon({ { 70, 0 }, { 70 + 80, 0 }, { 70 + 80, 60 }, { 70, 60 } }) } })
+    assert_snapshot!(divided("0, 70"), @r#"
+    warning: s.lua:5: network:lots: the blocks "40:30" and "110:30" have 600.00 m² in common, so that lots overlap
+      | network({}):lots({ blocks = blocks })
       help: give blocks that are beside each other: one:difference(other)
     "#);
-    let told = divided(&[0.0, 79.0, 40.0]);
-    assert!(told.contains("2460.00 m² in common, and 2 more pairs of blocks do"), "{told}");
+    let told = divided("0, 79, 40");
+    assert!(told.contains("2460.00 m² in common, and 2 more pairs of blocks do, so that"), "{told}");
     // Those that share a border do not.
-    assert_eq!(divided(&[0.0, 80.0, 160.0]), "");
+    assert_eq!(divided("0, 80, 160"), "");
 }

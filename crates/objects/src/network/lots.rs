@@ -302,15 +302,18 @@ impl Network {
                 (lots.iter().map(|lot| self.lot_record(block, lot, settings.terrace)).collect(), omissions)
             })
             .collect();
-        let mut records = Vec::new();
-        for (of_block, omissions_of_block) in divided {
+        let (mut records, mut giving) = (Vec::new(), Vec::new());
+        for (block, (of_block, omissions_of_block)) in blocks.iter().zip(divided) {
+            if !of_block.is_empty() {
+                giving.push(block);
+            }
             records.extend(of_block);
             omissions.add(&omissions_of_block);
         }
         let mut told = if settings.all { Vec::new() } else { omissions.lots(options) };
         told.extend(omissions.blocks(count));
         if settings.blocks.is_some() {
-            told.extend(overlapping(&blocks));
+            told.extend(overlapping(&giving));
         }
         if records.is_empty() {
             let help = "give a smaller width and depth, or fewer parks";

@@ -7,10 +7,10 @@ use glam::DVec2;
 /// Blocks that have less (m²) in common are beside each other.
 const LEAST: f64 = 0.01;
 
-/// What to tell of blocks that lie on each other.
-pub(super) fn overlapping(blocks: &[StreetBlock]) -> Option<Warning> {
+/// What to tell of blocks with lots that lie on each other.
+pub(super) fn overlapping(blocks: &[&StreetBlock]) -> Option<Warning> {
     let mut areas: Vec<(&StreetBlock, [DVec2; 2])> =
-        blocks.iter().map(|block| (block, bounds(block))).collect();
+        blocks.iter().map(|block| (*block, bounds(block))).collect();
     areas.sort_by(|(_, [one, _]), (_, [other, _])| one.x.total_cmp(&other.x));
     let mut count = 0;
     let mut greatest: Option<(f64, &str, &str)> = None;
@@ -36,7 +36,7 @@ pub(super) fn overlapping(blocks: &[StreetBlock]) -> Option<Warning> {
         more => format!(", and {more} more pairs of blocks do"),
     };
     let text = format!(
-        "network:lots: the blocks {one:?} and {other:?} have {common:.2} m² in common{more}: their lots overlap"
+        "network:lots: the blocks {one:?} and {other:?} have {common:.2} m² in common{more}, so that lots overlap"
     );
     Some(
         Warning::new(WarningKind::Doubtful, text)
