@@ -392,6 +392,10 @@ fn blocks_that_lie_on_each_other_are_told() {
     "#);
     let told = divided("0, 79, 40");
     assert!(told.contains("2460.00 m² in common, and 2 more pairs of blocks do, so that"), "{told}");
+    // Of very many it is not told how many there are.
+    let many = (0..20).map(|x| x.to_string()).collect::<Vec<_>>().join(", ");
+    let told = divided(&many);
+    assert!(told.contains("and so have 99 more pairs of blocks at least"), "{told}");
     // Those that share a border do not.
     assert_eq!(divided("0, 80, 160"), "");
 }

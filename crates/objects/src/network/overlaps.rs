@@ -6,6 +6,8 @@ use glam::DVec2;
 
 /// Blocks that have less (m²) in common are beside each other.
 const LEAST: f64 = 0.01;
+/// So many pairs are counted: each takes time, and more say nothing more.
+const MOST: usize = 100;
 
 /// What to tell of blocks with lots that lie on each other.
 pub(super) fn overlapping(blocks: &[&StreetBlock]) -> Option<Warning> {
@@ -14,7 +16,7 @@ pub(super) fn overlapping(blocks: &[&StreetBlock]) -> Option<Warning> {
     areas.sort_by(|(_, [one, _]), (_, [other, _])| one.x.total_cmp(&other.x));
     let mut count = 0;
     let mut greatest: Option<(f64, &str, &str)> = None;
-    for (rank, (one, [low, high])) in areas.iter().enumerate() {
+    'blocks: for (rank, (one, [low, high])) in areas.iter().enumerate() {
         for (other, [near_low, near_high]) in &areas[rank + 1..] {
             if near_low.x >= high.x {
                 break;
@@ -25,6 +27,9 @@ pub(super) fn overlapping(blocks: &[&StreetBlock]) -> Option<Warning> {
                     if greatest.is_none_or(|(most, ..)| common > most) {
                         greatest = Some((common, &one.id, &other.id));
                     }
+                    if count == MOST {
+                        break 'blocks;
+                    }
                 }
             }
         }
@@ -33,6 +38,7 @@ pub(super) fn overlapping(blocks: &[&StreetBlock]) -> Option<Warning> {
     let more = match count - 1 {
         0 => String::new(),
         1 => ", and one more pair of blocks does".into(),
+        _ if count == MOST => format!(", and so have {} more pairs of blocks at least", MOST - 1),
         more => format!(", and {more} more pairs of blocks do"),
     };
     let text = format!(
