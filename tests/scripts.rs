@@ -247,18 +247,11 @@ fn every_lua_block_of_the_guide_runs() {
     let folder = tempfile::tempdir().unwrap();
     // What the guide's scripts require.
     fs::create_dir_all(folder.path().join("templates/roads")).unwrap();
-    for name in [
-        "roads.lua",
-        "roads/checks.lua",
-        "roads/exits.lua",
-        "roads/patterns.lua",
-        "roads/growth.lua",
-        "roads/greens.lua",
-        "roads/highways.lua",
-        "roads/words.lua",
-    ] {
-        let library = Path::new("templates").join(name);
-        fs::copy(root().join("scripts").join(&library), folder.path().join(library)).unwrap();
+    let library = Path::new("templates/roads");
+    let rooms = fs::read_dir(root().join("scripts").join(library)).unwrap();
+    let rooms = rooms.map(|room| library.join(room.unwrap().file_name()));
+    for file in rooms.chain([library.with_extension("lua")]) {
+        fs::copy(root().join("scripts").join(&file), folder.path().join(file)).unwrap();
     }
     let guide = guide();
     let mut count = 0;

@@ -108,17 +108,10 @@ fn refused(line: &str) -> String {
     let library = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("scripts/templates");
     let templates = folder.path().join("templates");
     std::fs::create_dir_all(templates.join("roads")).expect("a folder");
-    for file in [
-        "roads.lua",
-        "roads/checks.lua",
-        "roads/exits.lua",
-        "roads/patterns.lua",
-        "roads/growth.lua",
-        "roads/greens.lua",
-        "roads/highways.lua",
-        "roads/words.lua",
-    ] {
-        std::fs::copy(library.join(file), templates.join(file)).expect("the library");
+    let rooms = std::fs::read_dir(library.join("roads")).expect("the library");
+    let rooms = rooms.map(|room| PathBuf::from("roads").join(room.expect("a file").file_name()));
+    for file in rooms.chain(["roads.lua".into()]) {
+        std::fs::copy(library.join(&file), templates.join(file)).expect("the library");
     }
     let path = folder.path().join("s.lua");
     std::fs::write(&path, format!("local roads = require(\"templates/roads\")\n{line}")).expect("room");
