@@ -29,6 +29,7 @@ mod relation;
 mod skeleton;
 mod topology;
 mod validity;
+mod ways;
 mod within;
 pub mod wkb;
 pub mod wkt;

@@ -9,7 +9,7 @@ use super::Geometry;
 use super::edges::with_heights;
 use super::overlay::filled;
 use super::plane::Plane;
-use super::topology::{multi_polygon_flaw, polygon_flaw};
+use super::ways::{multi_polygon_flaw, polygon_flaw};
 use burgeon_base::budget::Budget;
 use burgeon_base::error::Result;
 

@@ -1,14 +1,16 @@
 //! A geometry as its areas, lines and points, with nothing of them twice.
 
+use burgeon_base::budget::Budget;
 use burgeon_geometry::planar::twice_area;
 use geo::bool_ops::FillRule;
-use geo::{BooleanOps, MultiPolygon, Validation};
+use geo::{BooleanOps, MultiPolygon};
 use glam::DVec2;
 
 use super::areas::{FILL, corners, snap};
 use super::arrangement::{Way, WayOrigin};
 use crate::Geometry;
 use crate::plane::{Plane, collect_lines, collect_points};
+use crate::ways::multi_polygon_flaw;
 
 /// One of the two that an operation takes.
 pub(crate) struct Operand {
@@ -76,10 +78,10 @@ pub(crate) fn dissolved(areas: MultiPolygon) -> MultiPolygon {
 
 /// Whether the rings of areas neither cross nor overlap.
 fn are_disjoint(areas: &MultiPolygon) -> bool {
-    // A ring that goes back the way it came is taken for valid.
+    // A ring that goes back the way it came is not asked after.
     let has_width = |ring: &geo::LineString| twice_area(ring.coords().copied()) != 0.0;
     let are_wide = |it: &geo::Polygon| has_width(it.exterior()) && it.interiors().iter().all(has_width);
-    areas.iter().all(are_wide) && areas.is_valid()
+    areas.iter().all(are_wide) && matches!(multi_polygon_flaw(areas, &Budget::default()), Ok(None))
 }
 
 /// What rings go around, by a rule.

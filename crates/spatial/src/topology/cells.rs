@@ -7,10 +7,9 @@ use std::cmp::Ordering;
 
 use glam::DVec2;
 
-use super::contacts::{Contacts, WalkSides};
-use super::locate::{is_on_any, place_in};
-use super::prepared::{PreparedGeometry, TopologyParts, WayEdges, is_among};
+use super::prepared::{PreparedGeometry, TopologyParts, is_among};
 use crate::overlay;
+use crate::ways::{Contacts, WalkSides, WayEdges, is_on_any, place_in};
 
 /// The places of the interior, the boundary and the exterior in a row of cells.
 const INTERIOR: usize = 0;

@@ -7,13 +7,9 @@
 //! each place where they do is the end of an edge.
 
 mod cells;
-mod contacts;
-mod locate;
 mod prepared;
 #[cfg(test)]
 mod tests;
-mod validity;
 
 pub(crate) use cells::relate;
 pub use prepared::PreparedGeometry;
-pub(crate) use validity::{multi_polygon_flaw, polygon_flaw};

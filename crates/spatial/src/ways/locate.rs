@@ -5,12 +5,12 @@ use std::cmp::Ordering;
 use geo::{Coord, Kernel, Orientation, kernels::RobustKernel};
 use glam::DVec2;
 
-use super::prepared::{DirectedEdge, WayEdges};
+use super::edges::{DirectedEdge, WayEdges};
 
 /// On which side of the way from `a` to `b` a place is: greater is the left.
 ///
 /// Method: J. Shewchuk, "Adaptive precision floating-point arithmetic and fast robust geometric predicates", 1997.
-pub(super) fn side(a: DVec2, b: DVec2, place: DVec2) -> Ordering {
+pub(crate) fn side(a: DVec2, b: DVec2, place: DVec2) -> Ordering {
     let coord = |at: DVec2| Coord { x: at.x, y: at.y };
     match RobustKernel::orient2d(coord(a), coord(b), coord(place)) {
         Orientation::CounterClockwise => Ordering::Greater,
@@ -20,17 +20,17 @@ pub(super) fn side(a: DVec2, b: DVec2, place: DVec2) -> Ordering {
 }
 
 /// Whether a place that is on the line of an edge is on the edge; its ends are.
-pub(super) fn is_between(edge: &DirectedEdge, place: DVec2) -> bool {
+pub(crate) fn is_between(edge: &DirectedEdge, place: DVec2) -> bool {
     edge.low().cmple(place).all() && place.cmple(edge.high()).all()
 }
 
 /// Whether a place is on an edge.
-pub(super) fn is_on(edge: &DirectedEdge, place: DVec2) -> bool {
+pub(crate) fn is_on(edge: &DirectedEdge, place: DVec2) -> bool {
     is_between(edge, place) && side(edge.from, edge.to, place) == Ordering::Equal
 }
 
 /// Where a place lies to areas: greater is inside, equal on their border.
-pub(super) fn place_in(areas: &WayEdges, place: DVec2) -> Ordering {
+pub(crate) fn place_in(areas: &WayEdges, place: DVec2) -> Ordering {
     let mut winding = 0;
     let mut touches = false;
     areas.meeting(place, DVec2::new(f64::MAX, place.y), |_, DirectedEdge { from, to }| {
@@ -50,7 +50,7 @@ pub(super) fn place_in(areas: &WayEdges, place: DVec2) -> Ordering {
 }
 
 /// Whether a place is on one of the edges.
-pub(super) fn is_on_any(edges: &WayEdges, place: DVec2) -> bool {
+pub(crate) fn is_on_any(edges: &WayEdges, place: DVec2) -> bool {
     let mut found = false;
     edges.meeting(place, place, |_, edge| found = found || is_on(edge, place));
     found
@@ -61,7 +61,7 @@ pub(super) fn is_on_any(edges: &WayEdges, place: DVec2) -> bool {
 ///
 /// Method: the border that is met first when one turns to the right from that way: what leads away from `from` has the
 /// area to the side that one comes from, and what comes to it has not.
-pub(super) fn begins_inside(around: impl Iterator<Item = DirectedEdge>, from: DVec2, to: DVec2) -> bool {
+pub(crate) fn begins_inside(around: impl Iterator<Item = DirectedEdge>, from: DVec2, to: DVec2) -> bool {
     // What is to the right comes before what is behind, and that before what is to the left.
     let turn = |way: DVec2| match side(from, to, way) {
         Ordering::Less => 0,

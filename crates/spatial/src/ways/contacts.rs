@@ -4,8 +4,8 @@ use std::cmp::Ordering;
 
 use glam::DVec2;
 
+use super::edges::{DirectedEdge, WayEdges};
 use super::locate::{begins_inside, is_between, is_on, place_in, side};
-use super::prepared::{DirectedEdge, WayEdges};
 
 /// A place where an edge of one geometry meets an edge of the other.
 #[derive(Debug, Clone, Copy)]
@@ -24,31 +24,31 @@ struct SharedPart {
 
 /// All places where two geometries meet.
 #[derive(Debug, Default)]
-pub(super) struct Contacts {
+pub(crate) struct Contacts {
     /// Edges that cross between their ends, by geometry, where neither geometry has a corner.
     crossings: Vec<[usize; 2]>,
     /// Whether edges share a part on which they lead the same way, and opposite ways.
-    pub(super) shares: [bool; 2],
+    pub(crate) shares: [bool; 2],
     contacts: Vec<Contact>,
     parts: Vec<SharedPart>,
 }
 
 /// What of a geometry lies inside of areas, outside, or on their border.
 #[derive(Debug, Clone, Copy, Default)]
-pub(super) struct WalkSides {
-    pub(super) inside: bool,
-    pub(super) outside: bool,
+pub(crate) struct WalkSides {
+    pub(crate) inside: bool,
+    pub(crate) outside: bool,
 }
 
 impl WalkSides {
     /// Of what lies on both sides.
-    pub(super) const BOTH: Self = Self { inside: true, outside: true };
+    pub(crate) const BOTH: Self = Self { inside: true, outside: true };
 }
 
 impl Contacts {
     /// The contacts of two geometries with these bounds and edges; without any but the first where edges cross, if
     /// `until_crossing`.
-    pub(super) fn new(
+    pub(crate) fn new(
         (one, first): (Option<[DVec2; 2]>, &WayEdges),
         (two, second): (Option<[DVec2; 2]>, &WayEdges),
         until_crossing: bool,
@@ -80,22 +80,22 @@ impl Contacts {
     }
 
     /// Whether there are none.
-    pub(super) fn is_empty(&self) -> bool {
+    pub(crate) fn is_empty(&self) -> bool {
         !self.cross() && self.contacts.is_empty()
     }
 
     /// Whether edges cross between their ends.
-    pub(super) fn cross(&self) -> bool {
+    pub(crate) fn cross(&self) -> bool {
         !self.crossings.is_empty()
     }
 
     /// Whether edges share a part.
-    pub(super) fn has_shared(&self) -> bool {
+    pub(crate) fn has_shared(&self) -> bool {
         self.shares != [false; 2]
     }
 
     /// The places where ends of edges meet the other geometry.
-    pub(super) fn places(&self) -> impl Iterator<Item = DVec2> + '_ {
+    pub(crate) fn places(&self) -> impl Iterator<Item = DVec2> + '_ {
         self.contacts.iter().map(|contact| contact.place)
     }
 
@@ -145,7 +145,7 @@ impl Contacts {
     }
 
     /// The contacts of the edges of a geometry, the first or the second, one edge after the other.
-    pub(super) fn of(&self, geometry: usize) -> SortedContacts<'_> {
+    pub(crate) fn of(&self, geometry: usize) -> SortedContacts<'_> {
         let mut contacts: Vec<&Contact> = self.contacts.iter().collect();
         contacts.sort_by_key(|contact| contact.edges[geometry]);
         let mut parts: Vec<&SharedPart> = self.parts.iter().collect();
@@ -169,7 +169,7 @@ fn corner_on(e: &DirectedEdge, f: &DirectedEdge, geometries: [&WayEdges; 2]) -> 
 }
 
 /// Contacts by the edges of one geometry.
-pub(super) struct SortedContacts<'a> {
+pub(crate) struct SortedContacts<'a> {
     geometry: usize,
     contacts: Vec<&'a Contact>,
     parts: Vec<&'a SharedPart>,
@@ -206,7 +206,7 @@ impl SortedContacts<'_> {
     }
 
     /// Whether a part of the edges is not part of the other geometry's.
-    pub(super) fn has_own(&self, edges: &WayEdges) -> bool {
+    pub(crate) fn has_own(&self, edges: &WayEdges) -> bool {
         edges.edges.iter().enumerate().any(|(number, edge)| {
             self.on(number).len() < 2
                 || self.pieces(number, edge).into_iter().any(|piece| !self.has(number, piece))
@@ -214,7 +214,7 @@ impl SortedContacts<'_> {
     }
 
     /// On which sides of the other geometry's border, which they nowhere cross between their ends, edges lie.
-    pub(super) fn walk(&self, edges: &WayEdges, areas: &WayEdges) -> WalkSides {
+    pub(crate) fn walk(&self, edges: &WayEdges, areas: &WayEdges) -> WalkSides {
         let mut sides = WalkSides::default();
         for way in edges.ways() {
             // Where the last piece was, if nothing has been met since.

@@ -9,7 +9,7 @@ use rstar::primitives::{GeomWithData, Rectangle};
 use rstar::{AABB, RTree};
 
 use super::contacts::Contacts;
-use super::prepared::{DirectedEdge, WayEdges};
+use super::edges::{DirectedEdge, WayEdges};
 use burgeon_base::budget::Budget;
 use burgeon_base::error::Result;
 
