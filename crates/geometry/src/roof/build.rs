@@ -265,7 +265,7 @@ impl RoofShape {
                 let edge = paces.len();
                 paces.push(match over[edge] {
                     EdgeCover::Slope if is_plate => {
-                        Pace { speed: 1.0, rest: beyond - outset.distances[edge] }
+                        Pace { speed: outset.stretches[edge], rest: beyond - outset.distances[edge] }
                     }
                     EdgeCover::Slope => Pace::default(),
                     _ if ends == Ends::DutchHips => {

@@ -10,6 +10,8 @@ use crate::planar::{Polygon, Rings, coord, distance};
 pub(super) struct Outset {
     pub polygon: Polygon,
     pub distances: Vec<f64>,
+    /// How many times its distance an edge is away, at a chamfer that others would pass by.
+    pub stretches: Vec<f64>,
 }
 
 /// What part is used of the room that there is before an edge of the outline vanishes, as in a narrow recess.
@@ -26,6 +28,10 @@ const BLUNT: f64 = 0.05;
 const APART: f64 = 0.01;
 /// Distances below this (m) are none.
 const LEAST: f64 = 0.01;
+/// What is left (m) of a chamfer in a reflex corner, at most, where those beside it would pass it by.
+const CHAMFER: f64 = 0.035;
+/// No chamfer is further away than so many times its distance.
+const MOST_STRETCHED: f64 = 2.0;
 /// How often distances become smaller, before there are none.
 const ROUNDS: usize = 200;
 
@@ -43,8 +49,11 @@ impl Outset {
             if distances.iter().all(|distance| *distance == 0.0) {
                 break;
             }
+            let stretches = stretches(&corners, &distances);
+            let away: Vec<f64> =
+                distances.iter().zip(&stretches).map(|(distance, by)| distance * by).collect();
             for (edge, corner) in corners.iter_mut().enumerate() {
-                corner.moved = corner.place(&distances, edge);
+                corner.moved = corner.place(&away, edge);
             }
             let mut factors = shrunk(&corners, &distances);
             if factors.is_empty() {
@@ -52,7 +61,7 @@ impl Outset {
             }
             if factors.is_empty() {
                 let Some(polygon) = moved(walls, &corners) else { break };
-                return Self { polygon, distances };
+                return Self { polygon, distances, stretches };
             }
             // What comes near to a limit ever more slowly reaches it.
             let most = if round < 8 { 1.0 } else { 0.75 };
@@ -63,7 +72,8 @@ impl Outset {
                 distances[edge] = distances[edge].min(if whole < LEAST { 0.0 } else { whole });
             }
         }
-        Self { polygon: walls.clone(), distances: vec![0.0; corners.len()] }
+        let count = corners.len();
+        Self { polygon: walls.clone(), distances: vec![0.0; count], stretches: vec![1.0; count] }
     }
 
     /// The greatest distance (m).
@@ -131,6 +141,38 @@ fn level(corners: &[WallCorner], distances: &mut [f64]) {
         (0..corners.len()).for_each(&mut tie);
         (0..corners.len()).rev().for_each(&mut tie);
     }
+}
+
+/// How many times its distance each edge goes: once, but for chamfers in reflex corners that would vanish between those
+/// beside them. These go on with what meets beyond them, so that it keeps its distance.
+fn stretches(corners: &[WallCorner], distances: &[f64]) -> Vec<f64> {
+    let length = |edge: usize| corners[edge].at.distance(corners[corners[edge].next].at);
+    // How much shorter it becomes while those beside it move by 1 m, and how much longer while it does so itself.
+    let rates = |edge: usize| {
+        let turns = [edge, corners[edge].next].map(|corner| {
+            let [a, b] = corners[corner].ways;
+            (a.perp_dot(b), a.dot(b))
+        });
+        let is_chamfer = corners[edge].tied
+            && corners[corners[edge].next].tied
+            && turns.iter().all(|&(sine, _)| sine <= -STRAIGHT);
+        let sum =
+            |of: fn(f64, f64) -> f64| turns.iter().map(|&(sine, cosine)| of(-sine, cosine)).sum::<f64>();
+        is_chamfer.then(|| [sum(|sine, _| 1.0 / sine), sum(|sine, cosine| cosine / sine)])
+    };
+    let vanishes = |edge: usize| {
+        let left = |[shorter, longer]: [f64; 2]| length(edge) - distances[edge] * (shorter - longer);
+        rates(edge).filter(|rates| left(*rates) < length(edge).min(CHAMFER))
+    };
+    let stretch = |edge: usize| {
+        let [shorter, longer] = vanishes(edge)?;
+        let is_alone =
+            [corners[edge].before, corners[edge].next].iter().all(|&beside| vanishes(beside).is_none());
+        let lost = distances[edge] * shorter - length(edge) + length(edge).min(CHAMFER);
+        let stretch = lost / (distances[edge] * longer);
+        (is_alone && longer > 0.0 && stretch <= MOST_STRETCHED).then_some(stretch)
+    };
+    (0..corners.len()).map(|edge| stretch(edge).unwrap_or(1.0)).collect()
 }
 
 /// The edges that take the room of one that vanishes or turns around, or of a corner that goes too far, each with the
@@ -254,6 +296,20 @@ mod tests {
             for edge in [0, 1, 2, 6, 7] {
                 assert_eq!(outset.distances[edge], 0.4, "edge {edge} of {width}: {:?}", outset.distances);
             }
+        }
+    }
+
+    #[test]
+    fn a_chamfer_in_a_reflex_corner_leaves_the_overhang_of_its_walls() {
+        for length in [0.02, 0.05, 0.1, 0.3, 1.0] {
+            let ring =
+                [(0., 0.), (12., 0.), (12., 5.), (6. + length, 5.), (6., 5. + length), (6., 11.), (0., 11.)];
+            let walls = Polygon::new(vec![ring.map(DVec2::from).to_vec()]).expect("a polygon");
+            let outset = Outset::new(&walls, vec![0.5; 7], |_| false);
+            assert_eq!(outset.distances, [0.5; 7], "{length}");
+            let [from, to] = outset.polygon.edges().nth(3).expect("an edge");
+            assert!(from.distance(to) > 0.015, "{length}: {from} {to}");
+            assert!((from.y - 5.5).abs() < 1e-9 && (to.x - 6.5).abs() < 1e-9, "{length}: {from} {to}");
         }
     }
 }

@@ -174,3 +174,40 @@ fn a_face_that_merged_peaks_let_step_back_is_one() {
     // 58 corners with 0.1 mm of noise, whose ridges meet all but in one place; two peaks pass one another by 2.2 mm.
     assert!(closed_edges(14, 15_810_918_746_686_250_647) > 100);
 }
+
+#[test]
+fn chamfers_in_reflex_corners_close_random_plans_under_all_roofs() {
+    let mut random = Random(77);
+    let (mut chamfers, mut faults) = (0, Vec::new());
+    for round in 0..cases(216) {
+        let rings = mixed(round, &mut random);
+        let rings: Vec<Vec<DVec2>> = rings
+            .iter()
+            .map(|ring| {
+                let count = ring.len();
+                let at = |index: usize| ring[index % count];
+                let mut chamfered = Vec::new();
+                for index in 0..count {
+                    let [before, here, after] =
+                        [count - 1, count, count + 1].map(|offset| at(index + offset));
+                    let is_reflex = (here - before).perp_dot(after - here) < 0.0;
+                    if is_reflex && random.next() < 0.7 {
+                        for end in [before, after] {
+                            let way = end - here;
+                            let most = (0.4 * way.length()).min([0.03, 0.2, 1.5][round % 3]);
+                            chamfered.push(here + way.normalize() * (0.1 + 0.9 * random.next()) * most);
+                        }
+                        chamfers += 1;
+                    } else {
+                        chamfered.push(here);
+                    }
+                }
+                chamfered
+            })
+            .collect();
+        let Some(walls) = plan(&rings) else { continue };
+        faults.extend(faults_over(&walls, round));
+    }
+    assert!(chamfers > 200, "{chamfers}");
+    assert_eq!(faults, Vec::<String>::new());
+}
