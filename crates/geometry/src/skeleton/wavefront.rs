@@ -86,6 +86,8 @@ pub(super) struct Wavefront {
     pub current: EdgeFronts,
     /// How many pieces there are of each edge.
     alive: Vec<u32>,
+    /// How many corners there are.
+    living: usize,
     /// How many corners there had been when it was last asked which edges are still there.
     known: usize,
     pub corners: Vec<WavefrontCorner>,
@@ -125,10 +127,11 @@ impl Wavefront {
     fn run(&mut self, rings: &[Vec<I64Vec2>], paces: &[Pace], lists: &mut MeetingLists) -> Result<()> {
         self.begin(rings, paces)?;
         for _ in 0..16 * paces.len() + 64 {
+            // What is still expected then takes place nowhere.
+            if self.living == 0 {
+                return Ok(());
+            }
             let Some(mut when) = self.gather() else {
-                if !self.corners.iter().any(|corner| corner.alive) {
-                    return Ok(());
-                }
                 self.move_on()?;
                 continue;
             };
@@ -175,6 +178,7 @@ impl Wavefront {
         self.current.clear();
         self.alive.clear();
         self.alive.resize(count, 0);
+        self.living = 0;
         self.known = count;
         self.corners.clear();
         self.pieces.clear();
@@ -291,6 +295,7 @@ impl Wavefront {
             older: self.pieces[edges[1]].replace(index),
         });
         self.alive[edges[1]] += 1;
+        self.living += 1;
         index
     }
 
@@ -333,6 +338,7 @@ impl Wavefront {
         let corner = &mut self.corners[index];
         corner.alive = false;
         self.alive[corner.edges[1]] -= 1;
+        self.living -= 1;
         if corner.peak != peak {
             self.traced.arcs.push(Arc { edges: corner.edges, ends: [corner.peak, peak] });
         }
