@@ -1,6 +1,5 @@
 //! The wavefront: the polygon's edges moving inwards until nothing is left of it.
 
-use std::cell::Cell;
 use std::cmp::Ordering;
 use std::ops::Range;
 
@@ -108,23 +107,14 @@ pub(super) struct Wavefront {
     through: Vec<I64Vec2>,
 }
 
-thread_local! {
-    /// The last wavefront of the thread and its lists, whose memory the next one uses again: a city has tens of thousands.
-    static SPARE: Cell<Option<Box<(Wavefront, MeetingLists)>>> = const { Cell::new(None) };
-}
-
-/// Moves all edges inwards until the polygon is used up.
-pub(super) fn propagate(rings: &[Vec<I64Vec2>], paces: &[Pace]) -> Result<WavefrontTrace> {
-    let mut spare = SPARE.take().unwrap_or_default();
-    let (front, lists) = &mut *spare;
-    let done = front.run(rings, paces, lists);
-    let traced = std::mem::take(&mut front.traced);
-    SPARE.set(Some(spare));
-    done.map(|()| traced)
-}
-
 impl Wavefront {
-    fn run(&mut self, rings: &[Vec<I64Vec2>], paces: &[Pace], lists: &mut MeetingLists) -> Result<()> {
+    /// Moves all edges inwards until the polygon is used up.
+    pub(super) fn propagate(
+        &mut self,
+        rings: &[Vec<I64Vec2>],
+        paces: &[Pace],
+        lists: &mut MeetingLists,
+    ) -> Result<()> {
         self.begin(rings, paces)?;
         for _ in 0..16 * paces.len() + 64 {
             // What is still expected then takes place nowhere.
@@ -169,11 +159,9 @@ impl Wavefront {
         let late = paces.iter().map(|pace| pace.speed * finite(pace.rest)).fold(0.0, f64::max);
         let fastest = paces.iter().map(|pace| pace.speed).fold(0.0, f64::max);
         self.lines.begin(reach + late, fastest);
-        self.traced = WavefrontTrace {
-            edges: Vec::with_capacity(count),
-            peaks: Vec::with_capacity(3 * count),
-            arcs: Vec::with_capacity(3 * count),
-        };
+        self.traced.edges.clear();
+        self.traced.peaks.clear();
+        self.traced.arcs.clear();
         self.through.clear();
         self.current.clear();
         self.alive.clear();
