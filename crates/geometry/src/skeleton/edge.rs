@@ -21,13 +21,19 @@ pub(super) fn snap(polygon: &Polygon, rings: &mut Vec<Vec<I64Vec2>>) -> Result<D
     if reach > MOST {
         return Err(Error::limit(Limit::Size, "the outline is too large for a roof"));
     }
-    let snapped = |point: &DVec2| ((*point - middle) * CELLS).round().as_i64vec2();
+    let snapped = |point: &DVec2| nearest((*point - middle) * CELLS);
     rings.resize_with(polygon.len(), Vec::new);
     for (points, ring) in rings.iter_mut().zip(polygon.iter()) {
         points.clear();
         points.extend(ring.iter().map(snapped));
     }
     Ok(middle)
+}
+
+/// The point of the lattice that is nearest; of two the one farther out, as `round` has it, but without a call.
+fn nearest(point: DVec2) -> I64Vec2 {
+    let whole = point.as_i64vec2();
+    whole + ((point - whole.as_dvec2()) * 2.0).as_i64vec2()
 }
 
 /// A point of the lattice (m).

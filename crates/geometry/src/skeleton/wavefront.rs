@@ -154,7 +154,7 @@ impl Wavefront {
     /// Puts the wavefront on the polygon, whatever it was before.
     fn begin(&mut self, rings: &[Vec<I64Vec2>], paces: &[Pace]) -> Result<()> {
         let count: usize = rings.iter().map(Vec::len).sum();
-        let reach = rings.iter().flatten().map(|&at| metres(at).length()).fold(0.0, f64::max);
+        let reach = rings.iter().flatten().map(|&at| metres(at).length_squared()).fold(0.0, f64::max).sqrt();
         let finite = |rest: f64| if rest.is_finite() { rest.max(0.0) } else { 0.0 };
         let late = paces.iter().map(|pace| pace.speed * finite(pace.rest)).fold(0.0, f64::max);
         let fastest = paces.iter().map(|pace| pace.speed).fold(0.0, f64::max);
