@@ -3,8 +3,6 @@
 use std::cmp::{Ordering, Reverse};
 use std::collections::BinaryHeap;
 
-use smallvec::SmallVec;
-
 use super::edge::Direction;
 use super::fronts::{CornerCourse, EdgeFront};
 use super::lines::EventTime;
@@ -226,7 +224,7 @@ impl Wavefront {
     ///
     /// All that happens at exactly the same time is taken together.
     pub(super) fn gather(&mut self) -> Option<EventTime> {
-        let (mut ties, mut later) = (std::mem::take(&mut self.ties), SmallVec::<[u32; 8]>::new());
+        let (mut ties, mut later) = (std::mem::take(&mut self.ties), std::mem::take(&mut self.later));
         let next = loop {
             ties.clear();
             while let Some(number) = self.events.first() {
@@ -287,7 +285,7 @@ impl Wavefront {
                 break Some(when);
             }
         };
-        self.ties = ties;
+        (self.ties, self.later) = (ties, later);
         next
     }
 

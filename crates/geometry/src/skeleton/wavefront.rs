@@ -4,7 +4,6 @@ use std::cmp::Ordering;
 use std::ops::Range;
 
 use glam::I64Vec2;
-use smallvec::SmallVec;
 
 use super::edge::{Direction, SkeletonEdge, metres};
 use super::events::{EventQueue, WavefrontEventKind, short};
@@ -96,7 +95,9 @@ pub(super) struct Wavefront {
     pub foreseen: Vec<(f64, usize)>,
     pub events: EventQueue,
     /// The numbers of the events that are next.
-    pub ties: SmallVec<[u32; 8]>,
+    pub ties: Vec<u32>,
+    /// The numbers of events that were looked at before them.
+    pub later: Vec<u32>,
     pub spots: Vec<EventPoint>,
     /// When the last thing happened, and that or a little before.
     pub last: Option<EventTime>,
