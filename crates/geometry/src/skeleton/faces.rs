@@ -21,6 +21,8 @@ pub(super) struct FaceLists {
     /// Where the borders of each face end, in the list of all.
     ends: Vec<usize>,
     borders: Vec<[usize; 2]>,
+    /// For each peak a face that has it, and the peak after it there.
+    next: Vec<[usize; 2]>,
     /// How far (m) each corner of a face is along its edge.
     along: Vec<f64>,
 }
@@ -33,6 +35,8 @@ impl FaceLists {
         traced: &mut WavefrontTrace,
     ) -> Result<Skeleton> {
         let WavefrontTrace { edges, peaks, arcs } = traced;
+        self.next.clear();
+        self.next.resize(peaks.len(), [usize::MAX; 2]);
         let mut faces = self.chains(rings, arcs)?;
         coarsen(peaks, edges.len(), edges, &mut faces);
         widen(peaks, edges.len(), edges, &faces);
@@ -45,7 +49,7 @@ impl FaceLists {
     fn chains(&mut self, rings: &[Vec<I64Vec2>], arcs: &[Arc]) -> Result<Vec<Vec<usize>>> {
         let arcs = || arcs.iter().filter(|arc| arc.edges[0] != arc.edges[1]);
         let count = rings.iter().map(Vec::len).sum::<usize>();
-        let Self { ends, borders, .. } = self;
+        let Self { ends, borders, next, .. } = self;
         // One more for each face is the edge itself.
         ends.clear();
         ends.resize(count + 1, 1);
@@ -76,12 +80,31 @@ impl FaceLists {
         }
         let mut faces = Vec::with_capacity(count);
         let mut begin = 0;
-        for &end in &ends[..count] {
-            faces.push(chain(&mut borders[begin..end])?);
+        for (face, &end) in ends[..count].iter().enumerate() {
+            let own = &mut borders[begin..end];
+            faces.push(match simple_chain(own, face, next) {
+                Some(ring) => ring,
+                None => chain(own)?,
+            });
             begin = end;
         }
         Ok(faces)
     }
+}
+
+/// What [`chain`] gives, found at once, if no two of the borders begin at one peak.
+fn simple_chain(borders: &[[usize; 2]], face: usize, next: &mut [[usize; 2]]) -> Option<Vec<usize>> {
+    for &[from, to] in borders {
+        next[from] = [face, to];
+    }
+    let [first, mut at] = borders[0];
+    let mut ring = Vec::with_capacity(borders.len());
+    ring.push(first);
+    while at != first && ring.len() < borders.len() && next[at][0] == face {
+        ring.push(at);
+        at = next[at][1];
+    }
+    (at == first && ring.len() == borders.len()).then_some(ring)
 }
 
 /// The closed ring that directed borders form, beginning with the first of them.
