@@ -193,8 +193,8 @@ fn verify(
 fn is_monotone(along: &[f64], within: f64) -> bool {
     let (mut first, mut last) = (0.0f64, 0.0f64);
     let mut turns = 0;
-    let mut at = along[0];
-    for &next in along[1..].iter().chain(&along[..1]) {
+    let mut at = along[along.len() - 1];
+    for &next in along {
         let step = next - std::mem::replace(&mut at, next);
         if step.abs() > within {
             if first == 0.0 {

@@ -243,14 +243,15 @@ impl Wavefront {
         for &from in begins.iter() {
             let corner = &self.corners[from];
             let mut last = end(from);
-            let between = cuts.partition_point(|cut| cut.0 < from)..cuts.partition_point(|cut| cut.0 <= from);
-            let between = cuts[between].iter().map(|cut| End::Meeting(cut.2));
-            for next in between.chain([end(corner.after)]) {
+            let mut add = |next: End| {
                 if next != last || matches!(next, End::Corner(_)) {
                     pieces.push(EdgePiece { edge: corner.edges[1], ends: [last, next] });
                 }
                 last = next;
-            }
+            };
+            let between = cuts.partition_point(|cut| cut.0 < from)..cuts.partition_point(|cut| cut.0 <= from);
+            cuts[between].iter().for_each(|cut| add(End::Meeting(cut.2)));
+            add(end(corner.after));
         }
     }
 }
