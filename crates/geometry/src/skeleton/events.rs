@@ -70,6 +70,7 @@ impl EventQueue {
         self.order.clear();
     }
 
+    #[inline]
     fn push(&mut self, event: WavefrontEvent) {
         self.events.push(event);
         self.put_back(short(self.events.len() - 1));

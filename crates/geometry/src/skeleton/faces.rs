@@ -54,8 +54,9 @@ impl FaceLists {
         ends.clear();
         ends.resize(count + 1, 1);
         ends[0] = 0;
-        for edge in arcs().flat_map(|arc| arc.edges) {
-            ends[edge + 1] += 1;
+        for &Arc { edges: [before, after], .. } in arcs() {
+            ends[before + 1] += 1;
+            ends[after + 1] += 1;
         }
         let mut before = 0;
         for end in &mut *ends {
