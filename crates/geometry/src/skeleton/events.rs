@@ -3,8 +3,6 @@
 use std::cmp::{Ordering, Reverse};
 use std::collections::BinaryHeap;
 
-use smallvec::SmallVec;
-
 use super::edge::Direction;
 use super::fronts::{CornerCourse, EdgeFront};
 use super::lines::EventTime;
@@ -72,6 +70,7 @@ impl EventQueue {
         self.order.clear();
     }
 
+    #[inline]
     fn push(&mut self, event: WavefrontEvent) {
         self.events.push(event);
         self.put_back(short(self.events.len() - 1));
@@ -226,7 +225,7 @@ impl Wavefront {
     ///
     /// All that happens at exactly the same time is taken together.
     pub(super) fn gather(&mut self) -> Option<EventTime> {
-        let (mut ties, mut later) = (std::mem::take(&mut self.ties), SmallVec::<[u32; 8]>::new());
+        let (mut ties, mut later) = (std::mem::take(&mut self.ties), std::mem::take(&mut self.later));
         let next = loop {
             ties.clear();
             while let Some(number) = self.events.first() {
@@ -287,7 +286,7 @@ impl Wavefront {
                 break Some(when);
             }
         };
-        self.ties = ties;
+        (self.ties, self.later) = (ties, later);
         next
     }
 

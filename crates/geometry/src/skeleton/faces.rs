@@ -15,55 +15,97 @@ const MERGED: f64 = 1e-3;
 /// How far (m) a corner may be off the plane of its face.
 const OFF_PLANE: f64 = 5e-3;
 
-/// Puts the faces together; fails if they are not those of a roof over `rings`.
-pub(super) fn assemble(rings: &[Vec<I64Vec2>], traced: WavefrontTrace) -> Result<Skeleton> {
-    let WavefrontTrace { edges, mut peaks, arcs } = traced;
-    let mut faces = chains(rings, &arcs)?;
-    coarsen(&peaks, edges.len(), &edges, &mut faces);
-    widen(&mut peaks, edges.len(), &edges, &faces);
-    verify(rings, &edges, &peaks, &faces)?;
-    let paces = edges.iter().map(|edge| edge.pace).collect();
-    Ok(Skeleton { peaks, faces, paces })
+/// Lists that faces are put together and verified with.
+#[derive(Debug, Default)]
+pub(super) struct FaceLists {
+    /// Where the borders of each face end, in the list of all.
+    ends: Vec<usize>,
+    borders: Vec<[usize; 2]>,
+    /// For each peak a face that has it, and the peak after it there.
+    next: Vec<[usize; 2]>,
+    /// How far (m) each corner of a face is along its edge.
+    along: Vec<f64>,
 }
 
-/// The faces' rings, put together from the edges and the borders between them.
-fn chains(rings: &[Vec<I64Vec2>], arcs: &[Arc]) -> Result<Vec<Vec<usize>>> {
-    let arcs = || arcs.iter().filter(|arc| arc.edges[0] != arc.edges[1]);
-    // Where the borders of each face begin, in one list of all.
-    let mut begins = vec![0; rings.iter().map(Vec::len).sum::<usize>() + 1];
-    for edge in arcs().flat_map(|arc| arc.edges) {
-        begins[edge + 1] += 1;
+impl FaceLists {
+    /// Puts the faces together; fails if they are not those of a roof over `rings`.
+    pub(super) fn assemble(
+        &mut self,
+        rings: &[Vec<I64Vec2>],
+        traced: &mut WavefrontTrace,
+    ) -> Result<Skeleton> {
+        let WavefrontTrace { edges, peaks, arcs } = traced;
+        self.next.clear();
+        self.next.resize(peaks.len(), [usize::MAX; 2]);
+        let mut faces = self.chains(rings, arcs)?;
+        coarsen(peaks, edges.len(), edges, &mut faces);
+        widen(peaks, edges.len(), edges, &faces);
+        verify(rings, edges, peaks, &faces, &mut self.along)?;
+        let paces = edges.iter().map(|edge| edge.pace).collect();
+        Ok(Skeleton { peaks: peaks.clone(), faces, paces })
     }
-    let mut before = 0;
-    for begin in &mut begins {
-        before += *begin;
-        *begin = before;
+
+    /// The faces' rings, put together from the edges and the borders between them.
+    fn chains(&mut self, rings: &[Vec<I64Vec2>], arcs: &[Arc]) -> Result<Vec<Vec<usize>>> {
+        let arcs = || arcs.iter().filter(|arc| arc.edges[0] != arc.edges[1]);
+        let count = rings.iter().map(Vec::len).sum::<usize>();
+        let Self { ends, borders, next, .. } = self;
+        // One more for each face is the edge itself.
+        ends.clear();
+        ends.resize(count + 1, 1);
+        ends[0] = 0;
+        for &Arc { edges: [before, after], .. } in arcs() {
+            ends[before + 1] += 1;
+            ends[after + 1] += 1;
+        }
+        let mut before = 0;
+        for end in &mut *ends {
+            before += *end;
+            *end = before;
+        }
+        borders.resize(before, [0; 2]);
+        // Where they end so far: at first where they begin.
+        let mut add = |edge: usize, border: [usize; 2]| {
+            borders[ends[edge]] = border;
+            ends[edge] += 1;
+        };
+        let mut first = 0;
+        for ring in rings {
+            (0..ring.len())
+                .for_each(|index| add(first + index, [first + index, first + (index + 1) % ring.len()]));
+            first += ring.len();
+        }
+        for &Arc { edges: [before, after], ends: [from, to] } in arcs() {
+            add(before, [from, to]);
+            add(after, [to, from]);
+        }
+        let mut faces = Vec::with_capacity(count);
+        let mut begin = 0;
+        for (face, &end) in ends[..count].iter().enumerate() {
+            let own = &mut borders[begin..end];
+            faces.push(match simple_chain(own, face, next) {
+                Some(ring) => ring,
+                None => chain(own)?,
+            });
+            begin = end;
+        }
+        Ok(faces)
     }
-    // The edge itself is the first one.
-    let mut ends: Vec<usize> = begins.iter().enumerate().map(|(edge, begin)| begin + edge).collect();
-    let mut borders = vec![[0; 2]; before + begins.len() - 1];
-    let mut add = |edge: usize, border: [usize; 2]| {
-        borders[ends[edge]] = border;
-        ends[edge] += 1;
-    };
-    let mut first = 0;
-    for ring in rings {
-        (0..ring.len())
-            .for_each(|index| add(first + index, [first + index, first + (index + 1) % ring.len()]));
-        first += ring.len();
+}
+
+/// What [`chain`] gives, found at once, if no two of the borders begin at one peak.
+fn simple_chain(borders: &[[usize; 2]], face: usize, next: &mut [[usize; 2]]) -> Option<Vec<usize>> {
+    for &[from, to] in borders {
+        next[from] = [face, to];
     }
-    for &Arc { edges: [before, after], ends: [from, to] } in arcs() {
-        add(before, [from, to]);
-        add(after, [to, from]);
+    let [first, mut at] = borders[0];
+    let mut ring = Vec::with_capacity(borders.len());
+    ring.push(first);
+    while at != first && ring.len() < borders.len() && next[at][0] == face {
+        ring.push(at);
+        at = next[at][1];
     }
-    let mut rest = &mut borders[..];
-    let mut faces = Vec::with_capacity(begins.len() - 1);
-    for pair in begins.windows(2) {
-        let (own, others) = rest.split_at_mut(pair[1] - pair[0] + 1);
-        faces.push(chain(own)?);
-        rest = others;
-    }
-    Ok(faces)
+    (at == first && ring.len() == borders.len()).then_some(ring)
 }
 
 /// The closed ring that directed borders form, beginning with the first of them.
@@ -111,11 +153,11 @@ fn verify(
     edges: &[SkeletonEdge],
     peaks: &[Peak],
     faces: &[Vec<usize>],
+    along: &mut Vec<f64>,
 ) -> Result<()> {
     let whole: f64 = rings.iter().map(|ring| twice_area(ring.iter().map(|&at| metres(at)))).sum();
-    let even = edges.windows(2).all(|pair| pair[0].pace == pair[1].pace);
+    let is_even = || edges.windows(2).all(|pair| pair[0].pace == pair[1].pace);
     let mut sum = 0.0;
-    let mut along = Vec::new();
     for (edge, face) in edges.iter().zip(faces) {
         if face.len() < 3 {
             return Err(Error::geometry("a face of the roof has no corners but its edge's"));
@@ -136,9 +178,9 @@ fn verify(
             }
         }
         sum += area;
-        let monotone = |within| is_monotone(&along, within * MERGED);
+        let monotone = |within| is_monotone(along, within * MERGED);
         // Peaks may stand for others that are 2 mm away, at both ends of a border.
-        if !monotone(2.0) && (even && !monotone(4.0) || crosses_itself(edge, peaks, face)) {
+        if !monotone(2.0) && (is_even() && !monotone(4.0) || crosses_itself(edge, peaks, face)) {
             return Err(Error::geometry("a face of the roof overlaps itself"));
         }
     }
@@ -152,8 +194,8 @@ fn verify(
 fn is_monotone(along: &[f64], within: f64) -> bool {
     let (mut first, mut last) = (0.0f64, 0.0f64);
     let mut turns = 0;
-    let mut at = along[0];
-    for &next in along[1..].iter().chain(&along[..1]) {
+    let mut at = along[along.len() - 1];
+    for &next in along {
         let step = next - std::mem::replace(&mut at, next);
         if step.abs() > within {
             if first == 0.0 {

@@ -129,18 +129,19 @@ impl EdgeFronts {
         let like = self.all.iter().rev().take(BEFORE).find(is_alike);
         let sort = like.map_or(short(front.edge), |other| self.sorts[other.edge]);
         self.sorts.push(sort);
-        self.add(front);
+        self.put(self.all.len(), &front);
+        self.all.push(front);
     }
 
-    fn add(&mut self, front: EdgeFront) {
-        let lane = self.all.len() % LANES;
+    /// Puts the edge of a rank, which no other has had, into its block.
+    fn put(&mut self, rank: usize, front: &EdgeFront) {
+        let lane = rank % LANES;
         if lane == 0 {
             self.blocks.push(FrontBlock::default());
         }
         if let Some(block) = self.blocks.last_mut() {
             block.set(lane, &front.line, self.sorts[front.edge]);
         }
-        self.all.push(front);
     }
 
     /// The sort of an edge.
@@ -161,9 +162,12 @@ impl EdgeFronts {
 
     /// Keeps the edges that are there.
     pub(super) fn retain(&mut self, is_there: impl Fn(usize) -> bool) {
-        let all = std::mem::take(&mut self.all);
+        self.all.retain(|front| is_there(front.edge));
         self.blocks.clear();
-        all.into_iter().filter(|front| is_there(front.edge)).for_each(|front| self.add(front));
+        for rank in 0..self.all.len() {
+            let front = self.all[rank];
+            self.put(rank, &front);
+        }
     }
 
     /// All blocks, first those near that of an edge: what is next to a corner in its ring it often reaches first.

@@ -362,10 +362,17 @@ impl MovingLines {
 
     /// Where three lines meet.
     pub(super) fn meeting(&self, [l, m, n]: [usize; 3], when: &EventTime) -> LineMeeting {
-        let cross = |[a, b]: [usize; 2]| self.lines[a].normal.perp_dot(self.lines[b].normal).abs();
-        let pairs = [[l, m], [m, n], [n, l]];
-        let widest = pairs.into_iter().max_by(|&a, &b| cross(a).total_cmp(&cross(b)));
-        self.place(widest.unwrap_or([l, m]), when)
+        let [a, b, c] = [l, m, n].map(|line| self.lines[line].normal);
+        let [one, two, three] = [a.perp_dot(b), b.perp_dot(c), c.perp_dot(a)].map(f64::abs);
+        // Those that cross most squarely.
+        let pair = if three >= one.max(two) {
+            [n, l]
+        } else if two >= one {
+            [m, n]
+        } else {
+            [l, m]
+        };
+        self.place(pair, when)
     }
 
     fn exact_place(&mut self, pair: [usize; 2], when: &mut EventTime) -> ExactPlace {

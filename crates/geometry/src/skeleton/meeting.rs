@@ -41,8 +41,6 @@ pub(super) struct MeetingLists {
     places: Vec<LineMeeting>,
     /// The corners where pieces of edges begin.
     begins: Vec<usize>,
-    /// The corners that meet others, with the numbers of their meetings.
-    corners: Vec<(usize, usize)>,
     /// What meets on an edge, by the corner where its piece begins, and the numbers of the meetings.
     cuts: Vec<(usize, LineMeeting, usize)>,
     pieces: Vec<EdgePiece>,
@@ -213,9 +211,8 @@ impl Wavefront {
 
     /// Finds the pieces of edges that the spots touch, cut there.
     fn cut(&mut self, lists: &mut MeetingLists, when: &mut EventTime) {
-        let MeetingLists { begins, corners: whole, cuts, pieces, .. } = lists;
+        let MeetingLists { begins, cuts, pieces, .. } = lists;
         begins.clear();
-        whole.clear();
         cuts.clear();
         pieces.clear();
         for index in 0..self.spots.len() {
@@ -223,7 +220,6 @@ impl Wavefront {
             begins.push(corner);
             if !cut {
                 begins.push(self.corners[corner].before);
-                whole.push((corner, meeting));
                 continue;
             }
             let line = self.traced.edges[self.corners[corner].edges[1]].line;
@@ -240,22 +236,22 @@ impl Wavefront {
         }
         begins.sort_unstable();
         begins.dedup();
-        whole.sort_unstable();
-        let end = |corner: usize| match whole.binary_search_by_key(&corner, |entry| entry.0) {
-            Ok(found) => End::Meeting(whole[found].1),
-            Err(_) => End::Corner(corner),
+        let end = |corner: usize| match self.spot_of(corner) {
+            Some(spot) => End::Meeting(self.spots[spot].meeting),
+            None => End::Corner(corner),
         };
         for &from in begins.iter() {
             let corner = &self.corners[from];
             let mut last = end(from);
-            let between = cuts.partition_point(|cut| cut.0 < from)..cuts.partition_point(|cut| cut.0 <= from);
-            let between = cuts[between].iter().map(|cut| End::Meeting(cut.2));
-            for next in between.chain([end(corner.after)]) {
+            let mut add = |next: End| {
                 if next != last || matches!(next, End::Corner(_)) {
                     pieces.push(EdgePiece { edge: corner.edges[1], ends: [last, next] });
                 }
                 last = next;
-            }
+            };
+            let between = cuts.partition_point(|cut| cut.0 < from)..cuts.partition_point(|cut| cut.0 <= from);
+            cuts[between].iter().for_each(|cut| add(End::Meeting(cut.2)));
+            add(end(corner.after));
         }
     }
 }

@@ -1,9 +1,15 @@
 //! Straight skeletons of polygons.
 
-use super::{edge, faces, wavefront};
+use std::cell::Cell;
+
+use glam::{DVec2, I64Vec2};
+
+use super::edge;
+use super::faces::FaceLists;
+use super::meeting::MeetingLists;
+use super::wavefront::Wavefront;
 use crate::planar::Polygon;
 use burgeon_base::error::Result;
-use glam::DVec2;
 
 /// A place where faces meet: on the plan (m), and when the wavefront reached it.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -102,9 +108,38 @@ impl Skeleton {
     /// negative area, areas that add up to the polygon's (to 1e-6), faces that are monotone along their edges, or do
     /// not cross themselves where paces differ.
     pub fn new(polygon: &Polygon, paces: &[Pace]) -> Result<Self> {
-        let (lattice, middle) = edge::snapped(polygon)?;
-        let traced = wavefront::propagate(&lattice, paces)?;
-        let mut skeleton = faces::assemble(&lattice, traced)?;
+        let mut spare = SPARE.take().unwrap_or_default();
+        let skeleton = spare.skeleton(polygon, paces);
+        SPARE.set(Some(spare));
+        skeleton
+    }
+
+    /// The greatest time: the height of the highest ridge at a slope of 1.
+    pub fn duration(&self) -> f64 {
+        self.peaks.iter().map(|peak| peak.time).fold(0.0, f64::max)
+    }
+}
+
+thread_local! {
+    /// What the last skeleton of the thread was made with.
+    static SPARE: Cell<Option<Box<SkeletonMaker>>> = const { Cell::new(None) };
+}
+
+/// What a skeleton is made with, whose memory the next one uses again: a city has tens of thousands.
+#[derive(Default)]
+struct SkeletonMaker {
+    /// The polygon on the lattice.
+    rings: Vec<Vec<I64Vec2>>,
+    front: Wavefront,
+    meetings: MeetingLists,
+    faces: FaceLists,
+}
+
+impl SkeletonMaker {
+    fn skeleton(&mut self, polygon: &Polygon, paces: &[Pace]) -> Result<Skeleton> {
+        let middle = edge::snap(polygon, &mut self.rings)?;
+        self.front.propagate(&self.rings, paces, &mut self.meetings)?;
+        let mut skeleton = self.faces.assemble(&self.rings, &mut self.front.traced)?;
         for peak in &mut skeleton.peaks {
             peak.at += middle;
         }
@@ -112,10 +147,5 @@ impl Skeleton {
             peak.at = at;
         }
         Ok(skeleton)
-    }
-
-    /// The greatest time: the height of the highest ridge at a slope of 1.
-    pub fn duration(&self) -> f64 {
-        self.peaks.iter().map(|peak| peak.time).fold(0.0, f64::max)
     }
 }

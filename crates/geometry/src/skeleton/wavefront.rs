@@ -1,11 +1,9 @@
 //! The wavefront: the polygon's edges moving inwards until nothing is left of it.
 
-use std::cell::Cell;
 use std::cmp::Ordering;
 use std::ops::Range;
 
 use glam::I64Vec2;
-use smallvec::SmallVec;
 
 use super::edge::{Direction, SkeletonEdge, metres};
 use super::events::{EventQueue, WavefrontEventKind, short};
@@ -86,6 +84,8 @@ pub(super) struct Wavefront {
     pub current: EdgeFronts,
     /// How many pieces there are of each edge.
     alive: Vec<u32>,
+    /// How many corners there are.
+    living: usize,
     /// How many corners there had been when it was last asked which edges are still there.
     known: usize,
     pub corners: Vec<WavefrontCorner>,
@@ -95,7 +95,9 @@ pub(super) struct Wavefront {
     pub foreseen: Vec<(f64, usize)>,
     pub events: EventQueue,
     /// The numbers of the events that are next.
-    pub ties: SmallVec<[u32; 8]>,
+    pub ties: Vec<u32>,
+    /// The numbers of events that were looked at before them.
+    pub later: Vec<u32>,
     pub spots: Vec<EventPoint>,
     /// When the last thing happened, and that or a little before.
     pub last: Option<EventTime>,
@@ -106,29 +108,21 @@ pub(super) struct Wavefront {
     through: Vec<I64Vec2>,
 }
 
-thread_local! {
-    /// The last wavefront of the thread and its lists, whose memory the next one uses again: a city has tens of thousands.
-    static SPARE: Cell<Option<Box<(Wavefront, MeetingLists)>>> = const { Cell::new(None) };
-}
-
-/// Moves all edges inwards until the polygon is used up.
-pub(super) fn propagate(rings: &[Vec<I64Vec2>], paces: &[Pace]) -> Result<WavefrontTrace> {
-    let mut spare = SPARE.take().unwrap_or_default();
-    let (front, lists) = &mut *spare;
-    let done = front.run(rings, paces, lists);
-    let traced = std::mem::take(&mut front.traced);
-    SPARE.set(Some(spare));
-    done.map(|()| traced)
-}
-
 impl Wavefront {
-    fn run(&mut self, rings: &[Vec<I64Vec2>], paces: &[Pace], lists: &mut MeetingLists) -> Result<()> {
+    /// Moves all edges inwards until the polygon is used up.
+    pub(super) fn propagate(
+        &mut self,
+        rings: &[Vec<I64Vec2>],
+        paces: &[Pace],
+        lists: &mut MeetingLists,
+    ) -> Result<()> {
         self.begin(rings, paces)?;
         for _ in 0..16 * paces.len() + 64 {
+            // What is still expected then takes place nowhere.
+            if self.living == 0 {
+                return Ok(());
+            }
             let Some(mut when) = self.gather() else {
-                if !self.corners.iter().any(|corner| corner.alive) {
-                    return Ok(());
-                }
                 self.move_on()?;
                 continue;
             };
@@ -161,20 +155,19 @@ impl Wavefront {
     /// Puts the wavefront on the polygon, whatever it was before.
     fn begin(&mut self, rings: &[Vec<I64Vec2>], paces: &[Pace]) -> Result<()> {
         let count: usize = rings.iter().map(Vec::len).sum();
-        let reach = rings.iter().flatten().map(|&at| metres(at).length()).fold(0.0, f64::max);
+        let reach = rings.iter().flatten().map(|&at| metres(at).length_squared()).fold(0.0, f64::max).sqrt();
         let finite = |rest: f64| if rest.is_finite() { rest.max(0.0) } else { 0.0 };
         let late = paces.iter().map(|pace| pace.speed * finite(pace.rest)).fold(0.0, f64::max);
         let fastest = paces.iter().map(|pace| pace.speed).fold(0.0, f64::max);
         self.lines.begin(reach + late, fastest);
-        self.traced = WavefrontTrace {
-            edges: Vec::with_capacity(count),
-            peaks: Vec::with_capacity(3 * count),
-            arcs: Vec::with_capacity(3 * count),
-        };
+        self.traced.edges.clear();
+        self.traced.peaks.clear();
+        self.traced.arcs.clear();
         self.through.clear();
         self.current.clear();
         self.alive.clear();
         self.alive.resize(count, 0);
+        self.living = 0;
         self.known = count;
         self.corners.clear();
         self.pieces.clear();
@@ -291,6 +284,7 @@ impl Wavefront {
             older: self.pieces[edges[1]].replace(index),
         });
         self.alive[edges[1]] += 1;
+        self.living += 1;
         index
     }
 
@@ -333,6 +327,7 @@ impl Wavefront {
         let corner = &mut self.corners[index];
         corner.alive = false;
         self.alive[corner.edges[1]] -= 1;
+        self.living -= 1;
         if corner.peak != peak {
             self.traced.arcs.push(Arc { edges: corner.edges, ends: [corner.peak, peak] });
         }
