@@ -1,10 +1,19 @@
 --!strict
--- A new district that grows onto the streets of a real town: from the open ends of what is there, outwards.
--- burgeon run scripts/annex.lua --data examples/data -o annex.svg
+-- A new district that grows onto the streets of a real town: from the open ends of what is there, outwards, around the
+-- buildings that stand there, with houses and gardens of its own.
+-- burgeon run scripts/annex.lua --data examples/data -o annex.glb
+local build = require("templates/build")
+local nature = require("templates/nature")
+local quarters = require("templates/quarters")
 local roads = require("templates/roads")
+local skyline = require("templates/skyline")
 
 local file =
   param("file", { default = "quarter/roads.geojson", text = "The streets; for a layer of it, FILE:LAYER" })
+local standing = param(
+  "standing",
+  { default = "quarter/buildings.geojson", text = "The buildings there, FILE:LAYER; nothing if none are known" }
+)
 local reach = param(
   "reach",
   { default = 250, min = 20, max = 3000, unit = "m", text = "How far the district goes beyond them" }
@@ -92,6 +101,50 @@ if #apart > 0 then
 end
 
 local low, high = town.bounds.min, town.bounds.max
+local function box(around: number): any
+  return polygon({
+    { low[1] - around, low[2] - around },
+    { high[1] + around, low[2] - around },
+    { high[1] + around, high[2] + around },
+    { low[1] - around, high[2] + around },
+  })
+end
+
+-- All geometries of a list in one, by halves.
+local function united(list: { any }, first: number, last: number): any
+  if first >= last then
+    return list[first]
+  end
+  local half = (first + last) // 2
+  return united(list, first, half):union(united(list, half + 1, last))
+end
+
+-- The buildings that are near enough. New streets lead around them; what reaches into a street already is in nobody's way.
+local known: { any }, covered: { any }, obstacles: { any } = {}, {}, {}
+if standing ~= "" then
+  local lines = {}
+  for _, street in connected do
+    table.insert(lines, street.lines[1])
+  end
+  local near, ways = box(reach), united(lines, 1, #lines)
+  for _, building in source(standing) do
+    if building.geometry:area() > 0 and building.geometry:intersects(near) then
+      table.insert(known, building)
+      table.insert(covered, building.geometry:buffer(0.5))
+      if not building.geometry:buffer(10):intersects(ways) then
+        table.insert(obstacles, building.geometry)
+      end
+    end
+  end
+  if #known == 0 then
+    print(`annex: no building of {standing} is near the streets of {file}: set standing to a file of the same town`)
+  end
+end
+local old = united(covered, 1, #covered)
+local function is_free(geometry: any): boolean
+  return not old or not geometry:intersects(old)
+end
+
 local middle = { (low[1] + high[1]) / 2, (low[2] + high[2]) / 2 }
 -- Streets of a district do not end before it is full, and none leaves around a green.
 local patterns: { [string]: () -> any } = {
@@ -111,15 +164,15 @@ local patterns: { [string]: () -> any } = {
     return roads.radial({ middle = middle })
   end,
 }
-roads.grow({
+local streets = roads.grow({
   pattern = patterns[pattern](),
   network = {
-    streets = { { width = 17, sidewalk = 3 }, { width = 12, sidewalk = 2.4 }, { width = 9, sidewalk = 1.7 } },
+    streets = { { width = 17, sidewalk = 3, trees = 11 }, { width = 12, sidewalk = 2.4 }, { width = 9, sidewalk = 1.7 } },
     existing = connected,
     starts = {},
     min_angle = 35,
     snap = SNAP,
-    ground = "#66774e",
+    obstacles = obstacles,
   },
   onto = true,
   deepest = 8,
@@ -129,4 +182,77 @@ roads.grow({
     return x > low[1] - reach and x < high[1] + reach and y > low[2] - reach and y < high[2] + reach
   end,
   steps = math.ceil(reach / 25) + 6,
-})
+}).objects[1] :: Network
+
+-- Lots along the streets where nothing stands: rows of houses that touch, and gardens behind them.
+local STYLES = { "terrace_house", "porto", "terrace_house", "porto", "haussmann", "villa" }
+local houses: { any }, gardens: { any } = {}, {}
+local function house(id: string, geometry: any, style: string, levels: number)
+  table.insert(houses, { id = id, geometry = geometry, style = style, levels = levels })
+end
+for _, lot in
+  streets:lots({ kind = "strips", width = 9, depth = 19, min_width = 6, jitter = 0.4, terrace = 11, all = true })
+do
+  local draw = skyline.stream(lot.id, 11)
+  local before = #houses
+  if lot.use == "building" then
+    for number, part in lot.terrace or {} do
+      if part:area() > 32 and is_free(part) then
+        local style = STYLES[1 + math.floor(draw() * #STYLES)]
+        house(`{lot.id}.{number}`, part, style, if style == "villa" then 2 else 2 + math.floor(draw() * 2.2))
+      end
+    end
+  end
+  if #houses == before and lot.use ~= "blocked" then
+    table.insert(gardens, lot)
+  end
+end
+
+-- What stands there already is as the data has it.
+for _, building in known do
+  local levels = tonumber(building.floors or building.levels or building["building:levels"])
+    or (tonumber(building.height) or 9) / 3
+  local draw = skyline.stream(building.id, 11)
+  local use = building.use or building.building or ""
+  local style = if use == "church" or use == "cathedral" or use == "chapel"
+    then "church"
+    elseif levels > 3.5 then "haussmann"
+    elseif draw() < 0.5 then "porto"
+    else "terrace_house"
+  house(`there {building.id}`, building.geometry, style, math.max(1, math.floor(levels + 0.5)))
+end
+
+local homes = build.system()
+homes:axiom(source(houses), function(feature)
+  local style = build.style(feature.style, 1 + math.floor(random() * 60))
+  return footprint(feature.geometry), build.Building(style, feature.levels, 0, "")
+end)
+homes:derive()
+
+-- The ground: meadows around, gardens and yards in the blocks.
+local blocks = {}
+for _, block in streets:blocks() do
+  table.insert(blocks, block.geometry)
+end
+quarters.areas({ box(reach + 60) }, -3, -0.05, "#84935a")
+quarters.areas(blocks, -0.3, 0.13, "#77874f")
+
+local trees = {}
+for _, place in streets:verge("tree") do
+  table.insert(trees, { id = place.id, geometry = { points = { place.place } }, height = 8 })
+end
+for _, lot in gardens do
+  for number = 1, math.min(40, math.floor(lot.area / 110)) do
+    local at = lot.geometry:random_point(random(), random())
+    if is_free(at:buffer(2.5)) then
+      table.insert(trees, {
+        id = `{lot.id} {number}`,
+        geometry = { points = { vec(at:x(), at:y(), 0.1) } },
+        height = random(5, 11),
+      })
+    end
+  end
+end
+if lod >= 3 then
+  nature.trees(trees)
+end
