@@ -8,19 +8,25 @@ use glam::DVec2;
 const LEAST: f64 = 0.01;
 /// So many pairs are counted: each takes time, and more say nothing more.
 const MOST: usize = 100;
+/// Of blocks whose boxes meet without an overlap, so many pairs are looked at: thousands around one another are millions.
+const MOST_COMPARED: usize = 100_000;
 
 /// What to tell of blocks with lots that lie on each other.
 pub(super) fn overlapping(blocks: &[&StreetBlock]) -> Option<Warning> {
     let mut areas: Vec<(&StreetBlock, [DVec2; 2])> =
         blocks.iter().map(|block| (*block, bounds(block))).collect();
     areas.sort_by(|(_, [one, _]), (_, [other, _])| one.x.total_cmp(&other.x));
-    let mut count = 0;
+    let (mut count, mut compared) = (0, 0);
     let mut greatest: Option<(f64, &str, &str)> = None;
     'blocks: for (rank, (one, [low, high])) in areas.iter().enumerate() {
         for (other, [near_low, near_high]) in &areas[rank + 1..] {
             if near_low.x >= high.x {
                 break;
             } else if near_low.y < high.y && near_high.y > low.y {
+                compared += 1;
+                if compared > MOST_COMPARED {
+                    break 'blocks;
+                }
                 let common = one.common_area(other);
                 if common > LEAST {
                     count += 1;
@@ -38,7 +44,7 @@ pub(super) fn overlapping(blocks: &[&StreetBlock]) -> Option<Warning> {
     let more = match count - 1 {
         0 => String::new(),
         1 => ", and one more pair of blocks does".into(),
-        _ if count == MOST => format!(", and so have {} more pairs of blocks at least", MOST - 1),
+        _ if count == MOST || compared > MOST_COMPARED => format!(", and so have {} more pairs of blocks at least", count - 1),
         more => format!(", and {more} more pairs of blocks do"),
     };
     let text = format!(
