@@ -126,6 +126,15 @@ mod tests {
     }
 
     #[test]
+    fn the_nearest_point_of_the_lattice_is_what_rounding_gives() {
+        let odd = (1u64 << 52) as f64 - 0.5;
+        let numbers = [0.0, 0.5, 1.5, 2.5, 0.5 - f64::EPSILON / 4.0, 0.75, 1e-300, odd, odd - 1.0, MOST];
+        for number in numbers.into_iter().flat_map(|number| [number, -number]) {
+            assert_eq!(nearest(DVec2::splat(number)), DVec2::splat(number).round().as_i64vec2(), "{number}");
+        }
+    }
+
+    #[test]
     fn corners_are_moved_by_less_than_a_thousandth_of_a_micrometre() {
         let ring = vec![DVec2::new(1000.1, 2000.2), DVec2::new(1010.3, 2000.7), DVec2::new(1003.3, 2011.1)];
         let polygon = Polygon::new(vec![ring.clone()]).expect("a small ring");

@@ -225,3 +225,23 @@ fn crosses_itself(edge: &SkeletonEdge, peaks: &[Peak], face: &[usize]) -> bool {
         parted(a, b) && parted(b, a)
     })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_ring_is_found_at_once_only_where_it_is_the_one_that_a_search_finds() {
+        let mut next = vec![[usize::MAX; 2]; 5];
+        let mut both = |face: usize, mut borders: Vec<[usize; 2]>| {
+            (simple_chain(&borders, face, &mut next), chain(&mut borders).ok())
+        };
+        let ring = Some(vec![0, 1, 3, 4]);
+        assert_eq!(both(0, vec![[0, 1], [4, 0], [1, 3], [3, 4]]), (ring.clone(), ring));
+        // What runs both ways, a peak that is passed twice, two rings, and one that is open.
+        assert_eq!(both(1, vec![[0, 1], [1, 2], [3, 4], [2, 0], [4, 3]]), (None, Some(vec![0, 1, 2])));
+        assert_eq!(both(2, vec![[0, 1], [1, 2], [2, 3], [3, 1], [1, 4], [4, 0]]).0, None);
+        assert_eq!(both(3, vec![[0, 1], [1, 0], [2, 3], [3, 4], [4, 2]]), (None, None));
+        assert_eq!(both(4, vec![[0, 1], [1, 2], [2, 3]]), (None, None));
+    }
+}

@@ -139,13 +139,11 @@ impl Wavefront {
                 rays.push(Ray { meeting, direction: direction.reversed(), leaves: false, piece: index });
             }
         }
-        // Between two edges that lie on each other is what they have swept, never what is outside.
-        rays.sort_by(|a, b| {
-            let angle = || a.direction.compare(b.direction);
-            a.meeting.cmp(&b.meeting).then_with(angle).then(b.leaves.cmp(&a.leaves))
-        });
+        rays.sort_by_key(|ray| ray.meeting);
         fresh.clear();
-        for rays in rays.chunk_by(|a, b| a.meeting == b.meeting) {
+        for rays in rays.chunk_by_mut(|a, b| a.meeting == b.meeting) {
+            // Between two edges that lie on each other is what they have swept, never what is outside.
+            rays.sort_by(|a, b| a.direction.compare(b.direction).then(b.leaves.cmp(&a.leaves)));
             let next = |index: usize| &rays[(index + 1) % rays.len()];
             if (0..rays.len()).any(|index| rays[index].leaves == next(index).leaves) {
                 return Err(Error::geometry("the edges that meet in a place do not enclose areas"));

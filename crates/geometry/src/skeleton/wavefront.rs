@@ -186,15 +186,11 @@ impl Wavefront {
             let pace = paces.get(self.through.len()).copied().unwrap_or_default();
             let speed = if pace.rest > 0.0 { 0.0 } else { pace.speed };
             let direction = Direction(to - from);
-            let line = self.lines.add(direction, from, speed, 0.0);
-            let normal = self.lines.line(line).normal;
-            let level = normal.dot(metres(from));
-            self.current.push(EdgeFront {
-                line: *self.lines.line(line),
-                direction,
-                edge: self.through.len(),
-            });
-            self.traced.edges.push(SkeletonEdge { along: -normal.perp(), level, pace, line });
+            let number = self.lines.add(direction, from, speed, 0.0);
+            let line = *self.lines.line(number);
+            self.current.push(EdgeFront { line, direction, edge: self.through.len() });
+            let along = -line.normal.perp();
+            self.traced.edges.push(SkeletonEdge { along, level: line.level, pace, line: number });
             self.through.push(from);
         }
         let mut first = 0;
