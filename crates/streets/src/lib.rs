@@ -43,6 +43,8 @@ mod placement;
 mod profile;
 mod rows;
 mod shape;
+#[cfg(test)]
+mod sliver_tests;
 mod spans;
 mod stretches;
 mod surface;
