@@ -9,13 +9,13 @@ const MITRED: f64 = 0.35;
 /// Within this angle (radians) of a straight one, streets of different widths taper.
 const TAPER: f64 = 0.6;
 /// Widths that differ by less (m) are one.
-const EVEN: f64 = 1e-6;
+pub(crate) const EVEN: f64 = 1e-6;
 /// How far (m) streets of different widths reach into a corner at least, so that their ends are no line through its middle.
 const LEAST: f64 = 0.5;
 /// How long (m) a street tapers for each metre of a difference in half of its width.
-const TAPER_LENGTH: f64 = 2.0;
+pub(crate) const TAPER_LENGTH: f64 = 2.0;
 /// How far (m) an arc may lie from its chords.
-const DEVIATION: f64 = 0.05;
+pub(crate) const DEVIATION: f64 = 0.05;
 
 /// A street as it leaves a junction.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -53,22 +53,24 @@ pub(crate) const LINES: [StreetLine; 2] = [StreetLine::Edge, StreetLine::Kerb];
 /// What a junction has between two neighbours among its streets, of which the second is the next one counter-clockwise.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Corner {
-    arms: [Arm; 2],
+    pub(crate) arms: [Arm; 2],
     /// The angle (radians) from the first to the second.
     pub(crate) angle: f64,
-    shape: CornerShape,
+    pub(crate) shape: CornerShape,
     /// How far (m) along the two it reaches.
     pub(crate) reaches: [f64; 2],
 }
 
 #[derive(Debug, Clone, Copy, PartialEq)]
-enum CornerShape {
+pub(crate) enum CornerShape {
     /// The two lines turn with these radii (m).
     Round { edge: f64, kerb: f64 },
     /// The edges meet.
     Sharp,
     /// The outside of a bend: by circles around the junction, so that nothing is farther from it than the edges are.
     Bend,
+    /// A side of a bend where the width changes: by parabolas that touch the lines of both streets.
+    Curve,
     /// Straight from one width to the other.
     Taper,
     /// Around the end of a street: by a circle of this radius (m) at the outer edges.
@@ -160,6 +162,9 @@ impl Corner {
                 };
                 (0..=chords).map(at).collect()
             }
+            CornerShape::Curve => {
+                self.curve().into_iter().map(|pair| pair[usize::from(line == StreetLine::Kerb)]).collect()
+            }
             CornerShape::Taper => vec![left(first, self.reaches[0], a), left(second, self.reaches[1], -b)],
             CornerShape::Around(radius) => {
                 // The two circles are cut off by the same line.
@@ -195,19 +200,19 @@ fn pieces(swept: f64, radius: f64) -> u32 {
 }
 
 /// The least whole number of chords.
-fn chords(least: f64) -> u32 {
+pub(crate) fn chords(least: f64) -> u32 {
     #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "at most some hundreds")]
     let count = least.ceil().clamp(1.0, 256.0) as u32;
     count
 }
 
 /// A place so far (m) along a street that leaves a junction, and so far to the left of its middle.
-fn left(arm: Arm, along: f64, aside: f64) -> DVec2 {
+pub(crate) fn left(arm: Arm, along: f64, aside: f64) -> DVec2 {
     arm.way * along + arm.way.perp() * aside
 }
 
 /// By how much (m) the lines of two streets are farther from the middle of one than from that of the other.
-fn apart(arms: [Arm; 2]) -> f64 {
+pub(crate) fn apart(arms: [Arm; 2]) -> f64 {
     LINES.map(|line| arms.map(|arm| arm.aside(line))).iter().map(|[a, b]| (a - b).abs()).fold(0.0, f64::max)
 }
 
@@ -219,7 +224,7 @@ fn arc(center: DVec2, radius: f64, from: f64, swept: f64, chords: u32) -> Vec<DV
 }
 
 /// How far (m) along the first of two streets its edge meets that of the second.
-fn meeting(angle: f64, half: f64, next: f64) -> f64 {
+pub(crate) fn meeting(angle: f64, half: f64, next: f64) -> f64 {
     if (half - next).abs() < EVEN {
         // Also where they lie straight ahead of one another, and the edges are one line.
         return half / (angle / 2.0).tan();

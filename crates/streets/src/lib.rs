@@ -20,6 +20,9 @@
 //! # Ok::<(), burgeon_base::error::Error>(())
 //! ```
 
+mod bend;
+#[cfg(test)]
+mod bend_tests;
 mod constraints;
 mod corner;
 mod dead_ends;

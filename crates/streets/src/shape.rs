@@ -52,6 +52,8 @@ impl ArmShape {
 
 /// How far (m) behind a skew end all of a piece counts as begun.
 const BEHIND_SKEW: f64 = 0.05;
+/// How much of what room a piece has each of its ends may take.
+const SHARE: f64 = 0.45;
 /// How far (m) before the end of a skew piece a row may lie.
 const BEFORE_CLEAR: f64 = 1e-6;
 
@@ -71,6 +73,7 @@ impl<'a> StreetShapes<'a> {
         let junctions = (0..count).map(|junction| JunctionShape::new(network, junction, turning)).collect();
         let mut shapes = Self { network, junctions };
         shapes.change(|shape| shape.arms.iter().any(|arm| arm.corner.is_taper()), JunctionShape::shortened);
+        shapes.change(|shape| shape.arms.len() == 2 && !shape.is_mitred, JunctionShape::bent);
         shapes
     }
 
@@ -84,7 +87,9 @@ impl<'a> StreetShapes<'a> {
         let which = (0..).zip(&self.junctions).filter(|(_, shape)| which(shape));
         let changed: Vec<(usize, JunctionShape)> = which
             .map(|(junction, shape)| {
-                let more: SmallVec<[f64; 4]> = shape.arms.iter().map(|arm| self.between(arm.piece)).collect();
+                let share = |room: f64| if room > 0.0 { room * SHARE } else { room };
+                let more: SmallVec<[f64; 4]> =
+                    shape.arms.iter().map(|arm| share(self.between(arm.piece))).collect();
                 (junction, changed(shape, &more))
             })
             .collect();
@@ -248,6 +253,25 @@ impl JunctionShape {
             shorter.arms[index].reach = shorter.arms[index].corner.reaches[0].max(before);
         }
         shorter
+    }
+
+    /// The same where a street turns, with up to `more` (m) of its two pieces: its kerbs go over from one width to the other.
+    fn bent(&self, more: &[f64]) -> Self {
+        let mut reaches = [0, 1].map(|arm| self.arms[arm].reach);
+        for arm in 0..2 {
+            // The second corner leads from the second arm to the first.
+            if let Some(mut taper) = self.arms[arm].corner.taper() {
+                taper.rotate_left(arm);
+                reaches =
+                    [0, 1].map(|arm| reaches[arm] + (taper[arm] - reaches[arm]).min(more[arm]).max(0.0));
+            }
+        }
+        let mut bent = self.clone();
+        for (arm, shape) in bent.arms.iter_mut().enumerate() {
+            shape.reach = reaches[arm];
+            shape.corner = shape.corner.of_bend([reaches[arm], reaches[1 - arm]]);
+        }
+        bent
     }
 
     /// Where a line of a piece ends (m), and whether another piece begins there too.
