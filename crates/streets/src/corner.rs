@@ -9,13 +9,13 @@ const MITRED: f64 = 0.35;
 /// Within this angle (radians) of a straight one, streets of different widths taper.
 const TAPER: f64 = 0.6;
 /// Widths that differ by less (m) are one.
-const EVEN: f64 = 1e-6;
+pub(crate) const EVEN: f64 = 1e-6;
 /// How far (m) streets of different widths reach into a corner at least, so that their ends are no line through its middle.
 const LEAST: f64 = 0.5;
 /// How long (m) a street tapers for each metre of a difference in half of its width.
-const TAPER_LENGTH: f64 = 2.0;
+pub(crate) const TAPER_LENGTH: f64 = 2.0;
 /// How far (m) an arc may lie from its chords.
-const DEVIATION: f64 = 0.05;
+pub(crate) const DEVIATION: f64 = 0.05;
 
 /// A street as it leaves a junction.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -47,27 +47,32 @@ pub(crate) enum StreetLine {
     Edge,
 }
 
+/// Both of them.
+pub(crate) const LINES: [StreetLine; 2] = [StreetLine::Edge, StreetLine::Kerb];
+
 /// What a junction has between two neighbours among its streets, of which the second is the next one counter-clockwise.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Corner {
-    arms: [Arm; 2],
+    pub(crate) arms: [Arm; 2],
     /// The angle (radians) from the first to the second.
-    angle: f64,
-    shape: CornerShape,
+    pub(crate) angle: f64,
+    pub(crate) shape: CornerShape,
     /// How far (m) along the two it reaches.
     pub(crate) reaches: [f64; 2],
 }
 
 #[derive(Debug, Clone, Copy, PartialEq)]
-enum CornerShape {
+pub(crate) enum CornerShape {
     /// The two lines turn with these radii (m).
     Round { edge: f64, kerb: f64 },
     /// The edges meet.
     Sharp,
     /// The outside of a bend: by circles around the junction, so that nothing is farther from it than the edges are.
     Bend,
-    /// From one width to the other.
-    Taper(f64),
+    /// A side of a bend where the width changes: by parabolas that touch the lines of both streets.
+    Curve,
+    /// Straight from one width to the other.
+    Taper,
     /// Around the end of a street: by a circle of this radius (m) at the outer edges.
     Around(f64),
 }
@@ -78,15 +83,13 @@ impl Corner {
     /// Method: the edges meet at (next + half cos) / sin of the angle; a circle touches them its cotangent farther on.
     pub(crate) fn new(arms: [Arm; 2], radius: f64) -> Self {
         let angle = turn(arms[0].way, arms[1].way);
-        let lines = [StreetLine::Edge, StreetLine::Kerb].map(|line| arms.map(|arm| arm.aside(line)));
-        let apart = lines.iter().map(|[a, b]| (a - b).abs()).fold(0.0, f64::max);
+        let lines = LINES.map(|line| arms.map(|arm| arm.aside(line)));
+        let apart = apart(arms);
         let is_even = apart < EVEN;
         let bend = (angle - PI).abs();
         if !is_even && bend < TAPER {
-            // Behind where the ends of the two could touch.
-            let clear = arms[0].half.max(arms[1].half) * (bend / 2.0).tan();
-            let length = (apart * TAPER_LENGTH).max(clear + LEAST);
-            return Self { arms, angle, shape: CornerShape::Taper(length), reaches: [length; 2] };
+            let length = (apart * TAPER_LENGTH).max(clear(arms, bend) + LEAST);
+            return Self { arms, angle, shape: CornerShape::Taper, reaches: [length; 2] };
         }
         if angle < PI && !(is_even && bend < MITRED) {
             // Kerbs turn the same way as edges do, so what lies between them is nowhere less than the lesser sidewalk.
@@ -116,14 +119,23 @@ impl Corner {
         Self { arms: [arm; 2], angle: TAU, shape: CornerShape::Around(radius), reaches: [reach; 2] }
     }
 
-    /// The angle (radians) from its first street to its second.
-    pub(crate) fn angle(&self) -> f64 {
-        self.angle
-    }
-
     /// Whether it is a single point.
     pub(crate) fn is_sharp(&self) -> bool {
         matches!(self.shape, CornerShape::Sharp)
+    }
+
+    /// Whether it goes straight from one width to another.
+    pub(crate) fn is_taper(&self) -> bool {
+        matches!(self.shape, CornerShape::Taper)
+    }
+
+    /// The same with a taper that is so much shorter (m) along its two streets, as far as that goes.
+    pub(crate) fn shortened(mut self, less: [f64; 2]) -> Self {
+        if self.is_taper() {
+            let least = clear(self.arms, (self.angle - PI).abs()) + LEAST;
+            self.reaches = [0, 1].map(|side| (self.reaches[side] - less[side]).max(least));
+        }
+        self
     }
 
     /// The points (m) of a line around it, from the first arm to the second, as seen from the junction. There are as many
@@ -131,7 +143,6 @@ impl Corner {
     pub(crate) fn points(&self, line: StreetLine) -> Vec<DVec2> {
         let [first, second] = self.arms;
         let [a, b] = self.arms.map(|arm| arm.aside(line));
-        let left = |arm: Arm, along: f64, half: f64| arm.way * along + arm.way.perp() * half;
         match self.shape {
             CornerShape::Round { edge, kerb } => {
                 let radius = if line == StreetLine::Edge { edge } else { kerb };
@@ -151,7 +162,10 @@ impl Corner {
                 };
                 (0..=chords).map(at).collect()
             }
-            CornerShape::Taper(length) => vec![left(first, length, a), left(second, length, -b)],
+            CornerShape::Curve => {
+                self.curve().into_iter().map(|pair| pair[usize::from(line == StreetLine::Kerb)]).collect()
+            }
+            CornerShape::Taper => vec![left(first, self.reaches[0], a), left(second, self.reaches[1], -b)],
             CornerShape::Around(radius) => {
                 // The two circles are cut off by the same line.
                 let reach = self.reaches[0];
@@ -174,12 +188,32 @@ impl Corner {
     }
 }
 
+/// How far (m) from a bend the ends of two streets could touch.
+fn clear(arms: [Arm; 2], bend: f64) -> f64 {
+    arms[0].half.max(arms[1].half) * (bend / 2.0).tan()
+}
+
 /// How many chords an arc of a radius (m) is drawn with.
 fn pieces(swept: f64, radius: f64) -> u32 {
     let step = 2.0 * (1.0 - (DEVIATION / radius.max(0.5)).min(0.9)).acos();
+    chords(swept.abs() / step)
+}
+
+/// The least whole number of chords.
+pub(crate) fn chords(least: f64) -> u32 {
     #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "at most some hundreds")]
-    let count = (swept.abs() / step).ceil().clamp(1.0, 256.0) as u32;
+    let count = least.ceil().clamp(1.0, 256.0) as u32;
     count
+}
+
+/// A place so far (m) along a street that leaves a junction, and so far to the left of its middle.
+pub(crate) fn left(arm: Arm, along: f64, aside: f64) -> DVec2 {
+    arm.way * along + arm.way.perp() * aside
+}
+
+/// By how much (m) the lines of two streets are farther from the middle of one than from that of the other.
+pub(crate) fn apart(arms: [Arm; 2]) -> f64 {
+    LINES.map(|line| arms.map(|arm| arm.aside(line))).iter().map(|[a, b]| (a - b).abs()).fold(0.0, f64::max)
 }
 
 /// The points of an arc, one more than it has chords.
@@ -190,7 +224,7 @@ fn arc(center: DVec2, radius: f64, from: f64, swept: f64, chords: u32) -> Vec<DV
 }
 
 /// How far (m) along the first of two streets its edge meets that of the second.
-fn meeting(angle: f64, half: f64, next: f64) -> f64 {
+pub(crate) fn meeting(angle: f64, half: f64, next: f64) -> f64 {
     if (half - next).abs() < EVEN {
         // Also where they lie straight ahead of one another, and the edges are one line.
         return half / (angle / 2.0).tan();

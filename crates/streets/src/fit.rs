@@ -88,9 +88,9 @@ impl StreetNetwork {
         let mut chains: Vec<(u32, Vec<f64>)> = vec![(0, Vec::new()); self.pieces.len()];
         for (piece, known) in self.pieces() {
             let [start, stop] = self.line(piece);
-            let (length, way) = (start.distance(stop), (stop - start).normalize_or_zero());
+            let way = (stop - start).normalize_or_zero();
             let clear = known.ends.map(|end| shapes.arm(end, piece).map_or(0.0, ArmShape::clear));
-            let room = (length - clear[0] - clear[1]).max(0.0);
+            let room = shapes.room(piece);
             #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "pieces are short")]
             let inner = (room / STEP).floor() as u32;
             let step = room / f64::from(inner + 1);

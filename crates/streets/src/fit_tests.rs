@@ -8,7 +8,7 @@ use crate::surface_tests::check_surfaces;
 use crate::tests::{TestNumbers, grown, kinds};
 
 /// Hills of a few waves, of which the steepest slope is given (m/m).
-fn hills(seed: u64, steep: f64) -> impl Fn(DVec2) -> Option<f64> {
+pub(crate) fn hills(seed: u64, steep: f64) -> impl Fn(DVec2) -> Option<f64> {
     let mut random = TestNumbers(seed * 7 + 3);
     let mut wave = |length: f64| {
         (DVec2::from_angle(random.below(6.3)) / length, random.below(6.3), length * steep / 2.0)

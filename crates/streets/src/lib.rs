@@ -20,6 +20,9 @@
 //! # Ok::<(), burgeon_base::error::Error>(())
 //! ```
 
+mod bend;
+#[cfg(test)]
+mod bend_tests;
 mod constraints;
 mod corner;
 mod dead_ends;
@@ -43,6 +46,8 @@ mod placement;
 mod profile;
 mod rows;
 mod shape;
+#[cfg(test)]
+mod sliver_tests;
 mod spans;
 mod stretches;
 mod surface;

@@ -7,7 +7,7 @@ use glam::{DVec2, DVec3};
 use crate::corner::StreetLine;
 use crate::network::PieceId;
 use crate::profile::StreetProfiles;
-use crate::shape::{ArmShape, StreetShapes};
+use crate::shape::{ArmShape, SAME, StreetShapes};
 use crate::surface::{Median, StreetSurface};
 use burgeon_geometry::Line;
 
@@ -102,13 +102,13 @@ pub(crate) fn alongs_of(
                 // No station lies within the round end.
                 alongs.retain(|along| {
                     let into = if side == 0 { along - tip } else { tip - along };
-                    *along == stretch[side] || !(-0.01..aside + 0.01).contains(&into)
+                    *along == stretch[side] || !(-SAME..aside + SAME).contains(&into)
                 });
             }
         }
     }
     alongs.sort_by(f64::total_cmp);
-    alongs.dedup_by(|a, b| (*a - *b).abs() < 1e-6);
+    alongs.dedup_by(|a, b| (*a - *b).abs() < SAME);
     let begin = network.ends(piece).map(|end| shapes.arm(end, piece).map_or(0.0, ArmShape::first_row));
     let inside = begin[0]..=length - begin[1];
     alongs.retain(|along| inside.contains(along));
@@ -162,6 +162,9 @@ impl<'a> PieceRows<'a> {
         let mut into = self.surface();
         for pair in self.rows.windows(2) {
             let (from, to) = (pair[0], pair[1]);
+            if from.sides == to.sides {
+                continue;
+            }
             let [right, left] = from.sides.map(|at| add(&mut into, at, from.height));
             let [far_right, far_left] = to.sides.map(|at| add(&mut into, at, to.height));
             match (from.median, to.median) {
@@ -309,5 +312,7 @@ fn add(into: &mut StreetSurface, at: DVec2, height: f64) -> u32 {
 }
 
 fn quad(into: &mut StreetSurface, [a, b, c, d]: [u32; 4]) {
-    into.triangles.extend([[a, b, c], [a, c, d]]);
+    // Beside a bend a side may be a single place.
+    let triangles = [[a, b, c], [a, c, d]];
+    into.triangles.extend(triangles.into_iter().filter(|[a, b, c]| a != b && b != c && c != a));
 }

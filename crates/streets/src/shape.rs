@@ -3,12 +3,14 @@
 use glam::DVec2;
 use smallvec::SmallVec;
 
-use crate::corner::{Arm, Corner, StreetLine};
+use crate::corner::{Arm, Corner, LINES};
 use crate::grid::foot;
 use crate::network::{JunctionId, PieceId, StreetNetwork};
 
-/// Places (m) that are nearer are one.
-const SAME: f64 = 1e-6;
+/// Places (m) that are nearer are one: what lies between them would be a sliver.
+pub(crate) const SAME: f64 = 0.02;
+/// Corners of a smaller radius (m) are sharp.
+const LEAST_RADIUS: f64 = 0.1;
 /// How far (m) the circle around a dead end stays from what is beside it.
 const BESIDE_CIRCLE: f64 = 0.5;
 
@@ -50,14 +52,16 @@ impl ArmShape {
 
 /// How far (m) behind a skew end all of a piece counts as begun.
 const BEHIND_SKEW: f64 = 0.05;
-/// Behind the end of a piece (m) from which on there is another row.
-const NEXT_ROW: f64 = 1e-6;
+/// How much of what room a piece has each of its ends may take.
+const SHARE: f64 = 0.45;
+/// How far (m) before the end of a skew piece a row may lie.
+const BEFORE_CLEAR: f64 = 1e-6;
 
 impl ArmShape {
     /// From how far (m) from the junction on it may have rows across, besides that of its end.
     pub(crate) fn first_row(&self) -> f64 {
         // A skew end is not yet the first of them.
-        if self.skew == 0.0 { self.reach + NEXT_ROW } else { self.clear() - NEXT_ROW }
+        if self.skew == 0.0 { self.reach + SAME } else { self.clear() - BEFORE_CLEAR }
     }
 }
 
@@ -67,7 +71,31 @@ impl<'a> StreetShapes<'a> {
         #[allow(clippy::cast_possible_truncation, reason = "pieces are limited far below")]
         let count = network.junctions.len() as JunctionId;
         let junctions = (0..count).map(|junction| JunctionShape::new(network, junction, turning)).collect();
-        Self { network, junctions }
+        let mut shapes = Self { network, junctions };
+        shapes.change(|shape| shape.arms.iter().any(|arm| arm.corner.is_taper()), JunctionShape::shortened);
+        shapes.change(|shape| shape.arms.len() == 2 && !shape.is_mitred, JunctionShape::bent);
+        shapes
+    }
+
+    /// Changes some of the junctions by how much more (m) they may take of their pieces than they do: less than nothing
+    /// where both ends of one need more than there is.
+    fn change(
+        &mut self,
+        which: impl Fn(&JunctionShape) -> bool,
+        changed: impl Fn(&JunctionShape, &[f64]) -> JunctionShape,
+    ) {
+        let which = (0..).zip(&self.junctions).filter(|(_, shape)| which(shape));
+        let changed: Vec<(usize, JunctionShape)> = which
+            .map(|(junction, shape)| {
+                let share = |room: f64| if room > 0.0 { room * SHARE } else { room };
+                let more: SmallVec<[f64; 4]> =
+                    shape.arms.iter().map(|arm| share(self.between(arm.piece))).collect();
+                (junction, changed(shape, &more))
+            })
+            .collect();
+        for (junction, shape) in changed {
+            self.junctions[junction] = shape;
+        }
     }
 
     pub(crate) fn junction(&self, junction: JunctionId) -> &JunctionShape {
@@ -79,32 +107,87 @@ impl<'a> StreetShapes<'a> {
         self.junction(junction).arms.iter().find(|arm| arm.piece == piece)
     }
 
-    /// How long (m) a piece is with all of its width.
+    /// How long (m) a piece is with all of its width; 0 where its ends are one.
     pub(crate) fn room(&self, piece: PieceId) -> f64 {
+        let room = self.between(piece);
+        if room < SAME { 0.0 } else { room }
+    }
+
+    /// From one end of a piece to the other (m); less than nothing where one is beyond the other.
+    fn between(&self, piece: PieceId) -> f64 {
         let clear = |end| self.arm(end, piece).map_or(0.0, ArmShape::clear);
         self.network.length(piece) - self.network.ends(piece).map(clear).iter().sum::<f64>()
     }
 
     /// Where a line of a piece ends at a junction (m), `aside` (m) to the left of its middle as it leaves.
     pub(crate) fn end(&self, junction: JunctionId, piece: PieceId, aside: f64) -> DVec2 {
-        self.junction(junction).end(piece, aside)
+        // Where the corners at both of its ends take all of a piece, these are one.
+        let ends = self.network.ends(piece);
+        let aside = if ends[0] == junction { aside } else { -aside };
+        let both =
+            [(ends[0], aside), (ends[1], -aside)].map(|(end, aside)| self.junction(end).end(piece, aside));
+        let [a, b] = both.map(|(place, _)| place);
+        match both.map(|(_, is_shared)| is_shared) {
+            [false, false] if is_same(a, b) => a.midpoint(b),
+            [true, false] if is_same(a, b) => a,
+            [false, true] if is_same(a, b) => b,
+            _ if ends[0] == junction => a,
+            _ => b,
+        }
     }
 
-    /// The corner behind an arm of a junction, from that to the next one counter-clockwise.
-    pub(crate) fn corner(&self, junction: JunctionId, index: usize, line: StreetLine) -> Vec<DVec2> {
+    /// The two lines of the corner behind an arm of a junction, from that to the next one counter-clockwise: the edge and the
+    /// kerb, with as many places (m).
+    ///
+    /// Places that are nearly one are the same, to the last digit, and those at the ends of streets are these ends.
+    pub(crate) fn corner(&self, junction: JunctionId, index: usize) -> [Vec<DVec2>; 2] {
         let shape = self.junction(junction);
         let (arm, next) = (&shape.arms[index], &shape.arms[(index + 1) % shape.arms.len()]);
-        let mut points: Vec<DVec2> =
-            arm.corner.points(line).into_iter().map(|point| shape.at + point).collect();
-        // Where it begins and ends with its streets, all share one place.
-        let ends = [shape.end(arm.piece, arm.arm.aside(line)), shape.end(next.piece, -next.arm.aside(line))];
-        let last = points.len() - 1;
-        for (index, end) in [0, last].into_iter().zip(ends) {
-            if points[index].distance(end) < SAME {
-                points[index] = end;
+        let [mut edge, mut kerb] = LINES.map(|line| arm.corner.points(line));
+        // Where a street has no sidewalk, its lines are one, and so are their places.
+        let farther = |arm: Arm, a: DVec2, b: DVec2| if arm.way.dot(a) >= arm.way.dot(b) { a } else { b };
+        if arm.arm.walk < SAME {
+            let begin = farther(arm.arm, edge[0], kerb[0]);
+            edge.insert(0, begin);
+            kerb.insert(0, begin);
+        }
+        if next.arm.walk < SAME {
+            let last = edge.len() - 1;
+            let end = farther(next.arm, edge[last], kerb[last]);
+            edge.push(end);
+            kerb.push(end);
+        }
+        for (edge, kerb) in edge.iter_mut().zip(&kerb) {
+            if is_same(*edge, *kerb) {
+                *edge = *kerb;
             }
         }
-        points
+        for (line, points) in LINES.into_iter().zip([&mut edge, &mut kerb]) {
+            for point in points.iter_mut() {
+                *point += shape.at;
+            }
+            merge(self.end(junction, arm.piece, arm.arm.aside(line)), points.iter_mut());
+            merge(self.end(junction, next.piece, -next.arm.aside(line)), points.iter_mut().rev());
+        }
+        // A place of one line may have become another one than that of the other.
+        for index in 0..edge.len() {
+            let (a, b) = (edge[index], kerb[index]);
+            if a != b && is_same(a, b) {
+                kerb.iter_mut().filter(|point| **point == b).for_each(|point| *point = a);
+            }
+        }
+        [edge, kerb]
+    }
+}
+
+/// Makes one of the places that are nearly the same as the one before, of which `first` is the first.
+fn merge<'a>(first: DVec2, points: impl Iterator<Item = &'a mut DVec2>) {
+    let mut before = first;
+    for point in points {
+        if is_same(*point, before) {
+            *point = before;
+        }
+        before = *point;
     }
 }
 
@@ -139,16 +222,16 @@ impl JunctionShape {
             return Self { at, arms: SmallVec::from_iter([arm]), is_mitred: false };
         }
         let count = arms.len();
+        let radius = network.constraints.corner;
+        let radius = if radius < LEAST_RADIUS { 0.0 } else { radius };
         let corners: SmallVec<[Corner; 4]> = (0..count)
-            .map(|index| {
-                Corner::new([arms[index].1, arms[(index + 1) % count].1], network.constraints.corner)
-            })
+            .map(|index| Corner::new([arms[index].1, arms[(index + 1) % count].1], radius))
             .collect();
         let is_mitred = count == 2 && corners.iter().all(Corner::is_sharp);
         let shapes = arms.iter().enumerate().map(|(index, &(piece, arm))| {
             let (corner, before) = (corners[index], corners[(index + count - 1) % count]);
             let (reach, skew) = if is_mitred {
-                (0.0, 1.0 / (corner.angle() / 2.0).tan())
+                (0.0, 1.0 / (corner.angle / 2.0).tan())
             } else {
                 (corner.reaches[0].max(before.reaches[1]), 0.0)
             };
@@ -157,16 +240,63 @@ impl JunctionShape {
         Self { at, arms: shapes.collect(), is_mitred }
     }
 
-    fn end(&self, piece: PieceId, aside: f64) -> DVec2 {
-        // Both pieces of a mitre ask the first, so that they agree to the last digit.
-        let (arm, aside) = match &self.arms[..] {
-            [first, second] if self.is_mitred && second.piece == piece => (first, -aside),
-            arms => match arms.iter().find(|arm| arm.piece == piece) {
-                Some(arm) => (arm, aside),
-                None => return self.at,
-            },
+    /// The same with shorter tapers where there is less than no room for `more` (m) of its pieces.
+    fn shortened(&self, more: &[f64]) -> Self {
+        let mut shorter = self.clone();
+        let count = self.arms.len();
+        for index in 0..count {
+            let less = [index, (index + 1) % count].map(|arm| (-more[arm]).max(0.0));
+            shorter.arms[index].corner = self.arms[index].corner.shortened(less);
+        }
+        for index in 0..count {
+            let before = shorter.arms[(index + count - 1) % count].corner.reaches[1];
+            shorter.arms[index].reach = shorter.arms[index].corner.reaches[0].max(before);
+        }
+        shorter
+    }
+
+    /// The same where a street turns, with up to `more` (m) of its two pieces: its kerbs go over from one width to the other.
+    fn bent(&self, more: &[f64]) -> Self {
+        let mut reaches = [0, 1].map(|arm| self.arms[arm].reach);
+        for arm in 0..2 {
+            // The second corner leads from the second arm to the first.
+            if let Some(mut taper) = self.arms[arm].corner.taper() {
+                taper.rotate_left(arm);
+                reaches =
+                    [0, 1].map(|arm| reaches[arm] + (taper[arm] - reaches[arm]).min(more[arm]).max(0.0));
+            }
+        }
+        let mut bent = self.clone();
+        for (arm, shape) in bent.arms.iter_mut().enumerate() {
+            shape.reach = reaches[arm];
+            shape.corner = shape.corner.of_bend([reaches[arm], reaches[1 - arm]]);
+        }
+        bent
+    }
+
+    /// Where a line of a piece ends (m), and whether another piece begins there too.
+    fn end(&self, piece: PieceId, aside: f64) -> (DVec2, bool) {
+        let place = |arm: &ArmShape, aside: f64| {
+            self.at + arm.arm.way * (arm.reach + aside * arm.skew) + arm.arm.way.perp() * aside
         };
-        self.at + arm.arm.way * (arm.reach + aside * arm.skew) + arm.arm.way.perp() * aside
+        // Both pieces of a mitre ask the first, so that they agree to the last digit.
+        if let [first, second] = &self.arms[..]
+            && self.is_mitred
+        {
+            return (place(first, if second.piece == piece { -aside } else { aside }), true);
+        }
+        let Some(index) = self.arms.iter().position(|arm| arm.piece == piece) else {
+            return (self.at, false);
+        };
+        let at = place(&self.arms[index], aside);
+        // Where a corner takes nothing, two streets begin at one place, which is that of the first.
+        let (count, is_first) = (self.arms.len(), aside > 0.0);
+        let beside = &self.arms[(index + if is_first { 1 } else { count - 1 }) % count];
+        let of_beside = LINES.map(|line| place(beside, beside.arm.aside(line) * -aside.signum()));
+        match of_beside.into_iter().find(|other| aside != 0.0 && is_same(at, *other)) {
+            Some(other) => (if is_first { at } else { other }, true),
+            None => (at, false),
+        }
     }
 }
 

@@ -11,7 +11,8 @@ use crate::network::{JunctionId, PieceId, StreetNetwork};
 use crate::profile::StreetProfiles;
 use crate::rows::{PieceRows, alongs_of};
 use crate::shape::{StreetShapes, is_same, without_repeats};
-use burgeon_geometry::{Line, Rings};
+use burgeon_geometry::planar::edges;
+use burgeon_geometry::{Line, Polygon, Rings};
 
 /// How streets are made of their lines.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -114,7 +115,7 @@ impl StreetNetwork {
         let ring = |way: &[Course]| {
             let sides = sides(&shapes, profiles, way);
             let mut edge: Vec<DVec3> = sides.into_iter().map(|(_, edge)| edge).collect();
-            without_repeats(&mut edge, |a, b| is_same(a.truncate(), b.truncate()));
+            without_repeats(&mut edge, |a, b| a.truncate() == b.truncate());
             edge
         };
         let faces = self.faces().into_iter();
@@ -172,9 +173,10 @@ fn outline(shapes: &StreetShapes<'_>, junction: JunctionId, line: StreetLine) ->
     for (index, arm) in shapes.junction(junction).arms.iter().enumerate() {
         let half = arm.arm.aside(line);
         outline.extend([-half, half].map(|aside| shapes.end(junction, arm.piece, aside)));
-        outline.extend(shapes.corner(junction, index, line));
+        let [edge, kerb] = shapes.corner(junction, index);
+        outline.extend(if line == StreetLine::Edge { edge } else { kerb });
     }
-    without_repeats(&mut outline, is_same);
+    without_repeats(&mut outline, |a, b| a == b);
     outline
 }
 
@@ -195,12 +197,31 @@ fn junction_surface(
         _ => shapes.network.at(junction),
     };
     let height = profiles.junction(junction);
-    let points = std::iter::once(middle).chain(outline.iter().copied()).map(|at| at.extend(height)).collect();
+    let is_around = edges(&outline).all(|[a, b]| (a - middle).perp_dot(b - middle) > 0.0);
+    let divided = if is_around { None } else { divided(&outline) };
+    let (points, triangles) = divided.unwrap_or_else(|| fan(middle, outline));
+    let points = points.into_iter().map(|at| at.extend(height)).collect();
+    let depths = shape.arms.iter().map(|arm| shapes.network.attributes(arm.piece).depth);
+    Some(StreetSurface { points, triangles, piece: None, depth: depths.min().unwrap_or_default() })
+}
+
+/// Places (m) and triangles between them.
+type Triangles = (Vec<DVec2>, Vec<[u32; 3]>);
+
+/// Triangles from a place (m) to the outline around it.
+fn fan(middle: DVec2, outline: Vec<DVec2>) -> Triangles {
     #[allow(clippy::cast_possible_truncation, reason = "some dozens of points")]
     let count = outline.len() as u32;
     let triangles = (0..count).map(|index| [0, 1 + index, 1 + (index + 1) % count]).collect();
-    let depths = shape.arms.iter().map(|arm| shapes.network.attributes(arm.piece).depth);
-    Some(StreetSurface { points, triangles, piece: None, depth: depths.min().unwrap_or_default() })
+    (std::iter::once(middle).chain(outline).collect(), triangles)
+}
+
+/// Triangles from corner to corner of an outline (m); `None` if it meets itself.
+fn divided(outline: &[DVec2]) -> Option<Triangles> {
+    let polygon = Polygon::new(Rings(vec![outline.to_vec()])).ok()?;
+    #[allow(clippy::cast_possible_truncation, reason = "some dozens of points")]
+    let triangles = polygon.triangles().ok()?.into_iter().map(|corners| corners.map(|corner| corner as u32));
+    Some((polygon.points().collect(), triangles.collect()))
 }
 
 /// The kerb around a way and the edge of what lies on its left, place by place.
@@ -236,13 +257,12 @@ fn sides(shapes: &StreetShapes<'_>, profiles: &StreetProfiles, way: &[Course]) -
             (arms.iter().position(|arm| arm.piece == piece), shapes.junction(to).is_mitred)
         {
             let before = (index + arms.len() - 1) % arms.len();
-            let [kerb, edge] =
-                [StreetLine::Kerb, StreetLine::Edge].map(|line| shapes.corner(to, before, line));
+            let [edge, kerb] = shapes.corner(to, before);
             let height = profiles.junction(to);
             pairs.extend(kerb.into_iter().zip(edge).rev().map(|(kerb, edge)| (kerb, edge, height)));
         }
     }
     // A pair is left out where both of its places repeat the pair before.
-    without_repeats(&mut pairs, |a, b| is_same(a.0, b.0) && is_same(a.1, b.1));
+    without_repeats(&mut pairs, |a, b| a.0 == b.0 && a.1 == b.1);
     pairs.into_iter().map(|(kerb, edge, height)| (kerb.extend(height), edge.extend(height))).collect()
 }
