@@ -2,11 +2,13 @@
 
 use std::process::ExitCode;
 
+#[cfg(feature = "mimalloc")]
+mod allocator;
 mod commands;
 
 #[cfg(feature = "mimalloc")]
 #[global_allocator]
-static ALLOCATOR: mimalloc::MiMalloc = mimalloc::MiMalloc;
+static ALLOCATOR: allocator::ProgramAllocator = allocator::ProgramAllocator;
 
 fn main() -> ExitCode {
     commands::main()

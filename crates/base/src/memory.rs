@@ -4,6 +4,9 @@
 const LARGE: usize = 2 << 20;
 /// Those that take no more than they need are from this size (bytes) on, of which a part of a huge page is not much.
 const LARGE_AND_EXACT: usize = 16 << 20;
+/// Arrays from this size (bytes) on are taken from the system itself by the program's allocator, as by most: they grow without
+/// being copied.
+pub const MAPPED: usize = 16 << 20;
 
 /// Makes room for `more` items in `array`, which at least doubles where it grows, and grows fourfold once it is large:
 /// memory that is not touched costs nothing, and moving what is there does.
@@ -33,8 +36,14 @@ fn grow<T>(array: &mut Vec<T>, more: usize) {
         array.reserve(more);
         return;
     }
-    let is_large = array.capacity() * size_of::<T>() >= LARGE;
-    let mut larger: Vec<T> = Vec::with_capacity(if is_large { 2 * capacity } else { capacity });
+    let bytes = array.capacity() * size_of::<T>();
+    let capacity = if bytes >= LARGE { 2 * capacity } else { capacity };
+    if bytes >= MAPPED {
+        array.reserve_exact(capacity - array.len());
+        advise_from(LARGE, array);
+        return;
+    }
+    let mut larger: Vec<T> = Vec::with_capacity(capacity);
     // Before anything is written: what is there already lies on pages of its own.
     advise_from(LARGE, &larger);
     larger.append(array);

@@ -44,7 +44,9 @@ pub(super) fn overlapping(blocks: &[&StreetBlock]) -> Option<Warning> {
     let more = match count - 1 {
         0 => String::new(),
         1 => ", and one more pair of blocks does".into(),
-        _ if count == MOST || compared > MOST_COMPARED => format!(", and so have {} more pairs of blocks at least", count - 1),
+        _ if count == MOST || compared > MOST_COMPARED => {
+            format!(", and so have {} more pairs of blocks at least", count - 1)
+        }
         more => format!(", and {more} more pairs of blocks do"),
     };
     let text = format!(
