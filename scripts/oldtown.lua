@@ -23,6 +23,7 @@ local patterns = {
     bends = 30,
     branching = 0.95,
     cross = 0.35,
+    gap = 0,
     variety = if extent < 150 then 0.1 else 0.35,
   }),
   ["laid out"] = roads.raster({ block = 62, width = 42, angle = 10 }),

@@ -24,11 +24,15 @@ export type Pattern = {
   gap: number,
   -- Whether a side street that leaves a place is left out, in place of `gap`; both of its ends have to find the same.
   closed: ((x: number, y: number, heading: number, length: number, depth: number) -> boolean)?,
-  -- The share of side streets that leave around a small green; none does if it is left out.
+  -- The share of side streets that leave around a small green, of every third junction; none does if it is left out.
   greens: number?,
   -- How near (m) a junction draws a street's end, and how far dead ends are joined, where the script says neither.
   snap: number?,
   join: number?,
+  -- How long (m) a side street is at least that leaves another.
+  least: number?,
+  -- How far (m) beyond its end a side street sees another, and leads on to it.
+  sight: number?,
   -- Every so many junctions a main street divides; 0 for never.
   every: number,
   -- Whether main streets turn aside for obstacles alone.
@@ -107,21 +111,26 @@ end
 
 -- Streets that wander, side streets that leave one at a time: a town that nobody planned. `block` (m) is how far
 -- junctions are apart, `bends` how far (degrees) a street turns from one to the next, `branching` how many junctions
--- have side streets, `greens` how many of these leave around a small green. `variety` from 0 to 1 is how much quarters differ:
--- some are knots of lanes, some wide, and some have parks.
+-- have side streets, `greens` how many of those that may have one have a small green, `gap` how many of the lanes, which leave
+-- side streets, are left out. `variety` from 0 to 1 is how much quarters differ: some are knots of lanes, some wide, and some
+-- have parks; without any, no lane is left out.
 function patterns.organic(options: { [string]: any }?): Pattern
   local of = options or {}
   checks.options("roads.organic", of, PATTERN)
   local block = number("roads.organic: block", of.block, 80, 20, 500)
   local bends = number("roads.organic: bends", of.bends, 38, 0, 60)
   local variety = number("roads.organic: variety", of.variety, 1, 0, 1)
+  local gap = number("roads.organic: gap", of.gap, 0.6, 0, 0.6)
   local field = math.floor(random() * 1000000)
   local usual =
-    { branching = 0.9, both = 0, cross = 0, skew = 18, stop = 0.3, gap = 0, greens = 0.35, every = 4 }
+    { branching = 0.9, both = 0, cross = 0, skew = 18, stop = 0, gap = 0, greens = 0.9, every = 4 }
   return pattern("roads.organic", of, usual, {
+    gap = 0,
+    least = 0.56 * block,
     -- Nobody moves a street for a junction nearby, or joins what ends.
     snap = 7,
     join = 30,
+    sight = 0.5 * block,
     toward = function(x: number, y: number, heading: number, _: number, depth: number): number
       -- Streets near one another turn alike; the smaller ones have a mind of their own.
       local common = noise(x / (block * 5), y / (block * 5), 0.5, field)
@@ -131,12 +140,15 @@ function patterns.organic(options: { [string]: any }?): Pattern
     length = function(x: number, y: number, _: number, depth: number): number
       -- Quarters are closer here and wider there.
       local field_at = noise(x / (block * 4), y / (block * 4), 7.5, field)
-      local wide = math.clamp(math.exp(4.5 * variety * field_at), 0.36, 2.2)
-      return block * (if depth == 0 then math.clamp(wide, 0.9, 1.6) else wide * math.exp(random(-0.7, 0.5)))
+      local wide = math.clamp(math.exp(7 * variety * field_at), 0.3, 3.5)
+      return if depth == 0
+        then block * math.clamp(wide, 0.9, 1.6)
+        else block * math.max(0.33, wide * math.exp(random(-1.3, 1)))
     end,
-    closed = function(x: number, y: number): boolean
-      -- Parks and large estates.
-      return noise(x / (block * 3), y / (block * 3), 3.5, field) * variety > 0.45
+    closed = function(x: number, y: number, _: number, _: number, depth: number): boolean
+      -- Parks and large estates, which lanes keep farther away from than streets do.
+      local estate = noise(x / (block * 5), y / (block * 5), 3.5, field) > 0.8 - 0.3 * depth + 2 * (1 - variety)
+      return estate or depth > 1 and drawn(math.floor(x / 8 + 0.5), math.floor(y / 8 + 0.5), field) < gap * variety
     end,
   })
 end
