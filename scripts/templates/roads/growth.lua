@@ -325,7 +325,7 @@ function growth.system(options: RoadOptions, ...: number)
       local pattern = pattern_at(place.x, place.y)
       -- How many lengths around a place nothing is to be: few for a dead end, more for a turn, so that gaps stay; a fourth
       -- street leaves a junction for much land alone, and for very much where streets leave one at a time.
-      local free = if degree < 2 then 1.1 elseif degree == 2 then 3 elseif pattern.both > 0 then 2.2 else 6
+      local free = if degree < 2 then 1.1 elseif degree == 2 then 2 elseif pattern.both > 0 then 2.2 else 6
       local room = math.max(3 - degree, 1)
       for turn = 0, 270, 90 do
         local heading = headings[1] + turn
