@@ -155,6 +155,7 @@ local patterns: { [string]: () -> any } = {
       branching = 1,
       cross = 0.3,
       stop = 0,
+      gap = 0,
       greens = 0,
       variety = 0.4,
     })

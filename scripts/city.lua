@@ -138,6 +138,16 @@ end
 
 -- Quarters: which is where, and how its streets run. Main streets lead out to the rim of the country around.
 local RIM = extent * 1.1 + 60
+local edge = size / 2 - 1
+local country: any = polygon({ { -edge, -edge }, { edge, -edge }, { edge, edge }, { -edge, edge } })
+if not bare then
+  local ring = {}
+  for step = 1, 72 do
+    local angle = math.rad(step * 5)
+    table.insert(ring, { math.cos(angle) * RIM, math.sin(angle) * RIM })
+  end
+  country = polygon(ring)
+end
 local places = quarters.places(extent, heart)
 local streets = roads.grow({
   pattern = quarters.pattern(places),
@@ -145,7 +155,7 @@ local streets = roads.grow({
   extent = extent,
   steps = math.ceil(extent / 22) + 4,
   dead_ends = "remove",
-  exits = { count = 6, rim = if bare then size / 2 - 16 else RIM - 14 },
+  exits = { count = 6, rim = country },
   allowed = allowed,
   network = {
     streets = {
@@ -158,6 +168,7 @@ local streets = roads.grow({
     water = if with_river then { quays } else {},
     bridge = wide + 60,
     water_level = WATER,
+    square_ends = true,
     on = bare,
     max_slope = 13,
   },
@@ -174,15 +185,9 @@ local function height(x: number, y: number): number
   return if land then land:height(vec(x, y, 0)) else 0
 end
 if not land then
-  local country = {}
-  for step = 1, 72 do
-    local angle = math.rad(step * 5)
-    table.insert(country, { math.cos(angle) * RIM, math.sin(angle) * RIM })
-  end
-  local plate = polygon(country)
-  quarters.areas({ if with_river then plate:difference(water) else plate }, -7, -0.06, "#7c8a58")
+  quarters.areas({ if with_river then country:difference(water) else country }, -7, -0.06, "#7c8a58")
   if with_river then
-    quarters.areas({ plate:intersection(water) }, -7, WATER, "#56727c")
+    quarters.areas({ country:intersection(water) }, -7, WATER, "#56727c")
   end
 end
 

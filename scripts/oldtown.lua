@@ -23,9 +23,10 @@ local patterns = {
     bends = 30,
     branching = 0.95,
     cross = 0.35,
+    gap = 0,
     variety = if extent < 150 then 0.1 else 0.35,
   }),
-  ["laid out"] = roads.raster({ block = 62, width = 42, angle = 10 }),
+  ["laid out"] = roads.raster({ block = 62, width = 42, angle = 10, gap = 0.5, variety = 0.6 }),
 }
 local lanes = roads.grow({
   pattern = patterns[plan],

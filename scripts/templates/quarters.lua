@@ -245,8 +245,14 @@ function quarters.places(extent: number, heart: string): { any }
       kind = "centre",
       pattern = roads.raster({ block = 105, width = 80, angle = turned, gap = 0.2, variety = 0.5 }),
     },
-    ["old town"] = { kind = "old", pattern = roads.organic({ block = 62, bends = 28, variety = 0.4 }) },
-    boulevards = { kind = "blocks", pattern = roads.radial({ middle = middle, block = 95 }) },
+    ["old town"] = {
+      kind = "old",
+      pattern = roads.organic({ block = 62, bends = 28, gap = 0.2, variety = 0.4 }),
+    },
+    boulevards = {
+      kind = "blocks",
+      pattern = roads.radial({ middle = middle, block = 95, gap = 0.22, variety = 0.4 }),
+    },
   }
   local places = { { at = middle, kind = hearts[heart].kind, pattern = hearts[heart].pattern } }
   local function around(share: number, angle: number, kind: string, pattern)
@@ -256,9 +262,9 @@ function quarters.places(extent: number, heart: string): { any }
   end
   -- Where the heart is old, the new towers stand beside it.
   local first = if heart == "old town" then "blocks" else "old"
-  around(0.42, 20, first, roads.organic({ block = 58, bends = 30, variety = 0.4 }))
-  around(0.42, 110, "blocks", roads.radial({ middle = middle, block = 85 }))
-  around(0.4, 200, "blocks", roads.organic({ block = 88, bends = 32, variety = 0.4 }))
+  around(0.42, 20, first, roads.organic({ block = 58, bends = 30, gap = 0.2, variety = 0.4 }))
+  around(0.42, 110, "blocks", roads.radial({ middle = middle, block = 85, gap = 0.22, variety = 0.4 }))
+  around(0.4, 200, "blocks", roads.organic({ block = 88, bends = 32, gap = 0.2, variety = 0.4 }))
   around(
     0.44,
     290,
@@ -271,15 +277,15 @@ function quarters.places(extent: number, heart: string): { any }
     "rows",
     roads.raster({ block = 120, width = 62, angle = (turned + 55) % 360, gap = 0.2, variety = 0.5 })
   )
-  around(0.8, 125, "villas", roads.organic({ block = 85, bends = 34, variety = 0.4 }))
+  around(0.8, 125, "villas", roads.organic({ block = 85, bends = 34, gap = 0.2, variety = 0.4 }))
   around(
     0.8,
     195,
     "rows",
     roads.raster({ block = 110, width = 64, angle = (turned - 20) % 360, gap = 0.2, variety = 0.5 })
   )
-  around(0.8, 265, "flats", roads.organic({ block = 110, bends = 32, variety = 0.4 }))
-  around(0.8, 335, "villas", roads.organic({ block = 90, bends = 30, variety = 0.4 }))
+  around(0.8, 265, "flats", roads.organic({ block = 110, bends = 32, gap = 0.2, variety = 0.4 }))
+  around(0.8, 335, "villas", roads.organic({ block = 90, bends = 30, gap = 0.2, variety = 0.4 }))
   return places
 end
 

@@ -23,6 +23,8 @@ pub struct Constraints {
     pub bridge: f64,
     /// Whether a street may end before an obstacle.
     pub shorten: bool,
+    /// Whether dead ends without a circle are cut off square, in place of round.
+    pub square_ends: bool,
     /// The most pieces of streets.
     pub most: usize,
 }
@@ -38,6 +40,7 @@ impl Default for Constraints {
             bend: 40.0,
             bridge: 0.0,
             shorten: true,
+            square_ends: false,
             most: 1_000_000,
         }
     }
@@ -46,8 +49,7 @@ impl Default for Constraints {
 impl Constraints {
     /// Fails where they contradict one another, and says how.
     pub fn check(&self) -> Result<()> {
-        let Self { snap, min_angle, min_length, clearance, corner, bend, bridge, shorten: _, most: _ } =
-            *self;
+        let Self { snap, min_angle, min_length, clearance, corner, bend, bridge, .. } = *self;
         let named = [
             ("snap", snap, 0.0, 10_000.0),
             ("min_angle", min_angle, 10.0, 90.0),

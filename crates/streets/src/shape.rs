@@ -26,7 +26,7 @@ pub(crate) struct JunctionShape {
     at: DVec2,
     /// The streets that it joins, counter-clockwise.
     pub(crate) arms: SmallVec<[ArmShape; 4]>,
-    /// Whether a street only turns a little here: its pieces meet without a surface between them.
+    /// Whether a street only turns a little here, or ends square: there is no surface between its pieces or behind it.
     pub(crate) is_mitred: bool,
 }
 
@@ -219,7 +219,8 @@ impl JunctionShape {
             let radius = turning.min(room.hypot(arm.half)).min(room_around(network, junction, turning));
             let corner = Corner::around(arm, radius);
             let arm = ArmShape { piece, arm, corner, reach: corner.reaches[0], skew: 0.0 };
-            return Self { at, arms: SmallVec::from_iter([arm]), is_mitred: false };
+            let is_square = network.constraints.square_ends && arm.reach == 0.0;
+            return Self { at, arms: SmallVec::from_iter([arm]), is_mitred: is_square };
         }
         let count = arms.len();
         let radius = network.constraints.corner;
@@ -317,7 +318,10 @@ pub(crate) fn is_same(a: DVec2, b: DVec2) -> bool {
 mod tests {
     use super::*;
     use crate::constraints::Constraints;
+    use crate::network::StreetAttributes;
     use crate::obstacles::Obstacles;
+    use crate::profile::StreetProfiles;
+    use crate::surface::SurfaceOptions;
     use crate::tests::grown;
 
     #[test]
@@ -353,5 +357,22 @@ mod tests {
             }
         }
         assert!(shortened > 100, "{shortened} circles had less room");
+    }
+
+    #[test]
+    fn a_square_end_has_no_circle_and_no_walk_around_it() {
+        let end_of = |square_ends| {
+            let constraints = Constraints { square_ends, ..Constraints::default() };
+            let mut network = StreetNetwork::new(constraints, Obstacles::default()).expect("a network");
+            let start = network.begin(DVec2::ZERO).expect("a start");
+            network.grow(start, DVec2::new(100.0, 0.0), StreetAttributes::default()).expect("a street");
+            let surfaces = network.surfaces(SurfaceOptions::default(), &StreetProfiles::default());
+            let edges = surfaces.sidewalks.iter().flat_map(|walk| walk.edge.iter().chain(&walk.kerb));
+            (surfaces.carriageways.len(), edges.map(|at| at.x).fold(0.0, f64::max))
+        };
+        let half = StreetAttributes::default().width / 2.0;
+        let (surfaces, far) = end_of(false);
+        assert!(surfaces == 3 && (far - 100.0 - half).abs() < 1e-9, "{surfaces} surfaces, {far} m");
+        assert_eq!(end_of(true), (1, 100.0));
     }
 }

@@ -7,9 +7,10 @@ local exits = {}
 export type Exits = {
   -- How many there are at most, spread around the town.
   count: number,
-  -- How far (m) they lead beyond the line around all streets, or how far from the middle { 0, 0 } they end.
+  -- How far (m) they lead beyond the line around all streets; or else where they end, straight across: how far (m) from the
+  -- middle { 0, 0 }, or a convex polygon.
   length: number?,
-  rim: number?,
+  rim: (number | Geometry)?,
 }
 
 export type Exit = { junction: number, heading: number, length: number, pieces: number }
@@ -17,7 +18,7 @@ export type Exit = { junction: number, heading: number, length: number, pieces: 
 -- A street that leads out of the town: what is left of it (m), and in how many pieces.
 local Exit = module("Exit", "junction", "heading", "rest", "pieces")
 
-local KNOWN: { [string]: string } = { count = "number", length = "number", rim = "number" }
+local KNOWN: { [string]: string } = { count = "number", length = "number", rim = "number or userdata" }
 
 -- The pieces of an exit turn a little; choosing takes a step, and each piece one more.
 local PIECES = 3
@@ -44,12 +45,26 @@ function exits.check(name: string, given: any, level: number)
   end
 end
 
--- How far (m) it is from a place to a circle around the middle.
-local function rest_of_way(place: Vector, heading: number, rim: number): number
+-- How far (m) it is from a place to the rim.
+local function rest_of_way(place: Vector, heading: number, rim: any): number
   local out = vec(math.cos(math.rad(heading)), math.sin(math.rad(heading)), 0)
+  if type(rim) ~= "number" then
+    local far = place + out * 100000
+    return line({ { place.x, place.y }, { far.x, far.y } }):intersection(rim):length()
+  end
   local along = place.x * out.x + place.y * out.y
   local off = place.x * place.x + place.y * place.y - along * along
   return math.sqrt(math.max(rim * rim - off, 0)) - along
+end
+
+-- The heading straight across the rim where one from a place comes to it.
+local function across(place: Vector, heading: number, rim: any): number
+  local function met(turn: number): Vector
+    local way = math.rad(heading + turn)
+    return place + vec(math.cos(way), math.sin(way), 0) * rest_of_way(place, heading + turn, rim)
+  end
+  local along = met(0.5) - met(-0.5)
+  return math.deg(math.atan2(along.y, along.x)) - 90
 end
 
 type Piece = { number }
@@ -299,10 +314,11 @@ function exits.rules(system: System<Network>, options: Exits)
       if not at or pieces == 1 then
         return nil
       end
-      -- It swings a little, and keeps clear of its neighbours.
-      local turned = heading + random(-7, 7)
+      -- It swings a little, and keeps clear of its neighbours; the last piece leads straight across the rim.
       local left = rest - rest / pieces
       local place = this:place(at)
+      local off = if rim then checks.between(heading, across(place, heading, rim)) else 0
+      local turned = heading + off / (pieces - 1) + (if rim and pieces == 2 then 0 else random(-7, 7))
       return Exit(at, turned, if rim then rest_of_way(place, turned, rim) else left, pieces - 1)
     end
   )

@@ -10,7 +10,7 @@ local ForkArm = module("ForkArm", "junction", "heading", "length", "depth")
 
 -- How long (m) the sides of a green are, at a main street and elsewhere, and its angle (degrees): with equal sides its other
 -- angles are no sharper than most networks take.
-local SIDE = { main = { 42, 60 }, other = { 28, 42 } }
+local SIDE = { main = { 54, 80 }, other = { 43, 56 } }
 local ANGLE = { 62, 76 }
 
 -- The module of a green at a junction, to the left (1) or to the right (-1) of a street that has come there with a heading.

@@ -67,6 +67,8 @@ growth.STREETS = {
   { width = 16, lanes = 2, parking = 2.2, sidewalk = 3 },
   { width = 11, lanes = 2, sidewalk = 2 },
 }
+-- How far (degrees) a side street turns to end beside a junction, one try after the other.
+local BESIDE = { 10, -10, 20, -20, 30, -30 }
 -- How likely a main street leads out of town; side streets never do.
 local LEADS_OUT = 0.3
 -- How many steps a side street waits, so that main streets come first.
@@ -189,6 +191,32 @@ function growth.system(options: RoadOptions, ...: number)
     end
   end
 
+  -- The heading and the length (m) of a street that is proposed: a side street leads on to what is a little beyond its end, and
+  -- beside a junction of three rather than into it.
+  local function aimed(
+    this: Network,
+    junction: number,
+    heading: number,
+    length: number,
+    depth: number
+  ): (number, number)
+    local from = this:place(junction)
+    local sight = pattern_at(from.x, from.y).sight
+    if depth == 0 or not sight then
+      return heading, length
+    end
+    local reach = length + sight
+    local ahead = this:probe(junction, heading, reach, depth)
+    if ahead.junction and this:degree(ahead.junction) > 2 then
+      for _, turn in BESIDE do
+        if this:probe(junction, heading + turn, reach, depth).fate == "joined" then
+          return heading + turn, reach
+        end
+      end
+    end
+    return heading, if ahead.fate == "joined" or ahead.fate == "snapped" then reach else length
+  end
+
   local field = math.floor(random() * 1000000)
   -- The tip of a street that leaves a junction; nil where the pattern leaves it out.
   local function start(
@@ -205,6 +233,9 @@ function growth.system(options: RoadOptions, ...: number)
     local closed: ((x: number, y: number, heading: number, length: number, depth: number) -> boolean)? =
       pattern.closed
     local length = pattern.length(x, y, heading, depth)
+    if depth > 0 and run == 0 then
+      length = math.max(length, pattern.least or 0)
+    end
     local aim = pattern.toward(x, y, heading, length, depth)
     if not (length > 0 and length < 100000 and aim - aim == 0) then
       error(
@@ -265,8 +296,8 @@ function growth.system(options: RoadOptions, ...: number)
       end
     elseif depth >= deepest or random() >= pattern.side * much then
       return modules
-    elseif keeps and random() < (pattern.greens or 0) then
-      -- Where dead ends are removed, a green would be left of some.
+    elseif keeps and run % 3 == 1 and random() < (pattern.greens or 0) then
+      -- Greens lie apart; where dead ends are removed, one would be left of some.
       local fork = greens.fork(at, heading, if first > 0 then 1 else -1, depth, WAIT, left)
       table.insert(modules, fork)
     else
@@ -287,14 +318,15 @@ function growth.system(options: RoadOptions, ...: number)
   -- Streets into land that growth, which chance may end early, has not come to.
   local function belated(this: Network, left: number): { any }
     local modules = {}
-    for _, junction in this:junctions() do
-      local place = this:place(junction.junction)
-      local depth = math.min(junction.depth + 1, deepest)
+    -- Streets rather leave where one only turns, for that leaves no junction of four.
+    for at, corner in checks.corners(this) do
+      local place, degree = corner.place, this:degree(at)
+      local depth = math.min(corner.depth + 1, deepest)
       local pattern = pattern_at(place.x, place.y)
-      -- How many lengths around a place nothing is to be; a fourth street leaves a junction for much land alone, and for
-      -- very much where streets leave one at a time.
-      local free = if junction.degree < 3 then 1.1 elseif pattern.both > 0 then 2.2 else 6
-      local room = math.max(3 - junction.degree, 1)
+      -- How many lengths around a place nothing is to be: few for a dead end, more for a turn, so that gaps stay; a fourth
+      -- street leaves a junction for much land alone, and for very much where streets leave one at a time.
+      local free = if degree < 2 then 1.1 elseif degree == 2 then 2 elseif pattern.both > 0 then 2.2 else 6
+      local room = math.max(3 - degree, 1)
       for turn = 0, 270, 90 do
         local heading = headings[1] + turn
         local length = pattern.length(place.x, place.y, heading, depth)
@@ -302,7 +334,7 @@ function growth.system(options: RoadOptions, ...: number)
         local ahead = place + way
         local is_peopled = not people or (people :: any)(ahead.x, ahead.y) > 0.02
         if room > 0 and inside(ahead.x, ahead.y) and is_peopled and this:distance(ahead) > free * length then
-          local tip = start(pattern, junction.junction, place.x, place.y, heading, depth, 0, left)
+          local tip = start(pattern, at, place.x, place.y, heading, depth, 0, left)
           room -= if tip then 1 else 0
           table.insert(modules, tip)
         end
@@ -440,7 +472,8 @@ function growth.system(options: RoadOptions, ...: number)
   system:interpret(
     "Tip(junction, heading, length, depth, run, tries, left)",
     function(this: Network, junction: number, heading: number, length: number, depth: number)
-      propose(this, junction, heading, length, depth)
+      local aim, reach = aimed(this, junction, heading, length, depth)
+      propose(this, junction, aim, reach, depth)
     end
   )
   system:interpret("Clock(left)", function(this: Network, left: number)

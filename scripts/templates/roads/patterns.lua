@@ -24,11 +24,15 @@ export type Pattern = {
   gap: number,
   -- Whether a side street that leaves a place is left out, in place of `gap`; both of its ends have to find the same.
   closed: ((x: number, y: number, heading: number, length: number, depth: number) -> boolean)?,
-  -- The share of side streets that leave around a small green; none does if it is left out.
+  -- The share of side streets that leave around a small green, of every third junction; none does if it is left out.
   greens: number?,
   -- How near (m) a junction draws a street's end, and how far dead ends are joined, where the script says neither.
   snap: number?,
   join: number?,
+  -- How long (m) a side street is at least that leaves another.
+  least: number?,
+  -- How far (m) beyond its end a side street sees another, and leads on to it.
+  sight: number?,
   -- Every so many junctions a main street divides; 0 for never.
   every: number,
   -- Whether main streets turn aside for obstacles alone.
@@ -107,21 +111,26 @@ end
 
 -- Streets that wander, side streets that leave one at a time: a town that nobody planned. `block` (m) is how far
 -- junctions are apart, `bends` how far (degrees) a street turns from one to the next, `branching` how many junctions
--- have side streets, `greens` how many of these leave around a small green. `variety` from 0 to 1 is how much quarters differ:
--- some are knots of lanes, some wide, and some have parks.
+-- have side streets, `greens` how many of those that may have one have a small green, `gap` how many of the lanes, which leave
+-- side streets, are left out. `variety` from 0 to 1 is how much quarters differ: some are knots of lanes, some wide, and some
+-- have parks; without any, no lane is left out.
 function patterns.organic(options: { [string]: any }?): Pattern
   local of = options or {}
   checks.options("roads.organic", of, PATTERN)
   local block = number("roads.organic: block", of.block, 80, 20, 500)
   local bends = number("roads.organic: bends", of.bends, 38, 0, 60)
   local variety = number("roads.organic: variety", of.variety, 1, 0, 1)
+  local gap = number("roads.organic: gap", of.gap, 0.6, 0, 0.6)
   local field = math.floor(random() * 1000000)
   local usual =
-    { branching = 0.9, both = 0, cross = 0, skew = 18, stop = 0.3, gap = 0, greens = 0.35, every = 4 }
+    { branching = 0.9, both = 0, cross = 0, skew = 18, stop = 0, gap = 0, greens = 0.9, every = 4 }
   return pattern("roads.organic", of, usual, {
+    gap = 0,
+    least = 0.56 * block,
     -- Nobody moves a street for a junction nearby, or joins what ends.
     snap = 7,
     join = 30,
+    sight = 0.5 * block,
     toward = function(x: number, y: number, heading: number, _: number, depth: number): number
       -- Streets near one another turn alike; the smaller ones have a mind of their own.
       local common = noise(x / (block * 5), y / (block * 5), 0.5, field)
@@ -131,24 +140,30 @@ function patterns.organic(options: { [string]: any }?): Pattern
     length = function(x: number, y: number, _: number, depth: number): number
       -- Quarters are closer here and wider there.
       local field_at = noise(x / (block * 4), y / (block * 4), 7.5, field)
-      local wide = math.clamp(math.exp(4.5 * variety * field_at), 0.36, 2.2)
-      return block * (if depth == 0 then math.clamp(wide, 0.9, 1.6) else wide * math.exp(random(-0.7, 0.5)))
+      local wide = math.clamp(math.exp(7 * variety * field_at), 0.3, 3.5)
+      return if depth == 0
+        then block * math.clamp(wide, 0.9, 1.6)
+        else block * math.max(0.33, wide * math.exp(random(-1.3, 1)))
     end,
-    closed = function(x: number, y: number): boolean
-      -- Parks and large estates.
-      return noise(x / (block * 3), y / (block * 3), 3.5, field) * variety > 0.45
+    closed = function(x: number, y: number, _: number, _: number, depth: number): boolean
+      -- Parks and large estates, which lanes keep farther away from than streets do.
+      local estate = noise(x / (block * 5), y / (block * 5), 3.5, field)
+        > 0.8 - 0.3 * depth + 2 * (1 - variety)
+      return estate
+        or depth > 1 and drawn(math.floor(x / 8 + 0.5), math.floor(y / 8 + 0.5), field) < gap * variety
     end,
   })
 end
 
 -- How many blocks of a raster in a row and in a column are one, and what share is so.
-local LARGE = { { 4, 0.06 }, { 2, 0.16 } }
+local LARGE = { { 5, 0.06 }, { 3, 0.1 }, { 2, 0.14 } }
 
--- Where the lines of a raster lie (m) along one of its directions, on both sides of its middle, about `apart`.
+-- Where the lines of a raster lie (m) along one of its directions, on both sides of its middle, about `apart`: most of them
+-- nearer, and a few far from the next.
 local function lines(apart: number, variety: number, seed: number): { number }
   local at = { 0 }
   for index = 1, 150 do
-    at[index + 1] = at[index] + apart * (1 + variety * (0.9 * drawn(index, 1, seed) ^ 1.5 - 0.35))
+    at[index + 1] = at[index] + apart * (1 + variety * (1.7 * drawn(index, 1, seed) ^ 2.2 - 0.38))
   end
   local all = {}
   for index = 150, 1, -1 do
@@ -181,7 +196,7 @@ function patterns.raster(options: { [string]: any }?): Pattern
   local width = number("roads.raster: width", of.width, 75, 20, 500)
   local angle = number("roads.raster: angle", of.angle, 0, -360, 360)
   local variety = number("roads.raster: variety", of.variety, 1, 0, 1)
-  local gap = number("roads.raster: gap", of.gap, 0.5, 0, 0.6)
+  local gap = number("roads.raster: gap", of.gap, 0.6, 0, 0.6)
   local headings = { angle, angle + 90, angle + 180, angle + 270 }
   local field = math.floor(random() * 1000000)
   local columns, rows = lines(block, variety, field), lines(width, variety, field + 1)
@@ -242,24 +257,37 @@ function patterns.raster(options: { [string]: any }?): Pattern
   })
 end
 
--- Rays out of a `middle` (m), and rings around it that are `block` (m) apart.
+-- Rays out of a `middle` (m), and rings around it that are about `block` (m) apart. `gap` is the share of side streets that
+-- are left out, and `variety` from 0 to 1 how much blocks differ: rings are near here and far there, and there are parks.
 function patterns.radial(options: { [string]: any }?): Pattern
   local of = options or {}
   checks.options("roads.radial", of, PATTERN)
   local block = number("roads.radial: block", of.block, 90, 20, 500)
+  local variety = number("roads.radial: variety", of.variety, 1, 0, 1)
   local middle = checks.place("roads.radial: middle", of.middle or { 0, 0 })
-  local usual = { branching = 0.95, both = 0.9, cross = 0.5, stop = 0, gap = 0.22, every = 3 }
+  local field = math.floor(random() * 1000000)
+  local rings = {}
+  for _, radius in lines(block, variety, field) do
+    if radius > 0 then
+      table.insert(rings, radius)
+    end
+  end
+  local usual = { branching = 0.95, both = 0.9, cross = 0.5, stop = 0, gap = 0.42, every = 3 }
   return pattern("roads.radial", of, usual, {
     straight = true,
     toward = function(x: number, y: number, heading: number, length: number): number
       local dx, dy = x - middle[1], y - middle[2]
       local far = math.sqrt(dx * dx + dy * dy)
-      if far < block / 2 then
+      if far < rings[1] / 2 then
         return heading
       end
       local ray = math.deg(math.atan2(dy, dx))
       -- A street along a ring ends on it, wherever it begins.
-      local ring = block * math.max(1, math.floor(far / block + 0.5))
+      local inner = below(rings, far)
+      local ring = rings[inner + 1] or far
+      if inner > 0 and far - rings[inner] < ring - far then
+        ring = rings[inner]
+      end
       local bent = (far * far + length * length - ring * ring) / (2 * far * length)
       local inward = math.deg(math.acos(math.clamp(bent, -0.5, 0.9)))
       return nearest(heading, { ray, ray + 180, ray + 180 - inward, ray + 180 + inward })
@@ -269,12 +297,18 @@ function patterns.radial(options: { [string]: any }?): Pattern
       local ray = math.deg(math.atan2(dy, dx))
       local across = math.abs(between(ray, heading)) % 180
       if across < 45 or across > 135 then
-        -- To the next ring.
-        local far = math.sqrt(dx * dx + dy * dy) / block
-        local rest = if across < 45 then math.floor(far + 1.3) - far else far - math.ceil(far - 1.3)
-        return block * math.max(0.4, rest)
+        -- To the next ring, or to the one behind where that is near.
+        local far = math.sqrt(dx * dx + dy * dy)
+        local near = 0.3 * block
+        local ring = if across < 45
+          then rings[below(rings, far + near) + 1]
+          else rings[below(rings, far - near)]
+        return math.max(0.4 * block, math.abs((ring or far + block) - far))
       end
-      return block
+      return block * (1 + variety * random(-0.35, 0.6))
+    end,
+    closed = function(x: number, y: number): boolean
+      return variety * noise(x / (block * 3), y / (block * 3), 3.5, field) > 0.3
     end,
   })
 end

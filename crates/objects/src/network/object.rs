@@ -87,6 +87,9 @@ pub struct NetworkOptions {
     /// The radius (m) of circles to turn in at dead ends; 0 for none.
     #[default(0.0)]
     pub turning: f64,
+    /// Whether dead ends without such a circle are cut off square, as at the rim of a map, in place of round.
+    #[default(false)]
+    pub square_ends: bool,
     /// Whether lines and crossings are painted on the streets.
     #[default(true)]
     pub markings: bool,
@@ -357,6 +360,7 @@ impl Network {
             bend: options.bend,
             bridge: options.bridge,
             shorten: options.shorten,
+            square_ends: options.square_ends,
             most: options.most as usize,
         };
         let NetworkAreas { areas, waters, mut warnings } = NetworkAreas::new(&options);
