@@ -10,10 +10,10 @@ local skyline = require("templates/skyline")
 
 local file =
   param("file", { default = "quarter/roads.geojson", text = "The streets; for a layer of it, FILE:LAYER" })
-local standing = param(
-  "standing",
-  { default = "quarter/buildings.geojson", text = "The buildings there, FILE:LAYER; nothing if none are known" }
-)
+local standing = param("standing", {
+  default = "quarter/buildings.geojson",
+  text = "The buildings there, FILE:LAYER; nothing if none are known",
+})
 local reach = param(
   "reach",
   { default = 250, min = 20, max = 3000, unit = "m", text = "How far the district goes beyond them" }
@@ -137,7 +137,9 @@ if standing ~= "" then
     end
   end
   if #known == 0 then
-    print(`annex: no building of {standing} is near the streets of {file}: set standing to a file of the same town`)
+    print(
+      `annex: no building of {standing} is near the streets of {file}: set standing to a file of the same town`
+    )
   end
 end
 local old = united(covered, 1, #covered)
@@ -150,25 +152,31 @@ local middle = { (low[1] + high[1]) / 2, (low[2] + high[2]) / 2 }
 local patterns: { [string]: () -> any } = {
   organic = function()
     return roads.organic({
-      block = 75,
+      block = 60,
       bends = 30,
       branching = 1,
-      cross = 0.3,
+      cross = 0.5,
       stop = 0,
       gap = 0,
       greens = 0,
-      variety = 0.4,
+      variety = 0.3,
     })
   end,
-  raster = roads.raster,
+  raster = function()
+    return roads.raster({ gap = 0, variety = 0.4 })
+  end,
   radial = function()
-    return roads.radial({ middle = middle })
+    return roads.radial({ middle = middle, gap = 0, variety = 0.4 })
   end,
 }
 local streets = roads.grow({
   pattern = patterns[pattern](),
   network = {
-    streets = { { width = 17, sidewalk = 3, trees = 11 }, { width = 12, sidewalk = 2.4 }, { width = 9, sidewalk = 1.7 } },
+    streets = {
+      { width = 17, sidewalk = 3, trees = 11 },
+      { width = 12, sidewalk = 2.4 },
+      { width = 9, sidewalk = 1.7 },
+    },
     existing = connected,
     starts = {},
     min_angle = 35,
@@ -182,7 +190,7 @@ local streets = roads.grow({
   extent = function(x: number, y: number): boolean
     return x > low[1] - reach and x < high[1] + reach and y > low[2] - reach and y < high[2] + reach
   end,
-  steps = math.ceil(reach / 25) + 6,
+  steps = math.ceil(reach / 12) + 10,
 }).objects[1] :: Network
 
 -- Lots along the streets where nothing stands: rows of houses that touch, and gardens behind them.
@@ -192,7 +200,15 @@ local function house(id: string, geometry: any, style: string, levels: number)
   table.insert(houses, { id = id, geometry = geometry, style = style, levels = levels })
 end
 for _, lot in
-  streets:lots({ kind = "strips", width = 9, depth = 19, min_width = 6, jitter = 0.4, terrace = 11, all = true })
+  streets:lots({
+    kind = "strips",
+    width = 9,
+    depth = 19,
+    min_width = 6,
+    jitter = 0.4,
+    terrace = 11,
+    all = true,
+  })
 do
   local draw = skyline.stream(lot.id, 11)
   local before = #houses
@@ -215,7 +231,9 @@ for _, building in known do
     or (tonumber(building.height) or 9) / 3
   local draw = skyline.stream(building.id, 11)
   local use = building.use or building.building or ""
-  local style = if use == "church" or use == "cathedral" or use == "chapel"
+  local style = if use == "church"
+      or use == "cathedral"
+      or use == "chapel"
     then "church"
     elseif levels > 3.5 then "haussmann"
     elseif draw() < 0.5 then "porto"
