@@ -206,10 +206,10 @@ fn junction_surface(
 }
 
 /// Places (m) and triangles between them.
-type Triangles = (Vec<DVec2>, Vec<[u32; 3]>);
+type TriangleFan = (Vec<DVec2>, Vec<[u32; 3]>);
 
 /// Triangles from a place (m) to the outline around it.
-fn fan(middle: DVec2, outline: Vec<DVec2>) -> Triangles {
+fn fan(middle: DVec2, outline: Vec<DVec2>) -> TriangleFan {
     #[allow(clippy::cast_possible_truncation, reason = "some dozens of points")]
     let count = outline.len() as u32;
     let triangles = (0..count).map(|index| [0, 1 + index, 1 + (index + 1) % count]).collect();
@@ -217,7 +217,7 @@ fn fan(middle: DVec2, outline: Vec<DVec2>) -> Triangles {
 }
 
 /// Triangles from corner to corner of an outline (m); `None` if it meets itself.
-fn divided(outline: &[DVec2]) -> Option<Triangles> {
+fn divided(outline: &[DVec2]) -> Option<TriangleFan> {
     let polygon = Polygon::new(Rings(vec![outline.to_vec()])).ok()?;
     #[allow(clippy::cast_possible_truncation, reason = "some dozens of points")]
     let triangles = polygon.triangles().ok()?.into_iter().map(|corners| corners.map(|corner| corner as u32));

@@ -122,7 +122,8 @@ function patterns.organic(options: { [string]: any }?): Pattern
   local variety = number("roads.organic: variety", of.variety, 1, 0, 1)
   local gap = number("roads.organic: gap", of.gap, 0.6, 0, 0.6)
   local field = math.floor(random() * 1000000)
-  local usual = { branching = 1, both = 0, cross = 0, skew = 18, stop = 0, gap = 0, greens = 0.4, every = 3 }
+  local usual =
+    { branching = 0.9, both = 0, cross = 0, skew = 18, stop = 0, gap = 0, greens = 0.9, every = 3 }
   return pattern("roads.organic", of, usual, {
     gap = 0,
     least = 0.56 * block,
@@ -147,7 +148,7 @@ function patterns.organic(options: { [string]: any }?): Pattern
     closed = function(x: number, y: number, _: number, _: number, depth: number): boolean
       -- Parks and large estates, which lanes keep farther away from than streets do.
       local estate = noise(x / (block * 5), y / (block * 5), 3.5, field)
-        > 0.95 - 0.2 * depth + 2 * (1 - variety)
+        > 0.8 - 0.3 * depth + 2 * (1 - variety)
       return estate
         or depth > 1 and drawn(math.floor(x / 8 + 0.5), math.floor(y / 8 + 0.5), field) < gap * variety
     end,
