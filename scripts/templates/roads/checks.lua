@@ -98,10 +98,11 @@ function checks.corners(network: Network): { { place: Vector, depth: number } }
   end
   local corners: { { place: Vector, depth: number } } = {}
   while true do
-    local is_there, place = pcall(network.place, network, #corners + 1)
+    local is_there, found = pcall(network.place, network, #corners + 1)
     if not is_there then
       return corners
     end
+    local place: Vector = found :: any
     table.insert(corners, { place = place, depth = depths[`{place.x} {place.y}`] or 0 })
   end
 end
