@@ -251,7 +251,7 @@ function quarters.places(extent: number, heart: string): { any }
     },
     boulevards = {
       kind = "blocks",
-      pattern = roads.radial({ middle = middle, block = 95, gap = 0.22, variety = 0.4 }),
+      pattern = roads.radial({ middle = middle, block = 95, gap = 0.1, variety = 0.2 }),
     },
   }
   local places = { { at = middle, kind = hearts[heart].kind, pattern = hearts[heart].pattern } }
@@ -263,7 +263,7 @@ function quarters.places(extent: number, heart: string): { any }
   -- Where the heart is old, the new towers stand beside it.
   local first = if heart == "old town" then "blocks" else "old"
   around(0.42, 20, first, roads.organic({ block = 58, bends = 30, gap = 0.2, variety = 0.4 }))
-  around(0.42, 110, "blocks", roads.radial({ middle = middle, block = 85, gap = 0.22, variety = 0.4 }))
+  around(0.42, 110, "blocks", roads.radial({ middle = middle, block = 85, gap = 0.1, variety = 0.2 }))
   around(0.4, 200, "blocks", roads.organic({ block = 88, bends = 32, gap = 0.2, variety = 0.4 }))
   around(
     0.44,
