@@ -138,7 +138,8 @@ end
 
 -- Quarters: which is where, and how its streets run. Main streets lead out to the rim of the country around.
 local RIM = extent * 1.1 + 60
-local edge = size / 2 - 1
+-- Not quite to the end of the ground, on which the corners of a street lie too.
+local edge = size / 2 - 8
 local country: any = polygon({ { -edge, -edge }, { edge, -edge }, { edge, edge }, { -edge, edge } })
 if not bare then
   local ring = {}
