@@ -40,7 +40,14 @@ pub(super) fn overlapping(blocks: &[&StreetBlock]) -> Option<Warning> {
             }
         }
     }
-    let (common, one, other) = greatest?;
+    let Some((common, one, other)) = greatest else {
+        // What lies on each other may be among the others.
+        let text =
+            format!("network:lots: of blocks around one another, only {MOST_COMPARED} pairs were compared");
+        let help =
+            "divide fewer at once, and see that none lie on each other: one:intersection(other):area()";
+        return (compared > MOST_COMPARED).then(|| Warning::new(WarningKind::Doubtful, text).help(help));
+    };
     let more = match count - 1 {
         0 => String::new(),
         1 => ", and one more pair of blocks does".into(),
