@@ -362,3 +362,15 @@ end
       help: ask for "tree" or "lamp"
     "#);
 }
+
+#[test]
+fn blocks_around_one_another_that_are_too_many_to_be_compared_are_told() {
+    let script = "local blocks, m = {}, 470 * 14 + 60\nfor i = 1, 470 do\n  local a, b = i * 14, i * 14 + 12\n\
+        blocks[i] = polygon({ { a, a }, { m, a }, { m, b }, { b, b }, { b, m }, { a, m } })\nend\n\
+        local A = module(\"A\")\nlocal s = lsystem({ object = network({}) })\ns:axiom(A())\n\
+        s:interpret(\"A\", function(this) this:grow(1, 0, 60, 0) end)\nlocal streets = s:derive(0).objects[1]\n\
+        print(#streets:lots({ blocks = blocks, elongation = 100, area = 1e5, reach = 1e5, all = true }))\n";
+    let said = Folder::new().with("s.lua", script).burgeon(&["run", "s.lua"]);
+    assert_eq!(said.status, 0, "{}", said.stderr);
+    assert!(said.stderr.contains("only 100000 pairs were compared"), "{}", said.stderr);
+}
