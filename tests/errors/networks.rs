@@ -67,6 +67,36 @@ fn fields_given_through_the_library_of_roads_are_refused_in_the_line_of_the_scri
 }
 
 #[test]
+fn exits_end_at_their_rim() {
+    let square = "polygon({ { -500, -420 }, { 450, -470 }, { 520, 460 }, { -480, 500 } })";
+    for rim in ["480", square] {
+        let said = with_roads(&format!(
+            "local rim = {rim}\n\
+             local town = roads.grow({{ extent = 250, dead_ends = \"remove\", exits = {{ count = 4, rim = rim }} }}).objects[1]\n\
+             local ends = town:open_ends()\n\
+             for _, e in ends do\n\
+               local x, y = e.place.x, e.place.y\n\
+               local off = if type(rim) == \"number\" then math.abs(math.sqrt(x * x + y * y) - rim) else rim:boundary():distance(point(x, y))\n\
+               assert(off < 0.01, `{{x}}, {{y}} is {{off}} m off`)\n\
+             end\n\
+             print(#ends)"
+        ))
+        .burgeon(&["run", "s.lua", "--seed", "3"])
+        .done();
+        assert!(said.stderr.starts_with("4\n"), "{rim}: {}", said.stderr);
+    }
+}
+
+#[test]
+fn a_rim_that_is_not_convex_is_refused() {
+    let rim = "polygon({ { 0, 0 }, { 400, 0 }, { 100, 100 }, { 0, 400 } })";
+    assert_snapshot!(refused_by_roads(&format!("roads.grow({{ exits = {{ rim = {rim} }} }})")), @r"
+    error: s.lua:2: roads.system: exits: rim must be a distance (m) or a convex polygon
+      | roads.grow({ exits = { rim = polygon({ { 0, 0 }, { 400, 0 }, { 100, 100 }, { 0, 400 } }) } })
+    ");
+}
+
+#[test]
 fn fields_that_contradict_one_another_are_refused() {
     assert_snapshot!(refused("network({ snap = 3, clearance = 6 })"), @r"
     error: s.lua:1: network: snap (3 m) is less than clearance (6 m), so a street that ends between the two could neither join nor stay

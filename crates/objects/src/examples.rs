@@ -95,7 +95,7 @@ pub const PLAIN_EXAMPLES: &[ScriptExample] = examples! {
     "network/dead_ends" shows "network:grow" "network:join_dead_ends" "network:remove_dead_ends"
         "network:open_ends" "network:joinable" "network:dead_ends";
     "network/fate" shows "network:arrived" "network:fate" "network:probe" "network:place"
-        "network:degree";
+        "network:places" "network:degree";
     "network/lots" shows "network:measures" "network:size" "network:distance" "network:streets"
         "network:junctions" "network:blocks" "network:lots" "network:height" "network:verge"
         "network:sites";

@@ -1,5 +1,5 @@
 --!strict
--- What the libraries of roads refuse, how headings are compared, and where a network has its corners.
+-- What the libraries of roads refuse, and how headings are compared.
 local checks = {}
 
 -- Refuses what a table may not have, in the line of whoever called the caller, or as many levels up as are given.
@@ -83,28 +83,6 @@ function checks.construct(constructor: (fields: any) -> any, fields: any, ...: n
     error(made, (...) or 3)
   end
   return made
-end
-
--- The junctions of a network by their numbers, with those where a street only turns, which `network:junctions()` leaves out:
--- where each is, and the least depth of its streets.
-function checks.corners(network: Network): { { place: Vector, depth: number } }
-  -- They lie where points of streets do.
-  local depths: { [string]: number } = {}
-  for _, street in network:streets() do
-    for _, point in street.geometry.points do
-      local key = `{point[1]} {point[2]}`
-      depths[key] = math.min(depths[key] or math.huge, street.depth)
-    end
-  end
-  local corners: { { place: Vector, depth: number } } = {}
-  while true do
-    local is_there, found = pcall(network.place, network, #corners + 1)
-    if not is_there then
-      return corners
-    end
-    local place: Vector = found :: any
-    table.insert(corners, { place = place, depth = depths[`{place.x} {place.y}`] or 0 })
-  end
 end
 
 return checks

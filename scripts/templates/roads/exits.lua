@@ -10,10 +10,8 @@ export type Exits = {
   -- How far (m) they lead beyond the line around all streets; or else where they end, straight across: how far (m) from the
   -- middle { 0, 0 }, or a convex polygon.
   length: number?,
-  rim: (number | Geometry)?,
+  rim: any,
 }
-
-export type Exit = { junction: number, heading: number, length: number, pieces: number }
 
 -- A street that leads out of the town: what is left of it (m), and in how many pieces.
 local Exit = module("Exit", "junction", "heading", "rest", "pieces")
@@ -36,25 +34,49 @@ local MARGIN = 0.94
 -- too few.
 local SPREAD = { 0.62, 0.38 }
 
--- Refuses what no exits can be made of.
-function exits.check(name: string, given: any, level: number)
+-- What exits are made of: the options, with the points of a rim in place of its polygon. Refuses what no exits can be made of.
+function exits.check(name: string, given: any, level: number): Exits
   checks.options(name, given, KNOWN, level + 1)
-  checks.number(`{name}: count`, given.count, 4, 0, 100, level + 1)
-  if (given.length == nil) == (given.rim == nil) then
+  local count = checks.number(`{name}: count`, given.count, 4, 0, 100, level + 1)
+  local length, rim = given.length, given.rim
+  if (length == nil) == (rim == nil) then
     error(`{name} have either a length or a rim`, level)
   end
+  if type(rim) == "userdata" then
+    local area, hull = rim:area(), rim:convex_hull():area()
+    if rim.kind ~= "polygon" or area <= 0 or hull - area > 1e-6 * hull then
+      error(`{name}: rim must be a distance (m) or a convex polygon`, level)
+    end
+    rim = rim.rings[1]
+  end
+  return { count = count, length = length, rim = rim }
 end
 
--- How far (m) it is from a place to the rim.
+-- How far (m) it is from a place to the rim: a distance from the middle, or the points of a convex polygon, counter-clockwise.
 local function rest_of_way(place: Vector, heading: number, rim: any): number
-  local out = vec(math.cos(math.rad(heading)), math.sin(math.rad(heading)), 0)
-  if type(rim) ~= "number" then
-    local far = place + out * 100000
-    return line({ { place.x, place.y }, { far.x, far.y } }):intersection(rim):length()
+  local east, north = math.cos(math.rad(heading)), math.sin(math.rad(heading))
+  if type(rim) == "number" then
+    local along = place.x * east + place.y * north
+    local off = place.x * place.x + place.y * place.y - along * along
+    return math.sqrt(math.max(rim * rim - off, 0)) - along
   end
-  local along = place.x * out.x + place.y * out.y
-  local off = place.x * place.x + place.y * place.y - along * along
-  return math.sqrt(math.max(rim * rim - off, 0)) - along
+  -- The way is inside from where it has come in over the last edge that it comes in by, to where it first leaves.
+  local enters, leaves = 0, math.huge
+  local last = rim[#rim]
+  for _, point in rim do
+    local dx, dy = point[1] - last[1], point[2] - last[2]
+    local outward = dy * east - dx * north
+    local beyond = dy * (place.x - last[1]) - dx * (place.y - last[2])
+    if outward > 0 then
+      leaves = math.min(leaves, -beyond / outward)
+    elseif outward < 0 then
+      enters = math.max(enters, -beyond / outward)
+    elseif beyond > 0 then
+      return 0
+    end
+    last = point
+  end
+  return math.max(leaves - enters, 0)
 end
 
 -- The heading straight across the rim where one from a place comes to it.
@@ -69,11 +91,6 @@ end
 
 type Piece = { number }
 
--- What a place is called; junctions and places where streets turn lie where their streets' points do.
-local function key(x: number, y: number): string
-  return `{x} {y}`
-end
-
 -- Whether two pieces, { x1, y1, x2, y2 }, cross.
 local function crosses(one: Piece, other: Piece): boolean
   local function side(piece: Piece, x: number, y: number): boolean
@@ -83,22 +100,31 @@ local function crosses(one: Piece, other: Piece): boolean
     and side(other, one[1], one[2]) ~= side(other, one[3], one[4])
 end
 
--- Says whether the end of an exit might be joined to a street, as `join_dead_ends` does: for one that would be drawn back into the
--- town there is no gate.
-local function joints(network: Network, join: number, detour: number): (exit: any, others: { any }) -> boolean
-  local ways: { [string]: { any } } = {}
-  local pieces: { Piece }, targets: { any } = {}, {}
+type Way = { to: number, length: number }
+type Target = { x: number, y: number, ends: { { number } } }
+-- The streets of a network as pieces, as ways from one junction to others, and as places on them that an exit may be joined to.
+type Ways = { from: { { Way } }, pieces: { Piece }, targets: { Target } }
+
+local function ways_of(network: Network): Ways
+  local from: { { Way } }, pieces: { Piece }, targets: { Target } = {}, {}, {}
+  local function lead(here: number, there: number, length: number)
+    from[here] = from[here] or {}
+    table.insert(from[here], { to = there, length = length })
+  end
+  local numbers: { [string]: number } = {}
+  for number, corner in network:places() do
+    numbers[`{corner.place.x} {corner.place.y}`] = number
+  end
   for _, street in network:streets() do
-    local last = nil :: any
+    local last, here = nil :: any, 0
     for _, point in street.geometry.points do
+      local there = numbers[`{point[1]} {point[2]}`]
       if last then
-        table.insert(pieces, { last[1], last[2], point[1], point[2] })
+        local piece: Piece = { last[1], last[2], point[1], point[2] }
+        table.insert(pieces, piece)
         local length = math.sqrt((point[1] - last[1]) ^ 2 + (point[2] - last[2]) ^ 2)
-        local here, there = key(last[1], last[2]), key(point[1], point[2])
-        for from, to in { [here] = there, [there] = here } do
-          ways[from] = ways[from] or {}
-          table.insert(ways[from], { to = to, length = length })
-        end
+        lead(here, there, length)
+        lead(there, here, length)
         local steps = math.max(1, math.ceil(length / 8))
         for step = 1, steps do
           local part = step / steps
@@ -109,64 +135,84 @@ local function joints(network: Network, join: number, detour: number): (exit: an
           })
         end
       end
-      last = point
+      last, here = point, there
     end
   end
-  -- How far (m) the points of all streets are from one.
-  local function reach(from: string): { [string]: number }
-    local far: { [string]: number }, open: { string } = { [from] = 0 }, { from }
-    while #open > 0 do
-      local at = table.remove(open, 1) :: string
-      for _, way in ways[at] or {} do
-        local length = far[at] + way.length
-        if length < (far[way.to] or math.huge) then
-          far[way.to] = length
-          local to: string = way.to
-          table.insert(open, to)
-        end
+  return { from = from, pieces = pieces, targets = targets }
+end
+
+-- How far (m) junctions are from one along the streets.
+local function reach(ways: Ways, from: number): { [number]: number }
+  local far: { [number]: number }, open: { number }, next = { [from] = 0 }, { from }, 1
+  while open[next] do
+    local at = open[next]
+    next += 1
+    for _, way in ways.from[at] or {} do
+      local length = far[at] + way.length
+      if length < (far[way.to] or math.huge) then
+        far[way.to] = length
+        table.insert(open, way.to)
       end
     end
-    return far
+  end
+  return far
+end
+
+-- Says whether the end of an exit might be joined to a street, as `join_dead_ends` does: for one that would be drawn back into the
+-- town there is no gate.
+local function joints(network: Network, join: number, detour: number): (exit: any, others: { any }) -> boolean
+  local known: Ways? = nil
+  -- Whether a place so far (m) along the streets is joined to the end of an exit.
+  local function joins(of: any, x: number, y: number, way: number, ways: Ways): boolean
+    local dx, dy = x - of.to.x, y - of.to.y
+    local straight = math.sqrt(dx * dx + dy * dy)
+    if straight < 1 or straight > join or way < MARGIN * detour * straight then
+      return false
+    end
+    local back = checks.between(of.heading + 180, math.deg(math.atan2(dy, dx)))
+    if math.abs(back) < 20 then
+      return false
+    end
+    -- A street in between would be met first.
+    local piece: Piece = { of.to.x, of.to.y, x - dx / straight, y - dy / straight }
+    for _, other in ways.pieces do
+      if crosses(piece, other) then
+        return false
+      end
+    end
+    return true
   end
   return function(exit: any, others: { any }): boolean
-    local far = reach(exit.at)
-    -- Whether a place so far (m) along the streets is joined to the end of an exit.
-    local function joins(of: any, x: number, y: number, way: number): boolean
-      local dx, dy = x - of.to.x, y - of.to.y
-      local straight = math.sqrt(dx * dx + dy * dy)
-      if straight < 1 or straight > join or way < MARGIN * detour * straight then
-        return false
+    -- Most end far from all that is there, so that nobody has to know of any way.
+    local is_near = network:distance(exit.to) <= join
+    for _, other in others do
+      for part = 0.1, 1, 0.1 do
+        local there, here = other.from:lerp(other.to, part), exit.from:lerp(exit.to, part)
+        is_near = is_near or there:distance(exit.to) <= join or here:distance(other.to) <= join
       end
-      local back = checks.between(of.heading + 180, math.deg(math.atan2(dy, dx)))
-      if math.abs(back) < 20 then
-        return false
-      end
-      -- A street in between would be met first.
-      local piece: Piece = { of.to.x, of.to.y, x - dx / straight, y - dy / straight }
-      for _, other in pieces do
-        if crosses(piece, other) then
-          return false
-        end
-      end
-      return true
     end
-    for _, target in targets do
+    if not is_near then
+      return false
+    end
+    local ways = known or ways_of(network)
+    known = ways
+    local far = reach(ways, exit.junction)
+    for _, target in ways.targets do
       local way = math.huge
       for _, from in target.ends do
         way = math.min(way, (far[from[1]] or math.huge) + from[2])
       end
-      if joins(exit, target.x, target.y, exit.length + way) then
+      if joins(exit, target.x, target.y, exit.length + way, ways) then
         return true
       end
     end
     for _, other in others do
-      local way = exit.length + (far[other.at] or math.huge)
+      local way = exit.length + (far[other.junction] or math.huge)
       for part = 0.1, 1, 0.1 do
-        local x, y = lerp(other.from.x, other.to.x, part), lerp(other.from.y, other.to.y, part)
-        local here, there = lerp(exit.from.x, exit.to.x, part), lerp(exit.from.y, exit.to.y, part)
+        local there, here = other.from:lerp(other.to, part), exit.from:lerp(exit.to, part)
         if
-          joins(exit, x, y, way + part * other.length)
-          or joins(other, here, there, way - exit.length + other.length + part * exit.length)
+          joins(exit, there.x, there.y, way + part * other.length, ways)
+          or joins(other, here.x, here.y, way - exit.length + other.length + part * exit.length, ways)
         then
           return true
         end
@@ -183,105 +229,88 @@ local function choose(
   join: number,
   detour: number,
   allowed: ((network: Network, from: Vector, to: Vector, depth: number) -> boolean)?
-): { Exit }
-  local corners: { [string]: { depth: number, arms: { number } } } = {}
-  local places = {}
-  for _, street in network:streets() do
-    local points = street.geometry.points
-    for index, point in points do
-      local corner = corners[key(point[1], point[2])] or { depth = street.depth, arms = {} }
-      corners[key(point[1], point[2])] = corner
-      corner.depth = math.min(corner.depth, street.depth)
-      for _, beside in { index - 1, index + 1 } do
-        local next = points[beside]
-        if next then
-          table.insert(corner.arms, math.deg(math.atan2(next[2] - point[2], next[1] - point[1])))
-        end
-      end
-      table.insert(places, { point[1], point[2] })
+): { any }
+  local corners = network:places()
+  local around = {}
+  for _, corner in corners do
+    if #corner.headings > 0 then
+      table.insert(around, { corner.place.x, corner.place.y })
     end
   end
-  if #places < 3 then
+  if #around < 3 then
     return {}
   end
-  local hull = line(places):convex_hull()
-  local centre = hull:centroid()
+  local hull = line(around):convex_hull()
+  local centre, inner = hull:centroid(), 0.3 * math.sqrt(hull:area())
   local middle = vec(centre:x(), centre:y(), 0)
+  local rim, more = options.rim or hull.rings[1], options.length or 0
 
-  local found: { any } = {}
-  local junction = 0
-  -- Places where a street only turns have a number as junctions have, but network:junctions() leaves them out.
-  while true do
-    junction += 1
-    local is_there, place = pcall(network.place, network, junction)
-    if not is_there then
-      break
-    end
-    local corner = corners[key(place.x, place.y)]
+  local candidates: { any } = {}
+  for junction, corner in corners do
+    local place = corner.place
     local straight = math.deg(math.atan2(place.y - middle.y, place.x - middle.x))
-    local function try(heading: number, score: number)
-      local out = vec(math.cos(math.rad(heading)), math.sin(math.rad(heading)), 0)
-      local length
-      if options.rim then
-        length = rest_of_way(place, heading, options.rim)
-      else
-        local far = place + out * 10000
-        local within = line({ { place.x, place.y }, { far.x, far.y } }):intersection(hull)
-        length = within:length() + (options.length :: number)
-      end
-      local to = place + out * length
-      if length < 20 then
-        return
-      end
-      local probe = network:probe(junction, heading, length, 0)
-      local leads_there = probe.built and probe.place:distance(to) < 1
-      if leads_there and not (allowed and not allowed(network, place, to, 0)) then
-        table.insert(found, {
-          junction = junction,
-          at = key(place.x, place.y),
-          from = place,
-          to = to,
-          heading = heading,
-          length = length,
-          pieces = if length < SHORT then 1 else PIECES,
-          way = math.deg(math.atan2(to.y - middle.y, to.x - middle.x)),
-          score = score + DEEPER * corner.depth,
-        })
-      end
-    end
+    local deeper = DEEPER * corner.depth
     -- What lies well inside has streets all around.
-    if corner and place:distance(middle) > 0.3 * math.sqrt(hull:area()) then
+    if #corner.headings > 0 and place:distance(middle) > inner then
       for turn = -MOST, MOST, MOST / 3 do
-        try(straight + turn, math.abs(turn) + ASIDE)
+        local score = math.abs(turn) + ASIDE + deeper
+        table.insert(candidates, { junction = junction, heading = straight + turn, score = score })
       end
-      for _, arm in corner.arms do
-        local off = checks.between(straight, arm + 180)
-        if math.abs(off) <= MOST then
-          try(arm + 180, math.abs(off))
+      for _, arm in corner.headings do
+        local off = math.abs(checks.between(straight, arm + 180))
+        if off <= MOST then
+          table.insert(candidates, { junction = junction, heading = arm + 180, score = off + deeper })
         end
       end
     end
   end
-  table.sort(found, function(one: any, other: any)
-    local left: { number } = { one.score, one.junction, one.heading }
-    local right: { number } = { other.score, other.junction, other.heading }
-    for index, number in left do
-      if number ~= right[index] then
-        return number < right[index]
-      end
+  table.sort(candidates, function(one: any, other: any)
+    if one.score ~= other.score then
+      return one.score < other.score
+    elseif one.junction ~= other.junction then
+      return one.junction < other.junction
     end
-    return false
+    return one.heading < other.heading
   end)
+
+  -- Where an exit leads.
+  local function aim(exit: any)
+    exit.from = corners[exit.junction].place
+    exit.length = rest_of_way(exit.from, exit.heading, rim) + more
+    local out = vec(math.cos(math.rad(exit.heading)), math.sin(math.rad(exit.heading)), 0)
+    exit.to = exit.from + out * exit.length
+    exit.pieces = if exit.length < SHORT then 1 else PIECES
+    exit.way = math.deg(math.atan2(exit.to.y - middle.y, exit.to.x - middle.x))
+  end
+  -- Whether a street could be built so.
+  local function leads_there(exit: any): boolean
+    if exit.length < 20 then
+      return false
+    end
+    local probe = network:probe(exit.junction, exit.heading, exit.length, 0)
+    return probe.built
+      and probe.place:distance(exit.to) < 1
+      and not (allowed and not allowed(network, exit.from, exit.to, 0))
+  end
   local chosen: { any } = {}
   local is_joined = joints(network, join, detour)
   for _, spread in SPREAD do
-    for _, exit in found do
-      local is_free = #chosen < options.count
+    for _, exit in candidates do
+      if #chosen >= options.count then
+        return chosen
+      end
+      if not exit.to then
+        aim(exit)
+      end
+      local is_free = true
       for _, other in chosen do
         local apart = math.abs(checks.between(exit.way, other.way))
         is_free = is_free and apart >= spread * 360 / options.count
       end
-      if is_free and not is_joined(exit, chosen) then
+      if is_free and exit.leads == nil then
+        exit.leads = leads_there(exit)
+      end
+      if is_free and exit.leads and not is_joined(exit, chosen) then
         table.insert(chosen, exit)
       end
     end

@@ -174,10 +174,7 @@ function growth.system(options: RoadOptions, ...: number)
   else
     fields.starts = centres
   end
-  local leads_out = options.exits
-  if leads_out then
-    exits.check("roads.system: exits", leads_out, level)
-  end
+  local leads_out = if options.exits then exits.check("roads.system: exits", options.exits, level) else nil
   local growing = if leads_out then math.max(steps - exits.STEPS, 1) else steps
   local allowed = options.allowed
   local system = lsystem({ object = checks.construct(network, fields, level) :: Network })
@@ -319,8 +316,8 @@ function growth.system(options: RoadOptions, ...: number)
   local function belated(this: Network, left: number): { any }
     local modules = {}
     -- Streets rather leave where one only turns, for that leaves no junction of four.
-    for at, corner in checks.corners(this) do
-      local place, degree = corner.place, this:degree(at)
+    for at, corner in this:places() do
+      local place, degree = corner.place, #corner.headings
       local depth = math.min(corner.depth + 1, deepest)
       local pattern = pattern_at(place.x, place.y)
       -- How many lengths around a place nothing is to be: few for a dead end, more for a turn, so that gaps stay; a fourth

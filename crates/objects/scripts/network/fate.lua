@@ -6,7 +6,7 @@ roads:rule("Tip", function(this)
   local junction = this:arrived(1, 0)
   print(this:fate(1, 0), junction, this:probe(1, 90, 60, 0).fate)
   if junction then
-    print(this:place(junction), this:degree(junction))
+    print(this:place(junction), this:degree(junction), #this:places())
   end
   return Tip()
 end)

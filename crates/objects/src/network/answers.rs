@@ -78,6 +78,22 @@ pub(super) fn open_ends(network: &StreetNetwork) -> Value {
     ends.collect::<Vec<_>>().into_value()
 }
 
+/// The junctions by number: where each is, the least depth of its streets, and where they lead.
+pub(super) fn places(network: &StreetNetwork) -> Value {
+    let places = (0..).zip(network.junctions()).map(|(id, junction)| {
+        let arms = network.arms(id);
+        let depth = arms.iter().map(|(piece, _)| network.attributes(*piece).depth).min();
+        let headings: Vec<Value> =
+            arms.iter().map(|(_, way)| Value::Number(way.to_angle().to_degrees())).collect();
+        named([
+            ("depth", Value::Number(f64::from(depth.unwrap_or(0)))),
+            ("headings", headings.into_value()),
+            ("place", place(junction.place())),
+        ])
+    });
+    places.collect::<Vec<_>>().into_value()
+}
+
 /// What to tell of a street that was to lead from one place to another and ends elsewhere; the places are where it begins, where
 /// it ends, and where it was to lead.
 pub(super) fn misled(fate: Fate, [from, end, to]: [DVec2; 3]) -> Option<Warning> {

@@ -262,6 +262,12 @@ impl Network {
         Ok(self.network.at(self.known(junction)?).extend(0.0))
     }
 
+    /// Where all junctions are, by their numbers, with those where a street only turns, which `network:junctions` leaves out: a
+    /// list of tables with `place` (m), the least `depth` of its streets, and the `headings` (degrees) in which they leave it.
+    pub fn places(&self) -> Value {
+        answers::places(&self.network)
+    }
+
     /// How many streets meet at a junction.
     pub fn degree(&self, junction: u32) -> Result<u32> {
         let degree = self.network.junctions()[self.known(junction)? as usize].degree();
