@@ -46,7 +46,7 @@ fn draw_calls(scene: &Scene) -> Vec<DrawCall> {
 
 /// Runs the script with these parameters, as `name=value`; gives the model, and the files that it came from.
 fn model(script: &Path, set: &[(String, String)]) -> (Result<Vec<DrawCall>>, Vec<PathBuf>) {
-    let options = RunOptions { set: set.to_vec(), ..burgeon::options() };
+    let options = RunOptions { params: set.to_vec().into(), ..burgeon::options() };
     let session = match Session::new(script, options) {
         Ok(session) => session,
         Err(error) => return (Err(error), vec![script.to_owned()]),

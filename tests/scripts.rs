@@ -7,7 +7,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use burgeon::picture::Picture;
-use burgeon::script::RunOptions;
+use burgeon::script::{RunInputs, RunOptions};
 use burgeon::sources::{Layer, ReferenceFrame, Source, SourceOptions};
 use burgeon::{Run, export};
 
@@ -44,7 +44,8 @@ fn lua_files(folder: &str) -> Vec<PathBuf> {
 fn run(script: &Path, threads: usize) -> Run {
     let data = vec![root().join("examples/data"), root().join("../shared/data")];
     let data = data.into_iter().filter(|folder| folder.is_dir()).collect();
-    let options = RunOptions { threads: Some(threads), data, ..burgeon::options() };
+    let inputs = RunInputs { data, ..RunInputs::default() };
+    let options = RunOptions { threads: Some(threads), inputs, ..burgeon::options() };
     burgeon::run(script, options).unwrap_or_else(|error| panic!("{}: {error}", script.display()))
 }
 
@@ -329,8 +330,8 @@ fn the_castle_of_the_examples_is_built_with_two_packages() {
     let folder = tempfile::tempdir().unwrap();
     assert_eq!(glb(&made, folder.path()), glb(&run(&script, 1), folder.path()));
     for package in ["masonry", "castle"] {
-        let mods = vec![root().join("examples/mods")];
-        let options = RunOptions { mods, ..burgeon::options() };
+        let inputs = RunInputs { mods: vec![root().join("examples/mods")], ..RunInputs::default() };
+        let options = RunOptions { inputs, ..burgeon::options() };
         burgeon::check_package(&root().join("examples/mods").join(package), options).unwrap();
     }
 }

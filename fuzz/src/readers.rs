@@ -12,7 +12,7 @@ use burgeon::packages::{Manifest, install, is_name};
 use burgeon::presets::Presets;
 use burgeon::query::postgis::ServerAddress;
 use burgeon::query::{Cell, Database};
-use burgeon::script::{Limits, Print, RunOptions};
+use burgeon::script::{Limits, Print, RunOptions, RunReports};
 use burgeon::sources::elevation::{HeightOptions as WantedHeights, Raster, Relief};
 use burgeon::sources::{Cache, Layer, Listing, Source, SourceOptions};
 use burgeon::spatial::{BufferOptions, Geometry};
@@ -329,7 +329,7 @@ pub(crate) fn script(bytes: &[u8], folder: &Path) -> bool {
     let _ = fs::write(&path, bytes);
     let limits =
         Limits { time: Duration::from_secs(1), memory: 100_000_000, modules: 10_000, triangles: 10_000 };
-    let options =
-        RunOptions { limits, threads: Some(1), print: Some(Print::new(|_: &str| {})), ..burgeon::options() };
+    let reports = RunReports { print: Some(Print::new(|_: &str| {})), ..RunReports::default() };
+    let options = RunOptions { limits, threads: Some(1), reports, ..burgeon::options() };
     burgeon::check(&path, options).is_ok()
 }

@@ -6,7 +6,7 @@ use std::time::Duration;
 use burgeon::packages::{FileName, PackageSearch, Packages};
 use burgeon::picture::{Background, Picture, ViewBall};
 use burgeon::presets::Presets;
-use burgeon::script::{Limits, Print, RunOptions, api_version};
+use burgeon::script::{Limits, ParamValues, Print, RunInputs, RunOptions, RunReports, api_version};
 use burgeon::{Error, Result};
 use clap::{Args, ValueEnum};
 
@@ -128,8 +128,7 @@ impl ScriptFlags {
         };
         let seed = self.seed.or(preset.as_ref().and_then(|preset| preset.seed));
         Ok(RunOptions {
-            set: self.set.clone(),
-            preset,
+            params: ParamValues { set: self.set.clone(), preset, forgiving: false },
             seed: seed.unwrap_or(0),
             steps: self.steps,
             lod: self.lod,
@@ -141,13 +140,16 @@ impl ScriptFlags {
                 modules: self.module_limit as usize,
                 triangles: self.triangle_limit as usize,
             },
-            data: self.data.clone(),
-            databases: self.database.clone(),
-            mods: self.mods.clone(),
-            user_mods: user_mods(),
+            inputs: RunInputs {
+                data: self.data.clone(),
+                databases: self.database.clone(),
+                mods: self.mods.clone(),
+                user_mods: user_mods(),
+                stdlib: self.stdlib.clone(),
+                ..RunInputs::default()
+            },
+            reports: RunReports { print: Some(Print::new(report::printed)), ..RunReports::default() },
             strict: self.strict,
-            stdlib: self.stdlib.clone(),
-            print: Some(Print::new(report::printed)),
             ..burgeon::options()
         })
     }

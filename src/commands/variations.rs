@@ -72,7 +72,7 @@ impl VariationsCommand {
         let over = self.seeds.as_ref().or(self.sweep.as_ref());
         let over = over.ok_or_else(|| Error::usage("give --seeds or --sweep"))?;
         if let VariationAxis::Param { name, .. } = over
-            && options.set.iter().any(|(known, _)| known == name)
+            && options.params.set.iter().any(|(known, _)| known == name)
         {
             return Err(Error::usage(format!("{name} is set and varied at the same time"))
                 .help(format!("leave out --set {name} or --sweep {name}")));

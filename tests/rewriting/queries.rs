@@ -57,8 +57,13 @@ const HEAD: &str = r#"
     local s = lsystem({})
 "#;
 
+fn asking(rows: Arc<dyn RowSource>, mut options: RunOptions) -> RunOptions {
+    options.inputs.rows = Some(rows);
+    options
+}
+
 fn options() -> RunOptions {
-    RunOptions { rows: Some(Arc::new(Items::default())), ..burgeon::options() }
+    asking(Arc::new(Items::default()), burgeon::options())
 }
 
 /// The chains of a script that goes on behind [`HEAD`].
@@ -218,8 +223,8 @@ const SOWN: &str = r#"
 #[test]
 fn one_more_row_changes_the_random_numbers_of_no_other() {
     let chain = |more: Option<f64>| {
-        let rows: Option<Arc<dyn RowSource>> = Some(Arc::new(Items { more, ..Items::default() }));
-        let chains = lines(&run_with(&format!("{HEAD}{SOWN}"), RunOptions { rows, ..burgeon::options() }));
+        let rows = Arc::new(Items { more, ..Items::default() });
+        let chains = lines(&run_with(&format!("{HEAD}{SOWN}"), asking(rows, burgeon::options())));
         chains[0].split(' ').map(str::to_owned).collect::<Vec<_>>()
     };
     let (before, after) = (chain(None), chain(Some(2.5)));
@@ -249,7 +254,7 @@ fn threads_and_batches_change_nothing_and_the_same_question_is_asked_once() {
     let chains = |threads: usize, batch: usize| {
         let items = Arc::new(Items::default());
         let rows: Arc<dyn RowSource> = Arc::clone(&items) as _;
-        let run = run_with(&script, RunOptions { rows: Some(rows), ..divided(threads, batch) });
+        let run = run_with(&script, asking(rows, divided(threads, batch)));
         (all_chains(&run), items.asked.load(Ordering::Relaxed))
     };
     let (first, asked) = chains(1, 4096);

@@ -23,9 +23,9 @@ pub(crate) const DETOUR: f64 = 2.5;
 /// The network that a script grows.
 pub(crate) fn grown(script: &str, seed: u64, set: &[(&str, &str)]) -> Network {
     let path = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("scripts").join(script);
-    let set = set.iter().map(|(name, value)| ((*name).to_owned(), (*value).to_owned())).collect();
-    let run =
-        burgeon::run(&path, RunOptions { seed, set, lod: 0, ..burgeon::options() }).expect("streets grow");
+    let set: Vec<_> = set.iter().map(|(name, value)| ((*name).to_owned(), (*value).to_owned())).collect();
+    let run = burgeon::run(&path, RunOptions { seed, params: set.into(), lod: 0, ..burgeon::options() })
+        .expect("streets grow");
     let object: Arc<dyn std::any::Any + Send + Sync> = run.systems[0].objects[0].clone();
     Arc::unwrap_or_clone(object.downcast::<Network>().expect("a network"))
 }

@@ -242,7 +242,7 @@ pub(crate) fn figures(town: &Town, seed: u64, extent: Option<&str>) -> TownFigur
     let mut set: Vec<_> =
         town.set.iter().map(|(name, value)| ((*name).to_owned(), (*value).to_owned())).collect();
     set.extend(extent.map(|extent| ("extent".to_owned(), extent.to_owned())));
-    let run = burgeon::run(&path, RunOptions { seed, set, lod: 0, ..burgeon::options() })
+    let run = burgeon::run(&path, RunOptions { seed, params: set.into(), lod: 0, ..burgeon::options() })
         .unwrap_or_else(|error| panic!("{}, seed {seed}: {error}", town.script));
     let objects = || {
         run.systems.iter().flat_map(|system| &system.objects).map(|object| {

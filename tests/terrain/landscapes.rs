@@ -29,7 +29,8 @@ pub(crate) fn check(kind: &str, size: u32, seed: u64) -> Result<usize, String> {
     // So many trees are seen in an eighth of the time.
     let trees = if size > 3000 { "false" } else { "true" };
     let set = set.into_iter().chain([("trees", trees.into())]).map(|(name, value)| (name.to_owned(), value));
-    let options = RunOptions { set: set.collect(), seed, threads: Some(1), ..burgeon::options() };
+    let options =
+        RunOptions { params: set.collect::<Vec<_>>().into(), seed, threads: Some(1), ..burgeon::options() };
     let told = |what: String| format!("kind={kind} size={size} seed={seed}: {what}");
     let run = burgeon::run(&script, options).map_err(|error| told(error.to_string()))?;
     // In so few cells a spring may be beside the shore, where no river begins.

@@ -13,7 +13,7 @@ use std::sync::Arc;
 use burgeon::kit::declare::as_ref;
 use burgeon::kit::{ScriptObject, Value};
 use burgeon::picture::Picture;
-use burgeon::script::RunOptions;
+use burgeon::script::{RunOptions, RunReports};
 use burgeon::trace::{Pick, pick};
 use burgeon::{Run, export};
 
@@ -59,7 +59,8 @@ fn printed(text: &str, threads: usize) -> Vec<String> {
     let lines = Arc::new(std::sync::Mutex::new(Vec::new()));
     let into = Arc::clone(&lines);
     let print = burgeon::script::Print::new(move |line: &str| into.lock().unwrap().push(line.to_owned()));
-    burgeon::run(&path, RunOptions { print: Some(print), ..options(threads) }).unwrap();
+    let reports = RunReports { print: Some(print), ..RunReports::default() };
+    burgeon::run(&path, RunOptions { reports, ..options(threads) }).unwrap();
     std::mem::take(&mut *lines.lock().unwrap())
 }
 

@@ -14,8 +14,8 @@ pub mod trace;
 /// What a run is told, what its script declares, and the virtual machines that run it.
 pub mod script {
     pub use crate::declare::{
-        API_VERSION, Control, Limits, Param, Preset, Print, RunOptions, RunProgress, Session, Setting,
-        TraceRequest, api_version,
+        API_VERSION, Control, Limits, Param, ParamValues, Preset, Print, RunInputs, RunOptions, RunProgress,
+        RunReports, Session, Setting, TraceRequest, api_version,
     };
     pub use crate::machine::{Machine, Watchdog, make_ready};
     pub use crate::questions::{Question, RowSource, Rows};

@@ -299,12 +299,12 @@ fn declare_with(
 
 /// Refuses values for parameters that the script does not have.
 fn refuse_unknown(session: &Session, params: &[Param]) -> Result<()> {
-    for (name, _) in &session.options.set {
+    for (name, _) in &session.options.params.set {
         if !params.iter().any(|param| param.name == *name) {
             session.forgive(name, no_such(session.script(), name, params))?;
         }
     }
-    if let Some(preset) = &session.options.preset {
+    if let Some(preset) = &session.options.params.preset {
         for (name, _) in &preset.params {
             if !params.iter().any(|param| param.name == *name) {
                 let script = session.script().display().to_string();

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use crate::declare::{RunOptions, Session, TraceRequest};
+use crate::declare::{RunOptions, RunReports, Session, TraceRequest};
 use crate::results::{Ancestor, Module, RuleName, RuleProducts, Trace};
 use crate::run::run_traced;
 use burgeon_base::error::{Error, Result, SourcePlace};
@@ -185,7 +185,8 @@ fn trace_chain(script: &Path, options: &RunOptions, origin: Origin) -> Result<Tr
 
 /// Runs `script` until the wanted system is derived, with the lineage of the wanted chains.
 pub fn trace(script: &Path, options: &RunOptions, wanted: TraceRequest) -> Result<Trace> {
-    let session = Session::new(script, RunOptions { trace: Some(wanted), ..options.clone() })?;
+    let reports = RunReports { trace: Some(wanted), ..options.reports.clone() };
+    let session = Session::new(script, RunOptions { reports, ..options.clone() })?;
     run_traced(&session)?.ok_or_else(|| {
         Error::script("the script no longer derives this system")
             .help("wait until the model has been made anew")

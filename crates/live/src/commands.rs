@@ -108,7 +108,7 @@ impl ServerState {
         own.extend(
             [&self.script]
                 .into_iter()
-                .chain(&self.options.stdlib)
+                .chain(&self.options.inputs.stdlib)
                 .filter_map(|path| path.canonicalize().ok()),
         );
         let script = self.script.canonicalize().unwrap_or_else(|_| self.script.clone());
@@ -134,7 +134,7 @@ impl ServerState {
     /// The name that the engine has for `path`, a file of the script.
     pub(super) fn engine_name(&self, path: &Path) -> String {
         let is = |known: &Path| known.canonicalize().is_ok_and(|known| known == path);
-        let whole = [&self.script].into_iter().chain(&self.options.stdlib).find(|known| is(known));
+        let whole = [&self.script].into_iter().chain(&self.options.inputs.stdlib).find(|known| is(known));
         let root = self.script.canonicalize().ok().and_then(|script| script.parent().map(Path::to_path_buf));
         let inner = root.as_deref().and_then(|root| path.strip_prefix(root).ok()).unwrap_or(path);
         let named = match (whole, self.script.parent()) {

@@ -16,7 +16,7 @@ pub(super) fn describe(state: &ServerState, job: &RunJob, session: &Session, run
     let textures = run.scene.materials.iter().filter_map(|material| material.texture.as_ref());
     let textures = textures.filter(|texture| texture.content.is_none());
     files.extend(textures.map(|texture| state.name(&texture.path)));
-    files.extend(state.options.stdlib.iter().map(|path| path.display().to_string()));
+    files.extend(state.options.inputs.stdlib.iter().map(|path| path.display().to_string()));
     files.sort();
     files.dedup();
     let systems = run.systems.iter().map(|system| {

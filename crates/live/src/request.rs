@@ -43,9 +43,12 @@ impl Request {
     /// What the command line requests.
     pub(super) fn new(options: &RunOptions) -> Self {
         let given = |text: &String| ParamText { text: text.clone(), default: None };
-        let preset = options.preset.as_ref().map(Preset::set).unwrap_or_default();
-        let values =
-            preset.iter().chain(&options.set).map(|(name, text)| (name.clone(), given(text))).collect();
+        let preset = options.params.preset.as_ref().map(Preset::set).unwrap_or_default();
+        let values = preset
+            .iter()
+            .chain(&options.params.set)
+            .map(|(name, text)| (name.clone(), given(text)))
+            .collect();
         Self { values, seed: options.seed, steps: options.steps, preset: None }
     }
 
@@ -242,8 +245,10 @@ mod tests {
         assert_eq!(old(&mut request, 5.0, 6.0), None);
         set(&mut request, json!({ "floors": 7 }), &[param(5.0, 10.0)]).unwrap();
         assert_eq!(old(&mut request, 5.0, 10.0), None);
-        let mut early =
-            Request::new(&RunOptions { set: vec![("floors".into(), "7".into())], ..RunOptions::default() });
+        let mut early = Request::new(&RunOptions {
+            params: vec![("floors".into(), "7".into())].into(),
+            ..RunOptions::default()
+        });
         assert_eq!(old(&mut early, 4.0, 10.0), None);
         assert_eq!(old(&mut early, 5.0, 10.0), Some(json!(4.0)));
     }

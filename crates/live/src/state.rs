@@ -138,8 +138,8 @@ impl ServerState {
     pub(super) fn new(mut settings: Settings) -> Self {
         let request = Request::new(&settings.options);
         // Its values are a part of the request from now on.
-        settings.options.preset = None;
-        settings.options.cache = Some(std::sync::Arc::default());
+        settings.options.params.preset = None;
+        settings.options.inputs.cache = Some(std::sync::Arc::default());
         let presets = super::tools::presets(&settings.script);
         let inner = LiveState {
             request,

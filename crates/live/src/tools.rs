@@ -14,7 +14,7 @@ use super::request::seed;
 use super::state::ServerState;
 use burgeon_base::error::{Error, Result};
 use burgeon_base::locks::LockRecovery;
-use burgeon_engine::script::{Param, Preset, RunOptions, Session};
+use burgeon_engine::script::{Param, ParamValues, Preset, RunOptions, Session};
 use burgeon_export::picture::{Background, Picture, Quality};
 use burgeon_presets::Presets;
 use burgeon_scene::image;
@@ -175,11 +175,9 @@ pub(super) fn variations(
             (inner.request.inputs(inner.generation), inner.params.clone())
         };
         let options = RunOptions {
-            set: inputs.set,
+            params: ParamValues { set: inputs.set, preset: None, forgiving: true },
             seed: inputs.seed,
             steps: inputs.steps,
-            preset: None,
-            forgiving: true,
             ..state.options.clone()
         };
         let over = over?;

@@ -126,8 +126,8 @@ fn present(state: &ServerState) -> Result<(Arc<PresentModel>, RunOptions)> {
             .help("repair the script, so that there is a new one"));
     }
     let mut options = work::options(state, &shown.inputs);
-    options.print = None;
-    options.profile = false;
+    options.reports.print = None;
+    options.reports.profile = false;
     options.limits.time = options.limits.time.min(PATIENCE);
     options.stop = Some(Arc::clone(&inner.aside));
     Ok((shown, options))

@@ -18,7 +18,7 @@ use burgeon_base::locks::LockRecovery;
 use burgeon_base::text::panic_message;
 use burgeon_base::warning::Warning;
 use burgeon_engine::run::{Run, run_session};
-use burgeon_engine::script::{Limits, RunOptions, Session, make_ready};
+use burgeon_engine::script::{Limits, ParamValues, RunOptions, RunReports, Session, make_ready};
 use burgeon_export::gltf::{self, Layout};
 use burgeon_presets::Presets;
 use burgeon_watch::{Watch, unsettled};
@@ -164,7 +164,7 @@ pub(super) fn report(state: &ServerState) {
 
 /// The files that decide what is made even if the script cannot be read.
 pub(super) fn always(state: &ServerState) -> Vec<PathBuf> {
-    std::iter::once(state.script.clone()).chain(state.options.stdlib.clone()).collect()
+    std::iter::once(state.script.clone()).chain(state.options.inputs.stdlib.clone()).collect()
 }
 
 /// Waits for something to do.
@@ -208,13 +208,13 @@ fn register(state: &ServerState, job: Option<&RunJob>, session: &Arc<Session>) -
 
 /// How the script is run with these inputs.
 pub(super) fn options(state: &ServerState, inputs: &Inputs) -> RunOptions {
+    let base = state.options.clone();
     RunOptions {
-        set: inputs.set.clone(),
+        params: ParamValues { set: inputs.set.clone(), forgiving: true, ..base.params },
         seed: inputs.seed,
         steps: inputs.steps,
-        forgiving: true,
-        profile: true,
-        ..state.options.clone()
+        reports: RunReports { profile: true, ..base.reports },
+        ..base
     }
 }
 
@@ -422,8 +422,8 @@ fn wants_last_step(state: &ServerState) -> Option<Inputs> {
 /// Runs the script without a limit of steps, only to count them; `None` if it was stopped for something newer.
 fn last_step(state: &ServerState, inputs: &Inputs) -> Option<usize> {
     let mut options = options(state, inputs);
-    options.print = None;
-    options.profile = false;
+    options.reports.print = None;
+    options.reports.profile = false;
     let limits = &mut options.limits;
     limits.time = limits.time.min(IDLE_LIMITS.time);
     limits.memory = limits.memory.min(IDLE_LIMITS.memory);

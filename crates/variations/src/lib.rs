@@ -105,7 +105,8 @@ impl Variations {
     /// parameter or refuses one of the values. A script that fails is told by its cells.
     pub fn new(script: &Path, options: &RunOptions, over: &VariationAxis) -> Result<Self> {
         image::check()?;
-        let options = RunOptions { print: None, ..options.clone() };
+        let mut options = options.clone();
+        options.reports.print = None;
         let plans: Vec<VariationPlan> = match over {
             VariationAxis::Seeds(seeds) => seeds
                 .iter()
@@ -191,7 +192,7 @@ impl Variations {
         let mut options = self.options.clone();
         options.seed = plan.seed;
         options.stop = Some(Arc::clone(&self.stop));
-        options.set.extend(plan.set.clone());
+        options.params.set.extend(plan.set.clone());
         options.threads = Some((self.options.worker_threads() / self.workers()).max(1));
         let session = Session::new(&self.script, options)?;
         let run = run_session(&session);
@@ -297,7 +298,7 @@ fn mean(pixels: [[u8; 4]; 4]) -> [u8; 4] {
 /// The parameter `name` of `script`.
 fn find(script: &Path, options: &RunOptions, name: &str) -> Result<Param> {
     let mut options = RunOptions { check: true, ..options.clone() };
-    options.set.retain(|(known, _)| known != name);
+    options.params.set.retain(|(known, _)| known != name);
     let session = Session::new(script, options)?;
     // A script that fails may have declared the parameter all the same; each cell tells the failure.
     let ran = declare(&session);

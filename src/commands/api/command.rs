@@ -9,7 +9,7 @@ use crate::commands::report;
 use crate::commands::shared::user_mods;
 use burgeon::kit::{Kind, Registry};
 use burgeon::language::{definitions, names};
-use burgeon::script::RunOptions;
+use burgeon::script::{RunInputs, RunOptions};
 use burgeon::{Error, Result};
 use clap::Args;
 use serde_json::json;
@@ -93,7 +93,8 @@ impl ApiCommand {
 impl ApiCommand {
     /// The types of objects that `script` declares, and those that it adds to.
     fn declared(&self, script: &Path) -> Result<Vec<Arc<Kind>>> {
-        let options = RunOptions { mods: self.mods.clone(), user_mods: user_mods(), ..burgeon::options() };
+        let inputs = RunInputs { mods: self.mods.clone(), user_mods: user_mods(), ..RunInputs::default() };
+        let options = RunOptions { inputs, ..burgeon::options() };
         Ok(burgeon::check(script, options)?.types)
     }
 }

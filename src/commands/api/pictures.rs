@@ -9,7 +9,7 @@ use burgeon::kit::ScriptExample;
 use burgeon::objects::EXAMPLES;
 use burgeon::picture::Picture;
 use burgeon::scene::{Instance, Material, Mesh, Part, Scene, image};
-use burgeon::script::Print;
+use burgeon::script::{Print, RunOptions, RunReports};
 use burgeon::{Error, Result, Stop, export};
 use glam::{DAffine3, DVec3};
 
@@ -84,7 +84,8 @@ fn picture(example: &ScriptExample) -> Result<Vec<u8>> {
         |error: std::io::Error| Error::file(&path, format!("cannot write {}: {error}", path.display()));
     std::fs::create_dir_all(&folder).map_err(wrong)?;
     std::fs::write(&path, example.script).map_err(wrong)?;
-    let options = burgeon::script::RunOptions { print: Some(Print::new(|_: &str| ())), ..burgeon::options() };
+    let reports = RunReports { print: Some(Print::new(|_: &str| ())), ..RunReports::default() };
+    let options = RunOptions { reports, ..burgeon::options() };
     let run = burgeon::run(&path, options);
     // A folder that stays behind is of no consequence.
     let _ = std::fs::remove_dir_all(&folder);

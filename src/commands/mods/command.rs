@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use burgeon::packages::{self, Package, PackageSearch, Packages};
-use burgeon::script::{Param, RunOptions, api_version};
+use burgeon::script::{Param, RunInputs, RunOptions, api_version};
 use burgeon::{Error, Result, ScriptCheck, Warning};
 use clap::{Args, Subcommand};
 use serde_json::json;
@@ -201,7 +201,8 @@ impl ModsCommand {
         mods.extend(search.script.as_ref().map(|script| script.join("mods")).filter(|mods| mods.is_dir()));
         // What the folder of a package is called by is how its files are told of.
         mods.insert(0, package.shown.clone());
-        let options = RunOptions { mods, user_mods: search.user.clone(), ..burgeon::options() };
+        let inputs = RunInputs { mods, user_mods: search.user.clone(), ..RunInputs::default() };
+        let options = RunOptions { inputs, ..burgeon::options() };
         let ScriptCheck { params, warnings, .. } = burgeon::check_package(&package.shown, options)?;
         declared.insert(package.manifest.name.clone(), params);
         Ok(warnings)

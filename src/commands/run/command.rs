@@ -11,7 +11,7 @@ use crate::commands::shared::{PictureFlags, ScriptFlags, end_on_interrupt, size}
 use burgeon::export::Format;
 use burgeon::presets::Presets;
 use burgeon::results::layers;
-use burgeon::script::{Param, Preset, RunOptions, Session};
+use burgeon::script::{Param, Preset, Session};
 use burgeon::{Result, Warning, WarningKind};
 use clap::Args;
 
@@ -100,7 +100,9 @@ impl RunCommand {
     /// The script as it was named, and how it is run.
     pub(super) fn session(&self) -> Result<Arc<Session>> {
         let records = self.metadata || self.writes(|format| format == Format::CityJson);
-        Session::new(&self.script.script, RunOptions { records, ..self.script.options()? })
+        let mut options = self.script.options()?;
+        options.reports.records = records;
+        Session::new(&self.script.script, options)
     }
 
     /// Runs `session`, writes everything, and says what came of it, unless it is `stale` before anything is written.
@@ -181,8 +183,8 @@ impl RunCommand {
     /// Saves what this run was given.
     fn save(&self, name: &str, session: &Session, params: &[Param]) -> Result<()> {
         let options = &session.options;
-        let preset = options.preset.iter().flat_map(|preset| &preset.params).map(|(name, _)| name);
-        let given: Vec<&String> = preset.chain(options.set.iter().map(|(name, _)| name)).collect();
+        let preset = options.params.preset.iter().flat_map(|preset| &preset.params).map(|(name, _)| name);
+        let given: Vec<&String> = preset.chain(options.params.set.iter().map(|(name, _)| name)).collect();
         let params = params.iter().filter(|param| given.contains(&&param.name));
         let params = params.map(|param| (param.name.clone(), param.value.clone())).collect();
         let preset = Preset { name: name.to_owned(), seed: Some(options.seed), params, ..Preset::default() };

@@ -157,7 +157,7 @@ impl Resources for FileAccess<'_> {
     }
 
     fn cache(&self) -> Option<&Cache> {
-        self.session.options.cache.as_deref()
+        self.session.options.inputs.cache.as_deref()
     }
 }
 
@@ -182,7 +182,7 @@ fn read(
         );
     }
     let path = find(session, asker, "data file", name)?;
-    let cache = session.options.cache.as_deref();
+    let cache = session.options.inputs.cache.as_deref();
     let key = cache.and_then(|_| Cache::key(&path, &wanted, known.frame.as_ref()));
     let kept = cache.zip(key.as_deref()).and_then(|(cache, key)| cache.get(key));
     let layer = match kept {

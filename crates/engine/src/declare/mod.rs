@@ -22,7 +22,7 @@ mod types;
 
 pub(crate) use api::has_name;
 pub use api::{API_VERSION, api_version};
-pub use options::{Limits, Print, RunOptions, TraceRequest};
+pub use options::{Limits, ParamValues, Print, RunInputs, RunOptions, RunReports, TraceRequest};
 pub use param::{Control, Param, Setting};
 pub use preset::Preset;
 pub(crate) use scripts::SourceFile;

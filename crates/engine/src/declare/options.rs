@@ -60,63 +60,90 @@ pub struct TraceRequest {
     pub chain: Option<usize>,
 }
 
+/// Values for the `param` declarations of a script.
+#[derive(Debug, Clone, Default)]
+pub struct ParamValues {
+    /// Values by name, as text.
+    pub set: Vec<(String, String)>,
+    /// Values for those that are not in `set`. Its seed does not count: that of the run does.
+    pub preset: Option<Preset>,
+    /// Whether values in `set` that the script does not take are left out, and not an error;
+    /// [`Session::left_out`] tells which.
+    ///
+    /// [`Session::left_out`]: super::Session::left_out
+    pub forgiving: bool,
+}
+
+impl From<Vec<(String, String)>> for ParamValues {
+    fn from(set: Vec<(String, String)>) -> Self {
+        Self { set, ..Self::default() }
+    }
+}
+
+/// What a run may read besides the folder of its script.
+#[derive(Debug, Clone, Default)]
+pub struct RunInputs {
+    /// Folders whose data files it may read.
+    pub data: Vec<PathBuf>,
+    /// Addresses of databases that it may ask, with a password where one is needed.
+    pub databases: Vec<String>,
+    /// Answers what scripts ask in SQL, in place of the sources that they have loaded.
+    pub rows: Option<Arc<dyn RowSource>>,
+    /// Layers that earlier runs have read.
+    pub cache: Option<Arc<Cache>>,
+    /// Folders besides `mods` beside the script that packages are in, or that are packages.
+    pub mods: Vec<PathBuf>,
+    /// The user's own folder of packages, which need not be there.
+    pub user_mods: Option<PathBuf>,
+    /// A file in the place of the built-in standard library.
+    pub stdlib: Option<PathBuf>,
+}
+
+/// What a run tells besides what it makes.
+#[derive(Debug, Clone, Default)]
+pub struct RunReports {
+    /// Takes what scripts print; without it, nobody does.
+    pub print: Option<Print>,
+    /// Whether to measure the time of each interpretation rule, which takes about a twentieth of it.
+    pub profile: bool,
+    /// Whether what is known of the features in lists that scripts make is kept, for files that tell it.
+    pub records: bool,
+    /// The chains to note the lineage of; see [`trace`](crate::trace).
+    pub trace: Option<TraceRequest>,
+}
+
 /// How a script is to be run.
 #[derive(Debug, Clone)]
 pub struct RunOptions {
-    /// Values for `param` declarations, by name, as text.
-    pub set: Vec<(String, String)>,
-    /// Values for `param` declarations that are not in `set`. Its seed does not count: `seed` does.
-    pub preset: Option<Preset>,
+    /// Values for its parameters.
+    pub params: ParamValues,
     /// The seed of all random numbers.
     pub seed: u64,
     /// The greatest number of derivation steps of each system; as the script says if `None`.
     pub steps: Option<usize>,
     /// The level of detail: 0 ground plans, 1 blocks, 2 roofs, 3 everything. Scripts read it as `lod`.
     pub lod: u8,
-    /// Worker threads; as many as there are cores if `None`.
-    pub threads: Option<usize>,
-    /// Modules that a worker takes at a time. The result does not depend on it.
-    pub batch: usize,
-    /// How much the run may use.
-    pub limits: Limits,
-    /// Whether to stop before deriving, after all declarations have been read.
-    pub check: bool,
-    /// Takes what scripts print; without it, nobody does.
-    pub print: Option<Print>,
-    /// Ends this run, too, when it is stopped.
-    pub stop: Option<Arc<Stop>>,
-    /// Folders besides the script's whose data files it may read.
-    pub data: Vec<PathBuf>,
-    /// Addresses of databases that it may ask, with a password where one is needed.
-    pub databases: Vec<String>,
-    /// Folders besides `mods` beside the script that packages are in, or that are packages.
-    pub mods: Vec<PathBuf>,
-    /// The user's own folder of packages, which need not be there.
-    pub user_mods: Option<PathBuf>,
-    /// Layers that earlier runs have read.
-    pub cache: Option<Arc<Cache>>,
-    /// Answers what scripts ask in SQL, in place of the sources that they have loaded.
-    pub rows: Option<Arc<dyn RowSource>>,
     /// The types of objects that scripts can use.
     pub registry: Registry,
-    /// A file in the place of the built-in standard library.
-    pub stdlib: Option<PathBuf>,
-    /// Whether values in `set` that the script does not take are left out, and not an error;
-    /// [`Session::left_out`] tells which.
-    ///
-    /// [`Session::left_out`]: super::Session::left_out
-    pub forgiving: bool,
-    /// Whether to measure the time of each interpretation rule, which takes about a twentieth of it.
-    pub profile: bool,
+    /// What it may read.
+    pub inputs: RunInputs,
+    /// What it tells.
+    pub reports: RunReports,
+    /// How much it may use.
+    pub limits: Limits,
+    /// Ends it, too, when it is stopped.
+    pub stop: Option<Arc<Stop>>,
+    /// Whether to stop before deriving, after all declarations have been read.
+    pub check: bool,
     /// Whether warnings end the run as errors, and bad data does; otherwise its features are left out, and
     /// [`DerivedSystem::remarks`] tells which.
     ///
     /// [`DerivedSystem::remarks`]: crate::results::DerivedSystem::remarks
     pub strict: bool,
-    /// Whether what is known of the features in lists that scripts make is kept, for files that tell it.
-    pub records: bool,
-    /// The chains to note the lineage of; see [`trace`](crate::trace).
-    pub trace: Option<TraceRequest>,
+    /// Worker threads; as many as there are cores if `None`.
+    pub threads: Option<usize>,
+    /// Modules that a worker takes at a time. The result does not depend on it.
+    pub batch: usize,
 }
 
 /// How many threads can run at once. Asking the system reads files, which takes longer than a step of a small chain.
@@ -133,30 +160,19 @@ impl RunOptions {
 impl Default for RunOptions {
     fn default() -> Self {
         Self {
-            set: Vec::new(),
-            preset: None,
+            params: ParamValues::default(),
             seed: 0,
             steps: None,
             lod: 3,
+            registry: Registry::default(),
+            inputs: RunInputs::default(),
+            reports: RunReports::default(),
+            limits: Limits::default(),
+            stop: None,
+            check: false,
+            strict: false,
             threads: None,
             batch: 4096,
-            limits: Limits::default(),
-            check: false,
-            print: None,
-            stop: None,
-            data: Vec::new(),
-            databases: Vec::new(),
-            mods: Vec::new(),
-            user_mods: None,
-            cache: None,
-            rows: None,
-            registry: Registry::default(),
-            stdlib: None,
-            forgiving: false,
-            profile: false,
-            strict: false,
-            records: false,
-            trace: None,
         }
     }
 }

@@ -21,7 +21,7 @@ pub(super) fn read(
 
     let (asked, layer) = ServerAddress::split(text)?;
     wanted.layer = wanted.layer.or(layer);
-    let allowed = session.options.databases.iter().map(|address| ServerAddress::parse(address));
+    let allowed = session.options.inputs.databases.iter().map(|address| ServerAddress::parse(address));
     let allowed = allowed.collect::<Result<Vec<ServerAddress>>>()?;
     let server = known.tables.server(asked.allowed(&allowed)?, session.options.limits.time);
     let features = server.read(&wanted)?;

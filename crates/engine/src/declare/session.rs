@@ -133,12 +133,12 @@ impl Session {
         options.registry.check()?;
         let path = script.canonicalize().map_err(|error| unreadable(script, &error))?;
         let root = path.parent().map_or_else(PathBuf::new, Path::to_path_buf);
-        let stdlib = options.stdlib.as_deref().map(read_stdlib).transpose()?;
-        let data_roots = options.data.iter().map(|folder| data_root(folder)).collect::<Result<_>>()?;
+        let stdlib = options.inputs.stdlib.as_deref().map(read_stdlib).transpose()?;
+        let data_roots = options.inputs.data.iter().map(|folder| data_root(folder)).collect::<Result<_>>()?;
         let search = PackageSearch {
             script: script.parent().map(Path::to_path_buf),
-            given: options.mods.clone(),
-            user: options.user_mods.clone(),
+            given: options.inputs.mods.clone(),
+            user: options.inputs.user_mods.clone(),
         };
         let packages = Packages::find(&search, &api_version());
         let warnings = Warnings::default();
@@ -204,7 +204,8 @@ impl Session {
     /// replacement, and all that was read or looked for, in the order of their paths.
     pub fn sought(&self) -> Vec<(PathBuf, bool)> {
         let mut files = self.sought.lock().recover().clone();
-        let read = self.files().into_iter().chain([self.script.clone()]).chain(self.options.stdlib.clone());
+        let read =
+            self.files().into_iter().chain([self.script.clone()]).chain(self.options.inputs.stdlib.clone());
         files.extend(read.chain(self.packages.manifests()).map(|path| (path, true)));
         files.into_iter().collect()
     }
@@ -226,7 +227,7 @@ impl Session {
 
     /// Passes `error` on, or notes it if the run forgives that a value of `name` cannot be used.
     pub(crate) fn forgive(&self, name: &str, error: Error) -> Result<()> {
-        if !self.options.forgiving {
+        if !self.options.params.forgiving {
             return Err(error);
         }
         let mut left_out = self.left_out.lock().recover();
@@ -356,7 +357,7 @@ impl Session {
     /// The rows that answer `question`, the same for as long as they are kept, which is to the end if the answer
     /// `stays`.
     pub(crate) fn ask(&self, question: &Question, stays: bool) -> Result<Arc<Rows>> {
-        let source: &dyn RowSource = match &self.options.rows {
+        let source: &dyn RowSource = match &self.options.inputs.rows {
             Some(own) => &**own,
             #[cfg(feature = "data")]
             None => self,

@@ -87,7 +87,7 @@ impl Derivation {
     pub(super) fn plan(machine: &Machine, index: usize, steps: Option<usize>) -> Result<Self> {
         let session = &machine.session;
         let options = &session.options;
-        let traced = options.trace.filter(|traced| traced.system == index);
+        let traced = options.reports.trace.filter(|traced| traced.system == index);
         // What was declared since the last derivation holds as well.
         machine.current.system.set(None);
         machine.library.systems.borrow()[index].note_derivation(machine);
@@ -112,7 +112,7 @@ impl Derivation {
             batch: options.batch.max(1),
             traced: traced.is_some(),
             notes_questions: traced.is_some_and(|traced| traced.chain.is_some()),
-            profiled: options.profile,
+            profiled: options.reports.profile,
         });
         let declared = system.prepare(machine)?;
         system.tell_forestalled(machine, &plan.grammar);

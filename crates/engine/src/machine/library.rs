@@ -318,7 +318,7 @@ impl Library {
                 let mut param = Param::declare(&name, &options).map_err(mlua::Error::external)?;
                 let place = Machine::place(lua);
                 session.redefault(&mut param, place.as_ref()).map_err(mlua::Error::external)?;
-                match param.given(&session.options.set, session.options.preset.as_ref()) {
+                match param.given(&session.options.params.set, session.options.params.preset.as_ref()) {
                     Ok(value) => param.value = value,
                     Err(error) => session.forgive(&name, error).map_err(mlua::Error::external)?,
                 }
@@ -328,7 +328,7 @@ impl Library {
             })?,
         )?;
         globals.raw_set("lod", machine.session.options.lod)?;
-        let hook = machine.session.options.print.clone();
+        let hook = machine.session.options.reports.print.clone();
         globals.raw_set(
             "print",
             lua.create_function(move |lua, values: MultiValue| match &hook {

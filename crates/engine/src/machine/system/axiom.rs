@@ -120,7 +120,7 @@ impl SystemDeclaration {
         let prefetch = self.prefetch(machine, source)?;
         let mut refused: Option<Error> = None;
         axiom.source = shown(source);
-        let (layer, records) = (layer_of(source), machine.session.options.records);
+        let (layer, records) = (layer_of(source), machine.session.options.reports.records);
         for (id, error) in refused_of(source) {
             axiom.given += 1;
             axiom.remarks.push(Remark { unread: true, ..Remark::skipped(&axiom.source, Some(&id), &error) });
