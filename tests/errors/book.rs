@@ -43,27 +43,13 @@ fn the_reference_is_what_the_program_writes() {
     assert!(written.len() > 18, "{}", written.len());
 }
 
-/// What scripts of the book require.
-const ROADS: [(&str, &str); 8] = [
-    ("templates/roads.lua", include_str!("../../scripts/templates/roads.lua")),
-    ("templates/roads/checks.lua", include_str!("../../scripts/templates/roads/checks.lua")),
-    ("templates/roads/exits.lua", include_str!("../../scripts/templates/roads/exits.lua")),
-    ("templates/roads/patterns.lua", include_str!("../../scripts/templates/roads/patterns.lua")),
-    ("templates/roads/growth.lua", include_str!("../../scripts/templates/roads/growth.lua")),
-    ("templates/roads/greens.lua", include_str!("../../scripts/templates/roads/greens.lua")),
-    ("templates/roads/highways.lua", include_str!("../../scripts/templates/roads/highways.lua")),
-    ("templates/roads/words.lua", include_str!("../../scripts/templates/roads/words.lua")),
-];
-
 #[test]
 fn every_script_of_the_book_runs() {
     let mut count = 0;
     for (name, text) in pages(&sources()) {
         for block in text.split("```lua\n").skip(1) {
             let script = block.split("```").next().unwrap();
-            let folder = ROADS
-                .iter()
-                .fold(Folder::new().with("s.lua", script), |folder, (name, text)| folder.with(name, *text));
+            let folder = Folder::new().with_roads().with("s.lua", script);
             let said = folder.burgeon(&["run", "s.lua", "--strict"]);
             assert_eq!(said.status, 0, "{name}: {}", said.stderr);
             count += 1;

@@ -1,7 +1,5 @@
 //! Street networks: what cannot be, and what becomes of streets that are proposed.
 
-use std::path::Path;
-
 use insta::assert_snapshot;
 
 use crate::support::{Folder, printed, refused};
@@ -17,22 +15,8 @@ pub(crate) fn grown(fields: &str, proposal: &str) -> String {
 
 /// A folder with a script that uses the library of roads.
 fn with_roads(script: &str) -> Folder {
-    let templates = Path::new(env!("CARGO_MANIFEST_DIR")).join("scripts/templates");
-    let files = [
-        "roads.lua",
-        "roads/checks.lua",
-        "roads/exits.lua",
-        "roads/growth.lua",
-        "roads/greens.lua",
-        "roads/highways.lua",
-        "roads/patterns.lua",
-        "roads/words.lua",
-    ];
-    let folder =
-        Folder::new().with("s.lua", format!("local roads = require(\"templates/roads\")\n{script}\n"));
-    files.into_iter().fold(folder, |folder, file| {
-        folder.with(&format!("templates/{file}"), std::fs::read(templates.join(file)).unwrap())
-    })
+    let script = format!("local roads = require(\"templates/roads\")\n{script}\n");
+    Folder::new().with_roads().with("s.lua", script)
 }
 
 /// How a script is refused that uses the library of roads.

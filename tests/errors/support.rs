@@ -78,6 +78,16 @@ impl Folder {
         self
     }
 
+    /// With the library of roads, where scripts require it.
+    pub(crate) fn with_roads(self) -> Self {
+        let templates = Path::new(env!("CARGO_MANIFEST_DIR")).join("scripts/templates");
+        let parts = std::fs::read_dir(templates.join("roads")).unwrap().map(|entry| entry.unwrap().path());
+        [templates.join("roads.lua")].into_iter().chain(parts).fold(self, |folder, path| {
+            let name = path.strip_prefix(&templates).unwrap().to_str().unwrap();
+            folder.with(&format!("templates/{name}"), std::fs::read(&path).unwrap())
+        })
+    }
+
     pub(crate) fn path(&self) -> &Path {
         self.0.path()
     }
