@@ -104,7 +104,8 @@ pub use burgeon_base::{
     Budget, Error, MemoryReservation, Result, Stop, Warning, WarningKind, error, locks, text, warning,
 };
 pub use burgeon_data as sources;
-pub use burgeon_engine::run::{Run, RunTimes, ScriptCheck, check, check_package, run, run_session};
+pub use burgeon_engine::run::{Run, RunTimes, run, run_session};
+pub use burgeon_engine::{ScriptCheck, check, check_package};
 pub use burgeon_engine::{results, script, trace};
 pub use burgeon_export as export;
 pub use burgeon_export::picture;

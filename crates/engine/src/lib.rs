@@ -3,6 +3,7 @@
 //! Comes in: a script and the [`Registry`](burgeon_kit::Registry) of types that it may use. Goes out: a [`Run`] with
 //! its scene. It never knows a type of object by name, and never writes a file.
 
+mod check;
 mod declare;
 mod derive;
 mod machine;
@@ -21,4 +22,5 @@ pub mod script {
     pub use crate::questions::{Question, RowSource, Rows};
 }
 
-pub use run::{Run, RunTimes, ScriptCheck, check, check_package, run_session};
+pub use check::{ScriptCheck, check, check_package};
+pub use run::{Run, RunTimes, run_session};

@@ -8,13 +8,12 @@ use std::time::{Duration, Instant};
 use crate::declare::{Param, RunOptions, Session};
 use crate::derive::ThreadPool;
 use crate::machine::{Machine, Watchdog};
-use crate::results::{DerivedSystem, FeatureReport, Times, Trace};
-use burgeon_base::error::{Error, ErrorKind, Result};
-use burgeon_base::text::shown;
-use burgeon_base::warning::{Warning, WarningKind};
+use crate::results::{
+    DerivedSystem, FeatureReport, Times, Trace, emptiness, idleness, is_whole, left_out, tells_of_emptiness,
+};
+use burgeon_base::error::{Error, Result};
+use burgeon_base::warning::Warning;
 use burgeon_data::ReferenceFrame;
-use burgeon_kit::Kind;
-use burgeon_packages::MANIFEST;
 use burgeon_scene::Scene;
 
 /// What a run of a script gave.
@@ -52,17 +51,6 @@ impl Run {
         let reason = self.warnings.iter().find(|warning| tells_of_emptiness(warning)).cloned();
         reason.or_else(|| emptiness(&self.warnings, &self.systems))
     }
-}
-
-/// What a script declares, without deriving anything.
-#[derive(Debug, Clone)]
-pub struct ScriptCheck {
-    /// Its parameters.
-    pub params: Vec<Param>,
-    /// The types of objects that it declares, and those that it adds methods to.
-    pub types: Vec<Arc<Kind>>,
-    /// What people should know of it, in the order of files and lines.
-    pub warnings: Vec<Warning>,
 }
 
 /// Where the time of a run went.
@@ -139,125 +127,6 @@ pub fn run_session(session: &Arc<Session>) -> Result<Run> {
     Ok(Run { scene, systems, params, frame: session.data.frame(), warnings, times })
 }
 
-/// Whether a warning tells why nothing of some module is seen.
-fn tells_of_emptiness(warning: &Warning) -> bool {
-    use WarningKind::{DrawsNothing, HiddenModule, ReturnedModules, UndrawnModule};
-    matches!(warning.kind(), DrawsNothing | HiddenModule | ReturnedModules | UndrawnModule)
-}
-
-/// The warning for an empty model of drawing objects, of which `warnings` are known.
-fn emptiness(warnings: &[Warning], systems: &[Arc<DerivedSystem>]) -> Option<Warning> {
-    let mut drawing = systems.iter().filter(|system| system.draws);
-    let drawing = drawing.clone().find(|system| !system.is_placed()).or_else(|| drawing.next())?;
-    let help = if warnings.iter().any(tells_of_emptiness) {
-        "another warning tells why"
-    } else if systems.iter().any(|system| system.is_placed()) {
-        "a system that another one is to place is not shown by itself: see that it is placed"
-    } else if drawing.objects.is_empty() {
-        "its source has no features"
-    } else if is_interpreted(drawing) {
-        NO_EXTENT
-    } else if drawing.steps == 0 {
-        "it was derived by 0 steps: see that a rule applies to the axiom, or interpret the axiom's modules"
-    } else {
-        "no module of its final chain is drawn: write system:interpret(pattern, function(this, ...) ... end)"
-    };
-    let warning = Warning::new(WarningKind::EmptyModel, "the model is empty, for this system draws nothing");
-    Some(warning.at(drawing.place.clone()).called_at(drawing.caller.clone()).help(help))
-}
-
-/// What to look for where interpretations draw nothing.
-const NO_EXTENT: &str = "its interpretations draw nothing: see that lengths and scales are above 0";
-
-/// The warning for a system that draws nothing in a model where others do, though its interpretations ran.
-fn idleness(session: &Session, scene: &Scene, system: &DerivedSystem) -> Option<Warning> {
-    let is_told = scene.triangles() == 0 || session.warnings().iter().any(tells_of_emptiness);
-    if is_told || !system.draws || !is_interpreted(system) || !is_whole(session) {
-        return None;
-    }
-    let warning = Warning::new(WarningKind::DrawsNothing, "this system draws nothing");
-    Some(warning.at(system.place.clone()).called_at(system.caller.clone()).help(NO_EXTENT))
-}
-
-/// Whether nobody has asked to see less of the model.
-fn is_whole(session: &Session) -> bool {
-    session.options.steps.is_none() && session.options.lod == RunOptions::default().lod
-}
-
-/// Whether interpretation rules of a system ran.
-fn is_interpreted(system: &DerivedSystem) -> bool {
-    system.rules.iter().any(|rule| rule.interprets && rule.done.applied > 0)
-}
-
-/// Reads the script and everything it requires, compiles every rule, and tells all problems at once; those that a strict
-/// run would end with are among them if it is to be strict.
-pub fn check(path: &Path, options: RunOptions) -> Result<ScriptCheck> {
-    let session = Session::new(path, RunOptions { check: true, ..options })?;
-    checked(&session, Machine::run)
-}
-
-/// The same of all Lua files of the package in `folder`, and of the files that they name.
-pub fn check_package(folder: &Path, options: RunOptions) -> Result<ScriptCheck> {
-    let session = Session::new(&folder.join(MANIFEST), RunOptions { check: true, ..options })?;
-    let packages = session.packages();
-    let package = packages.order().iter().find(|package| package.folder == session.root());
-    let Some(package) = package else {
-        // It is hidden by another one, or there is a problem that tells why.
-        let shown = folder.display();
-        let problems = packages.problems.clone();
-        return Err(if problems.is_empty() {
-            Error::not_found("package", &shown, [], format!("{shown} is no package that is used"))
-                .help("burgeon mods lists those that are")
-        } else {
-            Error::several(problems)
-        });
-    };
-    checked(&session, |machine| machine.run_package(package))
-}
-
-/// What comes of `run` in a session whose options say to check only.
-fn checked(session: &Arc<Session>, run: impl FnOnce(&Machine) -> Result<()>) -> Result<ScriptCheck> {
-    let mut found = Vec::new();
-    let ran = declare_with(session, &mut found, run);
-    let mut problems = session.problems();
-    problems.extend(session.call_problems());
-    problems.retain(|known| !found.iter().any(|found| misses_same(known, found)));
-    problems.extend(found);
-    if let Err(error) = ran {
-        for problem in error.problems() {
-            let told =
-                problems.iter().any(|known| known.place().is_some() && known.place() == problem.place());
-            match problems.iter_mut().find(|known| misses_same(known, problem)) {
-                // Whoever ran into it knows more of it than whoever read it.
-                Some(known) => *known = problem.alone(),
-                None if told => {}
-                None => problems.push(problem.alone()),
-            }
-        }
-    }
-    if let Err(error) = refuse_unknown(session, &session.params()) {
-        problems.push(error);
-    }
-    let warnings = session.warnings();
-    if session.options.strict {
-        problems.extend(warnings.iter().cloned().map(Warning::into_error));
-    }
-    problems.sort_by(|a, b| a.place().cmp(&b.place()));
-    if !problems.is_empty() {
-        return Err(Error::several(problems));
-    }
-    Ok(ScriptCheck { params: session.params(), types: session.types(), warnings })
-}
-
-/// Whether two errors miss the same name in the same place.
-fn misses_same(one: &Error, other: &Error) -> bool {
-    let missed = |error: &Error| match error.kind() {
-        ErrorKind::NotFound { name, .. } => Some(name.clone()),
-        _ => None,
-    };
-    one.place() == other.place() && missed(one).is_some() && missed(one) == missed(other)
-}
-
 /// A machine for a session's script, which is read in the meantime.
 fn leading_machine(session: &Arc<Session>) -> Result<(Rc<Machine>, Rc<ThreadPool>)> {
     let problems = &session.packages().problems;
@@ -286,7 +155,7 @@ pub fn declare(session: &Arc<Session>) -> Result<()> {
 }
 
 /// The same with `run` in place of the script, and with the `problems` of its rules.
-fn declare_with(
+pub(crate) fn declare_with(
     session: &Arc<Session>,
     problems: &mut Vec<Error>,
     run: impl FnOnce(&Machine) -> Result<()>,
@@ -298,7 +167,7 @@ fn declare_with(
 }
 
 /// Refuses values for parameters that the script does not have.
-fn refuse_unknown(session: &Session, params: &[Param]) -> Result<()> {
+pub(crate) fn refuse_unknown(session: &Session, params: &[Param]) -> Result<()> {
     for (name, _) in &session.options.params.set {
         if !params.iter().any(|param| param.name == *name) {
             session.forgive(name, no_such(session.script(), name, params))?;
@@ -323,22 +192,6 @@ pub fn no_such(script: &Path, name: &str, params: &[Param]) -> Error {
         true => "it declares none".to_owned(),
         false => format!("it has {}", names.join(", ")),
     })
-}
-
-/// Which features of a system were left out, and why; those that its source has told of are not counted.
-fn left_out(system: &DerivedSystem) -> Option<Warning> {
-    let mut skipped = system.remarks.iter().filter(|remark| remark.skipped && !remark.unread);
-    let first = skipped.next()?;
-    let (count, why) = (1 + skipped.count(), &first.why);
-    let id = first.feature.as_deref().map_or_else(String::new, |id| format!(" {}", shown(id)));
-    let source = if first.source.is_empty() { String::new() } else { format!(" of {}", first.source) };
-    let text = match count {
-        1 => format!("left out feature{id}{source}: {why}"),
-        _ => format!("left out {count} of {} features, such as feature{id}{source}: {why}", system.given),
-    };
-    let warning = Warning::new(WarningKind::Data, text);
-    let warning = warning.at(system.place.clone()).called_at(system.caller.clone());
-    Some(warning.help("--report FILE lists all of them; with --strict they are errors"))
 }
 
 /// Turns the textures' names into files within the script's folder, or those of packages.

@@ -14,7 +14,7 @@ thread_local! {
 /// A state without anything of a script.
 pub(super) struct BlankMachine {
     pub(super) lua: Lua,
-    /// `prelude.luau`, which has not been called.
+    /// The prelude, which has not been called.
     pub(super) prelude: Function,
 }
 

@@ -1,4 +1,4 @@
-//! The functions that Rust gives to `prelude.luau`.
+//! The functions that Rust gives to the prelude.
 
 use std::rc::Rc;
 use std::sync::{Arc, LazyLock};
@@ -18,9 +18,9 @@ use burgeon_kit::{Call, GeometryObject, ScriptObject, Value};
 /// An answer of more entries is made without a collection of garbage meanwhile.
 const LONG: usize = 256;
 
-/// While guards run, in `prelude.luau`.
+/// While guards run, in the prelude.
 const GUARD: u8 = 2;
-/// At the top level, in `prelude.luau`.
+/// At the top level, in the prelude.
 const TOP: u8 = 0;
 
 /// A held object's place, a method's number, the application, and what the method is given.

@@ -1,4 +1,4 @@
-//! Loads the Lua side of the hot path.
+//! The prelude: the Lua side of the hot path, and what scripts see.
 
 use std::sync::LazyLock;
 
@@ -8,22 +8,26 @@ use mlua::{Buffer, Function, Lua, Table};
 use crate::machine::system::UNREAD;
 use crate::machine::types::POINTS;
 
-const TEMPLATE: &str = include_str!("prelude.luau");
-/// The part of it that is about types of objects of scripts.
-const SCRIPT_TYPES: &str = include_str!("types/script_types.luau");
-/// The part of it that is about questions to data.
-const QUESTIONS: &str = include_str!("questions.luau");
+/// Its parts: one chunk of Luau, whose locals each part has from those before it.
+const PARTS: [&str; 12] = [
+    include_str!("prelude/batch.luau"),
+    include_str!("prelude/constructors.luau"),
+    include_str!("prelude/successors.luau"),
+    include_str!("prelude/drivers.luau"),
+    include_str!("prelude/calls.luau"),
+    include_str!("prelude/script_types.luau"),
+    include_str!("prelude/held_objects.luau"),
+    include_str!("prelude/declarations.luau"),
+    include_str!("prelude/interpretation.luau"),
+    include_str!("prelude/questions.luau"),
+    include_str!("prelude/globals.luau"),
+    include_str!("prelude/exports.luau"),
+];
 
-/// The template written out and compiled, once for all machines.
-static COMPILED: LazyLock<Vec<u8>> = LazyLock::new(|| {
-    let parts = [("script_types", SCRIPT_TYPES), ("questions", QUESTIONS)];
-    let whole = parts.iter().fold(TEMPLATE.to_owned(), |text, (name, part)| {
-        text.replace(&format!("--@include {name}.luau"), part)
-    });
-    super::compile(&expand(&whole))
-});
+/// The parts written out and compiled, once for all machines.
+static COMPILED: LazyLock<Vec<u8>> = LazyLock::new(|| super::compile(&expand(&PARTS.concat())));
 
-/// The functions of `prelude.luau` that Rust calls.
+/// The functions of the prelude that Rust calls.
 pub(crate) struct Prelude {
     /// `(symbol, signature)`: a module's constructor.
     pub constructor: Function,
@@ -76,7 +80,7 @@ pub(crate) struct Prelude {
 }
 
 impl Prelude {
-    /// `prelude.luau` as bytecode: called with the functions that Rust gives to it, it returns what [`Prelude::new`] takes.
+    /// The prelude as bytecode: called with the functions that Rust gives to it, it returns what [`Prelude::new`] takes.
     pub(super) fn chunk(lua: &Lua) -> mlua::Result<Function> {
         lua.enable_jit(false);
         let chunk = lua.load(COMPILED.as_slice()).set_name("=burgeon").set_mode(ChunkMode::Binary);

@@ -1,4 +1,4 @@
-//! The functions that Rust gives to `questions.luau`: what scripts ask of data, and what comes of it.
+//! The functions that Rust gives to `prelude/questions.luau`: what scripts ask of data, and what comes of it.
 
 use std::cell::RefCell;
 use std::rc::Rc;
@@ -23,7 +23,7 @@ struct RowTables {
     values: usize,
 }
 
-/// Adds those that [`questions.luau`](self) calls.
+/// Adds those that [`prelude/questions.luau`](self) calls.
 pub(super) fn add_questions(lua: &Lua, host: &Table, current: &Rc<WorkState>) -> mlua::Result<()> {
     host.set(
         "sql_parameters",
@@ -95,7 +95,7 @@ fn row_tables(lua: &Lua, rows: &Rows) -> mlua::Result<Table> {
     Ok(list)
 }
 
-/// The places of the arguments of a rule with this pattern, by name, for `questions.luau`.
+/// The places of the arguments of a rule with this pattern, by name, for `prelude/questions.luau`.
 pub(super) fn argument_places(lua: &Lua, pattern: &Pattern, symbols: &Symbols) -> mlua::Result<Table> {
     let places = lua.create_table()?;
     for (place, name) in pattern.arguments(symbols) {

@@ -4,6 +4,7 @@
 //! It never runs a rule.
 
 mod derived_system;
+mod emptiness;
 mod layers;
 mod records;
 mod remark;
@@ -12,6 +13,7 @@ mod uses;
 
 pub(crate) use derived_system::SystemUses;
 pub use derived_system::{DerivedSystem, RuleReport, Times};
+pub(crate) use emptiness::{emptiness, idleness, is_whole, left_out, tells_of_emptiness};
 pub use layers::layers;
 pub(crate) use records::SourceFeatures;
 pub use remark::{FeatureReport, Remark};
