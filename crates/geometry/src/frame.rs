@@ -28,6 +28,7 @@ impl Default for Frame {
 
 impl Frame {
     /// Moves along the heading by `length` (m).
+    #[inline]
     pub fn forward(&mut self, length: f64) {
         self.position += self.heading * length;
     }

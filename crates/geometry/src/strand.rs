@@ -38,6 +38,7 @@ impl Circle {
         Self { fours: points.chunks(4).map(four).collect(), perimeter: edge * sides as f32, points }
     }
 
+    #[inline]
     fn sides(&self) -> usize {
         self.points.len()
     }

@@ -9,6 +9,7 @@ use rustc_hash::FxHashMap;
 use super::block::{Area, Block};
 use super::world::{Begin, Divide};
 use burgeon_base::error::{Error, Result};
+use burgeon_base::memory::zeroed;
 use burgeon_kit::rules::{Chain, ColumnValue, END, FIRST_SYMBOL, Mark, ModuleKey, module_brief};
 use burgeon_kit::{RewriteOutcome, Rewriter, RuleSet};
 
@@ -120,12 +121,12 @@ impl CellSystem {
         let mut block = Block {
             level: cells.level + 1,
             area: made,
-            symbols: vec![0; count],
-            heights: vec![0.0; count],
-            rest: vec![0.0; if last { 0 } else { count * stride }],
+            symbols: zeroed(count),
+            heights: zeroed(count),
+            rest: zeroed(if last { 0 } else { count * stride }),
             stride,
-            keys: vec![ModuleKey::default(); if last || !random { 0 } else { count }],
-            forms: vec![0.0; if self.forms.iter().any(Option::is_some) { count } else { 0 }],
+            keys: zeroed(if last || !random { 0 } else { count }),
+            forms: zeroed(if self.forms.iter().any(Option::is_some) { count } else { 0 }),
             smooth: Vec::new(),
         };
         let rows = (STRIP / area.columns.max(1)).max(1);

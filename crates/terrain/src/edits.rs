@@ -249,6 +249,9 @@ impl Edits {
     /// Changes the heights (m) of the cells of `area` at `level`.
     pub(super) fn apply(&self, world: &World, level: u32, area: Area, heights: &mut [f64]) {
         let local = self.reaching(world, level, area);
+        if local.is_empty() {
+            return;
+        }
         for ((x, y), height) in area.cells().zip(heights.iter_mut()) {
             *height = local.at(world.middle(level, x, y), *height);
         }

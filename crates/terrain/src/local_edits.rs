@@ -48,6 +48,11 @@ impl LocalEdits {
         local
     }
 
+    /// Whether nothing is changed.
+    pub(super) fn is_empty(&self) -> bool {
+        self.edits.is_empty()
+    }
+
     /// The height (m) that a place gets where it was `height` (m).
     pub(super) fn at(&self, place: DVec2, height: f64) -> f64 {
         if self.squares.is_empty() {

@@ -3,6 +3,7 @@
 use rayon::prelude::*;
 
 use super::block::{Area, Block};
+use burgeon_base::memory::zeroed;
 use burgeon_kit::random::Stream;
 use burgeon_kit::rules::{ModuleKey, Symbol};
 
@@ -74,11 +75,11 @@ impl RuleTable {
         let mut block = Block {
             level: cells.level + 1,
             area: made,
-            symbols: vec![0; count],
-            heights: vec![0.0; count],
-            rest: vec![0.0; if last { 0 } else { count }],
+            symbols: zeroed(count),
+            heights: zeroed(count),
+            rest: zeroed(if last { 0 } else { count }),
             stride: 1,
-            keys: vec![ModuleKey::default(); if last || !random { 0 } else { count }],
+            keys: zeroed(if last || !random { 0 } else { count }),
             forms: Vec::new(),
             smooth: Vec::new(),
         };

@@ -9,6 +9,7 @@ use super::block::{Area, Block};
 use super::height_source::HeightSource;
 use super::table::RuleTable;
 use burgeon_base::error::{Error, Result};
+use burgeon_base::memory::zeroed;
 use burgeon_kit::rules::{ModuleKey, Symbol};
 
 /// What divides cells.
@@ -297,10 +298,11 @@ pub(super) fn smooth(cells: &Block, made: &mut Block) {
     if columns == 0 {
         return;
     }
-    made.smooth = vec![0.0; area.len()];
+    made.smooth = zeroed(area.len());
     let above = &cells.smooth;
     let across = cells.area.columns;
     let heights = &made.heights;
+    let first = usize::try_from(area.x.div_euclid(2) - cells.area.x).unwrap_or(0);
     let work = |(row, out): (usize, &mut [f64])| {
         let y = area.y + i64::try_from(row).unwrap_or(0);
         let (near, far) = (y.div_euclid(2), y.div_euclid(2) + if y.rem_euclid(2) == 1 { 1 } else { -1 });
@@ -308,12 +310,14 @@ pub(super) fn smooth(cells: &Block, made: &mut Block) {
         let far = &above[cells.area.index(cells.area.x, far)..][..across];
         let mid = &cells.heights[cells.area.index(cells.area.x, y.div_euclid(2))..][..across];
         let own = &heights[row * columns..][..columns];
-        for (column, (out, own)) in out.iter_mut().zip(own).enumerate() {
-            let x = area.x + i64::try_from(column).unwrap_or(0);
-            let at = usize::try_from(x.div_euclid(2) - cells.area.x).unwrap_or(0);
-            let beside = if x.rem_euclid(2) == 1 { (at + 1).min(across - 1) } else { at.saturating_sub(1) };
-            let base = near[at] * 9.0 + near[beside] * 3.0 + far[at] * 3.0 + far[beside];
-            *out = base / 16.0 + (own - mid[at]);
+        // Quadrants come in pairs, of which the first is even.
+        let pairs = out.chunks_exact_mut(2).zip(own.chunks_exact(2));
+        for (at, (out, own)) in (first..).zip(pairs) {
+            for (quadrant, beside) in [at.saturating_sub(1), (at + 1).min(across - 1)].into_iter().enumerate()
+            {
+                let base = near[at] * 9.0 + near[beside] * 3.0 + far[at] * 3.0 + far[beside];
+                out[quadrant] = base / 16.0 + (own[quadrant] - mid[at]);
+            }
         }
     };
     let rows = made.smooth.chunks_mut(columns).enumerate();

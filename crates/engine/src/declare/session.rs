@@ -374,6 +374,9 @@ impl Session {
 
     /// Keeps the values that `params` names for the rest of the run.
     pub(crate) fn keep(&self, params: &[f64]) {
+        if self.values.is_empty() {
+            return;
+        }
         let boxed = params.iter().filter(|stored| stored.is_nan());
         self.kept.lock().recover().extend(boxed);
     }

@@ -128,7 +128,10 @@ impl Applier {
     #[inline]
     fn listen(&mut self, object: &mut dyn Object, call: Option<(usize, usize)>) {
         let said = object.take_warnings();
-        if !said.is_empty() {
+        // Most objects never say anything: not even the end of an empty list is to cost them.
+        if said.capacity() == 0 {
+            std::mem::forget(said);
+        } else {
             self.note(said, call);
         }
     }
@@ -312,9 +315,17 @@ impl Applier {
         Ok(())
     }
 
+    #[inline]
     fn call(&self, object: &mut dyn Object, method: u16, numbers: &[f64]) -> Result<()> {
         match self.kind.methods.get(usize::from(method)).map(|method| &method.call) {
             Some(Call::Write { numbers: Some(call), .. }) => call(object, numbers),
+            call => self.call_with_values(object, call, numbers),
+        }
+    }
+
+    #[inline(never)]
+    fn call_with_values(&self, object: &mut dyn Object, call: Option<&Call>, numbers: &[f64]) -> Result<()> {
+        match call {
             Some(Call::Write { values: call, .. }) => {
                 let mut values: Vec<Value> =
                     numbers.iter().map(|number| self.values.unpack(*number)).collect();

@@ -23,6 +23,39 @@ const ENTRIES: usize = 4096;
 /// the last piece of another.
 const DEALT: usize = 64;
 
+/// Where entries are gathered from next.
+struct NextEntry {
+    at: Mark,
+    /// Whether a chain begins there.
+    is_begin: bool,
+}
+
+/// What one call into Lua interprets.
+#[derive(Default)]
+struct EntryBatch {
+    /// Each the place of a module and of its parameters.
+    entries: Vec<(usize, usize)>,
+    /// The rule of each.
+    ids: Vec<u16>,
+    /// What all of them are given, in order.
+    arguments: Vec<f64>,
+}
+
+impl EntryBatch {
+    fn clear(&mut self) {
+        self.entries.clear();
+        self.ids.clear();
+        self.arguments.clear();
+    }
+
+    #[inline]
+    fn push(&mut self, entry: (usize, usize), id: u16, arguments: &[f64]) {
+        self.entries.push(entry);
+        self.ids.push(id);
+        self.arguments.extend_from_slice(arguments);
+    }
+}
+
 /// One pass over all chains, shared by the threads.
 pub(crate) struct InterpretationPass {
     pub plan: Arc<DerivationPlan>,
@@ -115,42 +148,13 @@ impl InterpretationPass {
     }
 
     fn run(&self, machine: &Machine, begin: Mark, end: Mark) -> Result<()> {
-        let arities = self.plan.grammar.arities();
         let interpretations = &self.plan.interpretations;
-        let (mut entries, mut ids, mut arguments) = (Vec::new(), Vec::new(), Vec::new());
-        let mut param = begin.param;
-        let mut module = begin.module;
-        let mut chain = begin.chain;
-        let mut is_begin = true;
-        while module < end.module {
-            entries.clear();
-            ids.clear();
-            arguments.clear();
-            while module < end.module && entries.len() < ENTRIES {
-                let symbol = usize::from(self.chain.symbols[module]);
-                let id = interpretations.by_symbol[symbol];
-                #[allow(clippy::cast_precision_loss, reason = "there are fewer than 2^53 chains")]
-                let number = chain as f64;
-                if is_begin && interpretations.begin != u16::MAX {
-                    entries.push((module, param));
-                    ids.push(interpretations.begin);
-                    arguments.push(number);
-                }
-                is_begin = symbol == usize::from(END);
-                chain += usize::from(is_begin);
-                if is_begin && id != u16::MAX {
-                    entries.push((module, param));
-                    ids.push(id);
-                    arguments.push(number);
-                } else if id != u16::MAX {
-                    entries.push((module, param));
-                    ids.push(id);
-                    let bound = interpretations.list[usize::from(id)].bound;
-                    arguments.extend_from_slice(&self.chain.params[param..param + bound]);
-                }
-                param += usize::from(arities[symbol]);
-                module += 1;
-            }
+        let mut next = NextEntry { at: begin, is_begin: true };
+        let mut batch = EntryBatch::default();
+        while next.at.module < end.module {
+            self.gather(&mut next, end.module, &mut batch);
+            let EntryBatch { entries, ids, arguments } = &batch;
+            let module = next.at.module;
             machine.session.stop.check()?;
             let begin = Instant::now();
             let (mut applying, mut from, mut argument) = (Vec::new(), 0, 0);
@@ -170,9 +174,39 @@ impl InterpretationPass {
                     applying.resize(from, Duration::ZERO);
                 }
             }
-            self.count_uses(&ids, begin.elapsed(), applying);
+            self.count_uses(ids, begin.elapsed(), applying);
         }
         Ok(())
+    }
+
+    /// Gathers the next entries before the symbol `end`.
+    #[inline(never)]
+    fn gather(&self, next: &mut NextEntry, end: usize, batch: &mut EntryBatch) {
+        let interpretations = &self.plan.interpretations;
+        let (by_symbol, arities) = (interpretations.by_symbol.as_slice(), self.plan.grammar.arities());
+        let (symbols, params) = (&self.chain.symbols[..end], self.chain.params.as_slice());
+        let NextEntry { at: Mark { mut module, mut param, mut chain }, mut is_begin } = *next;
+        batch.clear();
+        while module < end && batch.entries.len() < ENTRIES {
+            let symbol = symbols[module];
+            let id = by_symbol[usize::from(symbol)];
+            if is_begin && interpretations.begin != u16::MAX {
+                batch.push((module, param), interpretations.begin, &[numbered(chain)]);
+            }
+            is_begin = symbol == END;
+            if is_begin {
+                if id != u16::MAX {
+                    batch.push((module, param), id, &[numbered(chain)]);
+                }
+                chain += 1;
+            } else if id != u16::MAX {
+                let bound = interpretations.list[usize::from(id)].bound;
+                batch.push((module, param), id, &params[param..param + bound]);
+            }
+            param += usize::from(arities[usize::from(symbol)]);
+            module += 1;
+        }
+        *next = NextEntry { at: Mark { module, param, chain }, is_begin };
     }
 
     /// Runs the interpretation rules of `entries`, and applies all up to the symbol `until`; adds to `times` the time that
@@ -335,12 +369,12 @@ impl InterpretationPass {
     /// is known by entry, while what Lua took is shared out evenly.
     fn count_uses(&self, ids: &[u16], time: Duration, applying: Vec<Duration>) {
         let mut uses = self.uses.lock().recover();
+        if !self.plan.profiled {
+            ids.iter().for_each(|id| uses[usize::from(*id)].applied += 1);
+            return;
+        }
         let count = u32::try_from(ids.len().max(1)).unwrap_or(u32::MAX);
-        let each = if self.plan.profiled {
-            time.saturating_sub(applying.iter().sum()) / count
-        } else {
-            Duration::ZERO
-        };
+        let each = time.saturating_sub(applying.iter().sum()) / count;
         let applying = applying.into_iter().chain(std::iter::repeat(Duration::ZERO));
         for (id, own) in ids.iter().zip(applying) {
             uses[usize::from(*id)] += Use { applied: 1, made: 0, time: each + own };
@@ -397,6 +431,12 @@ impl InterpretationPass {
         }
         Ok(())
     }
+}
+
+/// The number of a chain, as rules get it.
+#[allow(clippy::cast_precision_loss, reason = "there are fewer than 2^53 chains")]
+fn numbered(chain: usize) -> f64 {
+    chain as f64
 }
 
 /// The applier of a piece, which the machine knows as what applies its recorded calls.
