@@ -359,3 +359,4 @@ if with_trees then
   end
   nature.trees(trees)
 end
+nature.lamps(streets:verge("lamp"))

@@ -124,7 +124,7 @@ for _, block in blocks do
 end
 
 -- Houses, the front ones in rows that touch.
-local STYLES = { "half_timbered", "half_timbered", "porto", "terrace_house", "half_timbered", "porto" }
+local STYLES = { "half_timbered", "half_timbered", "porto", "row_house", "half_timbered", "porto" }
 local houses: { any }, yards: { any } = {}, {}
 for _, lot in
   lanes:lots({

@@ -213,7 +213,7 @@ quarters.kinds = {
       terrace = 10,
     },
     buildings = function(lots: { any })
-      return row(lots, 5, 13, "rows", "terrace_house")
+      return row(lots, 5, 13, "rows", "row_house")
     end,
   },
   villas = {

@@ -1,7 +1,7 @@
 //! Streets on hills at random: slopes, level junctions, surfaces that still meet.
 
 use burgeon_geometry::{Polygon, Rings};
-use glam::DVec2;
+use glam::{DVec2, DVec3};
 
 use super::*;
 use crate::surface_tests::check_surfaces;
@@ -152,6 +152,14 @@ fn bridges_stand_in_the_water_that_they_lead_over() {
             let [from, to] = network.line(span.piece);
             if area.contains((from + to) / 2.0) {
                 assert_eq!(span.shores.len(), 2, "seed {seed}");
+            }
+            // It carries the street over the water, and does not go on beside houses.
+            let along = |at: &DVec3| span.way.dot(at.truncate() - from);
+            if let [first, last] = span.shores[..] {
+                for side in &span.sides {
+                    let land = [along(&first) - along(&side[0]), along(&side[side.len() - 1]) - along(&last)];
+                    assert!(land.iter().all(|land| (-1e-9..10.0).contains(land)), "seed {seed}: {land:?}");
+                }
             }
             let half = network.attributes(span.piece).width / 2.0;
             for pier in &span.piers {
