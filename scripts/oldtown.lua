@@ -232,9 +232,10 @@ else
 end
 
 local town = build.system()
+local ways = quarters.ways(lanes)
 town:axiom(source(houses), function(house)
   local style = build.style(house.style, 1 + math.floor(random() * 60))
-  return footprint(house.geometry), build.Building(style, house.levels, 0, "")
+  return footprint(house.geometry, { streets = ways }), build.Building(style, house.levels, 0, "")
 end)
 town:derive()
 

@@ -357,6 +357,11 @@ function quarters.areas(geometries: { any }, from: number, to: number, color: st
   system:derive(0)
 end
 
+-- The streets of a network for buildings beside them, whose doors and shops are to be on their side.
+function quarters.ways(network: Network): any
+  return streets(network:streets())
+end
+
 -- What is told of a building.
 function quarters.attributes(feature: any): { [string]: any }
   return {

@@ -57,9 +57,8 @@ impl StreetNetwork {
             from.is_none_or(|from| **along > from + LOOK) && to.is_none_or(|to| **along < to - LOOK)
         };
         let sides = [-half, half].map(|aside| {
-            let at = |along: f64| {
-                (start + way * along + way.perp() * aside).extend(profiles.along(piece, along))
-            };
+            let at =
+                |along: f64| (start + way * along + way.perp() * aside).extend(profiles.along(piece, along));
             let end = |side: usize, aside: f64| {
                 shapes.end(ends[side], piece, aside).extend(profiles.junction(ends[side]))
             };

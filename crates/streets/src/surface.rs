@@ -154,9 +154,9 @@ impl StreetNetwork {
             line.dedup_by(|a, b| is_same(a.1.truncate(), b.1.truncate()));
             // The ground before a bridge ends as round as the street is wide.
             let half = known.attributes.width / 2.0;
-            let carried = self.carried(piece).map_or([length; 2], |[from, to]| {
-                [(from - half).max(0.0), (to + half).min(length)]
-            });
+            let carried = self
+                .carried(piece)
+                .map_or([length; 2], |[from, to]| [(from - half).max(0.0), (to + half).min(length)]);
             let parts = [([0.0, carried[0]], false), (carried, true), ([carried[1], length], false)];
             for ([from, to], is_below) in parts {
                 if to - from < LEAST_FOOTING {
