@@ -303,9 +303,10 @@ if not land then
 end
 
 local houses = build.system()
+local ways = quarters.ways(streets)
 houses:axiom(source(near), function(feature)
   local style = build.style(feature.style, 1 + math.floor(random() * 60))
-  return footprint(feature.geometry, { attributes = quarters.attributes(feature) }),
+  return footprint(feature.geometry, { attributes = quarters.attributes(feature), streets = ways }),
     build.Building(style, build.levels(style, feature.height), feature.height, "")
 end)
 houses:derive()
@@ -359,3 +360,4 @@ if with_trees then
   end
   nature.trees(trees)
 end
+nature.lamps(streets:verge("lamp"))

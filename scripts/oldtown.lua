@@ -124,7 +124,7 @@ for _, block in blocks do
 end
 
 -- Houses, the front ones in rows that touch.
-local STYLES = { "half_timbered", "half_timbered", "porto", "terrace_house", "half_timbered", "porto" }
+local STYLES = { "half_timbered", "half_timbered", "porto", "row_house", "half_timbered", "porto" }
 local houses: { any }, yards: { any } = {}, {}
 for _, lot in
   lanes:lots({
@@ -232,9 +232,10 @@ else
 end
 
 local town = build.system()
+local ways = quarters.ways(lanes)
 town:axiom(source(houses), function(house)
   local style = build.style(house.style, 1 + math.floor(random() * 60))
-  return footprint(house.geometry), build.Building(style, house.levels, 0, "")
+  return footprint(house.geometry, { streets = ways }), build.Building(style, house.levels, 0, "")
 end)
 town:derive()
 

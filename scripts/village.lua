@@ -65,17 +65,20 @@ local lanes = roads.grow({
 }).objects[1] :: Network
 local land = ground(lanes)
 
--- A ring on the ground.
-local function laid(ring: any): any
+-- A ring on the ground, or so much (m) in it.
+local function laid(ring: any, sunk: number): any
   local high = {}
   for _, point in ring do
-    table.insert(high, { point[1], point[2], land:height(vec(point[1], point[2], 0)) })
+    table.insert(high, { point[1], point[2], land:height(vec(point[1], point[2], 0)) - sunk })
   end
   return { rings = { high } }
 end
 
 -- The church stands beside the middle; houses and barns where there is room.
 local HOUSES = { "half_timbered", "villa", "half_timbered", "chalet", "terrace_house" }
+-- How far (m) the ground before a door may lie below the highest beside the house, and how much of that the house makes up
+-- for, in the ground behind.
+local MOST_STEP, SUNK = 1.0, 0.5
 local sites = lanes:sites({
   sizes = { { 13, 10 }, { 11, 8.5 }, { 9, 8 } },
   along = 7,
@@ -85,18 +88,17 @@ local sites = lanes:sites({
   gap = 5,
 })
 local church: any, least = nil, math.huge
+local function extremes(ring: any): (number, number)
+  local low: number, high: number = math.huge, -math.huge
+  for _, point in ring do
+    local at = land:height(vec(point[1], point[2], 0))
+    low, high = math.min(low, at), math.max(high, at)
+  end
+  return low, high
+end
 -- What stands where the ground falls more than a storey would have a blind wall below it; it stays free.
 local function is_level(geometry: any, most: number): boolean
-  local low: number, high: number = math.huge, -math.huge
-  for _, point in geometry:buffer(1.5).rings[1] do
-    local at = land:height(vec(point[1], point[2], 0))
-    if at < low then
-      low = at
-    end
-    if at > high then
-      high = at
-    end
-  end
+  local low, high = extremes(geometry:buffer(1.5).rings[1])
   return high - low <= most
 end
 local church_sites = lanes:sites({
@@ -118,13 +120,18 @@ local houses, gardens = {}, {}
 for _, site in sites do
   local ring = site.geometry.rings[1]
   local away = math.sqrt(site.access.x ^ 2 + site.access.y ^ 2)
+  -- The floor lies as high as the ground does anywhere, and the door is in the front.
+  local _, highest = extremes(ring)
+  local step = highest - land:height(site.access)
   if church and site.geometry:distance(church.geometry) < 5 or not is_level(site.geometry, 2.4) then
+    continue
+  elseif step > MOST_STEP then
     continue
   elseif random() < 0.93 - 0.45 * away / extent then
     local is_barn = site.row > 0 or (away > extent * 0.6 and random() < 0.35)
     table.insert(houses, {
       id = site.id,
-      geometry = laid(ring),
+      geometry = laid(ring, math.clamp(step, 0, SUNK)),
       style = if is_barn then "chalet" else HOUSES[1 + math.floor(random() * #HOUSES)],
       levels = if is_barn then 1 else 2,
     })
@@ -133,13 +140,14 @@ for _, site in sites do
 end
 if church then
   local ring = church.geometry.rings[1]
-  table.insert(houses, { id = "church", geometry = laid(ring), style = "church", levels = 1 })
+  table.insert(houses, { id = "church", geometry = laid(ring, 0), style = "church", levels = 1 })
 end
 
 local village = build.system()
+local ways = streets(lanes:streets())
 village:axiom(source(houses), function(house)
   local style = build.style(house.style, 1 + math.floor(random() * 60))
-  return footprint(house.geometry), build.Building(style, house.levels, 0, "")
+  return footprint(house.geometry, { streets = ways }), build.Building(style, house.levels, 0, "")
 end)
 village:derive()
 

@@ -33,11 +33,16 @@ build.usual = {
 -- All variants of all styles in one list, so that a number says which one is meant.
 local styles: { any } = {}
 local first: { [string]: any } = {}
-for _, name in build.names do
-  local variants = require(`templates/{name}`)
+local function add(name: string, variants: { any })
   first[name] = { at = #styles + 1, count = #variants }
   table.move(variants, 1, #variants, #styles + 1, styles)
 end
+for _, name in build.names do
+  local variants = require(`templates/{name}`)
+  add(name, variants.bowed or variants)
+end
+-- A terrace house whose front is on the street.
+add("row_house", require("templates/terrace_house").plain)
 
 -- The number of a style's variant; `variant` is any whole number from 1 on.
 function build.style(name: string, variant: number): number

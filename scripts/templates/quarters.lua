@@ -213,7 +213,7 @@ quarters.kinds = {
       terrace = 10,
     },
     buildings = function(lots: { any })
-      return row(lots, 5, 13, "rows", "terrace_house")
+      return row(lots, 5, 13, "rows", "row_house")
     end,
   },
   villas = {
@@ -355,6 +355,11 @@ function quarters.areas(geometries: { any }, from: number, to: number, color: st
     this:color(color):polygon(shape):jump({ 0, 0, from }):extrude(to - from)
   end)
   system:derive(0)
+end
+
+-- The streets of a network for buildings beside them, whose doors and shops are to be on their side.
+function quarters.ways(network: Network): any
+  return streets(network:streets())
 end
 
 -- What is told of a building.

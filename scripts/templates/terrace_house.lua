@@ -1,5 +1,6 @@
 --!strict
--- A Victorian terrace house: brick with white lintels, sash windows, a canted bay beside the door, slates and stacks.
+-- A Victorian terrace house: brick with white lintels, sash windows, a canted bay beside the door, slates and stacks; and
+-- one without that bay, which would stand on the sidewalk where there is no garden before the house.
 local parts = require("templates/parts")
 local walls = require("templates/walls")
 local box: (...any) -> any, prism: (...any) -> any = parts.box, parts.prism
@@ -18,7 +19,7 @@ local chimney = parts.chimney({
   across = true,
 })
 
-local function make(color: string, door_color: string)
+local function make(color: string, door_color: string, has_bow: boolean)
   local brick = walls.surface(color, "brick")
   local white = parts.painted("#e9e5da")
   local slate = walls.surface("#565d66", "slates")
@@ -96,7 +97,7 @@ local function make(color: string, door_color: string)
       ground = walls.storey({
         bay = bay,
         narrow = narrow,
-        street = bow_bay,
+        street = if has_bow then bow_bay else nil,
         entry = entry,
         aside = true,
         head = course,
@@ -124,8 +125,9 @@ local function make(color: string, door_color: string)
   }
 end
 
-local variants = {}
+local houses = { bowed = {}, plain = {} }
 for index, brick in BRICKS do
-  table.insert(variants, make(brick, DOORS[index]))
+  table.insert(houses.bowed, make(brick, DOORS[index], true))
+  table.insert(houses.plain, make(brick, DOORS[index], false))
 end
-return variants
+return houses

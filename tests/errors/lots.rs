@@ -1,6 +1,7 @@
 //! Blocks, lots and sites: what cannot be, what they promise in scripts, and how high buildings on them are.
 
 use std::path::Path;
+use std::time::{Duration, Instant};
 
 use insta::assert_snapshot;
 
@@ -398,4 +399,24 @@ fn blocks_that_lie_on_each_other_are_told() {
     assert!(told.contains("and so have 99 more pairs of blocks at least"), "{told}");
     // Those that share a border do not.
     assert_eq!(divided("0, 80, 160"), "");
+}
+
+#[test]
+fn lots_are_stopped_at_the_time_limit() {
+    let many = "for i = 0, 199 do\n  for j = 0, 49 do\n    local x, y = i * 100, j * 100\n    table.insert(blocks, \
+                polygon({ { x, y }, { x + 90, y }, { x + 90, y + 60 }, { x, y + 60 } }))\n  end\nend\n";
+    // All of a comb is near its border, and so beside streets.
+    let comb = "local ring = { { 0, -30 }, { 30000, -30 } }\nfor tooth = 999, 0, -1 do\n  local x = tooth * 30\n  \
+                for _, place in { { 24, 400 }, { 4, 400 }, { 4, 0 }, { 0, 0 } } do\n    \
+                table.insert(ring, { x + place[1], place[2] })\n  end\nend\nblocks[1] = polygon(ring)\n";
+    for (blocks, kind) in [(many, "strips"), (comb, "boxes"), (comb, "skeleton")] {
+        let script = format!(
+            "local blocks = {{}}\n{blocks}network({{}}):lots({{ blocks = blocks, kind = \"{kind}\", width = 3, depth = 9 }})"
+        );
+        let folder = Folder::new().with("s.lua", &script);
+        let begin = Instant::now();
+        let said = folder.burgeon(&["run", "s.lua", "--time-limit", "1"]).failed();
+        assert!(begin.elapsed() < Duration::from_secs(10), "{kind}: {:?}", begin.elapsed());
+        assert!(said.contains("the run took longer than 1 s") && said.contains("network({}):lots"), "{said}");
+    }
 }

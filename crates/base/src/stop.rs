@@ -1,10 +1,16 @@
 //! The end of work that nobody waits for any more.
 
+use std::cell::RefCell;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex};
 
 use crate::error::{Error, Result};
 use crate::locks::LockRecovery;
+
+thread_local! {
+    /// Those of all runs that this thread works on, the last one last.
+    static AT_WORK: RefCell<Vec<Arc<Stop>>> = const { RefCell::new(Vec::new()) };
+}
 
 /// Tells everything that works on a run, or on what comes of it, to stop, and why.
 #[derive(Debug, Default)]
@@ -23,6 +29,17 @@ impl Stop {
     /// Stops whenever `parent` does, too.
     pub fn under(parent: Option<Arc<Self>>) -> Self {
         Self { parent, ..Self::default() }
+    }
+
+    /// That of the run which this thread works on, for long work that is not handed one: it takes it to its other threads.
+    pub fn current() -> Option<Arc<Self>> {
+        AT_WORK.with_borrow(|all| all.last().map(Arc::clone))
+    }
+
+    /// Lets this thread work on the run whose stop this is, until what comes of it goes.
+    pub fn at_work(self: &Arc<Self>) -> StopAtWork {
+        AT_WORK.with_borrow_mut(|all| all.push(Arc::clone(self)));
+        StopAtWork { stop: Arc::clone(self) }
     }
 
     /// Asks for a stop; the first reason is kept.
@@ -50,6 +67,24 @@ impl Stop {
     }
 }
 
+/// Work of a thread on a run.
+#[derive(Debug)]
+pub struct StopAtWork {
+    stop: Arc<Stop>,
+}
+
+impl Drop for StopAtWork {
+    fn drop(&mut self) {
+        // A thread may begin with the next run before it leaves the one before. While it ends, there may be nothing to leave.
+        let _ = AT_WORK.try_with(|all| {
+            let mut all = all.borrow_mut();
+            if let Some(index) = all.iter().rposition(|known| Arc::ptr_eq(known, &self.stop)) {
+                all.remove(index);
+            }
+        });
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -63,5 +98,18 @@ mod tests {
         parent.stop(Error::stopped("all"));
         assert_eq!(child.check().unwrap_err().message(), "all");
         assert_eq!(other.check().unwrap_err().message(), "mine");
+    }
+
+    #[test]
+    fn a_thread_works_on_the_run_that_it_began_last() {
+        let (first, second) = (Arc::new(Stop::default()), Arc::new(Stop::default()));
+        let is_current = |stop: &Arc<Stop>| Stop::current().is_some_and(|known| Arc::ptr_eq(&known, stop));
+        let work = first.at_work();
+        let next = second.at_work();
+        assert!(is_current(&second));
+        drop(work);
+        assert!(is_current(&second));
+        drop(next);
+        assert!(Stop::current().is_none());
     }
 }

@@ -38,10 +38,15 @@ impl Corner {
         is_lobe.then(|| [0, 1].map(reach))
     }
 
+    /// How far (m) along its two streets the kerb around the outside of a bend should reach, so that it does not turn back.
+    pub(crate) fn around_bend(&self) -> [f64; 2] {
+        self.meetings(StreetLine::Kerb).map(|meeting| meeting.max(0.0) / TAPERED)
+    }
+
     /// The same between streets that begin `reaches` (m) along their ways, where a street turns and may change its width.
     pub(crate) fn of_bend(self, reaches: [f64; 2]) -> Self {
         let is_curved = match self.shape {
-            CornerShape::Bend => apart(self.arms) >= EVEN,
+            CornerShape::Bend => self.is_uneven_bend(),
             CornerShape::Round { .. } => self.taper().is_some(),
             CornerShape::Taper => self.is_narrow(),
             _ => false,

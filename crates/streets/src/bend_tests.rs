@@ -17,35 +17,54 @@ const WIDTHS: [[[f64; 2]; 2]; 6] = [
     [[20.0, 0.0], [7.0, 1.0]],
 ];
 
-/// The kerbs (m) around a street that comes from the west, turns by `bend` (degrees) to the left at the origin, and is of
-/// other widths from there: the one on the right of it and the one on the left, each as the street goes.
-fn kerbs(bend: f64, widths: [[f64; 2]; 2]) -> [Vec<DVec2>; 2] {
+/// How many degrees they turn where a third one leaves on the inside.
+const FORKS: [f64; 6] = [36.0, 45.0, 60.0, 75.0, 90.0, 105.0];
+
+/// A street that comes from the west, turns by `bend` (degrees) to the left at the origin, and is of other widths from there.
+/// There another one of a width (m) may leave, half-way between the two.
+fn bent(bend: f64, widths: [[f64; 2]; 2], fork: Option<f64>) -> StreetNetwork {
     let constraints = Constraints { min_angle: 30.0, snap: 0.0, clearance: 0.1, ..Constraints::default() };
     let mut network = StreetNetwork::new(constraints, Obstacles::default()).expect("constraints");
-    let far = DVec2::from_angle(bend.to_radians()) * 200.0;
+    let toward = |degrees: f64| DVec2::from_angle(degrees.to_radians()) * 200.0;
     let mut from = network.begin(DVec2::new(-200.0, 0.0)).expect("free ground");
-    for (to, [width, sidewalk]) in [DVec2::ZERO, far].into_iter().zip(widths) {
+    for (to, [width, sidewalk]) in [DVec2::ZERO, toward(bend)].into_iter().zip(widths) {
         let street = StreetAttributes { width, sidewalk, ..StreetAttributes::default() };
         from = network.grow(from, to, street).expect("room").end;
     }
-    assert_eq!(network.size(), 2);
-    let shapes = StreetShapes::new(&network, 0.0);
+    if let Some(width) = fork {
+        let street = StreetAttributes { width, sidewalk: width * 0.15, ..StreetAttributes::default() };
+        network.grow(1, toward(90.0 + bend / 2.0), street).expect("room");
+    }
+    assert_eq!(network.size(), 2 + usize::from(fork.is_some()));
+    network
+}
+
+/// The kerb (m) on the right of that street, as it goes, or that on the left of it where no other one leaves.
+fn kerb(network: &StreetNetwork, is_left: bool) -> Vec<DVec2> {
+    let shapes = StreetShapes::new(network, 0.0);
     let arms = &shapes.junction(1).arms;
-    [0, 1].map(|piece| {
-        let index = arms.iter().position(|arm| arm.piece == piece).expect("two arms");
-        let [arm, next] = [&arms[index], &arms[1 - index]];
-        let aside = |arm: &crate::shape::ArmShape| arm.arm.aside(StreetLine::Kerb);
-        let mut kerb = vec![network.at(if piece == 0 { 0 } else { 2 }) + arm.arm.way.perp() * aside(arm)];
-        kerb.push(shapes.end(1, arm.piece, aside(arm)));
-        kerb.extend(shapes.corner(1, index)[1].iter().copied());
-        kerb.push(shapes.end(1, next.piece, -aside(next)));
-        kerb.push(network.at(if piece == 0 { 2 } else { 0 }) - next.arm.way.perp() * aside(next));
-        kerb.dedup();
-        if piece == 1 {
-            kerb.reverse();
-        }
-        kerb
-    })
+    let far = [0, 2].map(|end| network.at(end));
+    let [piece, next] = [u32::from(is_left), u32::from(!is_left)];
+    let index = arms.iter().position(|arm| arm.piece == piece).expect("an arm");
+    let [arm, next] = [&arms[index], arms.iter().find(|arm| arm.piece == next).expect("an arm")];
+    let aside = |arm: &crate::shape::ArmShape| arm.arm.aside(StreetLine::Kerb);
+    let [begin, end] = if is_left { [far[1], far[0]] } else { far };
+    let mut kerb = vec![begin + arm.arm.way.perp() * aside(arm)];
+    kerb.push(shapes.end(1, arm.piece, aside(arm)));
+    kerb.extend(shapes.corner(1, index)[1].iter().copied());
+    kerb.push(shapes.end(1, next.piece, -aside(next)));
+    kerb.push(end - next.arm.way.perp() * aside(next));
+    kerb.dedup();
+    if is_left {
+        kerb.reverse();
+    }
+    kerb
+}
+
+/// The kerbs (m) on the right and on the left of one without another that leaves.
+fn kerbs(bend: f64, widths: [[f64; 2]; 2]) -> [Vec<DVec2>; 2] {
+    let network = bent(bend, widths, None);
+    [false, true].map(|is_left| kerb(&network, is_left))
 }
 
 /// By how much (radians) a line turns to the left in all, and to the right.
@@ -64,18 +83,21 @@ fn outside(hull: &[DVec2], place: DVec2) -> f64 {
     sides.filter(|(a, b)| is_side(*a, *b)).filter_map(|(a, b)| beyond(a, b)).fold(0.0, f64::max)
 }
 
+/// The corners (m) of both carriageways of a street that turns at the origin.
+fn spanned(bend: f64, widths: [[f64; 2]; 2]) -> Vec<DVec2> {
+    let strip = |far: DVec2, [width, sidewalk]: [f64; 2]| {
+        let across = far.normalize().perp() * (width / 2.0 - sidewalk);
+        [-across, across, far - across, far + across]
+    };
+    let ways = [DVec2::NEG_X, DVec2::from_angle(bend.to_radians())];
+    ways.into_iter().zip(widths).flat_map(|(way, widths)| strip(way * 201.0, widths)).collect()
+}
+
 #[test]
 fn kerbs_of_bends_stay_within_what_both_streets_span() {
     for bend in BENDS {
         for widths in WIDTHS.into_iter().flat_map(|[a, b]| [[a, b], [b, a]]) {
-            let way = DVec2::from_angle(bend.to_radians());
-            let strip = |far: DVec2, half: f64| {
-                let across = far.normalize().perp() * half;
-                [-across, across, far - across, far + across]
-            };
-            let [a, b] = widths.map(|[width, sidewalk]| width / 2.0 - sidewalk);
-            let hull: Vec<DVec2> =
-                [strip(DVec2::new(-201.0, 0.0), a), strip(way * 201.0, b)].into_iter().flatten().collect();
+            let hull = spanned(bend, widths);
             for at in kerbs(bend, widths).into_iter().flatten() {
                 let outside = outside(&hull, at);
                 assert!(outside < 0.01, "{bend} {widths:?}: {at} is {outside} m outside");
@@ -101,4 +123,21 @@ fn kerbs_of_bends_turn_only_as_the_street_does() {
             assert!(back.iter().all(|back| *back < most), "{bend} {widths:?}: {back:?} degrees back");
         }
     }
+}
+
+#[test]
+fn the_kerb_on_the_outside_of_a_bend_is_as_smooth_where_another_street_leaves() {
+    let mut count = 0;
+    for (bend, fork) in FORKS.into_iter().flat_map(|bend| [6.0, 12.0, 20.0].map(|fork| (bend, fork))) {
+        for widths in WIDTHS.into_iter().flat_map(|[a, b]| [[a, b], [b, a]]) {
+            let kerb = kerb(&bent(bend, widths, Some(fork)), false);
+            let hull = spanned(bend, widths);
+            let outside = kerb.iter().map(|at| outside(&hull, *at)).fold(0.0, f64::max);
+            let [left, right] = turns(&kerb).map(f64::to_degrees);
+            assert!(outside < 0.01, "{bend} {widths:?} {fork}: {outside} m outside");
+            assert!(right < 0.1 && left < bend + 0.1, "{bend} {widths:?} {fork}: {right} degrees back");
+            count += 1;
+        }
+    }
+    assert_eq!(count, 6 * 3 * 12);
 }

@@ -129,6 +129,11 @@ impl Corner {
         matches!(self.shape, CornerShape::Taper)
     }
 
+    /// Whether it goes around the outside of a bend from one width to another.
+    pub(crate) fn is_uneven_bend(&self) -> bool {
+        matches!(self.shape, CornerShape::Bend) && apart(self.arms) >= EVEN
+    }
+
     /// The same with a taper that is so much shorter (m) along its two streets, as far as that goes.
     pub(crate) fn shortened(mut self, less: [f64; 2]) -> Self {
         if self.is_taper() {

@@ -1,7 +1,7 @@
 //! Streets on hills at random: slopes, level junctions, surfaces that still meet.
 
 use burgeon_geometry::{Polygon, Rings};
-use glam::DVec2;
+use glam::{DVec2, DVec3};
 
 use super::*;
 use crate::surface_tests::check_surfaces;
@@ -130,7 +130,7 @@ fn what_stands_beside_streets_stands_on_sidewalks() {
 
 #[test]
 fn bridges_stand_in_the_water_that_they_lead_over() {
-    let mut found = 0;
+    let (mut found, mut landed) = (0, 0);
     for seed in 1..=40_u32 {
         let (low, high) = (60.0 + f64::from(seed % 7), 95.0 + f64::from(seed % 5) * 9.0);
         let river =
@@ -145,13 +145,32 @@ fn bridges_stand_in_the_water_that_they_lead_over() {
         let spans = network.spans(options, &StreetProfiles::default());
         assert_eq!(spans.len(), bridges);
         found += bridges;
+        let footings = network.footings(options, &StreetProfiles::default());
         for span in spans {
+            // What carries it lies on no ground, which is as wide as that before it and behind it.
+            let of_span = footings.iter().filter(|footing| footing.piece == Some(span.piece));
+            let lengths =
+                of_span.clone().map(|footing| footing.line[0].distance(footing.line[footing.line.len() - 1]));
+            let length = network.length(span.piece);
+            assert!((lengths.sum::<f64>() - length).abs() < 0.2, "seed {seed}");
+            let on_ground = of_span.filter(|footing| !footing.is_below).flat_map(|footing| &footing.line);
+            assert!(on_ground.map(|at| at.truncate()).all(|at| !area.contains(at)), "seed {seed}");
             let [right, left] = &span.sides;
             assert_eq!(right.len(), left.len());
             assert!(right.windows(2).all(|pair| span.way.dot((pair[1] - pair[0]).truncate()) > 0.0));
             let [from, to] = network.line(span.piece);
             if area.contains((from + to) / 2.0) {
                 assert_eq!(span.shores.len(), 2, "seed {seed}");
+            }
+            // It carries the street over the water, and does not go on beside houses.
+            let along = |at: &DVec3| span.way.dot(at.truncate() - from);
+            if let [first, last] = span.shores[..] {
+                for side in &span.sides {
+                    let land = [along(&first) - along(&side[0]), along(&side[side.len() - 1]) - along(&last)];
+                    assert!(land.iter().all(|land| *land < 10.0), "seed {seed}: {land:?}");
+                    // A junction may lie on the shore.
+                    landed += land.iter().filter(|land| **land >= 3.0 - 1e-9).count();
+                }
             }
             let half = network.attributes(span.piece).width / 2.0;
             for pier in &span.piers {
@@ -160,5 +179,5 @@ fn bridges_stand_in_the_water_that_they_lead_over() {
             }
         }
     }
-    assert!(found > 40, "{found} bridges");
+    assert!(found > 40 && landed > 2 * found, "{found} bridges, {landed} ends of sides on land");
 }

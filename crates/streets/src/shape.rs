@@ -74,6 +74,7 @@ impl<'a> StreetShapes<'a> {
         let mut shapes = Self { network, junctions };
         shapes.change(|shape| shape.arms.iter().any(|arm| arm.corner.is_taper()), JunctionShape::shortened);
         shapes.change(|shape| shape.arms.len() == 2 && !shape.is_mitred, JunctionShape::bent);
+        shapes.change(JunctionShape::has_uneven_bend, JunctionShape::curved);
         shapes
     }
 
@@ -273,6 +274,30 @@ impl JunctionShape {
             shape.corner = shape.corner.of_bend([reaches[arm], reaches[1 - arm]]);
         }
         bent
+    }
+
+    /// Whether more than two streets meet, of which two have no other on the outside of a bend and are of different widths.
+    fn has_uneven_bend(&self) -> bool {
+        self.arms.len() > 2 && self.arms.iter().any(|arm| arm.corner.is_uneven_bend())
+    }
+
+    /// The same where more than two streets meet, with up to `more` (m) of their pieces: around the outside of two of them the
+    /// kerb goes over from one width to the other as it does where a street turns.
+    fn curved(&self, more: &[f64]) -> Self {
+        let mut curved = self.clone();
+        let bends = || (0..self.arms.len()).filter(|index| self.arms[*index].corner.is_uneven_bend());
+        let both = |index: usize| [index, (index + 1) % self.arms.len()];
+        for index in bends() {
+            for (arm, wanted) in both(index).into_iter().zip(self.arms[index].corner.around_bend()) {
+                let reach = self.arms[arm].reach + (wanted - self.arms[arm].reach).min(more[arm]).max(0.0);
+                curved.arms[arm].reach = curved.arms[arm].reach.max(reach);
+            }
+        }
+        for index in bends() {
+            let reaches = both(index).map(|arm| curved.arms[arm].reach);
+            curved.arms[index].corner = self.arms[index].corner.of_bend(reaches);
+        }
+        curved
     }
 
     /// Where a line of a piece ends (m), and whether another piece begins there too.

@@ -5,13 +5,15 @@ use glam::{DVec2, DVec3};
 use crate::network::{PieceId, StreetNetwork};
 use crate::profile::StreetProfiles;
 use crate::rows::alongs_of;
-use crate::shape::StreetShapes;
+use crate::shape::{ArmShape, StreetShapes};
 use crate::surface::SurfaceOptions;
 
 /// How far apart (m) what carries a bridge stands at most.
 const BAY: f64 = 24.0;
 /// How closely (m) the shore is looked for.
 const LOOK: f64 = 0.5;
+/// How far (m) before the shore a bridge begins.
+const LANDING: f64 = 3.0;
 
 /// A street that leads over an obstacle.
 #[derive(Debug, Clone, PartialEq)]
@@ -20,7 +22,8 @@ pub struct StreetSpan {
     pub piece: PieceId,
     /// The direction of its way, of length 1.
     pub way: DVec2,
-    /// Its outer edges (m) on the right and on the left, from its first end to its last, at the height of the street.
+    /// Its outer edges (m) on the right and on the left, from a little before what it leads over to a little behind that, at
+    /// the height of the street.
     pub sides: [Vec<DVec3>; 2],
     /// Where it comes to what it leads over, and where it leaves that: the middles (m), at the height of the street.
     pub shores: Vec<DVec3>,
@@ -40,27 +43,33 @@ impl StreetNetwork {
         let [start, stop] = self.line(piece);
         let (way, length) = ((stop - start).normalize_or_zero(), start.distance(stop));
         let half = self.half(piece);
-        let [from, to] = self.ends(piece);
+        let ends = self.ends(piece);
+        let over = self.over(piece);
+        let carried = carried(over, length);
+        let clear = ends.map(|end| shapes.arm(end, piece).map_or(0.0, ArmShape::clear));
+        // Where there is little land between, it begins where the junction ends.
+        let [from, to] = [0, 1].map(|side| {
+            let along = if side == 0 { carried[0] } else { length - carried[1] };
+            (along > clear[side] + LANDING).then_some(carried[side])
+        });
         let (rows, _) = alongs_of(shapes, profiles, piece);
+        let is_between = |along: &&f64| {
+            from.is_none_or(|from| **along > from + LOOK) && to.is_none_or(|to| **along < to - LOOK)
+        };
         let sides = [-half, half].map(|aside| {
-            let mut line = vec![shapes.end(from, piece, aside).extend(profiles.junction(from))];
-            let at = |along: &f64| start + way * *along + way.perp() * aside;
-            line.extend(rows.iter().map(|along| at(along).extend(profiles.along(piece, *along))));
-            line.push(shapes.end(to, piece, -aside).extend(profiles.junction(to)));
+            let at =
+                |along: f64| (start + way * along + way.perp() * aside).extend(profiles.along(piece, along));
+            let end = |side: usize, aside: f64| {
+                shapes.end(ends[side], piece, aside).extend(profiles.junction(ends[side]))
+            };
+            let mut line = vec![from.map_or_else(|| end(0, aside), at)];
+            line.extend(rows.iter().filter(is_between).map(|along| at(*along)));
+            line.push(to.map_or_else(|| end(1, -aside), at));
             line
         });
-        // Over it where any of the three lines along the street is.
-        let is_over = |along: f64| {
-            [-half, 0.0, half]
-                .iter()
-                .any(|aside| self.obstacles.at(start + way * along + way.perp() * *aside).is_some())
-        };
-        #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "pieces are short")]
-        let count = (length / LOOK) as u32;
-        let over = || (0..=count).map(|index| f64::from(index) * LOOK).filter(|along| is_over(*along));
         let middle = |along: f64| (start + way * along).extend(profiles.along(piece, along));
         let (mut shores, mut piers) = (Vec::new(), Vec::new());
-        if let (Some(first), Some(last)) = (over().next(), over().next_back()) {
+        if let Some([first, last]) = over {
             shores = vec![middle(first), middle(last)];
             let bays = ((last - first) / BAY).ceil().max(1.0);
             #[allow(
@@ -73,4 +82,32 @@ impl StreetNetwork {
         }
         StreetSpan { piece, way, sides, shores, piers }
     }
+
+    /// From where to where (m) along it a piece leads over obstacles, as far as it does.
+    fn over(&self, piece: PieceId) -> Option<[f64; 2]> {
+        let [start, stop] = self.line(piece);
+        let (way, length, half) =
+            ((stop - start).normalize_or_zero(), start.distance(stop), self.half(piece));
+        // Over it where any of the three lines along the street is.
+        let is_over = |along: &f64| {
+            let at = |aside: f64| start + way * *along + way.perp() * aside;
+            [-half, 0.0, half].into_iter().any(|aside| self.obstacles.at(at(aside)).is_some())
+        };
+        #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "pieces are short")]
+        let count = (length / LOOK) as u32;
+        let mut over = (0..=count).map(|index| f64::from(index) * LOOK).filter(is_over);
+        let first = over.next()?;
+        Some([first, over.next_back().unwrap_or(first)])
+    }
+
+    /// From where to where (m) along it a bridge carries a piece; `None` of one that lies on the ground.
+    pub(crate) fn carried(&self, piece: PieceId) -> Option<[f64; 2]> {
+        self.is_bridge(piece).then(|| carried(self.over(piece), self.length(piece)))
+    }
+}
+
+/// From where to where (m) along a street of a length (m) it is carried, of which so much leads over obstacles: all of it if
+/// what it leads over is not known.
+fn carried(over: Option<[f64; 2]>, length: f64) -> [f64; 2] {
+    over.map_or([0.0, length], |[first, last]| [(first - LANDING).max(0.0), (last + LANDING).min(length)])
 }

@@ -125,7 +125,7 @@ impl StreetNetwork {
     }
 }
 
-/// What part of the ground a piece or a junction lies on.
+/// What part of the ground a piece or a junction lies on, or a part of a piece before or behind its bridge.
 #[derive(Debug, Clone, PartialEq)]
 pub struct StreetFooting {
     /// The middle of a piece (m), or the outline of a junction.
@@ -134,6 +134,8 @@ pub struct StreetFooting {
     pub width: f64,
     /// The piece that it is of; none of a junction.
     pub piece: Option<PieceId>,
+    /// Whether a bridge carries the street over it.
+    pub is_below: bool,
 }
 
 impl StreetNetwork {
@@ -143,14 +145,36 @@ impl StreetNetwork {
         let mut footings = Vec::new();
         for (piece, known) in self.pieces() {
             let [start, stop] = self.line(piece);
-            let way = (stop - start).normalize_or_zero();
+            let (way, length) = ((stop - start).normalize_or_zero(), start.distance(stop));
             let [first, last] = known.ends.map(|end| profiles.junction(end));
-            let mut line = vec![start.extend(first)];
+            let mut line = vec![(0.0, start.extend(first))];
             let between = profiles.stations(piece).iter();
-            line.extend(between.map(|[along, height]| (start + way * *along).extend(*height)));
-            line.push(stop.extend(last));
-            line.dedup_by(|a, b| is_same(a.truncate(), b.truncate()));
-            footings.push(StreetFooting { line, width: known.attributes.width, piece: Some(piece) });
+            line.extend(between.map(|[along, height]| (*along, (start + way * *along).extend(*height))));
+            line.push((length, stop.extend(last)));
+            line.dedup_by(|a, b| is_same(a.1.truncate(), b.1.truncate()));
+            // The ground before a bridge ends as round as the street is wide.
+            let half = known.attributes.width / 2.0;
+            let carried = self
+                .carried(piece)
+                .map_or([length; 2], |[from, to]| [(from - half).max(0.0), (to + half).min(length)]);
+            let parts = [([0.0, carried[0]], false), (carried, true), ([carried[1], length], false)];
+            for ([from, to], is_below) in parts {
+                if to - from < LEAST_FOOTING {
+                    continue;
+                }
+                let at = |along: f64| (start + way * along).extend(profiles.along(piece, along));
+                let mut part: Vec<DVec3> = Vec::new();
+                part.extend((from > 0.0).then(|| at(from)));
+                part.extend(line.iter().filter(|(along, _)| (from..=to).contains(along)).map(|(_, at)| *at));
+                part.extend((to < length).then(|| at(to)));
+                part.dedup_by(|a, b| is_same(a.truncate(), b.truncate()));
+                footings.push(StreetFooting {
+                    line: part,
+                    width: known.attributes.width,
+                    piece: Some(piece),
+                    is_below,
+                });
+            }
         }
         #[allow(clippy::cast_possible_truncation, reason = "pieces are limited far below")]
         for junction in 0..self.junctions.len() as JunctionId {
@@ -161,11 +185,14 @@ impl StreetNetwork {
             let mut line = outline(&shapes, junction, StreetLine::Edge);
             let height = profiles.junction(junction);
             let line = line.drain(..).map(|at| at.extend(height)).collect();
-            footings.push(StreetFooting { line, width: 0.0, piece: None });
+            footings.push(StreetFooting { line, width: 0.0, piece: None, is_below: false });
         }
         footings
     }
 }
+
+/// Parts of pieces that are shorter (m) have no footing of their own.
+const LEAST_FOOTING: f64 = 0.1;
 
 /// The line around a junction (m), counter-clockwise.
 fn outline(shapes: &StreetShapes<'_>, junction: JunctionId, line: StreetLine) -> Vec<DVec2> {
@@ -205,11 +232,11 @@ fn junction_surface(
     Some(StreetSurface { points, triangles, piece: None, depth: depths.min().unwrap_or_default() })
 }
 
-/// Places (m) and triangles between them.
-type TriangleFan = (Vec<DVec2>, Vec<[u32; 3]>);
+/// Places (m) and triangles between them, counter-clockwise.
+type PlaneTriangles = (Vec<DVec2>, Vec<[u32; 3]>);
 
 /// Triangles from a place (m) to the outline around it.
-fn fan(middle: DVec2, outline: Vec<DVec2>) -> TriangleFan {
+fn fan(middle: DVec2, outline: Vec<DVec2>) -> PlaneTriangles {
     #[allow(clippy::cast_possible_truncation, reason = "some dozens of points")]
     let count = outline.len() as u32;
     let triangles = (0..count).map(|index| [0, 1 + index, 1 + (index + 1) % count]).collect();
@@ -217,7 +244,7 @@ fn fan(middle: DVec2, outline: Vec<DVec2>) -> TriangleFan {
 }
 
 /// Triangles from corner to corner of an outline (m); `None` if it meets itself.
-fn divided(outline: &[DVec2]) -> Option<TriangleFan> {
+fn divided(outline: &[DVec2]) -> Option<PlaneTriangles> {
     let polygon = Polygon::new(Rings(vec![outline.to_vec()])).ok()?;
     #[allow(clippy::cast_possible_truncation, reason = "some dozens of points")]
     let triangles = polygon.triangles().ok()?.into_iter().map(|corners| corners.map(|corner| corner as u32));

@@ -54,9 +54,9 @@ impl StreetNetwork {
         let mut places = Vec::new();
         for (piece, known) in self.pieces() {
             let kind = StreetKind::of(kinds, known.attributes.depth);
-            if known.is_bridge && thing == VergeKind::Tree {
-                continue;
-            }
+            // No tree grows on what carries a street.
+            let carried = self.carried(piece).filter(|_| thing == VergeKind::Tree);
+            let is_carried = |along: f64| carried.is_some_and(|[from, to]| (from..=to).contains(&along));
             let [start, stop] = self.line(piece);
             let (way, length) = ((stop - start).normalize_or_zero(), start.distance(stop));
             let ends = piece_ends(&shapes, piece);
@@ -65,6 +65,9 @@ impl StreetNetwork {
             };
             let stretch = [margin(0), length - margin(1)];
             let mut add = |along: f64, aside: f64, toward: f64| {
+                if is_carried(along) {
+                    return;
+                }
                 let at = start + way * along + way.perp() * aside;
                 let heading = (way.to_angle() + toward).to_degrees();
                 places.push(VergePlace { place: at.extend(profiles.along(piece, along)), heading, piece });

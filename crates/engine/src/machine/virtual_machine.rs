@@ -12,6 +12,7 @@ use super::system::tell_unseen;
 use super::{Driver, Watchdog, WorkState, host, protected, watchdog};
 use crate::declare::{Session, SourceFile, bytecode};
 use burgeon_base::error::{Error, ErrorKind, Limit, Result, SourcePlace};
+use burgeon_base::stop::StopAtWork;
 use burgeon_base::warning::Warning;
 use burgeon_kit::rules::{Symbol, Symbols};
 use burgeon_packages::Package;
@@ -31,6 +32,8 @@ pub struct Machine {
     lua: Lua,
     /// The run that it belongs to.
     pub session: Arc<Session>,
+    /// It stays in its thread, which works on that run until the machine goes.
+    _work: StopAtWork,
     /// What the functions that Rust gives to Lua need to know of the work at hand.
     pub(crate) current: Rc<WorkState>,
     pub(crate) library: Rc<Library>,
@@ -56,12 +59,13 @@ impl Machine {
             let library = Rc::new(Library::default());
             let host = host::functions(&lua, &current, &library)?;
             let prelude = Prelude::new(&prelude.call(host)?)?;
-            let session = Arc::clone(session);
+            let (session, work) = (Arc::clone(session), session.stop.at_work());
             let protected = protected::function(&lua)?;
             Ok(Rc::new(Self {
                 guard,
                 lua,
                 session,
+                _work: work,
                 current,
                 library,
                 driver,

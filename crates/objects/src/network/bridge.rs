@@ -6,6 +6,7 @@ use burgeon_base::error::Result;
 use burgeon_geometry::face;
 use burgeon_scene::Part;
 use burgeon_streets::StreetSpan;
+use smallvec::SmallVec;
 
 /// How thick (m) a deck is.
 const DECK: f64 = 1.1;
@@ -15,6 +16,8 @@ const PARAPET: [f64; 2] = [1.05, 0.3];
 const PIER: [f64; 2] = [1.4, 1.2];
 /// Thickness (m) of what carries a bridge at the shores.
 const ABUTMENT: f64 = 3.0;
+/// How far (m) from the line of a side what is on it may lie.
+const ON_SIDE: f64 = 0.02;
 /// How far (m) below the water all that stands in it reaches.
 const FOOT: f64 = 2.0;
 
@@ -46,6 +49,34 @@ pub(super) fn draw_span(part: &mut Part, span: &StreetSpan, kerb: f64, water: f6
         block(part, middle, span.way, [ABUTMENT / 2.0, half], [water - FOOT, shore.z - DECK])?;
     }
     Ok(())
+}
+
+/// The parts of an edge of a street (m) that are no side of a bridge.
+pub(super) fn beside_spans(edge: [DVec3; 2], spans: &[StreetSpan]) -> SmallVec<[[DVec3; 2]; 2]> {
+    let [a, b] = edge;
+    let mut parts = SmallVec::from_elem(edge, 1);
+    for span in spans {
+        for side in &span.sides {
+            let (first, last) = (side[0].truncate(), side[side.len() - 1].truncate());
+            let aside = |at: DVec3| span.way.perp_dot(at.truncate() - first).abs();
+            if aside(a) > ON_SIDE || aside(b) > ON_SIDE {
+                continue;
+            }
+            let along = |at: DVec3| span.way.dot(at.truncate() - first);
+            let end = span.way.dot(last - first);
+            let (from, to) = (along(a), along(b));
+            if (from <= 0.0 && to <= 0.0) || (from >= end && to >= end) {
+                continue;
+            }
+            // In the direction of the edge.
+            let [near, far] = if from < to { [0.0, end] } else { [end, 0.0] };
+            let at = |along: f64| a.lerp(b, (along - from) / (to - from));
+            parts.clear();
+            parts.extend(((near - from) * (to - from) > 0.0).then(|| [a, at(near)]));
+            parts.extend(((to - far) * (to - from) > 0.0).then(|| [at(far), b]));
+        }
+    }
+    parts
 }
 
 /// A wall along an edge, whose other side lies `inward` (m) of that: on the left as it goes.
@@ -83,4 +114,29 @@ fn block(part: &mut Part, middle: DVec3, way: DVec2, half: [f64; 2], [low, high]
     }
     face(part, &top)?;
     face(part, &[bottom[0], bottom[3], bottom[2], bottom[1]])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_edge_has_no_part_beside_a_bridge() {
+        let at = |x: f64, y: f64| DVec3::new(x, y, x / 10.0);
+        let side = |y: f64| vec![at(20.0, y), at(30.0, y), at(60.0, y)];
+        let sides = [side(-5.0), side(5.0)];
+        let span = StreetSpan { piece: 0, way: DVec2::X, sides, shores: Vec::new(), piers: Vec::new() };
+        let parts = |a: DVec3, b: DVec3| {
+            let parts = beside_spans([a, b], std::slice::from_ref(&span));
+            parts.iter().map(|part| part.map(|at| (at * 1000.0).round() / 1000.0)).collect::<Vec<_>>()
+        };
+        let whole = [at(0.0, 5.0), at(100.0, 5.0)];
+        assert_eq!(parts(whole[0], whole[1]), [[whole[0], at(20.0, 5.0)], [at(60.0, 5.0), whole[1]]]);
+        assert_eq!(parts(whole[1], whole[0]), [[whole[1], at(60.0, 5.0)], [at(20.0, 5.0), whole[0]]]);
+        assert_eq!(parts(at(40.0, -5.0), at(100.0, -5.0)), [[at(60.0, -5.0), at(100.0, -5.0)]]);
+        assert!(parts(at(20.0, 5.0), at(60.0, 5.0)).is_empty());
+        let others =
+            [[at(0.0, 5.0), at(20.0, 5.0)], [at(0.0, 4.0), at(100.0, 4.0)], [at(30.0, 5.0), at(30.0, 50.0)]];
+        assert!(others.into_iter().all(|[a, b]| parts(a, b) == [[a, b]]));
+    }
 }

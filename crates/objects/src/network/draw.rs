@@ -2,7 +2,7 @@
 
 use glam::{DVec2, DVec3, Vec3};
 
-use super::bridge::draw_span;
+use super::bridge::{beside_spans, draw_span};
 use super::grounds::{WATER, WATER_LEVEL, draw_water};
 use super::object::Network;
 use crate::surface::plain_material;
@@ -38,18 +38,19 @@ impl Network {
             let kind = (surface.depth as usize).min(of_kinds.len() - 1);
             add_surface(drawing.part(of_kinds[kind]), surface, 0.0);
         }
+        let spans = self.network.spans(options, profiles);
         let part = drawing.part(paving);
         for sidewalk in &surfaces.sidewalks {
             draw_sidewalk(part, sidewalk, kerb);
         }
         if self.options.on.is_some() {
-            // The ground beside lies lower by what it can be off, and by more where another street is lower.
-            let skirt = |pair: [DVec3; 2], part: &mut Part| {
-                upright(part, pair.map(|at| at + DVec3::Z * (kerb - SKIRT)), SKIRT);
-            };
+            // The ground beside lies lower by what it can be off, and by more where another street is lower. Below a bridge
+            // there is to be none.
             for edge in surfaces.sidewalks.iter().map(|walk| &walk.edge) {
                 for (a, b) in edge.iter().zip(edge.iter().cycle().skip(1)) {
-                    skirt([*b, *a], part);
+                    for pair in beside_spans([*b, *a], &spans) {
+                        upright(part, pair.map(|at| at + DVec3::Z * (kerb - SKIRT)), SKIRT);
+                    }
                 }
             }
         }
@@ -59,8 +60,8 @@ impl Network {
             }
         }
         let part = drawing.part(paving);
-        for span in self.network.spans(options, profiles) {
-            draw_span(part, &span, kerb, self.water_level().unwrap_or(WATER_LEVEL))?;
+        for span in &spans {
+            draw_span(part, span, kerb, self.water_level().unwrap_or(WATER_LEVEL))?;
         }
         let part = drawing.part(ground.unwrap_or(paving));
         for median in &surfaces.medians {

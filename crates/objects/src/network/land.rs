@@ -9,7 +9,7 @@ use burgeon_base::error::{Error, Result};
 use burgeon_base::warning::{Warning, WarningKind};
 use burgeon_data::Geometry;
 use burgeon_kit::{Answer, Parameter, Table, TableKey, Value, Vector};
-use burgeon_streets::{PieceId, SlopeOptions, StreetFit, StreetFooting, VergeKind};
+use burgeon_streets::{SlopeOptions, StreetFit, StreetFooting, VergeKind};
 use burgeon_terrain::{Edit, GroundBed};
 
 /// How far (m) the ground stays below a carriageway at least.
@@ -83,22 +83,21 @@ impl Network {
     /// the streets and meets them with slopes.
     pub(crate) fn bed(&self, cell: f64, error: f64) -> Result<Vec<Edit>> {
         let fit = self.fit()?;
-        let beds: Vec<(GroundBed, Option<PieceId>)> = self
+        let beds: Vec<(GroundBed, bool)> = self
             .network
             .footings(self.surface_options(), &fit.profiles)
             .into_iter()
-            .map(|StreetFooting { line, width, piece }| {
+            .map(|StreetFooting { line, width, piece, is_below }| {
                 // Between cells the ground is straight, where a street bends.
                 let sink = BELOW + error + 0.6 * steepest(&line) * cell;
                 let depth = piece.and_then(|piece| fit.depths.get(piece as usize)).copied();
                 let margin = ((depth.unwrap_or(DEEP) + sink + 4.0) / BATTER).min(FARTHEST);
                 let line = line.iter().map(|at| [at.x, at.y, at.z - sink]).collect();
                 let width = width + 2.0 * CELLS * cell;
-                (GroundBed { line, width, is_area: piece.is_none(), slope: BATTER, margin }, piece)
+                (GroundBed { line, width, is_area: piece.is_none(), slope: BATTER, margin }, is_below)
             })
             .collect();
-        let is_bridge = |piece: &Option<PieceId>| piece.is_some_and(|piece| self.network.is_bridge(piece));
-        let raised = beds.iter().filter(|(_, piece)| !is_bridge(piece));
+        let raised = beds.iter().filter(|(_, is_below)| !is_below);
         // All of them are raised before any is lowered: the ground is nowhere above a street.
         let mut edits: Vec<Edit> = raised.map(|(bed, _)| Edit::Embank { bed: bed.clone() }).collect();
         edits.extend(beds.into_iter().map(|(bed, _)| Edit::Excavate { bed }));

@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use burgeon_base::Stop;
 use burgeon_base::error::{Error, Result};
 use burgeon_base::text::listed;
 use burgeon_base::warning::{Warning, WarningKind};
@@ -284,11 +285,13 @@ impl Network {
             }
         };
         let count = blocks.len() + omissions.undivided;
-        let divided: Vec<(Vec<Value>, Omissions)> = blocks
+        let stop = Stop::current();
+        let goes_on = || stop.as_ref().is_none_or(|stop| !stop.is_stopped());
+        let divided: Option<Vec<(Vec<Value>, Omissions)>> = blocks
             .par_iter()
             .map(|block| {
                 let mut stream = ModuleKey::seed(settings.seed.0).feature(&block.id).stream();
-                let mut lots = block.divide(options, &mut || stream.uniform());
+                let mut lots = block.divide_while(options, &mut || stream.uniform(), &goes_on)?;
                 let mut omissions =
                     Omissions { undivided: usize::from(lots.is_empty()), ..Omissions::default() };
                 for lot in &mut lots {
@@ -299,11 +302,15 @@ impl Network {
                     omissions.count(lot, options);
                 }
                 lots.retain(|lot| settings.all || lot.purpose == LotUse::Building);
-                (lots.iter().map(|lot| self.lot_record(block, lot, settings.terrace)).collect(), omissions)
+                let record = |lot| goes_on().then(|| self.lot_record(block, lot, settings.terrace));
+                Some((lots.iter().map(record).collect::<Option<_>>()?, omissions))
             })
             .collect();
+        if let Some(stop) = &stop {
+            stop.check()?;
+        }
         let (mut records, mut giving) = (Vec::new(), Vec::new());
-        for (block, (of_block, omissions_of_block)) in blocks.iter().zip(divided) {
+        for (block, (of_block, omissions_of_block)) in blocks.iter().zip(divided.unwrap_or_default()) {
             if !of_block.is_empty() {
                 giving.push(block);
             }

@@ -15,7 +15,7 @@ impl Division<'_> {
     /// Divides a cell and what comes of it, until all are small and short enough or cannot be cut.
     pub(super) fn by_boxes(&mut self, cell: CellId) {
         let mut due = vec![cell];
-        while let Some(cell) = due.pop() {
+        while let Some(cell) = self.next(&mut due) {
             let rings = self.partition.rings(cell).to_vec();
             let is_great = self.partition.area(&rings) > self.options.area;
             if !is_great && !self.is_long(&rings) {

@@ -73,6 +73,7 @@ pub(super) struct Division<'a> {
     pub(super) partition: Partition,
     pub(super) options: &'a LotOptions,
     random: &'a mut dyn FnMut() -> f64,
+    goes_on: &'a dyn Fn() -> bool,
 }
 
 impl StreetBlock {
@@ -99,12 +100,22 @@ impl StreetBlock {
     /// # Ok::<(), burgeon_base::error::Error>(())
     /// ```
     pub fn divide(&self, options: &LotOptions, random: &mut dyn FnMut() -> f64) -> Vec<Lot> {
+        self.divide_while(options, random, &|| true).unwrap_or_default()
+    }
+
+    /// The same for as long as `goes_on` says so, which is asked before each cut; `None` if it does not.
+    pub fn divide_while(
+        &self,
+        options: &LotOptions,
+        random: &mut dyn FnMut() -> f64,
+        goes_on: &dyn Fn() -> bool,
+    ) -> Option<Vec<Lot>> {
         let is_park = random() < options.parks;
-        let Some(partition) = Partition::new(&self.rings, &self.edge_sides) else { return Vec::new() };
-        let mut division = Division { partition, options, random };
+        let Some(partition) = Partition::new(&self.rings, &self.edge_sides) else { return Some(Vec::new()) };
+        let mut division = Division { partition, options, random, goes_on };
         if is_park {
             let rings = division.partition.rings(0).to_vec();
-            return vec![division.lot(self, &rings, 1, Some(LotUse::Park))];
+            return Some(vec![division.lot(self, &rings, 1, Some(LotUse::Park))]);
         }
         match options.pattern {
             LotPattern::Boxes => division.by_boxes(0),
@@ -117,13 +128,19 @@ impl StreetBlock {
         }
         division.merge_courts();
         division.merge_small();
-        division.lots(self)
+        let lots = division.lots(self);
+        goes_on().then_some(lots)
     }
 }
 
 impl Division<'_> {
     pub(super) fn draw(&mut self) -> f64 {
         (self.random)()
+    }
+
+    /// The next one that is due; none once nobody waits for the lots any more.
+    pub(super) fn next(&self, due: &mut Vec<CellId>) -> Option<CellId> {
+        if (self.goes_on)() { due.pop() } else { None }
     }
 
     /// Whether a piece has a front of at least the least width.
@@ -138,7 +155,7 @@ impl Division<'_> {
             !rings.is_empty() && division.partition.fronts(rings, None).is_empty()
         };
         let mut due: Vec<CellId> = self.partition.cells().map(|(cell, _)| cell).collect();
-        while let Some(cell) = due.pop() {
+        while let Some(cell) = self.next(&mut due) {
             if !is_court(self, cell) {
                 continue;
             }
@@ -161,7 +178,7 @@ impl Division<'_> {
         };
         let mut due: Vec<CellId> = self.partition.cells().map(|(cell, _)| cell).collect();
         due.reverse();
-        while let Some(cell) = due.pop() {
+        while let Some(cell) = self.next(&mut due) {
             let rings = self.partition.rings(cell);
             if rings.is_empty() || is_fine(self, rings) {
                 continue;
@@ -181,7 +198,7 @@ impl Division<'_> {
     }
 
     fn lots(&self, block: &StreetBlock) -> Vec<Lot> {
-        let cells = (1..).zip(self.partition.cells());
+        let cells = (1..).zip(self.partition.cells()).take_while(|_| (self.goes_on)());
         cells.map(|(number, (_, rings))| self.lot(block, rings, number, None)).collect()
     }
 

@@ -194,7 +194,7 @@ impl Division<'_> {
     /// Cuts a strip across into lots of about the usual width.
     fn slice(&mut self, strip: CellId, side: u32) {
         let mut due = vec![strip];
-        while let Some(cell) = due.pop() {
+        while let Some(cell) = self.next(&mut due) {
             let fronts = self.partition.fronts(self.partition.rings(cell), None).into_iter();
             let own = fronts.filter(|front| front.side == side);
             let Some(front) = own.max_by(|a, b| a.length.total_cmp(&b.length)) else { continue };
