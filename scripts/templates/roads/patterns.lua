@@ -124,7 +124,7 @@ function patterns.organic(options: { [string]: any }?): Pattern
   local field = math.floor(random() * 1000000)
   -- From 0 to 1 how far a place lies in a knot of lanes.
   local function knot(x: number, y: number): number
-    return math.clamp((noise(x / (block * 3.5), y / (block * 3.5), 7.5, field) - 0.36) / 0.04, 0, 1)
+    return math.clamp((noise(x / (block * 3), y / (block * 3), 7.5, field) - 0.38) / 0.04, 0, 1)
   end
   local usual =
     { branching = 0.9, both = 0, cross = 0, skew = 16, stop = 0, gap = 0, greens = 0.45, every = 3 }
@@ -148,9 +148,9 @@ function patterns.organic(options: { [string]: any }?): Pattern
     end,
     length = function(x: number, y: number, _: number, depth: number): number
       -- Quarters are closer here and wider there; main streets less so.
-      local wide = math.exp(variety * (0.5 - 1.55 * knot(x, y)))
+      local wide = math.exp(variety * (0.9 * variety - 0.4 - 1.6 * knot(x, y)))
       return if depth == 0
-        then block * math.clamp(wide, 0.8, 1.2)
+        then block * math.clamp(wide, 0.8, 1.27)
         else block * wide * math.exp(variety * random(-0.1, 0.1))
     end,
     closed = function(x: number, y: number, _: number, _: number, depth: number): boolean
@@ -261,7 +261,9 @@ function patterns.raster(options: { [string]: any }?): Pattern
   -- Where (m) the next line or alley is on the way from a place along the columns or the rows; main streets pass alleys by.
   local function next_line(at: number, aside: number, along: boolean, forth: boolean, depth: number): number
     local crossed, beside = if along then columns else rows, if along then rows else columns
-    local index = if forth then below(crossed, at + NEAR) + 1 else below(crossed, at - NEAR)
+    -- What is near is behind.
+    local near = 0.2 * if along then block else width
+    local index = if forth then below(crossed, at + near) + 1 else below(crossed, at - near)
     local found = crossed[index]
     if not found or depth == 0 then
       return found or at + (if forth then 1 else -1) * (if along then block else width)
@@ -298,17 +300,20 @@ function patterns.raster(options: { [string]: any }?): Pattern
       local u, v = x * east + y * north, y * east - x * north
       local column = below(columns, if along then u else u + NEAR)
       local row = below(rows, if along then v + NEAR else v)
-      local aside, line = if along then v else u, if along then rows[row] else columns[column]
-      if not line or aside < line + NEAR then
-        -- On the line between two blocks.
-        return is_one(column, row, along)
-      end
-      for _, alley in alleys(column, row, not along) do
-        if math.abs(alley - aside) < NEAR then
-          return false
+      local aside = if along then v else u
+      local function has_alley(ahead: number): boolean
+        local of = if along
+          then alleys(column + ahead, row, false)
+          else alleys(column, row + ahead, true)
+        for _, alley in of do
+          if math.abs(alley - aside) < NEAR then
+            return true
+          end
         end
+        return false
       end
-      return true
+      -- An alley ends with its block; else a street lies on the line between two blocks, or is that of another pattern.
+      return not has_alley(0) and (has_alley(-1) or has_alley(1) or is_one(column, row, along))
     end,
   })
 end
@@ -331,7 +336,7 @@ function patterns.radial(options: { [string]: any }?): Pattern
   end
   -- How wide blocks are at a place, against others.
   local function wide(x: number, y: number): number
-    return math.clamp(math.exp(3.5 * variety * (0.15 + noise(x / (block * 4), y / (block * 4), 7.5, field))), 0.4, 2)
+    return math.clamp(math.exp(3.5 * variety * (0.15 * variety + noise(x / (block * 4), y / (block * 4), 7.5, field))), 0.4, 2)
   end
   -- The rings that lie next to a distance (m) from the middle, on the inner and on the outer side, with the lanes halfway between
   -- them in quarters of small blocks.
