@@ -156,10 +156,9 @@ function patterns.organic(options: { [string]: any }?): Pattern
     closed = function(x: number, y: number, _: number, _: number, depth: number): boolean
       -- Parks and large estates, which side streets keep away from, and lanes elsewhere than in a knot.
       local estate = noise(x / (block * 6), y / (block * 6), 3.5, field)
+      local out = 1.6 * gap * variety * (1 - knot(x, y))
       return estate > 0.22 + 3 * (1 - variety)
-        or depth > 1
-          and drawn(math.floor(x / 8 + 0.5), math.floor(y / 8 + 0.5), field)
-            < 1.6 * gap * variety * (1 - knot(x, y))
+        or depth > 1 and drawn(math.floor(x / 8 + 0.5), math.floor(y / 8 + 0.5), field) < out
     end,
   })
 end
@@ -250,8 +249,9 @@ function patterns.raster(options: { [string]: any }?): Pattern
       return {}
     end
     local first, last = if along then west else south, if along then far_east else far_north
-    local most = if along then 1 + 3.9 * drawn(column, row, field + 7) else 1 + 1.99 * drawn(column, row, field + 8)
-    local parts = math.min((last - first) // PART, most // 1)
+    local most = if along then 4 else 2
+    local parts =
+      math.min((last - first) // PART, 1 + math.floor(most * drawn(column, row, field + 6 + most)))
     local found = {}
     for part = 1, parts - 1 do
       table.insert(found, first + (last - first) * part / parts)
@@ -272,7 +272,8 @@ function patterns.raster(options: { [string]: any }?): Pattern
     for side = -1, 1, 2 do
       local other = below(beside, aside + side * NEAR)
       for _, alley in alleys(if along then cell else other, if along then other else cell, along) do
-        if forth and alley > at + NEAR and alley < found or not forth and alley < at - NEAR and alley > found then
+        local ahead = if forth then alley - at else at - alley
+        if ahead > NEAR and ahead < math.abs(found - at) then
           found = alley
         end
       end
@@ -302,9 +303,7 @@ function patterns.raster(options: { [string]: any }?): Pattern
       local row = below(rows, if along then v + NEAR else v)
       local aside = if along then v else u
       local function has_alley(ahead: number): boolean
-        local of = if along
-          then alleys(column + ahead, row, false)
-          else alleys(column, row + ahead, true)
+        local of = if along then alleys(column + ahead, row, false) else alleys(column, row + ahead, true)
         for _, alley in of do
           if math.abs(alley - aside) < NEAR then
             return true
@@ -319,7 +318,8 @@ function patterns.raster(options: { [string]: any }?): Pattern
 end
 
 -- Rays out of a `middle` (m), and rings around it that are about `block` (m) apart. `gap` is the share of side streets that
--- are left out, and `variety` from 0 to 1 how much blocks differ: rings are near here and far there, and there are parks.
+-- are left out, and `variety` from 0 to 1 how much blocks differ: rings are near here and far there, quarters have small blocks or
+-- large ones, and there are parks.
 function patterns.radial(options: { [string]: any }?): Pattern
   local of = options or {}
   checks.options("roads.radial", of, PATTERN)
@@ -336,7 +336,8 @@ function patterns.radial(options: { [string]: any }?): Pattern
   end
   -- How wide blocks are at a place, against others.
   local function wide(x: number, y: number): number
-    return math.clamp(math.exp(3.5 * variety * (0.15 * variety + noise(x / (block * 4), y / (block * 4), 7.5, field))), 0.4, 2)
+    local much = 0.15 * variety + noise(x / (block * 4), y / (block * 4), 7.5, field)
+    return math.clamp(math.exp(3.5 * variety * much), 0.4, 2)
   end
   -- The rings that lie next to a distance (m) from the middle, on the inner and on the outer side, with the lanes halfway between
   -- them in quarters of small blocks.
