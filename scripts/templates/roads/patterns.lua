@@ -239,13 +239,15 @@ function patterns.raster(options: { [string]: any }?): Pattern
   -- Where (m) alleys divide a block of an old quarter, across the columns or across the rows: those of blocks side by side seldom
   -- meet.
   local function alleys(column: number, row: number, along: boolean): { number }
+    -- How large noise is at least where a quarter is old; it is never above 1.
+    local old = 0.2 + 3 * (1 - variety)
     local west, south = columns[column], rows[row]
     local far_east, far_north = columns[column + 1], rows[row + 1]
-    if not (west and south and far_east and far_north) or large(column, row) then
+    if old > 1 or not (west and south and far_east and far_north) or large(column, row) then
       return {}
     end
     local at = { (west + far_east) / 2 / (block * 3), (south + far_north) / 2 / (block * 3) }
-    if noise(at[1], at[2], 5.5, field) < 0.2 + 3 * (1 - variety) then
+    if noise(at[1], at[2], 5.5, field) < old then
       return {}
     end
     local first, last = if along then west else south, if along then far_east else far_north
