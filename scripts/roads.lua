@@ -27,9 +27,13 @@ local function people(x: number, y: number): number
     + 0.6 * near(-extent * 0.3, -extent * 0.65, extent * 0.16)
 end
 
+-- A small town has small blocks and is one quarter.
+local small = math.clamp(0.5 + extent / 1200, 0.6, 1)
+local variety = math.min(1, extent / 600)
+
 local ways: { [string]: () -> any } = {
   organic = function()
-    return { pattern = roads.organic({ block = random(65, 95) }) }
+    return { pattern = roads.organic({ block = small * random(65, 95), variety = variety }) }
   end,
   raster = function()
     local angle = random(0, 90)
@@ -80,5 +84,5 @@ options.network = {
   paving = "#d3cfc6",
   ground = "#a9b58c",
 }
-options.steps = math.ceil(extent / 25)
+options.steps = math.ceil(extent / 25) + 8
 roads.grow(options)

@@ -240,6 +240,14 @@ function growth.system(options: RoadOptions, ...: number)
       )
     end
     local east, north = math.cos(math.rad(aim)) * length, math.sin(math.rad(aim)) * length
+    -- A side street that would leave the town ends within it, where it is long enough.
+    if depth > 0 and pattern.least then
+      local part = 1
+      while part * length > 1.4 * pattern.least and not inside(x + part * east, y + part * north) do
+        part -= 0.15
+      end
+      length, east, north = part * length, part * east, part * north
+    end
     if not inside(x + east, y + north) and (depth > 0 or random() > LEADS_OUT) then
       return nil
     elseif depth > 0 then
@@ -341,7 +349,7 @@ function growth.system(options: RoadOptions, ...: number)
   end
   local looks = {}
   for _, share in LATER do
-    looks[math.floor(growing * share)] = not options.onto and growing >= 8
+    looks[math.floor(growing * share)] = growing >= 8
   end
 
   local axiom: { any } = if #centres > 1 then highways.axiom(centres, growing, level) else {}

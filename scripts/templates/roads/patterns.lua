@@ -112,8 +112,8 @@ end
 -- Streets that wander, side streets that leave one at a time: a town that nobody planned. `block` (m) is how far
 -- junctions are apart, `bends` how far (degrees) a street turns from one to the next, `branching` how many junctions
 -- have side streets, `greens` how many of those that may have one have a small green, `gap` how many of the lanes, which leave
--- side streets, are left out. `variety` from 0 to 1 is how much quarters differ: some are knots of lanes, some wide, and some
--- have parks; without any, no lane is left out.
+-- side streets, are left out. `variety` from 0 to 1 is how much quarters differ: some are knots of lanes, as old villages are that
+-- a town has come to, others wide, and some have parks; without any, no lane is left out.
 function patterns.organic(options: { [string]: any }?): Pattern
   local of = options or {}
   checks.options("roads.organic", of, PATTERN)
@@ -122,48 +122,60 @@ function patterns.organic(options: { [string]: any }?): Pattern
   local variety = number("roads.organic: variety", of.variety, 1, 0, 1)
   local gap = number("roads.organic: gap", of.gap, 0.6, 0, 0.6)
   local field = math.floor(random() * 1000000)
+  -- From 0 to 1 how far a place lies in a knot of lanes.
+  local function knot(x: number, y: number): number
+    return math.clamp((noise(x / (block * 3), y / (block * 3), 7.5, field) - 0.38) / 0.04, 0, 1)
+  end
   local usual =
-    { branching = 0.9, both = 0, cross = 0, skew = 18, stop = 0, gap = 0, greens = 0.9, every = 3 }
+    { branching = 0.9, both = 0, cross = 0, skew = 16, stop = 0, gap = 0, greens = 0.45, every = 3 }
   return pattern("roads.organic", of, usual, {
     gap = 0,
-    least = 0.56 * block,
+    least = 0.42 * block,
     -- Nobody moves a street for a junction nearby, or joins what ends.
     snap = 7,
     join = 30,
-    sight = 0.5 * block,
+    sight = 0.4 * block,
     toward = function(x: number, y: number, heading: number, _: number, depth: number): number
-      -- Streets near one another turn alike; the smaller ones have a mind of their own.
-      local common = noise(x / (block * 5), y / (block * 5), 0.5, field)
-      local own = if depth == 0 then 0.15 else 0.5
-      return heading + bends * (common + random(-own, own))
+      -- Streets near one another lead along the same two directions, which turn slowly, and turn alike; the smaller ones have a mind
+      -- of their own, those in a knot the least, for they have no room.
+      local turned = 200 * noise(x / (block * 10), y / (block * 10), 2.5, field)
+      local aim = nearest(heading, { turned, turned + 90, turned + 180, turned + 270 })
+      local common = 0.3 * noise(x / (block * 5), y / (block * 5), 0.5, field)
+      local own = if depth == 0 then 0.15 else 0.6 * (1 - 0.55 * knot(x, y))
+      return heading
+        + math.min(0.5, bends / 60) * between(heading, aim)
+        + bends * (common + random(-own, own))
     end,
     length = function(x: number, y: number, _: number, depth: number): number
-      -- Quarters are closer here and wider there.
-      local field_at = noise(x / (block * 4), y / (block * 4), 7.5, field)
-      local wide = math.clamp(math.exp(7 * variety * field_at), 0.3, 3.5)
+      -- Quarters are closer here and wider there; main streets less so.
+      local wide = math.exp(variety * (0.9 * variety - 0.4 - 1.6 * knot(x, y)))
       return if depth == 0
-        then block * math.clamp(wide, 0.9, 1.6)
-        else block * math.max(0.33, wide * math.exp(random(-1.3, 1)))
+        then block * math.clamp(wide, 0.8, 1.27)
+        else block * wide * math.exp(variety * random(-0.1, 0.1))
     end,
     closed = function(x: number, y: number, _: number, _: number, depth: number): boolean
-      -- Parks and large estates, which lanes keep farther away from than streets do.
-      local estate = noise(x / (block * 5), y / (block * 5), 3.5, field)
-        > 0.8 - 0.3 * depth + 2 * (1 - variety)
-      return estate
-        or depth > 1 and drawn(math.floor(x / 8 + 0.5), math.floor(y / 8 + 0.5), field) < gap * variety
+      -- Parks and large estates, which side streets keep away from, and lanes elsewhere than in a knot.
+      local estate = noise(x / (block * 6), y / (block * 6), 3.5, field)
+      local out = 1.6 * gap * variety * (1 - knot(x, y))
+      return estate > 0.22 + 3 * (1 - variety)
+        or depth > 1 and drawn(math.floor(x / 8 + 0.5), math.floor(y / 8 + 0.5), field) < out
     end,
   })
 end
 
 -- How many blocks of a raster in a row and in a column are one, and what share is so.
 local LARGE = { { 5, 0.06 }, { 3, 0.1 }, { 2, 0.14 } }
+-- How wide (m) the parts of a block are at least that alleys divide.
+local PART = 27
+-- How near (m) to a line a street lies on it.
+local NEAR = 12
 
 -- Where the lines of a raster lie (m) along one of its directions, on both sides of its middle, about `apart`: most of them
 -- nearer, and a few far from the next.
 local function lines(apart: number, variety: number, seed: number): { number }
   local at = { 0 }
   for index = 1, 150 do
-    at[index + 1] = at[index] + apart * (1 + variety * (1.7 * drawn(index, 1, seed) ^ 2.2 - 0.38))
+    at[index + 1] = at[index] + apart * (1 + variety * (1.4 * drawn(index, 1, seed) ^ 2.2 - 0.3))
   end
   local all = {}
   for index = 150, 1, -1 do
@@ -188,7 +200,7 @@ end
 
 -- Streets along two directions, with blocks of about `block` by `width` (m), turned by `angle` (degrees). `gap` is the share
 -- of streets across the longer direction that are left out, and `variety` from 0 to 1 how much blocks differ: some are as large
--- as several.
+-- as several, and alleys divide those of old quarters.
 function patterns.raster(options: { [string]: any }?): Pattern
   local of = options or {}
   checks.options("roads.raster", of, PATTERN)
@@ -224,6 +236,52 @@ function patterns.raster(options: { [string]: any }?): Pattern
     local own = drawn(column, row, field)
     return own < gap and (own < drawn(column - 1, row, field) or own < drawn(column + 1, row, field))
   end
+  -- Where (m) alleys divide a block of an old quarter, across the columns or across the rows: those of blocks side by side seldom
+  -- meet.
+  local function alleys(column: number, row: number, along: boolean): { number }
+    -- How large noise is at least where a quarter is old; it is never above 1.
+    local old = 0.2 + 3 * (1 - variety)
+    local west, south = columns[column], rows[row]
+    local far_east, far_north = columns[column + 1], rows[row + 1]
+    if old > 1 or not (west and south and far_east and far_north) or large(column, row) then
+      return {}
+    end
+    local at = { (west + far_east) / 2 / (block * 3), (south + far_north) / 2 / (block * 3) }
+    if noise(at[1], at[2], 5.5, field) < old then
+      return {}
+    end
+    local first, last = if along then west else south, if along then far_east else far_north
+    local most = if along then 4 else 2
+    local parts =
+      math.min((last - first) // PART, 1 + math.floor(most * drawn(column, row, field + 6 + most)))
+    local found = {}
+    for part = 1, parts - 1 do
+      table.insert(found, first + (last - first) * part / parts)
+    end
+    return found
+  end
+  -- Where (m) the next line or alley is on the way from a place along the columns or the rows; main streets pass alleys by.
+  local function next_line(at: number, aside: number, along: boolean, forth: boolean, depth: number): number
+    local crossed, beside = if along then columns else rows, if along then rows else columns
+    -- What is near is behind.
+    local near = 0.2 * if along then block else width
+    local index = if forth then below(crossed, at + near) + 1 else below(crossed, at - near)
+    local found = crossed[index]
+    if not found or depth == 0 then
+      return found or at + (if forth then 1 else -1) * (if along then block else width)
+    end
+    local cell = if forth then index - 1 else index
+    for side = -1, 1, 2 do
+      local other = below(beside, aside + side * NEAR)
+      for _, alley in alleys(if along then cell else other, if along then other else cell, along) do
+        local ahead = if forth then alley - at else at - alley
+        if ahead > NEAR and ahead < math.abs(found - at) then
+          found = alley
+        end
+      end
+    end
+    return found
+  end
   local usual = { branching = 1, both = 1, cross = 1, stop = 0, gap = 0, every = 6 }
   return pattern("roads.raster", of, usual, {
     gap = 0,
@@ -231,39 +289,45 @@ function patterns.raster(options: { [string]: any }?): Pattern
     toward = function(_: number, _: number, heading: number): number
       return nearest(heading, headings)
     end,
-    length = function(x: number, y: number, heading: number): number
-      -- To the next line, or to the one behind where that is near.
+    length = function(x: number, y: number, heading: number, depth: number): number
       local turned = between(angle, heading) % 360
       local along = turned < 45 or turned > 315 or math.abs(turned - 180) < 45
-      local at = if along then x * east + y * north else y * east - x * north
-      local crossed = if along then columns else rows
-      local near = 0.35 * (if along then block else width)
-      local index = if turned < 45
-          or turned > 315
-          or math.abs(turned - 90) < 45
-        then below(crossed, at + near) + 1
-        else below(crossed, at - near)
-      return math.abs((crossed[index] or at + 2 * near) - at)
+      local forth = turned < 45 or turned > 315 or math.abs(turned - 90) < 45
+      local u, v = x * east + y * north, y * east - x * north
+      local at, aside = if along then u else v, if along then v else u
+      return math.abs(next_line(at, aside, along, forth, depth) - at)
     end,
     closed = function(x: number, y: number, heading: number): boolean
       local turned = between(angle, heading) % 180
       local along = turned < 45 or turned > 135
       local u, v = x * east + y * north, y * east - x * north
-      -- A street lies on the line between two blocks.
-      local column = below(columns, if along then u else u + 20)
-      local row = below(rows, if along then v + 20 else v)
-      return is_one(column, row, along)
+      local column = below(columns, if along then u else u + NEAR)
+      local row = below(rows, if along then v + NEAR else v)
+      local aside = if along then v else u
+      local function has_alley(ahead: number): boolean
+        local of = if along then alleys(column + ahead, row, false) else alleys(column, row + ahead, true)
+        for _, alley in of do
+          if math.abs(alley - aside) < NEAR then
+            return true
+          end
+        end
+        return false
+      end
+      -- An alley ends with its block; else a street lies on the line between two blocks, or is that of another pattern.
+      return not has_alley(0) and (has_alley(-1) or has_alley(1) or is_one(column, row, along))
     end,
   })
 end
 
 -- Rays out of a `middle` (m), and rings around it that are about `block` (m) apart. `gap` is the share of side streets that
--- are left out, and `variety` from 0 to 1 how much blocks differ: rings are near here and far there, and there are parks.
+-- are left out, and `variety` from 0 to 1 how much blocks differ: rings are near here and far there, quarters have small blocks or
+-- large ones, and there are parks.
 function patterns.radial(options: { [string]: any }?): Pattern
   local of = options or {}
   checks.options("roads.radial", of, PATTERN)
   local block = number("roads.radial: block", of.block, 90, 20, 500)
   local variety = number("roads.radial: variety", of.variety, 1, 0, 1)
+  local gap = number("roads.radial: gap", of.gap, 0.36, 0, 0.6)
   local middle = checks.place("roads.radial: middle", of.middle or { 0, 0 })
   local field = math.floor(random() * 1000000)
   local rings = {}
@@ -272,10 +336,30 @@ function patterns.radial(options: { [string]: any }?): Pattern
       table.insert(rings, radius)
     end
   end
-  local usual = { branching = 0.95, both = 0.9, cross = 0.5, stop = 0, gap = 0.42, every = 3 }
+  -- How wide blocks are at a place, against others.
+  local function wide(x: number, y: number): number
+    local much = 0.15 * variety + noise(x / (block * 4), y / (block * 4), 7.5, field)
+    return math.clamp(math.exp(3.5 * variety * much), 0.4, 2)
+  end
+  -- The rings that lie next to a distance (m) from the middle, on the inner and on the outer side, with the lanes halfway between
+  -- them in quarters of small blocks.
+  local function around(far: number, x: number, y: number, depth: number): (number, number)
+    local inner = below(rings, far)
+    local low, high = rings[inner] or 0, rings[inner + 1] or far + block
+    local half = (low + high) / 2
+    if depth > 0 and inner > 0 and high - low > 60 and wide(x, y) < 0.7 then
+      if far < half then
+        high = half
+      else
+        low = half
+      end
+    end
+    return low, high
+  end
+  local usual = { branching = 0.95, both = 0.9, cross = 0.5, stop = 0, gap = 0, every = 3 }
   return pattern("roads.radial", of, usual, {
     straight = true,
-    toward = function(x: number, y: number, heading: number, length: number): number
+    toward = function(x: number, y: number, heading: number, length: number, depth: number): number
       local dx, dy = x - middle[1], y - middle[2]
       local far = math.sqrt(dx * dx + dy * dy)
       if far < rings[1] / 2 then
@@ -283,32 +367,33 @@ function patterns.radial(options: { [string]: any }?): Pattern
       end
       local ray = math.deg(math.atan2(dy, dx))
       -- A street along a ring ends on it, wherever it begins.
-      local inner = below(rings, far)
-      local ring = rings[inner + 1] or far
-      if inner > 0 and far - rings[inner] < ring - far then
-        ring = rings[inner]
-      end
+      local low, high = around(far, x, y, depth)
+      local ring = if low > 0 and far - low < high - far then low else high
       local bent = (far * far + length * length - ring * ring) / (2 * far * length)
       local inward = math.deg(math.acos(math.clamp(bent, -0.5, 0.9)))
       return nearest(heading, { ray, ray + 180, ray + 180 - inward, ray + 180 + inward })
     end,
-    length = function(x: number, y: number, heading: number): number
+    length = function(x: number, y: number, heading: number, depth: number): number
       local dx, dy = x - middle[1], y - middle[2]
       local ray = math.deg(math.atan2(dy, dx))
       local across = math.abs(between(ray, heading)) % 180
       if across < 45 or across > 135 then
         -- To the next ring, or to the one behind where that is near.
         local far = math.sqrt(dx * dx + dy * dy)
-        local near = 0.3 * block
-        local ring = if across < 45
-          then rings[below(rings, far + near) + 1]
-          else rings[below(rings, far - near)]
-        return math.max(0.4 * block, math.abs((ring or far + block) - far))
+        local near = 0.15 * block
+        local low, high = around(if across < 45 then far + near else far - near, x, y, depth)
+        local to = if across < 45 then high elseif low > 0 then low else far - block
+        return math.max(0.3 * block, math.abs(to - far))
       end
-      return block * (1 + variety * random(-0.35, 0.6))
+      local much = math.clamp(wide(x, y), if depth == 0 then 0.9 else 0.4, 1.2)
+      return math.max(0.4, much * (1 + variety * random(-0.25, 0.35))) * block
     end,
+    gap = 0,
     closed = function(x: number, y: number): boolean
-      return variety * noise(x / (block * 3), y / (block * 3), 3.5, field) > 0.3
+      local open = wide(x, y)
+      local out = if open > 1 then 1 - (1 - gap) / open else gap * math.max(open, 0.7)
+      return drawn(math.floor(x / 8 + 0.5), math.floor(y / 8 + 0.5), field) < out
+        or variety * noise(x / (block * 3), y / (block * 3), 3.5, field) > 0.3
     end,
   })
 end
