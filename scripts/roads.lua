@@ -38,7 +38,12 @@ local ways: { [string]: () -> any } = {
   raster = function()
     local angle = random(0, 90)
     return {
-      pattern = roads.raster({ angle = angle, block = random(105, 150), width = random(65, 85) }),
+      pattern = roads.raster({
+        angle = angle,
+        block = small * random(105, 150),
+        width = small * random(65, 85),
+        variety = variety,
+      }),
       headings = { angle, angle + 90, angle + 180, angle + 270 },
     }
   end,
@@ -47,7 +52,10 @@ local ways: { [string]: () -> any } = {
     for ray = 1, rays do
       table.insert(headings, turned + ray * 360 / rays)
     end
-    return { pattern = roads.radial({ block = random(75, 110) }), headings = headings }
+    return {
+      pattern = roads.radial({ block = small * random(75, 110), variety = variety }),
+      headings = headings,
+    }
   end,
   contours = function()
     return { pattern = roads.contours(height) }

@@ -127,7 +127,7 @@ function patterns.organic(options: { [string]: any }?): Pattern
     return math.clamp((noise(x / (block * 3), y / (block * 3), 7.5, field) - 0.38) / 0.04, 0, 1)
   end
   local usual =
-    { branching = 0.9, both = 0, cross = 0, skew = 16, stop = 0, gap = 0, greens = 0.45, every = 3 }
+    { branching = 0.9, both = 0, cross = 0.05, skew = 16, stop = 0, gap = 0, greens = 0.45, every = 3 }
   return pattern("roads.organic", of, usual, {
     gap = 0,
     least = 0.42 * block,
