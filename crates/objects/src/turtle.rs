@@ -425,8 +425,7 @@ impl Turtle {
 
     fn open_branch(&mut self) {
         // A copy of the strand is dropped here and does not go on.
-        // As one piece of memory: a clone is copied by its fields, and then once more into its place.
-        self.stack.extend_from_slice(std::slice::from_ref(&self.state));
+        self.stack.push(self.state.clone());
         self.state.strand = None;
     }
 
