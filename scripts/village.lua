@@ -78,7 +78,7 @@ end
 local HOUSES = { "half_timbered", "villa", "half_timbered", "chalet", "terrace_house" }
 -- How far (m) the ground before a door may lie below the highest beside the house, and how much of that the house makes up
 -- for, in the ground behind.
-local MOST_STEP, SUNK = 1.0, 0.5
+local MOST_STEP, SUNK = 1.6, 1.1
 local sites = lanes:sites({
   sizes = { { 13, 10 }, { 11, 8.5 }, { 9, 8 } },
   along = 7,
