@@ -91,8 +91,9 @@ local church: any, least = nil, math.huge
 local function extremes(ring: any): (number, number)
   local low: number, high: number = math.huge, -math.huge
   for _, point in ring do
-    local at = land:height(vec(point[1], point[2], 0))
-    low, high = math.min(low, at), math.max(high, at)
+    local at: number = land:height(vec(point[1], point[2], 0))
+    low = math.min(low, at)
+    high = math.max(high, at)
   end
   return low, high
 end

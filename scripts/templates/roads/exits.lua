@@ -128,11 +128,10 @@ local function ways_of(network: Network): Ways
         local steps = math.max(1, math.ceil(length / 8))
         for step = 1, steps do
           local part = step / steps
-          table.insert(targets, {
-            x = lerp(last[1], point[1], part),
-            y = lerp(last[2], point[2], part),
-            ends = { { here, part * length }, { there, (1 - part) * length } },
-          })
+          local ends: { { number } } = { { here, part * length }, { there, (1 - part) * length } }
+          local target: Target =
+            { x = lerp(last[1], point[1], part), y = lerp(last[2], point[2], part), ends = ends }
+          table.insert(targets, target)
         end
       end
       last, here = point, there
@@ -151,7 +150,8 @@ local function reach(ways: Ways, from: number): { [number]: number }
       local length = far[at] + way.length
       if length < (far[way.to] or math.huge) then
         far[way.to] = length
-        table.insert(open, way.to)
+        local to: number = way.to
+        table.insert(open, to)
       end
     end
   end
@@ -264,13 +264,13 @@ local function choose(
       end
     end
   end
-  table.sort(candidates, function(one: any, other: any)
-    if one.score ~= other.score then
-      return one.score < other.score
-    elseif one.junction ~= other.junction then
-      return one.junction < other.junction
+  table.sort(candidates, function(one: any, other: any): boolean
+    local score: number, other_score: number = one.score, other.score
+    if score ~= other_score then
+      return score < other_score
     end
-    return one.heading < other.heading
+    local number: number, other_number: number = one.junction, other.junction
+    return number < other_number or number == other_number and (one.heading :: number) < other.heading
   end)
 
   -- Where an exit leads.
@@ -288,9 +288,10 @@ local function choose(
       return false
     end
     local probe = network:probe(exit.junction, exit.heading, exit.length, 0)
-    return probe.built
-      and probe.place:distance(exit.to) < 1
-      and not (allowed and not allowed(network, exit.from, exit.to, 0))
+    if not probe.built or probe.place:distance(exit.to) >= 1 then
+      return false
+    end
+    return not allowed or allowed(network, exit.from, exit.to, 0)
   end
   local chosen: { any } = {}
   local is_joined = joints(network, join, detour)

@@ -241,9 +241,10 @@ function growth.system(options: RoadOptions, ...: number)
     end
     local east, north = math.cos(math.rad(aim)) * length, math.sin(math.rad(aim)) * length
     -- A side street that would leave the town ends within it, where it is long enough.
-    if depth > 0 and pattern.least then
-      local part = 1
-      while part * length > 1.4 * pattern.least and not inside(x + part * east, y + part * north) do
+    local least = pattern.least
+    if depth > 0 and least then
+      local part: number = 1
+      while part * length > 1.4 * least and not inside(x + part * east, y + part * north) do
         part -= 0.15
       end
       length, east, north = part * length, part * east, part * north
