@@ -21,7 +21,7 @@ pub struct Preset {
 }
 
 impl Preset {
-    /// The values as text, as [`RunOptions::set`](super::RunOptions::set) takes them.
+    /// The values as text, as [`ParamValues::set`](super::ParamValues::set) takes them.
     pub fn set(&self) -> Vec<(String, String)> {
         self.params.iter().map(|(name, value)| (name.clone(), value.plain())).collect()
     }

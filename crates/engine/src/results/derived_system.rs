@@ -34,7 +34,7 @@ pub struct RuleReport {
     /// Whether it is an interpretation rule.
     pub interprets: bool,
     /// How much it has done. The time of interpretation rules is measured if
-    /// [`RunOptions::profile`](crate::script::RunOptions::profile) says so.
+    /// [`RunReports::profile`](crate::script::RunReports::profile) says so.
     pub done: Use,
 }
 
@@ -98,7 +98,7 @@ impl DerivedSystem {
     }
 
     /// What is known of the features that its chains came from, in the order of the chains; nothing without features.
-    /// What a list of the script knows is kept if [`RunOptions::records`](crate::script::RunOptions::records) says so.
+    /// What a list of the script knows is kept if [`RunReports::records`](crate::script::RunReports::records) says so.
     pub fn records(&self) -> Option<RecordTable> {
         self.source.table(&self.features, self.system + 1)
     }
