@@ -349,7 +349,9 @@ function exits.rules(system: System<Network>, options: Exits)
       local place = this:place(at)
       local off = if rim then checks.between(heading, across(place, heading, rim)) else 0
       local turned = heading + off / (pieces - 1) + (if rim and pieces == 2 then 0 else random(-7, 7))
-      return Exit(at, turned, if rim then rest_of_way(place, turned, rim) else left, pieces - 1)
+      local further = if rim then rest_of_way(place, turned, rim) else left
+      -- A bridge may have led it over the rim.
+      return if further > 0 then Exit(at, turned, further, pieces - 1) else nil
     end
   )
   system:interpret(
