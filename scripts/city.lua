@@ -249,9 +249,6 @@ for _, block in streets:blocks() do
   end
 end
 
--- How far (m) from the middle streets have lamps, to the north, east, south and west.
-local LIT = 700
-
 -- Buildings with all of their facades, and those that are only seen from afar.
 local near: { any }, distant: { any } = {}, {}
 local yards: { any } = {}
@@ -363,7 +360,9 @@ if with_trees then
   end
   nature.trees(trees)
 end
--- Lamps, as far as they can be seen from the middle.
+
+-- Lamps, as far (m) to the north, east, south and west as they can be seen from the middle.
+local LIT = 700
 local lamps = {}
 for _, lamp in streets:verge("lamp") do
   if math.abs(lamp.place.x) < LIT and math.abs(lamp.place.y) < LIT then

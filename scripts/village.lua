@@ -121,7 +121,7 @@ local houses, gardens = {}, {}
 for _, site in sites do
   local ring = site.geometry.rings[1]
   local away = math.sqrt(site.access.x ^ 2 + site.access.y ^ 2)
-  -- The floor lies as high as the ground does anywhere, and the door is in the front.
+  -- The floor lies as high as the ground does anywhere, or so much lower as the house is sunk; the door is in the front.
   local _, highest = extremes(ring)
   local step = highest - land:height(site.access)
   if church and site.geometry:distance(church.geometry) < 5 or not is_level(site.geometry, 2.4) then

@@ -46,6 +46,12 @@ fn towns_keep_buildings_apart_and_off_the_streets_with_any_seed() {
 }
 
 #[test]
+fn an_exit_that_a_bridge_leads_over_the_rim_ends_there() {
+    let of = figures(&TOWNS[0], 41, None);
+    assert_eq!(of.fault(), None, "{of:?}");
+}
+
+#[test]
 fn words_keep_what_networks_promise_with_any_angles() {
     for (seed, (bend, branch, split)) in (1..).zip([
         ("20", "90", "alternate"),

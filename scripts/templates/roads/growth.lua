@@ -26,7 +26,7 @@ export type RoadOptions = {
   join: number?,
   detour: number?,
   dead_ends: string?,
-  exits: { count: number, length: number?, rim: number? }?,
+  exits: { count: number?, length: number?, rim: (number | Geometry)? }?,
   allowed: ((network: Network, from: Vector, to: Vector, depth: number) -> boolean)?,
 }
 

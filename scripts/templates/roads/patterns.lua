@@ -1,113 +1,16 @@
 --!strict
 -- Patterns: where streets go, as functions of a place and chances.
 local checks = require("checks")
+local pattern = require("pattern")
 
 local patterns = {}
 
+-- What those of roads/pattern are.
+type Pattern = any
+
 local between, nearest, number = checks.between, checks.nearest, checks.number
-
-export type Pattern = {
-  -- The heading (degrees from east, counter-clockwise) of a street that leaves a place (m) about towards `heading`.
-  toward: (x: number, y: number, heading: number, length: number, depth: number) -> number,
-  -- How long (m) a street is that leaves a place, to the next junction.
-  length: (x: number, y: number, heading: number, depth: number) -> number,
-  -- How likely a side street leaves a junction, and how likely there is one on the other side as well.
-  side: number,
-  both: number,
-  -- How likely a street that meets another goes on behind it.
-  cross: number,
-  -- How far (degrees) side streets turn from square.
-  skew: number,
-  -- How likely a small side street ends at a junction.
-  stop: number,
-  -- The share of places that side streets leave out, the same from both ends.
-  gap: number,
-  -- Whether a side street that leaves a place is left out, in place of `gap`; both of its ends have to find the same.
-  closed: ((x: number, y: number, heading: number, length: number, depth: number) -> boolean)?,
-  -- The share of side streets that leave around a small green, of every third junction; none does if it is left out.
-  greens: number?,
-  -- How near (m) a junction draws a street's end, and how far dead ends are joined, where the script says neither.
-  snap: number?,
-  join: number?,
-  -- How long (m) a side street is at least that leaves another.
-  least: number?,
-  -- How far (m) beyond its end a side street sees another, and leads on to it.
-  sight: number?,
-  -- Every so many junctions a main street divides; 0 for never.
-  every: number,
-  -- Whether main streets turn aside for obstacles alone.
-  straight: boolean?,
-}
-
--- What no pattern does without.
-local KINDS: { [string]: string } = {
-  toward = "function",
-  length = "function",
-  side = "number",
-  both = "number",
-  cross = "number",
-  skew = "number",
-  stop = "number",
-  gap = "number",
-  every = "number",
-}
-
-local PATTERN = {
-  block = "number",
-  width = "number",
-  angle = "number",
-  bends = "number",
-  branching = "number",
-  cross = "number",
-  skew = "number",
-  stop = "number",
-  gap = "number",
-  greens = "number",
-  every = "number",
-  middle = "table",
-  steepest = "number",
-  variety = "number",
-}
-
--- A pattern: what says where streets go, and chances from `options`, or else the usual ones.
-local function pattern(
-  name: string,
-  options: { [string]: any },
-  usual: { [string]: number },
-  ways: { [string]: any },
-  ...: any
-): any
-  local made: any = { skew = 0, both = usual.both }
-  for _, chance in
-    {
-      { "branching", 1 },
-      { "cross", 1 },
-      { "skew", 40 },
-      { "stop", 1 },
-      { "gap", 0.6 },
-      { "greens", 1 },
-      { "every", 100 },
-    } :: any
-  do
-    local key, most = chance[1], chance[2]
-    if usual[key] then
-      made[key] = number(`{name}: {key}`, options[key], usual[key], 0, most, 4)
-    end
-  end
-  made.side = made.branching
-  for key, way in ways do
-    made[key] = way
-  end
-  return made
-end
-
--- A number from 0 to 1 that looks drawn, and is the same for the same whole numbers.
-local function drawn(a: number, b: number, seed: number): number
-  local mixed = bit32.bxor(a * 73856093 % 2 ^ 32, b * 19349663 % 2 ^ 32, seed * 83492791 % 2 ^ 32)
-  mixed = bit32.bxor(mixed, bit32.rshift(mixed, 15)) % 2 ^ 32
-  mixed = (mixed * 668265261) % 2 ^ 32
-  return bit32.bxor(mixed, bit32.rshift(mixed, 13)) % 65536 / 65536
-end
+local KNOWN, drawn = pattern.KNOWN, pattern.drawn
+patterns.check = pattern.check
 
 -- Streets that wander, side streets that leave one at a time: a town that nobody planned. `block` (m) is how far
 -- junctions are apart, `bends` how far (degrees) a street turns from one to the next, `branching` how many junctions
@@ -116,7 +19,7 @@ end
 -- a town has come to, others wide, and some have parks; without any, no lane is left out.
 function patterns.organic(options: { [string]: any }?): Pattern
   local of = options or {}
-  checks.options("roads.organic", of, PATTERN)
+  checks.options("roads.organic", of, KNOWN)
   local block = number("roads.organic: block", of.block, 80, 20, 500)
   local bends = number("roads.organic: bends", of.bends, 38, 0, 60)
   local variety = number("roads.organic: variety", of.variety, 1, 0, 1)
@@ -128,7 +31,7 @@ function patterns.organic(options: { [string]: any }?): Pattern
   end
   local usual =
     { branching = 0.9, both = 0, cross = 0.05, skew = 16, stop = 0, gap = 0, greens = 0.45, every = 3 }
-  return pattern("roads.organic", of, usual, {
+  return pattern.make("roads.organic", of, usual, {
     gap = 0,
     least = 0.42 * block,
     -- Nobody moves a street for a junction nearby, or joins what ends.
@@ -203,7 +106,7 @@ end
 -- as several, and alleys divide those of old quarters.
 function patterns.raster(options: { [string]: any }?): Pattern
   local of = options or {}
-  checks.options("roads.raster", of, PATTERN)
+  checks.options("roads.raster", of, KNOWN)
   local block = number("roads.raster: block", of.block, 130, 20, 500)
   local width = number("roads.raster: width", of.width, 75, 20, 500)
   local angle = number("roads.raster: angle", of.angle, 0, -360, 360)
@@ -283,7 +186,7 @@ function patterns.raster(options: { [string]: any }?): Pattern
     return found
   end
   local usual = { branching = 1, both = 1, cross = 1, stop = 0, gap = 0, every = 6 }
-  return pattern("roads.raster", of, usual, {
+  return pattern.make("roads.raster", of, usual, {
     gap = 0,
     straight = true,
     toward = function(_: number, _: number, heading: number): number
@@ -324,7 +227,7 @@ end
 -- large ones, and there are parks.
 function patterns.radial(options: { [string]: any }?): Pattern
   local of = options or {}
-  checks.options("roads.radial", of, PATTERN)
+  checks.options("roads.radial", of, KNOWN)
   local block = number("roads.radial: block", of.block, 90, 20, 500)
   local variety = number("roads.radial: variety", of.variety, 1, 0, 1)
   local gap = number("roads.radial: gap", of.gap, 0.36, 0, 0.6)
@@ -357,7 +260,7 @@ function patterns.radial(options: { [string]: any }?): Pattern
     return low, high
   end
   local usual = { branching = 0.95, both = 0.9, cross = 0.5, stop = 0, gap = 0, every = 3 }
-  return pattern("roads.radial", of, usual, {
+  return pattern.make("roads.radial", of, usual, {
     straight = true,
     toward = function(x: number, y: number, heading: number, length: number, depth: number): number
       local dx, dy = x - middle[1], y - middle[2]
@@ -403,13 +306,13 @@ end
 -- function(x, y) return land:height({ x, y }) end.
 function patterns.contours(height: (x: number, y: number) -> number, options: { [string]: any }?): Pattern
   local of = options or {}
-  checks.options("roads.contours", of, PATTERN)
+  checks.options("roads.contours", of, KNOWN)
   checks.field("roads.contours: height", height)
   local block = number("roads.contours: block", of.block, 80, 20, 500)
   local steepest = number("roads.contours: steepest", of.steepest, 9, 1, 45)
   local most = math.tan(math.rad(steepest))
   local usual = { branching = 0.55, both = 0.15, cross = 0.2, stop = 0.15, gap = 0, every = 5 }
-  return pattern("roads.contours", of, usual, {
+  return pattern.make("roads.contours", of, usual, {
     toward = function(x: number, y: number, heading: number, length: number): number
       local near = length / 4
       local east = (height(x + near, y) - height(x - near, y)) / (2 * near)
@@ -439,12 +342,12 @@ end
 -- Streets that turn towards where more people live. `people` gives from 0 to 1 how many live at a place (m).
 function patterns.populous(people: (x: number, y: number) -> number, options: { [string]: any }?): Pattern
   local of = options or {}
-  checks.options("roads.populous", of, PATTERN)
+  checks.options("roads.populous", of, KNOWN)
   checks.field("roads.populous: people", people)
   local block = number("roads.populous: block", of.block, 80, 20, 500)
   local bends = number("roads.populous: bends", of.bends, 20, 0, 60)
   local usual = { branching = 0.75, both = 0.25, cross = 0.25, skew = 6, stop = 0.1, gap = 0, every = 5 }
-  return pattern("roads.populous", of, usual, {
+  return pattern.make("roads.populous", of, usual, {
     toward = function(x: number, y: number, heading: number, length: number, depth: number): number
       local best, most = heading, -1
       for try = -2, 2 do
@@ -468,19 +371,6 @@ function patterns.populous(people: (x: number, y: number) -> number, options: { 
   })
 end
 
--- Refuses what is no pattern, so many levels up.
-function patterns.check(name: string, value: any, level: number): Pattern
-  if type(value) ~= "table" then
-    error(`{name} must be a pattern, such as roads.organic(), not {type(value)}`, level)
-  end
-  for key, kind in KINDS do
-    if type(value[key]) ~= kind then
-      error(`{name} has no {kind} called {key}; a pattern has what roads.organic() has`, level)
-    end
-  end
-  return value
-end
-
 -- The pattern of each place, by the nearest of some districts: { at = { x, y }, pattern = ... }.
 function patterns.districts(
   districts: { { at: { number }, pattern: Pattern } }
@@ -490,7 +380,7 @@ function patterns.districts(
   end
   for index, district in districts do
     checks.place(`roads.districts: at of district {index}`, district.at)
-    patterns.check(`roads.districts: the pattern of district {index}`, district.pattern, 3)
+    pattern.check(`roads.districts: the pattern of district {index}`, district.pattern, 3)
   end
   return function(x: number, y: number)
     local best, least = districts[1], math.huge

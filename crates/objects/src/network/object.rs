@@ -262,8 +262,8 @@ impl Network {
         Ok(self.network.at(self.known(junction)?).extend(0.0))
     }
 
-    /// Where all junctions are, by their numbers, with those where a street only turns, which `network:junctions` leaves out: a
-    /// list of tables with `place` (m), the least `depth` of its streets, and the `headings` (degrees) in which they leave it.
+    /// Where all junctions are, by their numbers, those too where a street only turns: a list of tables with `place` (m), the
+    /// least `depth` of its streets, and the `headings` (degrees) in which they leave it.
     pub fn places(&self) -> Value {
         answers::places(&self.network)
     }
