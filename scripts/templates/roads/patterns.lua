@@ -18,7 +18,7 @@ patterns.check = pattern.check
 -- side streets, are left out. `variety` from 0 to 1 is how much quarters differ: some are knots of lanes, as old villages are that
 -- a town has come to, others wide, and some have parks; without any, no lane is left out.
 function patterns.organic(options: { [string]: any }?): Pattern
-  local of = options or {}
+  local of: { [string]: any } = options or {}
   checks.options("roads.organic", of, KNOWN)
   local block = number("roads.organic: block", of.block, 80, 20, 500)
   local bends = number("roads.organic: bends", of.bends, 38, 0, 60)
@@ -105,7 +105,7 @@ end
 -- of streets across the longer direction that are left out, and `variety` from 0 to 1 how much blocks differ: some are as large
 -- as several, and alleys divide those of old quarters.
 function patterns.raster(options: { [string]: any }?): Pattern
-  local of = options or {}
+  local of: { [string]: any } = options or {}
   checks.options("roads.raster", of, KNOWN)
   local block = number("roads.raster: block", of.block, 130, 20, 500)
   local width = number("roads.raster: width", of.width, 75, 20, 500)
@@ -226,7 +226,7 @@ end
 -- are left out, and `variety` from 0 to 1 how much blocks differ: rings are near here and far there, quarters have small blocks or
 -- large ones, and there are parks.
 function patterns.radial(options: { [string]: any }?): Pattern
-  local of = options or {}
+  local of: { [string]: any } = options or {}
   checks.options("roads.radial", of, KNOWN)
   local block = number("roads.radial: block", of.block, 90, 20, 500)
   local variety = number("roads.radial: variety", of.variety, 1, 0, 1)
@@ -305,7 +305,7 @@ end
 -- (degrees); elsewhere they climb at a slant. `height` gives the height (m) of a place, as a terrain's does:
 -- function(x, y) return land:height({ x, y }) end.
 function patterns.contours(height: (x: number, y: number) -> number, options: { [string]: any }?): Pattern
-  local of = options or {}
+  local of: { [string]: any } = options or {}
   checks.options("roads.contours", of, KNOWN)
   checks.field("roads.contours: height", height)
   local block = number("roads.contours: block", of.block, 80, 20, 500)
@@ -341,7 +341,7 @@ end
 
 -- Streets that turn towards where more people live. `people` gives from 0 to 1 how many live at a place (m).
 function patterns.populous(people: (x: number, y: number) -> number, options: { [string]: any }?): Pattern
-  local of = options or {}
+  local of: { [string]: any } = options or {}
   checks.options("roads.populous", of, KNOWN)
   checks.field("roads.populous: people", people)
   local block = number("roads.populous: block", of.block, 80, 20, 500)
