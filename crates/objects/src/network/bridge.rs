@@ -51,8 +51,21 @@ pub(super) fn draw_span(part: &mut Part, span: &StreetSpan, kerb: f64, water: f6
     Ok(())
 }
 
+/// The bridges that may have a side on the border of a part of a street (m).
+pub(super) fn spans_beside<'a>(border: &[DVec3], spans: &'a [StreetSpan]) -> Vec<&'a StreetSpan> {
+    let around = |places: &mut dyn Iterator<Item = DVec2>| {
+        places.fold([DVec2::INFINITY, DVec2::NEG_INFINITY], |[low, high], at| [low.min(at), high.max(at)])
+    };
+    let [low, high] = around(&mut border.iter().map(|at| at.truncate()));
+    let is_near = |span: &&StreetSpan| {
+        let [least, most] = around(&mut span.sides.iter().flatten().map(|at| at.truncate()));
+        (least - ON_SIDE).cmple(high).all() && low.cmple(most + ON_SIDE).all()
+    };
+    spans.iter().filter(is_near).collect()
+}
+
 /// The parts of an edge of a street (m) that are no side of a bridge.
-pub(super) fn beside_spans(edge: [DVec3; 2], spans: &[StreetSpan]) -> SmallVec<[[DVec3; 2]; 2]> {
+pub(super) fn beside_spans(edge: [DVec3; 2], spans: &[&StreetSpan]) -> SmallVec<[[DVec3; 2]; 2]> {
     let [a, b] = edge;
     let mut parts = SmallVec::from_elem(edge, 1);
     for span in spans {
@@ -127,7 +140,7 @@ mod tests {
         let sides = [side(-5.0), side(5.0)];
         let span = StreetSpan { piece: 0, way: DVec2::X, sides, shores: Vec::new(), piers: Vec::new() };
         let parts = |a: DVec3, b: DVec3| {
-            let parts = beside_spans([a, b], std::slice::from_ref(&span));
+            let parts = beside_spans([a, b], &[&span]);
             parts.iter().map(|part| part.map(|at| (at * 1000.0).round() / 1000.0)).collect::<Vec<_>>()
         };
         let whole = [at(0.0, 5.0), at(100.0, 5.0)];
@@ -138,5 +151,7 @@ mod tests {
         let others =
             [[at(0.0, 5.0), at(20.0, 5.0)], [at(0.0, 4.0), at(100.0, 4.0)], [at(30.0, 5.0), at(30.0, 50.0)]];
         assert!(others.into_iter().all(|[a, b]| parts(a, b) == [[a, b]]));
+        let beside = |border: &[DVec3]| spans_beside(border, std::slice::from_ref(&span)).len();
+        assert_eq!((beside(&whole), beside(&[at(0.0, 5.1), at(100.0, 9.0)])), (1, 0));
     }
 }

@@ -2,7 +2,7 @@
 
 use glam::{DVec2, DVec3, Vec3};
 
-use super::bridge::{beside_spans, draw_span};
+use super::bridge::{beside_spans, draw_span, spans_beside};
 use super::grounds::{WATER, WATER_LEVEL, draw_water};
 use super::object::Network;
 use crate::surface::plain_material;
@@ -47,8 +47,9 @@ impl Network {
             // The ground beside lies lower by what it can be off, and by more where another street is lower. Below a bridge
             // there is to be none.
             for edge in surfaces.sidewalks.iter().map(|walk| &walk.edge) {
+                let near = spans_beside(edge, &spans);
                 for (a, b) in edge.iter().zip(edge.iter().cycle().skip(1)) {
-                    for pair in beside_spans([*b, *a], &spans) {
+                    for pair in beside_spans([*b, *a], &near) {
                         upright(part, pair.map(|at| at + DVec3::Z * (kerb - SKIRT)), SKIRT);
                     }
                 }
