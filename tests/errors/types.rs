@@ -69,7 +69,7 @@ fn a_declaration_that_means_nothing_is_refused() {
 #[test]
 fn a_name_stands_for_one_thing() {
     assert_snapshot!(refused("object(\"turtle\", {})"), @r#"
-    error: s.lua:1: there is already a type of object called turtle, which comes with Burgeon
+    error: s.lua:1: there is already a type of object called turtle, which every script has
       | object("turtle", {})
       help: give this one another name, or add to that one: extend(constructor, { ... })
     "#);

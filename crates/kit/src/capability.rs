@@ -3,6 +3,7 @@
 use super::declare::{as_mut, as_ref};
 use super::{Drawing, Note, Object, Rewriter, Value};
 use burgeon_base::error::Result;
+use burgeon_base::warning::Warning;
 use burgeon_scene::Scene;
 
 /// How an object is asked as one that can do `C`.
@@ -60,6 +61,10 @@ pub(super) fn detail<T: Object + LevelOfDetail>() -> Capability<dyn LevelOfDetai
 
 pub(super) fn layers<T: Object + HasLayers>() -> Capability<dyn HasLayers> {
     capability!(T: HasLayers)
+}
+
+pub(super) fn warn<T: Object + Warn>() -> Capability<dyn Warn> {
+    capability!(T: Warn)
 }
 
 pub(super) fn report<T: Object + Report>() -> Capability<dyn Report> {
@@ -121,6 +126,12 @@ pub trait Expand {
 pub trait LevelOfDetail {
     /// Takes the level of detail to draw in: 0 the ground plan, 1 blocks, 2 roofs, 3 everything.
     fn set_detail(&mut self, detail: u8);
+}
+
+/// Warns, with the line of the call after which it is asked.
+pub trait Warn {
+    /// Gives away what people should know of how it was made, and of what it was asked since it was asked this last.
+    fn take_warnings(&mut self) -> Vec<Warning>;
 }
 
 /// Tells what it had to do otherwise than it was asked.

@@ -136,7 +136,9 @@ pub fn as_mut<T: Object>(object: &mut dyn Object) -> Option<&mut T> {
     let is_one = (object as &dyn Any).is::<T>();
     if is_one {
         let any: &mut dyn Any = object;
-        return any.downcast_mut();
+        #[allow(unsafe_code, reason = "to ask for the type once more costs as much as a small method")]
+        // SAFETY: it is a `T`.
+        return Some(unsafe { &mut *std::ptr::from_mut(any).cast::<T>() });
     }
     object.base_mut().and_then(as_mut)
 }

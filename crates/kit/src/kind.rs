@@ -3,7 +3,9 @@
 use std::borrow::Cow;
 use std::sync::Arc;
 
-use super::capability::{self, Capability, Draw, Expand, Gather, HasLayers, LevelOfDetail, Report, Show};
+use super::capability::{
+    self, Capability, Draw, Expand, Gather, HasLayers, LevelOfDetail, Report, Show, Warn,
+};
 use super::{Argument, BeginPrefetch, Loader, Object, ScriptType, Table, Value};
 use burgeon_base::error::{Error, Result};
 
@@ -42,6 +44,8 @@ pub struct Kind {
     pub expand: Option<Capability<dyn Expand>>,
     /// How it takes a level of detail, if it does.
     pub detail: Option<Capability<dyn LevelOfDetail>>,
+    /// How it warns, if it does.
+    pub warn: Option<Capability<dyn Warn>>,
     /// How it tells what it did otherwise than asked, if it does.
     pub report: Option<Capability<dyn Report>>,
     /// Gives its features as layers.
@@ -194,6 +198,7 @@ impl Kind {
             draw: None,
             expand: None,
             detail: None,
+            warn: None,
             report: None,
             layers: None,
             gather: None,
@@ -307,6 +312,12 @@ impl Kind {
     #[must_use]
     pub fn has_layers<T: Object + HasLayers>(self) -> Self {
         Self { layers: Some(capability::layers::<T>()), ..self }
+    }
+
+    /// Warns.
+    #[must_use]
+    pub fn warns<T: Object + Warn>(self) -> Self {
+        Self { warn: Some(capability::warn::<T>()), ..self }
     }
 
     /// Tells what it did otherwise than asked.

@@ -41,7 +41,7 @@ mod value;
 
 pub use argument::Argument;
 pub use buffer_bytes::BufferBytes;
-pub use capability::{Capability, Draw, Expand, Gather, HasLayers, LevelOfDetail, Report, Show};
+pub use capability::{Capability, Draw, Expand, Gather, HasLayers, LevelOfDetail, Report, Show, Warn};
 pub use color::Color;
 pub use column_value::ColumnValue;
 pub use drawing::Drawing;

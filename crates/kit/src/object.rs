@@ -46,11 +46,6 @@ pub trait Object: Any + Send + Sync {
     fn base_mut(&mut self) -> Option<&mut dyn Object> {
         None
     }
-
-    /// Gives away what people should know of how it was made, and of what it was asked since it was asked this last.
-    fn take_warnings(&mut self) -> Vec<Warning> {
-        Vec::new()
-    }
 }
 
 /// What the capabilities of its kind make of an object whose type is not known.
@@ -77,6 +72,12 @@ impl dyn Object {
     pub fn drawing_mut(&mut self) -> Option<&mut Drawing> {
         let kind = Arc::clone(self.kind());
         kind.draw.as_ref()?.of_mut(self).map(|it| it.drawing_mut())
+    }
+
+    /// Gives away what people should know of how it was made, and of what it was asked since it was asked this last.
+    pub fn take_warnings(&mut self) -> Vec<Warning> {
+        let warn = self.kind().warn;
+        warn.and_then(|warn| warn.of_mut(self)).map_or_else(Vec::new, |it| it.take_warnings())
     }
 
     /// Whether it expands what it shows by itself, and so can stand without an axiom.

@@ -24,7 +24,7 @@ impl Registry {
     ///
     /// let twice = Registry::try_from_kinds([Kind::new("bead", "A bead."), Kind::new("bead", "Another.")]);
     /// let error = twice.expect_err("two of a name");
-    /// assert_eq!(error.message(), "there is a type of object called bead already");
+    /// assert_eq!(error.message(), "there is already a type of object called bead, which every script has");
     /// # Ok::<(), burgeon_base::error::Error>(())
     /// ```
     pub fn try_from_kinds(kinds: impl IntoIterator<Item = impl Into<Arc<Kind>>>) -> Result<Self> {
@@ -36,12 +36,19 @@ impl Registry {
     /// Adds a type. Fails if there is one of that name.
     pub fn add(&mut self, kind: impl Into<Arc<Kind>>) -> Result<()> {
         let kind = kind.into();
-        if self.get(&kind.name).is_some() {
-            return Err(Error::argument(format!("there is a type of object called {} already", kind.name))
-                .help("give it another name"));
-        }
+        self.refuse_taken(&kind.name)?;
         self.kinds.push(kind);
         Ok(())
+    }
+
+    /// Fails if there is a type called `name`.
+    pub fn refuse_taken(&self, name: &str) -> Result<()> {
+        let Some(known) = self.get(name) else { return Ok(()) };
+        let place = known.script.as_ref().and_then(|script| script.place.as_ref());
+        let place =
+            place.map_or_else(|| "which every script has".to_owned(), |place| format!("declared in {place}"));
+        Err(Error::argument(format!("there is already a type of object called {name}, {place}"))
+            .help("give this one another name, or add to that one: extend(constructor, { ... })"))
     }
 
     /// Fails if the registry was made of types of which two have one name.
@@ -86,6 +93,9 @@ mod tests {
         let registry: Registry = ["bead", "string", "bead", "string"].map(kind).into_iter().collect();
         assert_eq!(registry.kinds().count(), 2);
         let error = registry.check().expect_err("two of a name").to_string();
-        assert!(error.contains("there is a type of object called bead already"), "{error}");
+        assert!(
+            error.contains("there is already a type of object called bead, which every script has"),
+            "{error}"
+        );
     }
 }

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use super::declare::{as_mut, as_ref};
-use super::{Draw, Drawing, Kind, LevelOfDetail, Note, Object, Report, ScriptType, Table, Value};
+use super::{Draw, Drawing, Kind, LevelOfDetail, Note, Object, Report, ScriptType, Table, Value, Warn};
 use burgeon_base::error::{Error, Result};
 use burgeon_base::warning::Warning;
 use burgeon_macros::methods;
@@ -215,12 +215,6 @@ impl Object for ScriptObject {
         self.held.iter_mut().for_each(|object| object.seed(seed));
     }
 
-    fn take_warnings(&mut self) -> Vec<Warning> {
-        let base = self.base.as_mut().map(|base| base.take_warnings());
-        let held = self.held.iter_mut().flat_map(|object| object.take_warnings());
-        base.into_iter().flatten().chain(held).collect()
-    }
-
     fn base(&self) -> Option<&dyn Object> {
         self.base.as_deref()
     }
@@ -237,6 +231,14 @@ impl Draw for ScriptObject {
 
     fn drawing_mut(&mut self) -> &mut Drawing {
         &mut self.drawing
+    }
+}
+
+impl Warn for ScriptObject {
+    fn take_warnings(&mut self) -> Vec<Warning> {
+        let base = self.base.as_mut().map(|base| base.take_warnings());
+        let held = self.held.iter_mut().flat_map(|object| object.take_warnings());
+        base.into_iter().flatten().chain(held).collect()
     }
 }
 

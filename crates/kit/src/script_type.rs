@@ -5,7 +5,7 @@ use std::sync::{Arc, Weak};
 
 use super::declare::refuse_unknown;
 use super::{Argument, Call, Construct, Kind, Method, Object, ScriptField, ScriptObject, Table, Value};
-use burgeon_base::error::{Error, Limit, Result};
+use burgeon_base::error::{Error, Limit, Result, SourcePlace};
 
 /// What a script declares of a type.
 #[derive(Clone, Default)]
@@ -22,6 +22,8 @@ pub struct ScriptType {
     pub held: Vec<(Arc<str>, Arc<dyn Object>)>,
     /// Whether a function of its own runs where a branch opens, and where it closes.
     pub branches: [bool; 2],
+    /// Where it is declared.
+    pub place: Option<SourcePlace>,
 }
 
 /// How deeply types that hold objects of types that hold objects may be nested.
@@ -164,6 +166,8 @@ impl ScriptType {
             };
             let own = Kind::new(name.to_owned(), doc).made_of(fields, make).methods(all);
             let own = own.has_detail::<ScriptObject>().reports::<ScriptObject>();
+            let mut within = base.iter().chain(of.held.iter().map(|(_, object)| object.kind()));
+            let own = if within.any(|kind| kind.warn.is_some()) { own.warns::<ScriptObject>() } else { own };
             match base {
                 None => Kind { script: Some(of), ..own.begins_empty().draws::<ScriptObject>() },
                 Some(base) => Kind {

@@ -162,7 +162,7 @@ pub fn fields(arguments: TokenStream, item: TokenStream) -> TokenStream {
 /// After the name, in any order:
 ///
 /// - what it can do, as its `Kind` says it: `draws` (in its field of type `Drawing`), `shows`, `expands`, `has_detail`,
-///   `has_layers` and `reports`, each but the first with a trait to implement;
+///   `has_layers`, `reports` and `warns`, each but the first with a trait to implement;
 /// - `begins_empty`: each pass begins as if there had been none before. Its state gets its defaults again, a drawing keeps
 ///   its memory;
 /// - `first = "field"`, `example = "..."`, `gathers = function`, `prefetches = function`, as its `Kind` takes them;
@@ -173,7 +173,7 @@ pub fn fields(arguments: TokenStream, item: TokenStream) -> TokenStream {
 ///   of it, unless `make` names another function. Public fields are no matter of scripts then;
 /// - `loader = ...`: it is made of a file; `given`: something else gives it;
 /// - what the engine calls, and the method of the type that does it: `begin = restart`, and in the same way `push`, `pop`,
-///   `end`, `seed` and `take_warnings`;
+///   `end` and `seed`;
 /// - `crate = burgeon::kit`: the path of the contract, where that is not `::burgeon_kit`.
 ///
 /// These are refused: a type of which nobody would know what it is,

@@ -125,9 +125,6 @@ fn hooks(declared: &ObjectArguments, object: &Ident, state: Option<&State<'_>>) 
             Hook::Pop => quote! { fn pop(&mut self) -> #kit::Result<()> { #call(self) } },
             Hook::End => quote! { fn end(&mut self) -> #kit::Result<()> { #call(self) } },
             Hook::Seed => quote! { fn seed(&mut self, seed: u64) { #call(self, seed); } },
-            Hook::TakeWarnings => quote! {
-                fn take_warnings(&mut self) -> ::std::vec::Vec<#kit::Warning> { #call(self) }
-            },
         }
     });
     let begins = declared.hooks.iter().any(|(hook, _)| *hook == Hook::Begin);
@@ -219,8 +216,8 @@ mod tests {
                 "\"tower\", shines",
                 tower,
                 "object takes no shines: it takes begins_empty, crate, deprecates, draws, example, expands, first, gathers, given, has, \
-                 has_detail, has_layers, loader, make, options, prefetches, reports, shows, and of what the engine calls begin, push, \
-                 pop, end, seed, take_warnings",
+                 has_detail, has_layers, loader, make, options, prefetches, reports, shows, warns, and of what the engine calls begin, push, \
+                 pop, end, seed",
             ),
             ("\"tower\", shows, shows", tower, "shows stands here already"),
             (

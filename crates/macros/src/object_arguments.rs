@@ -9,12 +9,12 @@ use syn::{Error, Expr, Path, Result, Token, Type, parenthesized, parse_quote};
 use crate::attribute::AttributeArguments;
 
 /// The verbs of a kind that take the type.
-const CAPABILITIES: [&str; 6] = ["draws", "expands", "has_detail", "has_layers", "reports", "shows"];
+const CAPABILITIES: [&str; 7] = ["draws", "expands", "has_detail", "has_layers", "reports", "shows", "warns"];
 /// The verbs of a kind that take a value.
 const VALUES: [&str; 5] = ["example", "first", "gathers", "has", "prefetches"];
 /// Everything, for messages.
 const ALL: &str = "begins_empty, crate, deprecates, draws, example, expands, first, gathers, given, has, has_detail, has_layers, loader, make, \
-                   options, prefetches, reports, shows";
+                   options, prefetches, reports, shows, warns";
 
 /// What stands in the attribute.
 pub(crate) struct ObjectArguments {
@@ -54,17 +54,15 @@ pub(crate) enum Hook {
     Pop,
     End,
     Seed,
-    TakeWarnings,
 }
 
 impl Hook {
-    const ALL: [(&str, Self); 6] = [
+    const ALL: [(&str, Self); 5] = [
         ("begin", Self::Begin),
         ("push", Self::Push),
         ("pop", Self::Pop),
         ("end", Self::End),
         ("seed", Self::Seed),
-        ("take_warnings", Self::TakeWarnings),
     ];
 
     fn named(name: &Ident) -> Option<Self> {

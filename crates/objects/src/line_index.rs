@@ -11,7 +11,7 @@ use burgeon_base::error::Result;
 use burgeon_base::warning::{Warning, WarningKind};
 use burgeon_geometry::Line;
 use burgeon_kit::{Expectation, fields, methods, object};
-use burgeon_kit::{Lines, Parameter, Value, Vector};
+use burgeon_kit::{Lines, Parameter, Value, Vector, Warn};
 
 /// The farthest (m) that a street lies from what faces it.
 const FARTHEST: f64 = 300.0;
@@ -35,7 +35,7 @@ pub struct LineIndexOptions {
     options = LineIndexOptions,
     first = "lines",
     example = include_str!("../scripts/streets.lua"),
-    take_warnings = drain_warnings
+    warns
 )]
 pub struct LineIndex {
     pieces: Arc<RTree<Piece<[f64; 2]>>>,
@@ -112,8 +112,8 @@ impl Parameter for LineIndex {
     }
 }
 
-impl LineIndex {
-    fn drain_warnings(&mut self) -> Vec<Warning> {
+impl Warn for LineIndex {
+    fn take_warnings(&mut self) -> Vec<Warning> {
         std::mem::take(&mut self.warnings)
     }
 }

@@ -4,7 +4,7 @@ use std::cell::RefCell;
 
 use mlua::{Function, Lua, LuaOptions, StdLib};
 
-use super::host::native;
+use super::native::{native, set_native};
 use super::prelude::Prelude;
 
 thread_local! {
@@ -37,7 +37,7 @@ impl BlankMachine {
             | StdLib::DEBUG;
         let lua = Lua::new_with(libraries, LuaOptions::default())?;
         lua.set_compiler(crate::declare::bytecode::compiler());
-        lua.enable_jit(true);
+        set_native(&lua, true);
         let prelude = Prelude::chunk(&lua)?;
         Ok(Self { lua, prelude })
     }

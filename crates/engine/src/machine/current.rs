@@ -10,7 +10,7 @@ use burgeon_base::warning::{Warning, take_deferred};
 use burgeon_kit::declare::{downcast_mut, downcast_ref};
 use burgeon_kit::random::Stream;
 use burgeon_kit::rules::{ModuleKey, Symbol};
-use burgeon_kit::{Call, Kind, Object, ScriptObject, Table, Value};
+use burgeon_kit::{Call, Kind, Object, Registry, ScriptObject, Table, Value};
 
 /// Applies recorded method calls to objects while a batch is interpreted.
 pub(crate) trait Flusher: std::any::Any {
@@ -147,9 +147,9 @@ impl WorkState {
     }
 
     /// The error for a name that objects of the type `kind` do not have.
-    pub(crate) fn unknown_member(&self, kind: &str, name: &str) -> Error {
+    pub(crate) fn unknown_member(&self, kind: &str, name: &str, registry: &Registry) -> Error {
         let of = self.kind.borrow().as_ref().filter(|known| known.name == kind).cloned();
-        match of.or_else(|| self.session.options.registry.get(kind).cloned()) {
+        match of.or_else(|| registry.get(kind).cloned()) {
             Some(kind) => kind.unknown_method(name),
             None => Error::argument(format!("{kind} has no method or field called {name}")),
         }

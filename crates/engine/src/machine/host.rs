@@ -1,11 +1,12 @@
 //! The functions that Rust gives to the prelude.
 
 use std::rc::Rc;
-use std::sync::{Arc, LazyLock};
+use std::sync::Arc;
 
 use mlua::{Lua, LuaString, MultiValue, Table, Value as LuaValue};
 
 use super::current::WorkState;
+use super::native;
 use crate::machine::convert::{to_argument, to_lua, to_value};
 use crate::machine::library::Library;
 use crate::machine::types::ObjectHandle;
@@ -61,15 +62,15 @@ fn add_values(lua: &Lua, host: &Table, current: &Rc<WorkState>, library: &Rc<Lib
             to_lua(lua, &state.session.values.get(handle).unwrap_or(Value::Nil), true)
         })?,
     )?;
-    let (state, shelf) = (Rc::clone(current), Rc::clone(library));
+    let (state, owner) = (Rc::clone(current), Rc::clone(library));
     host.set(
         "shape",
         lua.create_function(move |_, (number, symbols): (usize, Vec<u16>)| {
-            state.add_shape(number, symbols, &shelf.symbols.borrow().arities());
+            state.add_shape(number, symbols, &owner.symbols.borrow().arities());
             Ok(())
         })?,
     )?;
-    let (state, shelf) = (Rc::clone(current), Rc::clone(library));
+    let (state, owner) = (Rc::clone(current), Rc::clone(library));
     host.set(
         "module_text",
         lua.create_function(move |_, module: Table| {
@@ -81,7 +82,7 @@ fn add_values(lua: &Lua, host: &Table, current: &Rc<WorkState>, library: &Rc<Lib
                     .map_err(mlua::Error::external)?;
                 params.push(state.session.values.pack(value));
             }
-            Ok(module_text(&shelf.symbols.borrow(), &state.session.values, symbol, &params))
+            Ok(module_text(&owner.symbols.borrow(), &state.session.values, symbol, &params))
         })?,
     )?;
     Ok(())
@@ -199,7 +200,7 @@ fn add_methods(lua: &Lua, host: &Table, current: &Rc<WorkState>, library: &Rc<Li
             to_lua(lua, &answer, false)
         })?,
     )?;
-    let shelf = Rc::clone(library);
+    let owner = Rc::clone(library);
     let state = Rc::clone(current);
     host.set(
         "call_object",
@@ -224,7 +225,7 @@ fn add_methods(lua: &Lua, host: &Table, current: &Rc<WorkState>, library: &Rc<Li
                     let given = values(&arguments)?;
                     take_deferred();
                     let answer = read(&*handle.0, &given).map_err(mlua::Error::external)?;
-                    let machine = shelf.machine().map_err(mlua::Error::external)?;
+                    let machine = owner.machine().map_err(mlua::Error::external)?;
                     take_deferred().into_iter().for_each(|warning| machine.warn(warning));
                     let place = guard.and_then(|guard| state.places.borrow().get(guard).copied());
                     if let Some(place) = place.filter(|_| GeometryObject::of(&*handle.0).is_some()) {
@@ -261,12 +262,12 @@ fn add_script_objects(
     current: &Rc<WorkState>,
     library: &Rc<Library>,
 ) -> mlua::Result<()> {
-    let shelf = Rc::clone(library);
+    let owner = Rc::clone(library);
     host.set(
         "type_name",
         lua.create_function(move |_, constructor: LuaValue| {
             let LuaValue::Function(constructor) = constructor else { return Ok(None) };
-            Ok(shelf.kind_of(&constructor).map(|kind| kind.name.to_string()))
+            Ok(owner.kind_of(&constructor).map(|kind| kind.name.to_string()))
         })?,
     )?;
     let state = Rc::clone(current);
@@ -310,12 +311,12 @@ fn add_script_objects(
             state.keep_state(chain, slot, kept).map_err(mlua::Error::external)
         })?,
     )?;
-    let state = Rc::clone(current);
+    let (state, owner) = (Rc::clone(current), Rc::clone(library));
     host.set(
         "unknown_member",
         lua.create_function(move |_, (kind, name): (String, LuaValue)| -> mlua::Result<()> {
             let name = name.to_string().unwrap_or_default();
-            Err(mlua::Error::external(state.unknown_member(&kind, &name)))
+            Err(mlua::Error::external(state.unknown_member(&kind, &name, &owner.registry.borrow())))
         })?,
     )?;
     host.set(
@@ -343,30 +344,6 @@ fn to_table(lua: &Lua, kept: &burgeon_kit::Table) -> mlua::Result<Table> {
         }
     }
     Ok(table)
-}
-
-/// Whether Luau makes native code for this processor. Asking takes tens of microseconds where the computer is virtual.
-static SUPPORTED: LazyLock<bool> = LazyLock::new(|| {
-    #[allow(unsafe_code, reason = "mlua does not tell")]
-    // SAFETY: the function takes nothing and only looks at what the processor says of itself.
-    unsafe {
-        mlua::ffi::luau_codegen_supported() != 0
-    }
-});
-
-/// Makes native code of a Lua function and of those within it, unless it has been made.
-pub(crate) fn native(lua: &Lua, function: &mlua::Function) -> mlua::Result<()> {
-    #[allow(unsafe_code, reason = "mlua makes native code of whole files only")]
-    // SAFETY: luau_codegen_compile takes the index of a Lua function and leaves the stack as it was; mlua has set up
-    // code generation for this state, which it has done wherever it made native code itself.
-    unsafe {
-        lua.exec_raw::<()>(function, |state| {
-            if *SUPPORTED {
-                mlua::ffi::luau_codegen_compile(state, -1);
-            }
-            mlua::ffi::lua_settop(state, 0);
-        })
-    }
 }
 
 fn values(arguments: &MultiValue) -> mlua::Result<Vec<Value>> {

@@ -20,7 +20,7 @@ use crate::declare::{API_VERSION, Param, Print, has_name};
 use burgeon_base::error::{Error, Result, SourcePlace};
 use burgeon_base::warning::{Warning, WarningKind};
 use burgeon_kit::rules::{FRAGMENT, QUERY, Signature, Symbol, Symbols};
-use burgeon_kit::{Construct, Kind};
+use burgeon_kit::{Construct, Kind, Registry};
 use burgeon_language::LOCKED;
 use burgeon_packages::FileName;
 
@@ -57,9 +57,11 @@ pub(crate) struct Library {
     standard_chunk: RefCell<Option<Function>>,
     names: RefCell<Vec<String>>,
     modules: RefCell<FxHashMap<String, Signature>>,
+    /// The types of objects that there are: those of the run, and those that the script has declared so far.
+    pub registry: RefCell<Registry>,
     /// The types of objects by the addresses of their constructors.
     constructed: RefCell<FxHashMap<usize, Arc<Kind>>>,
-    /// The types of objects that the script declared, and the functions that it added to others, by their names.
+    /// The functions of the types that the script declared, and those that it added to others, by their names.
     pub script_types: RefCell<Vec<ScriptTypeEntry>>,
     pub extensions: RefCell<Vec<(String, ScriptFunction)>>,
     /// The constructors of objects, by name.
@@ -253,19 +255,21 @@ impl Library {
         lua.set_app_data(EagerMark(Arc::clone(&machine.session)));
         install_lazy(lua, self)?;
         install_geometries(machine, &globals)?;
+        self.registry.borrow_mut().clone_from(&machine.session.options.registry);
         for kind in machine.session.options.registry.kinds() {
             install_kind(machine, &globals, kind)?;
             if matches!(kind.construct, Construct::Fields(_)) {
                 self.kinds.borrow_mut().push(kind.name.to_string());
             }
         }
-        let (library, session) = (std::rc::Rc::clone(&machine.library), Arc::clone(&machine.session));
+        let library = std::rc::Rc::clone(&machine.library);
         globals.raw_set(
             "__interpretation",
             lua.create_function(move |_, (kind, module, method): (String, String, String)| {
                 let symbol = library.symbols.borrow().find(&module).map_err(mlua::Error::external)?;
                 // A run without the type has no system that draws with it.
-                let Some(known) = session.options.registry.get(&kind) else { return Ok(()) };
+                let registry = library.registry.borrow();
+                let Some(known) = registry.get(&kind) else { return Ok(()) };
                 let method = known.methods.iter().position(|known| known.name == method);
                 let method = method.ok_or_else(|| {
                     mlua::Error::external(Error::internal(format!("{kind} has no such method")))

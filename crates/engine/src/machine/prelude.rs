@@ -5,6 +5,7 @@ use std::sync::LazyLock;
 use mlua::chunk::ChunkMode;
 use mlua::{Buffer, Function, Lua, Table};
 
+use super::native::as_bytecode;
 use crate::machine::system::UNREAD;
 use crate::machine::types::POINTS;
 
@@ -82,11 +83,8 @@ pub(crate) struct Prelude {
 impl Prelude {
     /// The prelude as bytecode: called with the functions that Rust gives to it, it returns what [`Prelude::new`] takes.
     pub(super) fn chunk(lua: &Lua) -> mlua::Result<Function> {
-        lua.enable_jit(false);
         let chunk = lua.load(COMPILED.as_slice()).set_name("=burgeon").set_mode(ChunkMode::Binary);
-        let chunk = chunk.into_function();
-        lua.enable_jit(true);
-        chunk
+        as_bytecode(lua, || chunk.into_function())
     }
 
     pub(super) fn new(table: &Table) -> mlua::Result<Self> {

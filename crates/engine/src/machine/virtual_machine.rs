@@ -7,6 +7,7 @@ use std::sync::Arc;
 
 use super::blank::BlankMachine;
 use super::library::{Library, PrintSwitch};
+use super::native::as_bytecode;
 use super::prelude::Prelude;
 use super::system::tell_unseen;
 use super::{Driver, Watchdog, WorkState, host, protected, watchdog};
@@ -173,11 +174,8 @@ impl Machine {
     /// A function from what [`compile`] gave, as bytecode until it is made [`native`]; what goes wrong in it is told in
     /// the line of the script that called it.
     pub(crate) fn load_compiled(&self, code: &[u8]) -> Result<Function> {
-        self.lua.enable_jit(false);
         let chunk = self.lua.load(code).set_name(format!("={OWN}")).set_mode(ChunkMode::Binary);
-        let function = chunk.into_function();
-        self.lua.enable_jit(true);
-        function.map_err(|error| self.translate(error))
+        as_bytecode(&self.lua, || chunk.into_function()).map_err(|error| self.translate(error))
     }
 
     /// A module's constructor.

@@ -12,13 +12,13 @@ use burgeon_base::locks::LockRecovery;
 /// The strings, tables and objects that the modules of one derivation carry, each kept once.
 #[derive(Default)]
 pub struct Values {
-    shelf: RwLock<Shelf>,
+    slots: RwLock<Slots>,
     survivors: AtomicUsize,
     epoch: AtomicUsize,
 }
 
 #[derive(Default)]
-struct Shelf {
+struct Slots {
     list: Vec<Option<Value>>,
     handles: FxHashMap<HashedValue, u32>,
     free: Vec<u32>,
@@ -72,8 +72,8 @@ impl Values {
 
     /// The number of values kept.
     pub fn len(&self) -> usize {
-        let shelf = self.read();
-        shelf.list.len() - shelf.free.len()
+        let slots = self.read();
+        slots.list.len() - slots.free.len()
     }
 
     /// Whether no value is kept.
@@ -100,8 +100,8 @@ impl Values {
 
     fn retain(&self, columns: &[&[f64]]) {
         self.epoch.fetch_add(1, Ordering::AcqRel);
-        let mut shelf = self.shelf.write().recover();
-        let mut used = vec![false; shelf.list.len()];
+        let mut slots = self.slots.write().recover();
+        let mut used = vec![false; slots.list.len()];
         for stored in columns.iter().copied().flatten().filter(|stored| stored.is_nan()) {
             if let ColumnValue::Handle(handle) = ColumnValue::unpack(*stored)
                 && let Some(slot) = used.get_mut(handle as usize)
@@ -110,9 +110,9 @@ impl Values {
             }
         }
         for (handle, used) in (0u32..).zip(used) {
-            if !used && let Some(value) = shelf.list[handle as usize].take() {
-                shelf.handles.remove(&HashedValue::new(value));
-                shelf.free.push(handle);
+            if !used && let Some(value) = slots.list[handle as usize].take() {
+                slots.handles.remove(&HashedValue::new(value));
+                slots.free.push(handle);
             }
         }
     }
@@ -122,26 +122,26 @@ impl Values {
         if let Some(handle) = self.read().handles.get(&value) {
             return *handle;
         }
-        let mut shelf = self.shelf.write().recover();
-        if let Some(handle) = shelf.handles.get(&value) {
+        let mut slots = self.slots.write().recover();
+        if let Some(handle) = slots.handles.get(&value) {
             return *handle;
         }
-        let handle = match shelf.free.pop() {
+        let handle = match slots.free.pop() {
             Some(handle) => {
-                shelf.list[handle as usize] = Some(value.value.clone());
+                slots.list[handle as usize] = Some(value.value.clone());
                 handle
             }
             None => {
-                shelf.list.push(Some(value.value.clone()));
-                u32::try_from(shelf.list.len() - 1).unwrap_or(u32::MAX)
+                slots.list.push(Some(value.value.clone()));
+                u32::try_from(slots.list.len() - 1).unwrap_or(u32::MAX)
             }
         };
-        shelf.handles.insert(value, handle);
+        slots.handles.insert(value, handle);
         handle
     }
 
-    fn read(&self) -> std::sync::RwLockReadGuard<'_, Shelf> {
-        self.shelf.read().recover()
+    fn read(&self) -> std::sync::RwLockReadGuard<'_, Slots> {
+        self.slots.read().recover()
     }
 }
 

@@ -8,7 +8,7 @@ use crate::mesh::{MeshFaces, MeshOptions, MeshPoints, draw_mesh};
 use burgeon_base::error::{Error, Result};
 use burgeon_base::warning::{Warning, WarningKind};
 use burgeon_geometry::{Rings, Section, Segment, SweepOptions, sweep};
-use burgeon_kit::{Color, Drawing, Model, Path, Vector, fields, methods, object};
+use burgeon_kit::{Color, Drawing, Model, Path, Vector, Warn, fields, methods, object};
 use glam::{DAffine3, DVec2, DVec3};
 use smallvec::{SmallVec, smallvec};
 
@@ -66,7 +66,7 @@ const CREASE: f64 = 40.0;
     push = open_branch,
     pop = close_branch,
     end = finish,
-    take_warnings = drain_warnings
+    warns
 )]
 pub struct Extruder {
     options: ExtruderOptions,
@@ -440,8 +440,10 @@ impl Extruder {
     fn finish(&mut self) -> Result<()> {
         self.close()
     }
+}
 
-    fn drain_warnings(&mut self) -> Vec<Warning> {
+impl Warn for Extruder {
+    fn take_warnings(&mut self) -> Vec<Warning> {
         std::mem::take(&mut self.warnings)
     }
 }

@@ -20,7 +20,7 @@ use crate::Terrain;
 use burgeon_base::error::{Error, Result};
 use burgeon_base::warning::Warning;
 use burgeon_geometry::{Polygon, Rings};
-use burgeon_kit::{Color, TableOf, Value, Vector, fields, methods, object};
+use burgeon_kit::{Color, TableOf, Value, Vector, Warn, fields, methods, object};
 use burgeon_scene::Scene;
 use burgeon_streets::{
     Constraints, Fate, JunctionId, Obstacles, StreetAttributes, StreetFit, StreetGrowth, StreetKind,
@@ -118,7 +118,7 @@ pub struct NetworkOptions {
     push = open_branch,
     pop = close_branch,
     end = finish,
-    take_warnings = drain_warnings
+    warns
 )]
 pub struct Network {
     pub(super) options: NetworkOptions,
@@ -471,8 +471,10 @@ impl Network {
         }
         Ok(())
     }
+}
 
-    fn drain_warnings(&mut self) -> Vec<Warning> {
+impl Warn for Network {
+    fn take_warnings(&mut self) -> Vec<Warning> {
         std::mem::take(&mut self.warnings)
     }
 }

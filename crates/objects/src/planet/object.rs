@@ -8,7 +8,7 @@ use burgeon_base::error::{Error, Result};
 use burgeon_base::text::number;
 use burgeon_base::warning::Warning;
 use burgeon_kit::rules::ModuleKey;
-use burgeon_kit::{Color, Expand, Rewriter, Seed, Show, Vector, fields, methods, object};
+use burgeon_kit::{Color, Expand, Rewriter, Seed, Show, Vector, Warn, fields, methods, object};
 use burgeon_scene::{Instance, Material, Mesh, Scene};
 use burgeon_terrain::globe::{DEEPEST, DETAIL, Globe, GlobeMesh};
 use burgeon_terrain::{Cells, World};
@@ -76,7 +76,7 @@ pub struct PlanetOptions {
     begins_empty,
     begin = restart,
     seed = take_seed,
-    take_warnings = drain_warnings
+    warns
 )]
 pub struct Planet {
     options: Arc<PlanetOptions>,
@@ -231,8 +231,10 @@ impl Planet {
     fn restart(&mut self) {
         self.wanted = None;
     }
+}
 
-    fn drain_warnings(&mut self) -> Vec<Warning> {
+impl Warn for Planet {
+    fn take_warnings(&mut self) -> Vec<Warning> {
         std::mem::take(&mut self.warnings)
     }
 }

@@ -10,7 +10,7 @@ use burgeon_base::text::number;
 use burgeon_base::warning::{Warning, WarningKind};
 use burgeon_kit::rules::ModuleKey;
 use burgeon_kit::{Color, ObjectParameter, Path, Vector, fields, methods, object};
-use burgeon_kit::{Expand, Rewriter, Show};
+use burgeon_kit::{Expand, Rewriter, Show, Warn};
 use burgeon_scene::Scene;
 use burgeon_terrain::{Cells, DEEPEST, Drainage, Dry, Edit, Edits, Ground, GroundMap, View, World};
 use glam::{DVec2, DVec3};
@@ -82,7 +82,7 @@ pub struct TerrainOptions {
     begins_empty,
     begin = restart,
     seed = take_seed,
-    take_warnings = drain_warnings
+    warns
 )]
 pub struct Terrain {
     pub(super) options: Arc<TerrainOptions>,
@@ -414,8 +414,10 @@ impl Terrain {
         self.rivers.clear();
         self.edits = Arc::clone(&self.kept);
     }
+}
 
-    fn drain_warnings(&mut self) -> Vec<Warning> {
+impl Warn for Terrain {
+    fn take_warnings(&mut self) -> Vec<Warning> {
         std::mem::take(&mut self.warnings)
     }
 }

@@ -127,12 +127,13 @@ impl Applier {
     /// Takes what `object` warns of after the module at hand, in its recorded call `call` if it was one.
     #[inline]
     fn listen(&mut self, object: &mut dyn Object, call: Option<(usize, usize)>) {
-        let said = object.take_warnings();
-        // Most objects never say anything: not even the end of an empty list is to cost them.
-        if said.capacity() == 0 {
-            std::mem::forget(said);
-        } else {
-            self.note(said, call);
+        if let Some(warn) = self.kind.warn
+            && let Some(object) = warn.of_mut(object)
+        {
+            let said = object.take_warnings();
+            if !said.is_empty() {
+                self.note(said, call);
+            }
         }
     }
 

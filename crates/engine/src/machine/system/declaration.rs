@@ -228,7 +228,7 @@ impl SystemDeclaration {
         if let Some(of) = of {
             let hooks: (Function, Function, Function, Function) = prelude.hooks.call(&of.table)?;
             let mut index = self.interpretations.len();
-            let [opens, closes] = of.declaration.branches;
+            let [opens, closes] = of.kind.script.as_ref().map_or([false; 2], |script| script.branches);
             for (hook, bound, runs) in
                 [(hooks.0, 1, true), (hooks.1, 1, true), (hooks.2, 0, opens), (hooks.3, 0, closes)]
             {

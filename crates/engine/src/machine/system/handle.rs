@@ -144,7 +144,7 @@ fn prototype(library: &Library, value: LuaValue) -> Result<Arc<dyn Object>> {
         return Ok(Arc::clone(&handle.0));
     }
     let error = Error::argument("lsystem: object must be an object");
-    Err(match object_of_system(&library.machine()?.session.options.registry) {
+    Err(match object_of_system(&library.registry.borrow()) {
         Some(object) => error.help(format!("write {object}")),
         None => error,
     })

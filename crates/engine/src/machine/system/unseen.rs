@@ -33,7 +33,7 @@ impl SystemDeclaration {
             let warning = Warning::new(WarningKind::NoObject, text);
             let warning = warning.rule(format!("{} (interpretation)", first.pattern.text));
             let warning = warning.at(first.place.clone());
-            machine.warn(match object_of_system(&machine.session.options.registry) {
+            machine.warn(match object_of_system(&machine.library.registry.borrow()) {
                 Some(object) => warning.help(format!("give it one, such as lsystem({{ {object} }})")),
                 None => warning,
             });

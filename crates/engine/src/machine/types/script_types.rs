@@ -10,7 +10,7 @@ use super::mentions::{drawing_kind, extended_kind};
 use crate::declare::Session;
 use crate::machine::Machine;
 use crate::machine::convert::{to_lua, to_value};
-use burgeon_base::error::{Error, Result, SourcePlace};
+use burgeon_base::error::{Error, Result};
 use burgeon_kit::{
     Argument, Call, Kind, Method, ScriptField, ScriptType, Table as ValueTable, TableKey, Value,
 };
@@ -24,9 +24,7 @@ pub(crate) struct ScriptTypeEntry {
     pub kind: Arc<Kind>,
     /// As the prelude knows it.
     pub table: Table,
-    pub declaration: ScriptType,
     pub functions: Vec<ScriptFunction>,
-    pub place: Option<SourcePlace>,
 }
 
 /// A function of a type.
@@ -110,6 +108,7 @@ impl ScriptTypeEntry {
             branches = [branches[0] | script.branches[0], branches[1] | script.branches[1]];
         }
         entry.declaration.branches = branches;
+        entry.declaration.place = Machine::place(machine.lua());
         let doc = match declared.raw_get::<LuaValue>("doc").map_err(internal)? {
             LuaValue::Nil => String::new(),
             LuaValue::String(text) => text.to_string_lossy(),
@@ -124,8 +123,7 @@ impl ScriptTypeEntry {
         let methods = methods.map(|it| it.method(&machine.session));
         let kind = entry.declaration.clone().kind(name, &doc, methods.collect())?;
         let table = entry.table(machine, &kind).map_err(|error| machine.translate(error))?;
-        let ScriptTypeParts { declaration, functions } = entry;
-        Ok(Self { kind, table, declaration, functions, place: Machine::place(machine.lua()) })
+        Ok(Self { kind, table, functions: entry.functions })
     }
 }
 
@@ -141,14 +139,12 @@ impl ScriptTypeParts {
     fn of(machine: &Machine, constructor: &Function) -> Option<Self> {
         let kind = machine.library.kind_of(constructor)?;
         let types = machine.library.script_types.borrow();
-        let mut parts = match types.iter().find(|known| known.kind.name == kind.name) {
-            Some(known) => {
-                Self { declaration: known.declaration.clone(), functions: known.functions.clone() }
-            }
-            None => Self {
-                declaration: ScriptType { base: Some(Arc::clone(&kind)), ..ScriptType::default() },
-                functions: Vec::new(),
-            },
+        let known = types.iter().find(|known| known.kind.name == kind.name);
+        let declaration = kind.script.as_deref().cloned();
+        let mut parts = Self {
+            declaration: declaration
+                .unwrap_or_else(|| ScriptType { base: Some(Arc::clone(&kind)), ..ScriptType::default() }),
+            functions: known.map_or_else(Vec::new, |known| known.functions.clone()),
         };
         parts.declaration.above.insert(0, (*kind.name).into());
         // What was added to that type holds for those that extend it.
@@ -283,6 +279,7 @@ pub(in crate::machine) fn declare_type(
     let constructor = constructor(machine, &entry.kind).map_err(|error| machine.translate(error))?;
     let constructor = constructor.ok_or_else(|| Error::internal("the type has no constructor"))?;
     machine.library.stateless.borrow_mut().insert(constructor.to_pointer() as usize);
+    machine.library.registry.borrow_mut().add(Arc::clone(&entry.kind))?;
     machine.session.note_type(&entry.kind);
     machine.library.script_types.borrow_mut().push(entry);
     Ok(constructor)
@@ -295,8 +292,11 @@ pub(in crate::machine) fn extend_type(
     declared: &LuaValue,
 ) -> Result<()> {
     machine.library.at_top_level("extend")?;
-    let named = extended_kind(&machine.session.options.registry).unwrap_or("constructor");
-    let usage = format!("write extend({named}, {{ reads = {{ ... }}, changes = {{ ... }} }})");
+    let usage = {
+        let registry = machine.library.registry.borrow();
+        let named = extended_kind(&registry).unwrap_or("constructor");
+        format!("write extend({named}, {{ reads = {{ ... }}, changes = {{ ... }} }})")
+    };
     let kind = match constructor {
         LuaValue::Function(function) => machine.library.kind_of(function),
         _ => None,
@@ -345,17 +345,7 @@ fn check_name(machine: &Machine, name: &str) -> Result<()> {
         return Err(Error::argument(format!("{name:?} is no name for a type of object"))
             .help("write it with small letters, digits and _, such as \"street_lamp\""));
     }
-    let place = match machine.library.script_types.borrow().iter().find(|known| known.kind.name == name) {
-        Some(known) => {
-            known.place.as_ref().map_or_else(String::new, |place| format!(", declared in {place}"))
-        }
-        None if machine.session.options.registry.get(name).is_some() => {
-            ", which comes with Burgeon".to_owned()
-        }
-        None => return Ok(()),
-    };
-    Err(Error::argument(format!("there is already a type of object called {name}{place}"))
-        .help("give this one another name, or add to that one: extend(constructor, { ... })"))
+    machine.library.registry.borrow().refuse_taken(name)
 }
 
 /// Refuses keys of `table` that are not `known`.
@@ -427,7 +417,7 @@ fn named_part(error: Error, name: &str, part: &str) -> Error {
 
 fn not_a_type(machine: &Machine, name: &str) -> Error {
     let error = Error::argument(format!("object {name}: extends must be the constructor of a type"));
-    match drawing_kind(&machine.session.options.registry) {
+    match drawing_kind(&machine.library.registry.borrow()) {
         Some(kind) => error.help(format!("write extends = {kind}, without a table after it")),
         None => error,
     }
