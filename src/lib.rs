@@ -28,12 +28,13 @@
 //! objects    uses ──► base, data, geometry, kit, scene, streets, terrain
 //! packages   uses ──► base
 //! engine     uses ──► base, data, kit, language, packages, query, scene
-//! export     uses ──► base, data, scene
+//! picture    uses ──► base, scene
+//! export     uses ──► base, data, picture, scene
 //! watch      uses ──► base
 //! presets    uses ──► base, engine, export, watch
-//! variations uses ──► base, engine, export, kit, scene
-//! live       uses ──► base, engine, export, kit, presets, scene, variations, watch
-//! burgeon    uses ──► base, data, engine, export, geometry, kit, language, live, objects, packages, presets, query, scene, spatial, terrain, variations, watch
+//! variations uses ──► base, engine, kit, picture, scene
+//! live       uses ──► base, engine, export, kit, picture, presets, scene, variations, watch
+//! burgeon    uses ──► base, data, engine, export, geometry, kit, language, live, objects, packages, picture, presets, query, scene, spatial, terrain, variations, watch
 //! ```
 //!
 //! - [`error`], [`warning`](mod@warning) and [`text`]: what a person is told when something is wrong, and when
@@ -108,7 +109,6 @@ pub use burgeon_engine::run::{Run, RunTimes, run, run_session};
 pub use burgeon_engine::{ScriptCheck, check, check_package};
 pub use burgeon_engine::{results, script, trace};
 pub use burgeon_export as export;
-pub use burgeon_export::picture;
 pub use burgeon_geometry as geometry;
 pub use burgeon_kit as kit;
 pub use burgeon_language as language;
@@ -116,6 +116,7 @@ pub use burgeon_language as language;
 pub use burgeon_live as live;
 pub use burgeon_objects as objects;
 pub use burgeon_packages as packages;
+pub use burgeon_picture as picture;
 pub use burgeon_presets as presets;
 pub use burgeon_query as query;
 pub use burgeon_scene as scene;

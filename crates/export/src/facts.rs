@@ -1,8 +1,8 @@
 //! What is written: what is seen, and what is known of it.
 
-use super::picture::Picture;
 use burgeon_data::ReferenceFrame;
 use burgeon_data::output::RecordTable;
+use burgeon_picture::Picture;
 use burgeon_scene::{CityClass, Scene};
 
 /// What a run gives to its files.

@@ -25,7 +25,6 @@ mod format;
 pub mod gltf;
 pub mod heights;
 pub mod obj;
-pub mod picture;
 pub mod svg;
 mod target;
 mod temporary;
@@ -43,8 +42,8 @@ pub use temporary::abandon;
 use burgeon_base::error::Result;
 use burgeon_base::stop::Stop;
 use burgeon_data::output;
+use burgeon_picture::{Picture, render_within};
 use burgeon_scene::Scene;
-use picture::Picture;
 use std::io::{self, Write};
 use std::path::Path;
 
@@ -135,9 +134,9 @@ fn uri(name: &str) -> String {
     uri
 }
 
-/// The picture of `scene` as a PNG file. Fails as [`picture::render`] does.
+/// The picture of `scene` as a PNG file. Fails as [`burgeon_picture::render`] does.
 pub fn png(scene: &Scene, picture: &Picture, stop: &Stop) -> Result<Vec<u8>> {
-    burgeon_scene::image::encode(&picture::render_within(scene, None, picture, stop)?)
+    burgeon_scene::image::encode(&render_within(scene, None, picture, stop)?)
 }
 
 #[cfg(test)]

@@ -229,7 +229,7 @@ mod tests {
     fn written(scene: &Scene) -> ObjContent {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("a b.obj");
-        super::super::write(scene, &path, &crate::picture::Picture::default()).unwrap();
+        super::super::write(scene, &path, &burgeon_picture::Picture::default()).unwrap();
         read(&path)
     }
 
@@ -293,7 +293,7 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let scene = samples::textured(folder.path());
         let path = folder.path().join("out.obj");
-        super::super::write(&scene, &path, &crate::picture::Picture::default()).unwrap();
+        super::super::write(&scene, &path, &burgeon_picture::Picture::default()).unwrap();
         let library = std::fs::read_to_string(folder.path().join("out.mtl")).unwrap();
         assert!(
             library.contains("map_Kd out_brick.png") && library.contains("map_Kd out_leaf.jpg"),

@@ -9,8 +9,8 @@ use zip::{CompressionMethod, ZipWriter};
 
 use burgeon_base::error::{Error, Result};
 use burgeon_base::stop::Stop;
-use burgeon_export::picture::Picture;
 use burgeon_export::{Files, Format};
+use burgeon_picture::Picture;
 use burgeon_scene::Scene;
 
 /// The largest width and height (pixels) of a picture.

@@ -15,7 +15,7 @@ use super::state::ServerState;
 use burgeon_base::error::{Error, Result};
 use burgeon_base::locks::LockRecovery;
 use burgeon_engine::script::{Param, ParamValues, Preset, RunOptions, Session};
-use burgeon_export::picture::{Background, Picture, Quality};
+use burgeon_picture::{Background, Picture, Quality};
 use burgeon_presets::Presets;
 use burgeon_scene::image;
 use burgeon_variations::{Framing, Variation, VariationAxis, Variations};

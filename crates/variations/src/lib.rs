@@ -23,7 +23,7 @@ use burgeon_base::stop::Stop;
 use burgeon_base::warning::Warning;
 use burgeon_engine::run::{declare, no_such, run_session};
 use burgeon_engine::script::{Control, Param, RunOptions, Session, Setting};
-use burgeon_export::picture::{Extent, Picture, Quality, render_within};
+use burgeon_picture::{Extent, Picture, Quality, render_within};
 use burgeon_scene::Scene;
 use burgeon_scene::image::{self, Image};
 

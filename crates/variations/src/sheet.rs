@@ -2,7 +2,7 @@
 
 use super::letters::{LINE, draw, fitted, width, wrapped};
 use burgeon_base::error::{Error, Limit, Result};
-use burgeon_export::picture::{Background, Picture};
+use burgeon_picture::{Background, Picture};
 use burgeon_scene::image::Image;
 
 /// What a sheet shows when it is not much wider than high.

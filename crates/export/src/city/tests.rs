@@ -8,8 +8,8 @@ use glam::DVec3;
 use serde_json::{Value as Json, json};
 
 use super::super::samples;
-use crate::picture::Picture;
 use crate::{Export, Files, SceneFacts, SystemFacts};
+use burgeon_picture::Picture;
 
 fn written(scene: &Scene, facts: SceneFacts<'_>) -> Json {
     let folder = tempfile::tempdir().unwrap();

@@ -10,8 +10,8 @@ use proptest::prelude::*;
 use serde_json::{Value as Json, json};
 
 use super::super::samples;
-use crate::picture::Picture;
 use crate::{Export, Files, SceneFacts, SystemFacts};
+use burgeon_picture::Picture;
 
 /// The description and the body of a file.
 struct Binary {

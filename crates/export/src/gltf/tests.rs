@@ -264,7 +264,7 @@ fn a_gltf_file_refers_to_its_body_and_textures() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("große Stadt.gltf");
     let scene = samples::textured(folder.path());
-    super::super::write(&scene, &path, &crate::picture::Picture::default()).unwrap();
+    super::super::write(&scene, &path, &burgeon_picture::Picture::default()).unwrap();
     let (file, buffers, images) = gltf::import(&path).unwrap();
     assert_eq!((file.meshes().count(), buffers.len(), images.len()), (3, 1, 2));
     assert!(folder.path().join("große Stadt.bin").is_file());

@@ -8,7 +8,7 @@ use glam::{DAffine3, DQuat, DVec3};
 use roxmltree::{Document, Node, ParsingOptions};
 
 use super::super::samples;
-use crate::picture::Picture;
+use burgeon_picture::Picture;
 
 /// The nodes that may be there: each with its attributes and what may be in it, in this order.
 const NODES: [(&str, &[&str], &[&str]); 23] = [

@@ -2,7 +2,7 @@
 
 use super::samples::{boxes, instance, prism, quad, ring, scene_of, twisted_tower};
 use super::{render, render_within};
-use crate::picture::{Background, Picture, Quality};
+use crate::{Background, Picture, Quality};
 use burgeon_base::stop::Stop;
 use burgeon_scene::image::Image;
 use burgeon_scene::{Material, Part, Scene, Texture};

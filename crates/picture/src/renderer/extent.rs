@@ -54,7 +54,7 @@ impl Extent {
 mod tests {
     use super::super::{render, render_within, samples};
     use super::*;
-    use crate::picture::{Picture, Quality};
+    use crate::{Picture, Quality};
     use burgeon_base::stop::Stop;
 
     fn picture() -> Picture {

@@ -138,7 +138,7 @@ fn disc(count: usize) -> Vec<Vec2> {
 mod tests {
     use super::super::samples;
     use super::*;
-    use crate::picture::Quality;
+    use crate::Quality;
     use glam::DVec3;
 
     #[test]

@@ -97,7 +97,7 @@ mod tests {
     use super::super::stage::Stage;
     use super::super::{samples, view};
     use super::*;
-    use crate::picture::settings::Picture;
+    use crate::settings::Picture;
 
     #[test]
     fn all_corners_are_inside_and_the_model_touches_the_margin() {

@@ -1,6 +1,6 @@
 //! Pictures of a scene, made without a graphics card or a display.
 //!
-//! Comes in: a [`Scene`](burgeon_scene::Scene) and the wishes of a [`Picture`]. Goes out: an
+//! Comes in: a [`Scene`](burgeon_scene::Scene) and how it is to be seen, a [`Picture`]. Goes out: an
 //! [`Image`](burgeon_scene::image::Image). It never changes the scene and writes no file. The same scene gives the same
 //! bytes for any number of threads. Without the feature `pictures` nothing is rendered, and [`render`] says so.
 

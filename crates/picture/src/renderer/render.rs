@@ -1,7 +1,7 @@
 //! Renders a scene.
 
 use super::{Extent, camera, detail, develop, floor, shade, sky, stage, sun, texture, view};
-use crate::picture::settings::Picture;
+use crate::settings::Picture;
 use burgeon_base::error::Result;
 use burgeon_base::stop::Stop;
 use burgeon_scene::Scene;

@@ -76,7 +76,7 @@ mod tests {
     use super::super::detail::RenderDetail;
     use super::super::{samples, view::Viewpoint};
     use super::*;
-    use crate::picture::Quality;
+    use crate::Quality;
     use glam::DVec3;
 
     #[test]
