@@ -1,16 +1,23 @@
-//! A type of object with a mistake in it: it panics when it is told to.
+//! A type of object with a mistake in it: it panics when it is told to. And it warns.
 
-use burgeon::kit::{Drawing, methods, object};
+use burgeon::kit::{Drawing, Warn, methods, object};
 use burgeon::scene::Material;
-use burgeon::{Result, geometry};
+use burgeon::{Result, Warning, WarningKind, geometry};
 use glam::DVec3;
 
 /// A ball that may panic.
-#[object("fuse", draws, begins_empty, crate = burgeon::kit)]
+#[object("fuse", draws, begins_empty, warns, crate = burgeon::kit)]
 pub struct Fuse {
     /// Whether it is to panic.
     pub blown: bool,
     drawing: Drawing,
+    warnings: Vec<Warning>,
+}
+
+impl Warn for Fuse {
+    fn take_warnings(&mut self) -> Vec<Warning> {
+        std::mem::take(&mut self.warnings)
+    }
 }
 
 #[methods("fuse", crate = burgeon::kit)]
@@ -18,6 +25,11 @@ impl Fuse {
     /// Draws the ball with `radius` (m), or panics.
     pub fn ball(&mut self, radius: f64) -> Result<()> {
         assert!(!self.blown, "the fuse is blown");
+        if radius == 0.0 {
+            self.warnings
+                .push(Warning::new(WarningKind::DrawsNothing, "a ball without a radius draws nothing"));
+            return Ok(());
+        }
         let part = self.drawing.material(&Material::default());
         geometry::sphere(self.drawing.part(part), DVec3::ZERO, radius, 8)
     }

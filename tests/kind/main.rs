@@ -237,3 +237,32 @@ fn a_type_that_panics_costs_only_its_own_chain_and_is_told() {
         }
     }
 }
+
+const WARNED: &str = r#"
+local Ball = module("Ball", "radius")
+local torch = object("torch", { extends = fuse })
+local lamp = object("lamp", { state = { inner = fuse() }, changes = {
+  ball = function(self, radius) self.inner:ball(radius) end
+} })
+local function balls(object)
+  local system = lsystem({ object = object })
+  system:axiom(Ball(1), Ball(0))
+  system:interpret("Ball(r)", function(this, r) this:ball(r) end)
+  system:derive(0)
+end
+balls(OBJECT())
+"#;
+
+#[test]
+fn what_it_warns_of_is_told_with_the_line_for_it_and_for_types_that_extend_or_hold_it() {
+    let (_folder, script) = folder();
+    for (object, line) in [("fuse", 10), ("torch", 10), ("lamp", 5)] {
+        std::fs::write(&script, WARNED.replace("OBJECT", object)).unwrap();
+        let run = burgeon::run(&script, options(1)).unwrap();
+        assert!(run.scene.triangles() > 10, "{object}");
+        let told: Vec<String> = run.warnings.iter().map(ToString::to_string).collect();
+        assert_eq!(told.len(), 1, "{object}: {told:?}");
+        assert!(told[0].contains("a ball without a radius draws nothing"), "{object}: {told:?}");
+        assert_eq!(run.warnings[0].place().map(|place| place.line), Some(line), "{object}: {told:?}");
+    }
+}
