@@ -7,8 +7,8 @@ use super::grounds::{WATER, WATER_LEVEL, draw_water};
 use super::object::Network;
 use crate::surface::plain_material;
 use burgeon_base::error::Result;
-use burgeon_kit::{Color, Drawing};
-use burgeon_scene::{Material, Normal, Part};
+use burgeon_kit::{Color, Drawing, Show};
+use burgeon_scene::{Material, Normal, Part, Scene};
 use burgeon_streets::{Sidewalk, StreetSurface};
 
 /// How high (m) paint lies over the street.
@@ -18,9 +18,20 @@ const SKIRT: f64 = 6.0;
 /// The colour of paint.
 const WHITE: Color = Color([0.78, 0.78, 0.76, 1.0]);
 
+impl Show for Network {
+    fn triangles(&self) -> usize {
+        self.network.size() * 40
+    }
+
+    fn show(&self, scene: &mut Scene, name: &str, feature: Option<&str>) -> Result<()> {
+        self.draw()?.show(scene, name, feature);
+        Ok(())
+    }
+}
+
 impl Network {
     /// Everything that it shows.
-    pub(super) fn draw(&self) -> Result<Drawing> {
+    fn draw(&self) -> Result<Drawing> {
         let mut drawing = Drawing::default();
         let (options, fit) = (self.surface_options(), self.fit()?);
         let profiles = &fit.profiles;

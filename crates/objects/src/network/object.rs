@@ -21,7 +21,6 @@ use burgeon_base::error::{Error, Result};
 use burgeon_base::warning::Warning;
 use burgeon_geometry::{Polygon, Rings};
 use burgeon_kit::{Color, TableOf, Value, Vector, Warn, fields, methods, object};
-use burgeon_scene::Scene;
 use burgeon_streets::{
     Constraints, Fate, JunctionId, Obstacles, StreetAttributes, StreetFit, StreetGrowth, StreetKind,
     StreetNetwork, SurfaceOptions,
@@ -476,17 +475,6 @@ impl Network {
 impl Warn for Network {
     fn take_warnings(&mut self) -> Vec<Warning> {
         std::mem::take(&mut self.warnings)
-    }
-}
-
-impl burgeon_kit::Show for Network {
-    fn triangles(&self) -> usize {
-        self.network.size() * 40
-    }
-
-    fn show(&self, scene: &mut Scene, name: &str, feature: Option<&str>) -> Result<()> {
-        self.draw()?.show(scene, name, feature);
-        Ok(())
     }
 }
 
