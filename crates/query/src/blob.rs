@@ -33,7 +33,12 @@ fn envelope_size(bytes: &[u8]) -> Result<usize, String> {
 /// The geometry in a blob. Fails with the reason.
 pub(crate) fn read(bytes: &[u8], budget: &Budget) -> Result<Geometry, String> {
     let geometry = wkb::read(body(bytes)?, NEAR, budget)?;
-    if geometry.is_sound() { Ok(geometry) } else { Err("has a coordinate that is no finite number".into()) }
+    if geometry.is_sound() {
+        return Ok(geometry);
+    }
+    let is_far = geometry.points().all(|point| point.is_finite());
+    let why = if is_far { "greater than 1e9" } else { "that is no finite number" };
+    Err(format!("has a coordinate {why}"))
 }
 
 /// A geometry as a GeoPackage's blob with its bounds.

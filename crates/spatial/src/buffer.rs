@@ -7,7 +7,7 @@ use glam::DVec2;
 
 use super::Geometry;
 use super::edges::with_heights;
-use super::overlay::{dissolved, with_width};
+use super::overlay::{LEAST_EXTENT, dissolved, with_width};
 use super::plane::Plane;
 
 /// What a buffer's border does at corners.
@@ -56,7 +56,8 @@ const MITRE_LIMIT: f64 = 5.0;
 
 impl Geometry {
     /// The area of all that lies within `distance` (m); of a polygon, a negative one takes as much off. Empty if nothing
-    /// is left. Fails if the distance is not finite, or no number of segments is given.
+    /// is left. Fails if the distance is not finite, no number of segments is given, or it reaches farther than
+    /// [`FARTHEST`](super::FARTHEST).
     ///
     /// Method: boolean operations on polygons (i_overlay, through `geo`).
     ///
@@ -80,14 +81,19 @@ impl Geometry {
             return Err(Error::argument(format!("buffer takes 1 to 1000 quadrant_segments, not {given}"))
                 .help("8 are 1 % from a circle's area"));
         }
+        let made = self.grown(distance, options);
+        made.check().map_err(|error| error.about("buffer")).map(|()| made)
+    }
+
+    fn grown(&self, distance: f64, options: &BufferOptions) -> Self {
         if let Some(strip) = self.strip(distance, options.cap) {
-            return Ok(with_heights(strip, &[self]));
+            return with_heights(strip, &[self]);
         }
         let plane = Plane::of(&[self]);
         let (areas, thin_rings) = with_width(plane.polygons(self));
         let areas = dissolved(areas);
-        if distance == 0.0 {
-            return Ok(with_heights(plane.areas(&areas), &[self]));
+        if distance.abs() < LEAST_EXTENT {
+            return with_heights(plane.areas(&areas), &[self]);
         }
         let style = || {
             let angle = std::f64::consts::FRAC_PI_2 / f64::from(options.quadrant_segments);
@@ -130,7 +136,7 @@ impl Geometry {
             [only] => only.clone(),
             parts => unary_union(parts),
         };
-        Ok(with_heights(plane.areas(&whole), &[self]))
+        with_heights(plane.areas(&whole), &[self])
     }
 
     /// What lies within `distance` of a line of one edge that does not end round: a rectangle. None of others.

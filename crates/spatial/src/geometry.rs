@@ -7,8 +7,11 @@ use glam::{DVec2, DVec3};
 
 use super::GeometryKind;
 
-/// The greatest coordinate: farther than any place on Earth is in any unit that maps are in.
-pub const FARTHEST: f64 = 1e15;
+/// The greatest coordinate: fifty times as far as around Earth in metres.
+///
+/// Areas are computed on a grid of 2^28 places to each side, whose steps are some metres wide there; farther away what is
+/// made of a geometry would have little to do with it.
+pub const FARTHEST: f64 = 1e9;
 
 /// A geometry of OGC Simple Features, as somebody gave it: nothing is promised of its points.
 ///
@@ -251,7 +254,7 @@ impl Geometry {
         let [x, y, z] = point.to_array().map(number);
         let place = if point.z == 0.0 { format!("({x}, {y})") } else { format!("({x}, {y}, {z})") };
         Err(Error::geometry(format!("a geometry has the point {place}"))
-            .help("give coordinates that are finite and at most 1e15"))
+            .help("give coordinates that are finite and at most 1e9"))
     }
 
     /// Turns its rings the way that they are to run: outer ones counter-clockwise, holes clockwise.

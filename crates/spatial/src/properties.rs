@@ -98,6 +98,37 @@ proptest! {
     }
 
     #[test]
+    fn nothing_panics_on_what_is_tiny_or_huge(
+        a in geometry(), b in geometry(), (exponent, other) in (-320..8i32, -320..8i32), distance in -320..8i32,
+    ) {
+        let scaled = |geometry: &Geometry, exponent: i32| {
+            let mut geometry = geometry.clone();
+            geometry.points_mut().for_each(|point| *point *= 10f64.powi(exponent));
+            geometry
+        };
+        let (a, b) = (scaled(&a, exponent), scaled(&b, other));
+        for made in [
+            a.intersection(&b),
+            a.union(&b),
+            a.difference(&b),
+            a.sym_difference(&b),
+            a.centroid(),
+            a.point_on_surface(),
+            a.convex_hull(),
+            a.oriented_envelope(),
+            a.make_valid(),
+            a.nearest_point(&b),
+            a.simplify(10f64.powi(distance)),
+        ] {
+            prop_assert!(made.is_sound(), "{a} {b}: {made}");
+        }
+        for distance in [10f64.powi(distance), -10f64.powi(distance)] {
+            prop_assert!(a.buffer(distance, &BufferOptions::default()).is_ok_and(|made| made.is_sound()));
+        }
+        let _ = (a.relate(&b), a.distance(&b), a.area(), a.length());
+    }
+
+    #[test]
     fn areas_add_up(a in polygon(), b in polygon()) {
         let (both, either) = (a.intersection(&b), a.union(&b));
         let near = |one: f64, two: f64| (one - two).abs() < 1e-6;

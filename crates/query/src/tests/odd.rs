@@ -4,7 +4,7 @@ use super::*;
 use crate::functions::FUNCTIONS;
 
 /// Empty, without extent, invalid, far away, mixed, with heights and with measures.
-const ODD: [&str; 20] = [
+const ODD: [&str; 21] = [
     "POINT EMPTY",
     "LINESTRING EMPTY",
     "POLYGON EMPTY",
@@ -24,7 +24,8 @@ const ODD: [&str; 20] = [
     "POLYGON Z ((0 0 1, 9 0 2, 9 9 3, 0 9 4, 0 0 1))",
     "MULTIPOLYGON (((0 0, 9 0, 9 9, 0 9, 0 0)), ((5 5, 14 5, 14 14, 5 14, 5 5)))",
     "GEOMETRYCOLLECTION (POINT (1 1), LINESTRING (0 0, 5 5), POLYGON ((0 0, 9 0, 9 9, 0 9, 0 0)))",
-    "LINESTRING (-1e15 0, 1e15 1e-9)",
+    "LINESTRING (-1e9 0, 1e9 1e-9)",
+    "POLYGON ((0 0, 3e-309 0, 3e-309 3e-309, 0 0))",
 ];
 
 /// What a parameter with a name gets, number `turn` of what is tried.
@@ -88,7 +89,7 @@ fn tables_of_mixed_and_invalid_geometries_are_joined_and_none_is_lost() {
     };
     assert_eq!(count("SELECT a.id, b.id AS other FROM odd a LEFT JOIN odd b ON a.id = b.id"), ODD.len());
     assert_eq!(count("SELECT id FROM odd WHERE ST_IsEmpty(geom)"), 5);
-    assert_eq!(count("SELECT id FROM odd WHERE NOT ST_IsValid(geom)"), 7);
+    assert_eq!(count("SELECT id FROM odd WHERE NOT ST_IsValid(geom)"), 8);
     assert_eq!(count("SELECT id FROM odd WHERE NOT ST_IsValid(ST_MakeValid(geom))"), 0);
     assert_eq!(
         count("SELECT o.id, h.fid FROM odd o LEFT JOIN houses h ON ST_Intersects(o.geom, h.geom)"),

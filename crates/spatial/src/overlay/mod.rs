@@ -11,5 +11,5 @@ mod operand;
 mod relate;
 
 pub use combine::union_all;
-pub(crate) use operand::{Operand, dissolved, filled, with_width};
+pub(crate) use operand::{LEAST_EXTENT, Operand, dissolved, filled, with_width};
 pub(crate) use relate::relate;

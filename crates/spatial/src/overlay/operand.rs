@@ -3,7 +3,7 @@
 use burgeon_base::budget::Budget;
 use burgeon_geometry::planar::twice_area;
 use geo::bool_ops::FillRule;
-use geo::{BooleanOps, MultiPolygon};
+use geo::{BooleanOps, BoundingRect, MultiPolygon};
 use glam::DVec2;
 
 use super::areas::{FILL, corners, snap};
@@ -84,8 +84,14 @@ fn are_disjoint(areas: &MultiPolygon) -> bool {
     areas.iter().all(are_wide) && matches!(multi_polygon_flaw(areas, &Budget::default()), Ok(None))
 }
 
+/// Below this (m) an extent is none: what numbers can hold that is far less still, i_overlay has no grid for.
+pub(crate) const LEAST_EXTENT: f64 = 1e-15;
+
 /// What rings go around, by a rule.
 pub(crate) fn filled(areas: &MultiPolygon, rule: FillRule) -> MultiPolygon {
+    if areas.bounding_rect().is_none_or(|around| around.width().max(around.height()) < LEAST_EXTENT) {
+        return MultiPolygon::new(Vec::new());
+    }
     let mut made = areas.union_with_fill_rule(&MultiPolygon::new(Vec::new()), rule);
     snap(&mut made, corners(areas));
     made

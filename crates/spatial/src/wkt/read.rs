@@ -158,7 +158,7 @@ impl WktReader<'_> {
                 self.at += length;
                 Ok(number)
             }
-            Ok(_) => Err(self.expected("a finite number of at most 1e15")),
+            Ok(_) => Err(self.expected("a finite number of at most 1e9")),
             Err(_) => Err(self.expected("a number")),
         }
     }
