@@ -27,7 +27,8 @@
 //! terrain    uses ──► base, geometry, kit, scene
 //! objects    uses ──► base, data, geometry, kit, scene, streets, terrain
 //! packages   uses ──► base
-//! engine     uses ──► base, data, kit, language, packages, query, scene
+//! analysis   uses ──► base, kit, language, packages
+//! engine     uses ──► analysis, base, data, kit, language, packages, query, scene
 //! picture    uses ──► base, scene
 //! export     uses ──► base, data, picture, scene
 //! watch      uses ──► base

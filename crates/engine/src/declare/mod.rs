@@ -3,7 +3,6 @@
 //! Comes in: the options of a run and the text of its files. Goes out: a [`Session`] that all virtual machines of the run
 //! share, with the parameters, the data and the analysis of every file. It never runs Lua.
 
-pub(crate) mod analysis;
 mod api;
 pub(crate) mod bytecode;
 mod data;

@@ -6,8 +6,9 @@ use std::sync::{Arc, MutexGuard};
 
 use rustc_hash::FxHashMap;
 
-use super::analysis::{Analysis, Globals, ScriptReader};
+use super::bytecode::compile;
 use super::session::Session;
+use burgeon_analysis::{Analysis, Globals, ScriptReader};
 use burgeon_base::error::{Error, Limit, Result, SourcePlace};
 use burgeon_base::locks::LockRecovery;
 use burgeon_packages::FileName;
@@ -117,7 +118,7 @@ fn begin_reading(path: &Path, name: &str) -> Result<ScriptReader> {
         Error::file(path, format!("{name} is not a text file"))
             .help("scripts are UTF-8 text; check the file's name")
     })?;
-    Ok(ScriptReader::begin(name, text.strip_prefix('\u{feff}').unwrap_or(&text)))
+    Ok(ScriptReader::begin(name, text.strip_prefix('\u{feff}').unwrap_or(&text), compile))
 }
 
 /// The name and the text of a file in the place of the standard library.

@@ -6,7 +6,6 @@ use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex};
 use std::time::Duration;
 
-use super::analysis::{Analysis, CheckedFile, QueryCall, call_problems, has_metatables};
 use super::api::api_version;
 use super::data::Data;
 use super::deprecations::Deprecations;
@@ -16,6 +15,7 @@ use super::positions::RandomPositions;
 use super::scripts::{ScriptFiles, SourceFile, read_stdlib, unreadable};
 use super::types::DeclaredTypes;
 use crate::questions::{AskedRows, Question, RowCache, RowSource, Rows};
+use burgeon_analysis::{Analysis, CheckedFile, QueryCall, call_problems, has_metatables, inspects_tables};
 use burgeon_base::error::{Error, Result};
 use burgeon_base::locks::LockRecovery;
 use burgeon_base::stop::Stop;
@@ -339,9 +339,7 @@ impl Session {
     pub(crate) fn note(&self, analysis: &Analysis) {
         self.facts.randoms.fetch_or(analysis.random, Ordering::AcqRel);
         self.facts.metatables.fetch_or(has_metatables(&analysis.text), Ordering::AcqRel);
-        self.facts
-            .inspects_tables
-            .fetch_or(super::analysis::inspects_tables(&analysis.text), Ordering::AcqRel);
+        self.facts.inspects_tables.fetch_or(inspects_tables(&analysis.text), Ordering::AcqRel);
     }
 
     /// Notes that a module has been made that stands for others.

@@ -15,8 +15,8 @@ use super::types::{
     named_fields, no_table,
 };
 use super::{Machine, compile, native};
-use crate::declare::analysis::Globals;
 use crate::declare::{API_VERSION, Param, Print, has_name};
+use burgeon_analysis::Globals;
 use burgeon_base::error::{Error, Result, SourcePlace};
 use burgeon_base::warning::{Warning, WarningKind};
 use burgeon_kit::rules::{FRAGMENT, QUERY, Signature, Symbol, Symbols};

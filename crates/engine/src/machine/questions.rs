@@ -9,7 +9,8 @@ use rustc_hash::FxHashMap;
 
 use super::WorkState;
 use super::convert::{to_lua, to_value};
-use crate::questions::{Question, Rows, sql_parameters};
+use crate::questions::{Question, Rows};
+use burgeon_analysis::sql_parameters;
 use burgeon_kit::Value;
 use burgeon_kit::rules::{Pattern, Symbols};
 

@@ -6,10 +6,8 @@
 
 mod cache;
 mod fit;
-mod parameters;
 mod question;
 
 pub(crate) use cache::{AskedRows, RowCache};
 pub(crate) use fit::{fit, listed};
-pub(crate) use parameters::sql_parameters;
 pub use question::{Question, RowSource, Rows};

@@ -8,7 +8,7 @@ use burgeon_base::error::Result;
 use burgeon_kit::{Table, TableKey, Value};
 use rustc_hash::FxBuildHasher;
 
-use super::sql_parameters;
+use burgeon_analysis::sql_parameters;
 
 /// A text of SQL with the values of its parameters. Two are equal if they ask the same.
 #[derive(Debug, Clone, PartialEq, Eq)]

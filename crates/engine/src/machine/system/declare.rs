@@ -3,10 +3,11 @@
 use mlua::{Function, Lua, Table, Value as LuaValue};
 
 use crate::declare::Session;
-use crate::declare::analysis::{QueryCall, analyse, unmarked};
+use crate::declare::bytecode::compile;
 use crate::machine::Machine;
 use crate::machine::convert::to_value;
 use crate::machine::library::Library;
+use burgeon_analysis::{QueryCall, analyse, unmarked};
 use burgeon_base::error::{Error, Limit, Result, SourcePlace};
 use burgeon_base::text::grouped;
 use burgeon_base::warning::{Warning, WarningKind};
@@ -273,7 +274,7 @@ fn compile_successor(
     let formals: String = pattern.formals.iter().map(|formal| format!(", {formal}")).collect();
     text.push_str(&format!("lsystem:rule(\"\", function(this{formals}) {body}\nend)"));
     drop(symbols);
-    let analysis = analyse(file, &text, &library.globals());
+    let analysis = analyse(file, &text, compile, &library.globals());
     machine.session.note(&analysis);
     if !analysis.problems.is_empty() {
         return Err(Error::several(analysis.problems));

@@ -4,7 +4,7 @@
 const INSPECTORS: [&str; 6] = ["pairs", "next", "rawget", "getmetatable", "clone", "foreach"];
 
 /// Whether a script could tell a table that is made later from one that is there.
-pub(crate) fn inspects_tables(text: &str) -> bool {
+pub fn inspects_tables(text: &str) -> bool {
     let apart = |letter: Option<char>| letter.is_none_or(|it| !it.is_alphanumeric() && it != '_');
     INSPECTORS.iter().any(|name| {
         text.match_indices(name).any(|(at, _)| {

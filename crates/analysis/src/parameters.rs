@@ -4,7 +4,7 @@ use burgeon_base::error::{Error, Result};
 
 /// The names of the parameters in `sql`, each once, in the order in which they come first: `$name` outside of strings,
 /// quoted names and comments. Fails if one has no name.
-pub(crate) fn sql_parameters(sql: &str) -> Result<Vec<&str>> {
+pub fn sql_parameters(sql: &str) -> Result<Vec<&str>> {
     let mut names: Vec<&str> = Vec::new();
     let mut rest = sql;
     while let Some(at) = rest.find(['\'', '"', '`', '-', '/', '$']) {

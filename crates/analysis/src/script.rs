@@ -8,7 +8,6 @@ use std::time::Duration;
 
 use super::queries::QueryCall;
 use super::walk::{Facts, Walk};
-use crate::declare::bytecode::compile;
 use burgeon_base::error::{Error, Limit, SourcePlace};
 use burgeon_kit::Deprecation;
 use burgeon_kit::rules::Signature;
@@ -19,9 +18,12 @@ use full_moon::node::Node;
 use full_moon::tokenizer::TokenType;
 use rustc_hash::FxHashMap;
 
+/// Makes bytecode of a text; none where Luau refuses it, which tells why when it is asked to run it.
+pub type Compile = fn(&str) -> Option<Vec<u8>>;
+
 /// What a script may use without declaring it.
 #[derive(Debug, Clone, Default)]
-pub(crate) struct Globals {
+pub struct Globals {
     /// The names of values.
     pub names: Vec<String>,
     /// The modules among them.
@@ -38,7 +40,7 @@ pub(crate) struct Globals {
 
 /// What reading a script gives.
 #[derive(Debug, Clone, Default)]
-pub(crate) struct Analysis {
+pub struct Analysis {
     /// The text to run, with as many lines as the script.
     pub text: String,
     /// Its bytecode, if it is a file's and Luau compiles it.
@@ -70,9 +72,9 @@ pub(super) fn marked(line: usize) -> String {
     format!("@{line};")
 }
 
-/// Takes apart what [`marked`] put together: the line and the text itself. A text that comes from elsewhere has
+/// Takes apart a successor that is given as text, before which the analysis has put its line: the line and the text itself. A text that comes from elsewhere has
 /// no line.
-pub(crate) fn unmarked(text: &str) -> (Option<usize>, &str) {
+pub fn unmarked(text: &str) -> (Option<usize>, &str) {
     let parts = text.strip_prefix('@').and_then(|rest| rest.split_once(';'));
     match parts.and_then(|(line, rest)| Some((line.parse().ok()?, rest))) {
         Some((line, rest)) => (Some(line), rest),
@@ -87,12 +89,12 @@ pub(super) const STACK: usize = 256 << 20;
 const PATIENCE: Duration = Duration::from_secs(30);
 
 /// Reads `text`, the content of `file`. What Luau does not compile is left as it stands, for it to tell.
-pub(crate) fn analyse(file: &str, text: &str, globals: &Globals) -> Analysis {
-    ScriptReader::begin(file, text).finish(globals)
+pub fn analyse(file: &str, text: &str, compile: Compile, globals: &Globals) -> Analysis {
+    ScriptReader::begin(file, text, compile).finish(globals)
 }
 
 /// A script that is being read in a thread of its own, which waits for what the script may use.
-pub(crate) struct ScriptReader {
+pub struct ScriptReader {
     file: String,
     text: String,
     globals: Sender<Globals>,
@@ -102,13 +104,13 @@ pub(crate) struct ScriptReader {
 
 impl ScriptReader {
     /// Begins to read `text`, the content of `file`.
-    pub(crate) fn begin(file: &str, text: &str) -> Self {
+    pub fn begin(file: &str, text: &str, compile: Compile) -> Self {
         let (sender, analysis) = channel();
         let (globals, known) = channel();
         let (file, text) = (file.to_owned(), text.to_owned());
         let (name, source) = (file.clone(), text.clone());
         // Whoever asked may have given up.
-        let read = move || drop(sender.send(read(&name, &source, &known)));
+        let read = move || drop(sender.send(read(&name, &source, compile, &known)));
         if std::thread::Builder::new().stack_size(STACK).spawn(read).is_err() {
             return Self { file, text, globals, analysis: channel().1 };
         }
@@ -116,7 +118,7 @@ impl ScriptReader {
     }
 
     /// What the script is found to be, given what it may use.
-    pub(crate) fn finish(self, globals: &Globals) -> Analysis {
+    pub fn finish(self, globals: &Globals) -> Analysis {
         // A thread that has ended already needs no globals.
         let _ = self.globals.send(globals.clone());
         self.analysis.recv_timeout(PATIENCE).unwrap_or_else(|_| {
@@ -132,7 +134,7 @@ fn unread(text: &str, problems: Vec<Error>) -> Analysis {
     Analysis { text: text.to_owned(), problems, random: true, ..Analysis::default() }
 }
 
-fn read(file: &str, text: &str, globals: &Receiver<Globals>) -> Analysis {
+fn read(file: &str, text: &str, compile: Compile, globals: &Receiver<Globals>) -> Analysis {
     // Luau bounds the nesting of what it compiles; the parser used here does not, so it comes second.
     let Some(code) = compile(text) else { return unread(text, Vec::new()) };
     let refuse = |line: usize| {
@@ -229,7 +231,7 @@ mod tests {
         let deprecated = Arc::new(BTreeMap::from([("oldest".to_owned(), deprecation)]));
         let globals = Globals { names, deprecated, ..Globals::default() };
         let script = "local a = oldest(1)\nlocal b = newest(2)\ndo\n  local oldest = 3\n  b = oldest\nend\nprint(oldest)";
-        let found = analyse("s.lua", script, &globals).deprecated;
+        let found = analyse("s.lua", script, |_| Some(Vec::new()), &globals).deprecated;
         assert_eq!(found, [("oldest".to_owned(), 1), ("oldest".to_owned(), 7)]);
     }
 
@@ -239,7 +241,7 @@ mod tests {
         let globals = Globals { names, ..Globals::default() };
         let blind = |function: &str| {
             let script = format!("local function other(x)\n  return x\nend\nlocal f = {function}");
-            analyse("s.lua", &script, &globals).blind.contains(&4)
+            analyse("s.lua", &script, |_| Some(Vec::new()), &globals).blind.contains(&4)
         };
         for function in [
             "function() return 1 end",

@@ -4,13 +4,13 @@
 use full_moon::ast::{Call, Expression, Field, FunctionArgs, FunctionCall, Prefix, Suffix};
 use full_moon::node::Node;
 
+use super::parameters::sql_parameters;
 use super::syntax::{string_of, text_of};
 use super::walk::Walk;
-use crate::questions::sql_parameters;
 
 /// A call of `query` in a function of a rule.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub(crate) struct QueryCall {
+pub struct QueryCall {
     /// Its line.
     pub line: usize,
     /// The parameters of its text to which the call itself gives no value.
@@ -65,7 +65,7 @@ fn names_of(table: &full_moon::ast::TableConstructor) -> Option<Vec<String>> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::{Globals, analyse};
+    use crate::{Globals, analyse};
 
     #[test]
     fn the_open_parameters_of_questions_are_known_by_the_functions_of_rules() {
@@ -75,7 +75,7 @@ mod tests {
             let script = format!(
                 "local s, A, t = lsystem(), module(\"A\", \"x\"), {{}}\nlocal A = module(\"A\", \"x\")\ns:rule(\"A(x)\", function(this, x)\nlocal function f() return {call} end return f() end)"
             );
-            let queries = analyse("s.lua", &script, &globals).queries;
+            let queries = analyse("s.lua", &script, |_| Some(Vec::new()), &globals).queries;
             let call = queries.get(&3)?.first()?;
             assert_eq!(call.line, 4);
             Some(call.open.clone())

@@ -14,7 +14,7 @@ use burgeon_base::error::Error;
 use burgeon_kit::Registry;
 
 /// A file whose calls are to be checked.
-pub(crate) struct CheckedFile {
+pub struct CheckedFile {
     /// Its name for messages.
     pub name: String,
     /// What stands in it.
@@ -33,7 +33,7 @@ struct FileChecks<'a> {
 }
 
 /// What is wrong with the calls in `files`, where the scripts' own types of objects are in the `registry` too.
-pub(crate) fn call_problems(files: &[CheckedFile], registry: &Registry) -> Vec<Error> {
+pub fn call_problems(files: &[CheckedFile], registry: &Registry) -> Vec<Error> {
     std::thread::scope(|scope| {
         let check = || {
             let checks =
