@@ -72,8 +72,8 @@ pub(super) fn marked(line: usize) -> String {
     format!("@{line};")
 }
 
-/// Takes apart a successor that is given as text, before which the analysis has put its line: the line and the text itself. A text that comes from elsewhere has
-/// no line.
+/// Takes apart a successor that is given as text, before which the analysis has put its line: the line and the text
+/// itself. A text that comes from elsewhere has no line.
 pub fn unmarked(text: &str) -> (Option<usize>, &str) {
     let parts = text.strip_prefix('@').and_then(|rest| rest.split_once(';'));
     match parts.and_then(|(line, rest)| Some((line.parse().ok()?, rest))) {
