@@ -12,6 +12,13 @@ fn place() -> impl Strategy<Value = DVec3> {
     (number(), number(), height).prop_map(|(x, y, z)| DVec3::new(x, y, z))
 }
 
+/// Rings across one another, whose edges meet hundreds of times.
+fn tangle() -> impl Strategy<Value = Geometry> {
+    let place = (0.0..100.0f64, 0.0..100.0f64).prop_map(|(x, y)| DVec3::new(x, y, 0.0));
+    let rings = prop::collection::vec(prop::collection::vec(place, 3..30), 1..5);
+    rings.prop_map(|rings| Geometry::polygon(rings).unwrap_or(Geometry::empty(2)))
+}
+
 /// A star around a place: a ring that does not meet itself.
 fn star() -> impl Strategy<Value = Vec<DVec3>> {
     (place(), prop::collection::vec(0.5..4.0f64, 3..9), any::<bool>()).prop_map(|(middle, far, whole)| {
@@ -311,4 +318,15 @@ fn where_a_line_goes_back_its_buffer_has_an_arc() {
     let [there, back] = ["LINESTRING (6 3, 6.1 2, 6 3, 0 0)", "LINESTRING (6.1 2, 6 3, 0 0)"]
         .map(|text| Geometry::from_wkt(text).expect("a line").buffer(1.5, &options).expect("a buffer"));
     assert!(there.sym_difference(&back).area() < 0.02, "{} {}", there.area(), back.area());
+}
+
+proptest! {
+    #![proptest_config(settings(60))]
+
+    #[test]
+    fn what_is_made_of_rings_that_cross_themselves_is_valid(a in tangle(), b in tangle()) {
+        for made in [a.make_valid(), a.union(&b), a.difference(&b), a.intersection(&b), a.sym_difference(&b)] {
+            prop_assert_eq!(made.validity_reason(), None, "{} {}", a, b);
+        }
+    }
 }

@@ -1,9 +1,12 @@
 //! Set operations on areas.
 
+use burgeon_base::budget::Budget;
 use geo::bool_ops::{FillRule, OpType};
 use geo::orient::{Direction, Orient};
 use geo::{BooleanOps, Coord, MultiPolygon};
 use rustc_hash::FxHashMap;
+
+use crate::ways::multi_polygon_flaw;
 
 /// What is inside of rings: all that they go around, in whatever direction, so that polygons of one geometry may overlap.
 pub(crate) const FILL: FillRule = FillRule::NonZero;
@@ -19,6 +22,23 @@ pub(super) fn combine(
 ) -> MultiPolygon {
     let mut made = one.boolean_op_with_fill_rule(two, operation, FILL);
     snap(&mut made, nodes);
+    // Where none can be with another area, holes are where they belong.
+    let has_holes = made.iter().any(|area| !area.interiors().is_empty());
+    if made.0.len() > 1 && has_holes { untangled(made) } else { made }
+}
+
+/// How often areas are computed again until they are valid.
+const MOST_ROUNDS: usize = 8;
+
+/// Areas that were computed, made valid. Where edges cross hundreds of times, holes come out with areas that they do not
+/// lie in, and edges that the grid moves cross others; what lies on the grid already is computed again without either.
+pub(super) fn untangled(mut made: MultiPolygon) -> MultiPolygon {
+    for _ in 0..MOST_ROUNDS {
+        if !matches!(multi_polygon_flaw(&made, &Budget::default()), Ok(Some(_))) {
+            break;
+        }
+        made = made.union_with_fill_rule(&MultiPolygon::new(Vec::new()), FILL);
+    }
     made
 }
 

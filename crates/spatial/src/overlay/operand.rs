@@ -6,7 +6,7 @@ use geo::bool_ops::FillRule;
 use geo::{BooleanOps, BoundingRect, MultiPolygon};
 use glam::DVec2;
 
-use super::areas::{FILL, corners, snap};
+use super::areas::{FILL, corners, snap, untangled};
 use super::arrangement::{Way, WayOrigin};
 use crate::Geometry;
 use crate::plane::{Plane, collect_lines, collect_points};
@@ -94,5 +94,5 @@ pub(crate) fn filled(areas: &MultiPolygon, rule: FillRule) -> MultiPolygon {
     }
     let mut made = areas.union_with_fill_rule(&MultiPolygon::new(Vec::new()), rule);
     snap(&mut made, corners(areas));
-    made
+    untangled(made)
 }
