@@ -223,7 +223,7 @@ function Vec.lerp(a, b, t: number)
   return a + (b - a) * t
 end
 
-__class("vec", Vec)
+__class("vec", Vec, made, "x", "y", "z")
 
 -- Numbers.
 

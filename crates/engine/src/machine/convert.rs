@@ -5,6 +5,7 @@ use std::sync::Arc;
 use mlua::{Lua, LuaString, Value as LuaValue};
 
 use super::system::{SourceHandle, SystemHandle, feature_of};
+use super::table_classes::{made_of_class, metatable_of};
 use super::types::{DerivedHandle, ObjectHandle};
 use burgeon_base::error::{Error, Limit, Result};
 use burgeon_kit::{BufferBytes, System, Table, TableKey, Value};
@@ -146,27 +147,27 @@ pub(crate) fn to_lua(lua: &Lua, value: &Value, freeze: bool) -> mlua::Result<Lua
             }
         }
         Value::Table(table) => {
-            let made = lua.create_table_with_capacity(0, table.entries.len())?;
-            for (key, value) in &table.entries {
-                let value = to_lua(lua, value, freeze)?;
-                match key {
-                    TableKey::Index(index) => made.raw_set(*index, value)?,
-                    TableKey::Name(name) => made.raw_set(&**name, value)?,
+            let made = match made_of_class(lua, table, freeze)? {
+                Some(made) => made,
+                None => {
+                    let made = lua.create_table_with_capacity(0, table.entries.len())?;
+                    for (key, value) in &table.entries {
+                        let value = to_lua(lua, value, freeze)?;
+                        match key {
+                            TableKey::Index(index) => made.raw_set(*index, value)?,
+                            TableKey::Name(name) => made.raw_set(&**name, value)?,
+                        }
+                    }
+                    if let Some(class) = &table.class {
+                        made.set_metatable(metatable_of(lua, class))?;
+                    }
+                    made
                 }
-            }
-            if let Some(class) = &table.class {
-                let metatable: Option<mlua::Table> = lua.named_registry_value(&class_key(class))?;
-                made.set_metatable(metatable)?;
-            }
+            };
             if freeze {
                 made.set_readonly(true);
             }
             LuaValue::Table(made)
         }
     })
-}
-
-/// The registry's name for the metatable of a class.
-pub(crate) fn class_key(class: &str) -> String {
-    format!("burgeon class {class}")
 }

@@ -7,9 +7,10 @@ use std::sync::{Arc, LazyLock};
 use mlua::{Function, Lua, MultiValue, Table, Value as LuaValue, Variadic};
 use rustc_hash::{FxHashMap, FxHashSet};
 
-use super::convert::{class_key, to_lua};
+use super::convert::to_lua;
 use super::require::require;
 use super::system::{EagerMark, SourceHandle, SystemDeclaration, SystemHandle, install_lazy};
+use super::table_classes::declare_class;
 use super::types::{
     ScriptFunction, ScriptTypeEntry, declare_type, extend_type, install_geometries, install_kind,
     named_fields, no_table,
@@ -280,10 +281,12 @@ impl Library {
         )?;
         globals.raw_set(
             "__class",
-            lua.create_function(|lua, (name, metatable): (String, Table)| {
-                metatable.raw_set("__class", name.as_str())?;
-                lua.set_named_registry_value(&class_key(&name), metatable)
-            })?,
+            lua.create_function(
+                |lua, (name, metatable, make, fields): (String, Table, Function, Variadic<String>)| {
+                    native(lua, &make)?;
+                    declare_class(lua, name, metatable, make, fields.into())
+                },
+            )?,
         )
     }
 

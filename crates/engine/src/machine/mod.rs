@@ -16,6 +16,7 @@ mod protected;
 mod questions;
 mod require;
 mod system;
+mod table_classes;
 mod types;
 mod virtual_machine;
 mod watchdog;

@@ -1,0 +1,57 @@
+//! The classes of tables that the standard library declares, such as vectors: they keep their operators as parameters.
+
+use mlua::{Function, Lua, MultiValue, Table as LuaTable};
+use rustc_hash::FxHashMap;
+
+use burgeon_kit::{Table, TableKey};
+
+use super::convert::to_lua;
+
+/// The classes that a virtual machine knows, by their names.
+#[derive(Default)]
+struct TableClasses(FxHashMap<String, TableClass>);
+
+struct TableClass {
+    metatable: LuaTable,
+    /// Makes one of the values of its fields, which is quicker than to make a table field by field.
+    make: Function,
+    /// The fields that every table of the class has, in order.
+    fields: Vec<String>,
+}
+
+/// Takes a class up: `make` gives a table of it for the values of its `fields`, which are in order.
+pub(super) fn declare_class(
+    lua: &Lua,
+    name: String,
+    metatable: LuaTable,
+    make: Function,
+    fields: Vec<String>,
+) -> mlua::Result<()> {
+    metatable.raw_set("__class", name.as_str())?;
+    let mut classes = lua.remove_app_data::<TableClasses>().unwrap_or_default();
+    classes.0.insert(name, TableClass { metatable, make, fields });
+    lua.set_app_data(classes);
+    Ok(())
+}
+
+/// The table in Lua if its class has just these fields; tables in it are frozen if `freeze`.
+pub(super) fn made_of_class(lua: &Lua, table: &Table, freeze: bool) -> mlua::Result<Option<LuaTable>> {
+    let Some(class) = &table.class else { return Ok(None) };
+    let Some(make) = lua.app_data_ref::<TableClasses>().and_then(|classes| {
+        let class = classes.0.get(&**class)?;
+        let names = table.entries.iter().map(|(key, _)| match key {
+            TableKey::Name(name) => Some(&**name),
+            TableKey::Index(_) => None,
+        });
+        names.eq(class.fields.iter().map(|name| Some(&**name))).then(|| class.make.clone())
+    }) else {
+        return Ok(None);
+    };
+    let values = table.entries.iter().map(|(_, value)| to_lua(lua, value, freeze));
+    make.call(values.collect::<mlua::Result<MultiValue>>()?).map(Some)
+}
+
+/// The metatable of a class.
+pub(super) fn metatable_of(lua: &Lua, class: &str) -> Option<LuaTable> {
+    lua.app_data_ref::<TableClasses>()?.0.get(class).map(|class| class.metatable.clone())
+}
