@@ -6,7 +6,7 @@ cd "$(dirname "$0")/.."
 # What would overflow silently is to be found as well.
 export CARGO_PROFILE_RELEASE_OVERFLOW_CHECKS=true CARGO_PROFILE_RELEASE_DEBUG_ASSERTIONS=true
 seconds=${1:-60} seed=${2:-$RANDOM} failed=0
-# It asserts what its grid does not promise, and goes on without.
+# Debug assertions of i_overlay hold of areas that fit its grid, and of tangles they may not.
 cargo build --quiet --release --package burgeon-fuzz --target-dir target/fuzz \
   --config profile.release.package.i_overlay.debug-assertions=false
 echo "seed $seed"

@@ -325,7 +325,17 @@ proptest! {
 
     #[test]
     fn what_is_made_of_rings_that_cross_themselves_is_valid(a in tangle(), b in tangle()) {
-        for made in [a.make_valid(), a.union(&b), a.difference(&b), a.intersection(&b), a.sym_difference(&b), a.buffer(0.5, &BufferOptions::default())?, a.buffer(-0.5, &BufferOptions::default())?, a.boundary().buffer(0.2, &BufferOptions::default())?] {
+        let options = BufferOptions::default();
+        for made in [
+            a.make_valid(),
+            a.union(&b),
+            a.difference(&b),
+            a.intersection(&b),
+            a.sym_difference(&b),
+            a.buffer(0.5, &options)?,
+            a.buffer(-0.5, &options)?,
+            a.boundary().buffer(0.2, &options)?,
+        ] {
             prop_assert_eq!(made.validity_reason(), None, "{} {}", a, b);
         }
     }
