@@ -73,7 +73,8 @@ impl Geometry {
     /// ```
     pub fn buffer(&self, distance: f64, options: &BufferOptions) -> Result<Self> {
         if !distance.is_finite() || distance.abs() > super::FARTHEST {
-            return Err(Error::argument(format!("buffer takes a finite distance, not {distance:?}"))
+            let taken = if distance.is_finite() { "a distance of at most 1e9" } else { "a finite distance" };
+            return Err(Error::argument(format!("buffer takes {taken}, not {distance:?}"))
                 .help("give metres: more to grow, less than 0 to shrink"));
         }
         if !(1..=1000).contains(&options.quadrant_segments) {

@@ -7,7 +7,7 @@ use glam::{DVec2, DVec3};
 
 use super::GeometryKind;
 
-/// The greatest coordinate: fifty times as far as around Earth in metres.
+/// The greatest coordinate: twenty-five times as far as around Earth in metres.
 ///
 /// Areas are computed on a grid of 2^28 places to each side, whose steps are some metres wide there; farther away what is
 /// made of a geometry would have little to do with it.

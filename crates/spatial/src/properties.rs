@@ -320,6 +320,18 @@ fn where_a_line_goes_back_its_buffer_has_an_arc() {
     assert!(there.sym_difference(&back).area() < 0.02, "{} {}", there.area(), back.area());
 }
 
+#[test]
+fn a_buffer_that_reaches_too_far_is_refused() {
+    let options = BufferOptions::default();
+    let told = |place: f64, distance: f64| {
+        let made = Geometry::point(DVec3::new(place, 0.0, 0.0)).buffer(distance, &options);
+        made.expect_err("too far").message().to_owned()
+    };
+    assert_eq!(told(0.0, 2e9), "buffer takes a distance of at most 1e9, not 2000000000.0");
+    assert_eq!(told(0.0, f64::INFINITY), "buffer takes a finite distance, not inf");
+    assert!(told(9e8, 5e8).starts_with("buffer: a geometry has the point (1091341716"));
+}
+
 proptest! {
     #![proptest_config(settings(60))]
 

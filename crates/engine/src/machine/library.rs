@@ -282,8 +282,8 @@ impl Library {
         globals.raw_set(
             "__class",
             lua.create_function(
-                |lua, (name, metatable, make, fields): (String, Table, Function, Variadic<String>)| {
-                    native(lua, &make)?;
+                |lua, (name, metatable, make, fields): (String, Table, Option<Function>, Variadic<String>)| {
+                    make.iter().try_for_each(|make| native(lua, make))?;
                     declare_class(lua, name, metatable, make, fields.into())
                 },
             )?,

@@ -13,8 +13,9 @@ struct TableClasses(FxHashMap<String, TableClass>);
 
 struct TableClass {
     metatable: LuaTable,
-    /// Makes one of the values of its fields, which is quicker than to make a table field by field.
-    make: Function,
+    /// Makes one of the values of its fields, which is quicker than to make a table field by field; a library of
+    /// somebody's own may do without.
+    make: Option<Function>,
     /// The fields that every table of the class has, in order.
     fields: Vec<String>,
 }
@@ -24,7 +25,7 @@ pub(super) fn declare_class(
     lua: &Lua,
     name: String,
     metatable: LuaTable,
-    make: Function,
+    make: Option<Function>,
     fields: Vec<String>,
 ) -> mlua::Result<()> {
     metatable.raw_set("__class", name.as_str())?;
@@ -43,7 +44,7 @@ pub(super) fn made_of_class(lua: &Lua, table: &Table, freeze: bool) -> mlua::Res
             TableKey::Name(name) => Some(&**name),
             TableKey::Index(_) => None,
         });
-        names.eq(class.fields.iter().map(|name| Some(&**name))).then(|| class.make.clone())
+        names.eq(class.fields.iter().map(|name| Some(&**name))).then(|| class.make.clone())?
     }) else {
         return Ok(None);
     };
