@@ -312,6 +312,24 @@ fn landscapes_of_all_kinds_and_sizes_come_out_and_no_tree_stands_in_the_sea() {
     assert!(trees > 10_000, "{trees} trees");
 }
 
+#[path = "terrain/rivers.rs"]
+mod rivers;
+
+#[test]
+fn rivers_raise_no_ground_and_nothing_grows_in_their_beds() {
+    let (mut lowered, mut cleared, mut count) = (0, 0, 0);
+    for seed in 1..=8 {
+        for (width, decay) in [(8.0, 0.5), (25.0, 0.6)] {
+            let (low, clear) = rivers::check(seed, width, decay);
+            (lowered, cleared, count) = (lowered + low, cleared + clear, count + usize::from(clear > 0));
+        }
+    }
+    assert!(
+        count >= 12 && lowered > 200 && cleared > 500,
+        "{count} rivers, {lowered} lower, {cleared} plants fewer"
+    );
+}
+
 #[test]
 fn the_castle_of_the_examples_is_built_with_two_packages() {
     let script = root().join("examples/castle.lua");

@@ -57,6 +57,21 @@ fn a_focus_inside_a_planet_is_refused() {
 }
 
 #[test]
+fn a_focus_below_the_ground_or_the_water_is_refused() {
+    let focus = |options: &str, z: f64| {
+        format!(
+            "local s = lsystem({{ object = planet({{ radius = 100000, levels = 8, {options} rules = rules }}) }}) \
+             s:axiom(A()) s:interpret(\"A\", function(this) this:focus(0, 0, {z}) end) s:derive(0)"
+        )
+    };
+    let below = told(&focus("", 99_500.0));
+    assert!(below.contains("planet: the focus (0, 0, 99500) is 500 m below the ground"), "{below}");
+    assert!(below.contains("there it is 100000.0 m from the centre"), "{below}");
+    let below = told(&focus("water = 2000,", 101_900.0));
+    assert!(below.contains("is 100 m below the water"), "{below}");
+}
+
+#[test]
 fn a_planet_that_would_be_too_much_is_refused() {
     let near = "lsystem({ object = planet({ closeness = 100, levels = 20, rules = rules }) }):derive(0)";
     assert_snapshot!(told(near), @r#"

@@ -200,8 +200,15 @@ export function view(name) {
   return { azimuth: azimuth * DEGREE, elevation: elevation * DEGREE };
 }
 
-/** The first view of a model: steeper on what is flat, as the pictures of `run` are. */
-export function firstView(box) {
+/**
+ * The first view of a model: steeper on what is flat, as the pictures of `run` are. With `up`, the side of a planet that
+ * is in focus.
+ */
+export function firstView(box, up) {
+  if (up) {
+    const elevation = Math.asin(up.y / up.length());
+    return { azimuth: Math.atan2(up.x, -up.z), elevation: Math.min(Math.max(elevation, -85 * DEGREE), 85 * DEGREE) };
+  }
   const size = box.getSize(new Vector3());
   const slender = Math.min(Math.max(size.y / Math.max(size.x, size.z, 1e-9), 0.1), 3);
   const bend = slender < 1 ? 16 : 16.8;

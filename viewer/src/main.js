@@ -134,7 +134,7 @@ async function show(message) {
       const kept = restore(stage, state.hello.path);
       if (kept?.flat) view.project();
       if (!kept)
-        stage.camera.go(stage.camera.fitted(stage.model.box, ...Object.values(firstView(stage.model.box))), true);
+        stage.camera.go(stage.camera.fitted(stage.model.box, ...Object.values(firstView(stage.model.box, stage.model.up))), true);
     }
   }
   const ms = readouts.times(message, own);

@@ -58,7 +58,9 @@ export function build(glb, made, plain) {
     for (const child of node.children ?? []) visit(child, matrix);
   };
 
-  let roots = scenes?.[scene]?.nodes ?? [];
+  const { nodes: shown, extras } = scenes?.[scene] ?? {};
+  if (extras?.up) model.up = new Vector3(...extras.up);
+  let roots = shown ?? [];
   const first = nodes[roots[0]];
   if (roots.length === 1 && first.name === 'origin' && first.translation && first.mesh === undefined) {
     // Far from zero 32-bit floats get coarse, so the page works around the model's own origin.
@@ -81,6 +83,8 @@ export class Model {
   box = new Box3();
   /** Where (0, 0, 0) of the group is in the file. */
   origin = new Vector3();
+  /** The direction that is up where the model is looked at, if it is not +y. */
+  up = null;
   triangles = 0;
 
   add(geometry, material, matrix, instances, from) {

@@ -12,7 +12,7 @@ pub struct Picture {
     /// Height (pixels), 1 to 16384.
     pub height: u32,
     /// Where the camera stands (degrees): 0 to the north of the model, 90 to the east, 180 to the south.
-    /// North is +y. Without it the model's shape decides: a three-quarter view, or the broad side of what is
+    /// North is +y, on a planet its pole. Without it the model's shape decides: a three-quarter view, or the broad side of what is
     /// flat.
     pub azimuth: Option<f64>,
     /// How high the camera stands above the horizon (degrees), -90 to 90. Without it the model's shape

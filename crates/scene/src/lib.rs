@@ -11,6 +11,7 @@ mod normal;
 mod shared;
 mod surface;
 mod triangles;
+mod upright;
 
 pub use city::CityClass;
 pub use material::{Material, Texture};
@@ -19,6 +20,7 @@ pub use normal::Normal;
 pub use shared::SharedMeshes;
 pub use surface::{SurfaceMeaning, SurfaceRuns};
 pub use triangles::{Iter, Triangles};
+pub use upright::Upright;
 
 use glam::{DAffine3, DVec3};
 use rayon::prelude::*;
@@ -36,6 +38,8 @@ pub struct Scene {
     pub instances: Vec<Instance>,
     /// Which meshes are those of placed models; leave it to [`Default`].
     pub shared: SharedMeshes,
+    /// Up and north for the default camera; z and y if an object does not set them.
+    pub upright: Option<Upright>,
 }
 
 /// A mesh put somewhere.
@@ -83,7 +87,7 @@ impl Scene {
     /// The scene with those instances alone that are to be kept, and what they need.
     #[must_use]
     pub fn only(&self, keep: impl Fn(&Instance) -> bool) -> Self {
-        let mut scene = Self::default();
+        let mut scene = Self { upright: self.upright, ..Self::default() };
         let mut meshes = vec![None; self.meshes.len()];
         for instance in self.instances.iter().filter(|instance| keep(instance)) {
             let mesh = *meshes[instance.mesh].get_or_insert_with(|| {

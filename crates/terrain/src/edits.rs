@@ -42,6 +42,15 @@ pub enum Edit {
         /// Over which distance (m) beside it the ground changes less and less.
         margin: f64,
     },
+    /// The ground along a path is nowhere higher than the path.
+    Carve {
+        /// The path (m), with heights.
+        path: Vec<[f64; 3]>,
+        /// Width (m) of the bed.
+        width: f64,
+        /// Width (m) of the slope on each side, over which the ground changes less and less.
+        margin: f64,
+    },
     /// The ground along a path is lower than it was; higher, if the depth is below 0.
     Dig {
         /// The path (m).
@@ -70,6 +79,7 @@ impl Edit {
         match &mut self {
             Self::Flatten { height, .. } => *height += lift,
             Self::Cut { path: line, .. }
+            | Self::Carve { path: line, .. }
             | Self::Embank { bed: GroundBed { line, .. } }
             | Self::Excavate { bed: GroundBed { line, .. } } => line.iter_mut().for_each(|at| at[2] += lift),
             Self::Dig { .. } => {}
@@ -83,7 +93,7 @@ impl Edit {
             Self::Flatten { outline, margin, .. } => {
                 (outline.iter().map(|at| DVec2::from(*at)).collect(), *margin)
             }
-            Self::Cut { path, width, margin } => {
+            Self::Cut { path, width, margin } | Self::Carve { path, width, margin } => {
                 (path.iter().map(|[x, y, _]| DVec2::new(*x, *y)).collect(), width / 2.0 + margin)
             }
             Self::Dig { path, width, .. } => (path.iter().map(|at| DVec2::from(*at)).collect(), width / 2.0),
@@ -103,14 +113,9 @@ impl Edit {
                 let distance = if contains(outline, place) { 0.0 } else { to_line(outline, place, true).0 };
                 mix(height, *level, fade(distance, *margin))
             }
-            Self::Cut { path, width, margin } => {
-                let flat: Vec<[f64; 2]> = path.iter().map(|[x, y, _]| [*x, *y]).collect();
-                let (distance, piece, along) = to_line(&flat, place, false);
-                let level = match path.get(piece + 1) {
-                    Some(next) => mix(path[piece][2], next[2], along),
-                    None => path[piece][2],
-                };
-                mix(height, level, fade(distance - width / 2.0, *margin))
+            Self::Cut { path, width, margin } => along_path(path, *width, *margin, place, height),
+            Self::Carve { path, width, margin } => {
+                height.min(along_path(path, *width, *margin, place, height))
             }
             Self::Dig { path, width, depth } => {
                 let (distance, ..) = to_line(path, place, false);
@@ -132,7 +137,7 @@ impl Edit {
             Self::Flatten { outline, height, margin } => {
                 (outline.iter().flatten().copied().chain([*height]).collect(), 2 * 3 + 1, vec![*margin])
             }
-            Self::Cut { path, width, margin } => {
+            Self::Cut { path, width, margin } | Self::Carve { path, width, margin } => {
                 (path.iter().flatten().copied().collect(), 2 * 3, vec![*width, *margin])
             }
             Self::Dig { path, width, depth } => {
@@ -164,6 +169,17 @@ impl Edit {
         }
         None
     }
+}
+
+/// The height (m) at `place` (m), where it was `height` (m), once the ground follows a path of `width` (m).
+fn along_path(path: &[[f64; 3]], width: f64, margin: f64, place: DVec2, height: f64) -> f64 {
+    let flat: Vec<[f64; 2]> = path.iter().map(|[x, y, _]| [*x, *y]).collect();
+    let (distance, piece, along) = to_line(&flat, place, false);
+    let level = match path.get(piece + 1) {
+        Some(next) => mix(path[piece][2], next[2], along),
+        None => path[piece][2],
+    };
+    mix(height, level, fade(distance - width / 2.0, margin))
 }
 
 /// The smallest cell that holds what an edit reaches: level, row and column.

@@ -8,12 +8,14 @@ use super::mesh::Arrays;
 use super::metadata::Metadata;
 use super::{InstancePlace, body, material, mesh, place};
 use crate::check::{SceneCheck, check};
+use crate::decompose::y_up;
 use crate::files::Files;
 use crate::texture::Images;
 use crate::{SceneFacts, stem, uri};
 use burgeon_base::error::{Error, Result};
 use burgeon_base::stop::Stop;
 use burgeon_scene::Scene;
+use glam::DAffine3;
 use gltf_json as json;
 use json::extras::RawValue;
 
@@ -143,11 +145,7 @@ impl<'a> Document<'a> {
             material::use_extension(&mut description.root, QUANTIZATION);
             description.root.extensions_required.push(QUANTIZATION.into());
         }
-        let extras = (!placed.features.is_empty())
-            .then(|| {
-                RawValue::from_string(serde_json::json!({ "features": placed.features }).to_string()).ok()
-            })
-            .flatten();
+        let extras = scene_extras(&placed.features, checked.scene);
         let nodes = placed.nodes.iter().map(|node| json::Index::new(*node as u32)).collect();
         description.root.scenes.push(json::Scene { extensions: None, extras, name: None, nodes });
         body.describe(&mut description.root)?;
@@ -179,4 +177,17 @@ impl<'a> Document<'a> {
 /// A name for people, or nothing.
 pub(super) fn name(name: &str) -> Option<String> {
     (!name.is_empty()).then(|| name.to_owned())
+}
+/// Extras of the glTF scene: the ids of shared instances' features, and up for a camera if it is not glTF's own.
+fn scene_extras(features: &[&str], scene: &Scene) -> Option<Box<RawValue>> {
+    let mut extras = serde_json::Map::new();
+    if !features.is_empty() {
+        extras.insert("features".into(), features.into());
+    }
+    if let Some(upright) = scene.upright {
+        let up = y_up(&DAffine3::from_translation(upright.up())).translation;
+        extras.insert("up".into(), up.to_array().to_vec().into());
+    }
+    let text = serde_json::Value::Object(extras).to_string();
+    RawValue::from_string(text).ok().filter(|text| text.get() != "{}")
 }

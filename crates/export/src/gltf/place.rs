@@ -238,7 +238,8 @@ impl AttributeColumn {
     }
 }
 
-/// A node for one instance; two nodes, one in the other, for a sheared one. The second of the result has the mesh.
+/// Adds the nodes for one instance and returns the outermost and the one with the mesh. They are the same unless the
+/// instance is sheared, or so far away that a second translation has to hold what the first one rounds off.
 fn alone<'a>(
     instance: &'a Instance,
     mesh: usize,
@@ -251,7 +252,7 @@ fn alone<'a>(
         feature: instance.feature.as_deref().map(|feature| FeatureExtras { feature }),
         ..Node::default()
     };
-    match decompose(transform) {
+    let (outer, inner) = match decompose(transform) {
         Steps::One(trs) => {
             let node = description.node(placed(shown, &trs));
             (node, node)
@@ -261,7 +262,10 @@ fn alone<'a>(
             let outer = Node { children: Some(vec![inner]), ..Node::default() };
             (description.node(placed(outer, &rest)), inner)
         }
-    }
+    };
+    let Some(lost) = rounding(transform.translation) else { return (outer, inner) };
+    let children = Some(vec![outer]);
+    (description.node(Node { translation: translation(lost), children, ..Node::default() }), inner)
 }
 
 /// A node for all instances of a group; `mesh` is its number with how far (m) it reaches.
@@ -337,6 +341,15 @@ fn instance_alone(
         INSTANCING: { "attributes": { FEATURE: features, "TRANSLATION": translation } },
         INSTANCE_FEATURES: instance_features(&[row as f32], table),
     }));
+}
+
+/// Rounding (m) of a translation that is not corrected: 32-bit floats have it from 8 km on.
+const UNCORRECTED: f64 = 5e-4;
+
+/// The part (m) of a translation that 32-bit floats do not hold, if it is large enough to open gaps between neighbours.
+fn rounding(translation: DVec3) -> Option<DVec3> {
+    let lost = translation - translation.as_vec3().as_dvec3();
+    (lost.abs().max_element() > UNCORRECTED).then_some(lost)
 }
 
 /// `node` with a transform; what is the default is left out.

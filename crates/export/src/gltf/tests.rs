@@ -228,6 +228,19 @@ fn a_far_model_has_one_whole_offset_and_loses_less_than_a_millimetre() {
 }
 
 #[test]
+fn a_model_as_large_as_a_planet_loses_less_than_a_millimetre() {
+    let mut scene = samples::boxes(5);
+    let places = [[0.3, 6_371_000.7, -12.1], [4_100_000.2, -3.3, 0.1], [-6_371_000.4, 0.2, 812.3]];
+    for (instance, place) in scene.instances.iter_mut().zip(places) {
+        instance.transform.translation = DVec3::from(place);
+    }
+    assert!(distance(&scene) < 1e-3, "{}", distance(&scene));
+    // What is near has one node each, as before.
+    let file = Gltf::from_slice(&glb(&scene).unwrap()).unwrap();
+    assert_eq!(file.nodes().count(), 5 + 3);
+}
+
+#[test]
 fn points_beyond_a_u16_are_indexed_by_u32() {
     for (n, kind) in [(254, json::accessor::ComponentType::U16), (256, json::accessor::ComponentType::U32)] {
         let bytes = glb(&samples::hill(n)).unwrap();

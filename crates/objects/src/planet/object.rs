@@ -3,14 +3,14 @@
 use std::sync::Arc;
 
 use super::looks;
-use crate::terrain::{GroundCover, RuleLayers, Water, lost_focus, rules};
+use crate::terrain::{GroundCover, RuleLayers, Water, lost_focus, rounded, rules};
 use burgeon_base::error::{Error, Result};
 use burgeon_base::text::number;
 use burgeon_base::warning::Warning;
 use burgeon_kit::rules::ModuleKey;
 use burgeon_kit::{Color, Expand, Rewriter, Seed, Show, Vector, Warn, fields, methods, object};
-use burgeon_scene::{Instance, Material, Mesh, Scene};
-use burgeon_terrain::globe::{DEEPEST, DETAIL, Globe, GlobeMesh};
+use burgeon_scene::{Instance, Material, Mesh, Scene, Upright};
+use burgeon_terrain::globe::{DEEPEST, DETAIL, Globe, GlobeMesh, GlobeView};
 use burgeon_terrain::{Cells, World};
 use glam::{DAffine3, DVec3};
 use rayon::prelude::*;
@@ -51,7 +51,7 @@ pub struct PlanetOptions {
     pub axis: Vector,
     /// What its random numbers come from: a number or a string; the run's seed, if it is left out.
     pub seed: Option<Seed>,
-    /// Whether what lies below the horizon of the focus is left out.
+    /// Omit tiles below the horizon of the focus, and keep them coarse.
     pub horizon: bool,
     /// What lies on it, from the bottom to the top.
     pub covers: Vec<GroundCover>,
@@ -81,10 +81,12 @@ pub struct PlanetOptions {
 pub struct Planet {
     options: Arc<PlanetOptions>,
     globe: Globe,
-    /// From where the present pass wants to see it (m, from its middle).
-    wanted: Option<DVec3>,
-    /// From where it is seen (m, from its middle).
+    /// Position of the eye that the present pass wants (m, from its centre), and its height (m) above the ground.
+    wanted: Option<(DVec3, f64)>,
+    /// Position of the eye (m, from its centre).
     eye: Option<DVec3>,
+    /// Height (m) of the eye above the ground that its pass knew.
+    clearance: f64,
     /// Whether the script is only checked.
     sketched: bool,
     warnings: Vec<Warning>,
@@ -92,8 +94,9 @@ pub struct Planet {
 
 #[methods("planet")]
 impl Planet {
-    /// Expands what is seen from the place at `x` (m), `y` (m) and `z` (m) when the pass ends: the nearer to it, the further.
-    /// The last focus of a pass counts.
+    /// Expands what is seen from the position `x` (m), `y` (m), `z` (m) when the pass ends: the nearer to it, the further.
+    /// Fails below the ground or the water that the pass knows. Where finer ground is higher, the eye is above it by as
+    /// much. The last focus of a pass counts.
     pub fn focus(&mut self, x: f64, y: f64, z: f64) -> Result<()> {
         let (eye, radius) = (DVec3::new(x, y, z) - self.options.position.0, self.options.radius);
         if eye.length() < radius * (1.0 - DEEP) {
@@ -103,11 +106,23 @@ impl Planet {
             ))
             .help(format!("its ground is about {radius} m from its middle: look from farther out")));
         }
-        if let Some(earlier) = self.wanted.filter(|earlier| *earlier != eye) {
+        let above = self.globe.height(eye).map(|height| eye.length() - radius - self.globe.shown(height));
+        if let Some(below) = above.map(|above| -above).filter(|below| *below > 1e-6 * radius.max(1.0)) {
+            return Err(Error::argument(format!(
+                "planet: the focus ({x}, {y}, {z}) is {} m below the {}",
+                number(rounded(below)),
+                self.surface_name(eye)
+            ))
+            .help(format!(
+                "there it is {:.1} m from the centre: add a height to this:surface(direction)",
+                eye.length() + below
+            )));
+        }
+        if let Some((earlier, _)) = self.wanted.filter(|(earlier, _)| *earlier != eye) {
             let at = earlier + self.options.position.0;
             self.warnings.push(lost_focus("planet", &format!("({}, {}, {})", at.x, at.y, at.z)));
         }
-        self.wanted = Some(eye);
+        self.wanted = Some((eye, above.unwrap_or_default().max(0.0)));
         Ok(())
     }
 
@@ -192,7 +207,18 @@ impl Planet {
             wanted: None,
             sketched: false,
             eye: None,
+            clearance: 0.0,
         })
+    }
+
+    /// The name of what one sees of the surface in a direction.
+    fn surface_name(&self, direction: DVec3) -> &'static str {
+        let height = self.globe.height(direction);
+        if self.globe.sea().is_some_and(|sea| height.is_some_and(|height| height < sea)) {
+            "water"
+        } else {
+            "ground"
+        }
     }
 
     /// The globe that is expanded.
@@ -245,8 +271,10 @@ impl Expand for Planet {
         if let Some(world) = self.globe.world().begun(divide)? {
             self.globe = Globe::new(world, self.options.radius, self.globe.sea());
         }
-        self.eye = self.wanted;
-        self.globe.focus(self.eye, self.options.closeness, self.options.levels, divide)
+        (self.eye, self.clearance) = self.wanted.map_or((None, 0.0), |(eye, above)| (Some(eye), above));
+        let PlanetOptions { closeness, levels, horizon, .. } = *self.options;
+        let view = GlobeView { eye: self.eye, clearance: self.clearance, closeness, levels, horizon };
+        self.globe.focus(&view, divide)
     }
 
     fn sketch(&mut self) {
@@ -262,6 +290,7 @@ impl Show for Planet {
             cover.on.check("planet", globe.world())?;
         }
         let hidden = self.eye.filter(|_| self.options.horizon);
+        scene.upright = scene.upright.or_else(|| Upright::new(self.eye?, self.options.axis.0));
         let tiles: Vec<_> = globe.tiles().collect();
         let made: Vec<_> = tiles
             .into_par_iter()

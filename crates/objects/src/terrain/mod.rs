@@ -3,6 +3,7 @@
 //! Comes in: rules, edits and a view. Goes out: tiles with what grows on them, and heights. It never expands what nobody
 //! looks at.
 
+mod beds;
 mod build;
 mod edits;
 pub(super) mod looks;
@@ -18,8 +19,8 @@ mod water;
 pub use edits::EditFile;
 pub use looks::GroundCover;
 pub use mask::Mask;
-pub(super) use object::lost_focus;
 pub use object::{Terrain, TerrainOptions};
+pub(super) use object::{lost_focus, rounded};
 pub use plants::Plants;
 pub use rules::{LayerRules, RuleLayer, RuleLayers};
 pub use water::Water;

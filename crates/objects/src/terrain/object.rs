@@ -12,7 +12,7 @@ use burgeon_kit::rules::ModuleKey;
 use burgeon_kit::{Color, ObjectParameter, Path, Vector, fields, methods, object};
 use burgeon_kit::{Expand, Rewriter, Show, Warn};
 use burgeon_scene::Scene;
-use burgeon_terrain::{Cells, DEEPEST, Drainage, Dry, Edit, Edits, Ground, GroundMap, View, World};
+use burgeon_terrain::{Cells, Channel, DEEPEST, Drainage, Dry, Edit, Edits, Ground, GroundMap, View, World};
 use glam::{DVec2, DVec3};
 
 /// What `terrain { ... }` takes.
@@ -152,8 +152,9 @@ impl Terrain {
         self.change(Edit::Dig { path: flat(&path.points), width, depth })
     }
 
-    /// Lets a river of `width` (m) run from a place downhill, to the standing water, the rim or an earlier river; its
-    /// bed is dug when the pass ends. There is none from a place under water.
+    /// Lets a river of `width` (m) run downhill from a place, to the standing water, the rim or an earlier river; its
+    /// bed is dug when the pass ends, and nothing grows in it. It raises no ground. A place under water starts no river,
+    /// and a bed deeper than its width and than 10 m gives a warning.
     pub fn river(&mut self, source: Vector, width: f64) -> Result<()> {
         if !(width > 0.0 && width <= self.options.size) {
             return Err(Error::argument(format!("terrain:river: width is {} m", number(width)))
@@ -174,10 +175,15 @@ impl Terrain {
                 return Ok(());
             }
         };
+        let channel = Channel::new(&way, width, |at| self.ground.height(at));
+        let (place, cut) = channel.deepest;
+        if cut > width.max(DEEP) {
+            self.warnings.push(deep(place, cut));
+        }
         let depth = width * SHALLOW;
-        let path = way.iter().map(|at| [at.x, at.y, at.z - depth]).collect();
-        self.rivers.push(River { way, width });
-        self.change(Edit::Cut { path, width, margin: width * 1.5 })
+        let path = channel.path.iter().map(|at| [at.x, at.y, at.z - depth]).collect();
+        self.rivers.push(River { way: channel.path, width });
+        self.change(Edit::Carve { path, width, margin: width * 1.5 })
     }
 
     /// Height (m) of the ground at a place; fails where nothing is expanded.
@@ -372,11 +378,25 @@ pub(crate) fn lost_focus(kind: &str, earlier: &str) -> Warning {
     Warning::new(WarningKind::NoEffect, text).help("the last focus of a pass counts: focus once")
 }
 
-/// A length (m) as people read it.
-fn rounded(length: f64) -> f64 {
+/// A length (m) rounded to three digits, for messages.
+pub(crate) fn rounded(length: f64) -> f64 {
     let unit = 10f64.powf(2.0 - length.abs().max(1e-9).log10().floor());
     (length * unit).round() / unit
 }
+
+/// Warns of a river that has to cut the ground deeply (m) at a place (m).
+fn deep(at: DVec2, cut: f64) -> Warning {
+    let text = format!(
+        "terrain:river: at ({:.1}, {:.1}) its bed is cut {cut:.1} m deep into the ground",
+        at.x, at.y
+    );
+    let help = "it leaves a hollow there: begin it farther down, fill the hollow with water = { level = ... }, or lower \
+                the ground with this:cut or this:dig";
+    Warning::new(WarningKind::Doubtful, text).help(help)
+}
+
+/// Depth (m) up to which a bed of any width may be cut without a warning.
+const DEEP: f64 = 10.0;
 
 /// How deep a river's bed is, as a multiple of its width.
 const SHALLOW: f64 = 0.12;

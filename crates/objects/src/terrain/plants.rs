@@ -5,6 +5,7 @@ use std::sync::Arc;
 use glam::{DAffine3, DQuat, DVec2, DVec3};
 use rayon::prelude::*;
 
+use super::beds::RiverBeds;
 use super::mask::{GroundPoint, Mask};
 use burgeon_base::error::{Error, Limit, Result};
 use burgeon_kit::random::Stream;
@@ -66,8 +67,15 @@ impl Parameter for Plants {
 }
 
 impl Plants {
-    /// Places them on all of `ground`. Which there are depends on the world, the `key` and the place alone.
-    pub(super) fn scatter(&self, ground: &Ground, key: ModuleKey, drawing: &mut Drawing) -> Result<()> {
+    /// Places them on all of `ground` but in the `beds` of rivers. Which there are depends on the world, the `key` and the
+    /// place alone.
+    pub(super) fn scatter(
+        &self,
+        ground: &Ground,
+        key: ModuleKey,
+        beds: &RiverBeds,
+        drawing: &mut Drawing,
+    ) -> Result<()> {
         let world = ground.world();
         // The squares of a level on each of which at most one grows.
         let most = 10_000.0 / self.density;
@@ -103,7 +111,8 @@ impl Plants {
                 .into_par_iter()
                 .map(|y| {
                     let one = |x: u64| self.one(ground, key, (x, y), (cell, chance), reach);
-                    (x..x + across).filter_map(one).collect()
+                    let grown = (x..x + across).filter_map(one);
+                    grown.filter(|(_, frame)| !beds.contain(frame.translation.truncate())).collect()
                 })
                 .collect();
             for (model, frame) in grown.into_iter().flatten() {

@@ -2,6 +2,7 @@
 
 use glam::{DAffine3, DVec3};
 
+use super::beds::RiverBeds;
 use super::{Terrain, looks, sides};
 use burgeon_base::error::{Error, Result};
 use burgeon_kit::Drawing;
@@ -77,9 +78,10 @@ impl Terrain {
             let part = drawing.material(&material);
             river.draw(drawing.part(part));
         }
+        let beds = RiverBeds::new(&self.rivers);
         for (number, plants) in (1u64..).zip(&self.options.plants) {
             let key = ModuleKey(self.key.0.wrapping_add(number)).child(0);
-            plants.scatter(ground, key, &mut drawing)?;
+            plants.scatter(ground, key, &beds, &mut drawing)?;
         }
         drawing.show(scene, name, feature);
         Ok(())

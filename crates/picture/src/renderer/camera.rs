@@ -73,16 +73,22 @@ impl Camera {
         Self { near: self.near * 0.02, ..self }
     }
 
-    /// The pixel coordinates of a point in the camera's axes, and its depth, 0 at the nearest to 1 infinitely
-    /// far. The depth of a plane is linear over the picture. Not finite for a point not in front.
+    /// Returns the distance of the plane in front of which points are seen.
+    pub(super) fn near_plane(&self) -> f32 {
+        self.near * 0.5
+    }
+
+    /// Returns the pixel coordinates of a point in the camera's axes, and its depth, below 0 before the nearest point
+    /// to 1 infinitely far. The depth of a plane is linear over the picture. Not finite for a point behind the near
+    /// plane.
     pub(super) fn project(&self, point: Vec3A) -> Vec3A {
-        if point.z < self.near * 0.5 {
+        if point.z < self.near_plane() {
             return Vec3A::NAN;
         }
         let scale = 1.0 / point.z;
         let x = self.center[0] + point.x * self.focal * scale;
         let y = self.center[1] + point.y * self.focal * scale;
-        Vec3A::new(x, y, (1.0 - self.near * scale).max(0.0))
+        Vec3A::new(x, y, 1.0 - self.near * scale)
     }
 
     /// The direction, not of unit length, from the eye through pixel coordinates `x`, `y`.
@@ -114,8 +120,9 @@ mod tests {
                 0..stage.triangles() as u32,
                 &camera.view,
                 |p| camera.project(p),
-                |_, _, corners| {
-                    for corner in corners {
+                None,
+                |_, triangle| {
+                    for corner in triangle.corners {
                         for axis in 0..2 {
                             low[axis] = low[axis].min(corner[axis] / size[axis] as f32);
                             high[axis] = high[axis].max(corner[axis] / size[axis] as f32);

@@ -1,6 +1,6 @@
 //! Which samples of the picture and of the maps a surface covers that is translucent or cut out by its texture.
 
-use super::stage::DrawCall;
+use super::stage::{DrawCall, ProjectedTriangle};
 use super::texture::SampledTexture;
 use glam::{Vec2, Vec3, Vec3A};
 
@@ -31,22 +31,23 @@ struct Cutout<'a> {
 }
 
 impl<'a> Coverage<'a> {
-    /// The coverage of triangle `number`, one of `draw`, in blocks of so many samples across and down.
+    /// Returns the coverage of a triangle of `draw` in blocks of so many samples across and down.
     ///
     /// The corners of the `triangle` are in samples. If it is seen in perspective, the third coordinate is 1 infinitely
     /// far away.
     #[inline]
     pub(super) fn of(
         draw: &DrawCall<'a>,
-        number: u32,
-        triangle: &[Vec3A; 3],
+        triangle: &ProjectedTriangle,
         block: [usize; 2],
         perspective: bool,
     ) -> Self {
         let cutout = draw.cutout.and_then(|texture| {
-            let corners = draw.part.triangles.get((number - draw.first) as usize)?;
+            let corners = draw.part.triangles.get((triangle.number - draw.first) as usize)?;
             let uvs = corners.map(|corner| draw.part.uvs.get(corner as usize).copied().unwrap_or_default());
-            Some(Cutout::new(texture, uvs, triangle, perspective))
+            let mix = |weights: Vec3A| uvs[0] * weights.x + uvs[1] * weights.y + uvs[2] * weights.z;
+            let uvs = triangle.weights.map_or(uvs, |weights| weights.map(mix));
+            Some(Cutout::new(texture, uvs, &triangle.corners, perspective))
         });
         Self { opacity: draw.opacity, seed: draw.first.wrapping_mul(0x9e37_79b9), block, cutout }
     }

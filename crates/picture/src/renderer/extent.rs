@@ -4,7 +4,7 @@ use super::points::spread;
 use super::stage::{Stage, sphere};
 use burgeon_base::error::Result;
 use burgeon_scene::Scene;
-use glam::{DAffine3, DVec3, Vec3A};
+use glam::{DAffine3, DMat3, DVec3, Vec3A};
 
 /// Directions in which the farthest point is kept. The camera's margin is larger than what lies between them.
 const DIRECTIONS: usize = 512;
@@ -38,9 +38,9 @@ impl Extent {
         self.points.extend_from_slice(&other.points);
     }
 
-    /// The middle and the radius (m) of a sphere around it.
-    pub(super) fn sphere(&self) -> (DVec3, f64) {
-        let (low, high) = super::points::bounds(self.points.iter().copied());
+    /// Returns the centre and the radius (m) of a sphere around it after the rotation `turn`.
+    pub(super) fn sphere(&self, turn: DMat3) -> (DVec3, f64) {
+        let (low, high) = super::points::bounds(self.points.iter().map(|point| turn * *point));
         sphere(low, high)
     }
 

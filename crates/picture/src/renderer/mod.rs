@@ -5,6 +5,7 @@
 //! into a colour (`develop`).
 
 mod camera;
+mod clip;
 mod coverage;
 mod detail;
 mod develop;

@@ -131,9 +131,10 @@ impl SkySample {
             all,
             &frame.to_texels,
             |p| p,
-            |number, draw, triangle| {
-                let coverage = Coverage::of(draw, number, &triangle, [4, 4], false);
-                grid.cover(triangle, |y, xs, z, growth| {
+            None,
+            |draw, triangle| {
+                let coverage = Coverage::of(draw, &triangle, [4, 4], false);
+                grid.cover(triangle.corners, |y, xs, z, growth| {
                     let texels = &mut depths[y * width + xs.start..y * width + xs.end];
                     let depth = |i: usize| (z + growth * (i as i32 as f32)) as i32 as u16;
                     if coverage.is_full() {

@@ -1,8 +1,9 @@
-//! The scene made ready to be rendered: checked, moved to the origin and shrunk to unit size.
+//! The scene made ready to be rendered: checked, turned upright, moved to the origin and shrunk to unit size.
 //!
 //! Instances are not unfolded: a triangle is known by its number in the order of instances, parts and
 //! triangles, and found again by searching the draws.
 
+use super::clip::clip;
 use super::extent::Extent;
 use super::points;
 use super::texture::SampledTexture;
@@ -51,6 +52,16 @@ pub(super) struct DrawCall<'a> {
     pub double_sided: bool,
 }
 
+/// A triangle, or a part of one that was clipped, as a view shows it.
+pub(super) struct ProjectedTriangle {
+    /// The triangle's number.
+    pub number: u32,
+    /// The corners after the projection.
+    pub corners: [Vec3A; 3],
+    /// For each corner its weights of the triangle's own corners, if the triangle was clipped.
+    pub weights: Option<[Vec3A; 3]>,
+}
+
 impl<'a> Stage<'a> {
     /// Checks `scene` and finds its size. Fails if an index is out of range or triangles are too many to number.
     pub(super) fn new(scene: &'a Scene) -> Result<Self> {
@@ -69,16 +80,14 @@ impl<'a> Stage<'a> {
         check(scene)?;
         stop.check()?;
         let outlines = points::outlines(scene);
+        let turn = scene.upright.map_or(DMat3::IDENTITY, |upright| upright.rotation());
         let corners = |instance: &'a burgeon_scene::Instance| {
-            let transform = instance.transform;
+            let transform = DAffine3::from_mat3(turn) * instance.transform;
             outlines[instance.mesh].iter().map(move |point| transform.transform_point3(point.as_dvec3()))
         };
         let (low, high) = points::bounds(scene.instances.iter().flat_map(corners));
-        let (center, radius) = extent.map_or_else(|| sphere(low, high), Extent::sphere);
-        let shrink = DAffine3::from_mat3_translation(
-            DMat3::from_diagonal(DVec3::splat(1.0 / radius)),
-            -center / radius,
-        );
+        let (center, radius) = extent.map_or_else(|| sphere(low, high), |extent| extent.sphere(turn));
+        let shrink = DAffine3::from_mat3_translation(turn * (1.0 / radius), -center / radius);
 
         let mut draws = Vec::new();
         let mut places = Vec::new();
@@ -153,14 +162,17 @@ impl<'a> Stage<'a> {
         (draw, (number - draw.first) as usize)
     }
 
-    /// Calls `emit` with the number, draw and corners of each triangle in `numbers`, the corners taken
-    /// through `view` and `project`. Triangles with a corner that is not finite are left out.
+    /// Calls `emit` with the draw and each triangle in `numbers`, its corners taken through `view` and `project`.
+    ///
+    /// Triangles with a corner that `project` does not show are clipped at the plane at the distance `near`, if there is
+    /// one. Triangles with a corner that is not finite are skipped.
     pub(super) fn each_triangle(
         &self,
         numbers: Range<u32>,
         view: &Affine3A,
         project: impl Fn(Vec3A) -> Vec3A,
-        mut emit: impl FnMut(u32, &DrawCall<'a>, [Vec3A; 3]),
+        near: Option<f32>,
+        mut emit: impl FnMut(&DrawCall<'a>, ProjectedTriangle),
     ) {
         if numbers.is_empty() {
             return;
@@ -175,7 +187,8 @@ impl<'a> Stage<'a> {
             let to = ((numbers.end - draw.first) as usize).min(draw.part.triangles.len());
             let triangles = draw.part.triangles.range(from..to);
             let matrix = to_double(view) * draw.exact;
-            let turn = |point: &glam::Vec3| project(matrix.transform_point3(point.as_dvec3()).as_vec3a());
+            let place = |point: &glam::Vec3| matrix.transform_point3(point.as_dvec3()).as_vec3a();
+            let turn = |point: &glam::Vec3| project(place(point));
             let (least, most) =
                 triangles.clone().flatten().fold((u32::MAX, 0), |(a, b), i| (a.min(i), b.max(i)));
             let (least, most) = (least as usize, most as usize);
@@ -187,15 +200,25 @@ impl<'a> Stage<'a> {
                 corners.extend(positions[least..=most].iter().map(turn));
             }
             let first = draw.first + from as u32;
-            for (number, triangle) in (first..).zip(triangles) {
+            for (number, numbers) in (first..).zip(triangles) {
                 let triangle = if dense {
-                    triangle.map(|i| corners[i as usize - least])
+                    numbers.map(|i| corners[i as usize - least])
                 } else {
-                    triangle.map(|i| turn(&positions[i as usize]))
+                    numbers.map(|i| turn(&positions[i as usize]))
                 };
                 if triangle.iter().all(|corner| corner.is_finite()) {
-                    emit(number, draw, triangle);
+                    emit(draw, ProjectedTriangle { number, corners: triangle, weights: None });
+                    continue;
                 }
+                let placed = numbers.map(|i| place(&positions[i as usize]));
+                let Some(near) = near.filter(|_| placed.iter().all(|corner| corner.is_finite())) else {
+                    continue;
+                };
+                clip(placed, near, |corners, weights| {
+                    // A corner that rounding puts behind the plane is on it.
+                    let corners = corners.map(|corner| project(corner.with_z(corner.z.max(near))));
+                    emit(draw, ProjectedTriangle { number, corners, weights: Some(weights) });
+                });
             }
         }
     }
@@ -267,7 +290,8 @@ mod tests {
             5..30,
             &Affine3A::IDENTITY,
             |p| p,
-            |number, draw, _| {
+            None,
+            |draw, ProjectedTriangle { number, .. }| {
                 let (found, index) = stage.find(number);
                 assert_eq!((found.first, index), (draw.first, (number - draw.first) as usize));
                 seen += 1;

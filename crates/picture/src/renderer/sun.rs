@@ -47,9 +47,10 @@ impl Sun {
                 numbers,
                 &frame.to_texels,
                 |p| p,
-                |number, draw, triangle| {
-                    let coverage = Coverage::of(draw, number, &triangle, [4, 4], false);
-                    grid.cover(triangle, |y, xs, z, growth| {
+                None,
+                |draw, triangle| {
+                    let coverage = Coverage::of(draw, &triangle, [4, 4], false);
+                    grid.cover(triangle.corners, |y, xs, z, growth| {
                         for (i, x) in xs.enumerate() {
                             // The bits of numbers that are not negative are ordered as they are.
                             let depth = (z + growth * i as f32).max(0.0).to_bits();

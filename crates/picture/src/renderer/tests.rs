@@ -5,7 +5,7 @@ use super::{render, render_within};
 use crate::{Background, Picture, Quality};
 use burgeon_base::stop::Stop;
 use burgeon_scene::image::Image;
-use burgeon_scene::{Material, Part, Scene, Texture};
+use burgeon_scene::{Material, Part, Scene, Texture, Upright};
 use glam::{DAffine3, DVec3, Vec3};
 
 /// A small picture from the south-east on a transparent background, without a ground.
@@ -274,4 +274,74 @@ fn a_picture_that_nobody_waits_for_is_given_up() {
     stop.stop(burgeon_base::error::Error::stopped("the page has gone"));
     let error = render_within(&boxes(&[DVec3::ZERO]), None, &small(), &stop).unwrap_err();
     assert_eq!(error.message(), "the page has gone");
+}
+
+/// The cap of a sphere of 100 m around `up`, its triangles facing outwards.
+fn cap(up: DVec3) -> Scene {
+    let (right, ahead) = up.any_orthonormal_pair();
+    let mut part = Part::default();
+    let point = |i: usize, j: usize| {
+        let (x, y) = (i as f64 / 8.0 - 1.0, j as f64 / 8.0 - 1.0);
+        ((up + (right * x + ahead * y) * 0.4).normalize() * 100.0).as_vec3()
+    };
+    for i in 0..16 {
+        for j in 0..16 {
+            quad(&mut part, [point(i, j), point(i + 1, j), point(i + 1, j + 1), point(i, j + 1)]);
+        }
+    }
+    scene_of(part, Material::default())
+}
+
+#[test]
+fn a_part_of_a_planet_is_seen_from_above_it_wherever_it_lies() {
+    let picture = Picture { azimuth: None, elevation: None, ..small() };
+    let mut ways = directions();
+    let from_the_top = covered(&render(&cap(DVec3::Z), &picture).unwrap());
+    for up in ways.by_ref().take(12) {
+        let mut scene = cap(up);
+        scene.upright = Upright::new(up, DVec3::Z);
+        let image = render(&scene, &picture).unwrap();
+        assert!(
+            covered(&image).abs_diff(from_the_top) * 10 < from_the_top,
+            "up is {up}: {}",
+            covered(&image)
+        );
+        // It is lit from above, too.
+        assert!(brightness(&image, 40..56, 40..56) > 60.0, "up is {up}");
+    }
+}
+
+/// Directions all over the sphere, straight down among them.
+fn directions() -> impl Iterator<Item = DVec3> {
+    let golden = 2.399_963_229_728_653_f64;
+    std::iter::once(DVec3::NEG_Z).chain((0..).map(move |i| {
+        let z = 0.95 - 0.19 * f64::from(i % 11);
+        let (sin, cos) = (golden * f64::from(i)).sin_cos();
+        DVec3::new(cos * (1.0 - z * z).sqrt(), sin * (1.0 - z * z).sqrt(), z)
+    }))
+}
+
+#[test]
+fn a_plain_that_reaches_behind_the_camera_is_clipped_and_not_dropped() {
+    // A plain of two triangles and the same of 20,000: looked at from eye height, both look the same.
+    let plain = |cells: i32| {
+        let mut part = Part::default();
+        let side = 4000.0 / cells as f32;
+        for x in 0..cells {
+            for y in 0..cells {
+                let corner = Vec3::new(x as f32 * side - 2000.0, y as f32 * side - 2000.0, 0.0);
+                let [a, b] = [Vec3::X * side, Vec3::Y * side];
+                quad(&mut part, [corner, corner + a, corner + a + b, corner + b]);
+            }
+        }
+        scene_of(part, Material::default())
+    };
+    for (azimuth, elevation) in [(0.0, 2.0), (37.0, 4.0), (180.0, 12.0), (291.0, 30.0)] {
+        let look = Some(crate::ViewBall { at: [30.0, -20.0, 4.0], radius: 40.0 });
+        let picture = Picture { azimuth: Some(azimuth), elevation: Some(elevation), look, ..small() };
+        let [few, many] = [1, 100].map(|cells| render(&plain(cells), &picture).unwrap());
+        assert!(covered(&many) > 4000, "{} pixels", covered(&many));
+        let differ = few.pixels().iter().zip(many.pixels()).filter(|(a, b)| (a[3] > 0) != (b[3] > 0)).count();
+        assert!(differ * 100 < covered(&many), "azimuth {azimuth}: {differ} of {}", covered(&many));
+    }
 }

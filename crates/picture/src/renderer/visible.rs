@@ -47,19 +47,20 @@ impl Visible {
         let offset = Vec3A::new(0.0, (pixels.start * rows) as f32, 0.0);
         stage.batches().into_par_iter().for_each(|numbers| {
             let project = |point| camera.project(point) * scale - offset;
-            stage.each_triangle(numbers, &camera.view, project, |number, draw, triangle| {
-                let [a, b, c] = triangle;
+            let near = Some(camera.near_plane());
+            stage.each_triangle(numbers, &camera.view, project, near, |draw, triangle| {
+                let [a, b, c] = triangle.corners;
                 let turn = (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
                 // Outside faces run clockwise on the picture, whose y points down, unless they are mirrored.
                 if ((turn > 0.0) != draw.mirrored) && !draw.double_sided {
                     return;
                 }
-                let coverage = Coverage::of(draw, number, &triangle, [columns, rows], true);
-                grid.cover(triangle, |y, xs, z, growth| {
+                let coverage = Coverage::of(draw, &triangle, [columns, rows], true);
+                grid.cover(triangle.corners, |y, xs, z, growth| {
                     let shift = shifts[y & (rows - 1)];
                     for (i, x) in xs.enumerate() {
                         let depth = (z + growth * i as f32).max(0.0);
-                        let key = u64::from(depth.to_bits()) << 32 | u64::from(number);
+                        let key = u64::from(depth.to_bits()) << 32 | u64::from(triangle.number);
                         let sample = &samples[y * stride + x];
                         if key < sample.load(Ordering::Relaxed) && coverage.covers(x, y, shift) {
                             sample.fetch_min(key, Ordering::Relaxed);

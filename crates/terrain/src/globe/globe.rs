@@ -11,6 +11,7 @@ use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 use rustc_hash::FxHashMap;
 
+use super::GlobeView;
 use super::expand::{Areas, NONE, expand, padded};
 use super::faces::{CubeCell, aliases, corner};
 use super::leaves::{DEEPEST, DETAIL, Leaf, Sight, Tree};
@@ -32,6 +33,8 @@ pub struct Globe {
     tiles: Vec<Arc<Tile>>,
     /// The level of the smallest cells.
     finest: u32,
+    /// The height (m) of the highest mountains, once it is needed.
+    highest: Option<f64>,
 }
 
 impl Globe {
@@ -39,7 +42,15 @@ impl Globe {
     /// is divided.
     pub fn new(world: World, radius: f64, sea: Option<f64>) -> Self {
         let world = World { corner: DVec2::ZERO, size: side(radius), ..world };
-        Self { world: Arc::new(world), radius, sea, tree: Tree::default(), tiles: Vec::new(), finest: 0 }
+        Self {
+            world: Arc::new(world),
+            radius,
+            sea,
+            tree: Tree::default(),
+            tiles: Vec::new(),
+            finest: 0,
+            highest: None,
+        }
     }
 
     /// How its faces are divided.
@@ -57,27 +68,26 @@ impl Globe {
         self.sea
     }
 
-    /// Expands what is seen from `eye` (m), or all of it as from four radii away, and contracts everything else. A tile is divided while the eye is nearer to
-    /// it than `closeness` times its size, so that faces are divided at most `levels` times.
+    /// Expands what a view shows and contracts everything else. From below its clearance, the eye is raised to it.
     ///
-    /// Heights depend on the globe and their places alone, and the tiles on the globe and the eye. Fails if there would
+    /// Heights depend on the globe and their places alone, and the tiles on the globe and the view. Fails if there would
     /// be too many.
-    pub fn focus(
-        &mut self,
-        eye: Option<DVec3>,
-        closeness: f64,
-        levels: u32,
-        divide: &dyn Divide,
-    ) -> Result<()> {
-        let levels = levels.min(DEEPEST);
-        let eye = match eye {
+    pub fn focus(&mut self, view: &GlobeView, divide: &dyn Divide) -> Result<()> {
+        let levels = view.levels.min(DEEPEST);
+        let eye = match view.eye {
             Some(eye) => {
                 let above = eye.length() - self.radius - self.shown(self.probe(eye, levels, divide)?);
-                Some(eye.normalize_or(DVec3::X) * (self.radius + above.max(0.0)))
+                let above = above.max(view.clearance).max(0.0);
+                Some(eye.normalize_or(DVec3::X) * (self.radius + above))
             }
             None => None,
         };
-        let tree = Tree::new(self.radius, &Sight { eye, closeness, levels })?;
+        if view.horizon && self.highest.is_none() {
+            self.highest = Some(self.survey(divide)?);
+        }
+        let highest = self.highest.filter(|_| view.horizon);
+        let sight = Sight { eye, closeness: view.closeness, levels, highest };
+        let tree = Tree::new(self.radius, &sight)?;
         let known: FxHashMap<Leaf, &Arc<Tile>> = self.tree.leaves.iter().copied().zip(&self.tiles).collect();
         let mut tiles: Vec<Option<Arc<Tile>>> =
             tree.leaves.iter().map(|leaf| known.get(leaf).map(|tile| Arc::clone(tile))).collect();
@@ -117,6 +127,19 @@ impl Globe {
         self.tree = tree;
         self.finest = self.tiles.iter().map(|tile| tile.level()).max().unwrap_or(0);
         Ok(())
+    }
+
+    /// The height (m) that mountains reach, as a coarse look at all of the globe has it, and as much again.
+    fn survey(&self, divide: &dyn Divide) -> Result<f64> {
+        let across = 1 << DETAIL;
+        let mut wanted = vec![[NONE; 6]; DETAIL as usize + 1];
+        wanted[DETAIL as usize] = [Area { x: 0, y: 0, columns: across, rows: across }; 6];
+        let mut highest = 0.0;
+        expand(&self.world, &wanted, divide, &mut |_, blocks| {
+            let heights = blocks.iter().flat_map(|block| block.surface());
+            highest = heights.fold(highest, |highest: f64, height| highest.max(*height));
+        })?;
+        Ok(2.0 * self.shown(highest).max(0.0))
     }
 
     /// The height (m) of the ground below `eye`, as cells that were divided `levels` times have it.

@@ -24,6 +24,19 @@ pub(super) struct Sight {
     pub closeness: f64,
     /// How often a face is divided at most, the cells of tiles included.
     pub levels: u32,
+    /// The height (m) of the highest mountains, if tiles below the horizon of the eye are not divided.
+    pub highest: Option<f64>,
+}
+
+impl Sight {
+    /// True if no mountain on a tile rises above the horizon of the eye.
+    fn is_hidden(&self, radius: f64, leaf: Leaf) -> bool {
+        let (Some(eye), Some(highest)) = (self.eye, self.highest) else { return false };
+        let (middle, reach) = ball(leaf);
+        let to_touch = |length: f64| (radius / length.max(radius)).acos();
+        let nearest = eye.angle_between(middle) - 2.0 * (reach / 2.0).min(1.0).asin();
+        nearest > to_touch(eye.length()) + to_touch(radius + highest)
+    }
 }
 
 /// A tile and its face.
@@ -62,7 +75,8 @@ impl Tree {
         let (face, TilePlace { level, y, x }) = leaf;
         let size = side(radius) / 2f64.powi(level.cast_signed());
         let may = level + DETAIL < sight.levels.min(DEEPEST);
-        if !may || distance(radius, sight, leaf) >= sight.closeness * size {
+        let far = || distance(radius, sight, leaf) >= sight.closeness * size;
+        if !may || far() || sight.is_hidden(radius, leaf) {
             self.leaves.push(leaf);
             if (self.leaves.len() as u64) << (2 * DETAIL) > MOST_HEIGHTS {
                 return Err(Error::limit(

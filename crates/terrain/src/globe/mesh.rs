@@ -126,7 +126,7 @@ impl<'a> GlobeMesh<'a> {
         let middle = tile
             .cell((2 * tile.place.x + 1) << (tile.detail - 1), (2 * tile.place.y + 1) << (tile.detail - 1));
         let out = globe.radius() + globe.shown(middle);
-        let origin = snapped(ball((face, tile.place)).0 * out, own);
+        let origin = snapped(ball((face, tile.place)).0 * out, own.max(origin_step(globe.radius())));
         // Where all of the tile is above the horizon, its triangles need not be asked.
         let rim =
             corners(tile.place, globe.finest()).map(|[x, y]| globe.direction((face, x, y)) * globe.radius());
@@ -210,6 +210,12 @@ fn grid(globe: &Globe, face: usize, tile: &Tile) -> HeightGrid {
 /// it that an f32 holds.
 fn step(globe: &Globe, tile: &Tile) -> f64 {
     (globe.world().cell(tile.place.level).log2().ceil() - 21.0).exp2()
+}
+
+/// The distance (m) of the grid that origins lie on: an f32 holds every multiple of it up to four radii, so that files
+/// with such numbers keep tiles together. It is less than the side of the smallest tile of a face.
+fn origin_step(radius: f64) -> f64 {
+    ((4.0 * radius).log2().ceil() - 24.0).exp2()
 }
 
 fn snapped(point: DVec3, step: f64) -> DVec3 {

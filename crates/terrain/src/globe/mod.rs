@@ -12,8 +12,10 @@ mod mesh;
 mod sphere;
 #[cfg(test)]
 mod tests;
+mod view;
 
 pub use globe::{Globe, within};
 pub use leaves::{DEEPEST, DETAIL};
 pub use mesh::{GlobeMesh, Pieces};
 pub use sphere::latitude;
+pub use view::GlobeView;

@@ -43,6 +43,10 @@ fn world(seed: u64, smooth: bool) -> World {
     }
 }
 
+fn view(eye: Option<DVec3>, closeness: f64, levels: u32) -> GlobeView {
+    GlobeView { eye, clearance: 0.0, closeness, levels, horizon: false }
+}
+
 fn way(stream: &mut Stream) -> DVec3 {
     let number = |stream: &mut Stream| stream.uniform() * 2.0 - 1.0;
     DVec3::new(number(stream), number(stream), number(stream)).normalize()
@@ -91,7 +95,7 @@ fn a_globe_at_mixed_detail_has_no_open_edge() {
     for (round, eye) in (0u64..).zip(eyes) {
         let sea = (round % 2 == 0).then_some(50.0);
         let mut globe = Globe::new(world(round, round % 3 > 0), RADIUS, sea);
-        globe.focus(Some(eye), 0.9, 12, &Tables).unwrap();
+        globe.focus(&view(Some(eye), 0.9, 12), &Tables).unwrap();
         let levels = globe.tiles().map(|(_, tile)| tile.place.level);
         let (low, high) = levels.fold((99, 0), |(low, high), level| (level.min(low), level.max(high)));
         assert!(high - low >= 2, "{low} {high}");
@@ -109,11 +113,11 @@ fn the_way_to_a_place_does_not_matter() {
         let at = eye(&mut stream);
         for _ in 0..3 {
             let near = at + way(&mut stream) * stream.uniform() * 2000.0;
-            walker.focus(Some(near), 1.2, 14, &Tables).unwrap();
+            walker.focus(&view(Some(near), 1.2, 14), &Tables).unwrap();
         }
-        walker.focus(Some(at), 1.2, 14, &Tables).unwrap();
+        walker.focus(&view(Some(at), 1.2, 14), &Tables).unwrap();
         let mut fresh = Globe::new(world(3, true), RADIUS, None);
-        fresh.focus(Some(at), 1.2, 14, &Tables).unwrap();
+        fresh.focus(&view(Some(at), 1.2, 14), &Tables).unwrap();
         assert_eq!(walker.tiles().count(), fresh.tiles().count());
         for ((face, one), (there, other)) in walker.tiles().zip(fresh.tiles()) {
             assert!(face == there && one.place == other.place);
@@ -127,7 +131,7 @@ fn the_way_to_a_place_does_not_matter() {
 fn the_edges_of_the_cube_do_not_show() {
     for seed in 0..3 {
         let mut globe = Globe::new(world(seed, true), RADIUS, None);
-        globe.focus(None, 6.0, 9, &Tables).unwrap();
+        globe.focus(&view(None, 6.0, 9), &Tables).unwrap();
         let step = globe.world().cell(globe.finest()) / RADIUS;
         // Steps across each edge of the cube, and across as many other great circles.
         let measured = |normal: DVec3, at: &dyn Fn(f64) -> DVec3| -> (f64, f64) {
@@ -171,9 +175,9 @@ fn the_edges_of_the_cube_do_not_show() {
 fn an_eye_near_the_ground_sees_it_closely() {
     let mut globe = Globe::new(world(4, true), RADIUS, Some(0.0));
     let way = DVec3::new(0.2, -0.7, 0.5).normalize();
-    globe.focus(Some(way * RADIUS), 2.0, 18, &Tables).unwrap();
+    globe.focus(&view(Some(way * RADIUS), 2.0, 18), &Tables).unwrap();
     let height = globe.height(way).unwrap();
-    globe.focus(Some(way * (RADIUS + height.max(0.0) + 2.0)), 2.0, 18, &Tables).unwrap();
+    globe.focus(&view(Some(way * (RADIUS + height.max(0.0) + 2.0)), 2.0, 18), &Tables).unwrap();
     assert_eq!(globe.finest(), 18);
     assert_eq!(globe.height(way).unwrap().to_bits(), height.to_bits());
     assert!(globe.heights() < 5_000_000);
@@ -183,10 +187,68 @@ fn an_eye_near_the_ground_sees_it_closely() {
 fn what_is_behind_the_horizon_can_be_left_out() {
     let mut globe = Globe::new(world(4, true), RADIUS, None);
     let eye = DVec3::X * (RADIUS * 1.05);
-    globe.focus(Some(eye), 2.0, 12, &Tables).unwrap();
+    globe.focus(&view(Some(eye), 2.0, 12), &Tables).unwrap();
     let mesh = GlobeMesh::new(&globe, 0.1);
     let seen = |face, tile| !mesh.write(face, tile, 0.0, Some(eye)).is_empty();
     let count = globe.tiles().filter(|(face, tile)| seen(*face, tile)).count();
     assert!(count > 10 && count < globe.tiles().count());
     assert!(globe.tiles().all(|(face, tile)| face != 2 || !seen(face, tile)));
+}
+
+#[test]
+fn origins_of_tiles_are_numbers_that_files_hold_exactly() {
+    let mut stream = Stream::new(8);
+    for radius in [900.0, 50_000.0, 1_200_000.0, 6_371_000.0, 11_000_000.0, 6e7, 1e9] {
+        for levels in [7, 16, 28] {
+            let mut globe = Globe::new(world(7, true), radius, None);
+            let eye = way(&mut stream) * radius * (1.0 + 10f64.powf(-7.0 * stream.uniform()));
+            globe.focus(&view(Some(eye), 0.9, levels), &Tables).unwrap();
+            let mesh = GlobeMesh::new(&globe, 0.1);
+            for (face, tile) in globe.tiles() {
+                let pieces = mesh.write(face, tile, 0.0, None);
+                for number in pieces.origin.to_array() {
+                    assert_eq!(number, f64::from(number as f32), "radius {radius}, levels {levels}");
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn the_horizon_bounds_what_is_expanded_and_changes_nothing_above_it() {
+    let mut stream = Stream::new(21);
+    for _ in 0..6 {
+        let direction = way(&mut stream);
+        let mut open = Globe::new(world(4, true), RADIUS, None);
+        let mut bounded = open.clone();
+        open.focus(&view(Some(direction * RADIUS * 1.1), 2.0, 18), &Tables).unwrap();
+        let height = RADIUS + open.height(direction).unwrap() + 20.0;
+        let eye = Some(direction * height);
+        open.focus(&view(eye, 2.0, 18), &Tables).unwrap();
+        bounded.focus(&GlobeView { horizon: true, ..view(eye, 2.0, 18) }, &Tables).unwrap();
+        assert!(bounded.heights() < open.heights());
+        let above = height - RADIUS - open.height(direction).unwrap();
+        for _ in 0..400 {
+            let spread = 0.02 * stream.uniform();
+            let place = (direction + way(&mut stream) * spread).normalize();
+            let ground = open.height(place).unwrap();
+            if open.is_above_horizon(direction * (RADIUS + above), place * (RADIUS + ground)) {
+                assert_eq!(bounded.height(place).unwrap().to_bits(), ground.to_bits());
+            }
+        }
+        check_closed(&bounded, 0.1);
+    }
+}
+
+#[test]
+fn an_eye_below_finer_ground_looks_from_its_clearance() {
+    let direction = DVec3::new(0.2, -0.7, 0.5).normalize();
+    let heights = |depth: f64, clearance: f64| {
+        let mut globe = Globe::new(world(4, true), RADIUS, Some(0.0));
+        let eye = Some(direction * (RADIUS - depth));
+        globe.focus(&GlobeView { clearance, ..view(eye, 1.0, 12) }, &Tables).unwrap();
+        globe.heights()
+    };
+    assert_eq!(heights(4000.0, 900.0), heights(2000.0, 900.0));
+    assert!(heights(4000.0, 9000.0) < heights(4000.0, 1.0));
 }

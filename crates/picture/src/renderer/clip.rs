@@ -1,0 +1,128 @@
+//! Clipping of triangles that reach behind the camera.
+//!
+//! Method: Sutherland and Hodgman, "Reentrant polygon clipping", 1974.
+
+use glam::Vec3A;
+
+/// Slope of the planes beside the picture. The picture itself reaches to 0.29 and stays whole, and clipped corners keep
+/// coordinates that the raster computes exactly.
+const ASIDE: f32 = 1.0;
+
+/// A triangle has three corners, and each of the five planes adds at most one.
+const MOST: usize = 8;
+
+/// A corner in the camera's axes, and its weights of the triangle's three corners.
+type ClippedCorner = (Vec3A, Vec3A);
+
+/// Calls `emit` with the triangles that make up the part of a triangle in front of the plane at the distance `near`, and
+/// beside the picture not farther than it matters: their corners in the camera's axes, and for each of them its weights
+/// of the given corners.
+///
+/// Triangles that share an edge are cut at the same points, whichever way around they run.
+pub(super) fn clip(corners: [Vec3A; 3], near: f32, mut emit: impl FnMut([Vec3A; 3], [Vec3A; 3])) {
+    let planes: [&dyn Fn(Vec3A) -> f32; 5] =
+        [&|p| p.z - near, &|p| ASIDE * p.z - p.x, &|p| ASIDE * p.z + p.x, &|p| ASIDE * p.z - p.y, &|p| {
+            ASIDE * p.z + p.y
+        }];
+    let [a, b, c] = corners;
+    let mut polygon = [(Vec3A::ZERO, Vec3A::ZERO); MOST];
+    polygon[..3].copy_from_slice(&[(a, Vec3A::X), (b, Vec3A::Y), (c, Vec3A::Z)]);
+    let mut count = 3;
+    for inside in planes {
+        (polygon, count) = cut(&polygon[..count], inside);
+    }
+    for i in 2..count {
+        let triangle = [polygon[0], polygon[i - 1], polygon[i]];
+        emit(triangle.map(|(at, _)| at), triangle.map(|(_, weights)| weights));
+    }
+}
+
+/// The part of a convex polygon where `inside` is not negative.
+fn cut(polygon: &[ClippedCorner], inside: impl Fn(Vec3A) -> f32) -> ([ClippedCorner; MOST], usize) {
+    let mut kept = [(Vec3A::ZERO, Vec3A::ZERO); MOST];
+    let mut count = 0;
+    let mut add = |corner: ClippedCorner| {
+        if let Some(slot) = kept.get_mut(count) {
+            *slot = corner;
+            count += 1;
+        }
+    };
+    for (i, &here) in polygon.iter().enumerate() {
+        let next = polygon[(i + 1) % polygon.len()];
+        let (from, to) = (inside(here.0), inside(next.0));
+        if from >= 0.0 {
+            add(here);
+        }
+        if (from >= 0.0) != (to >= 0.0) {
+            // From the inner end, so that both triangles at an edge compute the same point.
+            let ((inner, outer), part) = if from >= 0.0 {
+                ((here, next), from / (from - to))
+            } else {
+                ((next, here), to / (to - from))
+            };
+            add((inner.0.lerp(outer.0, part), inner.1.lerp(outer.1, part)));
+        }
+    }
+    (kept, count)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    fn clipped(corners: [Vec3A; 3], near: f32) -> Vec<([Vec3A; 3], [Vec3A; 3])> {
+        let mut all = Vec::new();
+        clip(corners, near, |corners, weights| all.push((corners, weights)));
+        all
+    }
+
+    fn cross(corners: [Vec3A; 3]) -> Vec3A {
+        (corners[1] - corners[0]).cross(corners[2] - corners[0])
+    }
+
+    #[test]
+    fn a_triangle_in_front_of_the_camera_stays_as_it_is() {
+        let corners = [Vec3A::new(-0.1, 0.0, 1.0), Vec3A::new(0.1, 0.0, 1.0), Vec3A::new(0.0, 0.2, 2.0)];
+        assert_eq!(clipped(corners, 0.01), [(corners, [Vec3A::X, Vec3A::Y, Vec3A::Z])]);
+    }
+
+    #[test]
+    fn a_triangle_behind_the_camera_disappears() {
+        let corners = [Vec3A::NEG_Z, Vec3A::new(1.0, 0.0, -2.0), Vec3A::new(0.0, 1.0, -3.0)];
+        assert_eq!(clipped(corners, 0.01), []);
+    }
+
+    proptest! {
+        #[test]
+        fn the_visible_part_is_kept_and_its_corners_lie_on_the_triangle(
+            numbers in proptest::array::uniform9(-3.0_f32..3.0),
+            at in proptest::array::uniform2(0.0_f32..1.0),
+        ) {
+            let corners = [0, 3, 6].map(|i| Vec3A::new(numbers[i], numbers[i + 1], numbers[i + 2]));
+            let near = 0.05;
+            let pieces = clipped(corners, near);
+            let whole = cross(corners);
+            for (piece, weights) in &pieces {
+                prop_assert!(cross(*piece).dot(whole) >= -1e-4 * whole.length());
+                for (corner, weights) in piece.iter().zip(weights) {
+                    let expected = corners[0] * weights.x + corners[1] * weights.y + corners[2] * weights.z;
+                    prop_assert!(corner.distance(expected) < 1e-4, "{corner} {expected}");
+                    prop_assert!(corner.z >= near - 1e-5);
+                    prop_assert!(corner.x.abs().max(corner.y.abs()) <= ASIDE * corner.z + 1e-4);
+                }
+            }
+            // A point of the triangle that the picture may show lies in one of the pieces.
+            let (u, v) = if at[0] + at[1] <= 1.0 { (at[0], at[1]) } else { (1.0 - at[0], 1.0 - at[1]) };
+            let point = corners[0] + (corners[1] - corners[0]) * u + (corners[2] - corners[0]) * v;
+            let seen = point.z > near + 1e-3 && point.x.abs().max(point.y.abs()) < 0.9 * ASIDE * point.z;
+            if seen && whole.length() > 1e-2 {
+                let inside = |(piece, _): &([Vec3A; 3], [Vec3A; 3])| {
+                    let sub = |a: Vec3A, b: Vec3A| (b - a).cross(point - a).dot(whole);
+                    (0..3).all(|i| sub(piece[i], piece[(i + 1) % 3]) >= -1e-3 * whole.length_squared().max(1.0))
+                };
+                prop_assert!(pieces.iter().any(inside), "{point} of {corners:?} is lost");
+            }
+        }
+    }
+}
