@@ -12,8 +12,10 @@ pub mod memory;
 pub mod stop;
 pub mod text;
 pub mod warning;
+pub mod work;
 
 pub use budget::{Budget, MemoryReservation};
 pub use error::{Error, Result};
 pub use stop::Stop;
 pub use warning::{Warning, WarningKind};
+pub use work::{WorkLimits, WorkWithin};

@@ -7,6 +7,7 @@ mod cap;
 mod face;
 mod frame;
 mod outline;
+pub mod overlay;
 mod path;
 mod plan;
 pub mod planar;

@@ -1,18 +1,18 @@
-//! Makes a plan of rings that cross or touch: what they enclose is found anew.
+//! Makes a plan of rings that cross or touch, from the area that they enclose.
 //!
-//! Method: boolean operations on polygons (i_overlay, through `geo`) around the middle of the rings. Where what they
-//! enclose still touches itself, a notch as wide as a hand is cut out there.
+//! Method: set operations around the middle of the rings. Where the area that they enclose still touches itself, a notch as
+//! wide as a hand is cut out there.
 
-use geo::bool_ops::{BooleanOps, FillRule, unary_union};
-use geo::{Area, MultiPolygon};
 use glam::{DVec2, DVec3};
 use rstar::primitives::{GeomWithData, Line};
 use rstar::{AABB, PointDistance, RTree};
 
 use super::outline::{OutlineOptions, is_ring, numbered_rings};
-use super::planar::{Polygon, Rings, edges, foot, geo_polygon};
+use super::overlay::{Area, Fill, fill, overlay, unite};
+use super::planar::{Polygon, Rings, edges, foot, twice_area};
 use super::ring::MOST;
 use super::section::SectionPoint;
+use burgeon_base::error::Result;
 
 /// Half of the width (m) of the notch where a plan touches itself.
 const NOTCH: f64 = 0.05;
@@ -56,7 +56,7 @@ pub(super) fn repair(given: &Rings, manner: &OutlineOptions) -> Option<PlanRepai
         return None;
     }
     let mut notes = Vec::new();
-    let mut area = enclosed(&local, &mut notes);
+    let mut area = enclosed(&local, &mut notes).ok()?;
     for _ in 0..ROUNDS {
         let whole = greatest(area, &mut notes)?;
         let rings = rings_of(&whole, manner);
@@ -76,7 +76,7 @@ pub(super) fn repair(given: &Rings, manner: &OutlineOptions) -> Option<PlanRepai
         if notches.is_empty() {
             return None;
         }
-        area = whole.difference(&unary_union(&notches));
+        area = overlay(&[whole], &notches, |[inside, notch]| inside && !notch).ok()?;
         note(&mut notes, "a notch cut where it touches itself");
     }
     None
@@ -133,53 +133,52 @@ fn note(notes: &mut Vec<&'static str>, what: &'static str) {
     }
 }
 
-/// What the first ring encloses without what the others enclose.
-fn enclosed(rings: &Rings<DVec2>, notes: &mut Vec<&'static str>) -> MultiPolygon {
-    let nothing = MultiPolygon::new(Vec::new());
-    let whole = |ring: &Vec<DVec2>| {
-        geo_polygon(std::slice::from_ref(ring)).boolean_op_with_fill_rule(
-            &nothing,
-            geo::OpType::Union,
-            FillRule::NonZero,
-        )
-    };
-    let Some((outer, holes)) = rings.split_first() else { return nothing };
-    let outer = whole(outer);
-    if outer.0.len() > 1 {
+/// The area that the first ring encloses without the areas that the others enclose. Fails if the work of this thread is to
+/// stop.
+fn enclosed(rings: &Rings<DVec2>, notes: &mut Vec<&'static str>) -> Result<Area> {
+    let whole = |ring: &Vec<DVec2>| fill(&[Rings(vec![ring.clone()])], Fill::NonZero);
+    let Some((outer, holes)) = rings.split_first() else { return Ok(Area::new()) };
+    let outer = whole(outer)?;
+    if outer.len() > 1 {
         note(notes, LOOPS);
     }
-    let mut cut = Vec::new();
+    let mut cut = Area::new();
     for hole in holes {
-        let hole = whole(hole);
-        let size = hole.unsigned_area();
+        let hole = whole(hole)?;
+        let size = size(&hole);
         if size <= 0.0 {
             note(notes, "a hole without area left out");
-        } else if outer.intersection(&hole).unsigned_area() <= 1e-6 * size {
+        } else if self::size(&overlay(&outer, &hole, |is_in| is_in == [true; 2])?) <= 1e-6 * size {
             note(notes, "a hole outside the outer ring left out");
         } else {
-            cut.extend(hole.0);
+            cut.extend(hole);
         }
     }
     if cut.is_empty() {
-        return outer;
+        return Ok(outer);
     }
-    let together = unary_union(&cut);
-    if together.0.len() < cut.len() {
+    let count = cut.len();
+    let together = unite(cut)?;
+    if together.len() < count {
         note(notes, "holes that touch merged");
     }
-    let rest = outer.difference(&together);
-    if rest.0.iter().map(|part| part.interiors().len()).sum::<usize>() < together.0.len() {
+    let rest = overlay(&outer, &together, |[inside, hole]| inside && !hole)?;
+    if rest.iter().map(|part| part.len() - 1).sum::<usize>() < together.len() {
         note(notes, "a hole at the outer ring cut out");
     }
-    rest
+    Ok(rest)
+}
+
+/// The size of an area (m²).
+fn size(area: &[Rings<DVec2>]) -> f64 {
+    area.iter().flat_map(|rings| rings.iter()).map(|ring| twice_area(ring.iter().copied()) / 2.0).sum()
 }
 
 /// The greatest of several areas.
-fn greatest(areas: MultiPolygon, notes: &mut Vec<&'static str>) -> Option<geo::Polygon> {
-    let sized: Vec<(f64, geo::Polygon)> = areas
-        .0
+fn greatest(areas: Area, notes: &mut Vec<&'static str>) -> Option<Rings<DVec2>> {
+    let sized: Vec<(f64, Rings<DVec2>)> = areas
         .into_iter()
-        .map(|part| (part.unsigned_area(), part))
+        .map(|part| (size(std::slice::from_ref(&part)), part))
         .filter(|(size, _)| *size > LEAST)
         .collect();
     if sized.len() > 1 && !notes.contains(&LOOPS) {
@@ -191,13 +190,13 @@ fn greatest(areas: MultiPolygon, notes: &mut Vec<&'static str>) -> Option<geo::P
 }
 
 /// The rings of a polygon, without holes that are none.
-fn rings_of(polygon: &geo::Polygon, manner: &OutlineOptions) -> Rings<DVec2> {
+fn rings_of(polygon: &Rings<DVec2>, manner: &OutlineOptions) -> Rings<DVec2> {
     let is_sound = |ring: &Vec<DVec2>| {
         let sharp: Vec<SectionPoint> = ring.iter().copied().map(SectionPoint::sharp).collect();
         is_ring(&sharp, manner)
     };
-    let rings = Rings::from(polygon).0.into_iter().enumerate();
-    rings.filter(|(number, ring)| *number == 0 || is_sound(ring)).map(|(_, ring)| ring).collect()
+    let rings = polygon.iter().enumerate();
+    rings.filter(|(number, ring)| *number == 0 || is_sound(ring)).map(|(_, ring)| ring.clone()).collect()
 }
 
 type IndexedEdge = GeomWithData<Line<[f64; 2]>, usize>;
@@ -214,7 +213,7 @@ fn edge_tree(rings: &Rings<DVec2>) -> RTree<IndexedEdge> {
 }
 
 /// Squares around the points that lie on an edge which does not begin or end there.
-fn notches(rings: &Rings<DVec2>) -> Vec<geo::Polygon> {
+fn notches(rings: &Rings<DVec2>) -> Area {
     let tree = edge_tree(rings);
     for near in [1e-6, 0.012] {
         let mut found = Vec::new();
@@ -229,7 +228,8 @@ fn notches(rings: &Rings<DVec2>) -> Vec<geo::Polygon> {
                 });
                 if touches {
                     let corners = [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)];
-                    found.push(geo_polygon(&[corners.map(|(x, y)| at + DVec2::new(x, y) * NOTCH)]));
+                    let corners = corners.map(|(x, y)| at + DVec2::new(x, y) * NOTCH);
+                    found.push(Rings(vec![corners.to_vec()]));
                 }
             }
             number += ring.len();
@@ -238,7 +238,7 @@ fn notches(rings: &Rings<DVec2>) -> Vec<geo::Polygon> {
             return found;
         }
     }
-    Vec::new()
+    Area::new()
 }
 
 /// The polygon with the heights of the ground, and for each edge those that were given; `None` if it is none there.
@@ -390,11 +390,11 @@ mod tests {
     }
 
     #[test]
-    fn a_plan_that_touches_itself_but_for_rounding_gets_a_notch() {
+    fn a_plan_that_a_hole_divides_but_for_rounding_is_divided() {
         let plan =
             made(&[&[[-0.14, 0.29], [0.28, 0.26], [0.0, 0.0]], &[[0.14, 0.27], [0.1, 0.0], [-0.11, -0.23]]]);
         assert_valid(&plan);
-        assert!(plan.repairs().0.contains(&"a notch cut where it touches itself"), "{:?}", plan.repairs());
+        assert_eq!(plan.repairs().0, ["a hole at the outer ring cut out", "the greatest part kept"]);
     }
 
     #[test]

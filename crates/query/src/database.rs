@@ -230,11 +230,15 @@ impl Database {
         link.state.give(budget);
         let prepared = self.prepared(sql, &link, budget)?;
         link.state.take_unreadable();
+        let within = WorkWithin::begin(budget);
         let done = work(&link, &prepared);
+        drop(within);
         let result = done.map_err(|failure| {
             // What was interrupted does not say why.
             budget.check().err().unwrap_or_else(|| self.error(sql, failure, &link))
         });
+        // A set operation that was interrupted has made nothing of its geometries.
+        let result = result.and_then(|done| budget.check().map(|()| done));
         link.state.give(&Arc::default());
         let mut idle = self.idle.lock().recover();
         idle.push(link);

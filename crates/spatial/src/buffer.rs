@@ -1,28 +1,26 @@
 //! What lies within a distance of a geometry.
 
 use burgeon_base::error::{Error, Result};
-use geo::buffer::{Buffer, BufferStyle, LineCap, LineJoin};
-use geo::unary_union;
-use glam::DVec2;
+use burgeon_geometry::overlay::{BufferSource, BufferStyle, Cap, Join, buffer};
 
 use super::Geometry;
 use super::edges::with_heights;
-use super::overlay::{LEAST_EXTENT, dissolved, with_width};
+use super::overlay::{LEAST_EXTENT, Operand, area_of, geometry_of};
 use super::plane::Plane;
 
-/// What a buffer's border does at corners.
+/// The border of a buffer at corners.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum BufferJoin {
     /// An arc.
     #[default]
     Round,
-    /// A corner, as far as it is no farther than five distances off.
+    /// A corner, cut off where it is farther than five distances.
     Mitre,
     /// A straight cut.
     Bevel,
 }
 
-/// What a buffer's border does at the ends of lines.
+/// The border of a buffer at the ends of lines.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum BufferCap {
     /// Half a circle.
@@ -34,7 +32,7 @@ pub enum BufferCap {
     Square,
 }
 
-/// How a buffer's border runs.
+/// The course of a buffer's border.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct BufferOptions {
     /// At corners.
@@ -59,7 +57,7 @@ impl Geometry {
     /// is left. Fails if the distance is not finite, no number of segments is given, or it reaches farther than
     /// [`FARTHEST`](super::FARTHEST).
     ///
-    /// Method: boolean operations on polygons (i_overlay, through `geo`).
+    /// Arcs are within rounding those of GEOS.
     ///
     /// ```
     /// use burgeon_spatial::{BufferCap, BufferJoin, BufferOptions, Geometry};
@@ -87,82 +85,27 @@ impl Geometry {
     }
 
     fn grown(&self, distance: f64, options: &BufferOptions) -> Self {
-        if let Some(strip) = self.strip(distance, options.cap) {
-            return with_heights(strip, &[self]);
-        }
-        let plane = Plane::of(&[self]);
-        let (areas, thin_rings) = with_width(plane.polygons(self));
-        let areas = dissolved(areas);
+        let Operand { areas, lines, points, .. } = Operand::new(Plane::absolute(), self);
+        let areas = area_of(&areas);
         if distance.abs() < LEAST_EXTENT {
-            return with_heights(plane.areas(&areas), &[self]);
+            return with_heights(geometry_of(&areas), &[self]);
         }
-        let style = || {
-            let angle = std::f64::consts::FRAC_PI_2 / f64::from(options.quadrant_segments);
-            let join = match options.join {
-                BufferJoin::Round => LineJoin::Round(angle),
-                BufferJoin::Mitre => LineJoin::Miter(2.0 * (1.0 / MITRE_LIMIT).asin()),
-                BufferJoin::Bevel => LineJoin::Bevel,
-            };
-            let cap = match options.cap {
-                BufferCap::Round => LineCap::Round(angle),
-                BufferCap::Flat => LineCap::Butt,
-                BufferCap::Square => LineCap::Square,
-            };
-            BufferStyle::new(distance).line_join(join).line_cap(cap)
+        let style = BufferStyle {
+            join: match options.join {
+                BufferJoin::Round => Join::Round,
+                BufferJoin::Mitre => Join::Mitre(MITRE_LIMIT),
+                BufferJoin::Bevel => Join::Bevel,
+            },
+            cap: match options.cap {
+                BufferCap::Round => Cap::Round,
+                BufferCap::Flat => Cap::Flat,
+                BufferCap::Square => Cap::Square,
+            },
+            quadrant_segments: options.quadrant_segments,
         };
-        let mut parts = Vec::new();
-        if !areas.0.is_empty() {
-            parts.push(areas.buffer_with_style(style()));
-        }
-        if distance > 0.0 && self.is_sound() {
-            parts.extend(thin_rings.iter().map(|ring| ring.buffer_with_style(style())));
-            let thin: Vec<Self> = self.parts().into_iter().filter(|part| part.dimension() < 2).collect();
-            if options.join == BufferJoin::Round {
-                let lines = thin.iter().filter_map(|part| match part {
-                    Geometry::Line(line) => Some(plane.string(line)),
-                    _ => None,
-                });
-                let turns = thin_rings.iter().cloned().chain(lines).flat_map(|line| turns_back(&line));
-                parts.extend(turns.map(|at| geo::Point(at).buffer_with_style(style())));
-            }
-            parts.extend(thin.into_iter().map(|part| match part {
-                // A line without length is its place.
-                Geometry::Line(line) if line.iter().all(|point| point.truncate() == line[0].truncate()) => {
-                    geo::Point(plane.coord(line[0])).buffer_with_style(style())
-                }
-                part => plane.geo(&part).buffer_with_style(style()),
-            }));
-        }
-        let whole = match &parts[..] {
-            [only] => only.clone(),
-            parts => unary_union(parts),
-        };
-        with_heights(plane.areas(&whole), &[self])
+        let source = BufferSource { areas: &areas, lines: &lines, points: &points };
+        // Once the work of this thread is to stop there is nothing, which is not looked at any more.
+        let made = buffer(source, distance, style).unwrap_or_default();
+        with_heights(geometry_of(&made), &[self])
     }
-
-    /// What lies within `distance` of a line of one edge that does not end round: a rectangle. None of others.
-    fn strip(&self, distance: f64, cap: BufferCap) -> Option<Self> {
-        let Self::Line(line) = self else { return None };
-        let [a, b] = line[..] else { return None };
-        let length = (b - a).truncate().length();
-        if distance <= 0.0 || cap == BufferCap::Round || length == 0.0 || !self.is_sound() {
-            return None;
-        }
-        let along = (b - a).truncate() * (distance / length);
-        let beyond = if cap == BufferCap::Square { along } else { DVec2::ZERO };
-        let corner = |place: DVec2| place.extend(0.0);
-        let (a, b, left) = (a.truncate() - beyond, b.truncate() + beyond, along.perp());
-        let ring = vec![corner(a - left), corner(b - left), corner(b + left), corner(a + left)];
-        Self::polygon(vec![ring])
-    }
-}
-
-/// The corners at which a line goes back the way it came, or nearly so; there the buffers of `geo` have no arc.
-fn turns_back(line: &geo::LineString) -> Vec<geo::Coord> {
-    let corners = line.0.windows(3).filter(|corner| {
-        let place = |at: geo::Coord| DVec2::new(at.x, at.y);
-        let [a, b, c] = [corner[0], corner[1], corner[2]].map(place);
-        (b - a).angle_to(c - b).abs() > std::f64::consts::PI - 1e-3
-    });
-    corners.map(|corner| corner[1]).collect()
 }

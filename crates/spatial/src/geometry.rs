@@ -9,8 +9,7 @@ use super::GeometryKind;
 
 /// The greatest coordinate: twenty-five times as far as around Earth in metres.
 ///
-/// Areas are computed on a grid of 2^28 places to each side, whose steps are some metres wide there; farther away what is
-/// made of a geometry would have little to do with it.
+/// Farther away coordinates are rounded to more than a tenth of a micrometre.
 pub const FARTHEST: f64 = 1e9;
 
 /// A geometry of OGC Simple Features, as somebody gave it: nothing is promised of its points.

@@ -1,7 +1,7 @@
 //! The plane that operations work in: geometries to and from those of `geo`, around an origin of their own.
 
 use burgeon_geometry::Rings;
-use burgeon_geometry::planar::twice_area;
+use burgeon_geometry::overlay::is_counter_clockwise;
 use glam::{DVec2, DVec3};
 
 use super::Geometry;
@@ -21,13 +21,14 @@ impl Plane {
         let around = bounds.reduce(|[a, b], [c, d]| [a.min(c), b.max(d)]);
         let Some([low, high]) = around else { return Self { origin: DVec2::ZERO } };
         let (size, middle) = ((high - low).max_element(), ((low + high) / 2.0).floor());
-        let far = middle.abs().max_element() > 8.0 * size.max(1.0);
-        Self { origin: if far { middle } else { DVec2::ZERO } }
+        // On each axis by itself, so that no difference is rounded.
+        let far = middle.abs().cmpgt(DVec2::splat(8.0 * size.max(1.0)));
+        Self { origin: DVec2::select(far, middle, DVec2::ZERO) }
     }
 
-    /// How far (m) coordinates are rounded for how far away they are.
-    pub(crate) fn rounding(self) -> f64 {
-        self.origin.abs().max_element() * 2.0 * f64::EPSILON
+    /// The plane in which coordinates are as they were given.
+    pub(crate) fn absolute() -> Self {
+        Self { origin: DVec2::ZERO }
     }
 
     /// A place around the origin.
@@ -86,7 +87,8 @@ impl Plane {
     pub(crate) fn polygon(self, rings: &Rings) -> Option<geo::Polygon> {
         let turned = |ring: &Vec<DVec3>, is_outer: bool| -> geo::LineString {
             let mut turned = self.string(ring);
-            if (twice_area(ring.iter().copied()) > 0.0) != is_outer {
+            let places: Vec<DVec2> = ring.iter().map(|point| self.flat(*point)).collect();
+            if is_counter_clockwise(&places) != is_outer {
                 turned.0.reverse();
             }
             turned

@@ -1,20 +1,20 @@
-//! Whether geometries are what their kinds promise, and what can be made of those that are not.
+//! Validity of geometries by OGC Simple Features, and the repair of those that are not valid.
 
 use burgeon_geometry::Rings;
-use burgeon_geometry::planar::twice_area;
-use geo::bool_ops::FillRule;
+use burgeon_geometry::overlay::{Fill, is_flat};
 use glam::DVec3;
 
 use super::Geometry;
 use super::edges::with_heights;
-use super::overlay::filled;
+use super::overlay::{area_of, filled, geometry_of};
 use super::plane::Plane;
 use super::ways::{multi_polygon_flaw, polygon_flaw};
 use burgeon_base::budget::Budget;
 use burgeon_base::error::Result;
 
 impl Geometry {
-    /// Whether its rings neither cross nor overlap and holes lie inside, and no line is without length.
+    /// Whether its rings neither cross nor overlap, holes lie inside, the inside of each polygon hangs together, and no line
+    /// is without length.
     pub fn is_valid(&self) -> bool {
         self.validity_reason().is_none()
     }
@@ -47,7 +47,8 @@ impl Geometry {
         });
         let mut flat = None;
         super::plane::collect_polygons(self, &mut |rings: &Rings| {
-            if rings.iter().any(|ring| !ring.is_empty() && twice_area(ring.iter().copied()) == 0.0) {
+            let is_flat = |ring: &Vec<DVec3>| is_flat(ring.iter().map(|point| point.truncate()));
+            if rings.iter().any(|ring| !ring.is_empty() && is_flat(ring)) {
                 flat = Some("a ring has no area".to_owned());
             }
         });
@@ -60,7 +61,7 @@ impl Geometry {
     /// The same where it is valid; else the valid geometry that is most like it: of areas, what its rings go around an odd
     /// number of times, of lines without length their places.
     ///
-    /// Method: boolean operations on polygons by the even-odd rule (i_overlay, through `geo`).
+    /// An area whose inside hangs together only in points becomes several.
     #[must_use]
     pub fn make_valid(&self) -> Self {
         if self.is_valid() {
@@ -69,10 +70,10 @@ impl Geometry {
         if !self.is_sound() {
             return Self::empty(self.dimension());
         }
-        let plane = Plane::of(&[self]);
         let made = match self {
             Self::Polygon(_) | Self::MultiPolygon(_) => {
-                let areas = plane.areas(&filled(&plane.polygons(self), FillRule::EvenOdd));
+                let areas = filled(&Plane::absolute().polygons(self), Fill::EvenOdd);
+                let areas = geometry_of(&area_of(&areas));
                 // Of rings without an area their lines are left.
                 if areas.is_empty() { self.boundary().dissolved().make_valid() } else { areas }
             }

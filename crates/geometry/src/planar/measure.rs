@@ -36,7 +36,7 @@ pub fn twice_area<P: Point>(ring: impl IntoIterator<Item = P>) -> f64 {
 
 /// Whether the area inside a ring of points is more than rounding may have made of none, so that it has the same sign
 /// from whichever point on and whichever way around it is measured.
-pub(super) fn has_area(ring: impl IntoIterator<Item = DVec2>) -> bool {
+pub(crate) fn has_area(ring: impl IntoIterator<Item = DVec2>) -> bool {
     let mut ring = ring.into_iter();
     let (Some(from), Some(mut last)) = (ring.next(), ring.next()) else { return false };
     let (mut sum, mut terms, mut products, mut count) = (0.0, 0.0, 0.0, 0.0);

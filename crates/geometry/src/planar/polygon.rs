@@ -2,8 +2,7 @@
 
 use std::ops::{Add, Deref};
 
-use geo::buffer::{BufferStyle, LineJoin};
-use geo::{BooleanOps, Buffer, LineString, Simplify};
+use geo::{LineString, Simplify};
 use glam::{DVec2, DVec3};
 
 use super::convert::open;
@@ -11,6 +10,7 @@ use super::measure::{bounds, contains, has_area, hull};
 use super::ring::shown;
 use super::{Point, Ring, Rings};
 use crate::cap;
+use crate::overlay::{Area, BufferSource, BufferStyle, Cap, Join, buffer, overlay};
 use burgeon_base::error::{Error, Result};
 
 /// A polygon: an outer ring and holes; empty without any.
@@ -192,9 +192,7 @@ impl Polygon {
     }
 
     /// The polygons left when every edge moves inwards by `distance` (m), or outwards if that is negative; none if
-    /// nothing is left. Corners are mitred as far as they turn by less than 60 degrees, and blunt otherwise.
-    ///
-    /// Method: boolean operations on polygons (i_overlay, through `geo`).
+    /// nothing is left. Corners are mitred, cut off where they are farther than two distances.
     ///
     /// ```
     /// use burgeon_geometry::{Polygon, Rings};
@@ -213,14 +211,13 @@ impl Polygon {
     /// # Ok::<(), burgeon_base::error::Error>(())
     /// ```
     pub fn inset(&self, distance: f64) -> Vec<Self> {
-        let style = BufferStyle::new(-distance).line_join(LineJoin::Miter(1.0));
-        let parts = geo::Polygon::from(self).buffer_with_style(style);
-        parts.iter().filter_map(|part| Self::try_from(part).ok()).collect()
+        let style = BufferStyle { join: Join::Mitre(MITRE), cap: Cap::Flat, quadrant_segments: 1 };
+        let own = [Rings::from(self)];
+        let source = BufferSource { areas: &own, ..BufferSource::default() };
+        polygons(buffer(source, -distance, style))
     }
 
-    /// What is left of it outside of `others`; none if they cover it.
-    ///
-    /// Method: boolean operations on polygons (i_overlay, through `geo`).
+    /// Returns the parts of it that lie outside of `others`; none if they cover it.
     ///
     /// ```
     /// use burgeon_geometry::{Polygon, Rings};
@@ -236,9 +233,8 @@ impl Polygon {
     /// # Ok::<(), burgeon_base::error::Error>(())
     /// ```
     pub fn without(&self, others: &[Self]) -> Vec<Self> {
-        let others = geo::MultiPolygon::new(others.iter().map(geo::Polygon::from).collect());
-        let left = geo::Polygon::from(self).difference(&others);
-        left.iter().filter_map(|part| Self::try_from(part).ok()).collect()
+        let others: Area = others.iter().map(Rings::from).collect();
+        polygons(overlay(&[Rings::from(self)], &others, |[inside, other]| inside && !other))
     }
 
     /// Its rings without points that are within `distance` (m) of the line between others; they may meet.
@@ -259,6 +255,15 @@ impl Polygon {
     pub fn simplified(&self, distance: f64) -> Rings<DVec2> {
         self.rings.iter().map(|ring| open(&LineString::from(ring).simplify(distance))).collect()
     }
+}
+
+/// The distances from a corner at which its mitre is cut off.
+const MITRE: f64 = 2.0;
+
+/// The polygons of an area but for those that rounding may have made of nothing; none once the work of this thread is to
+/// stop.
+fn polygons(area: Result<Area>) -> Vec<Polygon> {
+    area.unwrap_or_default().into_iter().filter_map(|rings| Polygon::turned(rings).ok()).collect()
 }
 
 impl<P> Deref for Polygon<P> {

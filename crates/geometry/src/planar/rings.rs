@@ -4,8 +4,8 @@ use std::ops::Deref;
 
 use glam::{DVec2, DVec3};
 
-use super::measure::twice_area;
 use super::{Point, Polygon};
+use crate::overlay::is_counter_clockwise;
 
 /// Rings as somebody gave them, the outer one first: nothing is promised of their points.
 ///
@@ -32,7 +32,8 @@ impl<P: Point> Rings<P> {
     /// without area is taken for clockwise.
     pub fn turn(&mut self) {
         for (index, ring) in self.0.iter_mut().enumerate() {
-            if (twice_area(ring.iter().copied()) > 0.0) != (index == 0) {
+            let places: Vec<DVec2> = ring.iter().map(|point| point.flat()).collect();
+            if is_counter_clockwise(&places) != (index == 0) {
                 ring.reverse();
             }
         }

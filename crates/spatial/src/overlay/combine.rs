@@ -1,20 +1,18 @@
 //! The four set operations, by what lies in one geometry and in the other.
 //!
-//! Method: every piece of the arrangement, and every node of it, lies in a geometry or not, and so do the areas to both
-//! sides of a piece. The operation says whether each is part of the result; of that, lines are what does not lie along
+//! Method: every edge of the subdivision, and every node of it, lies in a geometry or not, and so do the areas to both
+//! sides of an edge. The operation says whether each is part of the result; of that, lines are what does not lie along
 //! its areas, and points what does not lie on its lines.
 
-use geo::bool_ops::OpType;
-use geo::{Coord, MultiPolygon};
-use glam::{DVec2, DVec3};
+use burgeon_base::error::Result;
+use burgeon_geometry::overlay::{SubdivisionEdge, overlay};
+use glam::DVec3;
 
-use super::areas;
-use super::arrangement::{Arrangement, Piece, Way};
-use super::inside::Inside;
+use super::arranged::{Arranged, key, sides};
+use super::convert::{area_of, geometry_of};
 use super::operand::Operand;
 use crate::Geometry;
 use crate::edges::with_heights;
-use crate::plane::Plane;
 
 /// A set operation.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -33,15 +31,6 @@ impl Operation {
             Self::Union => first || second,
             Self::Difference => first && !second,
             Self::Symmetric => first != second,
-        }
-    }
-
-    fn of_areas(self) -> OpType {
-        match self {
-            Self::Intersection => OpType::Intersection,
-            Self::Union => OpType::Union,
-            Self::Difference => OpType::Difference,
-            Self::Symmetric => OpType::Xor,
         }
     }
 }
@@ -110,101 +99,68 @@ pub fn union_all<'a>(geometries: impl IntoIterator<Item = &'a Geometry>) -> Geom
     Geometry::Collection(geometries.into_iter().filter(|it| it.is_sound()).cloned().collect()).dissolved()
 }
 
-/// With more edges than these the corners of areas stay on the grid of i_overlay, unless they were corners before.
-const MANY: usize = 20_000;
-
+/// The result of an operation; empty of the dimension if it has nothing, and once the work of this thread is to stop.
 fn combine(one: &Geometry, two: &Geometry, operation: Operation, dimension: usize) -> Geometry {
-    let plane = Plane::of(&[one, two]);
-    let operands = [Operand::new(plane, one), Operand::new(plane, two)];
+    let operands = [one, two].map(Operand::for_overlay);
     let [a, b] = &operands;
-    let ways: Vec<Way> =
-        operands.iter().zip([false, true]).flat_map(|(it, second)| it.ways(second)).collect();
     // Of areas alone only what they have in common may be less than an area.
-    let is_of_areas = a.is_of_areas() && b.is_of_areas() && operation != Operation::Intersection;
-    let arrangement =
-        if is_of_areas && (two.is_empty() || ways.iter().map(|way| way.places.len()).sum::<usize>() > MANY) {
-            None
-        } else {
-            let points: Vec<DVec2> = operands.iter().flat_map(|it| it.points.iter().copied()).collect();
-            Some(Arrangement::new(&ways, &points, plane))
-        };
-    let coord = |at: &DVec2| Coord { x: at.x, y: at.y };
-    let areas = match (&arrangement, a.areas.0.is_empty() && b.areas.0.is_empty()) {
-        (_, true) => MultiPolygon::new(Vec::new()),
-        (Some(arrangement), false) => {
-            let nodes = arrangement.nodes.iter().map(coord);
-            areas::combine(&a.areas, &b.areas, operation.of_areas(), nodes)
-        }
-        (None, false) => {
-            let nodes = areas::corners(&a.areas).chain(areas::corners(&b.areas));
-            areas::combine(&a.areas, &b.areas, operation.of_areas(), nodes)
-        }
+    let made = if a.is_of_areas() && b.is_of_areas() && operation != Operation::Intersection {
+        overlay(&area_of(&a.areas), &area_of(&b.areas), |is_in| operation.keeps(is_in))
+            .map(|areas| geometry_of(&areas))
+    } else {
+        combine_all(&operands, operation)
     };
-    let mut parts = match plane.areas(&areas) {
-        Geometry::Polygon(rings) if rings.is_empty() => Vec::new(),
-        areas => vec![areas],
-    };
-    if let (Some(arrangement), false) = (&arrangement, is_of_areas) {
-        let (lines, points) = lines_and_points(&operands, &ways, arrangement, operation);
-        let back = |places: Vec<DVec2>| places.into_iter().map(|at| plane.back(at)).collect::<Vec<DVec3>>();
-        parts.extend(lines.into_iter().map(|line| Geometry::Line(back(line))));
-        parts.push(Geometry::MultiPoint(back(points)));
-    }
-    let made = Geometry::gathered(parts);
+    let made = made.unwrap_or_default();
     if made.is_empty() { Geometry::empty(dimension) } else { with_heights(made, &[one, two]) }
 }
 
-/// The lines and points of the result that its areas have not.
-fn lines_and_points(
-    operands: &[Operand; 2],
-    ways: &[Way],
-    arrangement: &Arrangement,
-    operation: Operation,
-) -> (Vec<Vec<DVec2>>, Vec<DVec2>) {
-    let inside = [0, 1].map(|index| Inside::new(&operands[index].areas));
-    let coord = |at: DVec2| Coord { x: at.x, y: at.y };
-    // By piece: whether it is a line of the result, and what lies in each geometry at it and beside it.
-    let pieces: Vec<PieceLabel> = arrangement
-        .pieces
-        .iter()
-        .map(|piece| {
-            PieceLabel::new(piece, operation, |geometry| {
-                let [from, to] = piece.nodes.map(|node| arrangement.nodes[node]);
-                inside[geometry].holds(coord((from + to) / 2.0))
-            })
-        })
-        .collect();
+/// The areas, lines and points of the result.
+fn combine_all(operands: &[Operand; 2], operation: Operation) -> Result<Geometry> {
+    let arranged = Arranged::new(operands)?;
+    let areas = arranged.subdivision.areas(|around| operation.keeps(around.map(|count| count != 0)));
+    let (lines, points) = lines_and_points(&arranged, operation);
+    let places = |nodes: Vec<u32>| -> Vec<DVec3> {
+        nodes.into_iter().map(|node| arranged.subdivision.places[node as usize].extend(0.0)).collect()
+    };
+    let mut parts = vec![geometry_of(&areas)];
+    parts.extend(lines.into_iter().map(|line| Geometry::Line(places(line))));
+    parts.push(Geometry::MultiPoint(places(points)));
+    Ok(Geometry::gathered(parts))
+}
+
+/// The nodes of the lines and points of the result that its areas have not.
+fn lines_and_points(arranged: &Arranged, operation: Operation) -> (Vec<Vec<u32>>, Vec<u32>) {
+    let subdivision = &arranged.subdivision;
+    let labels: Vec<EdgeLabel> =
+        subdivision.edges.iter().map(|edge| EdgeLabel::new(edge, operation)).collect();
     // By node: whether it lies in each geometry, and whether the result has it already.
-    let mut nodes = vec![NodeLabel::default(); arrangement.nodes.len()];
-    for (piece, label) in arrangement.pieces.iter().zip(&pieces) {
-        for node in piece.nodes {
-            let node = &mut nodes[node];
+    let mut nodes = vec![NodeLabel::default(); subdivision.places.len()];
+    for (edge, label) in subdivision.edges.iter().zip(&labels) {
+        for node in edge.ends {
+            let node = &mut nodes[node as usize];
             node.is_met = true;
             node.is_covered |= label.is_line || label.is_beside_area;
             (0..2).for_each(|geometry| node.is_in[geometry] |= label.is_in[geometry]);
         }
     }
-    let first = operands[0].points.len();
-    for (number, node) in arrangement.asked.iter().enumerate() {
-        let at = coord(arrangement.nodes[*node]);
-        let label = &mut nodes[*node];
-        if !label.is_met {
-            let areas = [0, 1].map(|geometry| inside[geometry].holds(at));
-            label.is_covered |= operation.keeps(areas);
-            (0..2).for_each(|geometry| label.is_in[geometry] |= areas[geometry]);
-            label.is_met = true;
+    for (geometry, points) in arranged.points.iter().enumerate() {
+        for node in points {
+            let label = &mut nodes[*node as usize];
+            if !label.is_met {
+                let areas = subdivision.around(*node).map(|count| count != 0);
+                label.is_covered |= operation.keeps(areas);
+                label.is_in = areas;
+                label.is_met = true;
+            }
+            label.is_in[geometry] = true;
         }
-        label.is_in[usize::from(number >= first)] = true;
     }
-    let points = nodes
-        .iter()
-        .zip(&arrangement.nodes)
-        .filter(|(node, _)| node.is_met && !node.is_covered && operation.keeps(node.is_in));
-    let points = points.map(|(_, place)| *place).collect();
-    (runs(arrangement, ways, &pieces), points)
+    let is_point = |label: &NodeLabel| label.is_met && !label.is_covered && operation.keeps(label.is_in);
+    let points = (0..).zip(&nodes).filter(|(_, label)| is_point(label)).map(|(node, _)| node).collect();
+    (runs(arranged, &labels), points)
 }
 
-/// What is known of a node.
+/// A node in the result.
 #[derive(Debug, Clone, Copy, Default)]
 struct NodeLabel {
     is_in: [bool; 2],
@@ -213,8 +169,8 @@ struct NodeLabel {
     is_met: bool,
 }
 
-/// What is known of a piece.
-struct PieceLabel {
+/// An edge in the result.
+struct EdgeLabel {
     /// By geometry: whether it lies in it, borders counted in.
     is_in: [bool; 2],
     /// Whether it is part of the lines of the result.
@@ -223,32 +179,31 @@ struct PieceLabel {
     is_beside_area: bool,
 }
 
-impl PieceLabel {
-    fn new(piece: &Piece, operation: Operation, holds: impl Fn(usize) -> bool) -> Self {
-        // By geometry: whether its area lies to the left, and to the right.
-        let sides = [0, 1].map(|geometry| match piece.ring[geometry] {
-            [false, false] => [holds(geometry); 2],
-            sides => sides,
-        });
-        let is_in = [0, 1].map(|geometry| piece.line[geometry] || sides[geometry].contains(&true));
+impl EdgeLabel {
+    fn new(edge: &SubdivisionEdge, operation: Operation) -> Self {
+        let sides = sides(edge);
+        let is_in = [0, 1].map(|geometry| edge.line[geometry] || sides[geometry].contains(&true));
         let is_beside_area = (0..2).any(|side| operation.keeps([sides[0][side], sides[1][side]]));
         Self { is_in, is_line: operation.keeps(is_in) && !is_beside_area, is_beside_area }
     }
 }
 
-/// The lines of the result: each as far as one way leads along pieces that are part of it.
-fn runs(arrangement: &Arrangement, ways: &[Way], pieces: &[PieceLabel]) -> Vec<Vec<DVec2>> {
-    let mut done = vec![false; pieces.len()];
-    let mut lines: Vec<Vec<usize>> = Vec::new();
-    for (walked, way) in arrangement.ways.iter().zip(ways) {
+/// The nodes along the lines of the result: each as far as one way leads along edges that are part of it.
+fn runs(arranged: &Arranged, labels: &[EdgeLabel]) -> Vec<Vec<u32>> {
+    if !labels.iter().any(|label| label.is_line) {
+        return Vec::new();
+    }
+    let edges = arranged.edges_by_nodes();
+    let mut done = vec![false; labels.len()];
+    let mut lines: Vec<Vec<u32>> = Vec::new();
+    for way in &arranged.ways {
         let (begin, mut open) = (lines.len(), false);
         let mut first = false;
-        for (number, (piece, forwards)) in walked.iter().enumerate() {
-            let [mut from, mut to] = arrangement.pieces[*piece].nodes;
-            if !forwards {
-                (from, to) = (to, from);
-            }
-            let is_part = pieces[*piece].is_line && !std::mem::replace(&mut done[*piece], true);
+        for (number, pair) in way.nodes.windows(2).enumerate() {
+            let [from, to] = [pair[0], pair[1]];
+            let edge = edges.get(&key([from, to])).map(|edge| *edge as usize);
+            let is_part =
+                edge.is_some_and(|edge| labels[edge].is_line && !std::mem::replace(&mut done[edge], true));
             first |= is_part && number == 0;
             match lines.last_mut() {
                 Some(line) if is_part && open => line.push(to),
@@ -257,8 +212,8 @@ fn runs(arrangement: &Arrangement, ways: &[Way], pieces: &[PieceLabel]) -> Vec<V
             }
             open = is_part;
         }
-        // What ends where its ring began goes on there.
-        if way.origin.ring
+        // A line that ends where its ring began goes on there.
+        if way.is_ring
             && first
             && open
             && lines.len() > begin + 1
@@ -268,5 +223,5 @@ fn runs(arrangement: &Arrangement, ways: &[Way], pieces: &[PieceLabel]) -> Vec<V
             lines[begin] = last;
         }
     }
-    lines.into_iter().map(|line| line.into_iter().map(|node| arrangement.nodes[node]).collect()).collect()
+    lines
 }

@@ -1,13 +1,12 @@
 //! A geometry as its areas, lines and points, with nothing of them twice.
 
 use burgeon_base::budget::Budget;
+use burgeon_geometry::overlay::{Fill, LayerWay, WayKind, fill, is_flat, ring_ways, unite};
 use burgeon_geometry::planar::twice_area;
-use geo::bool_ops::FillRule;
-use geo::{BooleanOps, BoundingRect, MultiPolygon};
+use geo::{BoundingRect, MultiPolygon};
 use glam::DVec2;
 
-use super::areas::{FILL, corners, snap, untangled};
-use super::arrangement::{Way, WayOrigin};
+use super::convert::{area_of, polygons_of};
 use crate::Geometry;
 use crate::plane::{Plane, collect_lines, collect_points};
 use crate::ways::multi_polygon_flaw;
@@ -23,6 +22,24 @@ pub(crate) struct Operand {
 
 impl Operand {
     pub(crate) fn new(plane: Plane, geometry: &Geometry) -> Self {
+        let mut made = Self::undissolved(plane, geometry);
+        made.are_given = are_disjoint(&made.areas);
+        if !made.are_given {
+            made.areas = united(&made.areas);
+        }
+        made
+    }
+
+    /// The operand of a set operation, in absolute coordinates. Of a single polygon the rings may cross each other.
+    pub(super) fn for_overlay(geometry: &Geometry) -> Self {
+        let mut made = Self::undissolved(Plane::absolute(), geometry);
+        if made.areas.0.len() > 1 {
+            made.areas = dissolved(made.areas);
+        }
+        made
+    }
+
+    fn undissolved(plane: Plane, geometry: &Geometry) -> Self {
         let (mut lines, mut points) = (Vec::new(), Vec::new());
         if geometry.is_sound() {
             collect_lines(geometry, &mut |line| {
@@ -38,20 +55,16 @@ impl Operand {
         }
         let (areas, thin) = with_width(plane.polygons(geometry));
         lines.extend(thin.iter().map(|ring| ring.0.iter().map(|at| DVec2::new(at.x, at.y)).collect()));
-        let are_given = are_disjoint(&areas);
-        Self { areas: if are_given { areas } else { filled(&areas, FILL) }, lines, points, are_given }
+        Self { areas, lines, points, are_given: false }
     }
 
-    /// Its lines and rings.
-    pub(super) fn ways(&self, second: bool) -> Vec<Way> {
-        let origin = |ring| WayOrigin { second, ring };
-        let lines = self.lines.iter().map(|line| Way { origin: origin(false), places: line.clone() });
-        let rings = self.areas.iter().flat_map(|it| std::iter::once(it.exterior()).chain(it.interiors()));
-        let rings = rings.map(|ring| {
-            let places = ring.0.iter().map(|at| DVec2::new(at.x, at.y)).collect();
-            Way { origin: origin(true), places }
-        });
-        lines.chain(rings).collect()
+    /// Its lines, rings and points, in this order; points are one way.
+    pub(super) fn ways(&self, layer: usize) -> Vec<LayerWay> {
+        let line = |places: &Vec<DVec2>| LayerWay { layer, kind: WayKind::Line, places: places.clone() };
+        let mut ways: Vec<LayerWay> = self.lines.iter().map(line).collect();
+        ways.extend(ring_ways(&area_of(&self.areas), layer));
+        ways.push(LayerWay { layer, kind: WayKind::Points, places: self.points.clone() });
+        ways
     }
 
     pub(super) fn is_of_areas(&self) -> bool {
@@ -66,33 +79,43 @@ const NARROW: f64 = 1e-9;
 pub(crate) fn with_width(areas: MultiPolygon) -> (MultiPolygon, Vec<geo::LineString>) {
     let (thin, wide): (Vec<_>, Vec<_>) = areas.into_iter().partition(|area| {
         twice_area(area.exterior().coords().copied()).abs() < NARROW
-            && filled(&MultiPolygon(vec![area.clone()]), FILL).0.is_empty()
+            && filled(&MultiPolygon(vec![area.clone()]), Fill::NonZero).0.is_empty()
     });
     (MultiPolygon(wide), thin.into_iter().map(|area| area.into_inner().0).collect())
 }
 
 /// Areas whose rings neither cross nor overlap: as they are if that holds already, else all that the rings go around.
 pub(crate) fn dissolved(areas: MultiPolygon) -> MultiPolygon {
-    if are_disjoint(&areas) { areas } else { filled(&areas, FILL) }
+    if are_disjoint(&areas) { areas } else { united(&areas) }
 }
 
 /// Whether the rings of areas neither cross nor overlap.
 fn are_disjoint(areas: &MultiPolygon) -> bool {
     // A ring that goes back the way it came is not asked after.
-    let has_width = |ring: &geo::LineString| twice_area(ring.coords().copied()) != 0.0;
+    let has_width = |ring: &geo::LineString| !is_flat(ring.0.iter().map(|at| DVec2::new(at.x, at.y)));
     let are_wide = |it: &geo::Polygon| has_width(it.exterior()) && it.interiors().iter().all(has_width);
     areas.iter().all(are_wide) && matches!(multi_polygon_flaw(areas, &Budget::default()), Ok(None))
 }
 
-/// Below this (m) an extent is none: what numbers can hold that is far less still, i_overlay has no grid for.
+/// Below this (m) an extent is none: products of such coordinates are too small for numbers to hold them.
 pub(crate) const LEAST_EXTENT: f64 = 1e-15;
 
-/// What rings go around, by a rule.
-pub(crate) fn filled(areas: &MultiPolygon, rule: FillRule) -> MultiPolygon {
-    if areas.bounding_rect().is_none_or(|around| around.width().max(around.height()) < LEAST_EXTENT) {
+fn has_extent(areas: &MultiPolygon) -> bool {
+    areas.bounding_rect().is_some_and(|around| around.width().max(around.height()) >= LEAST_EXTENT)
+}
+
+/// The union of polygons; nothing once the work of this thread is to stop.
+fn united(areas: &MultiPolygon) -> MultiPolygon {
+    if !has_extent(areas) {
         return MultiPolygon::new(Vec::new());
     }
-    let mut made = areas.union_with_fill_rule(&MultiPolygon::new(Vec::new()), rule);
-    snap(&mut made, corners(areas));
-    untangled(made)
+    polygons_of(&unite(area_of(areas)).unwrap_or_default())
+}
+
+/// The area that rings enclose, by a rule; nothing once the work of this thread is to stop.
+pub(crate) fn filled(areas: &MultiPolygon, rule: Fill) -> MultiPolygon {
+    if !has_extent(areas) {
+        return MultiPolygon::new(Vec::new());
+    }
+    polygons_of(&fill(&area_of(areas), rule).unwrap_or_default())
 }

@@ -3,16 +3,11 @@
 //! Source: E. Clementini and others, "A small set of formal topological relationships suitable for end-user
 //! interaction", 1993; the boundary of lines is made of places where an odd number of them end.
 
-use geo::Coord;
-use glam::DVec2;
-
-use super::arrangement::Arrangement;
-use super::inside::Inside;
+use super::arranged::{Arranged, sides};
 use super::operand::Operand;
 use crate::Geometry;
-use crate::plane::Plane;
 
-/// Where something lies to a geometry.
+/// The position of a place relative to a geometry.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum TopologicalPosition {
     Interior,
@@ -20,7 +15,7 @@ enum TopologicalPosition {
     Exterior,
 }
 
-/// What is known of a node, by geometry.
+/// A node in both geometries.
 #[derive(Debug, Clone, Copy, Default)]
 struct NodeState {
     is_met: bool,
@@ -34,81 +29,66 @@ struct NodeState {
 }
 
 /// By interior, boundary and exterior of the first geometry and then of the second, row by row: the dimension in which
-/// they meet, as a letter.
+/// they meet, as a letter. Nothing meets once the work of this thread is to stop.
 pub(crate) fn relate(one: &Geometry, two: &Geometry) -> [u8; 9] {
-    let plane = Plane::of(&[one, two]);
-    let operands = [Operand::new(plane, one), Operand::new(plane, two)];
-    let ways: Vec<_> = operands.iter().zip([false, true]).flat_map(|(it, second)| it.ways(second)).collect();
-    let points: Vec<DVec2> = operands.iter().flat_map(|it| it.points.iter().copied()).collect();
-    let arrangement = Arrangement::new(&ways, &points, plane);
-    let inside = [0, 1].map(|index| Inside::new(&operands[index].areas));
-    let coord = |at: DVec2| Coord { x: at.x, y: at.y };
     let mut cells = [b'F'; 9];
     cells[8] = b'2';
+    let Ok(arranged) = Arranged::new(&[one, two].map(Operand::for_overlay)) else { return cells };
+    let subdivision = &arranged.subdivision;
     let mut note = |[first, second]: [TopologicalPosition; 2], dimension: u8| {
         let cell = &mut cells[first as usize * 3 + second as usize];
         if *cell == b'F' || *cell < dimension {
             *cell = dimension;
         }
     };
-    let mut nodes = vec![NodeState::default(); arrangement.nodes.len()];
-    for piece in &arrangement.pieces {
-        let [from, to] = piece.nodes.map(|node| arrangement.nodes[node]);
-        let sides = [0, 1].map(|geometry| match piece.ring[geometry] {
-            [false, false] => [inside[geometry].holds(coord((from + to) / 2.0)); 2],
-            sides => sides,
-        });
-        let place = |is_inside: bool| {
-            if is_inside { TopologicalPosition::Interior } else { TopologicalPosition::Exterior }
-        };
-        let [first, second] = sides;
-        for (one, two) in first.into_iter().zip(second) {
-            note([place(one), place(two)], b'2');
+    let place = |is_inside: bool| {
+        if is_inside { TopologicalPosition::Interior } else { TopologicalPosition::Exterior }
+    };
+    let mut nodes = vec![NodeState::default(); subdivision.places.len()];
+    for edge in &subdivision.edges {
+        let sides = sides(edge);
+        for side in 0..2 {
+            note([place(sides[0][side]), place(sides[1][side])], b'2');
         }
         note(
             [0, 1].map(|geometry| match sides[geometry] {
                 [true, true] => TopologicalPosition::Interior,
-                [false, false] => place(piece.line[geometry]),
+                [false, false] => place(edge.line[geometry]),
                 _ => TopologicalPosition::Boundary,
             }),
             b'1',
         );
-        for node in piece.nodes {
-            let node = &mut nodes[node];
+        for node in edge.ends {
+            let node = &mut nodes[node as usize];
             node.is_met = true;
-            for (geometry, [left, right]) in sides.into_iter().enumerate() {
-                node.area[geometry] |= left && right;
-                node.ring[geometry] |= left != right;
-                node.line[geometry] |= piece.line[geometry];
+            for (geometry, [above, below]) in sides.into_iter().enumerate() {
+                node.area[geometry] |= above && below;
+                node.ring[geometry] |= above != below;
+                node.line[geometry] |= edge.line[geometry];
             }
         }
     }
-    for (way, walked) in ways.iter().zip(&arrangement.ways) {
-        let end = |index: usize, is_last: bool| {
-            let (piece, forwards) = walked[index];
-            arrangement.pieces[piece].nodes[usize::from(forwards == is_last)]
-        };
-        if let (false, Some(last)) = (way.origin.ring, walked.len().checked_sub(1)) {
-            let (begin, end) = (end(0, false), end(last, true));
-            if begin != end {
-                [begin, end].iter().for_each(|node| nodes[*node].ends[usize::from(way.origin.second)] += 1);
-            }
+    for way in arranged.ways.iter().filter(|way| !way.is_ring) {
+        if let [begin, .., end] = way.nodes[..]
+            && begin != end
+        {
+            [begin, end].iter().for_each(|node| nodes[*node as usize].ends[way.geometry] += 1);
         }
     }
-    let first = operands[0].points.len();
-    for (number, node) in arrangement.asked.iter().enumerate() {
-        nodes[*node].point[usize::from(number >= first)] = true;
+    for (geometry, points) in arranged.points.iter().enumerate() {
+        points.iter().for_each(|node| nodes[*node as usize].point[geometry] = true);
     }
-    for (node, place) in nodes.iter().zip(&arrangement.nodes) {
+    for (number, node) in (0..).zip(&nodes) {
         // The corner of an area without width is none.
         if !node.is_met && node.point == [false; 2] {
             continue;
         }
+        let around = subdivision.around(number);
         note(
             [0, 1].map(|geometry| {
                 if node.ring[geometry] {
                     TopologicalPosition::Boundary
-                } else if node.area[geometry] || !node.is_met && inside[geometry].holds(coord(*place)) {
+                } else if node.area[geometry] || !node.is_met && around[geometry] != 0 {
                     TopologicalPosition::Interior
                 } else if node.line[geometry] {
                     if node.ends[geometry] % 2 == 1 {
@@ -116,10 +96,8 @@ pub(crate) fn relate(one: &Geometry, two: &Geometry) -> [u8; 9] {
                     } else {
                         TopologicalPosition::Interior
                     }
-                } else if node.point[geometry] {
-                    TopologicalPosition::Interior
                 } else {
-                    TopologicalPosition::Exterior
+                    place(node.point[geometry])
                 }
             }),
             b'0',

@@ -1,0 +1,212 @@
+//! Set operations on areas.
+
+use burgeon_base::error::Result;
+use burgeon_base::work::WorkLimits;
+use glam::DVec2;
+
+use super::noding::{LayerWay, WayKind};
+use super::pairs::{Candidate, for_pairs};
+use super::subdivision::Subdivision;
+use crate::planar::Rings;
+
+/// The areas that are joined at once.
+const AT_ONCE: usize = 4;
+
+/// An area: polygons, outer rings counter-clockwise and holes clockwise.
+pub type Area = Vec<Rings<DVec2>>;
+
+/// The rule by which rings enclose an area.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Fill {
+    /// All that they go around, in whatever direction.
+    NonZero,
+    /// All that they go around an odd number of times.
+    EvenOdd,
+}
+
+/// The rings of polygons as ways of a layer.
+pub fn ring_ways(area: &[Rings<DVec2>], layer: usize) -> impl Iterator<Item = LayerWay> + '_ {
+    let rings = area.iter().flat_map(|rings| rings.iter());
+    rings.map(move |ring| LayerWay { layer, kind: WayKind::Ring, places: ring.clone() })
+}
+
+/// Returns the area that rings enclose by a rule, valid: rings that cross or touch are divided.
+///
+/// Fails if the work of this thread is to stop.
+pub fn fill(area: &[Rings<DVec2>], rule: Fill) -> Result<Area> {
+    let ways: Vec<LayerWay> = ring_ways(area, 0).collect();
+    Ok(Subdivision::new(&ways)?.areas(|[around, _]| match rule {
+        Fill::NonZero => around != 0,
+        Fill::EvenOdd => around % 2 != 0,
+    }))
+}
+
+/// Returns the area of which `keep` says that it is part, by whether it lies in the first area and in the second. Rings
+/// enclose all that they go around.
+///
+/// Fails if the work of this thread is to stop.
+///
+/// ```
+/// use burgeon_geometry::Rings;
+/// use burgeon_geometry::overlay::overlay;
+/// use glam::DVec2;
+///
+/// let square = |at: f64| -> Rings<DVec2> {
+///     Rings(vec![[(at, at), (at + 2.0, at), (at + 2.0, at + 2.0), (at, at + 2.0)].map(DVec2::from).to_vec()])
+/// };
+/// let both = overlay(&[square(0.0)], &[square(1.0)], |[first, second]| first && second)?;
+/// assert_eq!(both[0][0], [(1.0, 1.0), (2.0, 1.0), (2.0, 2.0), (1.0, 2.0)].map(DVec2::from).to_vec());
+/// # Ok::<(), burgeon_base::error::Error>(())
+/// ```
+pub fn overlay(
+    first: &[Rings<DVec2>],
+    second: &[Rings<DVec2>],
+    keep: impl Fn([bool; 2]) -> bool,
+) -> Result<Area> {
+    let parts: Vec<(usize, &Rings<DVec2>)> =
+        first.iter().map(|rings| (0, rings)).chain(second.iter().map(|rings| (1, rings))).collect();
+    let mut made = Area::new();
+    for group in groups(parts.iter().map(|(_, rings)| *rings))? {
+        let ways: Vec<LayerWay> = group
+            .iter()
+            .flat_map(|index| ring_ways(std::slice::from_ref(parts[*index].1), parts[*index].0))
+            .collect();
+        made.extend(Subdivision::new(&ways)?.areas(|around| keep(around.map(|count| count != 0))));
+    }
+    Ok(made)
+}
+
+/// Returns the union of polygons, whose rings each enclose all that they go around.
+///
+/// Fails if the work of this thread is to stop.
+///
+/// Method: polygons whose boxes meet, directly or by way of others, are joined four at a time, neighbours first, so that
+/// what is covered is left behind early.
+///
+/// ```
+/// use burgeon_geometry::Rings;
+/// use burgeon_geometry::overlay::unite;
+/// use glam::DVec2;
+///
+/// let house = |x: f64| -> Rings<DVec2> {
+///     Rings(vec![[(x, 0.0), (x + 1.0, 0.0), (x + 1.0, 5.0), (x, 5.0)].map(DVec2::from).to_vec()])
+/// };
+/// let row = unite((0..10).map(|x| house(f64::from(x))).collect())?;
+/// assert_eq!(row[0][0].len(), 4);
+/// # Ok::<(), burgeon_base::error::Error>(())
+/// ```
+pub fn unite(parts: Vec<Rings<DVec2>>) -> Result<Area> {
+    let mut valid = Vec::with_capacity(parts.len());
+    for rings in &parts {
+        valid.push(fill(std::slice::from_ref(rings), Fill::NonZero)?);
+    }
+    unite_valid(valid)
+}
+
+/// Returns the union of areas that are valid, each by itself.
+pub(super) fn unite_valid(areas: Vec<Area>) -> Result<Area> {
+    let mut made = Area::new();
+    let all: Vec<Rings<DVec2>> = areas.iter().flatten().cloned().collect();
+    let owners = owners(&areas);
+    let middles: Vec<DVec2> = all.iter().map(middle).collect();
+    for mut group in groups(all.iter())? {
+        if is_of_one(&group, &owners) {
+            made.extend(group.into_iter().map(|index| all[index].clone()));
+            continue;
+        }
+        let low = group.iter().fold(DVec2::INFINITY, |low, index| low.min(middles[*index]));
+        let high = group.iter().fold(DVec2::NEG_INFINITY, |high, index| high.max(middles[*index]));
+        let axis = usize::from((high - low).y > (high - low).x);
+        group.sort_by(|a, b| middles[*a][axis].total_cmp(&middles[*b][axis]));
+        let sorted: Vec<Area> = group.into_iter().map(|index| vec![all[index].clone()]).collect();
+        made.extend(join(sorted)?);
+    }
+    Ok(made)
+}
+
+fn middle(rings: &Rings<DVec2>) -> DVec2 {
+    let [low, high] = bounds(rings);
+    low.midpoint(high)
+}
+
+/// Joins valid areas, some at a time, until there is one.
+fn join(mut areas: Vec<Area>) -> Result<Area> {
+    while areas.len() > 1 {
+        areas = areas.chunks(AT_ONCE).map(join_few).collect::<Result<_>>()?;
+    }
+    Ok(areas.pop().unwrap_or_default())
+}
+
+/// Joins valid areas at once.
+fn join_few(areas: &[Area]) -> Result<Area> {
+    let all: Vec<&Rings<DVec2>> = areas.iter().flatten().collect();
+    let owners = owners(areas);
+    let mut made = Area::new();
+    for group in groups(all.iter().copied())? {
+        if is_of_one(&group, &owners) {
+            made.extend(group.into_iter().map(|index| all[index].clone()));
+            continue;
+        }
+        let ways: Vec<LayerWay> =
+            group.iter().flat_map(|index| ring_ways(std::slice::from_ref(all[*index]), 0)).collect();
+        made.extend(Subdivision::new(&ways)?.areas(|[around, _]| around != 0));
+    }
+    Ok(made)
+}
+
+/// By polygon: the area that it is part of.
+fn owners(areas: &[Area]) -> Vec<usize> {
+    areas.iter().enumerate().flat_map(|(index, area)| std::iter::repeat_n(index, area.len())).collect()
+}
+
+/// Whether all polygons of a group are part of one area.
+fn is_of_one(group: &[usize], owners: &[usize]) -> bool {
+    group.windows(2).all(|pair| owners[pair[0]] == owners[pair[1]])
+}
+
+fn bounds(rings: &Rings<DVec2>) -> [DVec2; 2] {
+    let places = rings.iter().flatten();
+    places.fold([DVec2::INFINITY, DVec2::NEG_INFINITY], |[low, high], at| [low.min(*at), high.max(*at)])
+}
+
+/// The numbers of polygons in groups whose boxes do not meet those of others; each in order, by their first ones.
+#[allow(clippy::cast_possible_truncation, reason = "fewer polygons than 2^32 fit into memory")]
+fn groups<'a>(all: impl Iterator<Item = &'a Rings<DVec2>>) -> Result<Vec<Vec<usize>>> {
+    let mut boxes: Vec<Candidate> = all
+        .map(bounds)
+        .enumerate()
+        .map(|(index, [low, high])| Candidate {
+            low,
+            high,
+            index: index as u32,
+            is_fresh: true,
+            is_point: false,
+        })
+        .collect();
+    let count = boxes.len();
+    if count == 1 {
+        return Ok(vec![vec![0]]);
+    }
+    let most = boxes.iter().fold(0.0_f64, |most, it| most.max(it.low.abs().max(it.high.abs()).max_element()));
+    // As far as what is rounded may be beside what it was meant to touch.
+    let near = 4.0 * f64::EPSILON * most;
+    let mut first: Vec<usize> = (0..count).collect();
+    fn root(first: &mut [usize], mut index: usize) -> usize {
+        while first[index] != index {
+            first[index] = first[first[index]];
+            index = first[index];
+        }
+        index
+    }
+    for_pairs(&mut boxes, near, &WorkLimits::current(), |one, two| {
+        let [a, b] = [one, two].map(|it| root(&mut first, it.index as usize));
+        first[a.max(b)] = a.min(b);
+    })?;
+    let mut groups: Vec<Vec<usize>> = vec![Vec::new(); count];
+    for index in 0..count {
+        let root = root(&mut first, index);
+        groups[root].push(index);
+    }
+    groups.retain(|group| !group.is_empty());
+    Ok(groups)
+}

@@ -1,0 +1,193 @@
+//! The areas of a subdivision that are kept, as polygons that are valid.
+//!
+//! Method: the border of what is kept is walked so that at every node the next edge is the one that bounds the same piece
+//! of the inside; a walk that comes by a node again is divided there. So rings neither cross nor touch themselves, an inside
+//! that hangs together only in a point becomes several polygons, and a hole that touches the outer ring stays a hole. A
+//! walk without an outer ring belongs to the polygon whose border lies below its leftmost node.
+
+use glam::DVec2;
+
+use super::noding::SHARED;
+use super::predicates::side;
+use super::subdivision::Subdivision;
+use crate::planar::Rings;
+
+const NONE: u32 = u32::MAX;
+
+/// Edges of a border, from their right ends to their left ones if the inside is below them.
+struct Border<'a> {
+    of: &'a Subdivision,
+    /// By edge: whether the inside is above it and not below (1), or below and not above (-1), else 0.
+    sides: Vec<i8>,
+    /// By edge of the border: the one behind it.
+    next: Vec<u32>,
+    /// By node: how many edges of the border meet there.
+    degrees: Vec<u32>,
+}
+
+/// A walk along a border: the outer ring, if it has one, and holes.
+#[derive(Default)]
+struct Walk {
+    outer: Option<Vec<u32>>,
+    holes: Vec<Vec<u32>>,
+    /// Its least edge: one that begins at its leftmost node, and below the others there.
+    least: u32,
+}
+
+impl Subdivision {
+    /// The polygons of what is kept, by how often the rings of each layer go around it. What is outside of all rings is
+    /// not. Outer rings are counter-clockwise and holes clockwise.
+    pub fn areas(&self, keep: impl Fn([i32; 2]) -> bool) -> Vec<Rings<DVec2>> {
+        let sides: Vec<i8> = self
+            .edges
+            .iter()
+            .map(|edge| match [keep(edge.above), keep(edge.below)] {
+                [true, false] => 1,
+                [false, true] => -1,
+                _ => 0,
+            })
+            .collect();
+        let mut border = Border {
+            of: self,
+            sides,
+            next: vec![NONE; self.edges.len()],
+            degrees: vec![0; self.places.len()],
+        };
+        border.link();
+        let walks = border.walks();
+        border.polygons(walks)
+    }
+}
+
+impl Border<'_> {
+    /// Finds the edge behind each.
+    fn link(&mut self) {
+        let mut star: Vec<(u32, bool)> = Vec::new();
+        for (node, around) in self.of.stars() {
+            star.clear();
+            star.extend(around.iter().filter(|(edge, _)| self.sides[*edge as usize] != 0));
+            self.degrees[node as usize] = star.len() as u32;
+            for (index, (edge, is_right)) in star.iter().enumerate() {
+                // The inside is above an edge that comes from its left end.
+                if *is_right == (self.sides[*edge as usize] > 0) {
+                    self.next[*edge as usize] = star[(index + star.len() - 1) % star.len()].0;
+                }
+            }
+        }
+    }
+
+    /// The node at which an edge begins on the way around.
+    fn begin(&self, edge: u32) -> u32 {
+        self.of.edges[edge as usize].ends[usize::from(self.sides[edge as usize] < 0)]
+    }
+
+    /// Walks along the border, from the edges on that are first in the order of the sweep.
+    fn walks(&self) -> Vec<Walk> {
+        let mut walks = Vec::new();
+        let mut done = vec![false; self.sides.len()];
+        // By node: where on the present walk it is.
+        let mut places: Vec<u32> = vec![NONE; self.of.places.len()];
+        let mut walk: Vec<u32> = Vec::new();
+        for least in 0..self.sides.len() as u32 {
+            if self.sides[least as usize] == 0 || done[least as usize] {
+                continue;
+            }
+            let mut made = Walk { least, ..Walk::default() };
+            let mut edge = least;
+            while !done[edge as usize] {
+                done[edge as usize] = true;
+                let node = self.begin(edge);
+                let before = places[node as usize];
+                if before != NONE {
+                    let ring: Vec<u32> = walk.drain(before as usize..).collect();
+                    ring.iter().for_each(|edge| places[self.begin(*edge) as usize] = NONE);
+                    self.note(&mut made, ring);
+                }
+                places[node as usize] = walk.len() as u32;
+                walk.push(edge);
+                edge = self.next[edge as usize];
+            }
+            walk.iter().for_each(|edge| places[self.begin(*edge) as usize] = NONE);
+            let ring = std::mem::take(&mut walk);
+            self.note(&mut made, ring);
+            walks.push(made);
+        }
+        walks
+    }
+
+    /// Adds a ring to a walk.
+    fn note(&self, walk: &mut Walk, ring: Vec<u32>) {
+        let place = |edge: u32| self.of.places[self.begin(edge) as usize];
+        let before = |one: DVec2, two: DVec2| one.x < two.x || one.x == two.x && one.y < two.y;
+        let least = (0..ring.len())
+            .reduce(|best, at| if before(place(ring[at]), place(ring[best])) { at } else { best })
+            .unwrap_or(0);
+        let count = ring.len();
+        let [last, corner, next] =
+            [least + count - 1, least, least + 1].map(|index| place(ring[index % count]));
+        if side(last, corner, next) > 0.0 && walk.outer.is_none() {
+            walk.outer = Some(ring);
+        } else {
+            walk.holes.push(ring);
+        }
+    }
+
+    /// The polygons of walks: those without an outer ring are holes of the others.
+    fn polygons(&self, walks: Vec<Walk>) -> Vec<Rings<DVec2>> {
+        // By edge: the nearest one of the border below it.
+        let mut under: Vec<u32> = Vec::with_capacity(self.sides.len());
+        for edge in &self.of.edges {
+            let found = edge.under.map_or(NONE, |below| {
+                if self.sides[below as usize] != 0 { below } else { under[below as usize] }
+            });
+            under.push(found);
+        }
+        // By edge: the polygon that it belongs to.
+        let mut owners: Vec<u32> = vec![NONE; self.sides.len()];
+        let mut polygons: Vec<Vec<Vec<u32>>> = Vec::new();
+        // Walks are in the order of their least edges, and what lies below one was begun before.
+        for Walk { outer, holes, least } in walks {
+            let below = under[least as usize];
+            let polygon = if outer.is_some() {
+                polygons.push(Vec::new());
+                polygons.len() as u32 - 1
+            } else if below != NONE {
+                owners[below as usize]
+            } else {
+                NONE
+            };
+            for ring in outer.into_iter().chain(holes) {
+                ring.iter().for_each(|edge| owners[*edge as usize] = polygon);
+                if let Some(rings) = polygons.get_mut(polygon as usize) {
+                    rings.push(ring);
+                }
+            }
+        }
+        polygons.iter().map(|rings| rings.iter().map(|ring| self.ring(ring)).collect()).collect()
+    }
+
+    /// The places of a ring, from the one on that was given first; without those that are on a straight line between others
+    /// and are no places of the ring that runs there.
+    fn ring(&self, edges: &[u32]) -> Vec<DVec2> {
+        let count = edges.len();
+        let is_corner = |index: &usize| {
+            let (last, next) = (edges[(index + count - 1) % count], edges[*index]);
+            let node = self.begin(next);
+            if self.degrees[node as usize] > 2 {
+                return true;
+            }
+            let [one, two] = [last, next].map(|edge| self.of.edges[edge as usize].source);
+            let owner = self.of.owners[node as usize];
+            if one == two && one != SHARED && (owner == Some(one) || owner == Some(SHARED)) {
+                return true;
+            }
+            let place = |edge: u32| self.of.places[self.begin(edge) as usize];
+            side(place(last), place(next), place(edges[(index + 1) % count])) != 0.0
+        };
+        let mut nodes: Vec<u32> =
+            (0..count).filter(is_corner).map(|index| self.begin(edges[index])).collect();
+        let first = (0..nodes.len()).min_by_key(|index| nodes[*index]).unwrap_or(0);
+        nodes.rotate_left(first);
+        nodes.into_iter().map(|node| self.of.places[node as usize]).collect()
+    }
+}

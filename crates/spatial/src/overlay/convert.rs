@@ -1,0 +1,37 @@
+//! Areas to and from other types.
+
+use burgeon_geometry::Rings;
+use burgeon_geometry::overlay::Area;
+use geo::{Coord, LineString, MultiPolygon, Polygon};
+use glam::DVec2;
+
+use crate::Geometry;
+
+/// The polygons of `geo` as an area.
+pub(crate) fn area_of(polygons: &MultiPolygon) -> Area {
+    polygons.iter().map(Rings::from).collect()
+}
+
+/// An area as polygons of `geo`.
+pub(super) fn polygons_of(area: &Area) -> MultiPolygon {
+    let string = |ring: &Vec<DVec2>| {
+        let mut line: LineString = ring.iter().map(|at| Coord { x: at.x, y: at.y }).collect();
+        line.close();
+        line
+    };
+    let polygon = |rings: &Rings<DVec2>| {
+        let mut rings = rings.iter().map(string);
+        let outer = rings.next().unwrap_or_else(|| LineString::new(Vec::new()));
+        Polygon::new(outer, rings.collect())
+    };
+    MultiPolygon::new(area.iter().map(polygon).collect())
+}
+
+/// The simplest geometry of an area.
+pub(crate) fn geometry_of(area: &Area) -> Geometry {
+    match &area[..] {
+        [] => Geometry::empty(2),
+        [only] => Geometry::Polygon(only.at_height(0.0)),
+        many => Geometry::MultiPolygon(many.iter().map(|rings| rings.at_height(0.0)).collect()),
+    }
+}
