@@ -8,6 +8,7 @@
 mod bed;
 mod block;
 mod cells;
+mod cuts;
 mod edits;
 pub mod fit;
 pub mod globe;
@@ -29,6 +30,7 @@ mod world;
 pub use bed::GroundBed;
 pub use block::{Area, Block};
 pub use cells::Cells;
+pub use cuts::{GroundCut, GroundCuts};
 pub use edits::{Edit, Edits};
 pub use ground::{Ground, GroundMap};
 pub use height_source::HeightSource;
