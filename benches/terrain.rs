@@ -18,8 +18,8 @@ use std::time::{Duration, Instant};
 use burgeon::kit::random::Stream;
 use burgeon::kit::rules::ModuleKey;
 use burgeon::terrain::{
-    Area, Ground, GroundCuts, GroundMesh, LevelRules, NumberRange, Quadrants, RuleTable, Rules, Tables, TileRing, View,
-    World,
+    Area, Ground, GroundCuts, GroundMesh, LevelRules, NumberRange, Quadrants, RuleTable, Rules, Tables,
+    TileRing, View, World,
 };
 use cpu_time::ProcessTime;
 use glam::DVec2;

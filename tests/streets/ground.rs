@@ -34,7 +34,9 @@ impl ShownGround {
                 let triangle = corners.map(|corner| {
                     instance.transform.transform_point3(part.positions[corner as usize].as_dvec3())
                 });
-                let [low, high] = triangle[1..].iter().fold([triangle[0]; 2], |[low, high], at| [low.min(*at), high.max(*at)]);
+                let [low, high] = triangle[1..]
+                    .iter()
+                    .fold([triangle[0]; 2], |[low, high], at| [low.min(*at), high.max(*at)]);
                 for x in (low.x / SQUARE).floor() as i64..=(high.x / SQUARE).floor() as i64 {
                     for y in (low.y / SQUARE).floor() as i64..=(high.y / SQUARE).floor() as i64 {
                         squares.entry([x, y]).or_default().push(triangle);
@@ -86,7 +88,8 @@ fn measured(script: &str, seed: u64, set: &[(&str, &str)], floats: &mut Floats) 
     let network = grown.network();
     for (piece, known) in network.pieces().filter(|(_, known)| !known.is_bridge) {
         let [start, stop] = network.line(piece);
-        let (way, length, half) = ((stop - start).normalize(), start.distance(stop), known.attributes.width / 2.0);
+        let (way, length, half) =
+            ((stop - start).normalize(), start.distance(stop), known.attributes.width / 2.0);
         let clear = 2.0 * known.attributes.width + 6.0;
         let mut along = clear;
         while along < length - clear {
@@ -97,14 +100,17 @@ fn measured(script: &str, seed: u64, set: &[(&str, &str)], floats: &mut Floats) 
                 let is_free = network.pieces().all(|(other, of)| {
                     let [a, b] = network.line(other);
                     let (way, part) = (b - a, (outside - a).dot(b - a) / (b - a).length_squared());
-                    other == piece || outside.distance(a + way * part.clamp(0.0, 1.0)) > of.attributes.width / 2.0 + 1.0
+                    other == piece
+                        || outside.distance(a + way * part.clamp(0.0, 1.0)) > of.attributes.width / 2.0 + 1.0
                 });
                 if is_free {
                     let sidewalk = height(at(half));
                     let ground = land.height(Vector(outside.extend(0.0))).expect("a height");
                     floats.queried.push(sidewalk - ground);
                     // Nothing is shown where there is a hole.
-                    floats.shown.push(shown.height(outside).map_or(f64::INFINITY, |ground| sidewalk - ground));
+                    floats
+                        .shown
+                        .push(shown.height(outside).map_or(f64::INFINITY, |ground| sidewalk - ground));
                     floats.inside += 2;
                     floats.within += usize::from(shown.height(at(half - 0.05)).is_some());
                     floats.within += usize::from(shown.height(at(0.3 * half)).is_some());

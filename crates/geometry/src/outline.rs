@@ -42,6 +42,9 @@ pub(super) struct OutlineOptions {
     pub straight: f64,
 }
 
+/// Slits that are not wider (m) are only rounding.
+const ROUNDING: f64 = 1e-6;
+
 /// The tolerances that are tried in turn, as parts of the one that was asked for, until no edges meet.
 const FINER: [f64; 3] = [1.0, 0.25, 0.05];
 
@@ -86,9 +89,9 @@ fn rings_within(
     let count = if manner.straight > 0.0 { FINER.len() } else { 1 };
     for finer in &FINER[..count] {
         let manner = OutlineOptions { straight: manner.straight * finer, ..*manner };
-        let mut rings = vec![ring("the outer ring".into(), outer, &manner)?];
+        let mut rings = vec![ring("the outer ring".into(), outer, false, &manner)?];
         for (index, hole) in holes.iter().enumerate() {
-            rings.push(ring(format!("hole {}", index + 1), hole, &manner)?);
+            rings.push(ring(format!("hole {}", index + 1), hole, true, &manner)?);
         }
         match refuse_crossings(&rings, true, &manner) {
             Ok(()) => return Ok(rings),
@@ -113,12 +116,12 @@ pub(super) fn open(points: &[SectionPoint]) -> Result<Vec<SectionPoint>> {
     Ok(line.points.into_iter().map(|point| point.point).collect())
 }
 
-/// Whether these points are a ring, so far as it can be told of one alone.
-pub(super) fn is_ring(points: &[SectionPoint], manner: &OutlineOptions) -> bool {
-    ring(String::new(), points, manner).is_ok()
+/// Whether these points are the ring of a hole, so far as it can be told of one alone.
+pub(super) fn is_hole(points: &[SectionPoint], manner: &OutlineOptions) -> bool {
+    ring(String::new(), points, true, manner).is_ok()
 }
 
-fn ring(name: String, points: &[SectionPoint], manner: &OutlineOptions) -> Result<NamedRing> {
+fn ring(name: String, points: &[SectionPoint], is_hole: bool, manner: &OutlineOptions) -> Result<NamedRing> {
     let owner = manner.owner;
     let mut points = numbered(&name, points, manner)?;
     let simplifies = manner.straight > 0.0;
@@ -149,7 +152,7 @@ fn ring(name: String, points: &[SectionPoint], manner: &OutlineOptions) -> Resul
     if points.len() > 2 {
         drop_repeated(&mut points, manner.near, true);
         width = if points.len() < 3 { manner.near } else { width };
-        drop_spikes(&mut points, manner);
+        drop_spikes(&mut points, is_hole, manner);
     }
     if points.len() < 3 {
         return Err(Error::geometry(format!("{name} of the {owner} is nowhere wider than {width} m"))
@@ -202,14 +205,17 @@ fn drop_straight(points: &mut Vec<NumberedPoint>, closed: bool) {
     }
 }
 
-/// Drops the tips of spikes, where one side lies along the other within the tolerance.
-fn drop_spikes(points: &mut Vec<NumberedPoint>, manner: &OutlineOptions) {
+/// Drops the tips of spikes, where one side lies along the other within the tolerance. Spikes into the area are slits,
+/// which are filled elsewhere, unless they are only rounding.
+fn drop_spikes(points: &mut Vec<NumberedPoint>, is_hole: bool, manner: &OutlineOptions) {
+    let outwards = if (twice_area(points.iter().copied()) > 0.0) == is_hole { -1.0 } else { 1.0 };
     let mut index = 0;
     while points.len() > 2 && index < points.len() {
         let [before, here, after] = around(points, index).map(|point| point.point.at);
-        let (a, b) = (before - here, after - here);
-        let is_tip =
-            a.dot(b) > 0.0 && a.perp_dot(b).abs() <= manner.straight * a.length().max(b.length());
+        let (a, b) = (here - before, after - here);
+        let turn = a.perp_dot(b) * outwards;
+        let width = if turn > 0.0 { manner.straight } else { ROUNDING };
+        let is_tip = a.dot(b) < 0.0 && turn.abs() <= width * a.length().max(b.length());
         if is_tip || a.length().min(b.length()) <= manner.near {
             points.remove(index);
             // The points beside a tip may be another one now.

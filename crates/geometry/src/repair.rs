@@ -9,7 +9,7 @@ use glam::{DVec2, DVec3};
 use rstar::primitives::{GeomWithData, Line};
 use rstar::{AABB, PointDistance, RTree};
 
-use super::outline::{OutlineOptions, is_ring, numbered_rings};
+use super::outline::{OutlineOptions, is_hole, numbered_rings};
 use super::planar::{Polygon, Rings, edges, foot, geo_polygon};
 use super::ring::MOST;
 use super::section::SectionPoint;
@@ -68,8 +68,7 @@ pub(super) fn fill(given: &Rings, sound: &[Vec<DVec2>], manner: &OutlineOptions)
         return None;
     }
     let middle = middle_of(given)?;
-    let sound: Rings<DVec2> =
-        sound.iter().map(|ring| ring.iter().map(|at| *at - middle).collect()).collect();
+    let sound: Rings<DVec2> = sound.iter().map(|ring| ring.iter().map(|at| *at - middle).collect()).collect();
     settle(MultiPolygon::new(vec![geo_polygon(&sound)]), Vec::new(), given, middle, manner)
 }
 
@@ -104,8 +103,11 @@ fn settle(
             let slits = slits::find(&clean, manner);
             if let Some(first) = slits.first() {
                 slit.get_or_insert(Slit { ends: first.ends.map(|end| end + middle), ..*first });
-                let areas: Vec<geo::Polygon> =
-                    slits.iter().map(|slit| geo_polygon(&[slit.corners])).chain([geo_polygon(&clean)]).collect();
+                let areas: Vec<geo::Polygon> = slits
+                    .iter()
+                    .map(|slit| geo_polygon(&[slit.corners]))
+                    .chain([geo_polygon(&clean)])
+                    .collect();
                 area = unary_union(&areas);
                 note(&mut notes, SLITS);
                 continue;
@@ -248,7 +250,7 @@ fn greatest(areas: MultiPolygon, notes: &mut Vec<&'static str>) -> Option<geo::P
 fn rings_of(polygon: &geo::Polygon, manner: &OutlineOptions) -> Rings<DVec2> {
     let is_sound = |ring: &Vec<DVec2>| {
         let sharp: Vec<SectionPoint> = ring.iter().copied().map(SectionPoint::sharp).collect();
-        is_ring(&sharp, manner)
+        is_hole(&sharp, manner)
     };
     let rings = Rings::from(polygon).0.into_iter().enumerate();
     rings.filter(|(number, ring)| *number == 0 || is_sound(ring)).map(|(_, ring)| ring).collect()

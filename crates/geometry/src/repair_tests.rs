@@ -87,9 +87,8 @@ fn heights_of_the_ground_are_kept_and_found_between() {
 
 #[test]
 fn what_encloses_nothing_is_refused() {
-    let refused = |rings: &[&[[f64; 2]]]| {
-        Plan::new(&rings.iter().map(|points| ring(points)).collect()).unwrap_err()
-    };
+    let refused =
+        |rings: &[&[[f64; 2]]]| Plan::new(&rings.iter().map(|points| ring(points)).collect()).unwrap_err();
     assert!(refused(&[&[[0.0, 0.0], [5.0, 5.0]]]).message().contains("2 distinct points"));
     assert!(refused(&[&[[0.0, 0.0], [4.0, 0.0], [8.0, 0.0]]]).message().contains("no area"));
     let all = [[-1.0, -1.0], [11.0, -1.0], [11.0, 11.0], [-1.0, 11.0]];
@@ -117,9 +116,7 @@ fn scribbles_take_no_longer_than_outlines() {
         shapes.push(around(count, &|at| {
             DVec2::from_angle(at * std::f64::consts::PI * (1.0 + 1.0 / size)) * 20.0
         }));
-        shapes.push(around(count, &|at| {
-            DVec2::new((at * 78.233).sin() * 50.0, (at * 12.9898).cos() * 50.0)
-        }));
+        shapes.push(around(count, &|at| DVec2::new((at * 78.233).sin() * 50.0, (at * 12.9898).cos() * 50.0)));
         shapes.push(around(count, &|at| DVec2::new(at % 2.0 * 30.0, (at * 0.25).floor() % 3.0)));
         shapes.push(around(count, &|at| DVec2::from_angle(at * 0.1) * 30.0));
         shapes.push(around(count, &|at| {

@@ -78,9 +78,20 @@ fn between([a, b]: [DVec2; 2], [c, d]: [DVec2; 2], widest: f64) -> Option<Slit> 
     if least < -1e-9 || !(width > 0.0 && width <= widest) || end - begin < DEEP * width.max(widest) {
         return None;
     }
-    let [near, far] = [begin - OVERLAP, end + OVERLAP].map(|at| a + along * at);
+    // A slit askew to the walls at its ends is filled up to their corners.
+    let near = 2.0 * widest;
+    let corner = |place: f64, own: f64, at: DVec2, between: DVec2| {
+        if (place - own).abs() <= near { at } else { between }
+    };
+    let here = |at: f64| a + along * at;
+    let there = |at: f64, width: f64| here(at) + out * width;
+    let [own, other] = [
+        [corner(begin, 0.0, a, here(begin)), corner(end, length, b, here(end))],
+        [corner(begin, from.x, d, there(begin, widths[0])), corner(end, to.x, c, there(end, widths[1]))],
+    ];
+    let (back, aside) = (along * OVERLAP, out * OVERLAP);
     let corners =
-        [near - out * OVERLAP, near + out * (widths[0] + OVERLAP), far + out * (widths[1] + OVERLAP), far - out * OVERLAP];
+        [own[0] - back - aside, other[0] - back + aside, other[1] + back + aside, own[1] + back - aside];
     let middle = |at: f64, width: f64| a + along * at + out * (width / 2.0);
     Some(Slit { corners, ends: [middle(begin, widths[0]), middle(end, widths[1])], width })
 }

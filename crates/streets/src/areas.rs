@@ -37,14 +37,19 @@ impl StreetNetwork {
                 Some([from, to]) => {
                     let [start, stop] = self.line(piece);
                     let way = (stop - start).normalize_or_zero();
-                    let across = |along: f64| [-half, half].map(|aside| start + way * along + way.perp() * aside);
+                    let across =
+                        |along: f64| [-half, half].map(|aside| start + way * along + way.perp() * aside);
                     let ([a, b], [c, d]) = (across(from), across(to));
-                    let parts = [([0.0, from], [first[0], a, b, first[1]]), ([to, length], [c, last[1], last[0], d])];
+                    let parts =
+                        [([0.0, from], [first[0], a, b, first[1]]), ([to, length], [c, last[1], last[0], d])];
                     for ([low, high], outline) in parts {
                         let along = |at: &DVec3| way.dot(at.truncate() - start);
                         let at = |along: f64| (start + way * along).extend(profiles.along(piece, along));
-                        let mut line: Vec<DVec3> =
-                            line.iter().copied().filter(|place| (low..=high).contains(&along(place))).collect();
+                        let mut line: Vec<DVec3> = line
+                            .iter()
+                            .copied()
+                            .filter(|place| (low..=high).contains(&along(place)))
+                            .collect();
                         if low > 0.0 {
                             line.insert(0, at(low));
                         } else {

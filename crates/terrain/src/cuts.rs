@@ -100,7 +100,8 @@ impl GroundCuts {
 
     /// The parts of a triangle, counter-clockwise from above, that lie outside of all areas; `None` if it meets none.
     pub(super) fn outside(&self, corners: [DVec2; 3]) -> Option<Vec<[PartCorner; 3]>> {
-        let [low, high] = corners[1..].iter().fold([corners[0]; 2], |[low, high], at| [low.min(*at), high.max(*at)]);
+        let [low, high] =
+            corners[1..].iter().fold([corners[0]; 2], |[low, high], at| [low.min(*at), high.max(*at)]);
         let near = self.near(low, high);
         if near.is_empty() {
             return None;
@@ -108,9 +109,8 @@ impl GroundCuts {
         let triangle = Polygon::new(vec![corners.to_vec()]).ok()?;
         let others: Vec<Polygon> =
             near.iter().map(|number| self.cuts[*number as usize].outline.clone()).collect();
-        let is_within = |of: &Polygon| {
-            of.len() == 1 && corners.iter().all(|at| contains(&of[0], *at)) && is_convex(of)
-        };
+        let is_within =
+            |of: &Polygon| of.len() == 1 && corners.iter().all(|at| contains(&of[0], *at)) && is_convex(of);
         // Most that an area meets lies in one that is convex.
         if others.iter().any(is_within) {
             return Some(Vec::new());
@@ -160,7 +160,8 @@ mod tests {
     use super::*;
 
     fn cut(outline: &[(f64, f64)], line: &[(f64, f64, f64)]) -> GroundCut {
-        let outline = Polygon::new(vec![outline.iter().copied().map(DVec2::from).collect()]).expect("an outline");
+        let outline =
+            Polygon::new(vec![outline.iter().copied().map(DVec2::from).collect()]).expect("an outline");
         GroundCut { outline, line: line.iter().copied().map(DVec3::from).collect() }
     }
 

@@ -276,11 +276,11 @@ impl<'a> GroundMesh<'a> {
             part.triangles.extend(triangles.into_iter().map(|corners| corners.map(|corner| corner + base)));
             return;
         }
-        let first = part.triangles.len();
+        let mut left: Vec<[u32; 3]> = Vec::with_capacity(triangles.len());
         let mut known: FxHashMap<[u64; 2], u32> = FxHashMap::default();
         for corners in triangles {
             let Some(pieces) = cuts.outside(corners.map(|corner| points[corner as usize].truncate())) else {
-                part.triangles.push(corners.map(|corner| corner + base));
+                left.push(corners.map(|corner| corner + base));
                 continue;
             };
             for piece in pieces {
@@ -296,11 +296,12 @@ impl<'a> GroundMesh<'a> {
                 });
                 let [a, b, c] = triangle.map(|corner| part.positions[corner as usize]);
                 if (b - a).cross(c - a).length_squared() > 0.0 {
-                    part.triangles.push(triangle);
+                    left.push(triangle);
                 }
             }
         }
-        drop_unused(part, base as usize, first);
+        drop_unused(part, base as usize, &mut left);
+        part.triangles.extend(left);
     }
 
     /// The edges of triangles on the rim of what is expanded, in no order: their ends (m), with the ground on their left.
@@ -328,11 +329,11 @@ impl<'a> GroundMesh<'a> {
     }
 }
 
-/// Drops the vertices from number `base` on that no triangle from number `first` on has.
-fn drop_unused(part: &mut Part, base: usize, first: usize) {
+/// Drops the vertices from number `base` on that none of the triangles has.
+fn drop_unused(part: &mut Part, base: usize, triangles: &mut [[u32; 3]]) {
     let mut numbers = vec![u32::MAX; part.positions.len() - base];
     let mut next = base;
-    for corner in part.triangles[first..].iter().flatten() {
+    for corner in triangles.iter().flatten() {
         numbers[*corner as usize - base] = 0;
     }
     for (index, number) in numbers.iter_mut().enumerate().filter(|(_, number)| **number == 0) {
@@ -346,7 +347,7 @@ fn drop_unused(part: &mut Part, base: usize, first: usize) {
     part.positions.truncate(next);
     part.normals.truncate(next);
     part.uvs.truncate(next);
-    for corner in part.triangles[first..].iter_mut().flatten() {
+    for corner in triangles.iter_mut().flatten() {
         *corner = numbers[*corner as usize - base];
     }
 }

@@ -41,10 +41,15 @@ fn slit(outline: &[DVec2], width: f64, random: &mut Random) -> Option<Vec<DVec2>
     let ring = Ring::new(outline.to_vec()).expect("a ring");
     let is_free = |part: f64| {
         let at = mouth + into * (depth + 0.4) * part;
-        let clear = |(number, [from, to]): (usize, [DVec2; 2])| number == index || planar::distance([from, to], at) > 0.4;
+        let clear = |(number, [from, to]): (usize, [DVec2; 2])| {
+            number == index || planar::distance([from, to], at) > 0.4
+        };
         ring.contains(at) && planar::edges(outline).enumerate().all(clear)
     };
-    if !(1..=40).all(|step| is_free(f64::from(step) / 40.0)) || b.distance(other) < 0.4 || a.distance(mouth) < 0.4 {
+    if !(1..=40).all(|step| is_free(f64::from(step) / 40.0))
+        || b.distance(other) < 0.4
+        || a.distance(mouth) < 0.4
+    {
         return None;
     }
     let mut ring = outline.to_vec();
@@ -98,11 +103,21 @@ fn roofs_over_plans_with_slits_have_the_volume_of_the_plan_that_is_meant() {
         let ((volume, top), (wanted, ridge)) = (measured(&plan.flat(), ends), measured(&meant, ends));
         let is_reported = plan.repairs().0.contains(&"slits of at most 1 cm filled");
         if (volume / wanted - 1.0).abs() > 0.01 || (top - ridge).abs() > 0.02 || is_reported != is_filled {
-            faults.push(format!("{round}: {width} m {volume} for {wanted}, {top} for {ridge}, {:?}", plan.repairs()));
+            faults.push(format!(
+                "{round}: {width} m {volume} for {wanted}, {top} for {ridge}, {:?} {:?}",
+                plan.repairs(),
+                plan.flat()
+            ));
         }
         (filled, followed) = (filled + usize::from(is_filled), followed + usize::from(!is_filled));
     }
-    assert!(faults.is_empty(), "{} of {}: {:#?}", faults.len(), filled + followed, &faults[..faults.len().min(8)]);
+    assert!(
+        faults.is_empty(),
+        "{} of {}: {:#?}",
+        faults.len(),
+        filled + followed,
+        &faults[..faults.len().min(8)]
+    );
     assert!(filled > 120 && followed > 50, "{filled} {followed}");
 }
 
@@ -114,7 +129,12 @@ fn a_slit_that_bends_or_leads_into_a_courtyard_is_filled() {
         Plan::new(&raised(&ring)).expect("a plan")
     };
     // From below up to y = 4 and then to the right.
-    let bent = [&square[..1], &[(4., 0.), (4., 4.), (7., 4.), (7., 3.995), (4.005, 3.995), (4.005, 0.)], &square[1..]].concat();
+    let bent = [
+        &square[..1],
+        &[(4., 0.), (4., 4.), (7., 4.), (7., 3.995), (4.005, 3.995), (4.005, 0.)],
+        &square[1..],
+    ]
+    .concat();
     let plan = make(&bent);
     assert_eq!(plan.polygon().size(), 4, "{plan:?}");
     assert!((plan.polygon().area() - 100.0).abs() < 1e-3);
@@ -134,8 +154,14 @@ fn a_slit_that_bends_or_leads_into_a_courtyard_is_filled() {
 fn sharp_notches_and_narrow_openings_that_are_meant_stay() {
     for (mouth, tip) in [(0.5, 0.0), (0.1, 0.0), (0.03, 0.0), (0.012, 0.011), (0.3, 0.02)] {
         let ring = [
-            (0., 0.), (5.0 - mouth / 2.0, 0.), (5.0 - tip / 2.0, 3.), (5.0 + tip / 2.0, 3.), (5.0 + mouth / 2.0, 0.),
-            (10., 0.), (10., 8.), (0., 8.),
+            (0., 0.),
+            (5.0 - mouth / 2.0, 0.),
+            (5.0 - tip / 2.0, 3.),
+            (5.0 + tip / 2.0, 3.),
+            (5.0 + mouth / 2.0, 0.),
+            (10., 0.),
+            (10., 8.),
+            (0., 8.),
         ];
         let mut ring: Vec<DVec2> = ring.map(DVec2::from).to_vec();
         ring.dedup();

@@ -8,7 +8,8 @@ const NEAR: f64 = 1e-6;
 impl FacadeLayout<'_> {
     /// The lowest level (m) from `height` on that no face crosses; the top of the facade at last, none if it has no faces.
     pub fn level_above(&self, height: f64) -> Option<f64> {
-        let mut spans: Vec<[f64; 2]> = self.faces.iter().map(|face| [face.at.y, face.at.y + face.up.y]).collect();
+        let mut spans: Vec<[f64; 2]> =
+            self.faces.iter().map(|face| [face.at.y, face.at.y + face.up.y]).collect();
         spans.sort_by(|a, b| a[0].total_cmp(&b[0]));
         let mut top = spans.first()?[0];
         for [low, high] in spans {
@@ -24,7 +25,8 @@ impl FacadeLayout<'_> {
     pub fn keep_above(&mut self, level: f64) {
         self.faces.retain(|face| {
             // What lies at the level and looks upwards is the top of something below it.
-            let is_lid = face.up.y.abs() < NEAR && face.right.cross(face.up).y > 0.0 && face.at.y < level + NEAR;
+            let is_lid =
+                face.up.y.abs() < NEAR && face.right.cross(face.up).y > 0.0 && face.at.y < level + NEAR;
             face.at.y >= level - NEAR && !is_lid
         });
         self.fixtures.retain(|(_, at, _)| at.y >= level - NEAR);

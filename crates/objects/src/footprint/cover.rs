@@ -49,9 +49,8 @@ fn skyline(covers: &[Cover], length: f64) -> SmallVec<[Cover; 4]> {
 
 /// The part, 0 to 1, of a wall between two heights (m) that `covers` hide.
 pub(super) fn hidden(covers: &[Cover], length: f64, [from, to]: [f64; 2]) -> f64 {
-    let area = |cover: &Cover| {
-        (cover.part[1] - cover.part[0]) * ((cover.top - from) / (to - from)).clamp(0.0, 1.0)
-    };
+    let area =
+        |cover: &Cover| (cover.part[1] - cover.part[0]) * ((cover.top - from) / (to - from)).clamp(0.0, 1.0);
     if length > 0.0 { skyline(covers, length).iter().map(area).sum::<f64>() / length } else { 0.0 }
 }
 
@@ -77,7 +76,8 @@ pub(super) fn spans(covers: &[Cover], length: f64, [from, to]: [f64; 2]) -> Smal
         let narrowest = (0..spans.len()).min_by(|&a, &b| width(&spans[a]).total_cmp(&width(&spans[b])));
         let Some(narrow) = narrowest.filter(|&index| width(&spans[index]) < NARROWEST) else { break };
         let beside = [narrow.checked_sub(1), (narrow + 1 < spans.len()).then_some(narrow + 1)];
-        let widest = beside.into_iter().flatten().max_by(|&a, &b| width(&spans[a]).total_cmp(&width(&spans[b])));
+        let widest =
+            beside.into_iter().flatten().max_by(|&a, &b| width(&spans[a]).total_cmp(&width(&spans[b])));
         let Some(widest) = widest else { break };
         spans[narrow].covered = spans[widest].covered;
         for span in std::mem::take(&mut spans) {

@@ -117,7 +117,8 @@ fn a_nave_keeps_its_clerestory_and_a_tower_its_windows() {
         assert!(on_wall(&found[1], 10.0).is_empty() && !on_wall(&found[1], 15.0).is_empty());
 
         let base = Block { low: DVec2::ZERO, size: DVec2::new(24.0, 20.0), height: 8.0, raised: 2 };
-        let tower = Block { low: DVec2::new(24.0, 6.0), size: DVec2::splat(8.0), height: 24.0, raised: 2 * raised };
+        let tower =
+            Block { low: DVec2::new(24.0, 6.0), size: DVec2::splat(8.0), height: 24.0, raised: 2 * raised };
         let found = windows(&[base, tower]);
         let (of_base, of_tower) = (on_wall(&found[0], 24.0), on_wall(&found[1], 24.0));
         assert!(of_tower.iter().all(|at| at.z > 8.0) && of_tower.iter().any(|at| at.z < 15.0));
@@ -136,7 +137,8 @@ fn windows_of_random_blocks_are_nowhere_behind_a_neighbour_and_everywhere_else()
     let (mut hidden, mut free) = (0, 0);
     for round in 0..120 {
         let raised = [1, 2, 4][round % 3];
-        let main = Block { low: DVec2::ZERO, size: DVec2::new(10.0, 24.0), height: between(6.0, 20.0), raised };
+        let main =
+            Block { low: DVec2::ZERO, size: DVec2::new(10.0, 24.0), height: between(6.0, 20.0), raised };
         let mut blocks = vec![main];
         let mut y = between(-6.0, 8.0);
         for _ in 0..2 {
@@ -146,7 +148,8 @@ fn windows_of_random_blocks_are_nowhere_behind_a_neighbour_and_everywhere_else()
         }
         let found = on_wall(&windows(&blocks)[0], 10.0);
         let cover = |y: f64| {
-            let over = blocks[1..].iter().filter(|block| (block.low.y..block.low.y + block.size.y).contains(&y));
+            let over =
+                blocks[1..].iter().filter(|block| (block.low.y..block.low.y + block.size.y).contains(&y));
             over.map(|block| block.height).fold(0.0, f64::max)
         };
         for at in &found {
@@ -156,7 +159,9 @@ fn windows_of_random_blocks_are_nowhere_behind_a_neighbour_and_everywhere_else()
         for (row, column) in (0..3).flat_map(|row| (0..3).map(move |column| (row, column))) {
             let low = DVec2::new(8.0 * f64::from(column), 8.0 * f64::from(row));
             let is_free = (0..=16).all(|step| cover(low.x + 0.5 * f64::from(step)) < low.y + 0.5);
-            let seen = found.iter().any(|at| (low.x..low.x + 8.0).contains(&at.y) && (low.y..low.y + 8.0).contains(&at.z));
+            let seen = found
+                .iter()
+                .any(|at| (low.x..low.x + 8.0).contains(&at.y) && (low.y..low.y + 8.0).contains(&at.z));
             if is_free && low.y + 8.0 <= main.height {
                 assert!(seen, "{round}: {low} {blocks:?}");
                 free += 1;
@@ -170,7 +175,8 @@ fn windows_of_random_blocks_are_nowhere_behind_a_neighbour_and_everywhere_else()
 #[test]
 fn walls_that_rise_above_the_height_of_a_storey_stay_blind() {
     // The height that is given is that of one storey here.
-    let house = |x: f64| Block { low: DVec2::new(x, 0.0), size: DVec2::new(10.0, 12.0), height: 3.0, raised: 1 };
+    let house =
+        |x: f64| Block { low: DVec2::new(x, 0.0), size: DVec2::new(10.0, 12.0), height: 3.0, raised: 1 };
     let make = |block: Block| {
         let ring = block.corners().map(|at| at.extend(0.0)).to_vec();
         let options = FootprintOptions {

@@ -177,10 +177,8 @@ impl Footprint {
         };
         let base = self.origin().z;
         let is_above = self.known_top().is_some_and(|top| base + heights[1] > top + ABOVE);
-        let local = |cover: &Cover| Cover {
-            top: if is_above { f64::INFINITY } else { cover.top - base },
-            ..*cover
-        };
+        let local =
+            |cover: &Cover| Cover { top: if is_above { f64::INFINITY } else { cover.top - base }, ..*cover };
         let covers: SmallVec<[Cover; 4]> = covers.iter().map(local).collect();
         cover::spans(&covers, length, heights)
     }

@@ -244,7 +244,8 @@ impl Footprint {
             };
             if is_partly {
                 // Storeys that begin above what the neighbour covers stay as they are.
-                let level = laid.level_above(frontage.covered).filter(|level| *level < frontage.size.y - SAME);
+                let level =
+                    laid.level_above(frontage.covered).filter(|level| *level < frontage.size.y - SAME);
                 let Some(level) = level else {
                     frontages.push(Frontage { covered: frontage.size.y, ..frontage });
                     continue;

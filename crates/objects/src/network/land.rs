@@ -8,8 +8,8 @@ use super::Network;
 use burgeon_base::error::{Error, Result};
 use burgeon_base::warning::{Warning, WarningKind};
 use burgeon_data::Geometry;
-use burgeon_kit::{Answer, Parameter, Table, TableKey, Value, Vector};
 use burgeon_geometry::Polygon;
+use burgeon_kit::{Answer, Parameter, Table, TableKey, Value, Vector};
 use burgeon_streets::{SlopeOptions, StreetArea, StreetFit, StreetFooting, VergeKind};
 use burgeon_terrain::{Edit, GroundBed, GroundCut, GroundCuts};
 
