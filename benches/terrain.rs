@@ -18,8 +18,8 @@ use std::time::{Duration, Instant};
 use burgeon::kit::random::Stream;
 use burgeon::kit::rules::ModuleKey;
 use burgeon::terrain::{
-    Area, Ground, GroundMesh, LevelRules, NumberRange, Quadrants, RuleTable, Rules, Tables, TileRing, View,
-    World,
+    Area, Ground, GroundCuts, GroundMesh, LevelRules, NumberRange, Quadrants, RuleTable, Rules, Tables,
+    TileRing, View, World,
 };
 use cpu_time::ProcessTime;
 use glam::DVec2;
@@ -261,7 +261,7 @@ fn mesh() {
             triangles = 0;
             for number in 0..ground.tiles().len() {
                 let mut part = burgeon::scene::Part::default();
-                mesh.write(number, glam::DVec3::ZERO, 0.0, &mut part);
+                mesh.write(number, glam::DVec3::ZERO, 0.0, &GroundCuts::default(), &mut part);
                 triangles += part.triangles.len();
             }
         });

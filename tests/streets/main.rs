@@ -4,6 +4,7 @@
 
 mod check;
 mod cities;
+mod ground;
 
 use std::path::PathBuf;
 

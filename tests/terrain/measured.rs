@@ -11,8 +11,8 @@ use burgeon::scene::Part;
 use burgeon::sources::elevation::{Raster, Relief, SampleGrid};
 use burgeon::sources::{Crs, ReferenceFrame};
 use burgeon::terrain::{
-    Edit, Edits, Ground, GroundMesh, HeightSource, LevelRules, NumberRange, Quadrants, RuleTable, Rules,
-    Tables, TileRing, View, World,
+    Edit, Edits, Ground, GroundCuts, GroundMesh, HeightSource, LevelRules, NumberRange, Quadrants, RuleTable,
+    Rules, Tables, TileRing, View, World,
 };
 use glam::{DVec2, DVec3};
 
@@ -218,7 +218,7 @@ fn measure(
     let mut part = Part::default();
     let origin = corner.extend(0.0);
     for number in 0..ground.tiles().len() {
-        mesh.write(number, origin, 0.0, &mut part);
+        mesh.write(number, origin, 0.0, &GroundCuts::default(), &mut part);
     }
     for corners in &part.triangles {
         let points = corners.map(|corner| part.positions[corner as usize]);

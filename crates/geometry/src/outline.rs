@@ -7,6 +7,8 @@ use glam::DVec2;
 use super::planar::{Point, contains, coord, orientation, twice_area};
 use super::ring::MOST;
 use super::section::SectionPoint;
+use super::simplify::corners;
+use burgeon_base::Stop;
 use burgeon_base::error::{Error, Result};
 
 /// A point with its place, counted from 1, in the list that the user gave.
@@ -35,10 +37,16 @@ pub(super) struct OutlineOptions {
     pub owner: &'static str,
     /// Points within this distance (m) are one.
     pub near: f64,
-    /// Sharp points within this distance (m) of the line between their neighbours are dropped, and so are the
-    /// tips of spikes; with 0, those exactly on that line and between them.
+    /// Tolerance (m) of the simplification: the ring stays within it of what was given, but for tips of spikes that are
+    /// not wider and for points that are one. With 0, sharp points exactly between their neighbours are dropped.
     pub straight: f64,
 }
+
+/// Slits that are not wider (m) are only rounding.
+const ROUNDING: f64 = 1e-6;
+
+/// The tolerances that are tried in turn, as parts of the one that was asked for, until no edges meet.
+const FINER: [f64; 3] = [1.0, 0.25, 0.05];
 
 const SECTION: OutlineOptions = OutlineOptions { owner: "cross-section", near: 1e-9, straight: 0.0 };
 
@@ -58,11 +66,7 @@ pub(super) fn numbered_rings(
     holes: &[Vec<SectionPoint>],
     manner: &OutlineOptions,
 ) -> Result<Vec<Vec<NumberedPoint>>> {
-    let mut rings = vec![ring("the outer ring".into(), outer, manner)?];
-    for (index, hole) in holes.iter().enumerate() {
-        rings.push(ring(format!("hole {}", index + 1), hole, manner)?);
-    }
-    refuse_crossings(&rings, true, manner)?;
+    let rings = rings_within(outer, holes, manner)?;
     refuse_misplaced_holes(&rings, manner)?;
     let turned = rings.into_iter().enumerate().map(|(index, ring)| {
         let mut points = ring.points;
@@ -75,33 +79,54 @@ pub(super) fn numbered_rings(
     Ok(turned.collect())
 }
 
+/// The rings simplified as far as none of their edges meet: walls thinner than the tolerance need a finer one.
+fn rings_within(
+    outer: &[SectionPoint],
+    holes: &[Vec<SectionPoint>],
+    manner: &OutlineOptions,
+) -> Result<Vec<NamedRing>> {
+    let mut refused = None;
+    let count = if manner.straight > 0.0 { FINER.len() } else { 1 };
+    for finer in &FINER[..count] {
+        let manner = OutlineOptions { straight: manner.straight * finer, ..*manner };
+        let mut rings = vec![ring("the outer ring".into(), outer, false, &manner)?];
+        for (index, hole) in holes.iter().enumerate() {
+            rings.push(ring(format!("hole {}", index + 1), hole, true, &manner)?);
+        }
+        match refuse_crossings(&rings, true, &manner) {
+            Ok(()) => return Ok(rings),
+            Err(error) => refused = refused.or(Some(error)),
+        }
+    }
+    Err(refused.unwrap_or_else(|| Error::geometry("the outline cannot be simplified")))
+}
+
 /// An open line of at least 2 distinct points, cleaned like a ring; fails if it crosses or touches itself.
 pub(super) fn open(points: &[SectionPoint]) -> Result<Vec<SectionPoint>> {
     let name = "the line".to_owned();
     let mut points = numbered(&name, points, &SECTION)?;
-    drop_repeated(&mut points, &SECTION);
+    drop_repeated(&mut points, SECTION.near, false);
     if points.len() < 2 {
         return Err(Error::geometry("the line of an open cross-section has fewer than 2 distinct points")
             .help("give at least 2 points that differ"));
     }
-    drop_straight(&mut points, false, &SECTION);
+    drop_straight(&mut points, false);
     let line = NamedRing { name, points };
     refuse_crossings(std::slice::from_ref(&line), false, &SECTION)?;
     Ok(line.points.into_iter().map(|point| point.point).collect())
 }
 
-/// Whether these points are a ring, so far as it can be told of one alone.
-pub(super) fn is_ring(points: &[SectionPoint], manner: &OutlineOptions) -> bool {
-    ring(String::new(), points, manner).is_ok()
+/// Whether these points are the ring of a hole, so far as it can be told of one alone.
+pub(super) fn is_hole(points: &[SectionPoint], manner: &OutlineOptions) -> bool {
+    ring(String::new(), points, true, manner).is_ok()
 }
 
-fn ring(name: String, points: &[SectionPoint], manner: &OutlineOptions) -> Result<NamedRing> {
+fn ring(name: String, points: &[SectionPoint], is_hole: bool, manner: &OutlineOptions) -> Result<NamedRing> {
     let owner = manner.owner;
     let mut points = numbered(&name, points, manner)?;
-    drop_repeated(&mut points, manner);
-    while points.len() > 1 && is_same(&points[0], &points[points.len() - 1], manner) {
-        points.pop();
-    }
+    let simplifies = manner.straight > 0.0;
+    // What is simplified is measured against all points that were given.
+    drop_repeated(&mut points, if simplifies { 0.0 } else { manner.near }, true);
     if points.len() < 3 {
         let count = points.len();
         return Err(Error::geometry(format!("{name} of the {owner} has {count} distinct points"))
@@ -112,19 +137,26 @@ fn ring(name: String, points: &[SectionPoint], manner: &OutlineOptions) -> Resul
         return Err(Error::geometry(format!(
             "{name} of the {owner} has no area: its points lie on one line"
         ))
-        .help(if manner.straight > 0.0 {
+        .help(if simplifies {
             "move a point off the line"
         } else {
             "move a point off the line, or use an open cross-section"
         }));
     }
-    drop_straight(&mut points, true, manner);
+    if !simplifies {
+        drop_straight(&mut points, true);
+        return Ok(NamedRing { name, points });
+    }
+    points = corners(&points, manner.straight).into_iter().map(|place| points[place]).collect();
+    let mut width = manner.straight;
+    if points.len() > 2 {
+        drop_repeated(&mut points, manner.near, true);
+        width = if points.len() < 3 { manner.near } else { width };
+        drop_spikes(&mut points, is_hole, manner);
+    }
     if points.len() < 3 {
-        return Err(Error::geometry(format!(
-            "{name} of the {owner} is nowhere wider than {} m",
-            manner.straight
-        ))
-        .help("leave it out"));
+        return Err(Error::geometry(format!("{name} of the {owner} is nowhere wider than {width} m"))
+            .help("leave it out"));
     }
     Ok(NamedRing { name, points })
 }
@@ -142,48 +174,66 @@ fn numbered(name: &str, points: &[SectionPoint], manner: &OutlineOptions) -> Res
     points.iter().enumerate().map(number).collect()
 }
 
-fn drop_repeated(points: &mut Vec<NumberedPoint>, manner: &OutlineOptions) {
-    points.dedup_by(|next, kept| is_same(next, kept, manner));
+/// Drops points within `near` (m) of the one before; in a ring also across its end.
+fn drop_repeated(points: &mut Vec<NumberedPoint>, near: f64, closed: bool) {
+    points.dedup_by(|next, kept| is_same(next, kept, near));
+    while closed && points.len() > 1 && is_same(&points[0], &points[points.len() - 1], near) {
+        points.pop();
+    }
 }
 
 /// Whether two points are too near to each other to be two.
-fn is_same(a: &NumberedPoint, b: &NumberedPoint, manner: &OutlineOptions) -> bool {
-    a.point.at.distance_squared(b.point.at) <= manner.near * manner.near
+fn is_same(a: &NumberedPoint, b: &NumberedPoint, near: f64) -> bool {
+    a.point.at.distance_squared(b.point.at) <= near * near
 }
 
 /// Drops the sharp points on a straight line between sharp points, which change neither shape nor shading.
-fn drop_straight(points: &mut Vec<NumberedPoint>, closed: bool, manner: &OutlineOptions) {
+fn drop_straight(points: &mut Vec<NumberedPoint>, closed: bool) {
     let mut index = usize::from(!closed);
     while points.len() > 2 && index < points.len() - usize::from(!closed) {
-        let count = points.len();
-        let [before, here, after] =
-            [points[(index + count - 1) % count], points[index], points[(index + 1) % count]]
-                .map(|p| p.point);
+        let [before, here, after] = around(points, index).map(|point| point.point);
         let sharp = !(before.smooth || here.smooth || after.smooth);
-        if sharp && is_straight(before.at, here.at, after.at, manner) {
+        let is_straight = || {
+            orientation(before.at, here.at, after.at) == Orientation::Collinear
+                && (here.at - before.at).dot(after.at - here.at) > 0.0
+        };
+        if sharp && is_straight() {
             points.remove(index);
-            if manner.straight > 0.0 {
-                // What it lay between may now be straight itself.
-                index = index.saturating_sub(2);
-            }
         } else {
             index += 1;
         }
     }
 }
 
-fn is_straight(before: DVec2, here: DVec2, after: DVec2, manner: &OutlineOptions) -> bool {
-    if manner.straight == 0.0 {
-        let collinear = orientation(before, here, after) == Orientation::Collinear;
-        return collinear && (here - before).dot(after - here) > 0.0;
-    }
-    let (short, long) = (here.distance(before).min(here.distance(after)), before.distance(after));
-    short <= manner.near || (after - before).perp_dot(here - before).abs() <= manner.straight * long || {
-        // The tip of a spike: one side lies along the other.
-        let (a, b) = (before - here, after - here);
-        a.dot(b) > 0.0 && a.perp_dot(b).abs() <= manner.straight * a.length().max(b.length())
+/// Drops the tips of spikes, where one side lies along the other within the tolerance. Spikes into the area are slits,
+/// which are filled elsewhere, unless they are only rounding.
+fn drop_spikes(points: &mut Vec<NumberedPoint>, is_hole: bool, manner: &OutlineOptions) {
+    let outwards = if (twice_area(points.iter().copied()) > 0.0) == is_hole { -1.0 } else { 1.0 };
+    let mut index = 0;
+    while points.len() > 2 && index < points.len() {
+        let [before, here, after] = around(points, index).map(|point| point.point.at);
+        let (a, b) = (here - before, after - here);
+        let turn = a.perp_dot(b) * outwards;
+        let width = if turn > 0.0 { manner.straight } else { ROUNDING };
+        let is_tip = a.dot(b) < 0.0 && turn.abs() <= width * a.length().max(b.length());
+        if is_tip || a.length().min(b.length()) <= manner.near {
+            points.remove(index);
+            // The points beside a tip may be another one now.
+            index = index.saturating_sub(2);
+        } else {
+            index += 1;
+        }
     }
 }
+
+/// A point of a ring between those before and after it.
+fn around(points: &[NumberedPoint], index: usize) -> [NumberedPoint; 3] {
+    let count = points.len();
+    [(index + count - 1) % count, index, (index + 1) % count].map(|index| points[index])
+}
+
+/// Edges after which it is checked again that the run goes on.
+const STOP_EDGES: usize = 64;
 
 /// An edge of a ring, by the indices of the ring and of its first point.
 struct OutlineEdge {
@@ -205,9 +255,17 @@ fn refuse_crossings(rings: &[NamedRing], closed: bool, manner: &OutlineOptions) 
     // From left to right, so that each edge meets only those that begin before it ends.
     let left = |edge: &OutlineEdge| edge.line.start.x.min(edge.line.end.x);
     edges.sort_by(|a, b| left(a).total_cmp(&left(b)));
+    let stop = Stop::current();
     for (i, a) in edges.iter().enumerate() {
+        if let Some(stop) = stop.as_ref().filter(|_| i % STOP_EDGES == 0) {
+            stop.check()?;
+        }
         let right = a.line.start.x.max(a.line.end.x);
+        let [low, high] = [a.line.start.y.min(a.line.end.y), a.line.start.y.max(a.line.end.y)];
         for b in edges[i + 1..].iter().take_while(|b| left(b) <= right) {
+            if b.line.start.y.min(b.line.end.y) > high || b.line.start.y.max(b.line.end.y) < low {
+                continue;
+            }
             let Some(place) = meeting(a, b, rings[a.ring].points.len(), closed) else { continue };
             let (a, b) = if (a.ring, a.index) < (b.ring, b.index) { (a, b) } else { (b, a) };
             let (first, second) = (edge_name(a, rings), edge_name(b, rings));

@@ -1,15 +1,20 @@
 //! Plans: the outline of a building on the ground, made clean, repaired or refused.
 
-use glam::DVec3;
+use glam::{DVec2, DVec3};
 use smallvec::SmallVec;
 
 use super::outline::{OutlineOptions, numbered_rings};
 use super::planar::{Polygon, Rings};
-use super::repair::{PlanRepair, repair};
-use super::section::{MOST_POINTS, SectionPoint};
+use super::repair::{PlanRepair, fill, repair};
+use super::section::SectionPoint;
 use burgeon_base::error::{Error, Limit, Result};
 
 const PLAN: OutlineOptions = OutlineOptions { owner: "footprint", near: 0.01, straight: 2e-3 };
+
+/// The greatest number of points that a footprint may be given.
+const MOST_GIVEN: usize = 100_000;
+/// The greatest number of corners of a footprint after it is simplified: a roof takes time that grows with their square.
+const MOST_CORNERS: usize = 20_000;
 
 /// The outline of a building: a polygon whose points have heights and whose rings do not meet.
 #[derive(Debug, Clone, Default)]
@@ -40,14 +45,15 @@ impl Default for EdgeOrigin {
 impl Plan {
     /// The plan inside the first ring and outside the others, whichever way they run.
     ///
-    /// Points within 1 cm of the one before are dropped, and so are points within 2 mm of the line between
-    /// their neighbours and the tips of spikes. Where rings cross or touch themselves or each other, or a hole is
+    /// The rings are simplified: the plan stays within 2 mm of them, or within 1 cm where they have edges that are shorter
+    /// than that, however many points they have. Spikes that are not wider than 2 mm are dropped, and openings that are
+    /// nowhere wider than 1 cm are filled, which [`Plan::repairs`] reports. Where rings cross or touch themselves or each other, or a hole is
     /// not inside the outer ring, the greatest part of what they enclose is the plan, and [`Plan::repairs`] tells
     /// what was done. Fails, with the place, if nothing is enclosed.
     ///
     /// ```
     /// use burgeon_geometry::{Plan, Rings};
-    /// use glam::DVec3;
+    /// use glam::{DVec2, DVec3};
     ///
     /// // It crosses itself where x is 6: what is on the right of that is a loop of its own.
     /// let ring = [(0.0, 0.0), (8.0, 4.0), (8.0, 2.0), (0.0, 6.0)].map(|(x, y)| DVec3::new(x, y, 0.0));
@@ -58,9 +64,9 @@ impl Plan {
     /// ```
     pub fn new(rings: &Rings) -> Result<Self> {
         let count: usize = rings.iter().map(Vec::len).sum();
-        if count > MOST_POINTS {
+        if count > MOST_GIVEN {
             return Err(Error::limit(Limit::Size, format!("the footprint has {count} points"))
-                .help(format!("simplify it to at most {MOST_POINTS} points")));
+                .help(format!("simplify it: a footprint takes at most {MOST_GIVEN} points")));
         }
         let Some((outer, holes)) = rings.split_first() else {
             return Err(Error::geometry("the footprint has no ring").help("give it at least 3 points"));
@@ -83,13 +89,22 @@ impl Plan {
         let clean = match numbered_rings(&sharp(outer), &holes, &PLAN) {
             Ok(clean) => clean,
             Err(error) => {
-                let Some(PlanRepair { polygon, given, notes }) = repair(rings, &PLAN) else {
-                    return Err(error);
-                };
-                let trouble = error.message().to_owned();
-                return Ok(Self { polygon, given: EdgeOrigin::Edges(given), sizes, repairs: notes, trouble });
+                let Some(repair) = repair(rings, &PLAN) else { return Err(error) };
+                return Ok(Self::repaired(repair, sizes, error.message().to_owned()));
             }
         };
+        let corners: usize = clean.iter().map(Vec::len).sum();
+        if corners > MOST_CORNERS {
+            let message = format!("the footprint has {corners} corners after it is simplified to 2 mm");
+            return Err(Error::limit(Limit::Size, message)
+                .help(format!("simplify it: a footprint takes at most {MOST_CORNERS} corners")));
+        }
+        let sound: Vec<Vec<DVec2>> =
+            clean.iter().map(|ring| ring.iter().map(|point| point.point.at).collect()).collect();
+        if let Some(repair) = fill(rings, &sound, &PLAN) {
+            let trouble = repair.slit.map_or_else(String::new, |slit| slit.describe());
+            return Ok(Self::repaired(repair, sizes, trouble));
+        }
         let places: Vec<Vec<usize>> =
             clean.iter().map(|ring| ring.iter().map(|point| point.number - 1).collect()).collect();
         let rings = places
@@ -98,6 +113,11 @@ impl Plan {
             .map(|(places, ring)| places.iter().map(|&place| ring[place]).collect());
         let polygon = Polygon::new(rings.collect::<Rings>())?;
         Ok(Self { polygon, given: EdgeOrigin::Places(places), sizes, ..Self::default() })
+    }
+
+    fn repaired(repair: PlanRepair, sizes: Vec<usize>, trouble: String) -> Self {
+        let PlanRepair { polygon, given, notes, .. } = repair;
+        Self { polygon, given: EdgeOrigin::Edges(given), sizes, repairs: notes, trouble }
     }
 
     /// The polygon (m), with the heights of the ground.

@@ -1,17 +1,19 @@
-//! Makes a plan of rings that cross or touch, from the area that they enclose.
+//! Makes a plan of rings that cross or touch: what they enclose is found anew.
 //!
-//! Method: set operations around the middle of the rings. Where the area that they enclose still touches itself, a notch as
-//! wide as a hand is cut out there.
+//! Method: boolean operations on polygons (i_overlay, through `geo`) around the middle of the rings. Where what they
+//! enclose still touches itself, a notch as wide as a hand is cut out there.
 
 use glam::{DVec2, DVec3};
 use rstar::primitives::{GeomWithData, Line};
 use rstar::{AABB, PointDistance, RTree};
 
-use super::outline::{OutlineOptions, is_ring, numbered_rings};
-use super::overlay::{Area, Fill, fill, overlay, unite};
+use super::outline::{OutlineOptions, is_hole, numbered_rings};
+use super::overlay::{self, Area, Fill, unite};
 use super::planar::{Polygon, Rings, edges, foot, twice_area};
 use super::ring::MOST;
 use super::section::SectionPoint;
+use super::slits::{self, Slit};
+use burgeon_base::Stop;
 use burgeon_base::error::Result;
 
 /// Half of the width (m) of the notch where a plan touches itself.
@@ -19,7 +21,7 @@ const NOTCH: f64 = 0.05;
 /// The least area (m²) that matters.
 const LEAST: f64 = 0.01;
 /// How often notches are cut.
-const ROUNDS: usize = 4;
+const ROUNDS: usize = 6;
 /// How far (m) from an edge that was given what stands for it lies.
 const ALONG: f64 = 0.02;
 
@@ -27,6 +29,8 @@ const ALONG: f64 = 0.02;
 const MEETINGS: usize = 8;
 const FEW_MEETINGS: usize = 10_000;
 
+/// The note of a plan without its slits.
+const SLITS: &str = "slits of at most 1 cm filled";
 /// What is said of a ring that crosses itself.
 const LOOPS: &str = "loops of the outer ring left out";
 
@@ -37,6 +41,8 @@ pub(super) struct PlanRepair {
     pub given: Vec<Vec<usize>>,
     /// What was done.
     pub notes: Vec<&'static str>,
+    /// The first slit that was filled, if any was.
+    pub slit: Option<Slit>,
 }
 
 /// The greatest part of what the first ring encloses without the others; `None` if nothing is left that is a plan, or
@@ -46,21 +52,62 @@ pub(super) fn repair(given: &Rings, manner: &OutlineOptions) -> Option<PlanRepai
     if !given.iter().flatten().all(known) {
         return None;
     }
-    let mut points = given.first()?.iter().map(|point| point.truncate());
-    let first = points.next()?;
-    let [low, high] = points.fold([first; 2], |[low, high], point| [low.min(point), high.max(point)]);
-    let middle = low.midpoint(high);
-    let local: Rings<DVec2> =
-        given.iter().map(|ring| ring.iter().map(|point| point.truncate() - middle).collect()).collect();
+    let middle = middle_of(given)?;
+    let local = rings_around(given, middle);
     if meets_too_often(&local) {
         return None;
     }
     let mut notes = Vec::new();
-    let mut area = enclosed(&local, &mut notes).ok()?;
+    let area = enclosed(&local, &mut notes).ok()?;
+    settle(area, notes, given, middle, manner)
+}
+
+/// The plan of sound rings without the slits in them; `None` if they have none, or nothing is left that is a plan.
+pub(super) fn fill(given: &Rings, sound: &[Vec<DVec2>], manner: &OutlineOptions) -> Option<PlanRepair> {
+    if slits::find(sound, manner).is_empty() {
+        return None;
+    }
+    let middle = middle_of(given)?;
+    let sound: Rings<DVec2> = sound.iter().map(|ring| ring.iter().map(|at| *at - middle).collect()).collect();
+    settle(vec![sound], Vec::new(), given, middle, manner)
+}
+
+/// The middle (m) of the box around the first ring.
+fn middle_of(given: &Rings) -> Option<DVec2> {
+    let mut points = given.first()?.iter().map(|point| point.truncate());
+    let first = points.next()?;
+    let [low, high] = points.fold([first; 2], |[low, high], point| [low.min(point), high.max(point)]);
+    Some(low.midpoint(high))
+}
+
+/// The rings as seen from above, around another origin.
+fn rings_around(given: &Rings, middle: DVec2) -> Rings<DVec2> {
+    given.iter().map(|ring| ring.iter().map(|point| point.truncate() - middle).collect()).collect()
+}
+
+/// Makes a plan of the greatest part of an area around `middle`: fills its slits, and cuts notches where it touches
+/// itself.
+fn settle(
+    mut area: Area,
+    mut notes: Vec<&'static str>,
+    given: &Rings,
+    middle: DVec2,
+    manner: &OutlineOptions,
+) -> Option<PlanRepair> {
+    let local = rings_around(given, middle);
+    let mut slit: Option<Slit> = None;
     for _ in 0..ROUNDS {
         let whole = greatest(area, &mut notes)?;
         let rings = rings_of(&whole, manner);
         if let Some(clean) = cleaned(&rings, manner) {
+            let slits = slits::find(&clean, manner);
+            if let Some(first) = slits.first() {
+                slit.get_or_insert(Slit { ends: first.ends.map(|end| end + middle), ..*first });
+                let filled = slits.iter().map(|slit| counter_clockwise(slit.corners.to_vec()));
+                area = unite(filled.chain([clean.iter().map(|ring| ring.to_vec()).collect::<Rings<DVec2>>()]).collect()).ok()?;
+                note(&mut notes, SLITS);
+                continue;
+            }
             let done = finish(&clean, &local, given, middle);
             // What touches itself but for rounding may do so again where it was given.
             if let Some((polygon, given)) = done
@@ -69,14 +116,14 @@ pub(super) fn repair(given: &Rings, manner: &OutlineOptions) -> Option<PlanRepai
                 if notes.is_empty() {
                     notes.push("edges that cross or touch untangled");
                 }
-                return Some(PlanRepair { polygon, given, notes });
+                return Some(PlanRepair { polygon, given, notes, slit });
             }
         }
         let notches = notches(&rings);
         if notches.is_empty() {
             return None;
         }
-        area = overlay(&[whole], &notches, |[inside, notch]| inside && !notch).ok()?;
+        area = overlay::overlay(&[whole], &notches, |[inside, notch]| inside && !notch).ok()?;
         note(&mut notes, "a notch cut where it touches itself");
     }
     None
@@ -97,7 +144,12 @@ fn meets_too_often(rings: &Rings<DVec2>) -> bool {
     let high = |[a, b]: &[DVec2; 2]| a.max(*b);
     edges.sort_by(|a, b| low(a).x.total_cmp(&low(b).x));
     let mut left = FEW_MEETINGS.max(MEETINGS * edges.len());
+    let stop = Stop::current();
     for (index, a) in edges.iter().enumerate() {
+        // The run ends with its own error.
+        if stop.as_ref().is_some_and(|stop| stop.is_stopped()) {
+            return true;
+        }
         for b in edges[index + 1..].iter().take_while(|b| low(b).x <= high(a).x) {
             if low(a).y > high(b).y || low(b).y > high(a).y {
                 continue;
@@ -136,7 +188,7 @@ fn note(notes: &mut Vec<&'static str>, what: &'static str) {
 /// The area that the first ring encloses without the areas that the others enclose. Fails if the work of this thread is to
 /// stop.
 fn enclosed(rings: &Rings<DVec2>, notes: &mut Vec<&'static str>) -> Result<Area> {
-    let whole = |ring: &Vec<DVec2>| fill(&[Rings(vec![ring.clone()])], Fill::NonZero);
+    let whole = |ring: &Vec<DVec2>| overlay::fill(&[Rings(vec![ring.clone()])], Fill::NonZero);
     let Some((outer, holes)) = rings.split_first() else { return Ok(Area::new()) };
     let outer = whole(outer)?;
     if outer.len() > 1 {
@@ -148,7 +200,7 @@ fn enclosed(rings: &Rings<DVec2>, notes: &mut Vec<&'static str>) -> Result<Area>
         let size = size(&hole);
         if size <= 0.0 {
             note(notes, "a hole without area left out");
-        } else if self::size(&overlay(&outer, &hole, |is_in| is_in == [true; 2])?) <= 1e-6 * size {
+        } else if self::size(&overlay::overlay(&outer, &hole, |is_in| is_in == [true; 2])?) <= 1e-6 * size {
             note(notes, "a hole outside the outer ring left out");
         } else {
             cut.extend(hole);
@@ -162,11 +214,19 @@ fn enclosed(rings: &Rings<DVec2>, notes: &mut Vec<&'static str>) -> Result<Area>
     if together.len() < count {
         note(notes, "holes that touch merged");
     }
-    let rest = overlay(&outer, &together, |[inside, hole]| inside && !hole)?;
+    let rest = overlay::overlay(&outer, &together, |[inside, hole]| inside && !hole)?;
     if rest.iter().map(|part| part.len() - 1).sum::<usize>() < together.len() {
         note(notes, "a hole at the outer ring cut out");
     }
     Ok(rest)
+}
+
+/// The rings of a quadrilateral, counter-clockwise.
+fn counter_clockwise(mut corners: Vec<DVec2>) -> Rings<DVec2> {
+    if twice_area(corners.iter().copied()) < 0.0 {
+        corners.reverse();
+    }
+    Rings(vec![corners])
 }
 
 /// The size of an area (m²).
@@ -193,7 +253,7 @@ fn greatest(areas: Area, notes: &mut Vec<&'static str>) -> Option<Rings<DVec2>> 
 fn rings_of(polygon: &Rings<DVec2>, manner: &OutlineOptions) -> Rings<DVec2> {
     let is_sound = |ring: &Vec<DVec2>| {
         let sharp: Vec<SectionPoint> = ring.iter().copied().map(SectionPoint::sharp).collect();
-        is_ring(&sharp, manner)
+        is_hole(&sharp, manner)
     };
     let rings = polygon.iter().enumerate();
     rings.filter(|(number, ring)| *number == 0 || is_sound(ring)).map(|(_, ring)| ring.clone()).collect()
@@ -292,167 +352,5 @@ fn finish(
 }
 
 #[cfg(test)]
-mod tests {
-    use glam::{DVec2, DVec3};
-    use proptest::prelude::*;
-
-    use super::super::{Plan, Rings};
-
-    fn ring(points: &[[f64; 2]]) -> Vec<DVec3> {
-        points.iter().map(|point| DVec3::new(point[0], point[1], 0.0)).collect()
-    }
-
-    fn made(rings: &[&[[f64; 2]]]) -> Plan {
-        Plan::new(&rings.iter().map(|points| ring(points)).collect()).unwrap()
-    }
-
-    /// Whether a plan is one: nothing is left to be repaired, and areas and directions are right.
-    fn assert_valid(plan: &Plan) {
-        let again = Plan::new(&Rings::from(plan.polygon())).unwrap();
-        assert_eq!(again.repairs().0, [""; 0]);
-        assert!(plan.polygon().area() > 0.0 && plan.given_edges().len() == plan.polygon().size());
-        assert!(plan.given_edges().iter().flatten().all(|&edge| edge < plan.given()));
-        assert!(plan.polygon().points().all(|point| point.is_finite()));
-    }
-
-    const SQUARE: [[f64; 2]; 4] = [[0.0, 0.0], [10.0, 0.0], [10.0, 10.0], [0.0, 10.0]];
-
-    #[test]
-    fn of_an_hourglass_the_greater_half_is_kept_with_its_edges() {
-        let plan = made(&[&[[0.0, 0.0], [6.0, 6.0], [0.0, 6.0], [2.0, 0.0]]]);
-        assert_valid(&plan);
-        assert!(plan.repairs().0.contains(&"loops of the outer ring left out"), "{:?}", plan.repairs());
-        // The lower triangle has 2 m along y = 0, the upper one 6 m along y = 6: they meet at y = 1.5.
-        assert!((plan.polygon().area() - 13.5).abs() < 1e-6, "{}", plan.polygon().area());
-        let mut given: Vec<Vec<usize>> =
-            plan.given_edges().into_iter().map(smallvec::SmallVec::into_vec).collect();
-        given.sort();
-        assert_eq!(given, [vec![0], vec![1], vec![2]]);
-    }
-
-    #[test]
-    fn holes_outside_are_dropped_and_those_that_overlap_are_merged() {
-        let hole = |x: f64, y: f64| [[x, y], [x + 2.0, y], [x + 2.0, y + 2.0], [x, y + 2.0]];
-        let outside = made(&[&SQUARE, &hole(20.0, 1.0)]);
-        assert_eq!(outside.repairs().0, ["a hole outside the outer ring left out"]);
-        assert_eq!((outside.polygon().area(), outside.polygon().size()), (100.0, 4));
-        let merged = made(&[&SQUARE, &hole(2.0, 2.0), &hole(3.0, 3.0)]);
-        assert_eq!(merged.repairs().0, ["holes that touch merged"]);
-        assert!((merged.polygon().area() - 93.0).abs() < 1e-6 && merged.polygon().len() == 2);
-        let beside = made(&[&SQUARE, &hole(2.0, 2.0), &hole(4.0, 2.0)]);
-        assert!((beside.polygon().area() - 92.0).abs() < 1e-6 && beside.polygon().len() == 2);
-        let across = made(&[&SQUARE, &hole(-1.0, 2.0)]);
-        assert_eq!(across.repairs().0, ["a hole at the outer ring cut out"]);
-        assert!((across.polygon().area() - 98.0).abs() < 1e-6 && across.polygon().len() == 1);
-        [outside, merged, beside, across].iter().for_each(assert_valid);
-    }
-
-    #[test]
-    fn where_a_plan_touches_itself_at_a_point_a_notch_is_cut() {
-        let tip = made(&[&SQUARE, &[[0.0, 5.0], [3.0, 4.0], [3.0, 6.0]]]);
-        assert_valid(&tip);
-        assert!(
-            (tip.polygon().area() - 97.0).abs() < 0.02 && tip.polygon().len() == 1,
-            "{}",
-            tip.polygon().area()
-        );
-        let corners =
-            made(&[&SQUARE, &[[2.0, 2.0], [4.0, 4.0], [2.0, 4.0]], &[[4.0, 4.0], [6.0, 4.0], [6.0, 6.0]]]);
-        assert_valid(&corners);
-        assert!(
-            (corners.polygon().area() - 96.0).abs() < 0.03 && corners.polygon().len() == 2,
-            "{}",
-            corners.polygon().area()
-        );
-    }
-
-    #[test]
-    fn heights_of_the_ground_are_kept_and_found_between() {
-        let points = [[0.0, 0.0, 1.0], [6.0, 6.0, 7.0], [0.0, 6.0, 3.0], [2.0, 0.0, 1.0]];
-        let plan = Plan::new(&Rings(vec![points.map(DVec3::from).to_vec()])).unwrap();
-        let at = |x: f64, y: f64| {
-            let near = |point: &&DVec3| point.truncate().distance(DVec2::new(x, y)) < 1e-3;
-            plan.polygon()[0].iter().find(near).map(|point| point.z)
-        };
-        assert_eq!((at(6.0, 6.0), at(0.0, 6.0)), (Some(7.0), Some(3.0)));
-        assert!((at(1.5, 1.5).unwrap() - 2.5).abs() < 1e-6 || (at(1.5, 1.5).unwrap() - 1.5).abs() < 1e-6);
-    }
-
-    #[test]
-    fn what_encloses_nothing_is_refused() {
-        let refused = |rings: &[&[[f64; 2]]]| {
-            Plan::new(&rings.iter().map(|points| ring(points)).collect()).unwrap_err()
-        };
-        assert!(refused(&[&[[0.0, 0.0], [5.0, 5.0]]]).message().contains("2 distinct points"));
-        assert!(refused(&[&[[0.0, 0.0], [4.0, 0.0], [8.0, 0.0]]]).message().contains("no area"));
-        let all = [[-1.0, -1.0], [11.0, -1.0], [11.0, 11.0], [-1.0, 11.0]];
-        assert!(refused(&[&SQUARE, &all]).message().contains("hole 1"));
-    }
-
-    #[test]
-    fn a_plan_that_a_hole_divides_but_for_rounding_is_divided() {
-        let plan =
-            made(&[&[[-0.14, 0.29], [0.28, 0.26], [0.0, 0.0]], &[[0.14, 0.27], [0.1, 0.0], [-0.11, -0.23]]]);
-        assert_valid(&plan);
-        assert_eq!(plan.repairs().0, ["a hole at the outer ring cut out", "the greatest part kept"]);
-    }
-
-    #[test]
-    fn scribbles_take_no_longer_than_outlines() {
-        let around = |count: usize, place: &dyn Fn(f64) -> DVec2| -> Vec<DVec3> {
-            (0..count).map(|at| place(at as f64).extend(0.0)).collect()
-        };
-        let mut shapes: Vec<Vec<DVec3>> = Vec::new();
-        for count in [300, 3001, 10_000] {
-            let size = count as f64;
-            // A star of which each edge crosses nearly all others, random places, a comb that lies on itself, circles
-            // that go around again and again, and a flower of many small loops.
-            shapes.push(around(count, &|at| {
-                DVec2::from_angle(at * std::f64::consts::PI * (1.0 + 1.0 / size)) * 20.0
-            }));
-            shapes.push(around(count, &|at| {
-                DVec2::new((at * 78.233).sin() * 50.0, (at * 12.9898).cos() * 50.0)
-            }));
-            shapes.push(around(count, &|at| DVec2::new(at % 2.0 * 30.0, (at * 0.25).floor() % 3.0)));
-            shapes.push(around(count, &|at| DVec2::from_angle(at * 0.1) * 30.0));
-            shapes.push(around(count, &|at| {
-                let turn = at / size * std::f64::consts::TAU;
-                DVec2::from_angle(turn) * 200.0 + DVec2::from_angle(turn * size / 12.0) * 2.0
-            }));
-        }
-        let mut made = 0;
-        for shape in &shapes {
-            let begin = std::time::Instant::now();
-            let plan = Plan::new(&Rings(vec![shape.clone()]));
-            assert!(begin.elapsed().as_secs_f64() < 10.0, "{} points: {:?}", shape.len(), begin.elapsed());
-            if let Ok(plan) = plan {
-                assert_valid(&plan);
-                made += 1;
-            }
-        }
-        assert!(made > 0 && made < shapes.len(), "{made}");
-    }
-
-    proptest! {
-        #![proptest_config(ProptestConfig { failure_persistence: None, cases: 400, ..ProptestConfig::default() })]
-
-        #[test]
-        fn random_rings_give_a_valid_plan_or_an_error(
-            rings in prop::collection::vec(prop::collection::vec((-30i32..30, -30i32..30), 0..14), 1..4),
-            scale in prop::sample::select(vec![0.01, 0.5, 1.0, 1e3]),
-            far in prop::sample::select(vec![0.0, 6.6e6]),
-        ) {
-            let point = |&(x, y): &(i32, i32)| {
-                DVec3::new(f64::from(x) * scale + far, f64::from(y) * scale, f64::from(x + y))
-            };
-            let rings: Rings =
-                rings.iter().map(|ring| ring.iter().map(point).collect()).collect();
-            if let Ok(plan) = Plan::new(&rings) {
-                let again = Plan::new(&plan.polygon().into());
-                prop_assert!(again.as_ref().is_ok_and(|again| again.repairs().0.is_empty()), "{again:?}");
-                prop_assert!(plan.polygon().area() > 0.0);
-                prop_assert!(plan.given_edges().iter().flatten().all(|&edge| edge < plan.given()));
-            }
-        }
-    }
-}
+#[path = "repair_tests.rs"]
+mod tests;

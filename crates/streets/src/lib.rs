@@ -20,6 +20,7 @@
 //! # Ok::<(), burgeon_base::error::Error>(())
 //! ```
 
+mod areas;
 mod bend;
 #[cfg(test)]
 mod bend_tests;
@@ -57,6 +58,7 @@ mod surface_tests;
 mod tests;
 mod verge;
 
+pub use areas::StreetArea;
 pub use constraints::{Constraints, Fate, Refusal};
 pub use dead_ends::DeadEndOptions;
 pub use existing::{ExistingLosses, ExistingStreet};

@@ -195,7 +195,7 @@ impl StreetNetwork {
 const LEAST_FOOTING: f64 = 0.1;
 
 /// The line around a junction (m), counter-clockwise.
-fn outline(shapes: &StreetShapes<'_>, junction: JunctionId, line: StreetLine) -> Vec<DVec2> {
+pub(crate) fn outline(shapes: &StreetShapes<'_>, junction: JunctionId, line: StreetLine) -> Vec<DVec2> {
     let mut outline = Vec::new();
     for (index, arm) in shapes.junction(junction).arms.iter().enumerate() {
         let half = arm.arm.aside(line);

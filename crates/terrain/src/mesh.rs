@@ -10,6 +10,7 @@ use glam::{DVec2, DVec3, Vec2};
 use rayon::prelude::*;
 use rustc_hash::{FxHashMap, FxHashSet};
 
+use super::cuts::{GroundCuts, PartCorner};
 use super::ground::Ground;
 use super::samples::{TileSamples, Vertex};
 use super::tile::{Tile, TilePlace};
@@ -247,26 +248,60 @@ impl<'a> GroundMesh<'a> {
         }
     }
 
-    /// Adds the triangles over the tile with this number to `part`, with points told from `origin` (m). The tile's
-    /// south-west corner gets the texture coordinates `begin` (m), from where they count.
-    pub fn write(&self, number: usize, origin: DVec3, begin: f64, part: &mut Part) {
+    /// Adds the triangles over the tile with this number to `part`, with points relative to `origin` (m), outside of the
+    /// areas that lie on the ground. The tile's south-west corner gets the texture coordinates `begin` (m), from where
+    /// they count.
+    pub fn write(&self, number: usize, origin: DVec3, begin: f64, cuts: &GroundCuts, part: &mut Part) {
         let (vertices, triangles) = self.triangles(number);
         let base = u32::try_from(part.positions.len()).unwrap_or(u32::MAX);
         part.make_room(vertices.len(), triangles.len());
         let (south_west, _) = self.ground.tiles()[number].bounds(self.ground.world());
-        for vertex in vertices {
-            let point = self.point(number, vertex);
-            let place = point.truncate();
+        let add = |point: DVec3, normal: DVec3, part: &mut Part| {
             part.positions.push((point - origin).as_vec3());
-            part.normals.push(match vertex {
-                Vertex::Corner([x, y]) => self.ground.normal(x, y).into(),
-                Vertex::Sample(_) => self.ground.way_up(place).unwrap_or(DVec3::Z).into(),
-            });
-            let [u, v] = (place - south_west + begin).to_array();
+            part.normals.push(normal.into());
+            let [u, v] = (point.truncate() - south_west + begin).to_array();
             #[allow(clippy::cast_possible_truncation, reason = "texture coordinates are f32")]
             part.uvs.push(Vec2::new(u as f32, v as f32));
+        };
+        let points: Vec<DVec3> = vertices.iter().map(|vertex| self.point(number, *vertex)).collect();
+        let up = |at: DVec2| self.ground.way_up(at).unwrap_or(DVec3::Z);
+        for (vertex, point) in vertices.iter().zip(&points) {
+            let normal = match vertex {
+                Vertex::Corner([x, y]) => self.ground.normal(*x, *y),
+                Vertex::Sample(_) => up(point.truncate()),
+            };
+            add(*point, normal, part);
         }
-        part.triangles.extend(triangles.into_iter().map(|corners| corners.map(|corner| corner + base)));
+        if cuts.is_empty() {
+            part.triangles.extend(triangles.into_iter().map(|corners| corners.map(|corner| corner + base)));
+            return;
+        }
+        let mut left: Vec<[u32; 3]> = Vec::with_capacity(triangles.len());
+        let mut known: FxHashMap<[u64; 2], u32> = FxHashMap::default();
+        for corners in triangles {
+            let Some(pieces) = cuts.outside(corners.map(|corner| points[corner as usize].truncate())) else {
+                left.push(corners.map(|corner| corner + base));
+                continue;
+            };
+            for piece in pieces {
+                let triangle = piece.map(|corner| match corner {
+                    PartCorner::Own(index) => corners[index] + base,
+                    PartCorner::Border(at) => {
+                        let key = at.truncate().to_array().map(f64::to_bits);
+                        *known.entry(key).or_insert_with(|| {
+                            add(at, up(at.truncate()), part);
+                            u32::try_from(part.positions.len() - 1).unwrap_or(u32::MAX)
+                        })
+                    }
+                });
+                let [a, b, c] = triangle.map(|corner| part.positions[corner as usize]);
+                if (b - a).cross(c - a).length_squared() > 0.0 {
+                    left.push(triangle);
+                }
+            }
+        }
+        drop_unused(part, base as usize, &mut left);
+        part.triangles.extend(left);
     }
 
     /// The edges of triangles on the rim of what is expanded, in no order: their ends (m), with the ground on their left.
@@ -291,6 +326,29 @@ impl<'a> GroundMesh<'a> {
             }
         }
         edges
+    }
+}
+
+/// Drops the vertices from number `base` on that none of the triangles has.
+fn drop_unused(part: &mut Part, base: usize, triangles: &mut [[u32; 3]]) {
+    let mut numbers = vec![u32::MAX; part.positions.len() - base];
+    let mut next = base;
+    for corner in triangles.iter().flatten() {
+        numbers[*corner as usize - base] = 0;
+    }
+    for (index, number) in numbers.iter_mut().enumerate().filter(|(_, number)| **number == 0) {
+        let from = base + index;
+        part.positions[next] = part.positions[from];
+        part.normals[next] = part.normals[from];
+        part.uvs[next] = part.uvs[from];
+        *number = u32::try_from(next).unwrap_or(u32::MAX);
+        next += 1;
+    }
+    part.positions.truncate(next);
+    part.normals.truncate(next);
+    part.uvs.truncate(next);
+    for corner in triangles.iter_mut().flatten() {
+        *corner = numbers[*corner as usize - base];
     }
 }
 

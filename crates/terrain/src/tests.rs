@@ -192,7 +192,7 @@ fn triangles_leave_no_gap_and_stay_within_the_error() {
         let origin = low.extend(0.0);
         let mut part = Part::default();
         for number in 0..ground.tiles().len() {
-            mesh.write(number, origin, 0.0, &mut part);
+            mesh.write(number, origin, 0.0, &GroundCuts::default(), &mut part);
         }
         sizes.push(part.triangles.len());
         let span = high - low;

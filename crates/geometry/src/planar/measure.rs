@@ -119,21 +119,34 @@ pub fn distance<P: Point>(edge: [P; 2], place: DVec2) -> f64 {
 /// assert_eq!(simplified(&line, 0.05, |point, way| distance(way, point)), line);
 /// ```
 pub fn simplified<T: Copy>(line: &[T], tolerance: f64, aside: impl Fn(T, [T; 2]) -> f64) -> Vec<T> {
-    let Some(last) = line.len().checked_sub(1) else { return Vec::new() };
+    let stays = kept(line, tolerance, aside);
+    line.iter().zip(stays).filter(|(_, stays)| *stays).map(|(point, _)| *point).collect()
+}
+
+/// Divisions of a line one within another after which the next ones are made in the middle.
+const DEEPEST: u32 = 100;
+
+/// For each point of a line, true if [`simplified`] keeps it.
+///
+/// Lines that divide unevenly again and again, as spirals do, keep a few points more, so that the time grows with the
+/// number of points and no faster.
+pub(crate) fn kept<T: Copy>(line: &[T], tolerance: f64, aside: impl Fn(T, [T; 2]) -> f64) -> Vec<bool> {
     let mut stays = vec![false; line.len()];
+    let Some(last) = line.len().checked_sub(1) else { return stays };
     (stays[0], stays[last]) = (true, true);
-    let mut ways = vec![(0, last)];
-    while let Some((from, to)) = ways.pop() {
+    let mut ways = vec![(0, last, 0)];
+    while let Some((from, to, depth)) = ways.pop() {
         let far = (from + 1..to).map(|index| (aside(line[index], [line[from], line[to]]), index));
         let farthest = far.reduce(|best, other| if other.0 > best.0 { other } else { best });
         if let Some((far, index)) = farthest
             && far > tolerance
         {
+            let index = if depth < DEEPEST { index } else { from.midpoint(to) };
             stays[index] = true;
-            ways.extend([(from, index), (index, to)]);
+            ways.extend([(from, index, depth + 1), (index, to, depth + 1)]);
         }
     }
-    line.iter().zip(stays).filter(|(_, stays)| *stays).map(|(point, _)| *point).collect()
+    stays
 }
 
 /// The convex hull of `points`, counter-clockwise from its westernmost corner on; `None` if they lie on one line.

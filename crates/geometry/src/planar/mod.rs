@@ -31,4 +31,4 @@ pub use ring::Ring;
 pub use rings::Rings;
 
 pub(crate) use convert::geo_polygon;
-pub(crate) use measure::{coord, has_area, orientation};
+pub(crate) use measure::{coord, has_area, kept, orientation};

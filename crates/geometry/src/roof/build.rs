@@ -153,7 +153,7 @@ impl RoofShape {
     fn sloped(&self, support: &Support<'_>, ends: Ends) -> Result<RoofCover> {
         let &Support { walls, base, .. } = support;
         let even = vec![Pace::default(); support.edges()];
-        let mut hip = if ends == Ends::Hips { None } else { Some(Skeleton::new(walls, &even)?) };
+        let mut hip = if ends == Ends::Hips { None } else { Some(Skeleton::for_mesh(walls, &even)?) };
         let mut party = support.party.to_vec();
         let mut over = self.over(walls, hip.as_ref(), ends, &party);
         let mut most = support.within_reach(self.overhang);
@@ -165,7 +165,7 @@ impl RoofShape {
             let hips = overhang == 0.0 && over.iter().all(|over| *over == EdgeCover::Slope);
             // Without a gable and an overhang, the roof is the one that the gables were looked for in.
             let known = if hips { hip.take() } else { None };
-            let skeleton = match known.map_or_else(|| Skeleton::new(&outset.polygon, &paces), Ok) {
+            let skeleton = match known.map_or_else(|| Skeleton::for_mesh(&outset.polygon, &paces), Ok) {
                 Ok(skeleton) => skeleton,
                 Err(_) if !party.is_empty() => {
                     party.clear();
@@ -302,7 +302,7 @@ impl RoofShape {
             Rise::Height(height) => height,
             // As high as a gable roof of this slope would be.
             Rise::Slope(slope) => {
-                let hip = Skeleton::new(walls, &vec![Pace::default(); over.len()]);
+                let hip = Skeleton::for_mesh(walls, &vec![Pace::default(); over.len()]);
                 let half = fall.length() / 2.0;
                 slope * hip.map_or(half, |hip| hip.duration()).min(half)
             }

@@ -16,6 +16,8 @@ mod row_tests;
 mod shape;
 mod shed;
 #[cfg(test)]
+mod slit_tests;
+#[cfg(test)]
 mod sliver_tests;
 mod support;
 #[cfg(test)]

@@ -39,7 +39,7 @@ pub(super) fn around(corners: &[(f64, f64)]) -> Polygon {
 /// The volume (m³) below the faces of a hip roof, by clipping them at the bends of the profile.
 fn volume_below(walls: &Polygon, shape: &RoofShape) -> f64 {
     let paces = vec![Pace::default(); walls.size()];
-    let skeleton = Skeleton::new(walls, &paces).expect("a skeleton");
+    let skeleton = Skeleton::for_mesh(walls, &paces).expect("a skeleton");
     let profile = Profile::new(shape, skeleton.duration(), 0.0);
     let mut volume = 0.0;
     for face in &skeleton.faces {

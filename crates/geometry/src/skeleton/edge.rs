@@ -8,20 +8,42 @@ use super::Pace;
 use crate::planar::Polygon;
 use burgeon_base::error::{Error, Limit, Result};
 
-/// Cells of the lattice to a metre: corners move by less than 2e-10 m.
+/// Cells of the lattice to a metre of the scaled polygon: corners move there by less than 2e-10 m.
 pub(super) const CELLS: f64 = (1u64 << 32) as f64;
+/// The power of two that is the least extent (m) of a scaled polygon.
+const EXTENT: i32 = 9;
+/// The greatest power of two of an extent (m), and of its inverse.
+const MOST_POWER: i32 = 300;
 /// The greatest coordinate (cells): products of differences fit in 128 bits.
 const MOST: f64 = (1u64 << 61) as f64;
 
-/// Puts the rings on the lattice (cells); the middle (m) of their box, from which they are measured.
-pub(super) fn snap(polygon: &Polygon, rings: &mut Vec<Vec<I64Vec2>>) -> Result<DVec2> {
+/// The power of two by which a polygon is to be scaled so that it extends over 512 to 1024 m.
+///
+/// Fails if its extent (m) is 0 or so small or great that products of it are no numbers.
+pub(super) fn scale_of(polygon: &Polygon) -> Result<f64> {
     let [low, high] = polygon.bounds().unwrap_or_default();
-    let middle = low.midpoint(high).round();
-    let reach = (high - low).max_element() * CELLS;
-    if reach > MOST {
-        return Err(Error::limit(Limit::Size, "the outline is too large for a roof"));
+    let extent = (high - low).max_element();
+    #[allow(clippy::cast_possible_truncation, reason = "11 bits")]
+    let power = (extent.to_bits() >> 52 & 0x7ff) as i32 - 1023;
+    if power.abs() > MOST_POWER {
+        return Err(Error::limit(Limit::Size, format!("the outline extends over {extent:e} m"))
+            .help("a skeleton takes outlines of 1e-90 to 1e90 m"));
     }
-    let snapped = |point: &DVec2| nearest((*point - middle) * CELLS);
+    Ok(2f64.powi(EXTENT - power))
+}
+
+/// Puts the rings, scaled by a power of two, on the lattice (cells); the middle (m) of their box, from which they are
+/// measured.
+pub(super) fn snap(polygon: &Polygon, scale: f64, rings: &mut Vec<Vec<I64Vec2>>) -> Result<DVec2> {
+    let [low, high] = polygon.bounds().unwrap_or_default();
+    let middle = (low.midpoint(high) * scale).round() / scale;
+    let cells = CELLS * scale;
+    let reach = (high - low).max_element() * cells;
+    if reach > MOST {
+        return Err(Error::limit(Limit::Size, "the outline is too large for a roof")
+            .help("give an outline of less than 500,000 km"));
+    }
+    let snapped = |point: &DVec2| nearest((*point - middle) * cells);
     rings.resize_with(polygon.len(), Vec::new);
     for (points, ring) in rings.iter_mut().zip(polygon.iter()) {
         points.clear();
@@ -139,7 +161,7 @@ mod tests {
         let ring = vec![DVec2::new(1000.1, 2000.2), DVec2::new(1010.3, 2000.7), DVec2::new(1003.3, 2011.1)];
         let polygon = Polygon::new(vec![ring.clone()]).expect("a small ring");
         let mut snapped = Vec::new();
-        let middle = snap(&polygon, &mut snapped).expect("a small ring");
+        let middle = snap(&polygon, 1.0, &mut snapped).expect("a small ring");
         assert_eq!(middle, DVec2::new(1005.0, 2006.0));
         for (&from, &to) in ring.iter().zip(&snapped[0]) {
             assert!((from - middle).distance(metres(to)) < 1e-9);

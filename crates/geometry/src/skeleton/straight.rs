@@ -93,8 +93,11 @@ impl Skeleton {
     /// # Ok::<(), burgeon_base::error::Error>(())
     /// ```
     ///
+    /// The result scales with the polygon: scaled by a power of two, it has the same skeleton to the last bit, of any
+    /// extent from 1e-90 to 1e90 m.
+    ///
     /// Method: wavefront propagation (O. Aichholzer and F. Aurenhammer, "Straight skeletons for general
-    /// polygonal figures in the plane", 1996) of the polygon on a lattice of 2^-32 m. All decisions are exact: its
+    /// polygonal figures in the plane", 1996) of the polygon on a lattice of 2^-42 of its extent. All decisions are exact: its
     /// edges lie on lines of whole numbers, of which only the speed is rounded, alike for parallel ones, so that times
     /// and places are fractions. Rounded numbers with a bound on their error tell most of them apart, the fractions
     /// the rest. Ties: what happens at exactly one time and place is resolved at once, the edges that meet there are
@@ -103,13 +106,24 @@ impl Skeleton {
     /// different speeds the faster one sweeps what the slower one has left. Around an area where all edges stand still
     /// for ever, these begin to move once nothing else does.
     ///
-    /// Afterwards borders and spikes of less than 1 mm are closed where the faces stay a map of the plane. Fails if
-    /// the result does not pass the checks: one closed face for each edge, every corner in the plane of its faces, no
+    /// Afterwards borders and spikes of less than 2e-6 of the extent are closed where the faces stay a map of the plane.
+    /// Fails if the result does not pass the checks: one closed face for each edge, every corner in the plane of its faces, no
     /// negative area, areas that add up to the polygon's (to 1e-6), faces that are monotone along their edges, or do
     /// not cross themselves where paces differ.
     pub fn new(polygon: &Polygon, paces: &[Pace]) -> Result<Self> {
+        Self::scaled(polygon, paces, edge::scale_of(polygon)?)
+    }
+
+    /// The same for a mesh in metres, whatever the extent: borders and spikes of less than 1 mm are closed, on a lattice
+    /// of 2^-32 m.
+    pub fn for_mesh(polygon: &Polygon, paces: &[Pace]) -> Result<Self> {
+        Self::scaled(polygon, paces, 1.0)
+    }
+
+    /// The skeleton of a polygon that is scaled by a power of two meanwhile.
+    fn scaled(polygon: &Polygon, paces: &[Pace], scale: f64) -> Result<Self> {
         let mut spare = SPARE.take().unwrap_or_default();
-        let skeleton = spare.skeleton(polygon, paces);
+        let skeleton = spare.skeleton(polygon, paces, scale);
         SPARE.set(Some(spare));
         skeleton
     }
@@ -130,18 +144,26 @@ thread_local! {
 struct SkeletonMaker {
     /// The polygon on the lattice.
     rings: Vec<Vec<I64Vec2>>,
+    /// How the edges of the scaled polygon move.
+    paces: Vec<Pace>,
     front: Wavefront,
     meetings: MeetingLists,
     faces: FaceLists,
 }
 
 impl SkeletonMaker {
-    fn skeleton(&mut self, polygon: &Polygon, paces: &[Pace]) -> Result<Skeleton> {
-        let middle = edge::snap(polygon, &mut self.rings)?;
-        self.front.propagate(&self.rings, paces, &mut self.meetings)?;
+    fn skeleton(&mut self, polygon: &Polygon, paces: &[Pace], scale: f64) -> Result<Skeleton> {
+        let middle = edge::snap(polygon, scale, &mut self.rings)?;
+        self.paces.clear();
+        self.paces.extend(paces.iter().map(|pace| Pace { rest: pace.rest * scale, ..*pace }));
+        self.front.propagate(&self.rings, &self.paces, &mut self.meetings)?;
         let mut skeleton = self.faces.assemble(&self.rings, &mut self.front.traced)?;
         for peak in &mut skeleton.peaks {
-            peak.at += middle;
+            peak.at = peak.at / scale + middle;
+            peak.time /= scale;
+        }
+        for pace in &mut skeleton.paces {
+            pace.rest /= scale;
         }
         for (peak, at) in skeleton.peaks.iter_mut().zip(polygon.points()) {
             peak.at = at;

@@ -211,3 +211,73 @@ fn an_outline_that_turns_back_on_itself_is_refused() {
     let spike = polygon(&[&[(0., 0.), (4., 0.), (4., 4.), (4., 2.), (0., 2.)]]);
     assert!(Skeleton::new(&spike, &[Pace::default(); 5]).is_err());
 }
+
+/// The volume below a hip roof and the height of its highest ridge, and how far corners are off the planes of their faces,
+/// all as parts of the extent.
+fn measured(polygon: &Polygon) -> [f64; 3] {
+    let skeleton = Skeleton::new(polygon, &vec![Pace::default(); polygon.size()]).expect("a skeleton");
+    let [low, high] = polygon.bounds().expect("points");
+    let extent = (high - low).max_element();
+    let (mut volume, mut off) = (0.0, 0f64);
+    for (face, [a, b]) in skeleton.faces.iter().zip(polygon.edges()) {
+        let inwards = (b - a).normalize().perp();
+        let at = |index: usize| skeleton.peaks[face[index]];
+        for index in 0..face.len() {
+            off = off.max((inwards.dot(at(index).at - a) - at(index).time).abs());
+        }
+        for index in 2..face.len() {
+            let [one, two, three] = [at(0), at(index - 1), at(index)];
+            let area = (two.at - one.at).perp_dot(three.at - one.at) / 2.0;
+            volume += area * (one.time + two.time + three.time) / 3.0;
+        }
+    }
+    [volume / extent.powi(3), skeleton.duration() / extent, off / extent]
+}
+
+#[test]
+fn skeletons_of_any_size_are_alike() {
+    let mut random = Random(31);
+    let mut count = 0;
+    for round in 0..240 {
+        let rings = if round % 2 == 0 {
+            mixed(round / 2, &mut random)
+        } else {
+            (FAMILIES[round / 2 % FAMILIES.len()].make)(&mut random)
+        };
+        let Some(polygon) = plan(&rings) else { continue };
+        let scaled = |scale: f64| {
+            let rings = polygon.iter().map(|ring| ring.iter().map(|at| *at * scale).collect());
+            Polygon::new(rings.collect::<Rings<DVec2>>()).expect("a polygon")
+        };
+        let wanted = measured(&polygon);
+        assert!(wanted[2] < 4e-6, "{round}: {wanted:?}");
+        for scale in [1e-6, 1e-4, 1e-3, 1e-2, 0.07, 0.7, 30.0, 1e3, 1e6] {
+            let found = measured(&scaled(scale));
+            let alike = (0..2).all(|index| (found[index] / wanted[index] - 1.0).abs() < 1e-4);
+            assert!(alike && found[2] < 4e-6, "{round} at {scale}: {found:?} for {wanted:?}");
+            count += 1;
+        }
+        for power in [-40, -7, 5, 60] {
+            let (scale, paces) = (2f64.powi(power), vec![Pace::default(); polygon.size()]);
+            let [one, two] =
+                [&polygon, &scaled(scale)].map(|polygon| Skeleton::new(polygon, &paces).expect("one"));
+            assert_eq!(one.faces, two.faces);
+            assert!(one.peaks.iter().zip(&two.peaks).all(|(a, b)| a.time * scale == b.time));
+        }
+    }
+    assert!(count > 1500, "{count}");
+    let huge = polygon(&[&[(0., 0.), (1e100, 0.), (0., 1e100)]]);
+    let error = Skeleton::new(&huge, &[Pace::default(); 3]).expect_err("too large");
+    assert!(error.to_string().contains("1e-90 to 1e90"), "{error}");
+}
+
+#[test]
+fn a_skeleton_ends_when_its_run_is_stopped() {
+    let stop = std::sync::Arc::new(burgeon_base::Stop::new());
+    let _work = stop.at_work();
+    let square = polygon(&[&[(0., 0.), (2., 0.), (2., 2.), (0., 2.)]]);
+    assert!(Skeleton::new(&square, &[Pace::default(); 4]).is_ok());
+    stop.stop(burgeon_base::error::Error::stopped("time is up"));
+    let error = Skeleton::new(&square, &[Pace::default(); 4]).expect_err("stopped");
+    assert_eq!(error.message(), "time is up");
+}

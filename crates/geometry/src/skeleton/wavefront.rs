@@ -11,6 +11,7 @@ use super::fronts::{EdgeFront, EdgeFronts};
 use super::lines::{EventTime, LineMeeting, MovingLines};
 use super::meeting::{EventPoint, MeetingLists};
 use super::{Pace, Peak};
+use burgeon_base::Stop;
 use burgeon_base::error::{Error, Result};
 
 /// A border between the faces of two edges, as a corner of the wavefront has drawn it.
@@ -116,8 +117,14 @@ impl Wavefront {
         paces: &[Pace],
         lists: &mut MeetingLists,
     ) -> Result<()> {
-        self.begin(rings, paces)?;
-        for _ in 0..16 * paces.len() + 64 {
+        let stop = Stop::current();
+        let check = || stop.as_ref().map_or(Ok(()), |stop| stop.check());
+        check()?;
+        self.begin(rings, paces, &check)?;
+        for step in 0..16 * paces.len() + 64 {
+            if step % STOP_STEPS == 0 {
+                check()?;
+            }
             // What is still expected then takes place nowhere.
             if self.living == 0 {
                 return Ok(());
@@ -153,7 +160,12 @@ impl Wavefront {
     }
 
     /// Puts the wavefront on the polygon, whatever it was before.
-    fn begin(&mut self, rings: &[Vec<I64Vec2>], paces: &[Pace]) -> Result<()> {
+    fn begin(
+        &mut self,
+        rings: &[Vec<I64Vec2>],
+        paces: &[Pace],
+        check: &impl Fn() -> Result<()>,
+    ) -> Result<()> {
         let count: usize = rings.iter().map(Vec::len).sum();
         let reach = rings.iter().flatten().map(|&at| metres(at).length_squared()).fold(0.0, f64::max).sqrt();
         let finite = |rest: f64| if rest.is_finite() { rest.max(0.0) } else { 0.0 };
@@ -216,6 +228,9 @@ impl Wavefront {
             self.expect_collapse(corner, self.corners[corner].after);
         }
         for corner in 0..count {
+            if corner % STOP_STEPS == 0 {
+                check()?;
+            }
             self.expect_split(corner, ANY);
             let Pace { speed, rest } = self.traced.edges[corner].pace;
             if speed > 0.0 && rest > 0.0 && rest.is_finite() {
@@ -424,6 +439,8 @@ impl Wavefront {
     }
 }
 
+/// Steps after which it is checked again that the run goes on.
+const STOP_STEPS: usize = 256;
 /// Edges that begin to move as nothing else does so at a time of which there are so many to a metre.
 const STEPS: f64 = 64.0;
 /// Before all that may happen.

@@ -14,6 +14,7 @@ pub mod join;
 mod join_tests;
 mod kinds;
 pub mod lay;
+mod levels;
 pub mod list;
 pub mod panel;
 pub mod size;

@@ -4,8 +4,10 @@ use std::borrow::Cow;
 use std::collections::BTreeMap;
 
 use glam::{DVec2, DVec3};
+use smallvec::{SmallVec, smallvec};
 
 use super::Footprint;
+use super::cover::{self, Cover, WallSpan};
 use super::neighbors::Touch;
 use crate::facade::template::BLIND;
 use burgeon_base::error::{Error, Result};
@@ -21,6 +23,8 @@ const ENTRY: &str = "entry door";
 const ALONG_STREET: f64 = 0.7;
 /// How much lower (m) the walls of a neighbour are than eaves that jut out over it.
 const LOWER: f64 = 1.0;
+/// Walls that end this much (m) above the height which was given have another one.
+const ABOVE: f64 = 0.05;
 /// How much nearer (m) to a street an edge must be to be preferred to a longer one.
 const NEARER: f64 = 2.0;
 
@@ -57,6 +61,8 @@ impl Parameter for EdgeKeywords {
 #[derive(Debug, Default)]
 pub(super) struct Edges {
     keywords: Vec<Vec<Cow<'static, str>>>,
+    /// By edge: true if it is blind as it was given that word, whatever stands beside it.
+    always_blind: Vec<bool>,
     touch: Touch,
     street: Option<usize>,
     /// By edge that was given: the edge of the plan that stands for it, if there is one.
@@ -78,10 +84,18 @@ impl Edges {
         }
         let touch = match &footprint.place {
             Some((all, own)) => all.touch(*own),
-            None => Touch { shared: vec![0.0; plan.polygon().size()], neighbors: 0 },
+            None => Touch { shared: vec![0.0; plan.polygon().size()], ..Touch::default() },
         };
-        for (keywords, shared) in keywords.iter_mut().zip(&touch.shared) {
-            if *shared >= 0.5 {
+        let always_blind = keywords.iter().map(|words| words.iter().any(|word| word == BLIND)).collect();
+        let heights = footprint.known_top().map(|top| [footprint.highest(), top]);
+        for (index, (keywords, [a, b])) in keywords.iter_mut().zip(plan.polygon().edges()).enumerate() {
+            let hidden = match (heights, touch.covers.get(index)) {
+                (Some(heights), Some(covers)) => {
+                    cover::hidden(covers, a.truncate().distance(b.truncate()), heights)
+                }
+                _ => touch.shared[index],
+            };
+            if hidden >= 0.5 {
                 add(keywords, BLIND);
             }
         }
@@ -92,7 +106,7 @@ impl Edges {
                 add(&mut keywords[street], ENTRY);
             }
         }
-        Self { keywords, touch, street, stands_for }
+        Self { keywords, always_blind, touch, street, stands_for }
     }
 }
 
@@ -140,6 +154,33 @@ impl Footprint {
     /// "street" and "entry door". The footprint's own keywords are not among them.
     pub(super) fn edge_keywords(&self, edge: usize) -> &[Cow<'static, str>] {
         self.known_edges().keywords.get(edge).map_or(&[], Vec::as_slice)
+    }
+
+    /// Where its walls end (m), as far as that is known before they are built.
+    fn known_top(&self) -> Option<f64> {
+        self.place.as_ref().and_then(|(all, own)| all.top(*own))
+    }
+
+    /// The parts of the walls over an edge of this length (m) between two heights (m), each covered alike.
+    ///
+    /// Walls that rise above the height which the footprint was given, as it is that of a storey, may have neighbours that
+    /// do so too: how high these are is not known then.
+    pub(super) fn spans(&self, edge: usize, length: f64, heights: [f64; 2]) -> SmallVec<[WallSpan; 2]> {
+        let known = self.known_edges();
+        let whole = |covered: f64| smallvec![WallSpan { part: [0.0, length], covered }];
+        let is_blind = self.options.keywords.iter().any(|word| word == BLIND);
+        if is_blind || known.always_blind.get(edge) == Some(&true) {
+            return whole(heights[1] - heights[0]);
+        }
+        let Some(covers) = known.touch.covers.get(edge).filter(|covers| !covers.is_empty()) else {
+            return whole(0.0);
+        };
+        let base = self.origin().z;
+        let is_above = self.known_top().is_some_and(|top| base + heights[1] > top + ABOVE);
+        let local =
+            |cover: &Cover| Cover { top: if is_above { f64::INFINITY } else { cover.top - base }, ..*cover };
+        let covers: SmallVec<[Cover; 4]> = covers.iter().map(local).collect();
+        cover::spans(&covers, length, heights)
     }
 
     /// The "blind" edges of the plan that run away from its street rather than along it.

@@ -3,6 +3,9 @@
 //! Comes in: a polygon, its neighbours and the ground. Goes out: a closed building, with a [`Note`](burgeon_kit::Note) where
 //! it is not as asked. It never leaves out a building without saying so.
 
+mod cover;
+#[cfg(test)]
+mod cover_tests;
 #[cfg(test)]
 mod eaves_tests;
 mod edges;

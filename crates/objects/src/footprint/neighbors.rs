@@ -10,6 +10,7 @@ use rustc_hash::{FxHashMap, FxHasher};
 use smallvec::SmallVec;
 
 use super::Footprint;
+use super::cover::Cover;
 use burgeon_geometry::Plan;
 use burgeon_kit::Object;
 use burgeon_kit::declare::as_mut;
@@ -160,6 +161,8 @@ type WallEnds = [DVec2; 2];
 pub(super) struct Touch {
     /// By edge, over all rings: the part of its length, 0 to 1.
     pub shared: Vec<f64>,
+    /// By edge: what covers it, with heights (m) in the world; empty if nothing covers any.
+    pub covers: Vec<Vec<Cover>>,
     /// How many others there are.
     pub neighbors: u32,
 }
@@ -195,7 +198,7 @@ impl Neighborhood {
         let map = self.map();
         let walls = map.walls_at(own);
         let Some([low, high]) = bounds(walls) else { return Touch::default() };
-        let mut covered: Vec<Vec<[f64; 2]>> = vec![Vec::new(); walls.len()];
+        let mut covers: Vec<Vec<Cover>> = vec![Vec::new(); walls.len()];
         let mut neighbors = 0;
         let around = AABB::from_corners(low.to_array(), high.to_array());
         for (other, count) in map.around(own, &around) {
@@ -206,23 +209,33 @@ impl Neighborhood {
             let theirs: SmallVec<[WallEnds; 16]> = theirs.copied().collect();
             let [least, most] = [other.geom().lower(), other.geom().upper()].map(DVec2::from);
             let mut longest = 0f64;
-            for (&[a, b], covered) in walls.iter().zip(&mut covered) {
+            let top = map.owners[other.data as usize].top_besides(own);
+            for (&[a, b], covers) in walls.iter().zip(&mut covers) {
                 // Its box is as much larger as walls that touch may be apart.
                 if a.max(b).cmplt(least).any() || a.min(b).cmpgt(most).any() {
                     continue;
                 }
                 for part in theirs.iter().filter_map(|their| overlap([a, b], *their)) {
                     longest = longest.max(part[1] - part[0]);
-                    covered.push(part);
+                    covers.push(Cover { part, top });
                 }
             }
             neighbors += if longest >= LEAST { count } else { 0 };
         }
-        let shared = walls.iter().zip(&mut covered).map(|([a, b], parts)| {
+        let shared = walls.iter().zip(&covers).map(|([a, b], covers)| {
             let length = a.distance(*b);
-            if length > 0.0 { (union(parts) / length).min(1.0) } else { 0.0 }
+            if length > 0.0 { (union(covers) / length).min(1.0) } else { 0.0 }
         });
-        Touch { shared: shared.collect(), neighbors }
+        let shared = shared.collect();
+        if covers.iter().all(Vec::is_empty) {
+            covers.clear();
+        }
+        Touch { shared, covers, neighbors }
+    }
+
+    /// Where the walls of a footprint end (m), as far as it is known before they are built.
+    pub(super) fn top(&self, own: usize) -> Option<f64> {
+        self.tops.get(own).copied().flatten()
     }
 
     /// How far (m) each edge of footprint `own` is from others in front of it, halved so that theirs have room as well,
@@ -339,11 +352,12 @@ fn overlap([a, b]: WallEnds, [c, d]: WallEnds) -> Option<[f64; 2]> {
     (end - begin > 1e-3).then_some([begin, end])
 }
 
-/// The length (m) that `parts` cover together.
-fn union(parts: &mut [[f64; 2]]) -> f64 {
+/// The length (m) that `covers` cover together.
+fn union(covers: &[Cover]) -> f64 {
+    let mut parts: SmallVec<[[f64; 2]; 8]> = covers.iter().map(|cover| cover.part).collect();
     parts.sort_by(|a, b| a[0].total_cmp(&b[0]));
     let (mut length, mut reached) = (0.0, f64::NEG_INFINITY);
-    for &mut [begin, end] in parts {
+    for [begin, end] in parts {
         if end > reached {
             length += end - begin.max(reached);
             reached = end;
@@ -382,7 +396,7 @@ mod tests {
         assert_eq!(touch.neighbors, 1);
         assert_eq!(touch.shared, [0.0, 0.5, 0.0, 0.0]);
         assert_eq!(all.touch(1).shared, [0.0, 0.0, 0.0, 0.5]);
-        assert_eq!(all.touch(2), Touch { shared: vec![0.0; 4], neighbors: 0 });
+        assert_eq!(all.touch(2), Touch { shared: vec![0.0; 4], ..Touch::default() });
     }
 
     #[test]
@@ -402,8 +416,12 @@ mod tests {
         let mut rings: Vec<&[[f64; 2]]> = vec![&house; 500];
         rings.extend([&beside[..], &beside, &thin, &thin, &thin]);
         let mut all = all(&rings);
-        assert_eq!(all.touch(0), Touch { shared: vec![0.0, 1.0, 0.0, 0.0], neighbors: 2 });
-        assert_eq!(all.touch(500), Touch { shared: vec![0.0, 0.0, 0.0, 1.0], neighbors: 500 });
+        let touch = |own: usize| {
+            let Touch { shared, neighbors, .. } = all.touch(own);
+            (shared, neighbors)
+        };
+        assert_eq!(touch(0), (vec![0.0, 1.0, 0.0, 0.0], 2));
+        assert_eq!(touch(500), (vec![0.0, 0.0, 0.0, 1.0], 500));
         assert_eq!((all.touch(504).neighbors, all.touch(504).shared[0]), (2, 1.0));
         assert_eq!(all.map().owners.len(), 3);
         // Of those beside it, only the second is high enough to be in the way.

@@ -153,7 +153,7 @@ impl Footprint {
         self.facing(edge)
     }
 
-    /// Whether an edge has this keyword: one it was given, or "blind" (a neighbour covers it by half or more),
+    /// Returns true if an edge has this keyword: one it was given, or "blind" (neighbours cover half of its wall or more),
     /// "street" or "entry door".
     pub fn edge_has(&self, edge: u32, keyword: String) -> Result<bool> {
         self.words_of(edge).map(|words| words.iter().any(|word| *word == keyword))

@@ -3,6 +3,7 @@
 use glam::{DAffine3, DMat3, DVec2, DVec3};
 
 use super::Footprint;
+use super::cover::WallSpan;
 use super::object::Height;
 use super::object::{along, check_height};
 use super::sides::material_of;
@@ -26,7 +27,7 @@ pub struct Walls {
     /// A material whose image covers each frontage once, as a photo of the building does.
     pub photo: Option<MaterialOptions>,
     /// Width and height (m) of one bay of the photo, which then repeats in whole bays, as many as suit a frontage best;
-    /// blind frontages stay plain.
+    /// parts of walls that neighbours cover stay plain.
     pub bay: Vec<f64>,
     /// Colour of plain walls.
     pub color: Option<Color>,
@@ -81,6 +82,10 @@ struct Frontage {
     miters: [f64; 2],
     /// Where textures begin: how far it is around the building and above the ground (m).
     passed: DVec2,
+    /// How much (m) of its height a neighbour covers from below.
+    covered: f64,
+    /// The edge that it is a part of.
+    edge: usize,
 }
 
 /// The most that a miter goes on beyond a corner, for 1 m that it stands out.
@@ -163,12 +168,17 @@ impl Footprint {
     ) -> Result<()> {
         let part = self.drawing.material(photo);
         let whole = photo.texture.as_ref().map_or(DVec2::ONE, |texture| DVec2::from(texture.size));
-        for (edge, frontage) in self.frontages(from, to).iter().enumerate() {
+        let frontages = match bay {
+            Some(_) => self.divided(from, to),
+            None => self.frontages(from, to),
+        };
+        for frontage in &frontages {
+            let edge = frontage.edge;
             let (right, up) = (DVec3::new(frontage.size.x, 0.0, 0.0), DVec3::new(0.0, frontage.size.y, 0.0));
             let face = FacadeFace::new(DVec3::ZERO, right, up).of(None, true, SurfaceMeaning::Wall);
             let shown = match bay {
                 None => [DVec2::ZERO, whole],
-                Some(_) if self.keywords_of(edge).contains(&BLIND) => {
+                Some(_) if frontage.is_blind() => {
                     frontage.fill(self.drawing.surface(plain, SurfaceMeaning::Wall))?;
                     continue;
                 }
@@ -198,10 +208,20 @@ impl Footprint {
         // Parts by the addresses of materials, which templates keep where they are.
         let mut parts: Vec<(*const Material, usize)> = Vec::new();
         let mut without: Vec<DVec2> = Vec::new();
-        let mut frontages = self.frontages(from, to);
-        let chosen = self.choose(templates, &mut frontages);
-        for (edge, (frontage, (chosen, blind))) in frontages.iter().zip(chosen).enumerate() {
+        let mut frontages = self.divided(from, to);
+        self.miter(&mut frontages);
+        let mut has_free = vec![false; self.plan.polygon().size()];
+        for frontage in frontages.iter().filter(|frontage| !frontage.is_blind()) {
+            has_free[frontage.edge] = true;
+        }
+        let mut count = frontages.len();
+        let mut index = 0;
+        while index < frontages.len() {
+            let frontage = frontages[index];
+            index += 1;
             laid.clear();
+            let is_partly = frontage.covered > 0.0 && !frontage.is_blind();
+            let chosen = self.choose(templates, &frontage);
             let over = Rectangle { at: DVec2::ZERO, size: frontage.size };
             let Some(template) = chosen.filter(|template| laid.lay(template.wall(), over, 0.0)) else {
                 if laid.too_many {
@@ -211,15 +231,36 @@ impl Footprint {
                     )
                     .help("repeat fewer or larger walls in its template"));
                 }
-                if !blind {
+                if is_partly {
+                    frontages.extend(frontage.divided_at(frontage.covered));
+                    count += 1;
+                    continue;
+                }
+                if !frontage.is_blind() {
                     without.push(frontage.size);
                 }
                 frontage.fill(self.drawing.surface(plain, SurfaceMeaning::Wall))?;
                 continue;
             };
-            self.draw_laid(&laid, template, frontage, &mut parts, &mut joiner);
+            if is_partly {
+                // Storeys that begin above what the neighbour covers stay as they are.
+                let level =
+                    laid.level_above(frontage.covered).filter(|level| *level < frontage.size.y - SAME);
+                let Some(level) = level else {
+                    frontages.push(Frontage { covered: frontage.size.y, ..frontage });
+                    continue;
+                };
+                laid.keep_above(level);
+                let [below, _] = frontage.divided_at(level);
+                frontages.push(below);
+            }
+            let edge = frontage.edge;
+            self.draw_laid(&laid, template, &frontage, &mut parts, &mut joiner);
             let material: *const Material = material_of(&laid, template.material());
-            if let Some((_, part)) = parts.iter().find(|(known, _)| *known == material) {
+            // The free part of a wall is what its gable goes on with.
+            if (!frontage.is_blind() || !has_free[edge])
+                && let Some((_, part)) = parts.iter().find(|(known, _)| *known == material)
+            {
                 self.note_part(edge, *part);
             }
             self.note_storey(edge, &laid, frontage.size, from);
@@ -240,7 +281,7 @@ impl Footprint {
             let why = format!(
                 "no template fits {} of {} frontages, the first {:.2} m wide and {:.2} m high",
                 without.len(),
-                frontages.len(),
+                count,
                 first.x,
                 first.y
             );
@@ -249,20 +290,11 @@ impl Footprint {
         Ok(())
     }
 
-    /// The template of each frontage, and whether it is blind; also lets what stands out meet at the corners.
-    fn choose<'a>(
-        &self,
-        templates: &'a Templates,
-        frontages: &mut [Frontage],
-    ) -> Vec<(Option<&'a Template>, bool)> {
-        let keywords: Vec<Vec<&str>> = (0..frontages.len()).map(|edge| self.keywords_of(edge)).collect();
-        self.miter(frontages, &keywords);
-        let choose = |(edge, (frontage, keywords)): (usize, (&Frontage, &Vec<&str>))| {
-            let chance = Stream::new(self.seed ^ mixed(self.raised, edge)).uniform();
-            let chosen = templates.choose(keywords, frontage.size.x, frontage.size.y, chance);
-            (chosen, keywords.contains(&BLIND))
-        };
-        frontages.iter().zip(&keywords).enumerate().map(choose).collect()
+    /// The template of a frontage; that of walls which are blind in part as well, if they were free.
+    fn choose<'a>(&self, templates: &'a Templates, frontage: &Frontage) -> Option<&'a Template> {
+        let chance = Stream::new(self.seed ^ mixed(self.raised, frontage.edge)).uniform();
+        let keywords = self.keywords_of(frontage.edge, frontage.is_blind());
+        templates.choose(&keywords, frontage.size.x, frontage.size.y, chance)
     }
 
     fn draw_laid<'a>(
@@ -294,7 +326,7 @@ impl Footprint {
     }
 
     fn frontages(&self, from: f64, to: f64) -> Vec<Frontage> {
-        let mut frontages = Vec::with_capacity(self.plan.polygon().size());
+        let mut frontages: Vec<Frontage> = Vec::with_capacity(self.plan.polygon().size());
         for ring in &self.plan.flat() {
             let mut passed = 0.0;
             for [a, b] in ring.edges() {
@@ -307,6 +339,8 @@ impl Footprint {
                     axes: DMat3::from_cols(right, DVec3::Z, right.cross(DVec3::Z)),
                     // Textures run on around the corners.
                     passed: DVec2::new(passed, from - self.shell.bottom),
+                    covered: 0.0,
+                    edge: frontages.len(),
                 });
                 passed += length;
             }
@@ -314,31 +348,87 @@ impl Footprint {
         frontages
     }
 
+    /// The frontages, divided where neighbours begin and end.
+    fn divided(&self, from: f64, to: f64) -> Vec<Frontage> {
+        let mut divided = Vec::with_capacity(self.plan.polygon().size());
+        for frontage in self.frontages(from, to) {
+            let Frontage { edge, size, .. } = frontage;
+            divided.extend(self.spans(edge, size.x, [from, to]).into_iter().map(|span| frontage.part(&span)));
+        }
+        divided
+    }
+
     /// Lets what stands out meet at the corners of frontages; nothing reaches over a neighbour's wall.
-    fn miter(&self, frontages: &mut [Frontage], keywords: &[Vec<&str>]) {
+    fn miter(&self, frontages: &mut [Frontage]) {
         let mut first = 0;
+        let mut edges = 0;
         for count in self.plan.polygon().iter().map(|ring| ring.len()) {
-            for index in 0..count {
-                let [before, after] = [index, index + 1].map(|index| first + index % count);
-                let turn = frontages[before].axes.x_axis.truncate();
-                let turn = turn.angle_to(frontages[after].axes.x_axis.truncate());
+            edges += count;
+            let end = first + frontages[first..].iter().take_while(|frontage| frontage.edge < edges).count();
+            for index in first..end {
+                let next = if index + 1 == end { first } else { index + 1 };
+                if frontages[index].edge == frontages[next].edge {
+                    continue;
+                }
+                let turn = frontages[index].axes.x_axis.truncate();
+                let turn = turn.angle_to(frontages[next].axes.x_axis.truncate());
                 let miter = (turn / 2.0).tan().clamp(-STEEPEST_MITER, STEEPEST_MITER);
-                let reach = |other: usize| if keywords[other].contains(&BLIND) { 0.0 } else { miter };
-                frontages[before].miters[1] = reach(after);
-                frontages[after].miters[0] = reach(before);
+                let reach = |other: usize| if frontages[other].is_blind() { 0.0 } else { miter };
+                let [after, before] = [reach(next), reach(index)];
+                frontages[index].miters[1] = after;
+                frontages[next].miters[0] = before;
             }
-            first += count;
+            first = end;
         }
     }
 
-    /// The words that say what kind of frontage an edge has.
-    fn keywords_of(&self, edge: usize) -> Vec<&str> {
+    /// The words that say what kind of frontage an edge has, where it is blind or is not.
+    fn keywords_of(&self, edge: usize, is_blind: bool) -> Vec<&str> {
         let own = self.options.keywords.iter().map(String::as_str);
-        own.chain(self.edge_keywords(edge).iter().map(|word| &**word)).collect()
+        let words = own.chain(self.edge_keywords(edge).iter().map(|word| &**word));
+        words.filter(|word| *word != BLIND).chain(is_blind.then_some(BLIND)).collect()
     }
 }
 
 impl Frontage {
+    /// Whether a neighbour covers all of it.
+    fn is_blind(&self) -> bool {
+        self.covered >= self.size.y
+    }
+
+    /// A part of it between two places along the edge.
+    fn part(&self, span: &WallSpan) -> Self {
+        let [begin, end] = span.part;
+        let is_all = [begin <= 0.0, end >= self.size.x];
+        let at = |place: f64| self.ends[0] + self.axes.x_axis * place;
+        Self {
+            ends: [
+                if is_all[0] { self.ends[0] } else { at(begin) },
+                if is_all[1] { self.ends[1] } else { at(end) },
+            ],
+            size: DVec2::new(if is_all == [true; 2] { self.size.x } else { end - begin }, self.size.y),
+            passed: self.passed + DVec2::new(begin.max(0.0), 0.0),
+            covered: span.covered,
+            ..*self
+        }
+    }
+
+    /// The blind part below a height (m) above its lower side, and the free one above it.
+    fn divided_at(&self, height: f64) -> [Self; 2] {
+        let by = |height: f64| self.ends.map(|end| end + DVec3::Z * height);
+        let size = |height: f64| DVec2::new(self.size.x, height);
+        [
+            Self { size: size(height), covered: height, miters: [0.0; 2], ..*self },
+            Self {
+                ends: by(height),
+                size: size(self.size.y - height),
+                passed: self.passed + DVec2::new(0.0, height),
+                covered: 0.0,
+                ..*self
+            },
+        ]
+    }
+
     /// A point of the frontage in the footprint's coordinates (m).
     ///
     /// From the nearer end, so that frontages meet to the last bit.

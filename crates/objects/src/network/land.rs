@@ -8,11 +8,14 @@ use super::Network;
 use burgeon_base::error::{Error, Result};
 use burgeon_base::warning::{Warning, WarningKind};
 use burgeon_data::Geometry;
+use burgeon_geometry::Polygon;
 use burgeon_kit::{Answer, Parameter, Table, TableKey, Value, Vector};
-use burgeon_streets::{SlopeOptions, StreetFit, StreetFooting, VergeKind};
-use burgeon_terrain::{Edit, GroundBed};
+use burgeon_streets::{SlopeOptions, StreetArea, StreetFit, StreetFooting, VergeKind};
+use burgeon_terrain::{Edit, GroundBed, GroundCut, GroundCuts};
 
-/// How far (m) the ground stays below a carriageway at least.
+/// How far (m) the ground stays below the edge of a sidewalk.
+const FLUSH: f64 = 0.02;
+/// How far (m) the ground stays below a bridge at least.
 const BELOW: f64 = 0.05;
 /// How steep (m/m) the ground beside a street is at most.
 const BATTER: f64 = 2.0 / 3.0;
@@ -20,6 +23,8 @@ const BATTER: f64 = 2.0 / 3.0;
 const FARTHEST: f64 = 80.0;
 /// How many cells a height of the ground depends on, on each side.
 const CELLS: f64 = 2.2;
+/// How many cells beside a street are as high as its sidewalks.
+const VERGE: f64 = 1.6;
 /// By how much (m) a street that lies on the ground may lie above or below it, before that is told.
 const DEEP: f64 = 8.0;
 /// How far (m) streets may lie above or below the ground that is shown, before that is told.
@@ -79,21 +84,22 @@ impl Network {
         self.options.water_level.or_else(|| self.options.on.as_ref()?.water_level())
     }
 
-    /// The changes of ground with cells of a size (m), whose triangles are off by `error` (m) at most, so that it lies below
-    /// the streets and meets them with slopes.
+    /// The changes of ground with cells of a size (m), whose triangles are off by `error` (m) at most, so that it meets
+    /// the edges of the sidewalks, and lies below bridges.
     pub(crate) fn bed(&self, cell: f64, error: f64) -> Result<Vec<Edit>> {
         let fit = self.fit()?;
+        let rise = self.rise();
         let beds: Vec<(GroundBed, bool)> = self
             .network
             .footings(self.surface_options(), &fit.profiles)
             .into_iter()
             .map(|StreetFooting { line, width, piece, is_below }| {
                 // Between cells the ground is straight, where a street bends.
-                let sink = BELOW + error + 0.6 * steepest(&line) * cell;
+                let sink = if is_below { BELOW + error + 0.6 * steepest(&line) * cell } else { -rise };
                 let depth = piece.and_then(|piece| fit.depths.get(piece as usize)).copied();
-                let margin = ((depth.unwrap_or(DEEP) + sink + 4.0) / BATTER).min(FARTHEST);
+                let margin = ((depth.unwrap_or(DEEP) + sink.abs() + 4.0) / BATTER).min(FARTHEST);
                 let line = line.iter().map(|at| [at.x, at.y, at.z - sink]).collect();
-                let width = width + 2.0 * CELLS * cell;
+                let width = width + 2.0 * if is_below { CELLS } else { VERGE } * cell;
                 (GroundBed { line, width, is_area: piece.is_none(), slope: BATTER, margin }, is_below)
             })
             .collect();
@@ -102,6 +108,23 @@ impl Network {
         let mut edits: Vec<Edit> = raised.map(|(bed, _)| Edit::Embank { bed: bed.clone() }).collect();
         edits.extend(beds.into_iter().map(|(bed, _)| Edit::Excavate { bed }));
         Ok(edits)
+    }
+
+    /// How far (m) above a carriageway the ground beside its sidewalks lies.
+    fn rise(&self) -> f64 {
+        (self.options.kerb - FLUSH).max(0.0)
+    }
+
+    /// The areas that its streets take of ground which is shown lower by `lift` (m) than it is.
+    pub(crate) fn ground_cuts(&self, lift: f64) -> Result<GroundCuts> {
+        let fit = self.fit()?;
+        let areas = self.network.ground_areas(self.surface_options(), &fit.profiles);
+        let by = DVec3::Z * (self.rise() - lift);
+        let cuts = areas.into_iter().filter_map(|StreetArea { outline, line }| {
+            let outline = Polygon::turned(vec![outline]).ok()?;
+            Some(GroundCut { outline, line: line.into_iter().map(|at| at + by).collect() })
+        });
+        Ok(GroundCuts::new(cuts.collect()))
     }
 
     /// What to tell of streets that do not lie on the ground that is shown, which only one that is made afterwards can meet.

@@ -49,7 +49,8 @@ pub struct TerrainOptions {
     pub elevation: Option<Elevation>,
     /// Changes of the ground that were kept: edits("ground.json").
     pub edits: Option<EditFile>,
-    /// Streets that lie on it: the ground is cut and filled, so that it meets them with slopes and is nowhere above them.
+    /// Streets that lie on it: the ground is cut and filled, so that it meets the edges of their sidewalks, and slopes beside
+    /// them.
     pub under: Option<Arc<Network>>,
     /// Whether it is shown; one that is not can still be asked, and streets can lie on it.
     #[default(true)]

@@ -8,7 +8,7 @@ use burgeon_base::error::{Error, Result};
 use burgeon_kit::Drawing;
 use burgeon_kit::rules::ModuleKey;
 use burgeon_scene::{Instance, Material, Mesh, Part, Scene};
-use burgeon_terrain::GroundMesh;
+use burgeon_terrain::{GroundCuts, GroundMesh};
 
 impl Terrain {
     /// Adds what is expanded to `scene`: a mesh for each tile, sides, water and rivers, and plants.
@@ -21,6 +21,10 @@ impl Terrain {
         }
         let mesh = GroundMesh::new(ground, self.error());
         let lift = DVec3::Z * self.options.position.0.z;
+        let cuts = match &self.options.under {
+            Some(streets) => streets.ground_cuts(lift.z)?,
+            None => GroundCuts::default(),
+        };
         let masks = self.options.covers.iter().map(|cover| &cover.on);
         for mask in masks.chain(self.options.plants.iter().map(|plants| &plants.on)) {
             mask.check("terrain", ground.world())?;
@@ -33,13 +37,13 @@ impl Terrain {
             let mut parts = Vec::new();
             let mut part = Part::default();
             if self.options.covers.is_empty() {
-                mesh.write(number, origin, 0.0, &mut part);
+                mesh.write(number, origin, 0.0, &cuts, &mut part);
                 let material =
                     Material { base_color: self.options.color.0, roughness: 0.95, ..Material::default() };
                 part.material = scene.material(&material);
             } else {
                 let (bytes, across) = looks::paint(ground, tile, &self.options.covers);
-                mesh.write(number, origin, looks::half_texel(size, across), &mut part);
+                mesh.write(number, origin, looks::half_texel(size, across), &cuts, &mut part);
                 let material = looks::material(of.clone(), &bytes, across, size, 0.95)?;
                 part.material = scene.material(&material);
             }

@@ -24,7 +24,7 @@ impl Division<'_> {
         let sides: Vec<Option<u32>> = block.edge_sides.iter().flatten().copied().collect();
         let paces: Vec<Pace> =
             sides.iter().map(|side| if side.is_some() { Pace::default() } else { Pace::STILL }).collect();
-        let skeleton = Skeleton::new(&polygon, &paces).ok()?;
+        let skeleton = Skeleton::for_mesh(&polygon, &paces).ok()?;
         let places: Vec<DVec2> = skeleton.peaks.iter().map(|peak| peak.at).collect();
         let cells = self.partition.tile(&places, &skeleton.faces)?;
         let depth = self.strip_depth(skeleton.duration());

@@ -1,0 +1,94 @@
+//! The areas that streets take of the ground, sidewalks included, where the ground itself is not to be seen.
+
+use glam::{DVec2, DVec3};
+
+use crate::corner::StreetLine;
+use crate::network::{JunctionId, PieceId, StreetNetwork};
+use crate::profile::StreetProfiles;
+use crate::shape::{StreetShapes, is_same};
+use crate::surface::{SurfaceOptions, outline};
+
+/// The area of a piece or of a junction, or of a part of a piece before or behind its bridge.
+#[derive(Debug, Clone, PartialEq)]
+pub struct StreetArea {
+    /// Its border (m), counter-clockwise: the edges of the sidewalks, and the lines where it meets other areas.
+    pub outline: Vec<DVec2>,
+    /// The line (m) whose heights it has, level across: the middle of a piece, or one point of a junction.
+    pub line: Vec<DVec3>,
+}
+
+impl StreetNetwork {
+    /// The areas of its streets on the ground: none where a bridge carries a street.
+    ///
+    /// Areas that meet share the corners of their borders, so that nothing is left open between them.
+    pub fn ground_areas(&self, options: SurfaceOptions, profiles: &StreetProfiles) -> Vec<StreetArea> {
+        let shapes = StreetShapes::new(self, options.turning);
+        let mut areas = Vec::new();
+        for (piece, known) in self.pieces() {
+            let half = self.attributes(piece).arm(DVec2::ZERO).aside(StreetLine::Edge);
+            let (line, length) = (self.profile_line(profiles, piece), self.length(piece));
+            let [first, last] = known.ends.map(|end| {
+                // At the right and at the left, as seen from there along the piece.
+                [-half, half].map(|aside| shapes.end(end, piece, aside))
+            });
+            let corners = [first[0], last[1], last[0], first[1]];
+            match self.carried(piece) {
+                None => areas.push(StreetArea { outline: corners.to_vec(), line }),
+                Some([from, to]) => {
+                    let [start, stop] = self.line(piece);
+                    let way = (stop - start).normalize_or_zero();
+                    let across =
+                        |along: f64| [-half, half].map(|aside| start + way * along + way.perp() * aside);
+                    let ([a, b], [c, d]) = (across(from), across(to));
+                    let parts =
+                        [([0.0, from], [first[0], a, b, first[1]]), ([to, length], [c, last[1], last[0], d])];
+                    for ([low, high], outline) in parts {
+                        let along = |at: &DVec3| way.dot(at.truncate() - start);
+                        let at = |along: f64| (start + way * along).extend(profiles.along(piece, along));
+                        let mut line: Vec<DVec3> = line
+                            .iter()
+                            .copied()
+                            .filter(|place| (low..=high).contains(&along(place)))
+                            .collect();
+                        if low > 0.0 {
+                            line.insert(0, at(low));
+                        } else {
+                            line.push(at(high));
+                        }
+                        if is_ahead(outline, way) {
+                            areas.push(StreetArea { outline: outline.to_vec(), line });
+                        }
+                    }
+                }
+            }
+        }
+        #[allow(clippy::cast_possible_truncation, reason = "pieces are limited far below")]
+        for junction in 0..self.junctions.len() as JunctionId {
+            let shape = shapes.junction(junction);
+            if shape.arms.is_empty() || shape.is_mitred {
+                continue;
+            }
+            let line = vec![self.at(junction).extend(profiles.junction(junction))];
+            areas.push(StreetArea { outline: outline(&shapes, junction, StreetLine::Edge), line });
+        }
+        areas
+    }
+
+    /// The middle of a piece (m), with the heights of its ends and wherever its slope changes.
+    pub(crate) fn profile_line(&self, profiles: &StreetProfiles, piece: PieceId) -> Vec<DVec3> {
+        let [start, stop] = self.line(piece);
+        let way = (stop - start).normalize_or_zero();
+        let [first, last] = self.ends(piece).map(|end| profiles.junction(end));
+        let mut line = vec![start.extend(first)];
+        let stations = profiles.stations(piece).iter();
+        line.extend(stations.map(|[along, height]| (start + way * *along).extend(*height)));
+        line.push(stop.extend(last));
+        line.dedup_by(|a, b| is_same(a.truncate(), b.truncate()));
+        line
+    }
+}
+
+/// Whether the part of a piece before or behind a bridge is any: its far side is ahead of its near one.
+fn is_ahead([a, b, c, d]: [DVec2; 4], way: DVec2) -> bool {
+    way.dot(b - a).min(way.dot(c - d)) > 1e-3
+}
