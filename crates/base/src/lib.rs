@@ -4,7 +4,10 @@
 //! collects, a [`Budget`] for whoever reads foreign bytes, and a [`Stop`] that ends work nobody waits for. It never
 //! prints.
 
+pub mod account;
 pub mod budget;
+#[cfg(feature = "elementary")]
+pub mod elementary;
 pub mod error;
 pub mod files;
 pub mod locks;
@@ -13,6 +16,7 @@ pub mod stop;
 pub mod text;
 pub mod warning;
 
+pub use account::{MemoryAccount, MemoryOwner};
 pub use budget::{Budget, MemoryReservation};
 pub use error::{Error, Result};
 pub use stop::Stop;

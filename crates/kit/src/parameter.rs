@@ -363,6 +363,10 @@ impl<T: Parameter> Parameter for Vec<T> {
                 list.into_iter()
                     .enumerate()
                     .map(|(index, value)| {
+                        // The reason of a stopped run is reported in place of this.
+                        if index % STRETCH == STRETCH - 1 && Stop::check_current().is_err() {
+                            return Err(what());
+                        }
                         T::from_value(value.clone()).map_err(|inner| {
                             let what = format!("a list whose item {} is {}", index + 1, inner.what);
                             Expectation { what, ..inner }.found(&value)

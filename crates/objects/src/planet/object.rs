@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use super::looks;
 use crate::terrain::{GroundCover, RuleLayers, Water, lost_focus, rules};
+use burgeon_base::{MemoryOwner, Stop};
 use burgeon_base::error::{Error, Result};
 use burgeon_base::text::number;
 use burgeon_base::warning::Warning;
@@ -263,9 +264,11 @@ impl Show for Planet {
         }
         let hidden = self.eye.filter(|_| self.options.horizon);
         let tiles: Vec<_> = globe.tiles().collect();
+        let owner = MemoryOwner::current();
         let made: Vec<_> = tiles
             .into_par_iter()
             .map(|(face, tile)| {
+                let _charged = owner.enter();
                 let pieces = mesh.write(face, tile, looks::begin(globe, tile), hidden);
                 if pieces.is_empty() {
                     return Ok(None);
@@ -276,6 +279,7 @@ impl Show for Planet {
                 Ok(Some((of, pieces, looks)))
             })
             .collect::<Result<_>>()?;
+        Stop::check_current()?;
         for (of, pieces, land) in made.into_iter().flatten() {
             let water = Material { name: format!("{} water", land.name), roughness: 0.3, ..land.clone() };
             let mut parts = Vec::new();

@@ -6,6 +6,7 @@ use glam::{DAffine3, DQuat, DVec2, DVec3};
 use rayon::prelude::*;
 
 use super::mask::{GroundPoint, Mask};
+use burgeon_base::{MemoryOwner, Stop};
 use burgeon_base::error::{Error, Limit, Result};
 use burgeon_kit::random::Stream;
 use burgeon_kit::rules::ModuleKey;
@@ -85,6 +86,7 @@ impl Plants {
             .help(format!("at most {MOST} are: lower the density, or show less of the terrain")));
         }
         for tile in ground.tiles() {
+            Stop::check_current()?;
             let (corner, size) = tile.bounds(world);
             let first = (corner - world.corner) / cell;
             #[allow(
@@ -99,11 +101,12 @@ impl Plants {
                 continue;
             }
             let reach = world.cell(tile.level());
+            let owner = MemoryOwner::current();
             let grown: Vec<Vec<(usize, DAffine3)>> = (y..y + across)
                 .into_par_iter()
                 .map(|y| {
                     let one = |x: u64| self.one(ground, key, (x, y), (cell, chance), reach);
-                    (x..x + across).filter_map(one).collect()
+                    owner.charge(|| (x..x + across).filter_map(one).collect())
                 })
                 .collect();
             for (model, frame) in grown.into_iter().flatten() {
