@@ -96,15 +96,25 @@ fn a_rule_with_the_guard_of_an_earlier_one_is_never_applied() {
     ]), @r#""#);
     silent(&[
         // The guards capture other values, or are given other arguments, or the first rule leaves the choice open.
-        &with("for i = 1, 3 do\n  s:rule(\"A(x)\", { when = function(this, x) return x == i end }, function(this, x) return F(i) end)\nend s:derive(1)"),
-        &with("local n = 1\ns:rule(\"A(x)\", { when = function(this, x) return x == n end }, function(this, x) return F(1) end)\n\
-            local n = 2\ns:rule(\"A(x)\", { when = function(this, x) return x == n end }, function(this, x) return F(n) end) s:derive(1)"),
-        &with("s:rule(\"A(x)\", { when = function(this, x) return x > 0 end, weight = 1 }, function(this, x) return F(1) end)\n\
-            s:rule(\"A(x)\", { when = function(this, x) return x > 0 end, weight = 1 }, function(this, x) return F(2) end) s:derive(1)"),
-        &with("s:rule(\"A(x)\", { when = function(this, x) return x > 0 end }, function(this, x) return F(1) end)\n\
-            s:rule(\"A(x)\", { when = function(this, x) return x > 1 end }, function(this, x) return F(2) end) s:derive(1)"),
-        &with("s:rule(\"B < A(x)\", { when = function(this, x) return x > 0 end }, function(this, x) return F(1) end)\n\
-            s:rule(\"A(x)\", { when = function(this, x) return x > 0 end }, function(this, x) return F(2) end) s:derive(1)"),
+        &with(
+            "for i = 1, 3 do\n  s:rule(\"A(x)\", { when = function(this, x) return x == i end }, function(this, x) return F(i) end)\nend s:derive(1)",
+        ),
+        &with(
+            "local n = 1\ns:rule(\"A(x)\", { when = function(this, x) return x == n end }, function(this, x) return F(1) end)\n\
+            local n = 2\ns:rule(\"A(x)\", { when = function(this, x) return x == n end }, function(this, x) return F(n) end) s:derive(1)",
+        ),
+        &with(
+            "s:rule(\"A(x)\", { when = function(this, x) return x > 0 end, weight = 1 }, function(this, x) return F(1) end)\n\
+            s:rule(\"A(x)\", { when = function(this, x) return x > 0 end, weight = 1 }, function(this, x) return F(2) end) s:derive(1)",
+        ),
+        &with(
+            "s:rule(\"A(x)\", { when = function(this, x) return x > 0 end }, function(this, x) return F(1) end)\n\
+            s:rule(\"A(x)\", { when = function(this, x) return x > 1 end }, function(this, x) return F(2) end) s:derive(1)",
+        ),
+        &with(
+            "s:rule(\"B < A(x)\", { when = function(this, x) return x > 0 end }, function(this, x) return F(1) end)\n\
+            s:rule(\"A(x)\", { when = function(this, x) return x > 0 end }, function(this, x) return F(2) end) s:derive(1)",
+        ),
     ]);
 }
 

@@ -6,7 +6,11 @@ use std::sync::Arc;
 use glam::DVec3;
 
 use super::{ColumnValue, Field, Object, Table, TableKey, Value, geometry};
+use burgeon_base::Stop;
 use burgeon_base::error::{Error, Result};
+
+/// Items of a list that are read between two looks at the stop of the run.
+const STRETCH: usize = 4096;
 
 /// What was expected instead of a value, such as "a positive whole number".
 #[derive(Debug, Clone)]

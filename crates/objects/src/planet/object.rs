@@ -4,10 +4,10 @@ use std::sync::Arc;
 
 use super::looks;
 use crate::terrain::{GroundCover, RuleLayers, Water, lost_focus, rules};
-use burgeon_base::{MemoryOwner, Stop};
 use burgeon_base::error::{Error, Result};
 use burgeon_base::text::number;
 use burgeon_base::warning::Warning;
+use burgeon_base::{MemoryOwner, Stop};
 use burgeon_kit::rules::ModuleKey;
 use burgeon_kit::{Color, Expand, Rewriter, Seed, Show, Vector, Warn, fields, methods, object};
 use burgeon_scene::{Instance, Material, Mesh, Scene};

@@ -6,8 +6,8 @@ use glam::{DAffine3, DQuat, DVec2, DVec3};
 use rayon::prelude::*;
 
 use super::mask::{GroundPoint, Mask};
-use burgeon_base::{MemoryOwner, Stop};
 use burgeon_base::error::{Error, Limit, Result};
+use burgeon_base::{MemoryOwner, Stop};
 use burgeon_kit::random::Stream;
 use burgeon_kit::rules::ModuleKey;
 use burgeon_kit::{Drawing, Expectation, Field, Model, Parameter, Table, Value, fields};

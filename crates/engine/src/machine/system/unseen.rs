@@ -3,7 +3,7 @@
 //!
 //! Each is certain, not likely: a script that means what it says is never warned of.
 
-use mlua::Function;
+use mlua::Value;
 use rustc_hash::{FxHashMap, FxHashSet};
 
 use crate::machine::Machine;
@@ -63,7 +63,11 @@ impl SystemDeclaration {
             } else if let Some(earlier) = earlier {
                 let place = earlier.place.as_ref().map_or_else(String::new, |place| format!(" in {place}"));
                 let name = &earlier.pattern.text;
-                let what = if earlier.guarded { "applies first and has the same guard" } else { "always applies first" };
+                let what = if earlier.guarded {
+                    "applies first and has the same guard"
+                } else {
+                    "always applies first"
+                };
                 let text = format!("this rule is never applied: {name}{place} {what}");
                 let help = match earlier.weight {
                     None if earlier.guarded => {
@@ -160,9 +164,12 @@ type GuardClass = Option<usize>;
 /// The guards so far, by the rules that were the first to have them.
 #[derive(Default)]
 struct GuardClasses {
-    /// The numbers of rules, by their guards' texts.
-    first: FxHashMap<String, Vec<usize>>,
+    /// The numbers of rules and what their guards capture, by their predecessors and the guards' texts.
+    first: FxHashMap<(Symbol, String), Vec<(usize, Vec<Value>)>>,
 }
+
+/// Guards of one text that are compared: loops may declare thousands, which capture different values.
+const MOST_COMPARED: usize = 64;
 
 impl GuardClasses {
     /// The class of the guard of rule `index`. Guards decide alike if they are one function, or if their texts are the same,
@@ -171,19 +178,20 @@ impl GuardClasses {
         let rule = &rules[index];
         let guard = rule.guard.as_ref()?;
         let text = rule.guard_text.clone().unwrap_or_default();
-        let known = self.first.entry(text).or_default();
-        let captures = |function: &Function| captured(machine.lua(), function).unwrap_or_default();
-        let same = known.iter().copied().find(|other| {
+        let known = self.first.entry((rule.rule.pattern.predecessor.symbol, text)).or_default();
+        let captures = captured(machine.lua(), guard).unwrap_or_default();
+        let same = known.iter().find(|(other, of_other)| {
             let other = &rules[*other];
             bounds(&other.rule) == bounds(&rule.rule)
-                && other.guard.as_ref().is_some_and(|known| {
-                    known == guard || rule.guard_text.is_some() && captures(known) == captures(guard)
-                })
+                && (other.guard.as_ref() == Some(guard) || rule.guard_text.is_some() && *of_other == captures)
         });
-        Some(same.unwrap_or_else(|| {
-            known.push(index);
-            index
-        }))
+        if let Some((first, _)) = same {
+            return Some(*first);
+        }
+        if known.len() < MOST_COMPARED {
+            known.push((index, captures));
+        }
+        Some(index)
     }
 }
 
