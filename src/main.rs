@@ -2,13 +2,20 @@
 
 use std::process::ExitCode;
 
+use burgeon_base::account::CountingAllocator;
+
 #[cfg(feature = "mimalloc")]
 mod allocator;
 mod commands;
 
 #[cfg(feature = "mimalloc")]
 #[global_allocator]
-static ALLOCATOR: allocator::ProgramAllocator = allocator::ProgramAllocator;
+static ALLOCATOR: CountingAllocator<allocator::ProgramAllocator> =
+    CountingAllocator(allocator::ProgramAllocator);
+
+#[cfg(not(feature = "mimalloc"))]
+#[global_allocator]
+static ALLOCATOR: CountingAllocator<std::alloc::System> = CountingAllocator(std::alloc::System);
 
 fn main() -> ExitCode {
     commands::main()

@@ -327,8 +327,13 @@ pub(crate) fn pattern(bytes: &[u8], _: &Path) -> bool {
 pub(crate) fn script(bytes: &[u8], folder: &Path) -> bool {
     let path = folder.join("a.lua");
     let _ = fs::write(&path, bytes);
-    let limits =
-        Limits { time: Duration::from_secs(1), memory: 100_000_000, modules: 10_000, triangles: 10_000 };
+    let limits = Limits {
+        time: Duration::from_secs(1),
+        memory: 100_000_000,
+        modules: 10_000,
+        triangles: 10_000,
+        ..Limits::default()
+    };
     let reports = RunReports { print: Some(Print::new(|_: &str| {})), ..RunReports::default() };
     let options = RunOptions { limits, threads: Some(1), reports, ..burgeon::options() };
     burgeon::check(&path, options).is_ok()

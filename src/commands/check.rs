@@ -20,8 +20,9 @@ impl CheckCommand {
     }
 
     pub(crate) fn run(&self) -> Result<()> {
-        let burgeon::ScriptCheck { params, warnings, .. } =
-            burgeon::check(&self.script.script, self.script.options()?)?;
+        let mut options = self.script.options()?;
+        options.limits.whole_program = true;
+        let burgeon::ScriptCheck { params, warnings, .. } = burgeon::check(&self.script.script, options)?;
         if self.script.json {
             let params: Vec<_> = params
                 .iter()

@@ -215,10 +215,11 @@ pub(crate) fn print_all(
     }
 }
 
-/// Writes what a script prints. On a terminal, it takes the place of the progress that may stand in the line.
+/// Writes what a script prints, with control characters written out. On a terminal, it replaces the line of progress.
 pub(crate) fn printed(text: &str) {
+    let text = escaped_lines(text);
     let line = match io::stderr().is_terminal() {
-        true => format!("\r\u{1b}[2K{}\n", escaped_lines(text)),
+        true => format!("\r\u{1b}[2K{text}\n"),
         false => format!("{text}\n"),
     };
     let _ = io::stderr().write_all(line.as_bytes());

@@ -64,8 +64,8 @@ pub(crate) struct ScriptFlags {
           allow_negative_numbers = true, help_heading = "Limits")]
     time_limit: f64,
 
-    /// Memory that each thread's script may use
-    #[arg(long, value_name = "MEGABYTES", default_value_t = 2048, value_parser = megabytes,
+    /// Memory that a run may use
+    #[arg(long, value_name = "MEGABYTES", default_value_t = 4096, value_parser = megabytes,
           allow_negative_numbers = true, help_heading = "Limits")]
     memory_limit: u32,
 
@@ -137,6 +137,7 @@ impl ScriptFlags {
             limits: Limits {
                 time: Duration::from_secs_f64(self.time_limit),
                 memory: self.memory_limit as usize * 1_000_000,
+                whole_program: false,
                 modules: self.module_limit as usize,
                 triangles: self.triangle_limit as usize,
             },

@@ -38,6 +38,7 @@ mod reports;
 mod sandbox;
 mod scope;
 mod setup;
+mod stores;
 mod streets_on_ground;
 mod successors;
 mod support;

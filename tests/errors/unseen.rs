@@ -1,6 +1,7 @@
 //! Rules and contexts that can never match say so.
 
 use super::warnings::{silent, warned, with};
+use crate::support::Folder;
 
 #[test]
 fn rules_that_others_forestall() {
@@ -16,17 +17,17 @@ fn rules_that_others_forestall() {
     s:rule("A(y)", function(this, y) return F(1), F(y) end)
     s:rule("B < A(y)", { when = function(this, y) return true end, weight = 2 }, function() return F(1) end)
     s:derive(1)
-    warning: s.lua:4: rule A(y): it is never used, for the rule A(x) in s.lua:3 always comes first
+    warning: s.lua:4: rule A(y): this rule is never applied: A(x) in s.lua:3 always applies first
       | s:rule("A(y)", function(this, y) return F(1), F(y) end)
       help: give the earlier rule a guard, or both a weight, or put this one before it
-    warning: s.lua:5: rule B < A(y): it is never used, for the rule A(x) in s.lua:3 always comes first
+    warning: s.lua:5: rule B < A(y): this rule is never applied: A(x) in s.lua:3 always applies first
       | s:rule("B < A(y)", { when = function(this, y) return true end, weight = 2 }, function() return F(1) end)
       help: give the earlier rule a guard, or both a weight, or put this one before it
 
     s:rule("A(x)", { weight = 3 }, function(this, x) return F(x) end)
     s:rule("A(x)", function(this, x) return F(x), F(x) end)
     s:derive(1)
-    warning: s.lua:4: rule A(x): it is never used, for the rule A(x) in s.lua:3 always comes first
+    warning: s.lua:4: rule A(x): this rule is never applied: A(x) in s.lua:3 always applies first
       | s:rule("A(x)", function(this, x) return F(x), F(x) end)
       help: give both rules a weight: { weight = 1 }
 
@@ -34,7 +35,7 @@ fn rules_that_others_forestall() {
     s:rule("B < A(k) > [B] A(l)", function(this, k) return F(k) end)
     s:rule("A(x)", function() return F(1) end)
     s:derive(1)
-    warning: s.lua:4: rule B < A(k) > [B] A(l): it is never used, for the rule B < A(x) > [B] A(y) in s.lua:3 always comes first
+    warning: s.lua:4: rule B < A(k) > [B] A(l): this rule is never applied: B < A(x) > [B] A(y) in s.lua:3 always applies first
       | s:rule("B < A(k) > [B] A(l)", function(this, k) return F(k) end)
       help: give the earlier rule a guard, or both a weight, or put this one before it
     "#);
@@ -83,4 +84,82 @@ fn contexts_that_cannot_occur() {
     silent(&[&with(
         "s:ignore(\"A\")\ns:rule(\"B < A(x)\", function() return F(2) end)\ns:rule(\"A(x)\", function() return F(1) end) s:derive(1)",
     )]);
+}
+
+#[test]
+fn a_rule_with_the_guard_of_an_earlier_one_is_never_applied() {
+    insta::assert_snapshot!(warned(&[
+        &with("s:rule(\"A(x)\", { when = function(this, x) return x > 0 end }, function(this, x) return F(x) end)\n\
+            s:rule(\"A(y)\", { when = function(this, x)\n  return x > 0 -- again\nend, weight = 2 }, function(this, y) return F(y) end)\ns:derive(1)"),
+        &with("local function large(this, x) return x > 0 end\ns:rule(\"A(x)\", { when = large }, function(this, x) return F(x) end)\n\
+            s:rule(\"A(x)\", { when = large }, function(this, x) return F(2 * x) end)\ns:derive(1)"),
+    ]), @r#""#);
+    silent(&[
+        // The guards capture other values, or are given other arguments, or the first rule leaves the choice open.
+        &with(
+            "for i = 1, 3 do\n  s:rule(\"A(x)\", { when = function(this, x) return x == i end }, function(this, x) return F(i) end)\nend s:derive(1)",
+        ),
+        &with(
+            "local n = 1\ns:rule(\"A(x)\", { when = function(this, x) return x == n end }, function(this, x) return F(1) end)\n\
+            local n = 2\ns:rule(\"A(x)\", { when = function(this, x) return x == n end }, function(this, x) return F(n) end) s:derive(1)",
+        ),
+        &with(
+            "s:rule(\"A(x)\", { when = function(this, x) return x > 0 end, weight = 1 }, function(this, x) return F(1) end)\n\
+            s:rule(\"A(x)\", { when = function(this, x) return x > 0 end, weight = 1 }, function(this, x) return F(2) end) s:derive(1)",
+        ),
+        &with(
+            "s:rule(\"A(x)\", { when = function(this, x) return x > 0 end }, function(this, x) return F(1) end)\n\
+            s:rule(\"A(x)\", { when = function(this, x) return x > 1 end }, function(this, x) return F(2) end) s:derive(1)",
+        ),
+        &with(
+            "s:rule(\"B < A(x)\", { when = function(this, x) return x > 0 end }, function(this, x) return F(1) end)\n\
+            s:rule(\"A(x)\", { when = function(this, x) return x > 0 end }, function(this, x) return F(2) end) s:derive(1)",
+        ),
+    ]);
+}
+
+#[test]
+fn an_axiom_that_replaces_another_is_told() {
+    insta::assert_snapshot!(warned(&[&with("s:axiom(A(2))\ns:axiom(A(3))\ns:derive(0)")]), @r#""#);
+    silent(&["local A = module(\"A\", \"x\")\nlocal s = lsystem({ object = turtle() })\n\
+        s:interpret(\"A(x)\", function(this, x) this:forward(x) end)\n\
+        for x = 1, 2 do\n  s:axiom(A(x))\n  s:derive(0)\nend\n"]);
+}
+
+#[test]
+fn a_system_that_rules_only_place_is_not_drawn_at_the_origin() {
+    let script = |count: &str| {
+        format!(
+            "local A, N = module(\"A\"), module(\"N\", \"n\")\nlocal stone = lsystem({{ object = extruder() }}) stone:axiom(A())\n\
+             stone:interpret(\"A\", function(this) this:extrude(1) end)\nlocal models = {{ stone = stone:derive() }}\n\
+             local s = lsystem({{ object = turtle() }}) s:axiom(N({count}))\n\
+             s:interpret(\"N(n)\", function(this, n)\n  this:forward(1)\n  for i = 1, n do this:place(models.stone) end\nend)\ns:derive()\n"
+        )
+    };
+    let counts = |script: String| {
+        let document = Folder::new().with("s.lua", script).burgeon(&["run", "s.lua", "--json"]).done().json();
+        document["instances"].as_u64().unwrap()
+    };
+    let drawn = ["0", "1", "3"].map(|count| counts(script(count)));
+    assert_eq!(drawn, [1, 2, 4]);
+    // What nobody holds to place it is drawn, and so is what rules only read.
+    let read = "local A = module(\"A\") local stone = lsystem({ object = extruder() }) stone:axiom(A())\n\
+        stone:interpret(\"A\", function(this) this:extrude(1) end)\nlocal model = stone:derive()\n\
+        local s = lsystem({ object = turtle() }) s:axiom(A())\n\
+        s:interpret(\"A\", function(this) this:forward(model.modules) end)\ns:derive()\n";
+    assert_eq!(counts(read.to_owned()), 2);
+}
+
+#[test]
+fn print_writes_control_characters_out_and_takes_any_bytes() {
+    let lines = crate::support::printed(
+        "print(\"a\\27[2Jb\\r\\0\", \"\\255\\254x\\195\", \"\\u{202e}é\")\nprint({ 1 }, nil, true, 0 / 0, vec(1, 2, 3))\nprint(\"two\\nlines\")\n",
+    );
+    let expected = [
+        "a\\u{1b}[2Jb\\r\\u{0}\t\\xff\\xfex\\xc3\t\\u{202e}é",
+        "table\tnil\ttrue\tnan\tvec(1, 2, 3)",
+        "two",
+        "lines",
+    ];
+    assert_eq!(lines, expected);
 }

@@ -158,6 +158,14 @@ impl Walk<'_> {
         if let Some(begin) = body.parameters_parentheses().tokens().0.start_position() {
             *self.pure.entry(begin.line()).or_insert(true) &= function.pure;
             *self.blind.entry(begin.line()).or_insert(true) &= !function.asks;
+            if role == FunctionRole::Guard {
+                let words: Vec<String> = body.tokens().map(|token| token.token().to_string()).collect();
+                let text = Some(words.join(" "));
+                let known = self.guards.entry(begin.line()).or_insert_with(|| text.clone());
+                if *known != text {
+                    *known = None;
+                }
+            }
             if let Some(line) = function.loses {
                 self.lost.insert(begin.line(), line);
             }

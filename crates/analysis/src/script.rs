@@ -8,6 +8,7 @@ use std::time::Duration;
 
 use super::queries::QueryCall;
 use super::walk::{Facts, Walk};
+use burgeon_base::MemoryOwner;
 use burgeon_base::error::{Error, Limit, SourcePlace};
 use burgeon_kit::Deprecation;
 use burgeon_kit::rules::Signature;
@@ -53,6 +54,9 @@ pub struct Analysis {
     pub pure: Vec<usize>,
     /// The lines on which functions begin that do not look at their first parameter, a rule's `this`.
     pub blind: Vec<usize>,
+    /// By the line on which a rule's guard begins: its text without comments and line breaks. Guards of different texts on one
+    /// line are left out.
+    pub guards: BTreeMap<usize, String>,
     /// By the line on which an interpretation begins: where it returns modules.
     pub lost: BTreeMap<usize, usize>,
     /// By the line on which a function of a rule begins: what it asks of data, as far as that can be seen.
@@ -110,7 +114,11 @@ impl ScriptReader {
         let (file, text) = (file.to_owned(), text.to_owned());
         let (name, source) = (file.clone(), text.clone());
         // Whoever asked may have given up.
-        let read = move || drop(sender.send(read(&name, &source, compile, &known)));
+        let owner = MemoryOwner::current();
+        let read = move || {
+            let _charged = owner.enter();
+            drop(sender.send(read(&name, &source, compile, &known)));
+        };
         if std::thread::Builder::new().stack_size(STACK).spawn(read).is_err() {
             return Self { file, text, globals, analysis: channel().1 };
         }
@@ -160,6 +168,7 @@ fn read(file: &str, text: &str, compile: Compile, globals: &Receiver<Globals>) -
         random,
         pure,
         mut blind,
+        guards,
         lost,
         queries,
         signatures,
@@ -190,6 +199,7 @@ fn read(file: &str, text: &str, compile: Compile, globals: &Receiver<Globals>) -
     }
     out.push_str(&text[at..]);
     let packages = package_names(&ast);
+    let guards = guards.into_iter().filter_map(|(line, text)| Some((line, text?))).collect();
     let signatures = signatures.into_iter().filter_map(|(line, form)| Some((line, form?))).collect();
     let ast = globals.checks_calls.then(|| Arc::new(ast));
     let code = if edits.is_empty() { Some(code) } else { compile(&out) };
@@ -200,6 +210,7 @@ fn read(file: &str, text: &str, compile: Compile, globals: &Receiver<Globals>) -
         random,
         pure,
         blind,
+        guards,
         lost,
         queries,
         signatures,

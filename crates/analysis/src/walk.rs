@@ -102,6 +102,8 @@ pub(super) struct Walk<'a> {
     pub(super) pure: BTreeMap<usize, bool>,
     /// By line: whether no function that begins there looks at its first parameter.
     pub(super) blind: BTreeMap<usize, bool>,
+    /// By line: the text of the guard that begins there, if that is one only.
+    pub(super) guards: BTreeMap<usize, Option<String>>,
     /// By line: where an interpretation that begins there returns modules.
     pub(super) lost: BTreeMap<usize, usize>,
     /// By line: how the function is called that begins there, if that is one only.
@@ -157,6 +159,7 @@ impl<'a> Walk<'a> {
             axiom: false,
             pure: BTreeMap::new(),
             blind: BTreeMap::new(),
+            guards: BTreeMap::new(),
             lost: BTreeMap::new(),
             signatures: BTreeMap::new(),
             queries: BTreeMap::new(),

@@ -4,7 +4,10 @@
 //! collects, a [`Budget`] for whoever reads foreign bytes, and a [`Stop`] that ends work nobody waits for. It never
 //! prints.
 
+pub mod account;
 pub mod budget;
+#[cfg(feature = "elementary")]
+pub mod elementary;
 pub mod error;
 pub mod files;
 pub mod locks;
@@ -14,6 +17,7 @@ pub mod text;
 pub mod warning;
 pub mod work;
 
+pub use account::{MemoryAccount, MemoryOwner};
 pub use budget::{Budget, MemoryReservation};
 pub use error::{Error, Result};
 pub use stop::Stop;

@@ -4,6 +4,7 @@ use std::cell::RefCell;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex};
 
+use crate::account::{MemoryAccount, MemoryOwner, switch};
 use crate::error::{Error, Result};
 use crate::locks::LockRecovery;
 
@@ -16,6 +17,8 @@ thread_local! {
 #[derive(Debug, Default)]
 pub struct Stop {
     parent: Option<Arc<Stop>>,
+    /// The memory of the run, which is stopped once it exceeds its limit.
+    memory: Option<MemoryAccount>,
     stopped: AtomicBool,
     reason: Mutex<Option<Error>>,
 }
@@ -23,7 +26,7 @@ pub struct Stop {
 impl Stop {
     /// One that nobody has asked for.
     pub const fn new() -> Self {
-        Self { parent: None, stopped: AtomicBool::new(false), reason: Mutex::new(None) }
+        Self { parent: None, memory: None, stopped: AtomicBool::new(false), reason: Mutex::new(None) }
     }
 
     /// Stops whenever `parent` does, too.
@@ -31,14 +34,33 @@ impl Stop {
         Self { parent, ..Self::default() }
     }
 
+    /// Stops as well once the run holds more than `limit` (bytes) of memory.
+    #[must_use]
+    pub fn limited(self, limit: usize) -> Self {
+        Self { memory: Some(MemoryAccount::new(limit)), ..self }
+    }
+
+    /// The memory of the run, if it has a limit.
+    pub fn memory(&self) -> Option<&MemoryAccount> {
+        self.memory.as_ref()
+    }
+
     /// That of the run which this thread works on, for long work that is not handed one: it takes it to its other threads.
     pub fn current() -> Option<Arc<Self>> {
         AT_WORK.with_borrow(|all| all.last().map(Arc::clone))
     }
 
+    /// Fails if the run is stopped which this thread works on. For loops that are handed no stop.
+    pub fn check_current() -> Result<()> {
+        AT_WORK.with_borrow(|all| all.last().map_or(Ok(()), |stop| stop.check()))
+    }
+
     /// Lets this thread work on the run whose stop this is, until what comes of it goes.
     pub fn at_work(self: &Arc<Self>) -> StopAtWork {
-        AT_WORK.with_borrow_mut(|all| all.push(Arc::clone(self)));
+        AT_WORK.with_borrow_mut(|all| {
+            all.push(Arc::clone(self));
+            switch(owner(all));
+        });
         StopAtWork { stop: Arc::clone(self) }
     }
 
@@ -51,7 +73,9 @@ impl Stop {
     /// Whether a stop was asked for.
     #[inline]
     pub fn is_stopped(&self) -> bool {
-        self.stopped.load(Ordering::Acquire) || self.parent.as_ref().is_some_and(|parent| parent.is_stopped())
+        self.stopped.load(Ordering::Acquire)
+            || self.memory.as_ref().is_some_and(MemoryAccount::is_exceeded)
+            || self.parent.as_ref().is_some_and(|parent| parent.is_stopped())
     }
 
     /// The reason as an error, if a stop was asked for.
@@ -59,8 +83,13 @@ impl Stop {
         if !self.is_stopped() {
             return Ok(());
         }
-        if let Some(parent) = self.parent.as_ref().filter(|_| !self.stopped.load(Ordering::Acquire)) {
-            return parent.check();
+        if !self.stopped.load(Ordering::Acquire) {
+            if let Some(memory) = self.memory.as_ref().filter(|memory| memory.is_exceeded()) {
+                return Err(memory.error());
+            }
+            if let Some(parent) = &self.parent {
+                return parent.check();
+            }
         }
         let reason = self.reason.lock().recover().clone();
         Err(reason.unwrap_or_else(|| Error::stopped("stopped")))
@@ -73,6 +102,15 @@ pub struct StopAtWork {
     stop: Arc<Stop>,
 }
 
+/// The owner of the memory that a thread allocates which works on all these runs, the last one last.
+fn owner(at_work: &[Arc<Stop>]) -> MemoryOwner {
+    at_work
+        .iter()
+        .rev()
+        .find_map(|stop| stop.memory.as_ref())
+        .map_or(MemoryOwner::NOBODY, MemoryAccount::owner)
+}
+
 impl Drop for StopAtWork {
     fn drop(&mut self) {
         // A thread may begin with the next run before it leaves the one before. While it ends, there may be nothing to leave.
@@ -80,6 +118,7 @@ impl Drop for StopAtWork {
             let mut all = all.borrow_mut();
             if let Some(index) = all.iter().rposition(|known| Arc::ptr_eq(known, &self.stop)) {
                 all.remove(index);
+                switch(owner(&all));
             }
         });
     }

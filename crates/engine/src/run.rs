@@ -76,6 +76,7 @@ pub fn run(path: &Path, options: RunOptions) -> Result<Run> {
 /// Runs a session, which may be stopped from outside.
 pub fn run_session(session: &Arc<Session>) -> Result<Run> {
     let begin = Instant::now();
+    let _work = session.stop.at_work();
     let (machine, threads) = leading_machine(session)?;
     machine.run()?;
     let problems: Vec<Error> = machine.library.problems.borrow_mut().drain(..).collect();
@@ -97,6 +98,7 @@ pub fn run_session(session: &Arc<Session>) -> Result<Run> {
     let mut scene = Scene::default();
     let mut idle = Vec::new();
     for system in systems.iter_mut() {
+        session.stop.check()?;
         if system.is_placed() {
             let is_empty = system.placed_model().is_some_and(|model| model.size() == 0);
             idle.extend(is_empty.then(|| Arc::clone(system)));
@@ -112,6 +114,7 @@ pub fn run_session(session: &Arc<Session>) -> Result<Run> {
         let mut meshes = scene.instances[known..].iter().map(|instance| &scene.meshes[instance.mesh]);
         idle.extend((!meshes.any(|mesh| mesh.triangles() > 0)).then(|| Arc::clone(system)));
     }
+    session.stop.check()?;
     systems.iter().filter_map(|system| left_out(system)).for_each(|warning| session.warn(warning));
     find_textures(&mut scene, session)?;
     times.scene = begin.elapsed();
@@ -128,7 +131,7 @@ pub fn run_session(session: &Arc<Session>) -> Result<Run> {
 }
 
 /// A machine for a session's script, which is read in the meantime.
-fn leading_machine(session: &Arc<Session>) -> Result<(Rc<Machine>, Rc<ThreadPool>)> {
+pub(crate) fn leading_machine(session: &Arc<Session>) -> Result<(Rc<Machine>, Rc<ThreadPool>)> {
     let problems = &session.packages().problems;
     if !problems.is_empty() {
         return Err(Error::several(problems.clone()));
@@ -141,6 +144,7 @@ fn leading_machine(session: &Arc<Session>) -> Result<(Rc<Machine>, Rc<ThreadPool
 
 /// Runs a session whose options ask for a lineage, until that is known. None if the script does not come to it.
 pub(crate) fn run_traced(session: &Arc<Session>) -> Result<Option<Trace>> {
+    let _work = session.stop.at_work();
     let (machine, threads) = leading_machine(session)?;
     let ran = machine.run();
     match threads.take_trace() {
@@ -160,6 +164,7 @@ pub(crate) fn declare_with(
     problems: &mut Vec<Error>,
     run: impl FnOnce(&Machine) -> Result<()>,
 ) -> Result<()> {
+    let _work = session.stop.at_work();
     let (machine, _threads) = leading_machine(session)?;
     let ran = run(&machine);
     problems.extend(machine.library.problems.borrow_mut().drain(..));

@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use super::{Expectation, Object, Value};
+use burgeon_base::MemoryOwner;
 use burgeon_macros::{methods, object};
 
 /// A buffer as it was when it was given.
@@ -25,6 +26,10 @@ impl BufferBytes {
     /// The 32-bit numbers in `bytes`, `N` in a row, as `buffer.writef32` writes them. Fails where a row is not whole or a
     /// number is not finite; `rows` says what there is one of in each.
     pub fn numbers<const N: usize>(bytes: &[u8], rows: &str) -> Result<Vec<[f32; N]>, Expectation> {
+        // Callers make numbers of 64 bits of them.
+        if !MemoryOwner::current().demand(3 * bytes.len()) {
+            return Err(Expectation::new("a buffer that fits into the memory limit"));
+        }
         let read = whole::<N>(bytes, rows)?.iter();
         let read: Vec<[f32; N]> = read.map(|row| row.map(f32::from_le_bytes)).collect();
         match read.iter().position(|row| row.iter().any(|number| !number.is_finite())) {

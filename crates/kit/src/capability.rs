@@ -103,13 +103,11 @@ impl<T: Draw> Show for T {
     }
 
     fn show(&self, scene: &mut Scene, name: &str, feature: Option<&str>) -> Result<()> {
-        self.drawing().clone().show(scene, name, feature);
-        Ok(())
+        self.drawing().clone().show(scene, name, feature)
     }
 
     fn hand_over(&mut self, scene: &mut Scene, name: &str, feature: Option<&str>) -> Result<()> {
-        std::mem::take(self.drawing_mut()).show(scene, name, feature);
-        Ok(())
+        std::mem::take(self.drawing_mut()).show(scene, name, feature)
     }
 }
 

@@ -7,6 +7,7 @@ use glam::{DAffine3, DVec3};
 use super::Model;
 use super::distance::Nearest;
 use super::makers::Makers;
+use burgeon_base::error::Result;
 use burgeon_scene::{Instance, Material, Mesh, Normal, Part, Scene, SurfaceMeaning};
 
 /// The faces that an object has drawn, by material, and the models that it has placed.
@@ -218,8 +219,9 @@ impl Drawing {
         self.makers.take().map(|makers| makers.shown(&shown))
     }
 
-    /// Adds the drawing to `scene` at its origin: one mesh, unless it is empty, and what was placed.
-    pub fn show(self, scene: &mut Scene, name: &str, feature: Option<&str>) {
+    /// Adds the drawing to `scene` at its origin: one mesh, unless it is empty, and what was placed. Fails if the run is
+    /// stopped.
+    pub fn show(self, scene: &mut Scene, name: &str, feature: Option<&str>) -> Result<()> {
         let parts = self.parts.into_iter().filter(|part| !part.triangles.is_empty());
         let parts =
             parts.map(|part| Part { material: scene.material(&self.materials[part.material]), ..part });
@@ -240,8 +242,9 @@ impl Drawing {
         let mut first = 0;
         for (model, meaning, frames) in &self.placed {
             let placed: Vec<DAffine3> = frames.iter().map(|frame| origin * *frame).collect();
-            model.place(scene, &placed, first, name, feature, *meaning);
+            model.place(scene, &placed, first, name, feature, *meaning)?;
             first += frames.len();
         }
+        Ok(())
     }
 }

@@ -5,6 +5,7 @@ use std::sync::Arc;
 use glam::{DAffine3, DVec3};
 
 use super::{ObjectParameter, Show};
+use burgeon_base::Stop;
 use burgeon_base::error::Result;
 use burgeon_macros::{methods, object};
 use burgeon_scene::{Instance, Material, Part, Scene, SurfaceMeaning};
@@ -69,7 +70,8 @@ impl Model {
 
     /// Adds an instance of everything to `scene` at each of `frames`; its meshes are added once.
     ///
-    /// The frames are numbered from `first` on, as [`Instance::placement`] tells; `meaning` is what all of it is.
+    /// The frames are numbered from `first` on, as [`Instance::placement`] tells; `meaning` is what all of it is. Fails if the
+    /// run is stopped.
     pub fn place(
         &self,
         scene: &mut Scene,
@@ -78,9 +80,14 @@ impl Model {
         name: &str,
         feature: Option<&str>,
         meaning: Option<SurfaceMeaning>,
-    ) {
+    ) -> Result<()> {
+        let stop = Stop::current();
         for (number, frame) in (first..).zip(frames) {
-            for instance in &self.scene.instances {
+            for (index, instance) in self.scene.instances.iter().enumerate() {
+                // Models that place each other multiply.
+                if (number + index).is_multiple_of(256) {
+                    stop.as_ref().map_or(Ok(()), |stop| stop.check())?;
+                }
                 let mesh = scene.share(&self.scene, instance.mesh);
                 scene.instances.push(Instance {
                     mesh,
@@ -93,6 +100,7 @@ impl Model {
                 });
             }
         }
+        Ok(())
     }
 }
 
@@ -113,7 +121,6 @@ impl Show for Model {
     }
 
     fn show(&self, scene: &mut Scene, name: &str, feature: Option<&str>) -> Result<()> {
-        self.place(scene, &[DAffine3::IDENTITY], 0, name, feature, None);
-        Ok(())
+        self.place(scene, &[DAffine3::IDENTITY], 0, name, feature, None)
     }
 }

@@ -6,7 +6,11 @@ use std::sync::Arc;
 use glam::DVec3;
 
 use super::{ColumnValue, Field, Object, Table, TableKey, Value, geometry};
+use burgeon_base::Stop;
 use burgeon_base::error::{Error, Result};
+
+/// Items of a list that are read between two looks at the stop of the run.
+const STRETCH: usize = 4096;
 
 /// What was expected instead of a value, such as "a positive whole number".
 #[derive(Debug, Clone)]
@@ -363,6 +367,10 @@ impl<T: Parameter> Parameter for Vec<T> {
                 list.into_iter()
                     .enumerate()
                     .map(|(index, value)| {
+                        // The reason of a stopped run is reported in place of this.
+                        if index % STRETCH == STRETCH - 1 && Stop::check_current().is_err() {
+                            return Err(what());
+                        }
                         T::from_value(value.clone()).map_err(|inner| {
                             let what = format!("a list whose item {} is {}", index + 1, inner.what);
                             Expectation { what, ..inner }.found(&value)

@@ -39,8 +39,13 @@ const MISSING: Duration = Duration::from_millis(150);
 const DOUBT: Duration = Duration::from_secs(2);
 
 /// What finding the number of steps may take when nothing else is to be done.
-const IDLE_LIMITS: Limits =
-    Limits { time: Duration::from_secs(10), memory: 1 << 30, modules: 5_000_000, triangles: 10_000_000 };
+const IDLE_LIMITS: Limits = Limits {
+    time: Duration::from_secs(10),
+    memory: 1 << 30,
+    whole_program: false,
+    modules: 5_000_000,
+    triangles: 10_000_000,
+};
 
 /// A run to be made.
 pub(super) struct RunJob {

@@ -1,11 +1,14 @@
 //! Faces that a script gives by their corners, drawn in a frame: in lists, or in buffers where they are many.
 
 use burgeon_base::error::{Error, Limit, Result};
+use burgeon_base::{MemoryOwner, Stop};
 use burgeon_geometry::{CornerShading, Frame, shaded_face};
 use burgeon_kit::{BufferBytes, Color, Drawing, Expectation, Field, Parameter, Table, Value, Vector, fields};
 use burgeon_scene::{Material, Part};
 use glam::{DVec2, DVec3};
 
+/// Faces that are drawn between two looks at the stop of the run.
+const STRETCH: usize = 1024;
 /// The most colours that the faces of one call may have.
 const MOST_COLORS: usize = 256;
 
@@ -106,8 +109,7 @@ impl Parameter for MeshFaces {
     fn from_value(value: Value) -> std::result::Result<Self, Expectation> {
         if let Some(bytes) = BufferBytes::of(&value) {
             let corners = BufferBytes::indices::<3>(bytes, "triangle")?.into_flattened();
-            let ends = (1..=corners.len() / 3).map(|number| number * 3).collect();
-            return Ok(Self { corners, ends, first: 0 });
+            return Ok(Self { corners, ends: Vec::new(), first: 0 });
         }
         let mut faces = Self { first: 1, ..Self::default() };
         for face in Vec::<Vec<u32>>::from_value(value)? {
@@ -123,10 +125,16 @@ impl Parameter for MeshFaces {
 }
 
 impl MeshFaces {
+    /// The number of faces.
+    fn len(&self) -> usize {
+        if self.first == 0 { self.corners.len() / 3 } else { self.ends.len() }
+    }
+
     /// The numbers of the corners of each face, as they were given.
     fn iter(&self) -> impl Iterator<Item = &[u32]> {
+        let triangles = if self.first == 0 { self.corners.chunks_exact(3) } else { [].chunks_exact(3) };
         let begins = std::iter::once(0).chain(self.ends.iter().copied());
-        begins.zip(&self.ends).map(|(begin, end)| &self.corners[begin..*end])
+        triangles.chain(begins.zip(&self.ends).map(|(begin, end)| &self.corners[begin..*end]))
     }
 }
 
@@ -165,6 +173,7 @@ pub(crate) fn draw_mesh(
     faces: &MeshFaces,
     options: &MeshOptions,
 ) -> Result<()> {
+    MemoryOwner::ensure_room(points.0.len() * size_of::<DVec3>())?;
     let transform = frame.transform();
     let placed: Vec<DVec3> = points.0.iter().map(|point| transform.transform_point3(*point)).collect();
     let turned = |normal: &DVec3| transform.transform_vector3(*normal);
@@ -175,7 +184,7 @@ pub(crate) fn draw_mesh(
     for (name, count, wanted, each) in [
         ("normals", shading.normals.map(<[_]>::len), placed.len(), "point"),
         ("uvs", shading.uvs.map(<[_]>::len), placed.len(), "point"),
-        ("colors", options.colors.as_ref().map(|colors| colors.0.len()), faces.ends.len(), "face"),
+        ("colors", options.colors.as_ref().map(|colors| colors.0.len()), faces.len(), "face"),
     ] {
         if let Some(count) = count.filter(|count| *count != wanted) {
             return Err(Error::argument(format!(
@@ -188,6 +197,9 @@ pub(crate) fn draw_mesh(
     let parts = parts(kind, drawing, base, options.colors.as_ref())?;
     let mut corners: Vec<usize> = Vec::new();
     for (number, face) in faces.iter().enumerate() {
+        if number.is_multiple_of(STRETCH) {
+            Stop::check_current()?;
+        }
         corners.clear();
         corners.extend(face.iter().map(|corner| (corner - faces.first) as usize));
         let part = drawing.part(parts[if options.colors.is_some() { number } else { 0 }]);

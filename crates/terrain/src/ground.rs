@@ -15,6 +15,7 @@ use super::edits::Edits;
 use super::tile::{Tile, TilePlace};
 use super::view::{MOST_HEIGHTS, View, ViewCells, too_many};
 use super::world::{Divide, Tables, World};
+use burgeon_base::MemoryOwner;
 use burgeon_base::error::Result;
 
 /// A world and the tiles of it that are expanded.
@@ -132,7 +133,9 @@ impl Ground {
             missing.iter().map(|item| self.make(&coarse, *item, divide)).collect::<Result<Vec<_>>>()?
         } else {
             let coarse = self.world.cells(fit.level, wanted, &Tables)?;
-            missing.par_iter().map(|item| self.make(&coarse, *item, &Tables)).collect::<Result<Vec<_>>>()?
+            let owner = MemoryOwner::current();
+            let make = |item| owner.charge(|| self.make(&coarse, item, &Tables));
+            missing.par_iter().map(|item| make(*item)).collect::<Result<Vec<_>>>()?
         };
         for (index, tile) in made {
             tiles[index] = Some(Arc::new(tile));

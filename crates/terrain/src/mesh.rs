@@ -14,6 +14,7 @@ use super::cuts::{GroundCuts, PartCorner};
 use super::ground::Ground;
 use super::samples::{TileSamples, Vertex};
 use super::tile::{Tile, TilePlace};
+use burgeon_base::MemoryOwner;
 use burgeon_scene::Part;
 
 /// A corner of the smallest cells: column from the west and row from the north.
@@ -141,8 +142,11 @@ impl<'a> GroundMesh<'a> {
     /// The fewest triangles from which the ground is nowhere farther than `error` (m) at a corner of its cells, nor at a
     /// sample of measured ground where its cells are not larger than the distance of these.
     pub fn new(ground: &'a Ground, error: f64) -> Self {
-        let grids = ground.tiles().par_iter().map(|tile| HeightGrid::new(ground, tile)).collect();
-        let samples = ground.tiles().par_iter().map(|tile| TileSamples::new(ground, tile)).collect();
+        let owner = MemoryOwner::current();
+        let grid = |tile| owner.charge(|| HeightGrid::new(ground, tile));
+        let grids = ground.tiles().par_iter().map(|tile| grid(tile)).collect();
+        let samples = |tile| owner.charge(|| TileSamples::new(ground, tile));
+        let samples = ground.tiles().par_iter().map(|tile| samples(tile)).collect();
         let mut mesh = Self { ground, grids, samples, halved: FxHashSet::default(), error };
         let mut wanted = Vec::new();
         for tile in ground.tiles() {

@@ -6,6 +6,7 @@ use rayon::prelude::*;
 use super::block::{Area, Block};
 use super::local_edits::LocalEdits;
 use super::world::World;
+use burgeon_base::MemoryOwner;
 use burgeon_kit::rules::Symbol;
 
 /// Which cell of the world a tile is.
@@ -75,7 +76,9 @@ impl Tile {
             (own.x..).take(across).map(height).collect()
         };
         let rows = i64::try_from(across).unwrap_or(0);
-        self.corners = (0..rows).into_par_iter().map(row).collect::<Vec<_>>().concat();
+        let owner = MemoryOwner::current();
+        self.corners =
+            (0..rows).into_par_iter().map(|number| owner.charge(|| row(number))).collect::<Vec<_>>().concat();
     }
 
     /// The height (m) of measured ground at `place` (m), where the surface of the cells is `laid` (m) high.

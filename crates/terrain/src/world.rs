@@ -8,9 +8,13 @@ use rayon::prelude::*;
 use super::block::{Area, Block};
 use super::height_source::HeightSource;
 use super::table::RuleTable;
+use burgeon_base::MemoryOwner;
 use burgeon_base::error::{Error, Result};
 use burgeon_base::memory::zeroed;
 use burgeon_kit::rules::{ModuleKey, Symbol};
+
+/// Memory (bytes) of the quadrants of a cell: symbols, heights and a parameter.
+const DIVIDED: usize = 4 * 18;
 
 /// What divides cells.
 #[derive(Clone)]
@@ -201,6 +205,7 @@ impl World {
             let cells = block.as_ref().unwrap_or(from);
             let divided = below.parents(0, Self::across(cells.level));
             let last = last && step + 1 == steps;
+            MemoryOwner::ensure_room(divided.len() * DIVIDED)?;
             let mut made = self.quarter(cells, divided, last, divide)?;
             if self.smooth {
                 smooth(cells, &mut made);

@@ -102,6 +102,7 @@ impl RunCommand {
         let records = self.metadata || self.writes(|format| format == Format::CityJson);
         let mut options = self.script.options()?;
         options.reports.records = records;
+        options.limits.whole_program = true;
         Session::new(&self.script.script, options)
     }
 

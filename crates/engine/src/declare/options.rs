@@ -16,8 +16,11 @@ use burgeon_kit::Registry;
 pub struct Limits {
     /// Time for the whole run.
     pub time: Duration,
-    /// Memory (bytes) of one virtual machine.
+    /// Memory (bytes) of the run: its virtual machines, files, chains, objects and results. A program that does not use
+    /// [`CountingAllocator`](burgeon_base::account::CountingAllocator) limits each virtual machine, and the files, to it.
     pub memory: usize,
+    /// Whether the memory of all threads of the program counts: it does nothing but this run.
+    pub whole_program: bool,
     /// Modules in all chains of a system.
     pub modules: usize,
     /// Triangles of all objects of a system.
@@ -26,7 +29,13 @@ pub struct Limits {
 
 impl Default for Limits {
     fn default() -> Self {
-        Self { time: Duration::from_secs(300), memory: 2 << 30, modules: 50_000_000, triangles: 50_000_000 }
+        Self {
+            time: Duration::from_secs(300),
+            memory: 4 << 30,
+            whole_program: false,
+            modules: 50_000_000,
+            triangles: 50_000_000,
+        }
     }
 }
 

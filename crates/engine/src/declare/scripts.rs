@@ -9,12 +9,15 @@ use rustc_hash::FxHashMap;
 use super::bytecode::compile;
 use super::session::Session;
 use burgeon_analysis::{Analysis, Globals, ScriptReader};
+use burgeon_base::MemoryOwner;
 use burgeon_base::error::{Error, Limit, Result, SourcePlace};
 use burgeon_base::locks::LockRecovery;
 use burgeon_packages::FileName;
 
-/// The most (bytes) that one file of a script may have; reading it takes 300 times as much memory.
+/// Maximum size (bytes) of one file of a script.
 const LARGEST: u64 = 4_000_000;
+/// Memory (bytes) that reading a script takes for each byte of it.
+const READING: usize = 300;
 
 /// How many files are read at once before they are asked for.
 const MOST_AHEAD: usize = 4;
@@ -114,6 +117,7 @@ impl Session {
 fn begin_reading(path: &Path, name: &str) -> Result<ScriptReader> {
     let bytes =
         burgeon_base::files::read(path, LARGEST).map_err(|error| unreadable(Path::new(name), &error))?;
+    MemoryOwner::ensure_room(READING * bytes.len())?;
     let text = String::from_utf8(bytes).map_err(|_| {
         Error::file(path, format!("{name} is not a text file"))
             .help("scripts are UTF-8 text; check the file's name")

@@ -144,8 +144,12 @@ impl Session {
         let warnings = Warnings::default();
         packages.warnings.iter().cloned().for_each(|warning| warnings.add(warning));
         let deprecated = Deprecations::new(&options.registry);
+        let stop = Stop::under(options.stop.clone()).limited(options.limits.memory);
+        if let Some(memory) = stop.memory().filter(|_| options.limits.whole_program) {
+            memory.adopt_threads();
+        }
         Ok(Arc::new(Self {
-            stop: Arc::new(Stop::under(options.stop.clone())),
+            stop: Arc::new(stop),
             options,
             progress: RunProgress::default(),
             values: Arc::default(),
@@ -283,6 +287,11 @@ impl Session {
         self.source_called(file).is_some_and(|source| source.analysis.blind.contains(&line))
     }
 
+    /// The text of the guard that begins in a line of a file, if it is the only one there.
+    pub(crate) fn guard_text(&self, file: &str, line: usize) -> Option<String> {
+        self.source_called(file)?.analysis.guards.get(&line).cloned()
+    }
+
     /// Where the interpretation that begins in a line of a file returns modules, if that can be seen.
     pub(crate) fn loses_modules(&self, file: &str, line: usize) -> Option<usize> {
         self.source_called(file)?.analysis.lost.get(&line).copied()
@@ -379,10 +388,14 @@ impl Session {
         self.kept.lock().recover().extend(boxed);
     }
 
-    /// Drops the values that neither `params` nor earlier systems name, once they are many.
+    /// Drops the values that neither `params` nor earlier systems name, once they are many or memory is scarce.
     pub(crate) fn forget_unused(&self, params: &[f64]) {
         let kept = self.kept.lock().recover();
-        self.values.retain_if_many(&[params, &kept]);
+        let columns = [params, &kept];
+        match self.stop.memory() {
+            Some(memory) if memory.is_half_full() => self.values.retain_if_new(&columns),
+            _ => self.values.retain_if_many(&columns),
+        }
     }
 
     /// All problems that reading the files showed, in the order of the files' names.

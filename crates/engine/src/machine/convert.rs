@@ -8,11 +8,16 @@ use super::system::{SourceHandle, SystemHandle, feature_of};
 use super::table_classes::{made_of_class, metatable_of};
 use super::types::{DerivedHandle, ObjectHandle};
 use burgeon_base::error::{Error, Limit, Result};
+use burgeon_base::{MemoryOwner, Stop};
 use burgeon_kit::{BufferBytes, System, Table, TableKey, Value};
 
 /// The field of a metatable that names a class of tables, so that they keep their operators as parameters.
 const CLASS: &str = "__class";
 const DEEPEST: usize = 64;
+/// Strings of more bytes are copied only if the run has memory for them.
+const LONG: usize = 64 << 10;
+/// Entries of a table that are copied between two looks at the stop of the run.
+const STRETCH: usize = 4096;
 
 /// How values are copied.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -49,7 +54,7 @@ fn convert(value: &LuaValue, manner: CopyMode, depth: usize) -> Result<Value> {
         #[allow(clippy::cast_precision_loss, reason = "Luau's own numbers are f64")]
         LuaValue::Integer(value) => Value::Number(*value as f64),
         LuaValue::Number(value) => Value::Number(*value),
-        LuaValue::String(text) => Value::Text(owned(text)),
+        LuaValue::String(text) => Value::Text(owned(text)?),
         LuaValue::Table(table) => {
             if depth > DEEPEST {
                 return Err(Error::limit(
@@ -72,13 +77,16 @@ fn convert(value: &LuaValue, manner: CopyMode, depth: usize) -> Result<Value> {
                     LuaValue::Number(number) if number.fract() == 0.0 && number.abs() < 9e15 => {
                         TableKey::Index(number as i64)
                     }
-                    LuaValue::String(name) => TableKey::Name(owned(&name)),
+                    LuaValue::String(name) => TableKey::Name(owned(&name)?),
                     other => {
                         return Err(Error::argument(format!("a table has a {} as a key", other.type_name()))
                             .help("keys of such tables are names or whole numbers"));
                     }
                 };
                 entries.push((key, convert(&value, manner, depth + 1)?));
+                if entries.len().is_multiple_of(STRETCH) {
+                    Stop::check_current()?;
+                }
             }
             entries.sort_by(|a, b| a.0.cmp(&b.0));
             let class = match metatable {
@@ -114,6 +122,7 @@ fn convert(value: &LuaValue, manner: CopyMode, depth: usize) -> Result<Value> {
         }
         LuaValue::Vector(_) => return Err(no_module()),
         LuaValue::Buffer(buffer) if manner == CopyMode::Argument => {
+            MemoryOwner::ensure_room(2 * buffer.len())?;
             Value::Object(Arc::new(BufferBytes(buffer.to_vec().into())))
         }
         other => {
@@ -123,8 +132,12 @@ fn convert(value: &LuaValue, manner: CopyMode, depth: usize) -> Result<Value> {
     })
 }
 
-fn owned(text: &LuaString) -> Arc<str> {
-    String::from_utf8_lossy(&text.as_bytes()).into()
+fn owned(text: &LuaString) -> Result<Arc<str>> {
+    let bytes = text.as_bytes();
+    if bytes.len() > LONG {
+        MemoryOwner::ensure_room(2 * bytes.len())?;
+    }
+    Ok(String::from_utf8_lossy(&bytes).into())
 }
 
 fn no_module() -> Error {

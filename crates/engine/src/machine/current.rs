@@ -165,6 +165,7 @@ impl WorkState {
         arguments: &[Value],
         place: impl FnOnce() -> Option<SourcePlace>,
     ) -> Result<Value> {
+        self.session.stop.check()?;
         let chain = self.chain_of(application);
         let objects = self.objects.borrow();
         let objects = objects.as_ref().ok_or_else(outside)?;

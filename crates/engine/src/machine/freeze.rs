@@ -3,6 +3,7 @@
 use mlua::{Function, Lua, Table, Value, ffi};
 use rustc_hash::FxHashSet;
 
+use super::types::DerivedHandle;
 use burgeon_base::error::{Error, Result, SourcePlace};
 
 /// A function that rules run, and where it was declared.
@@ -72,6 +73,11 @@ pub(crate) fn freeze<'a>(
                         frozen.0.push(table);
                     }
                 }
+                Value::UserData(data) => {
+                    if let Ok(derived) = data.borrow::<DerivedHandle>() {
+                        derived.0.note_captured();
+                    }
+                }
                 Value::Thread(_) => return refuse("a coroutine"),
                 Value::Buffer(_) => return refuse("a buffer"),
                 _ => {}
@@ -82,7 +88,7 @@ pub(crate) fn freeze<'a>(
 }
 
 /// What a Lua function captures; nothing for the machine's own.
-fn captured(lua: &Lua, function: &Function) -> mlua::Result<Vec<Value>> {
+pub(crate) fn captured(lua: &Lua, function: &Function) -> mlua::Result<Vec<Value>> {
     if function.info().source.as_deref() == Some("=burgeon") {
         return Ok(Vec::new());
     }

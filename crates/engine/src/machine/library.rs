@@ -4,7 +4,7 @@ use std::cell::RefCell;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, LazyLock};
 
-use mlua::{Function, Lua, MultiValue, Table, Value as LuaValue, Variadic};
+use mlua::{Function, Lua, LuaString, MultiValue, Table, Value as LuaValue, Variadic};
 use rustc_hash::{FxHashMap, FxHashSet};
 
 use super::convert::to_lua;
@@ -18,6 +18,7 @@ use super::types::{
 use super::{Machine, compile, native};
 use crate::declare::{API_VERSION, Param, Print, has_name};
 use burgeon_analysis::Globals;
+use burgeon_base::MemoryOwner;
 use burgeon_base::error::{Error, Result, SourcePlace};
 use burgeon_base::warning::{Warning, WarningKind};
 use burgeon_kit::rules::{FRAGMENT, QUERY, Signature, Symbol, Symbols};
@@ -243,12 +244,12 @@ impl Library {
             let (name, value) = pair?;
             globals.raw_set(name, value)?;
         }
-        let string: Table = globals.raw_get("string")?;
-        string.raw_set("format", globals.raw_get::<LuaValue>("format")?)?;
-        globals.raw_set("format", LuaValue::Nil)?;
-        let coroutine: Table = globals.raw_get("coroutine")?;
-        coroutine.raw_set("resume", globals.raw_get::<LuaValue>("resume")?)?;
-        globals.raw_set("resume", LuaValue::Nil)?;
+        for (library, name, own) in
+            [("string", "format", "format"), ("coroutine", "resume", "resume"), ("math", "lerp", "lerp")]
+        {
+            globals.raw_get::<Table>(library)?.raw_set(name, globals.raw_get::<LuaValue>(own)?)?;
+            globals.raw_set(own, LuaValue::Nil)?;
+        }
         self.install_plain(machine, &globals)?;
         self.install_systems(machine, &globals)?;
         self.install_files(machine, &globals)?;
@@ -455,9 +456,25 @@ fn print(lua: &Lua, values: &MultiValue, hook: &Print) -> mlua::Result<()> {
         return Ok(());
     }
     let tostring: Function = lua.globals().get("tostring")?;
-    let texts: Vec<String> = values.iter().map(|value| tostring.call(value)).collect::<mlua::Result<_>>()?;
+    let mut texts = Vec::new();
+    for value in values {
+        let text = tostring.call::<LuaString>(value)?;
+        // It is copied again where it is shown.
+        MemoryOwner::ensure_room(3 * text.as_bytes().len()).map_err(mlua::Error::external)?;
+        texts.push(any_bytes(&text.as_bytes()));
+    }
     hook.take(&texts.join("\t"));
     Ok(())
+}
+
+/// Bytes as text; those that are not UTF-8 are written out, such as `\xff`.
+fn any_bytes(bytes: &[u8]) -> String {
+    let mut text = String::with_capacity(bytes.len());
+    for chunk in bytes.utf8_chunks() {
+        text.push_str(chunk.valid());
+        chunk.invalid().iter().for_each(|byte| text.push_str(&format!("\\x{byte:02x}")));
+    }
+    text
 }
 
 /// Marks a machine whose script another machine runs, too, so that its top level prints nothing. Holds the

@@ -4,6 +4,8 @@
 //! is rewritten here, and nothing of a script reaches files or the system but through the session.
 
 mod blank;
+#[cfg(test)]
+mod builtins_tests;
 mod convert;
 mod current;
 mod driver;

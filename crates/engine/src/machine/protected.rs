@@ -10,6 +10,9 @@ use super::Machine;
 use super::virtual_machine::OUT_OF_MEMORY_IN_LUA;
 use burgeon_base::error::SourcePlace;
 
+/// A heap that has grown by half of this (bytes) or less is not worth a collection.
+const SCARCE: usize = 2 << 20;
+
 thread_local! {
     /// Where memory ran out last.
     static EXHAUSTED: RefCell<Option<SourcePlace>> = const { RefCell::new(None) };
@@ -27,7 +30,25 @@ impl Machine {
         function: &mlua::Function,
         arguments: impl mlua::IntoLuaMulti,
     ) -> mlua::Result<R> {
+        self.limit_memory();
         self.protected.call((function, arguments))
+    }
+
+    /// Limits the memory of the machine to what it uses and what the run has left.
+    fn limit_memory(&self) {
+        let Some(memory) = self.session.stop.memory() else { return };
+        let mut remaining = memory.remaining();
+        // Luau collects garbage when the heap has doubled, which is too late for one that takes most of the memory.
+        let is_scarce = remaining < self.session.options.limits.memory / 4;
+        if is_scarce && self.lua().used_memory() > self.collected.get() + remaining.max(SCARCE) / 2 {
+            // What goes wrong is met by the call as well.
+            let _ = self.lua().gc_collect();
+            self.collected.set(self.lua().used_memory());
+            remaining = memory.remaining();
+        }
+        let limit = self.lua().used_memory().saturating_add(remaining);
+        // Only machines without an allocator of mlua's refuse a limit.
+        let _ = self.lua().set_memory_limit(limit.min(self.session.options.limits.memory).max(1));
     }
 }
 

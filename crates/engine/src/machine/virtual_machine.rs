@@ -26,6 +26,9 @@ const OWN: &str = "burgeon";
 /// What Luau says when there is no memory left.
 pub(super) const OUT_OF_MEMORY_IN_LUA: &str = "not enough memory";
 
+/// Bytes of an error's message that are shown; a script may raise a string of any length.
+const LONGEST_MESSAGE: usize = 10_000;
+
 /// A virtual machine that runs a script and the rules it declares.
 pub struct Machine {
     // Declared before the state, so that nobody reaches for the state while it closes.
@@ -44,6 +47,8 @@ pub struct Machine {
     /// Calls a function of the script.
     pub(super) protected: Function,
     epoch: Cell<usize>,
+    /// Memory (bytes) that was left after the last collection that was forced.
+    pub(super) collected: Cell<usize>,
 }
 
 impl Machine {
@@ -73,6 +78,7 @@ impl Machine {
                 prelude,
                 protected,
                 epoch: Cell::new(0),
+                collected: Cell::new(0),
             }))
         };
         let machine = build()
@@ -318,6 +324,10 @@ fn parse(text: &str) -> Error {
     let (place, message) = match split_place(text) {
         Some((place, message)) => (place, message),
         None => (None, text),
+    };
+    let message = match (0..=LONGEST_MESSAGE).rev().find(|end| message.is_char_boundary(*end)) {
+        Some(end) if message.len() > LONGEST_MESSAGE => &message[..end],
+        _ => message,
     };
     if place.is_none() && is_no_text(message) {
         return Error::script("the script raised an error that is no text")

@@ -8,12 +8,15 @@ use std::time::{Duration, Instant};
 use mlua::{Lua, ffi};
 
 use crate::declare::Session;
+use burgeon_base::MemoryAccount;
 use burgeon_base::error::{Error, Limit};
 use burgeon_base::locks::LockRecovery;
 use burgeon_base::text::grouped;
 
-/// How often the watchdog looks whether a stop was asked for.
+/// Time between two looks at the stop of the run.
 const PERIOD: Duration = Duration::from_millis(20);
+/// The same while more than half of the memory limit is used.
+const SHORT_PERIOD: Duration = Duration::from_millis(1);
 
 /// A thread that ends every virtual machine of a run when its time is over or a stop is asked for.
 ///
@@ -79,7 +82,9 @@ impl Watchdog {
                     stop.stop(overdue(&watched));
                     break;
                 }
-                inner = theirs.wake.wait_timeout(inner, PERIOD).recover().0;
+                let is_half_full = stop.memory().is_some_and(MemoryAccount::is_half_full);
+                let period = if is_half_full { SHORT_PERIOD } else { PERIOD };
+                inner = theirs.wake.wait_timeout(inner, period).recover().0;
             }
             if !inner.over {
                 inner.stopped = true;

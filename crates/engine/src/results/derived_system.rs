@@ -89,6 +89,10 @@ pub(crate) struct SystemUses {
     model: OnceLock<Arc<Model>>,
     /// Whether it has placed it.
     placed: AtomicBool,
+    /// Whether functions of rules capture it.
+    captured: AtomicBool,
+    /// Whether the script has read any of its fields.
+    inspected: AtomicBool,
 }
 
 impl DerivedSystem {
@@ -143,9 +147,21 @@ impl DerivedSystem {
         self.uses.model.get().map(Arc::as_ref)
     }
 
-    /// Whether another system has placed it.
+    /// Whether another system places it: it has done so, or a function of its rules holds this system only to place it, be it
+    /// never.
     pub fn is_placed(&self) -> bool {
-        self.uses.placed.load(Ordering::Relaxed)
+        let is = |use_of_it: &AtomicBool| use_of_it.load(Ordering::Relaxed);
+        is(&self.uses.placed) || is(&self.uses.captured) && !is(&self.uses.inspected)
+    }
+
+    /// Notes that a function of a rule can reach it.
+    pub(crate) fn note_captured(&self) {
+        self.uses.captured.store(true, Ordering::Relaxed);
+    }
+
+    /// Notes that the script reads a field of it.
+    pub(crate) fn note_inspected(&self) {
+        self.uses.inspected.store(true, Ordering::Relaxed);
     }
 
     /// As [`DerivedSystem::add_to`], but the objects that nobody else holds give away what they have drawn.

@@ -93,6 +93,14 @@ impl Values {
         }
     }
 
+    /// The same if there have been a few new ones, for runs with little memory left.
+    pub fn retain_if_new(&self, columns: &[&[f64]]) {
+        if self.len() > self.survivors.load(Ordering::Relaxed) + 16 {
+            self.retain(columns);
+            self.survivors.store(self.len(), Ordering::Relaxed);
+        }
+    }
+
     /// The number of times that values have been dropped.
     pub fn epoch(&self) -> usize {
         self.epoch.load(Ordering::Acquire)

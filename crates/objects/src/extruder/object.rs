@@ -103,7 +103,10 @@ impl Extruder {
         self.set(SectionShape::Star(points, inner))
     }
 
-    /// Sets the cross-section to a rectangle around the middle, `width` (m) by `height` (m).
+    /// Sets the cross-section to a rectangle around the middle, `width` (m) to the right and `height` (m) up.
+    ///
+    /// Right and up are those of `shift`: x and y before the first turn, when the extruder looks along z. Once it looks sideways,
+    /// `direction(heading, above)` turns the height towards `above`.
     pub fn rectangle(&mut self, width: f64, height: f64) -> Result<()> {
         self.set(SectionShape::Rectangle(width, height))
     }

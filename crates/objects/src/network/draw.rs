@@ -24,8 +24,7 @@ impl Show for Network {
     }
 
     fn show(&self, scene: &mut Scene, name: &str, feature: Option<&str>) -> Result<()> {
-        self.draw()?.show(scene, name, feature);
-        Ok(())
+        self.draw()?.show(scene, name, feature)
     }
 }
 

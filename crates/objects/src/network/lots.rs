@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use burgeon_base::MemoryOwner;
 use burgeon_base::Stop;
 use burgeon_base::error::{Error, Result};
 use burgeon_base::text::listed;
@@ -276,7 +277,9 @@ impl Network {
         let blocks: Vec<StreetBlock> = match &settings.blocks {
             None => self.network.lot_blocks(self.surface_options()),
             Some(areas) => {
+                let owner = MemoryOwner::current();
                 let block = |area: &BlockArea| {
+                    let _charged = owner.enter();
                     self.network.block(area.id.as_deref(), &area.rings.flat(), settings.reach)
                 };
                 let blocks: Vec<StreetBlock> = areas.par_iter().filter_map(block).collect();
@@ -285,11 +288,12 @@ impl Network {
             }
         };
         let count = blocks.len() + omissions.undivided;
-        let stop = Stop::current();
+        let (stop, owner) = (Stop::current(), MemoryOwner::current());
         let goes_on = || stop.as_ref().is_none_or(|stop| !stop.is_stopped());
         let divided: Option<Vec<(Vec<Value>, Omissions)>> = blocks
             .par_iter()
             .map(|block| {
+                let _charged = owner.enter();
                 let mut stream = ModuleKey::seed(settings.seed.0).feature(&block.id).stream();
                 let mut lots = block.divide_while(options, &mut || stream.uniform(), &goes_on)?;
                 let mut omissions =

@@ -7,6 +7,7 @@ use crate::terrain::{GroundCover, RuleLayers, Water, lost_focus, rounded, rules}
 use burgeon_base::error::{Error, Result};
 use burgeon_base::text::number;
 use burgeon_base::warning::Warning;
+use burgeon_base::{MemoryOwner, Stop};
 use burgeon_kit::rules::ModuleKey;
 use burgeon_kit::{Color, Expand, Rewriter, Seed, Show, Vector, Warn, fields, methods, object};
 use burgeon_scene::{Instance, Material, Mesh, Scene, Upright};
@@ -292,9 +293,11 @@ impl Show for Planet {
         let hidden = self.eye.filter(|_| self.options.horizon);
         scene.upright = scene.upright.or_else(|| Upright::new(self.eye?, self.options.axis.0));
         let tiles: Vec<_> = globe.tiles().collect();
+        let owner = MemoryOwner::current();
         let made: Vec<_> = tiles
             .into_par_iter()
             .map(|(face, tile)| {
+                let _charged = owner.enter();
                 let pieces = mesh.write(face, tile, looks::begin(globe, tile), hidden);
                 if pieces.is_empty() {
                     return Ok(None);
@@ -305,6 +308,7 @@ impl Show for Planet {
                 Ok(Some((of, pieces, looks)))
             })
             .collect::<Result<_>>()?;
+        Stop::check_current()?;
         for (of, pieces, land) in made.into_iter().flatten() {
             let water = Material { name: format!("{} water", land.name), roughness: 0.3, ..land.clone() };
             let mut parts = Vec::new();

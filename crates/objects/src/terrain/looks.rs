@@ -5,6 +5,7 @@ use std::sync::Arc;
 use glam::DVec2;
 use rayon::prelude::*;
 
+use burgeon_base::MemoryOwner;
 use burgeon_base::error::Result;
 use burgeon_kit::{Color, Expectation, Field, Parameter, Table, Value, fields};
 use burgeon_scene::{Material, Texture};
@@ -80,7 +81,8 @@ pub(crate) fn texels(tile: &Tile, fine: usize) -> usize {
 /// An image of `across` texels a side, each of the colour that `color` gives for its column and row from the north.
 pub(crate) fn image(across: usize, color: impl Fn(usize, usize) -> [f32; 3] + Sync) -> Vec<u8> {
     let row = |row: usize| (0..across).flat_map(|column| color(column, row).map(to_srgb)).collect();
-    let rows: Vec<Vec<u8>> = (0..across).into_par_iter().map(row).collect();
+    let owner = MemoryOwner::current();
+    let rows: Vec<Vec<u8>> = (0..across).into_par_iter().map(|number| owner.charge(|| row(number))).collect();
     rows.concat()
 }
 

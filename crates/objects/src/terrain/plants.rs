@@ -8,6 +8,7 @@ use rayon::prelude::*;
 use super::beds::RiverBeds;
 use super::mask::{GroundPoint, Mask};
 use burgeon_base::error::{Error, Limit, Result};
+use burgeon_base::{MemoryOwner, Stop};
 use burgeon_kit::random::Stream;
 use burgeon_kit::rules::ModuleKey;
 use burgeon_kit::{Drawing, Expectation, Field, Model, Parameter, Table, Value, fields};
@@ -93,6 +94,7 @@ impl Plants {
             .help(format!("at most {MOST} are: lower the density, or show less of the terrain")));
         }
         for tile in ground.tiles() {
+            Stop::check_current()?;
             let (corner, size) = tile.bounds(world);
             let first = (corner - world.corner) / cell;
             #[allow(
@@ -107,12 +109,13 @@ impl Plants {
                 continue;
             }
             let reach = world.cell(tile.level());
+            let owner = MemoryOwner::current();
             let grown: Vec<Vec<(usize, DAffine3)>> = (y..y + across)
                 .into_par_iter()
                 .map(|y| {
                     let one = |x: u64| self.one(ground, key, (x, y), (cell, chance), reach);
-                    let grown = (x..x + across).filter_map(one);
-                    grown.filter(|(_, frame)| !beds.contain(frame.translation.truncate())).collect()
+                    let seen = |(_, frame): &(usize, DAffine3)| !beds.contain(frame.translation.truncate());
+                    owner.charge(|| (x..x + across).filter_map(one).filter(seen).collect())
                 })
                 .collect();
             for (model, frame) in grown.into_iter().flatten() {

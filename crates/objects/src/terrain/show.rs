@@ -4,6 +4,7 @@ use glam::{DAffine3, DVec3};
 
 use super::beds::RiverBeds;
 use super::{Terrain, looks, sides};
+use burgeon_base::Stop;
 use burgeon_base::error::{Error, Result};
 use burgeon_kit::Drawing;
 use burgeon_kit::rules::ModuleKey;
@@ -32,6 +33,7 @@ impl Terrain {
         for (number, tile) in ground.tiles().iter().enumerate() {
             let (corner, size) = tile.bounds(ground.world());
             let origin = (corner + size / 2.0).extend(0.0);
+            Stop::check_current()?;
             let place = tile.place;
             let of = format!("{name} {}/{}/{}", place.level, place.x, place.y);
             let mut parts = Vec::new();
@@ -87,8 +89,7 @@ impl Terrain {
             let key = ModuleKey(self.key.0.wrapping_add(number)).child(0);
             plants.scatter(ground, key, &beds, &mut drawing)?;
         }
-        drawing.show(scene, name, feature);
-        Ok(())
+        drawing.show(scene, name, feature)
     }
 
     /// How far (m) triangles may be from the surface.

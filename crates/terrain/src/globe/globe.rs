@@ -19,6 +19,7 @@ use super::sphere::{direction, place, side};
 use crate::block::{Area, Block};
 use crate::tile::Tile;
 use crate::world::{Divide, World};
+use burgeon_base::MemoryOwner;
 use burgeon_base::error::Result;
 
 /// A sphere whose six faces are divided, and the tiles of it that are expanded.
@@ -118,7 +119,9 @@ impl Globe {
                 }
                 (*index, Arc::new(Tile::new(place, DETAIL, &blocks[face], area, heights)))
             };
-            let made: Vec<_> = missing[level as usize].par_iter().map(make).collect();
+            let owner = MemoryOwner::current();
+            let made: Vec<_> =
+                missing[level as usize].par_iter().map(|item| owner.charge(|| make(item))).collect();
             for (index, tile) in made {
                 tiles[index] = Some(tile);
             }

@@ -16,6 +16,7 @@ use super::leaves::ball;
 use crate::mesh::{GridCorner, HeightGrid, RightTriangle, corners, diamond, roots};
 use crate::tile::Tile;
 use crate::world::World;
+use burgeon_base::MemoryOwner;
 use burgeon_scene::Part;
 
 /// A triangulation of a globe.
@@ -51,7 +52,9 @@ impl<'a> GlobeMesh<'a> {
     /// The fewest triangles from which the ground is nowhere farther than `error`, in sizes of the cells there.
     pub fn new(globe: &'a Globe, error: f64) -> Self {
         let tiles: Vec<(usize, &Tile)> = globe.tiles().collect();
-        let grids = tiles.par_iter().map(|(face, tile)| grid(globe, *face, tile)).collect();
+        let owner = MemoryOwner::current();
+        let make = |face: usize, tile| owner.charge(|| grid(globe, face, tile));
+        let grids = tiles.par_iter().map(|(face, tile)| make(*face, tile)).collect();
         let mut mesh = Self { globe, grids, halved: FxHashSet::default(), error };
         let mut wanted = Vec::new();
         for (face, tile) in tiles {

@@ -14,6 +14,7 @@ use super::meaning::{TagValue, meanings};
 use super::places::Place;
 use super::shapes::{BuildResult, OsmRecord, build};
 use crate::{Attribute, Crs, FeatureTable, SourceOptions};
+use burgeon_base::MemoryOwner;
 use burgeon_base::budget::Budget;
 use burgeon_base::error::{Error, Result};
 use burgeon_base::text::{listed, shown};
@@ -75,14 +76,18 @@ impl OsmFile {
         let ways = self.member_ways(&records, &wanted.budget)?;
         let places = self.places(&records, &ways, &wanted.budget)?;
         let build = |record: &OsmRecord| build(record, &ways, &places, &wanted.budget);
-        let built: Vec<BuildResult> = records.par_iter().map(build).collect();
+        let owner = MemoryOwner::current();
+        let built: Vec<BuildResult> =
+            records.par_iter().map(|record| owner.charge(|| build(record))).collect();
         self.fill(&mut table, layer, records, built, wanted)?;
         Ok(table)
     }
 
     /// What is chosen, in the order of the file.
     fn records(&self, choice: &TagChoice, budget: &Budget) -> Result<Vec<OsmRecord>> {
+        let owner = MemoryOwner::current();
         let found = (0..self.blobs.len()).into_par_iter().map(|index| {
+            let _charged = owner.enter();
             self.blobs.block(index, budget, |bytes| {
                 let block = OsmBlock::open(bytes)?;
                 let class = choice.words.as_ref().map(|words| block.numbered(words));
@@ -158,7 +163,8 @@ impl OsmFile {
                 Ok(visitor)
             })
         };
-        (0..self.blobs.len()).into_par_iter().map(visit).collect()
+        let owner = MemoryOwner::current();
+        (0..self.blobs.len()).into_par_iter().map(|index| owner.charge(|| visit(index))).collect()
     }
 
     /// Adds what was built to the table, with what its tags mean.

@@ -8,6 +8,7 @@ use mlua::Buffer;
 use super::InterpretationPass;
 use super::notices::ObjectNotice;
 use crate::machine::{Flusher, Machine, Objects, read_column, returns_modules, returns_value};
+use burgeon_base::Stop;
 use burgeon_base::error::{Error, Limit, Result};
 use burgeon_base::warning::Warning;
 use burgeon_kit::rules::{CLOSE, END, Mark, OPEN, Values, module_brief};
@@ -19,6 +20,7 @@ pub(crate) struct Applier {
     objects: Arc<Objects>,
     kind: Arc<Kind>,
     values: Arc<Values>,
+    stop: Arc<Stop>,
     triangle_limit: usize,
     buffers: [Buffer; 3],
     /// The next symbol to be applied.
@@ -52,6 +54,9 @@ pub(crate) struct Applier {
     notices: Vec<ObjectNotice>,
 }
 
+/// Symbols that are applied between two looks at the stop of the run.
+const STRETCH: usize = 64;
+
 /// The most calls of methods that one application may make.
 const MOST_CALLS: usize = 1 << 24;
 
@@ -73,6 +78,7 @@ impl Applier {
             machine.prelude().recorded().map_err(|error| machine.translate(error))?;
         Ok(Self {
             values: Arc::clone(&machine.session.values),
+            stop: Arc::clone(&machine.session.stop),
             triangle_limit: machine.session.options.limits.triangles,
             pass,
             objects,
@@ -210,6 +216,7 @@ impl Applier {
             if self.symbols(&pass, object, failed, module)? == ApplyEnd::End {
                 return Ok(ApplyEnd::End);
             }
+            self.stop.check()?;
             let begin = pass.plan.profiled.then(Instant::now);
             let applied = self.calls(&pass, object, failed);
             if let Some(begin) = begin {
@@ -242,6 +249,9 @@ impl Applier {
             let params = self.param..self.param + usize::from(arities[usize::from(symbol)]);
             if pass.plan.traced {
                 follow(object, self.position);
+            }
+            if self.position.is_multiple_of(STRETCH) {
+                self.stop.check()?;
             }
             match symbol {
                 _ if failed => {}

@@ -64,6 +64,8 @@ pub(crate) enum DeclaredAxiom {
 pub(crate) struct DeclaredRule {
     pub(crate) rule: Rule,
     pub(crate) guard: Option<Function>,
+    /// The text of the guard, as far as it is known.
+    pub(crate) guard_text: Option<String>,
     pub(crate) successor: Function,
     /// Whether one of them may look at `this`.
     pub(crate) asks: bool,

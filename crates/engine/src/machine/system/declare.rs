@@ -98,8 +98,10 @@ impl SystemDeclaration {
             check_queries(library, guard, &pattern).map_err(named)?;
             asks |= may_ask(&session, guard);
         }
+        let begin = guard.as_ref().and_then(begin_of);
+        let guard_text = begin.and_then(|(file, line)| session.guard_text(&file, line));
         let rule = Rule::new(pattern, weight, guard.is_some(), place);
-        self.rules.push(DeclaredRule { rule, guard, successor, asks });
+        self.rules.push(DeclaredRule { rule, guard, guard_text, successor, asks });
         Ok(())
     }
 

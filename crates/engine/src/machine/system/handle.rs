@@ -11,6 +11,7 @@ use crate::machine::convert::to_value;
 use crate::machine::library::Library;
 use crate::machine::types::{DerivedHandle, ObjectHandle, object_of_system};
 use burgeon_base::error::{Error, Result, SourcePlace};
+use burgeon_base::warning::{Warning, WarningKind};
 use burgeon_kit::rules::Symbol;
 use burgeon_kit::{Object, Value};
 use burgeon_language::{LSYSTEM, SYSTEM};
@@ -155,7 +156,15 @@ impl UserData for SystemHandle {
         methods.add_function("axiom", |lua, (this, arguments): (UserDataRef<Self>, MultiValue)| {
             let arguments: Vec<LuaValue> = arguments.into_iter().collect();
             let place = Machine::place(lua);
+            let machine = this.library.machine().map_err(mlua::Error::external)?;
             this.declare(lua, "axiom", |system| {
+                if system.axiom.is_some() && system.axiom_is_new.get() {
+                    let earlier =
+                        system.axiom_place.as_ref().map_or_else(String::new, |at| format!(" in {at}"));
+                    let text = format!("this axiom replaces the axiom{earlier}, which is never derived");
+                    let help = "give the system one axiom of all modules, or derive it before the next axiom";
+                    machine.warn(Warning::new(WarningKind::NoEffect, text).help(help));
+                }
                 system.axiom_place = place;
                 system.axiom_is_new.set(true);
                 system.set_axiom(arguments)

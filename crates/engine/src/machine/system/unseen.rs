@@ -3,9 +3,11 @@
 //!
 //! Each is certain, not likely: a script that means what it says is never warned of.
 
+use mlua::Value;
 use rustc_hash::{FxHashMap, FxHashSet};
 
 use crate::machine::Machine;
+use crate::machine::freeze::captured;
 use crate::machine::library::{Library, StandardInterpretation};
 use crate::machine::types::object_of_system;
 use crate::results::DerivedSystem;
@@ -13,7 +15,7 @@ use burgeon_base::error::SourcePlace;
 use burgeon_base::warning::{Warning, WarningKind};
 use burgeon_kit::rules::{Context, FIRST_SYMBOL, Grammar, Pattern, Rule, Symbol};
 
-use super::{DerivationRecord, SystemDeclaration};
+use super::{DeclaredRule, DerivationRecord, SystemDeclaration};
 
 impl SystemDeclaration {
     /// Notes that the system is derived from now on, with all that has been declared.
@@ -39,10 +41,12 @@ impl SystemDeclaration {
             });
         }
         let mut sure = CandidateRules::default();
-        for rule in grammar.rules().iter().filter(|rule| rule.weight != Some(0.0)) {
+        let mut guards = GuardClasses::default();
+        for (index, rule) in grammar.rules().iter().enumerate().filter(|(_, rule)| rule.weight != Some(0.0)) {
+            let guard = guards.class_of(machine, &self.rules, index);
             let warn =
                 |warning: Warning| machine.warn(warning.at(rule.place.clone()).rule(&rule.pattern.text));
-            let earlier = sure.forestalls(rule);
+            let earlier = sure.forestalls(rule, guard);
             if let Some(item) = rule.contexts().iter().find(|item| grammar.is_skipped(item.symbol)) {
                 let name = &grammar.symbols().signature(item.symbol).name;
                 let (text, help) = match self.considered {
@@ -59,14 +63,22 @@ impl SystemDeclaration {
             } else if let Some(earlier) = earlier {
                 let place = earlier.place.as_ref().map_or_else(String::new, |place| format!(" in {place}"));
                 let name = &earlier.pattern.text;
-                let text = format!("it is never used, for the rule {name}{place} always comes first");
+                let what = if earlier.guarded {
+                    "applies first and has the same guard"
+                } else {
+                    "always applies first"
+                };
+                let text = format!("this rule is never applied: {name}{place} {what}");
                 let help = match earlier.weight {
+                    None if earlier.guarded => {
+                        "join the two rules, or give one of them another guard, or both a weight"
+                    }
                     Some(_) => "give both rules a weight: { weight = 1 }",
                     None => "give the earlier rule a guard, or both a weight, or put this one before it",
                 };
                 warn(Warning::new(WarningKind::UnreachableRule, text).help(help));
             }
-            sure.add(rule);
+            sure.add(rule, guard);
         }
     }
 
@@ -146,10 +158,52 @@ impl SystemDeclaration {
 /// A predecessor and its contexts, without the names of parameters.
 type ContextSymbols = (Symbol, Vec<Symbol>, Vec<Option<Symbol>>);
 
-/// The rules so far that are candidates wherever their contexts match, by what they match.
+/// The number of the first rule with a guard, for all rules whose guards decide alike; `None` without a guard.
+type GuardClass = Option<usize>;
+
+/// The guards so far, by the rules that were the first to have them.
+#[derive(Default)]
+struct GuardClasses {
+    /// The numbers of rules and what their guards capture, by their predecessors and the guards' texts.
+    first: FxHashMap<(Symbol, String), Vec<(usize, Vec<Value>)>>,
+}
+
+/// Guards of one text that are compared: loops may declare thousands, which capture different values.
+const MOST_COMPARED: usize = 64;
+
+impl GuardClasses {
+    /// The class of the guard of rule `index`. Guards decide alike if they are one function, or if their texts are the same,
+    /// they capture the same values, and their patterns give them the same arguments.
+    fn class_of(&mut self, machine: &Machine, rules: &[DeclaredRule], index: usize) -> GuardClass {
+        let rule = &rules[index];
+        let guard = rule.guard.as_ref()?;
+        let text = rule.guard_text.clone().unwrap_or_default();
+        let known = self.first.entry((rule.rule.pattern.predecessor.symbol, text)).or_default();
+        let captures = captured(machine.lua(), guard).unwrap_or_default();
+        let same = known.iter().find(|(other, of_other)| {
+            let other = &rules[*other];
+            bounds(&other.rule) == bounds(&rule.rule)
+                && (other.guard.as_ref() == Some(guard) || rule.guard_text.is_some() && *of_other == captures)
+        });
+        if let Some((first, _)) = same {
+            return Some(*first);
+        }
+        if known.len() < MOST_COMPARED {
+            known.push((index, captures));
+        }
+        Some(index)
+    }
+}
+
+/// How many parameters a rule binds of its predecessor and of each module of its contexts.
+fn bounds(rule: &Rule) -> Vec<usize> {
+    std::iter::once(&rule.pattern.predecessor).chain(rule.contexts()).map(|item| item.bound).collect()
+}
+
+/// The rules so far that are candidates wherever their contexts match and their guards hold, by what they match.
 #[derive(Default)]
 struct CandidateRules<'a> {
-    rules: FxHashMap<ContextSymbols, [Option<&'a Rule>; 3]>,
+    rules: FxHashMap<(ContextSymbols, GuardClass), [Option<&'a Rule>; 3]>,
     /// The symbols with a rule that has a weight.
     weighted: FxHashSet<Symbol>,
 }
@@ -161,18 +215,20 @@ const BEFORE_PLAIN: usize = 1;
 const WEIGHTED: usize = 2;
 
 impl<'a> CandidateRules<'a> {
-    /// The rule without contexts, or with the same, that keeps `rule` from ever being chosen.
-    fn forestalls(&self, rule: &Rule) -> Option<&'a Rule> {
+    /// The rule without contexts, or with the same, that keeps `rule` from ever being chosen: without a guard, or with the
+    /// same contexts and the same `guard`.
+    fn forestalls(&self, rule: &Rule, guard: GuardClass) -> Option<&'a Rule> {
         let around = around(rule);
         let anywhere = (around.0, Vec::new(), Vec::new());
         let places = if rule.weight.is_some() { BEFORE_ALL..=BEFORE_ALL } else { BEFORE_ALL..=WEIGHTED };
-        let of = |around: &ContextSymbols| {
-            self.rules.get(around)?[places.clone()].iter().flatten().next().copied()
+        let of = |around: &ContextSymbols, guard: GuardClass| {
+            self.rules.get(&(around.clone(), guard))?[places.clone()].iter().flatten().next().copied()
         };
-        of(&anywhere).or_else(|| of(&around))
+        let guarded = || guard.and_then(|guard| of(&around, Some(guard)));
+        of(&anywhere, None).or_else(|| of(&around, None)).or_else(guarded)
     }
 
-    fn add(&mut self, rule: &'a Rule) {
+    fn add(&mut self, rule: &'a Rule, guard: GuardClass) {
         let symbol = rule.pattern.predecessor.symbol;
         let place = match rule.weight {
             Some(_) => WEIGHTED,
@@ -182,9 +238,7 @@ impl<'a> CandidateRules<'a> {
         if rule.weight.is_some() {
             self.weighted.insert(symbol);
         }
-        if !rule.guarded {
-            self.rules.entry(around(rule)).or_default()[place].get_or_insert(rule);
-        }
+        self.rules.entry((around(rule), guard)).or_default()[place].get_or_insert(rule);
     }
 }
 

@@ -198,6 +198,7 @@ impl UserData for DerivedHandle {
 impl DerivedHandle {
     fn field(&self, lua: &Lua, name: &str) -> mlua::Result<LuaValue> {
         let derived = &self.0;
+        derived.note_inspected();
         #[allow(clippy::cast_precision_loss, reason = "counts below 2^53")]
         let number = |count: usize| Ok(LuaValue::Number(count as f64));
         match name {

@@ -1,0 +1,214 @@
+//! Everything that a script can let grow counts towards `--memory-limit`.
+
+use std::process::{Command, Stdio};
+
+use crate::support::{Folder, assert_decent};
+
+/// A place where a run keeps what a script decides, as the book lists it, and a script that lets it grow without end.
+struct Store {
+    name: &'static str,
+    script: &'static str,
+    arguments: &'static [&'static str],
+}
+
+/// Modules, and a system that draws with a turtle, in two lines.
+const HEAD: &str = "local A, B = module(\"A\", \"x\"), module(\"B\", \"x\")\nlocal s = lsystem({ object = turtle() }) s:axiom(A(1))\n";
+
+const fn store(name: &'static str, script: &'static str) -> Store {
+    Store { name, script, arguments: &[] }
+}
+
+/// The stores. A table of the book has the same.
+const STORES: &[Store] = &[
+    store("tables of Lua", "local t = {} while true do table.insert(t, { #t }) end"),
+    store("strings of Lua", "local t = \"a\" while true do t = t .. t end"),
+    store("buffers of Lua", "local t = {} while true do table.insert(t, buffer.create(100000)) end"),
+    store(
+        "functions and coroutines",
+        "local t = {} while true do table.insert(t, coroutine.create(function() return t end)) end",
+    ),
+    Store {
+        name: "virtual machines of all threads",
+        script: "local all = string.rep(\"x\", 3e7)\ns:rule(\"A(x)\", function(this, x) return A(x + #all), A(x) end)\ns:derive(30)",
+        arguments: &["--threads", "6", "--batch", "16"],
+    },
+    store(
+        "what rules make",
+        "s:rule(\"A(x)\", function(this, x) local t = {} while true do table.insert(t, { x }) end end)\ns:derive(1)",
+    ),
+    store("modules of chains", "s:rule(\"A(x)\", function(this, x) return A(x), A(x + 1) end)\ns:derive()"),
+    store(
+        "strings in modules",
+        "s:rule(\"A(x)\", function(this, x) return A(string.rep(\"x\", 5000) .. x), A(x) end)\ns:derive()",
+    ),
+    store(
+        "tables in modules",
+        "s:rule(\"A(x)\", function(this, x)\n  local t = table.create(300, random()) t[1] = x return A(t), A(t)\nend)\ns:derive()",
+    ),
+    store(
+        "chains of features and their objects",
+        "local list = {} for i = 1, 200000 do list[i] = { id = i } end\ns:axiom(source(list), function(feature) return A(1) end)\ns:rule(\"A(x)\", function(this, x) return A(x), B(x) end)\ns:derive()",
+    ),
+    store(
+        "lists as sources",
+        "local all = {} while true do local list = {} for i = 1, 1000 do list[i] = { id = i, name = \"n\" .. i } end table.insert(all, source(list)) end",
+    ),
+    store(
+        "surfaces",
+        "s:interpret(\"A(x)\", function(this, x) while true do this:forward(1):turn(7) end end)\ns:derive(1)",
+    ),
+    store(
+        "surfaces of modules",
+        "s:rule(\"A(x)\", function(this, x) return A(x), A(x), Forward(1) end)\ns:derive()",
+    ),
+    store(
+        "faces of meshes in buffers",
+        "local points, faces = buffer.create(36), buffer.create(24e6)\ns:interpret(\"A(x)\", function(this, x) while true do this:mesh(points, faces) end end)\ns:derive(1)",
+    ),
+    store(
+        "faces of meshes in lists",
+        "local points, faces = {}, {} for i = 1, 60000 do points[i] = { i, 0, 0 } faces[i] = { i, i % 60000 + 1, 1 } end\ns:interpret(\"A(x)\", function(this, x) this:mesh(points, faces) end)\ns:derive(1)",
+    ),
+    store(
+        "placed models",
+        "local stone = lsystem({ object = extruder() }) stone:axiom(A(1)) stone:interpret(\"A(x)\", function(this) this:extrude(1) end)\nlocal model = stone:derive()\ns:interpret(\"A(x)\", function(this, x) while true do this:jump({ 1, 0, 0 }):place(model) end end)\ns:derive(1)",
+    ),
+    store(
+        "models that place one another",
+        "local last\nfor i = 1, 100000 do\n  local model = last\n  local next = lsystem({ object = turtle() }) next:axiom(A(1))\n  next:interpret(\"A(x)\", function(this) this:forward(1) if model then this:place(model):jump({ 1, 0, 0 }):place(model) end end)\n  last = next:derive()\nend",
+    ),
+    store(
+        "notes of objects",
+        "local lamp = object(\"lamp\", { changes = { go = function(self, n) self:note(string.rep(\"x\", 1000) .. n) end } })\nlocal list = {} for i = 1, 2000 do list[i] = { id = i } end\nlocal l = lsystem({ object = lamp() })\nl:axiom(source(list), function() return lamp(), A(1) end)\nl:interpret(\"A(x)\", function(this, x) for i = 1, 1000 do this:go(i) end end)\nl:derive(1)",
+    ),
+    store(
+        "state of types of scripts",
+        "local lamp = object(\"lamp\", { state = { text = \"\" }, changes = { go = function(self, n) self.text = string.rep(\"x\", 100000) .. n end } })\nlocal list = {} for i = 1, 15000 do list[i] = { id = i } end\nlocal l = lsystem({ object = lamp() })\nl:axiom(source(list), function(feature) return lamp(), A(feature.id) end)\nl:interpret(\"A(x)\", function(this, x) this:go(x) end)\nl:derive(1)",
+    ),
+    store(
+        "objects that objects hold",
+        "local lamp = object(\"lamp\", { state = { pen = extruder() }, changes = { go = function(self) for i = 1, 1000 do self.pen:extrude(1):roll(9) end end } })\nlocal list = {} for i = 1, 15000 do list[i] = { id = i } end\nlocal l = lsystem({ object = lamp() })\nl:axiom(source(list), function(feature) return lamp(), A(feature.id) end)\nl:interpret(\"A(x)\", function(this, x) this:go() end)\nl:derive(1)",
+    ),
+    store(
+        "parameters of the script",
+        "for i = 1, 1e7 do param(\"p\" .. i, { default = string.rep(\"x\", 1000) .. i }) end",
+    ),
+    store("systems", "while true do local t = lsystem({ object = turtle() }) t:axiom(A(1)) end"),
+    store(
+        "rules",
+        "while true do local t = lsystem() t:axiom(A(1)) for i = 1, 60000 do t:rule(\"A(x)\", function(this, x) return A(x + i) end) end end",
+    ),
+    store(
+        "types of objects",
+        "for i = 1, 1e7 do object(\"type\" .. i, { doc = string.rep(\"x\", 10000) .. i, changes = { go = function(self) end } }) end",
+    ),
+    store(
+        "objects in tables",
+        "local t = {} while true do table.insert(t, footprint({ { 0, 0 }, { 10, 0 }, { 10, 8 }, { 0, 8 } })) end",
+    ),
+    store(
+        "geometries in tables",
+        "local t, g = {}, polygon({ { 0, 0 }, { 10, 0 }, { 10, 8 }, { 0, 8 } }) while true do table.insert(t, g:buffer(1 + #t)) end",
+    ),
+    store(
+        "answers of geometries and objects",
+        "local n = universe({ seed = 3 }) local t = {} for i = 1, 1e9 do t[i] = n:galaxy(i, 0, 0) or i end",
+    ),
+    store(
+        "street networks",
+        "local n = lsystem({ object = network() }) n:axiom(A(1))\nn:interpret(\"A(x)\", function(this, x) for i = 1, 1e9 do local at = this:grow(1, i * 7 % 360, 20 + i % 1000, 1) end end)\nn:derive(1)",
+    ),
+    store(
+        "terrain",
+        "local hills = { A = { \"A\", \"A\", \"A\", \"A\", change = { 0.2, -0.1, 0.1, -0.2 }, decay = 0.5 } }\nlocal land = lsystem({ object = terrain({ size = 4096, levels = 13, rules = hills, covers = { { color = \"#5b7a3a\" } } }) })\nland:derive()",
+    ),
+    store(
+        "edits of terrain",
+        "local hills = { A = { \"A\", \"A\", \"A\", \"A\", change = { 0.12, -0.06, 0.06, -0.12 }, decay = 0.55 } }\nlocal l = lsystem({ object = terrain({ size = 512, levels = 5, rules = hills, covers = { { color = \"#7d8f5a\" } } }) }) l:axiom(A(1))\nl:interpret(\"A(x)\", function(this, x) for i = 1, 1e7 do local p = {} for k = 1, 200 do p[k] = { k, i % 100 } end this:dig(p, 2, 1) end end)\nl:derive(1)",
+    ),
+    store(
+        "indexes of lines",
+        "local t = {} while true do local lines = {} for i = 1, 200 do lines[i] = { { i, 0 }, { i, 9 } } end table.insert(t, streets(lines)) end",
+    ),
+    store(
+        "text of chains",
+        "s:rule(\"A(x)\", function(this, x) return A(x + 0.123), A(x + 0.321) end)\nlocal d = s:derive(17)\nlocal t = {} for i = 1, 1000 do t[i] = s:derive(17).chains end",
+    ),
+    store("scripts that are read", "require(\"large\")"),
+    store("texts that are printed", "print(string.rep(\"x\", 50e6))"),
+    store(
+        "texts of errors",
+        "local t = {} for i = 1, 5 do t[i] = string.rep(\"x\", 3e6) .. i end while true do local ok, e = pcall(error, t[1]) t[#t + 1] = e .. #t end",
+    ),
+];
+
+/// Runs the program under a memory limit (MB). Returns its status, what it said, and its largest resident memory (MB).
+fn run(folder: &Folder, arguments: &[&str], limit: &str) -> (i32, String, usize) {
+    let child = Command::new(env!("CARGO_BIN_EXE_burgeon"))
+        .args(["run", "s.lua", "--time-limit", "120", "--memory-limit", limit])
+        .args(arguments)
+        .current_dir(folder.path())
+        .stdin(Stdio::null())
+        .stdout(std::fs::File::create(folder.path().join("said")).unwrap())
+        .stderr(std::fs::File::create(folder.path().join("told")).unwrap())
+        .spawn()
+        .unwrap();
+    let (mut status, mut usage) = (0, std::mem::MaybeUninit::<libc::rusage>::zeroed());
+    #[allow(unsafe_code, reason = "the standard library does not show what a child has used")]
+    // SAFETY: the child is this process's and nobody else waits for it; both places may be written to.
+    let usage = unsafe {
+        let pid = libc::pid_t::try_from(child.id()).unwrap();
+        assert_eq!(libc::wait4(pid, &raw mut status, 0, usage.as_mut_ptr()), pid);
+        usage.assume_init()
+    };
+    let code = if libc::WIFEXITED(status) { libc::WEXITSTATUS(status) } else { -1 };
+    let kilobytes = usize::try_from(usage.ru_maxrss).unwrap();
+    let told = String::from_utf8_lossy(&std::fs::read(folder.path().join("told")).unwrap()).into_owned();
+    (code, told, kilobytes / if cfg!(target_os = "macos") { 1_000_000 } else { 1_000 })
+}
+
+/// The largest part of the limit by which a run may go over it: what is allocated before the run notices.
+const OVER: f64 = 1.3;
+/// The memory limit (MB) of these runs.
+const LIMIT: usize = 64;
+
+#[test]
+fn every_store_that_a_script_grows_ends_at_the_memory_limit() {
+    let empty = Folder::new().with("s.lua", format!("{HEAD}s:derive(1)\n"));
+    let (code, told, base) = run(&empty, &[], "64");
+    assert_eq!(code, 0, "{told}");
+    let mut wrong = String::new();
+    let only = std::env::var("BURGEON_STORE").unwrap_or_default();
+    for store in STORES.iter().filter(|store| store.name.contains(&only)) {
+        let folder = Folder::new()
+            .with("s.lua", format!("{HEAD}{}\n", store.script))
+            .with("large.lua", "local x = { 1, 2, 3 }\n".repeat(100_000));
+        let begin = std::time::Instant::now();
+        let (code, told, peak) = run(&folder, store.arguments, "64");
+        let shown: String = told.chars().take(600).collect();
+        eprintln!("{}: {peak} MB, {base} without, {:.1} s", store.name, begin.elapsed().as_secs_f64());
+        let is_told = told.starts_with("error: ")
+            && told.contains("64 MB of memory")
+            && told.contains("--memory-limit");
+        #[allow(clippy::cast_precision_loss, reason = "megabytes")]
+        let most = base as f64 + OVER * LIMIT as f64;
+        #[allow(clippy::cast_precision_loss, reason = "megabytes")]
+        if code != 1 || !is_told || peak as f64 > most {
+            wrong +=
+                &format!("\n{}: status {code}, {peak} MB where {most:.0} may be used: {shown}", store.name);
+        } else {
+            assert_decent(&told);
+        }
+    }
+    assert!(wrong.is_empty(), "{wrong}");
+}
+
+#[test]
+fn the_book_lists_the_stores() {
+    let page =
+        std::fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/docs/book/src/threats.md")).unwrap();
+    let rows = page.split("## Memory").nth(1).unwrap().lines().filter_map(|line| line.strip_prefix("| "));
+    let listed: Vec<&str> = rows.skip(2).map(|row| row.split(" |").next().unwrap()).collect();
+    let names: Vec<&str> = STORES.iter().map(|store| store.name).collect();
+    assert_eq!(listed, names);
+}
