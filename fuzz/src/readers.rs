@@ -153,7 +153,7 @@ pub(crate) fn heights(bytes: &[u8], name: &str) -> bool {
     for wanted in [plain, told, colors] {
         let Ok(raster) = Raster::read(bytes, name, &wanted, &budget()) else { continue };
         assert!(raster.heights.iter().all(|height| height.is_finite()), "a height is no number");
-        let _ = (raster.warnings(), raster.filled_warning(), raster.range(), raster.bounds());
+        let _ = (raster.warnings(), raster.missing_warnings(), raster.range(), raster.bounds());
         let Ok(relief) = Relief::new(Arc::new(raster), &mut None) else { continue };
         let middle = (relief.low() + relief.high()) / 2.0;
         let _ = relief.ground(middle.truncate(), true);
