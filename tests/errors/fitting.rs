@@ -123,16 +123,10 @@ fn a_table_is_fitted_to_heights_in_each_format_and_wherever_they_lie() {
     for (from, to) in copied {
         std::fs::copy(corpus.join(from), folder.path().join(to)).unwrap();
     }
-    let names = [
-        "N43E007.hgt",
-        "copy.hgt",
-        "ground.r32",
-        "ground.r64",
-        "ground.asc",
-        "degrees.asc",
-    ];
+    let names = ["N43E007.hgt", "copy.hgt", "ground.r32", "ground.r64", "ground.asc", "degrees.asc"];
     for name in names.into_iter().chain(copied.map(|(_, name)| name)) {
-        let said = folder.burgeon(&["fit", name, "-o", "rules.lua", "--rounds", "1", "--symbols", "4"]).done();
+        let said =
+            folder.burgeon(&["fit", name, "-o", "rules.lua", "--rounds", "1", "--symbols", "4"]).done();
         assert!(said.stderr.starts_with("rules.lua: root mean square error 0."), "{name}: {}", said.stderr);
     }
 }

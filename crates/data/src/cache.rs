@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex};
 
 use super::elevation::{HeightOptions, Raster};
-use super::{Layer, ReferenceFrame, SourceOptions};
+use super::{Layer, ReferenceFrame, SourceOptions, companions};
 use burgeon_base::budget::Budget;
 use burgeon_base::error::Result;
 use burgeon_base::locks::LockRecovery;
@@ -39,9 +39,13 @@ impl Cache {
         if std::fs::metadata(&log).is_ok_and(|meta| meta.len() > 0) {
             return None;
         }
-        let content = hash(path).ok()?;
+        let mut content = hash(path).ok()?.to_hex().to_string();
+        for beside in companions(path) {
+            // One that is not there yet counts as nothing.
+            content += &hash(&beside).map(|hash| hash.to_hex().to_string()).unwrap_or_default();
+        }
         let frame = frame.map(|frame| (&frame.name, frame.origin));
-        Some(format!("{} {} {wanted:?} {frame:?}", content.to_hex(), path.display()))
+        Some(format!("{content} {} {wanted:?} {frame:?}", path.display()))
     }
 
     /// The layer with this key, and the frame that it is in.

@@ -22,8 +22,8 @@ pub(super) fn fill(columns: usize, rows: usize, heights: &mut [f32], budget: &Bu
     let before = budget.taken();
     let holes = holes::find(columns, rows, heights, budget)?;
     let known = heights.iter().copied().filter(|height| !height.is_nan());
-    let (low, high) =
-        known.fold((f32::INFINITY, f32::NEG_INFINITY), |(low, high), height| (low.min(height), high.max(height)));
+    let (low, high) = known
+        .fold((f32::INFINITY, f32::NEG_INFINITY), |(low, high), height| (low.min(height), high.max(height)));
     let _held = budget.hold(missing * size_of::<f32>())?;
     let source = &*heights;
     let filled = holes.par_iter().map(|hole| surface(columns, source, hole, budget));
@@ -47,7 +47,9 @@ fn surface(columns: usize, heights: &[f32], hole: &Hole, budget: &Budget) -> Res
     })?;
     patch.fill(budget)?;
     let runs = hole.runs.iter().map(|run| [run.row, run.first, run.end].map(|number| number as usize));
-    let found = runs.flat_map(|[row, first, end]| patch.heights[(row - top) * (right - left)..][first - left..end - left].iter());
+    let found = runs.flat_map(|[row, first, end]| {
+        patch.heights[(row - top) * (right - left)..][first - left..end - left].iter()
+    });
     Ok(found.copied().collect())
 }
 
@@ -95,10 +97,12 @@ mod tests {
             (0..9).map(|octave| {
                 let (scale, turn) = (0.01 * 1.7_f64.powi(octave), f64::from(octave) * 1.1);
                 let (u, v) = (x * turn.cos() + y * turn.sin(), y * turn.cos() - x * turn.sin());
-                400.0 * 0.5_f64.powi(octave) * ((u * scale + turn).sin() + (v * scale * 0.8 + turn * 3.0).cos())
+                400.0
+                    * 0.5_f64.powi(octave)
+                    * ((u * scale + turn).sin() + (v * scale * 0.8 + turn * 3.0).cos())
             })
         };
-        let at = |index: usize| height(count(index % side), count(index / side)).sum();
+        let at = |index: usize| height(count(index % side), count(index / side)).sum::<f64>();
         (0..side * side).map(|index| narrow(1500.0 + at(index))).collect()
     }
 
@@ -108,7 +112,9 @@ mod tests {
         let whole = mountains(side);
         let mut sums = [0.0_f64; 2];
         for (x, y) in [(80, 90), (200, 120), (310, 300), (120, 280)] {
-            let is_hole = |index: usize| (index % side).abs_diff(x).pow(2) + (index / side).abs_diff(y).pow(2) < 30 * 30;
+            let is_hole = |index: usize| {
+                (index % side).abs_diff(x).pow(2) + (index / side).abs_diff(y).pow(2) < 30 * 30
+            };
             let mut heights = whole.clone();
             (0..heights.len()).filter(|index| is_hole(*index)).for_each(|index| heights[index] = f32::NAN);
             let mut membrane = heights.clone();

@@ -62,11 +62,14 @@ pub(super) fn find(columns: usize, rows: usize, heights: &[f32], budget: &Budget
         for above in row.saturating_sub(REACH)..=row {
             let mut other = begins[above];
             for run in own.clone() {
-                while other < begins[above + 1] && runs[other].end as usize + REACH <= runs[run].first as usize {
+                while other < begins[above + 1]
+                    && runs[other].end as usize + REACH <= runs[run].first as usize
+                {
                     other += 1;
                 }
                 let mut near = other;
-                while near < begins[above + 1] && (runs[near].first as usize) < runs[run].end as usize + REACH {
+                while near < begins[above + 1] && (runs[near].first as usize) < runs[run].end as usize + REACH
+                {
                     groups.join(near, run);
                     near += 1;
                 }
@@ -85,7 +88,8 @@ pub(super) fn find(columns: usize, rows: usize, heights: &[f32], budget: &Budget
         let hole = &mut holes[numbers[first]];
         let [first, end, row] = [run.first, run.end, run.row].map(|number| number as usize);
         hole.low = [hole.low[0].min(first.saturating_sub(REACH)), hole.low[1].min(row.saturating_sub(REACH))];
-        hole.high = [hole.high[0].max((end + REACH).min(columns)), hole.high[1].max((row + 1 + REACH).min(rows))];
+        hole.high =
+            [hole.high[0].max((end + REACH).min(columns)), hole.high[1].max((row + 1 + REACH).min(rows))];
         hole.runs.push(*run);
     }
     let boxes = holes.iter().map(|hole| (hole.high[0] - hole.low[0]) * (hole.high[1] - hole.low[1]));

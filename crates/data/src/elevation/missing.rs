@@ -98,7 +98,9 @@ pub(super) fn take_out(
     }
     if let (Some((height, index)), true) = (beyond, found.count > known) {
         let (row, column) = (index / columns + 1, index % columns + 1);
-        let most = format!("{name} has a height of {height} m in row {row}, column {column}, and most of its heights");
+        let most = format!(
+            "{name} has a height of {height} m in row {row}, column {column}, and most of its heights"
+        );
         return Err(Error::data(format!("{most} lie beyond {low} to {high} m"))
             .help("if they are in another unit, convert them to metres: gdal_calc.py --calc=A*0.001"));
     }
@@ -122,7 +124,19 @@ mod tests {
 
     #[test]
     fn marks_and_heights_beyond_the_earth_are_missing() {
-        for mark in [32767.0, -9999.0, -32768.0, -32767.0, 65535.0, -99999.0, 9_500.0, -12_000.0, 1e6, -3.4e38, f32::INFINITY] {
+        for mark in [
+            32767.0,
+            -9999.0,
+            -32768.0,
+            -32767.0,
+            65535.0,
+            -99999.0,
+            9_500.0,
+            -12_000.0,
+            1e6,
+            -3.4e38,
+            f32::INFINITY,
+        ] {
             assert_eq!(taken(&[100.0, mark, 300.0, mark, 8848.0], true), (2, vec![mark]), "{mark}");
         }
         // On another planet there may be such heights.

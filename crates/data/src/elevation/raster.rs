@@ -67,11 +67,7 @@ impl Raster {
     /// samples do not lie on one grid.
     ///
     /// Where files overlap, and on the borders that they share, a height that one of them lacks comes from another one.
-    pub fn open_all(
-        files: &[(String, PathBuf)],
-        wanted: &HeightOptions,
-        budget: &Budget,
-    ) -> Result<Self> {
+    pub fn open_all(files: &[(String, PathBuf)], wanted: &HeightOptions, budget: &Budget) -> Result<Self> {
         if let [(name, path)] = files {
             return Self::open(path, name, wanted, budget);
         }
@@ -136,7 +132,19 @@ impl Raster {
     ) -> Self {
         let marks = UndeclaredMarks::default();
         let name = name.to_owned();
-        Self { name, columns, rows, heights, grid, crs, filled: 0, surplus: 0, marks, parts: Vec::new(), seam: 0.0 }
+        Self {
+            name,
+            columns,
+            rows,
+            heights,
+            grid,
+            crs,
+            filled: 0,
+            surplus: 0,
+            marks,
+            parts: Vec::new(),
+            seam: 0.0,
+        }
     }
 
     /// Its outer edges: west, south, east and north. A sample stands for the area half a step around it.
@@ -169,13 +177,17 @@ impl Raster {
         let warning = |text: String, help: &str| Warning::new(WarningKind::Data, text).help(help);
         let all = columns * rows;
         let filled = (*filled > 0).then(|| {
-            let text = format!("{name}: filled {filled} of {all} heights, which are missing, from around them");
+            let text =
+                format!("{name}: filled {filled} of {all} heights, which are missing, from around them");
             warning(text, "say that this is right, { fill = true }, or fill them in the file")
         });
         let marks = (marks.count > 0).then(|| {
             let (count, values) = (grouped(marks.count), marks.shown());
-            let heights = if marks.count == 1 { "height is" } else { "heights are" };
-            let text = format!("{name}: {count} {heights} {values}, and count as missing, which the file does not say");
+            let (heights, counts) =
+                if marks.count == 1 { ("height is", "counts") } else { ("heights are", "count") };
+            let text = format!(
+                "{name}: {count} {heights} {values} and {counts} as missing, though the file does not declare it"
+            );
             warning(text, "declare the mark in the file: gdal_translate -a_nodata VALUE IN OUT.tif")
         });
         filled.into_iter().chain(marks).collect()

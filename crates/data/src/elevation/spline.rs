@@ -161,7 +161,8 @@ impl Patch {
                 break;
             }
             force(self, &way, &mut rises, &mut pull);
-            let along = pull.iter().zip(holes).map(|(pull, hole)| f64::from(*pull) * f64::from(way[*hole as usize]));
+            let along =
+                pull.iter().zip(holes).map(|(pull, hole)| f64::from(*pull) * f64::from(way[*hole as usize]));
             let step = (left / along.sum::<f64>()) as f32;
             if !step.is_finite() {
                 break;

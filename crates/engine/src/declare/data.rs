@@ -97,8 +97,7 @@ impl Data {
         };
         let (own, path) = &files[0];
         let mut known = self.known.lock().recover();
-        let key =
-            format!("{kind} {files:?} {:?} {fields:?}", asker.map(|asker| &asker.manifest.name));
+        let key = format!("{kind} {files:?} {:?} {fields:?}", asker.map(|asker| &asker.manifest.name));
         if let Some(loaded) = known.objects.get(&key) {
             return loaded.clone();
         }
@@ -187,6 +186,9 @@ fn read(
         );
     }
     let path = find(session, asker, "data file", name)?;
+    for beside in burgeon_data::companions(&path) {
+        session.seek(&beside, beside.exists());
+    }
     let cache = session.options.inputs.cache.as_deref();
     let key = cache.and_then(|_| Cache::key(&path, &wanted, known.frame.as_ref()));
     let kept = cache.zip(key.as_deref()).and_then(|(cache, key)| cache.get(key));
@@ -241,7 +243,8 @@ fn find_all(
     let mut found: Vec<String> =
         entries.filter_map(|entry| entry.ok()?.file_name().into_string().ok()).collect();
     found.retain(|file| {
-        let extension = Path::new(file).extension().unwrap_or_default().to_string_lossy().to_ascii_lowercase();
+        let extension =
+            Path::new(file).extension().unwrap_or_default().to_string_lossy().to_ascii_lowercase();
         loader.several.contains(&&*extension) && matches_pattern(pattern.as_bytes(), file.as_bytes())
     });
     found.sort();
@@ -346,6 +349,11 @@ mod tests {
         let is = |pattern: &str, name: &str| matches_pattern(pattern.as_bytes(), name.as_bytes());
         assert!(is("*", "a.hgt") && is("N4*.hgt", "N43E007.hgt") && is("N4?E*7.hgt", "N43E007.hgt"));
         assert!(is("**a*", "banana") && is("a", "a") && is("*", ""));
-        assert!(!is("N4*.hgt", "N53E007.hgt") && !is("N4*.hgt", "N43E007.tif") && !is("?", "") && !is("a*b", "abc"));
+        assert!(
+            !is("N4*.hgt", "N53E007.hgt")
+                && !is("N4*.hgt", "N43E007.tif")
+                && !is("?", "")
+                && !is("a*b", "abc")
+        );
     }
 }
