@@ -23,6 +23,7 @@ pub(crate) enum Content {
     /// Those of a file.
     File(File),
     /// Those that were unpacked, for which memory was taken.
+    #[cfg_attr(not(feature = "data"), allow(dead_code, reason = "nothing is unpacked without the feature"))]
     Memory(Arc<[u8]>),
 }
 

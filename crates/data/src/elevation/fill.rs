@@ -94,7 +94,7 @@ mod tests {
     /// The ground of mountains: many waves of different lengths, and the higher the longer.
     fn mountains(side: usize) -> Vec<f32> {
         let height = |x: f64, y: f64| {
-            (0..9).map(|octave| {
+            (0..9).map(move |octave| {
                 let (scale, turn) = (0.01 * 1.7_f64.powi(octave), f64::from(octave) * 1.1);
                 let (u, v) = (x * turn.cos() + y * turn.sin(), y * turn.cos() - x * turn.sin());
                 400.0

@@ -213,7 +213,7 @@ impl Session {
     }
 
     /// Adds a remark about the run's data that is no warning.
-    pub(crate) fn note(&self, text: String) {
+    pub(crate) fn add_note(&self, text: String) {
         self.notes.lock().recover().insert(text);
     }
 
