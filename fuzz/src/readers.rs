@@ -62,16 +62,25 @@ pub(crate) fn layer(bytes: &[u8], path: &Path) -> bool {
     true
 }
 
+/// A shapefile and its table, one behind the other: the length of the first stands before them.
+pub(crate) fn shapefile(bytes: &[u8], folder: &Path) -> bool {
+    let (length, rest) = bytes.split_at(bytes.len().min(4));
+    let length = length.try_into().map_or(0, u32::from_le_bytes) as usize;
+    let (shapes, table) = rest.split_at(length.min(rest.len()));
+    let _ = fs::write(folder.join("a.dbf"), table);
+    let _ = fs::write(folder.join("a.prj"), "PROJCS[\"a\",AUTHORITY[\"EPSG\",\"3067\"]]");
+    layer(shapes, &folder.join("a.shp"))
+}
+
 /// Layers of an extract of OpenStreetMap, in metres, and as a listing of all.
-pub(crate) fn osm(bytes: &[u8], folder: &Path) -> bool {
-    let path = folder.join("a.osm.pbf");
-    let _ = fs::write(&path, bytes);
-    let _ = Listing::read(&path, &budget()).map(|listing| (listing.text(), listing.to_json()));
+pub(crate) fn osm(bytes: &[u8], path: &Path) -> bool {
+    let _ = fs::write(path, bytes);
+    let _ = Listing::read(path, &budget()).map(|listing| (listing.text(), listing.to_json()));
     let mut good = true;
     for name in ["buildings", "roads", "trees"] {
         let wanted =
             SourceOptions { layer: Some(name.to_owned()), budget: budget(), ..SourceOptions::default() };
-        let source = Source::open_within(&path, "a", &wanted).and_then(|source| source.read("a", &wanted));
+        let source = Source::open_within(path, "a", &wanted).and_then(|source| source.read("a", &wanted));
         let layer = source.and_then(|table| Layer::new(table, &mut None));
         good &= layer.is_ok_and(|layer| {
             let _ = layer.warnings();
@@ -153,7 +162,7 @@ pub(crate) fn heights(bytes: &[u8], name: &str) -> bool {
     for wanted in [plain, told, colors] {
         let Ok(raster) = Raster::read(bytes, name, &wanted, &budget()) else { continue };
         assert!(raster.heights.iter().all(|height| height.is_finite()), "a height is no number");
-        let _ = (raster.warnings(), raster.filled_warning(), raster.range(), raster.bounds());
+        let _ = (raster.warnings(), raster.missing_warnings(), raster.range(), raster.bounds());
         let Ok(relief) = Relief::new(Arc::new(raster), &mut None) else { continue };
         let middle = (relief.low() + relief.high()) / 2.0;
         let _ = relief.ground(middle.truncate(), true);

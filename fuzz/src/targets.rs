@@ -5,7 +5,7 @@ use std::path::Path;
 use burgeon::spatial::Geometry;
 use readers::{
     address, budget, computed, condition, edits, heights, hgt, image, layer, manifest, model, osm, package,
-    pattern, presets, query, raw, script, wkb,
+    pattern, presets, query, raw, script, shapefile, wkb,
 };
 
 // Beside this file, which is a module of a test as well.
@@ -40,7 +40,7 @@ const JSON: &[&str] = &[
 ];
 
 /// All of them.
-pub(crate) const TARGETS: [Target; 26] = [
+pub(crate) const TARGETS: [Target; 33] = [
     Target {
         name: "geojson",
         read: |bytes, folder| layer(bytes, &folder.join("a.geojson")),
@@ -115,8 +115,109 @@ pub(crate) const TARGETS: [Target; 26] = [
         ],
     },
     Target {
+        name: "shapefile",
+        read: shapefile,
+        words: &["\u{1}\0\0\0", "\u{5}\0\0\0", "\u{f}\0\0\0", "\u{ff}\u{ff}\u{ff}\u{7f}", "*", "C", "N", "M"],
+    },
+    Target {
+        name: "packed",
+        read: |bytes, folder| {
+            let name = if bytes.starts_with(b"PK") { "a.zip" } else { "a.geojson.gz" };
+            layer(bytes, &folder.join(name))
+        },
+        words: &["PK\u{1}\u{2}", "PK\u{3}\u{4}", "PK\u{5}\u{6}", ".shp", ".dbf", "\u{1f}\u{8b}\u{8}"],
+    },
+    Target {
+        name: "csv",
+        read: |bytes, folder| layer(bytes, &folder.join("a.csv")),
+        words: &[
+            "\"",
+            "\"\"",
+            "\r\n",
+            ";",
+            ",",
+            "\t",
+            "lon",
+            "lat",
+            "WKT",
+            "sep=;\n",
+            "SRID=4326;POINT (1 2)",
+            "POLYGON ((",
+            "1e999",
+            "\u{feff}",
+            "0101000000",
+        ],
+    },
+    Target {
+        name: "kml",
+        read: |bytes, folder| layer(bytes, &folder.join("a.kml")),
+        words: &[
+            "<Placemark>",
+            "</Placemark>",
+            "<MultiGeometry>",
+            "<Polygon>",
+            "<coordinates>",
+            "</coordinates>",
+            "<gx:Track>",
+            "<gx:coord>",
+            "1e999,nan,0",
+            "<Folder>",
+            "<![CDATA[",
+            "]]>",
+            "<ExtendedData>",
+            "/>",
+        ],
+    },
+    Target {
+        name: "gpx",
+        read: |bytes, folder| layer(bytes, &folder.join("a.gpx")),
+        words: &[
+            "<trk>",
+            "</trk>",
+            "<trkseg>",
+            "<rte>",
+            "<wpt lat=\"1\" lon=\"2\">",
+            "<ele>",
+            "1e999",
+            "lat=\"nan\"",
+            "/>",
+        ],
+    },
+    Target {
+        name: "cityjson",
+        read: |bytes, folder| layer(bytes, &folder.join("a.city.json")),
+        words: &[
+            "\"CityJSONFeature\"",
+            "\"MultiSolid\"",
+            "\"MultiSurface\"",
+            "\"lod\":\"0\"",
+            "[[[[",
+            "]]]]",
+            "4294967295",
+            "-1",
+            "\"semantics\"",
+            "\"children\":[\"b1\"]",
+            "\"BuildingPart\"",
+            "1e308",
+            "null",
+        ],
+    },
+    Target {
+        name: "osm_xml",
+        read: |bytes, folder| osm(bytes, &folder.join("a.osm")),
+        words: &[
+            "<nd ref=\"1\"/>",
+            "<tag k=\"building\" v=\"yes\"/>",
+            "</way>",
+            "<relation id=\"1\">",
+            "ref=\"-1\"",
+            "1e999",
+            "/>",
+        ],
+    },
+    Target {
         name: "osm",
-        read: osm,
+        read: |bytes, folder| osm(bytes, &folder.join("a.osm.pbf")),
         words: &["\u{ff}\u{ff}\u{ff}\u{ff}\u{f}", "OSMData", "building", "\u{1a}"],
     },
     Target {

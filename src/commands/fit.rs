@@ -215,18 +215,24 @@ fn target(name: &str) -> Result<Target> {
     if !path.exists() {
         return Target::named(name);
     }
-    // What black and white are does not matter, since both maps are scaled, nor where a picture lies.
-    let extension = path.extension().unwrap_or_default().to_string_lossy().to_ascii_lowercase();
-    let placeless = ["png", "r32", "f32", "r64", "f64"].contains(&extension.as_str());
+    // Only the shape of the ground matters: both maps are scaled, so any place and any range of a picture will do.
+    let range = |height: f64| is_png(path).then_some(height);
     let wanted = HeightOptions {
-        low: Some(0.0),
-        high: Some(1.0),
-        bounds: placeless.then_some([0.0, 0.0, 1.0, 1.0]),
+        low: range(0.0),
+        high: range(1.0),
+        bounds: Some([0.0, 0.0, 1e6, 1e6]),
+        anywhere: true,
         ..HeightOptions::default()
     };
     let raster = Raster::open(path, name, &wanted, &Budget::default())?;
     let heights: Vec<f64> = raster.heights.iter().map(|height| f64::from(*height)).collect();
     Target::resample(raster.columns, raster.rows, &heights, ACROSS)
+}
+
+/// Whether the file at `path` begins as a PNG; false if it cannot be read, which reading it reports.
+fn is_png(path: &Path) -> bool {
+    let mut head = [0; 4];
+    File::open(path).and_then(|mut file| file.read_exact(&mut head)).is_ok() && &head == b"\x89PNG"
 }
 
 fn message(

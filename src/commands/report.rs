@@ -86,6 +86,9 @@ pub(crate) fn summary(run: &Run, writing: Duration, total: Duration, listed: Opt
     if let Some(memory) = peak_memory() {
         let _ = writeln!(text, "{memory} MB of memory at the peak");
     }
+    for note in &run.notes {
+        let _ = writeln!(text, "note: {note}");
+    }
     text += &warnings(&run.warnings);
     let report = run.report();
     if !report.is_clean() {
@@ -110,6 +113,7 @@ pub(crate) fn summary_json(run: &Run, writing: Duration, total: Duration) -> ser
         "instances": run.scene.instances.len(),
         "materials": run.scene.materials.len(),
         "features": run.report().counts_json(),
+        "notes": run.notes,
         "warnings": warnings_json(&run.warnings),
         "params": params_json(&run.params),
         "seconds": {

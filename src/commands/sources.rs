@@ -14,7 +14,7 @@ use super::shared::{megabytes, seconds};
 /// Lists the layers of data files, with their attributes, coordinate systems and extents
 #[derive(Args)]
 pub(crate) struct SourcesCommand {
-    /// Data files: GeoJSON, GeoPackage, FlatGeobuf, GML, .osm.pbf
+    /// Data files: GeoJSON, GeoPackage, FlatGeobuf, Shapefile, CSV, GML, CityGML, CityJSON, KML, GPX, .osm, .osm.pbf
     #[arg(required = true, value_name = "FILE")]
     files: Vec<PathBuf>,
 

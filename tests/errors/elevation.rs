@@ -261,16 +261,56 @@ fn sizes_and_heights_that_cannot_be_are_told() {
       | elevation("sea/N43E006.hgt")
       help: get another part, or look at it in a viewer of maps
     "#);
-    assert_snapshot!(told(r#"elevation("endless.tif")"#), @r#"
-    error: in/s.lua:2: endless.tif has an infinite height in row 2, column 1
-      | elevation("endless.tif")
-      help: if it marks missing data, say so in the file: gdal_translate -a_nodata VALUE
-    "#);
-    assert_snapshot!(told(r#"elevation("mark.asc")"#), @r#"
-    error: in/s.lua:2: mark.asc has a height of 999999 m in row 2, column 2
-      | elevation("mark.asc")
-      help: if it marks missing data, say so in the file: gdal_translate -a_nodata VALUE
-    "#);
+}
+
+#[test]
+fn marks_of_missing_heights_that_a_file_does_not_declare_are_reported_and_left_out() {
+    let script = r#"--!strict
+local one = elevation("endless.tif")
+local two = elevation("mark.asc", { bounds = { 0, 0, 2, 2 } })
+print(one:high().z, two:high().z)
+elevation("mark.asc", { fill = true })
+"#;
+    let folder = folder().with("in/s.lua", script);
+    let said = folder.burgeon(&["run", "in/s.lua", "--json"]).done();
+    assert_eq!(said.stderr.trim(), "4\t3");
+    let json = said.json();
+    let told = |warning: &serde_json::Value| warning["message"].as_str().unwrap().to_owned();
+    let warnings: Vec<String> = json["warnings"].as_array().unwrap().iter().map(told).collect();
+    assert_snapshot!(warnings.join("\n"), @"");
+}
+
+#[test]
+fn several_files_are_one_ground() {
+    let script = r#"--!strict
+local ground = elevation({ "tiles/east.asc", "tiles/west.asc" })
+local folder = elevation("tiles")
+local pattern = elevation("tiles/*st.asc")
+for _, x in { 0.5, 1.9, 2, 2.1, 3.5 } do
+  print(ground:height({ x, 1 }), folder:height({ x, 1 }), pattern:height({ x, 1 }))
+end
+"#;
+    let tile = |x: f64, heights: &str| {
+        format!("ncols 2\nnrows 2\nxllcorner {x}\nyllcorner 0\ncellsize 1\n{heights}\n")
+    };
+    let folder = Folder::new()
+        .with("s.lua", script)
+        .with("tiles/west.asc", tile(0.0, "1 2\n1 2"))
+        .with("tiles/east.asc", tile(2.0, "3 4\n3 4"));
+    let said = folder.burgeon(&["run", "s.lua", "--json"]).done();
+    assert_snapshot!(said.stderr, @"");
+    let refused = |call: &str| {
+        let folder = Folder::new()
+            .with("s.lua", format!("{call}\n"))
+            .with("a.asc", tile(0.0, "1 2\n1 2"))
+            .with("b.asc", tile(2.3, "1 2\n1 2"))
+            .with("empty/readme.txt", "");
+        folder.refuses(&["run", "s.lua"])
+    };
+    assert_snapshot!(refused(r#"elevation({ "a.asc", "b.asc" })"#), @"");
+    assert_snapshot!(refused(r#"elevation("empty")"#), @"");
+    assert_snapshot!(refused(r#"elevation({ "a.asc", 3 })"#), @"");
+    assert_snapshot!(refused(r#"elevation("c*.asc")"#), @"");
 }
 
 #[test]

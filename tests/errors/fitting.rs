@@ -92,6 +92,46 @@ fn a_table_is_the_same_for_any_number_of_threads_and_takes_the_place_of_an_older
 }
 
 #[test]
+fn a_table_is_fitted_to_heights_in_each_format_and_wherever_they_lie() {
+    let folder = Folder::new();
+    let bytes = |columns: usize, rows: usize, write: &dyn Fn(f64) -> Vec<u8>| -> Vec<u8> {
+        let height = |at: usize| {
+            let [x, y] = [at % columns, at / columns].map(|at| at as f64 / 300.0);
+            1000.0 + 200.0 * (x.sin() + (y * 1.3).cos())
+        };
+        (0..columns * rows).flat_map(|at| write(height(at))).collect()
+    };
+    let write = |name: &str, bytes: Vec<u8>| std::fs::write(folder.path().join(name), bytes).unwrap();
+    let hgt = bytes(1201, 1201, &|height| (height as i16).to_be_bytes().to_vec());
+    write("N43E007.hgt", hgt.clone());
+    write("copy.hgt", hgt);
+    write("ground.r32", bytes(120, 120, &|height| (height as f32).to_le_bytes().to_vec()));
+    write("ground.r64", bytes(120, 120, &|height| height.to_le_bytes().to_vec()));
+    let grid = bytes(90, 60, &|height| format!("{height:.2} ").into_bytes());
+    let head = b"ncols 90\nnrows 60\nxllcorner 380000\nyllcorner 6670000\ncellsize 2\nnodata_value -9999\n";
+    write("ground.asc", [&head[..], &grid].concat());
+    let cell = "ncols 90\nnrows 60\nxllcorner 7\nyllcorner 43\ncellsize 0.0002\n";
+    write("degrees.asc", [cell.as_bytes(), &grid].concat());
+    let corpus = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("fuzz/corpus");
+    let copied = [
+        ("zip/good", "tile.zip"),
+        ("geotiff/good_floats_f32", "floats.tif"),
+        ("geotiff/good_point_u16", "whole.tif"),
+        ("geotiff/good_tiles_i16", "tiles.tif"),
+        ("png/good", "gray.png"),
+    ];
+    for (from, to) in copied {
+        std::fs::copy(corpus.join(from), folder.path().join(to)).unwrap();
+    }
+    let names = ["N43E007.hgt", "copy.hgt", "ground.r32", "ground.r64", "ground.asc", "degrees.asc"];
+    for name in names.into_iter().chain(copied.map(|(_, name)| name)) {
+        let said =
+            folder.burgeon(&["fit", name, "-o", "rules.lua", "--rounds", "1", "--symbols", "4"]).done();
+        assert!(said.stderr.starts_with("rules.lua: root mean square error 0."), "{name}: {}", said.stderr);
+    }
+}
+
+#[test]
 fn when_the_time_is_over_the_best_is_written() {
     let folder = Folder::new();
     folder.burgeon(&["fit", "mountains", "-o", "rules.lua", "--seconds", "0.001"]).done();

@@ -129,7 +129,7 @@ fn relief(luck: &mut RandomSource) -> Relief {
     };
     let mut frame =
         (luck.odds(0.8)).then(|| ReferenceFrame::around(&Crs::epsg(4326).unwrap(), middle, "a").unwrap());
-    let raster = Raster { name: "a".into(), columns, rows, heights, grid, crs, filled: 0, surplus: 0 };
+    let raster = Raster::new("a", [columns, rows], heights, grid, crs);
     Relief::new(Arc::new(raster), &mut frame).unwrap()
 }
 

@@ -3,6 +3,8 @@
 use std::fs::File;
 use std::path::Path;
 
+use super::content::DataFile;
+use super::source::Source;
 use super::{FeatureTable, SourceOptions};
 use burgeon_base::error::{Error, Result};
 
@@ -50,8 +52,9 @@ macro_rules! absent {
 }
 
 absent!(FlatGeobuf, "A row of features, of which there is none without the feature `data`.", (_wanted: &SourceOptions));
-absent!(GmlFile, "A file of GML, of which there is none without the feature `data`.", (_layer: &str, _wanted: &SourceOptions));
-absent!(OsmFile, "An extract, of which there is none without the feature `data`.", (_wanted: &SourceOptions));
+
+/// An extract, of which there is none without the feature `data`.
+pub enum OsmFile {}
 
 impl FlatGeobuf {
     pub(crate) fn is_one(head: &[u8]) -> bool {
@@ -59,16 +62,49 @@ impl FlatGeobuf {
     }
 }
 
-impl GmlFile {
-    pub(crate) fn is_one(head: &[u8]) -> bool {
-        head.trim_ascii_start().starts_with(b"<")
-    }
-}
-
 impl OsmFile {
     pub(crate) fn is_one(head: &[u8]) -> bool {
         head.get(4..15).is_some_and(|found| found == b"\x0a\x09OSMHeader")
     }
+
+    pub(crate) fn open(file: DataFile, _wanted: &SourceOptions) -> Result<Self> {
+        left_out().map_err(|error: Error| error.about(&file.name))
+    }
+
+    pub(crate) fn layers(&self) -> Vec<String> {
+        match *self {}
+    }
+
+    pub(crate) fn read(&self, _wanted: &SourceOptions) -> Result<FeatureTable> {
+        match *self {}
+    }
+}
+
+/// Refuses what begins as XML, a shapefile or CityJSON does, and what is called delimited text.
+pub(crate) fn layered(
+    file: DataFile,
+    head: &[u8],
+    _wanted: &SourceOptions,
+) -> Result<std::result::Result<Source, DataFile>> {
+    let text = head.trim_ascii_start();
+    let is_city = text.starts_with(b"{") && String::from_utf8_lossy(text).contains("\"CityJSON");
+    let is_known = text.starts_with(b"<") || head.starts_with(&[0, 0, 0x27, 0x0a]) || is_city;
+    if is_known || matches!(&*file.extension(), "csv" | "tsv") {
+        return left_out().map_err(|error: Error| error.about(&file.name));
+    }
+    Ok(Err(file))
+}
+
+/// Refuses what is packed.
+pub(crate) fn unpacked(
+    file: DataFile,
+    head: &[u8],
+    _wanted: &SourceOptions,
+) -> Result<std::result::Result<Source, DataFile>> {
+    if head.starts_with(b"\x1f\x8b") || head.starts_with(b"PK\x03\x04") {
+        return left_out().map_err(|error: Error| error.about(&file.name));
+    }
+    Ok(Err(file))
 }
 
 pub(crate) mod condition {

@@ -1,11 +1,11 @@
 //! Layers and rasters as they were read last, for runs that follow one another.
 
 use std::fmt;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex};
 
 use super::elevation::{HeightOptions, Raster};
-use super::{Layer, ReferenceFrame, SourceOptions};
+use super::{Layer, ReferenceFrame, SourceOptions, companions};
 use burgeon_base::budget::Budget;
 use burgeon_base::error::Result;
 use burgeon_base::locks::LockRecovery;
@@ -39,9 +39,13 @@ impl Cache {
         if std::fs::metadata(&log).is_ok_and(|meta| meta.len() > 0) {
             return None;
         }
-        let content = hash(path).ok()?;
+        let mut content = hash(path).ok()?.to_hex().to_string();
+        for beside in companions(path) {
+            // One that is not there yet counts as nothing.
+            content += &hash(&beside).map(|hash| hash.to_hex().to_string()).unwrap_or_default();
+        }
         let frame = frame.map(|frame| (&frame.name, frame.origin));
-        Some(format!("{} {} {wanted:?} {frame:?}", content.to_hex(), path.display()))
+        Some(format!("{content} {} {wanted:?} {frame:?}", path.display()))
     }
 
     /// The layer with this key, and the frame that it is in.
@@ -59,17 +63,19 @@ impl Cache {
         }
         kept.push((key, Arc::clone(layer), frame.clone()));
     }
-    /// The raster in the file at `path`, called `name`; read, unless it is kept. The oldest goes when there are many.
+
+    /// The raster in files, each of which has a name and a path; read, unless it is kept. The oldest goes when there are many.
     pub fn raster(
         &self,
-        path: &Path,
-        name: &str,
+        files: &[(String, PathBuf)],
         wanted: &HeightOptions,
         budget: &Budget,
     ) -> Result<Arc<Raster>> {
+        let read = || Raster::open_all(files, wanted, budget).map(Arc::new);
+        let contents = files.iter().map(|(name, path)| Ok((hash(path)?.to_hex(), name)));
         // What is no file is left to the reader, which says so.
-        let Ok(content) = hash(path) else { return Raster::open(path, name, wanted, budget).map(Arc::new) };
-        let key = format!("{} {name} {wanted:?}", content.to_hex());
+        let Ok(contents) = contents.collect::<std::io::Result<Vec<_>>>() else { return read() };
+        let key = format!("{contents:?} {wanted:?}");
         let mut kept = self.rasters.lock().recover();
         if let Some((_, raster)) = kept.iter().find(|(known, _)| *known == key) {
             return Ok(Arc::clone(raster));
@@ -77,7 +83,7 @@ impl Cache {
         if kept.len() >= MOST_RASTERS {
             kept.remove(0);
         }
-        let raster = Arc::new(Raster::open(path, name, wanted, budget)?);
+        let raster = read()?;
         kept.push((key, Arc::clone(&raster)));
         Ok(raster)
     }
@@ -104,14 +110,14 @@ mod tests {
             std::fs::write(&path, [height.to_le_bytes(); 4].concat()).unwrap();
             let bounds = Some([0.0, 0.0, east, 1.0]);
             let wanted = HeightOptions { bounds, ..HeightOptions::default() };
-            cache.raster(&path, "a.r32", &wanted, &Budget::default()).unwrap()
+            cache.raster(&[("a.r32".to_owned(), path.clone())], &wanted, &Budget::default()).unwrap()
         };
         let first = read(1.0, 1.0);
         assert!(Arc::ptr_eq(&first, &read(1.0, 1.0)));
         assert_eq!(read(1.0, 2.0).bounds()[2], 2.0);
         assert_eq!(read(3.0, 1.0).heights, [3.0; 4]);
-        let error =
-            cache.raster(folder.path(), "a", &HeightOptions::default(), &Budget::default()).unwrap_err();
+        let files = [("a".to_owned(), folder.path().to_path_buf())];
+        let error = cache.raster(&files, &HeightOptions::default(), &Budget::default()).unwrap_err();
         assert_eq!(error.message(), "a is a folder");
     }
 }

@@ -33,6 +33,8 @@ pub struct Layer {
     pub refused: Vec<(String, Error)>,
     /// What people should know of how it was read, besides what was left out.
     pub notes: Vec<String>,
+    /// How many features had no id, and got one that their content tells.
+    pub derived: usize,
 }
 
 impl Layer {
@@ -59,6 +61,19 @@ impl Layer {
         }
         warnings.extend(self.notes.iter().map(|note| Warning::new(WarningKind::Data, note.clone())));
         warnings
+    }
+
+    /// The remark that features had no ids, if any had none.
+    pub fn derived_note(&self) -> Option<String> {
+        let features =
+            if self.derived == 1 { "feature has no id and gets" } else { "features have no ids and get" };
+        let count = burgeon_base::text::grouped(self.derived);
+        (self.derived > 0).then(|| {
+            format!(
+                "{}: {count} {features} one from what they are: it changes with the feature, {{ id = \"name\" }} names an attribute",
+                self.shown
+            )
+        })
     }
 
     /// About how much memory (bytes) it takes.
@@ -107,6 +122,7 @@ impl Layer {
             collapsed: table.collapsed,
             refused: table.refused,
             notes: table.notes,
+            derived: table.derived,
         })
     }
 }

@@ -1,5 +1,5 @@
-//! Data files: layers of features with geometry and attributes, from GeoJSON, GeoPackage, FlatGeobuf, GML and
-//! OpenStreetMap, and measured [`elevation`].
+//! Data files: layers of features with geometry and attributes, from GeoJSON, GeoPackage, FlatGeobuf, shapefiles, CSV, GML,
+//! CityGML, CityJSON, KML, GPX and OpenStreetMap, and measured [`elevation`].
 //!
 //! Comes in: a file. Goes out: a [`Listing`] of what it holds, or a [`Layer`] in metres around an origin, ready to
 //! be modelled. Coordinates are projected here, once: everything behind works in metres. It never panics on
@@ -7,7 +7,12 @@
 
 mod attribute_pool;
 mod cache;
+mod codepages;
+mod companions;
+mod content;
+mod derived_id;
 pub mod elevation;
+mod foreign;
 #[cfg_attr(not(feature = "data"), path = "absent.rs")]
 mod formats;
 mod frame;
@@ -26,10 +31,12 @@ use std::path::Path;
 
 pub use burgeon_spatial::{Geometry, GeometryKind};
 pub use cache::Cache;
+pub use companions::companions;
+pub use content::LayeredFile;
 #[cfg(feature = "data")]
 pub use formats::TableShape;
 pub use formats::output::{check_geopackage, write_geopackage};
-pub use formats::{FlatGeobuf, GeoPackage, GmlFile, OsmFile};
+pub use formats::{FlatGeobuf, GeoPackage, OsmFile};
 pub use frame::{Crs, Passage, ReferenceFrame};
 pub use id::FeatureId;
 pub use layer::Layer;
@@ -40,7 +47,7 @@ pub use table::{Attribute, Feature, FeatureTable};
 pub use tags::{TagFilter, TagTest};
 
 /// The extensions of data files.
-pub const EXTENSIONS: [&str; 12] = [
+pub const EXTENSIONS: [&str; 23] = [
     "geojson",
     "json",
     "gpkg",
@@ -53,6 +60,17 @@ pub const EXTENSIONS: [&str; 12] = [
     "geojsonseq",
     "ndjson",
     "jsonl",
+    "shp",
+    "csv",
+    "tsv",
+    "kml",
+    "kmz",
+    "gpx",
+    "osm",
+    "zip",
+    "gz",
+    "citygml",
+    "cityjsonl",
 ];
 
 /// The extensions of files that hold one GeoJSON document after another.

@@ -57,6 +57,8 @@ pub struct AttributeListing {
     pub types: BTreeSet<&'static str>,
     /// How many features have it.
     pub count: usize,
+    /// How many features without a geometry have it.
+    pub unplaced: usize,
     /// The least and the greatest number.
     pub range: Option<[f64; 2]>,
     /// The first texts that differ.
@@ -83,7 +85,7 @@ impl Listing {
                 }
             }
             Source::FlatGeobuf(file) => layers.push(LayerListing::of(file.read(&wanted)?)?),
-            Source::Gml(file) => {
+            Source::Layered(file) => {
                 for layer in file.layers() {
                     layers.push(LayerListing::of(file.read(&layer, &wanted)?)?);
                     budget.settle(before, 0);
@@ -163,6 +165,9 @@ impl LayerListing {
             .iter()
             .map(|name| AttributeListing { name: name.clone(), ..AttributeListing::default() })
             .collect();
+        for (attribute, count) in attributes.iter_mut().zip(&table.unplaced) {
+            attribute.unplaced = *count;
+        }
         let mut extent: Option<[f64; 4]> = None;
         for feature in &table.features {
             *kinds.entry(feature.geometry.kind()).or_insert(0) += 1;
@@ -275,7 +280,11 @@ impl AttributeListing {
 
     fn text(&self) -> String {
         if self.count == 0 {
-            return "never set".to_owned();
+            return match self.unplaced {
+                0 => "never set".to_owned(),
+                1 => "set in 1 feature without geometry".to_owned(),
+                count => format!("set in {count} features without geometry"),
+            };
         }
         let types: Vec<&str> = self.types.iter().copied().collect();
         let mut text = format!("{} of {}", types.join(" or "), self.count);

@@ -1,16 +1,17 @@
 //! Data files of any format, and what is wanted of them.
 
 use std::fmt;
-use std::fs::File;
-use std::io::{Read, Seek};
+use std::io::Read;
 use std::path::Path;
 use std::sync::Arc;
 
+use super::content::{Content, DataFile, LayeredFile};
 use super::formats::condition;
+use super::formats::{FlatGeobuf, GeoPackage, OsmFile, layered, unpacked};
 use super::tags::TagFilter;
-use super::{FeatureTable, FlatGeobuf, GeoPackage, GeometryKind, GmlFile, OsmFile, geojson};
+use super::{FeatureTable, GeometryKind, foreign, geojson};
 use burgeon_base::budget::Budget;
-use burgeon_base::error::{Error, Limit, Result};
+use burgeon_base::error::{Error, Result};
 use burgeon_base::text::{listed, shown};
 
 /// What is wanted of a data file.
@@ -63,20 +64,29 @@ pub enum Source {
     GeoPackage(GeoPackage),
     /// A FlatGeobuf, one layer.
     FlatGeobuf(Box<FlatGeobuf>),
-    /// A file of GML, with a layer for each type of its features.
-    Gml(Box<GmlFile>),
+    /// A file of another format, whose layers are read one by one.
+    Layered(Box<dyn LayeredFile>),
     /// An extract of OpenStreetMap, with layers that tags choose.
     Osm(OsmFile),
 }
 
 /// What to name in place of what is no data file.
-const NAME_ONE: &str = "name a .geojson, .gpkg, .fgb, .gml or .osm.pbf file";
+const NAME_ONE: &str =
+    "name a .geojson, .gpkg, .fgb, .shp, .csv, .gml, .kml, .gpx, .city.json or .osm.pbf file";
+
+/// The formats that are read.
+pub(crate) const FORMATS: &str = "data files are GeoJSON, GeoPackage, FlatGeobuf, Shapefile, CSV, GML, CityGML, CityJSON, KML, GPX, \
+                                  .osm and .osm.pbf";
+
+/// How many of the first bytes tell the format of a file.
+const HEAD: u64 = 4096;
 
 impl Source {
     /// Opens the file at `path`, which messages call `name`. Its content tells what it is.
     ///
     /// Fails if it cannot be read, or is of no format that is known.
-    pub fn open(path: &Path, name: &str) -> Result<Self> {
+    #[cfg(test)]
+    pub(crate) fn open(path: &Path, name: &str) -> Result<Self> {
         Self::open_within(path, name, &SourceOptions::default())
     }
 
@@ -87,61 +97,77 @@ impl Source {
                 Error::not_found("data file", name, [], format!("there is no data file {name}"))
                     .help("check the path")
             }
-            std::io::ErrorKind::IsADirectory => {
+            std::io::ErrorKind::IsADirectory => foreign::folder(path, name).unwrap_or_else(|| {
                 Error::file(path, format!("{name} is a folder")).help(format!("{NAME_ONE} in it"))
-            }
+            }),
             _ => Error::file(path, format!("cannot read {name}: {error}")).help(NAME_ONE),
         };
-        let (mut file, meta) = burgeon_base::files::open(path).map_err(cannot)?;
-        let mut head = Vec::new();
-        (&mut file).take(1024).read_to_end(&mut head).map_err(cannot)?;
-        file.rewind().map_err(cannot)?;
+        let (file, _) = burgeon_base::files::open(path).map_err(cannot)?;
+        let file = DataFile::new(file, path, name);
+        let head = file.content.head(HEAD).map_err(cannot)?;
         wanted.budget.check()?;
+        match unpacked(file, &head, wanted)? {
+            Ok(source) => Ok(source),
+            Err(file) => {
+                let head = file.content.head(HEAD).map_err(cannot)?;
+                Self::of_content(file, &head, wanted, cannot)
+            }
+        }
+    }
+
+    /// Opens a file that is not packed, and begins with `head`.
+    fn of_content(
+        file: DataFile,
+        head: &[u8],
+        wanted: &SourceOptions,
+        cannot: impl Fn(std::io::Error) -> Error,
+    ) -> Result<Self> {
         if head.is_empty() {
-            return Err(Error::data(format!("{name} is empty")).help("get the file again"));
+            return Err(Error::data(format!("{} is empty", file.name)).help("get the file again"));
         }
         if head.starts_with(b"SQLite format 3") {
-            return Ok(Self::GeoPackage(GeoPackage::open(path, name, wanted)?));
+            let (_, path, name) = file.on_disk("GeoPackage")?;
+            return Ok(Self::GeoPackage(GeoPackage::open(&path, &name, wanted)?));
         }
-        if FlatGeobuf::is_one(&head) {
-            return Ok(Self::FlatGeobuf(Box::new(FlatGeobuf::open(file, path, name, wanted)?)));
+        if FlatGeobuf::is_one(head) {
+            let (file, path, name) = file.on_disk("FlatGeobuf")?;
+            return Ok(Self::FlatGeobuf(Box::new(FlatGeobuf::open(file, &path, &name, wanted)?)));
         }
-        if OsmFile::is_one(&head) {
-            return Ok(Self::Osm(OsmFile::open(file, path, name, wanted)?));
+        if OsmFile::is_one(head) {
+            return Ok(Self::Osm(OsmFile::open(file, wanted)?));
         }
-        if GmlFile::is_one(&head) {
-            return Ok(Self::Gml(Box::new(GmlFile::open(file, path, name, wanted)?)));
+        foreign::refuse_beginning(head, &file.name)?;
+        let file = match layered(file, head, wanted)? {
+            Ok(source) => return Ok(source),
+            Err(file) => file,
+        };
+        if !matches!(head.trim_ascii_start().first(), Some(b'{' | b'[' | 0x1e | 0xef)) {
+            foreign::refuse_extension(&file.path, &file.name)?;
         }
-        Self::geojson(file, meta.len(), path, (name, &wanted.without_condition()), cannot)
+        Self::geojson(&file, &wanted.without_condition(), cannot)
     }
 
     /// Reads GeoJSON, all of it.
     fn geojson(
-        mut file: File,
-        size: u64,
-        path: &Path,
-        (name, wanted): (&str, &SourceOptions),
+        file: &DataFile,
+        wanted: &SourceOptions,
         cannot: impl Fn(std::io::Error) -> Error,
     ) -> Result<Self> {
-        if size > geojson::LARGEST {
-            return Err(Error::limit(
-                Limit::Size,
-                format!("{name} is larger than {} MB", geojson::LARGEST / 1_000_000),
-            )
-            .help("convert it to a FlatGeobuf or a GeoPackage, of which a part can be read"));
-        }
+        let DataFile { content, path, name } = file;
+        let size = content.size().map_err(&cannot)?;
+        file.check_size(size, geojson::LARGEST)?;
         if size > 4 * geojson::WINDOW as u64 {
-            let read = geojson::stream((&mut file).take(size), path, name, wanted, geojson::WINDOW);
+            let text = content.reader().map_err(&cannot)?.take(size);
+            let read = geojson::stream(text, path, name, wanted, geojson::WINDOW);
             if let Some(table) = read.map_err(|error| error.about(name))? {
                 return Ok(Self::GeoJson(Box::new(table)));
             }
-            file.rewind().map_err(&cannot)?;
         }
-        let room = usize::try_from(size).unwrap_or(usize::MAX);
-        let _held = wanted.budget.hold(room)?;
-        let mut bytes = Vec::with_capacity(room);
-        file.take(size).read_to_end(&mut bytes).map_err(cannot)?;
+        let bytes = file.bytes(geojson::LARGEST, &wanted.budget)?;
         let read = geojson::read(&bytes, path, name, wanted);
+        if let Content::File(_) = content {
+            wanted.budget.give(bytes.len());
+        }
         Ok(Self::GeoJson(Box::new(read.map_err(|error| error.about(name))?)))
     }
 
@@ -151,7 +177,7 @@ impl Source {
             Self::GeoJson(_) => "GeoJSON",
             Self::GeoPackage(_) => "GeoPackage",
             Self::FlatGeobuf(_) => "FlatGeobuf",
-            Self::Gml(_) => "GML",
+            Self::Layered(file) => file.format(),
             Self::Osm(_) => "OpenStreetMap",
         }
     }
@@ -160,7 +186,7 @@ impl Source {
     fn asks_conditions(&self) -> bool {
         match self {
             Self::GeoPackage(_) => true,
-            Self::GeoJson(_) | Self::FlatGeobuf(_) | Self::Gml(_) | Self::Osm(_) => false,
+            Self::GeoJson(_) | Self::FlatGeobuf(_) | Self::Layered(_) | Self::Osm(_) => false,
         }
     }
 
@@ -170,7 +196,7 @@ impl Source {
             Self::GeoJson(table) => vec![table.layer.clone()],
             Self::GeoPackage(package) => package.layers(),
             Self::FlatGeobuf(file) => file.layers(),
-            Self::Gml(file) => file.layers(),
+            Self::Layered(file) => file.layers(),
             Self::Osm(file) => file.layers(),
         }
     }
@@ -179,7 +205,7 @@ impl Source {
     pub fn read(self, name: &str, wanted: &SourceOptions) -> Result<FeatureTable> {
         if wanted.tags.is_some() && !matches!(self, Self::Osm(_)) {
             return Err(Error::argument(format!("{name} is {}, which takes no tags", self.format()))
-                .help("tags are for extracts of OpenStreetMap, .osm.pbf; leave them out"));
+                .help("tags are for extracts of OpenStreetMap, .osm.pbf and .osm; leave them out"));
         }
         let (asked, asks_itself) = (wanted, self.asks_conditions());
         let wanted = if asks_itself { asked.clone() } else { asked.without_condition() };
@@ -194,7 +220,7 @@ impl Source {
                 choose(name, &file.layers(), wanted.layer.as_deref())?;
                 file.read(wanted)?
             }
-            Self::Gml(file) => {
+            Self::Layered(file) => {
                 let layer = choose(name, &file.layers(), wanted.layer.as_deref())?;
                 file.read(&layer, wanted)?
             }

@@ -6,6 +6,7 @@ use rayon::prelude::*;
 use rustc_hash::{FxHashMap, FxHashSet};
 
 use super::attribute_pool::AttributePool;
+use super::derived_id::derived_id;
 use super::id::FeatureId;
 use super::taken_ids::TakenIds;
 use super::{Crs, SourceOptions};
@@ -62,6 +63,10 @@ pub struct FeatureTable {
     pub refused: Vec<(String, Error)>,
     /// What people should know of how it was read, besides what was left out.
     pub notes: Vec<String>,
+    /// How many features had no id, and got one that their content tells.
+    pub derived: usize,
+    /// For each attribute, how many features without a geometry had it.
+    pub(super) unplaced: Vec<usize>,
     selection: Selection,
     ids: TakenIds,
     /// The numbers of the attributes' names.
@@ -132,6 +137,8 @@ impl FeatureTable {
             collapsed: 0,
             refused: Vec::new(),
             notes: Vec::new(),
+            derived: 0,
+            unplaced: Vec::new(),
             selection: Selection { kind, within, limit, seen: [false; 3] },
             ids: TakenIds::new(),
             numbers: FxHashMap::default(),
@@ -193,14 +200,6 @@ impl FeatureTable {
         self.selection.seen.contains(&true)
     }
 
-    /// Whether features in this box (west, south, east, north) may be wanted.
-    #[cfg(feature = "data")]
-    pub(super) fn may_keep(&self, [west, south, east, north]: [f64; 4]) -> bool {
-        self.selection.within.is_none_or(|within| {
-            west <= within[2] && south <= within[3] && east >= within[0] && north >= within[1]
-        })
-    }
-
     /// Adds a feature for each of `parts` that is wanted; with an id that is taken, it becomes `id.2`, `id.3` and so on.
     ///
     /// Fails if reading is to end, or if there is no memory left for more.
@@ -212,7 +211,7 @@ impl FeatureTable {
     ) -> Result<()> {
         self.budget.tick()?;
         if parts.is_empty() {
-            self.empty += 1;
+            self.add_empty(&attributes, None);
             return Ok(());
         }
         let several = parts.len() > 1;
@@ -248,6 +247,65 @@ impl FeatureTable {
         Ok(())
     }
 
+    /// Adds features that have no id, as [`push`](Self::push) does: a hash of what they are and know becomes their id. So it stays the
+    /// same when others come, go or change places. Those that are the same in everything are numbered.
+    pub(super) fn push_unnamed(
+        &mut self,
+        parts: Vec<Geometry>,
+        attributes: Vec<(usize, Attribute)>,
+    ) -> Result<()> {
+        let id = derived_id(&parts, &attributes, &self.names);
+        let before = self.features.len();
+        self.push(&id, parts, attributes)?;
+        self.derived += usize::from(self.features.len() > before);
+        Ok(())
+    }
+
+    /// The same, with the value of the attribute `column` as the id of features that have it.
+    #[cfg(feature = "data")]
+    pub(super) fn push_identified(
+        &mut self,
+        column: Option<usize>,
+        parts: Vec<Geometry>,
+        attributes: Vec<(usize, Attribute)>,
+    ) -> Result<()> {
+        let own = attributes.iter().find(|(number, _)| Some(*number) == column);
+        match own.map(|(_, value)| value.as_id()).filter(|id| !id.is_empty()) {
+            Some(id) => self.push(&id, parts, attributes),
+            None => self.push_unnamed(parts, attributes),
+        }
+    }
+
+    /// Counts a feature without a geometry. If it has points of which none comes, they are within `bounds`.
+    ///
+    /// Where features of a box are wanted, one that lies elsewhere or nowhere is none of them.
+    pub(super) fn add_empty(&mut self, attributes: &[(usize, Attribute)], bounds: Option<[f64; 4]>) {
+        if self.selection.within.is_some() && !bounds.is_some_and(|bounds| self.concerns(Some(bounds))) {
+            return;
+        }
+        self.empty += 1;
+        self.collapsed += usize::from(bounds.is_some());
+        for (number, _) in attributes {
+            if self.unplaced.len() <= *number {
+                self.unplaced.resize(*number + 1, 0);
+            }
+            self.unplaced[*number] += 1;
+        }
+    }
+
+    /// Whether something with these bounds may touch the box that is wanted, if one is. What lies at a place that is not known may.
+    pub(super) fn concerns(&self, bounds: Option<[f64; 4]>) -> bool {
+        let (Some(within), Some([west, south, east, north])) = (self.selection.within, bounds) else {
+            return true;
+        };
+        west <= within[2] && south <= within[3] && east >= within[0] && north >= within[1]
+    }
+
+    /// Leaves out a feature as [`refuse`](Self::refuse) does, unless its bounds say that it is none of those that are wanted.
+    pub(super) fn refuse_at(&mut self, id: String, error: Error, bounds: Option<[f64; 4]>) -> Result<()> {
+        if self.concerns(bounds) { self.refuse(id, error) } else { self.budget.tick() }
+    }
+
     /// Keeps the features with these numbers, which come in order, and at most `limit` of them.
     pub(super) fn keep(&mut self, kept: &[usize], limit: Option<usize>) {
         let mut kept = kept.iter().take(limit.unwrap_or(usize::MAX)).copied().peekable();
@@ -277,6 +335,7 @@ impl FeatureTable {
             self.crs = Crs::epsg(code);
         }
         self.check_kind()?;
+        self.derived = self.derived.min(self.features.len());
         // It would keep what a condition has left out.
         self.pool = AttributePool::new();
         if let (true, Some((_, error))) = (self.features.is_empty() && !self.has_seen(), self.refused.first())
@@ -343,12 +402,15 @@ impl FeatureTable {
         let Some(name) = name else { return Ok(()) };
         let column = self.column(name)?;
         self.ids = TakenIds::new();
+        let mut without = 0;
         for mut feature in std::mem::take(&mut self.features) {
             let known = feature.attributes.iter().find(|(index, _)| *index == column);
+            without += usize::from(known.is_none());
             let id = known.map_or_else(|| feature.id.to_string(), |(_, value)| value.as_id());
             feature.id = self.ids.fresh(&id, &self.features);
             self.features.push(feature);
         }
+        self.derived = self.derived.min(without);
         Ok(())
     }
 

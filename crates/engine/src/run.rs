@@ -28,6 +28,8 @@ pub struct Run {
     pub frame: Option<ReferenceFrame>,
     /// What people should know of it, in the order of files and lines.
     pub warnings: Vec<Warning>,
+    /// Remarks about its data that are no warnings, such as which features have no ids of their own.
+    pub notes: Vec<String>,
     /// Where the time went.
     pub times: RunTimes,
 }
@@ -127,7 +129,7 @@ pub fn run_session(session: &Arc<Session>) -> Result<Run> {
     if session.options.strict && !warnings.is_empty() {
         return Err(Error::several(warnings.into_iter().map(Warning::into_error).collect()));
     }
-    Ok(Run { scene, systems, params, frame: session.data.frame(), warnings, times })
+    Ok(Run { scene, systems, params, frame: session.data.frame(), warnings, notes: session.notes(), times })
 }
 
 /// A machine for a session's script, which is read in the meantime.

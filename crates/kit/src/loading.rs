@@ -18,6 +18,8 @@ pub struct Loader {
     pub example: &'static str,
     /// The same, with fields.
     pub example_with_fields: &'static str,
+    /// The extensions of the files that a folder means, if one object may be made of several files; otherwise none.
+    pub several: &'static [&'static str],
     /// Makes one of a file, with the fields that the script gives besides.
     pub load: fn(&mut LoadRequest<'_>, &Table) -> Result<LoadedObject>,
 }
@@ -39,6 +41,8 @@ pub struct LoadRequest<'a> {
     pub name: &'a str,
     /// Where it is.
     pub path: &'a Path,
+    /// The names and the paths of all files that the script has named, of which the first is this one.
+    pub files: &'a [(String, PathBuf)],
     /// What reading may take.
     pub budget: &'a Arc<Budget>,
     /// The most triangles that it may hold.

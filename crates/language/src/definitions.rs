@@ -236,8 +236,13 @@ impl Writer {
         }
         Some(match (&kind.construct, &kind.first) {
             (Construct::Given, _) => return None,
-            (Construct::File(_), _) if kind.fields.is_empty() => "file: string".to_owned(),
-            (Construct::File(_), _) => format!("file: string, options: {options}?"),
+            (Construct::File(loader), _) => {
+                let file = if loader.several.is_empty() { "string" } else { "string | { string }" };
+                match kind.fields.is_empty() {
+                    true => format!("file: {file}"),
+                    false => format!("file: {file}, options: {options}?"),
+                }
+            }
             // It may be the table of options itself, or what the field says: Luau finds neither in a union.
             (Construct::Fields(_), Some(first)) => format!("{first}: any, options: {options}?"),
             (Construct::Fields(_), None) => format!("options: {options}?"),

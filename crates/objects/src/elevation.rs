@@ -50,11 +50,12 @@ impl ElevationOptions {
             high: self.high,
             bounds: bounds.transpose()?,
             terrain_rgb: self.encoding.is_some(),
+            anywhere: false,
         })
     }
 }
 
-/// Measured heights of the ground, from a file.
+/// Measured heights of the ground, from a file, or from several that lie beside one another.
 ///
 /// It never changes, and copies share it.
 #[object("elevation", options = ElevationOptions, loader = LOADER)]
@@ -122,24 +123,25 @@ const LOADER: Loader = Loader {
     what: "file of heights",
     example: "elevation(\"N43E007.hgt\")",
     example_with_fields: "elevation(\"N43E007.hgt\", { crs = 4326 })",
+    several: &["hgt", "tif", "tiff", "asc", "zip"],
     load,
 };
 
-/// Reads the heights of a file, as the options of the script want them.
+/// Reads the heights of files, as the options of the script want them.
 fn load(file: &mut LoadRequest<'_>, options: &Table) -> Result<LoadedObject> {
     let options = ElevationOptions::from_table(options)?;
     let fill = options.fill;
     let wanted = options.wanted()?;
     let raster = match file.resources.cache() {
-        Some(cache) => cache.raster(file.path, file.name, &wanted, file.budget),
-        None => Raster::open(file.path, file.name, &wanted, file.budget).map(Arc::new),
+        Some(cache) => cache.raster(file.files, &wanted, file.budget),
+        None => Raster::open_all(file.files, &wanted, file.budget).map(Arc::new),
     };
     let raster = raster?;
     // A raster that is kept from an earlier run was not read for this one, and takes its room all the same.
     let memory = raster.heights.len() * size_of::<f32>();
     let mut warnings = raster.warnings();
     if !fill {
-        warnings.extend(raster.filled_warning());
+        warnings.extend(raster.missing_warnings());
     }
     let object = Arc::new(Elevation::new(Arc::new(Relief::new(raster, file.frame)?)));
     Ok(LoadedObject { object, memory, warnings })

@@ -7,15 +7,20 @@
 
 mod fill;
 mod format;
+mod holes;
 #[cfg(test)]
 mod hostile;
 mod lattice;
+pub(crate) mod missing;
+mod mosaic;
 mod raster;
 mod relief;
+mod spline;
 #[cfg(test)]
 mod tests;
 
 pub use crate::heights::names::{png_text, tiff_key};
 pub use crate::heights::{HeightOptions, MOST, SampleGrid};
+pub use missing::UndeclaredMarks;
 pub use raster::Raster;
 pub use relief::Relief;

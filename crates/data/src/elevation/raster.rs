@@ -2,22 +2,19 @@
 
 use std::fs::File;
 use std::io::Read;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
-use super::{fill, format};
+use super::missing::{UndeclaredMarks, take_out};
+use super::{fill, format, mosaic};
 use crate::Crs;
 use crate::heights::{HeightOptions, RasterHeader, SampleGrid, count};
 use burgeon_base::budget::Budget;
 use burgeon_base::error::{Error, Limit, Result};
-use burgeon_base::text::number;
+use burgeon_base::text::{grouped, number};
 use burgeon_base::warning::{Warning, WarningKind};
 
 /// The largest file (bytes).
 const LARGEST: u64 = 2_000_000_000;
-/// No height on a planet is as far (m) from its zero.
-const HIGHEST: f32 = 100_000.0;
-/// Finite numbers from here on mark that there is no data, as -3.4e38 does in files of ESRI's.
-const MARK: f32 = 1e30;
 /// The least distance (m) of samples whose coordinates are metres.
 const FINEST: f64 = 1e-3;
 
@@ -40,6 +37,13 @@ pub struct Raster {
     pub filled: usize,
     /// How many more heights the file has than its header says; they are left out.
     pub surplus: usize,
+    /// Heights that mark missing ones, though the file does not say so. They are among those that were filled.
+    pub marks: UndeclaredMarks,
+    /// The parts that have heights, if it was joined of several files that leave gaps: the first column and row, and those behind
+    /// the last.
+    pub parts: Vec<[usize; 4]>,
+    /// The greatest difference (m) where files have different heights for one place.
+    pub seam: f32,
 }
 
 impl Raster {
@@ -49,34 +53,53 @@ impl Raster {
     /// tell where it lies and `wanted` does not either, which is known before any heights are read; and if reading takes
     /// more than the `budget`.
     pub fn open(path: &Path, name: &str, wanted: &HeightOptions, budget: &Budget) -> Result<Self> {
-        let cannot = |error: std::io::Error| Error::file(path, format!("cannot read {name}: {error}"));
-        let meta = path.metadata().map_err(cannot)?;
-        if meta.is_dir() {
-            return Err(Error::file(path, format!("{name} is a folder")).help("name a file of heights in it"));
-        }
-        if !meta.is_file() {
-            return Err(Error::file(path, format!("{name} is not a file")).help("name a file of heights"));
-        }
-        if meta.len() > LARGEST {
-            let most = LARGEST / 1_000_000;
-            return Err(Error::limit(Limit::Size, format!("{name} is larger than {most} MB"))
-                .help("cut out a part of it"));
-        }
-        let _held = budget.hold(usize::try_from(meta.len()).unwrap_or(usize::MAX))?;
-        let mut bytes = Vec::new();
-        // It may grow while it is read.
-        File::open(path).and_then(|file| file.take(meta.len()).read_to_end(&mut bytes)).map_err(cannot)?;
-        Self::read(&bytes, name, wanted, budget)
+        with_bytes(path, name, budget, |bytes| Self::read(bytes, name, wanted, budget))
     }
 
     /// Reads `bytes`, the content of a file called `name`. Fails as [`Raster::open`] does.
     pub fn read(bytes: &[u8], name: &str, wanted: &HeightOptions, budget: &Budget) -> Result<Self> {
-        let RasterHeader { columns, rows, grid, crs, heights } = format::read(bytes, name, wanted)?;
+        let mut raster = Self::read_unfilled(bytes, name, wanted, budget)?;
+        raster.fill(budget)?;
+        Ok(raster)
+    }
+
+    /// Reads several files as one ground; each has a name for messages, and a path. Fails as [`Raster::open`] does, and if their
+    /// samples do not lie on one grid.
+    ///
+    /// Where files overlap, and on the borders that they share, a height that one of them lacks comes from another one.
+    pub fn open_all(files: &[(String, PathBuf)], wanted: &HeightOptions, budget: &Budget) -> Result<Self> {
+        if let [(name, path)] = files {
+            return Self::open(path, name, wanted, budget);
+        }
+        if wanted.bounds.is_some() {
+            return Err(Error::argument("elevation: bounds are those of one file, not of several")
+                .help("leave bounds out, and name files that tell where they lie"));
+        }
+        let tiles = files.iter().map(|(name, path)| {
+            with_bytes(path, name, budget, |bytes| Self::read_unfilled(bytes, name, wanted, budget))
+        });
+        let mut raster = mosaic::join(tiles.collect::<Result<_>>()?, budget)?;
+        raster.fill(budget)?;
+        Ok(raster)
+    }
+
+    /// Fills its holes.
+    fn fill(&mut self, budget: &Budget) -> Result<()> {
+        self.filled = mosaic::count_missing(self);
+        mosaic::extend(self);
+        fill::fill(self.columns, self.rows, &mut self.heights, budget)?;
+        Ok(())
+    }
+
+    /// Reads `bytes`, and leaves its holes (NaN).
+    fn read_unfilled(bytes: &[u8], name: &str, wanted: &HeightOptions, budget: &Budget) -> Result<Self> {
+        let RasterHeader { columns, rows, grid, crs, is_told, heights } = format::read(bytes, name, wanted)?;
         let crs = match wanted.crs {
             Some(code) => Some(Crs::epsg(code).map_err(|error| {
                 Error::not_found("coordinate system", code, [], format!("elevation: {}", error.message()))
                     .help("name the right one: elevation(file, { crs = 4326 })")
             })?),
+            None if wanted.anywhere => None,
             None => crs?,
         };
         let grid = match wanted.bounds {
@@ -95,9 +118,33 @@ impl Raster {
         let mut heights = heights(budget)?;
         let surplus = heights.len().saturating_sub(columns * rows);
         heights.truncate(columns * rows);
-        check_heights(name, columns, &mut heights)?;
-        let filled = fill::fill(columns, rows, &mut heights, budget)?;
-        Ok(Self { name: name.to_owned(), columns, rows, heights, grid, crs, filled, surplus })
+        let marks = take_out(name, columns, &mut heights, crs.is_some(), is_told)?;
+        Ok(Self { surplus, marks, ..Self::new(name, [columns, rows], heights, grid, crs) })
+    }
+
+    /// A raster without holes, of `heights` that lie on `grid`.
+    pub fn new(
+        name: &str,
+        [columns, rows]: [usize; 2],
+        heights: Vec<f32>,
+        grid: SampleGrid,
+        crs: Option<Crs>,
+    ) -> Self {
+        let marks = UndeclaredMarks::default();
+        let name = name.to_owned();
+        Self {
+            name,
+            columns,
+            rows,
+            heights,
+            grid,
+            crs,
+            filled: 0,
+            surplus: 0,
+            marks,
+            parts: Vec::new(),
+            seam: 0.0,
+        }
     }
 
     /// Its outer edges: west, south, east and north. A sample stands for the area half a step around it.
@@ -107,24 +154,59 @@ impl Raster {
         [west, north - step[1] * count(self.rows), west + step[0] * count(self.columns), north]
     }
 
-    /// What people should know of how it was read.
+    /// The warnings about how it was read.
     pub fn warnings(&self) -> Vec<Warning> {
-        let Self { name, columns, rows, surplus, .. } = self;
+        let Self { name, columns, rows, surplus, seam, .. } = self;
+        let warning = |text: String, help: &str| Warning::new(WarningKind::Data, text).help(help);
         let what = if *surplus == 1 { "number" } else { "numbers" };
-        let text =
-            format!("{name} has {surplus} {what} more than the {columns} x {rows} heights of its header");
-        let warning =
-            Warning::new(WarningKind::Data, text).help("they are left out; correct ncols and nrows");
-        if *surplus > 0 { vec![warning] } else { Vec::new() }
+        let surplus = (*surplus > 0).then(|| {
+            let text =
+                format!("{name} has {surplus} {what} more than the {columns} x {rows} heights of its header");
+            warning(text, "they are left out; correct ncols and nrows")
+        });
+        let seam = (*seam > 0.0).then(|| {
+            let text = format!("{name}: files differ by up to {seam} m in the heights that they share");
+            warning(text, "the means are used; get all files from one edition of one survey")
+        });
+        surplus.into_iter().chain(seam).collect()
     }
 
-    /// That heights were missing, if any were.
-    pub fn filled_warning(&self) -> Option<Warning> {
-        let Self { name, columns, rows, filled, .. } = self;
+    /// The warnings about heights that were missing, if any were.
+    pub fn missing_warnings(&self) -> Vec<Warning> {
+        let Self { name, columns, rows, filled, marks, .. } = self;
+        let warning = |text: String, help: &str| Warning::new(WarningKind::Data, text).help(help);
         let all = columns * rows;
-        let text = format!("{name}: filled {filled} of {all} heights, which are missing, from around them");
-        let remedy = "say that this is right, { fill = true }, or fill them in the file";
-        (*filled > 0).then(|| Warning::new(WarningKind::Data, text).help(remedy))
+        let filled = (*filled > 0).then(|| {
+            let text =
+                format!("{name}: filled {filled} of {all} heights, which are missing, from around them");
+            warning(text, "say that this is right, { fill = true }, or fill them in the file")
+        });
+        let marks = (marks.count > 0).then(|| {
+            let (count, values) = (grouped(marks.count), marks.shown());
+            let (heights, counts) =
+                if marks.count == 1 { ("height is", "counts") } else { ("heights are", "count") };
+            let text = format!(
+                "{name}: {count} {heights} {values} and {counts} as missing, though the file does not declare it"
+            );
+            warning(text, "declare the mark in the file: gdal_translate -a_nodata VALUE IN OUT.tif")
+        });
+        filled.into_iter().chain(marks).collect()
+    }
+
+    /// Whether it has heights at a column and a row, counted from the centre of the first sample: it has none outside of its samples'
+    /// areas, nor in gaps between the files that it was joined of. A place `margin` (samples) outside counts as inside.
+    pub(super) fn covers(&self, column: f64, row: f64, margin: f64) -> bool {
+        let covers = |[left, top, right, bottom]: [usize; 4]| {
+            let margin = 0.5 + margin;
+            column >= count(left) - margin
+                && row >= count(top) - margin
+                && column <= count(right) - 1.0 + margin
+                && row <= count(bottom) - 1.0 + margin
+        };
+        match &*self.parts {
+            [] => covers([0, 0, self.columns, self.rows]),
+            parts => parts.iter().copied().any(covers),
+        }
     }
 
     /// Its lowest and its highest height (m).
@@ -132,6 +214,33 @@ impl Raster {
         let low = self.heights.iter().copied().fold(f32::INFINITY, f32::min);
         [low, self.heights.iter().copied().fold(f32::NEG_INFINITY, f32::max)]
     }
+}
+
+/// Has `read` read the content of the file at `path`.
+fn with_bytes<T>(
+    path: &Path,
+    name: &str,
+    budget: &Budget,
+    read: impl FnOnce(&[u8]) -> Result<T>,
+) -> Result<T> {
+    let cannot = |error: std::io::Error| Error::file(path, format!("cannot read {name}: {error}"));
+    let meta = path.metadata().map_err(cannot)?;
+    if meta.is_dir() {
+        return Err(Error::file(path, format!("{name} is a folder")).help("name a file of heights in it"));
+    }
+    if !meta.is_file() {
+        return Err(Error::file(path, format!("{name} is not a file")).help("name a file of heights"));
+    }
+    if meta.len() > LARGEST {
+        let most = LARGEST / 1_000_000;
+        return Err(Error::limit(Limit::Size, format!("{name} is larger than {most} MB"))
+            .help("cut out a part of it"));
+    }
+    let _held = budget.hold(usize::try_from(meta.len()).unwrap_or(usize::MAX))?;
+    let mut bytes = Vec::new();
+    // It may grow while it is read.
+    File::open(path).and_then(|file| file.take(meta.len()).read_to_end(&mut bytes)).map_err(cannot)?;
+    read(&bytes)
 }
 
 /// Refuses bounds that enclose nothing.
@@ -173,30 +282,4 @@ fn check_grid(name: &str, grid: &SampleGrid, columns: usize, rows: usize, crs: O
             .help("if these are degrees, say so: elevation(file, { crs = 4326 })"));
     }
     Ok(())
-}
-
-/// Refuses heights that cannot be, and takes what marks missing ones for missing.
-fn check_heights(name: &str, columns: usize, heights: &mut [f32]) -> Result<()> {
-    let mut known = false;
-    for (index, height) in heights.iter_mut().enumerate() {
-        if height.is_finite() && height.abs() >= MARK {
-            *height = f32::NAN;
-        }
-        // A comparison with what is no number fails.
-        if height.abs() > HIGHEST {
-            let (row, column) = (index / columns + 1, index % columns + 1);
-            let what = match height.is_finite() {
-                true => format!("a height of {height} m"),
-                false => "an infinite height".to_owned(),
-            };
-            return Err(Error::data(format!("{name} has {what} in row {row}, column {column}"))
-                .help("if it marks missing data, say so in the file: gdal_translate -a_nodata VALUE"));
-        }
-        known |= !height.is_nan();
-    }
-    if known {
-        return Ok(());
-    }
-    Err(Error::data(format!("{name} has no data: all its heights are missing"))
-        .help("get another part, or look at it in a viewer of maps"))
 }

@@ -134,16 +134,17 @@ impl Relief {
     /// Method: Catmull and Rom, "A class of local interpolating splines", 1974, in both directions.
     pub fn height(&self, place: DVec2) -> Option<f64> {
         let at = self.find(place)?;
-        let margin = DVec2::splat(0.5 + ROUNDING);
-        // A comparison with what is no number fails.
-        let inside = at.cmpge(-margin).all() && at.cmple(self.last() + margin).all();
-        inside.then(|| self.around(at).0)
+        self.raster.covers(at.x, at.y, ROUNDING).then(|| self.around(at).0)
     }
 
     /// The height (m) at `place` (m) and the slope (m/m) there, also a little outside of the raster; `None` far away.
     /// Straight between the samples, if it is not to be `smooth`.
     pub fn ground(&self, place: DVec2, smooth: bool) -> Option<(f64, f64)> {
         let at = self.find(place).filter(|at| at.is_finite())?;
+        // Outside of all parts the ground goes on for a sample.
+        if !self.raster.parts.is_empty() && !self.raster.covers(at.x, at.y, 1.0) {
+            return None;
+        }
         let (height, slope) = self.around(at);
         Some((if smooth { height } else { self.straight(at) }, slope))
     }
@@ -213,7 +214,7 @@ impl Relief {
             let mut near = low.midpoint(high);
             while column <= last.x {
                 near = self.place(DVec2::new(column, row), near);
-                if near.cmpge(low).all() && near.cmple(high).all() {
+                if self.raster.covers(column, row, 0.0) && near.cmpge(low).all() && near.cmple(high).all() {
                     places.push(near);
                 }
                 column += 1.0;
@@ -340,16 +341,8 @@ mod tests {
         height: impl Fn(f64, f64) -> f64,
     ) -> Arc<Raster> {
         let heights = (0..columns * rows).map(|at| height(count(at % columns), count(at / columns)) as f32);
-        Arc::new(Raster {
-            name: "a".into(),
-            columns,
-            rows,
-            heights: heights.collect(),
-            grid,
-            crs: code.map(|code| Crs::epsg(code).unwrap()),
-            filled: 0,
-            surplus: 0,
-        })
+        let crs = code.map(|code| Crs::epsg(code).unwrap());
+        Arc::new(Raster::new("a", [columns, rows], heights.collect(), grid, crs))
     }
 
     #[test]

@@ -32,6 +32,19 @@ fn body(bytes: &[u8]) -> Result<&[u8], String> {
     bytes.get(8 + envelope..).ok_or_else(|| "ends too early".into())
 }
 
+/// The bounds (west, south, east, north) that the header of a blob tells.
+pub(super) fn envelope(bytes: &[u8]) -> Option<[f64; 4]> {
+    if !bytes.starts_with(b"GP") || (bytes.get(3)? >> 1) & 7 == 0 {
+        return None;
+    }
+    let is_little = bytes[3] & 1 == 1;
+    let number = |at: usize| {
+        let bytes = bytes.get(8 + 8 * at..16 + 8 * at)?.try_into().ok()?;
+        Some(if is_little { f64::from_le_bytes(bytes) } else { f64::from_be_bytes(bytes) })
+    };
+    Some([number(0)?, number(2)?, number(1)?, number(3)?])
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -39,11 +52,12 @@ mod tests {
     #[test]
     fn what_stands_behind_a_header_of_any_length_is_read() {
         let place = Geometry::point([1.0, 2.0, 3.0]);
-        for (envelope, size) in [(0, 0), (1, 32), (2, 48), (3, 48), (4, 64)] {
-            let mut blob = vec![b'G', b'P', 0, envelope << 1, 0, 0, 0, 0];
+        for (envelope_kind, size) in [(0, 0), (1, 32), (2, 48), (3, 48), (4, 64)] {
+            let mut blob = vec![b'G', b'P', 0, envelope_kind << 1, 0, 0, 0, 0];
             blob.resize(8 + size, 7);
             blob.extend(place.to_wkb());
             assert_eq!(read_blob(&blob, wkb::NEAR, &Budget::default()), Ok(vec![place.clone()]));
+            assert_eq!(envelope(&blob).is_some(), envelope_kind > 0);
             for end in 0..blob.len() {
                 assert!(read_blob(&blob[..end], wkb::NEAR, &Budget::default()).is_err(), "{end}");
             }

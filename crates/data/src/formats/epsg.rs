@@ -28,15 +28,35 @@ pub(super) fn entry(code: u32) -> Result<Option<EpsgEntry>> {
     let Ok(code) = u16::try_from(code) else { return Ok(None) };
     let behind = BLOCKS.partition_point(|(first, _)| *first <= code);
     let Some((_, place)) = behind.checked_sub(1).and_then(|block| BLOCKS.get(block)) else { return Ok(None) };
-    let mut lines = String::new();
-    DeflateDecoder::new(&PACKED[place.clone()]).read_to_string(&mut lines).map_err(|error| {
-        Error::data(format!("the registry of coordinate systems cannot be read: {error}"))
-    })?;
+    let lines = block(place)?;
     Ok(lines.lines().find_map(|line| {
         let mut parts = line.splitn(3, '\t');
         let found = parts.next()?.parse().ok().filter(|found| *found == code)?;
         Some(EpsgEntry { code: found, proj: parts.next()?.into(), text: parts.next()?.into() })
     }))
+}
+
+/// Hands the number and the well-known text of each coordinate system to `each`, in the order of their numbers.
+pub(super) fn each(mut each: impl FnMut(u16, &str)) -> Result<()> {
+    for (_, place) in BLOCKS {
+        for line in block(place)?.lines() {
+            let mut parts = line.splitn(3, '\t');
+            let code = parts.next().and_then(|code| code.parse().ok());
+            if let (Some(code), Some(text)) = (code, parts.nth(1)) {
+                each(code, text);
+            }
+        }
+    }
+    Ok(())
+}
+
+/// The lines of a block.
+fn block(place: &Range<usize>) -> Result<String> {
+    let mut lines = String::new();
+    DeflateDecoder::new(&PACKED[place.clone()]).read_to_string(&mut lines).map_err(|error| {
+        Error::data(format!("the registry of coordinate systems cannot be read: {error}"))
+    })?;
+    Ok(lines)
 }
 
 #[cfg(test)]

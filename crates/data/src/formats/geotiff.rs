@@ -65,7 +65,7 @@ pub(crate) fn read<'a>(bytes: &'a [u8], name: &'a str) -> Result<RasterHeader<'a
         }
         Ok(heights)
     };
-    Ok(RasterHeader { columns, rows, grid, crs: keys.crs(name), heights: Box::new(heights) })
+    Ok(RasterHeader { columns, rows, grid, crs: keys.crs(name), is_told: false, heights: Box::new(heights) })
 }
 
 /// Whether no text in the first directory is longer than the file: the decoder writes to the terminal where one is.

@@ -3,6 +3,7 @@
 use tiff::tags::Tag;
 
 use super::geotiff::{Keys, Tiff};
+use crate::elevation::missing::is_negative_mark;
 use crate::heights::names::tiff_key as keys;
 use crate::heights::narrow;
 use burgeon_base::error::{Error, Result};
@@ -42,12 +43,20 @@ impl Meaning {
         Ok(Self { missing, scale: scale * unit, offset: offset * unit })
     }
 
-    /// The height (m) of a sample; NaN for a missing one.
+    /// Whether heights are other numbers than samples.
+    fn is_scaled(&self) -> bool {
+        self.scale.to_bits() != 1.0_f64.to_bits() || self.offset != 0.0
+    }
+
+    /// The height (m) of a sample; NaN for a missing one, and the least number for what marks one undeclared.
     #[inline]
     pub(super) fn height(&self, sample: f64) -> f32 {
         // Floats mark what is missing with the nearest of theirs.
         if self.missing.is_some_and(|mark| narrow(sample) == narrow(mark)) {
             return f32::NAN;
+        }
+        if self.is_scaled() && is_negative_mark(sample) {
+            return f32::MIN;
         }
         narrow(sample * self.scale + self.offset)
     }

@@ -3,21 +3,34 @@
 //! A program that is built without the feature `data` has `absent` in its place, which says so.
 
 mod blob;
+mod city;
 pub(crate) mod condition;
+mod csv;
 mod epsg;
 mod flatgeobuf;
 mod geopackage;
 pub(crate) mod geotiff;
 mod gml;
+mod gpx;
+mod kml;
 mod meaning;
+mod opening;
 mod osm;
 pub(crate) mod output;
 mod packed;
 pub(crate) mod png;
 pub(crate) mod projection;
+mod shapefile;
+#[cfg(test)]
+mod tests;
+#[cfg(test)]
+mod texts;
+mod typing;
+mod unpack;
+mod xml;
 pub(crate) mod zipped;
 
 pub use flatgeobuf::FlatGeobuf;
 pub use geopackage::{GeoPackage, TableShape};
-pub use gml::GmlFile;
+pub(crate) use opening::{layered, unpacked};
 pub use osm::OsmFile;

@@ -40,7 +40,7 @@ pub(crate) fn read<'a>(
         }
         Ok(heights)
     };
-    Ok(RasterHeader { columns, rows, grid: None, crs: Ok(None), heights: Box::new(heights) })
+    Ok(RasterHeader { columns, rows, grid: None, crs: Ok(None), is_told: true, heights: Box::new(heights) })
 }
 
 /// How samples stand in a row.

@@ -77,6 +77,14 @@ pub(super) fn read(text: &RawValue, wanted: &SourceOptions) -> Result<Vec<Geomet
     Ok(parts)
 }
 
+/// The parts of the geometry in a text that stands alone. Fails with the reason.
+#[cfg(feature = "data")]
+pub(crate) fn geometry_of(text: &str, wanted: &SourceOptions) -> Result<Vec<Geometry>, String> {
+    let text: &RawValue = serde_json::from_str(text)
+        .map_err(|error| format!("has a geometry that is none: {}", words(&error)))?;
+    read(text, wanted)
+}
+
 /// The parts of the geometry of the type `kind` with these members.
 pub(super) fn of_members(
     kind: &str,

@@ -10,5 +10,7 @@ mod stream;
 #[cfg(test)]
 mod tests;
 
+#[cfg(feature = "data")]
+pub(super) use geometry::geometry_of;
 pub(super) use reader::{LARGEST, read};
 pub(super) use stream::{WINDOW, stream};

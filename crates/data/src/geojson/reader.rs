@@ -1,10 +1,12 @@
 //! Reads GeoJSON, feature by feature.
 
+use std::borrow::Cow;
 use std::path::Path;
 use std::sync::Arc;
 
 use super::document::{DocumentHeader, document};
 use super::geometry;
+use crate::codepages::{GuessedText, guess};
 use crate::{Attribute, Crs, FeatureTable, SourceOptions};
 use burgeon_base::error::{Error, Result};
 use burgeon_base::text::shown;
@@ -40,14 +42,27 @@ pub(super) fn is_sequence(path: &Path) -> bool {
 /// Reads all of a file, which messages call `name`.
 pub(crate) fn read(bytes: &[u8], path: &Path, name: &str, wanted: &SourceOptions) -> Result<FeatureTable> {
     let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
-    let text = match std::str::from_utf8(bytes) {
-        Ok(text) if !bytes.iter().take(1000).any(|byte| *byte == 0) => text,
+    // A text of another encoding becomes another text, of up to three bytes for each of its own.
+    let _held =
+        std::str::from_utf8(bytes).is_err().then(|| wanted.budget.hold(bytes.len() * 3)).transpose()?;
+    let (text, encoding) = match guess(bytes) {
+        Some(GuessedText::Utf8(text)) if !bytes.iter().take(1000).any(|byte| *byte == 0) => {
+            (Cow::Borrowed(text), None)
+        }
+        Some(GuessedText::Other(text, encoding)) => (Cow::Owned(text), Some(encoding)),
         _ => {
             return Err(Error::data(format!("{name} is a binary file of no format that is known"))
-                .help("data files are GeoJSON, GeoPackage, FlatGeobuf, GML and .osm.pbf; convert it: ogr2ogr out.gpkg FILE"));
+                .help(format!("{}; convert it: ogr2ogr out.gpkg FILE", crate::source::FORMATS)));
         }
     };
+    let text = &*text;
     let mut reader = FeatureReader::new(path, name, wanted);
+    if let Some(encoding) = encoding {
+        reader.table.notes.push(format!(
+            "{name} is not UTF-8, as GeoJSON has to be, and was read as {encoding}; if its texts look wrong, convert it: \
+             iconv -f ENCODING -t UTF-8 IN > OUT.geojson"
+        ));
+    }
     if text.trim_start().starts_with(RECORD) {
         reader.records(text)?;
     } else {
@@ -169,7 +184,8 @@ impl<'a> FeatureReader<'a> {
             kind if geometry::is_known(kind) && !head.features => {
                 let parts = geometry::of_members(kind, head.coordinates, head.geometries, self.wanted);
                 let number = self.number();
-                return self.add(number.to_string(), parts, Vec::new());
+                let bounds = head.coordinates.or(head.geometries).and_then(|text| self.bounds(text));
+                return self.add((number, None), parts, Vec::new(), bounds);
             }
             "Topology" => Error::data(format!("{name} is TopoJSON, not GeoJSON"))
                 .help("convert it: ogr2ogr out.geojson FILE"),
@@ -226,7 +242,7 @@ impl<'a> FeatureReader<'a> {
                 return self.refuse(id, &format!("has properties that cannot be read: {}", words(&error)));
             }
         };
-        let id = own.or_else(|| properties.get("id").and_then(id_text)).unwrap_or_else(|| number.to_string());
+        let id = own.or_else(|| properties.get("id").and_then(id_text));
         let mut attributes = Vec::new();
         for (key, value) in properties {
             let number = self.table.name(&key);
@@ -237,36 +253,69 @@ impl<'a> FeatureReader<'a> {
             attributes.extend(value.map(|value| (number, value)));
         }
         let parts = feature.geometry.map_or(Ok(Vec::new()), |text| geometry::read(text, self.wanted));
-        // There are points, though no geometry comes of them.
-        let has_points =
-            feature.geometry.is_some_and(|text| text.get().contains(|it: char| it.is_ascii_digit()));
-        if has_points && parts.as_ref().is_ok_and(Vec::is_empty) {
-            self.table.collapsed += 1;
-        }
-        self.add(id, parts, attributes)
+        let is_left_out = parts.as_ref().map_or(true, Vec::is_empty);
+        let bounds = feature.geometry.filter(|_| is_left_out).and_then(|text| self.bounds(text));
+        self.add((number, id), parts, attributes, bounds)
     }
 
-    /// Adds a feature, or refuses it with the reason.
+    /// The bounds of the points that can be found in the text of a geometry that cannot be read.
+    fn bounds(&self, text: &RawValue) -> Option<[f64; 4]> {
+        let _held = self.wanted.budget.hold(text.get().len().saturating_mul(20)).ok()?;
+        let value: Value = serde_json::from_str(text.get()).ok()?;
+        let mut bounds: Option<[f64; 4]> = None;
+        let mut rest = vec![&value];
+        while let Some(value) = rest.pop() {
+            match value {
+                Value::Object(fields) => rest.extend(fields.values()),
+                Value::Array(items) => {
+                    match (items.first().and_then(Value::as_f64), items.get(1).and_then(Value::as_f64)) {
+                        (Some(x), Some(y)) => {
+                            let [west, south, east, north] = bounds.get_or_insert([x, y, x, y]);
+                            (*west, *south, *east, *north) =
+                                (west.min(x), south.min(y), east.max(x), north.max(y));
+                        }
+                        _ => rest.extend(items),
+                    }
+                }
+                _ => {}
+            }
+        }
+        bounds
+    }
+
+    /// Adds the feature with a number, and with an id if it has one, or refuses it with the reason. `bounds` are those of the points
+    /// of one that has no geometry.
     fn add(
         &mut self,
-        id: String,
+        (number, id): (usize, Option<String>),
         parts: Result<Vec<crate::Geometry>, String>,
         attributes: Vec<(usize, Attribute)>,
+        bounds: Option<[f64; 4]>,
     ) -> Result<()> {
-        match parts {
-            Ok(parts) => self.table.push(&id, parts, attributes),
-            Err(why) => {
+        match (parts, id) {
+            (Ok(parts), _) if parts.is_empty() => {
+                self.wanted.budget.tick()?;
+                self.table.add_empty(&attributes, bounds);
+                Ok(())
+            }
+            (Ok(parts), Some(id)) => self.table.push(&id, parts, attributes),
+            (Ok(parts), None) => self.table.push_unnamed(parts, attributes),
+            (Err(why), id) => {
                 // It may be that the time is over, and not the geometry's fault.
                 self.wanted.budget.check()?;
-                self.refuse(id, &why)
+                self.refuse_at(id.unwrap_or_else(|| number.to_string()), &why, bounds)
             }
         }
     }
 
     fn refuse(&mut self, id: String, why: &str) -> Result<()> {
+        self.refuse_at(id, why, None)
+    }
+
+    fn refuse_at(&mut self, id: String, why: &str, bounds: Option<[f64; 4]>) -> Result<()> {
         let error = Error::data(format!("feature {} of {} {why}", shown(&id), self.name))
             .help("points, lines, polygons, multi-geometries and collections of these are read");
-        self.table.refuse(id, error)
+        self.table.refuse_at(id, error, bounds)
     }
 
     /// Refuses a text of a sequence that is not JSON, unless reading has to end.

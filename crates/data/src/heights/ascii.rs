@@ -92,7 +92,7 @@ pub(crate) fn read<'a>(bytes: &'a [u8], name: &'a str) -> Result<RasterHeader<'a
     };
     let (expected, length, missing) = (columns * rows, bytes.len(), header.missing);
     let heights = move |budget: &Budget| heights(lines, name, (expected, length), missing, budget);
-    Ok(RasterHeader { columns, rows, grid, crs: Ok(None), heights: Box::new(heights) })
+    Ok(RasterHeader { columns, rows, grid, crs: Ok(None), is_told: false, heights: Box::new(heights) })
 }
 
 /// The heights in `lines`, numbered from 0, of a file of so many heights and bytes.

@@ -36,6 +36,8 @@ pub(crate) struct RasterHeader<'a> {
     pub grid: Option<SampleGrid>,
     /// An error if it names a coordinate system that is not known, for which options can stand in.
     pub crs: Result<Option<Crs>>,
+    /// Whether the file, or who reads it, says how low and how high the heights are: then none of them marks a missing one.
+    pub is_told: bool,
     /// Reads the heights, of which some may be missing (NaN). Nobody asks before all else is known to be right.
     pub heights: ReadHeights<'a>,
 }

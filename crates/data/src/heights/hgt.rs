@@ -19,7 +19,7 @@ pub(crate) fn read<'a>(bytes: &'a [u8], name: &str, wanted: &HeightOptions) -> R
     let [columns, rows] = size(bytes.len(), name, wanted)?;
     let (grid, crs) = place(name, wanted, [columns, rows])?;
     let heights = move |_: &Budget| Ok(bytes.chunks_exact(2).map(height).collect());
-    Ok(RasterHeader { columns, rows, grid, crs, heights: Box::new(heights) })
+    Ok(RasterHeader { columns, rows, grid, crs, is_told: false, heights: Box::new(heights) })
 }
 
 /// The height (m) in two bytes.

@@ -17,4 +17,6 @@ pub struct HeightOptions {
     pub bounds: Option<[f64; 4]>,
     /// Whether the colours of a PNG are heights, as Mapbox encodes them.
     pub terrain_rgb: bool,
+    /// Whether it does not matter where the heights lie: `bounds` are metres then, and the file's coordinate system is not read.
+    pub anywhere: bool,
 }

@@ -27,5 +27,12 @@ pub(crate) fn read<'a, const SIZE: usize>(bytes: &'a [u8], name: &str) -> Result
         }
     };
     let heights = move |_: &Budget| Ok(bytes.chunks_exact(SIZE).map(height).collect());
-    Ok(RasterHeader { columns: side, rows: side, grid: None, crs: Ok(None), heights: Box::new(heights) })
+    Ok(RasterHeader {
+        columns: side,
+        rows: side,
+        grid: None,
+        crs: Ok(None),
+        is_told: false,
+        heights: Box::new(heights),
+    })
 }

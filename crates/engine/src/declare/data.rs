@@ -72,37 +72,41 @@ impl Data {
 }
 
 impl Data {
-    /// What `loader` makes of the file that a script, or a file of the package `asker`, calls `name`: the same each time.
-    /// It is for type `kind`.
+    /// The object that `loader` makes of the files that a script, or a file of the package `asker`, calls `names`: the same each
+    /// time. It is of the type `kind`.
     pub(crate) fn object(
         &self,
         session: &Session,
         asker: Option<&Package>,
         (kind, loader): (&str, &Loader),
-        name: &str,
+        names: &[String],
         fields: &Table,
     ) -> Result<LoadedObject> {
-        if name.is_empty() {
+        let Some(name) = names.first().filter(|_| names.iter().all(|name| !name.is_empty())) else {
             return Err(Error::argument(format!("{kind} needs the name of a file"))
                 .help(format!("write {}", loader.example)));
-        }
-        // A file that another one replaces names files of its own package.
-        let located = session.package_file(loader.what, name, asker).transpose()?;
-        let (path, own, asker) = match located {
-            Some(located) => (located.path, located.name.to_string(), Some(located.package)),
-            None => (find(session, asker, loader.what, name)?, name.to_owned(), asker),
         };
+        let alone = if names.len() == 1 { session.package_file(loader.what, name, asker) } else { None };
+        let (files, asker) = match alone.transpose()? {
+            // A file that another one replaces names files of its own package.
+            Some(located) => (vec![(located.name.to_string(), located.path)], Some(located.package)),
+            None => {
+                let files = names.iter().map(|name| find_all(session, asker, loader, name));
+                (files.collect::<Result<Vec<_>>>()?.concat(), asker)
+            }
+        };
+        let (own, path) = &files[0];
         let mut known = self.known.lock().recover();
-        let key =
-            format!("{kind} {} {:?} {fields:?}", path.display(), asker.map(|asker| &asker.manifest.name));
+        let key = format!("{kind} {files:?} {:?} {fields:?}", asker.map(|asker| &asker.manifest.name));
         if let Some(loaded) = known.objects.get(&key) {
             return loaded.clone();
         }
         let budget = known.budget(session);
         let before = budget.taken();
         let mut file = LoadRequest {
-            name: &own,
-            path: &path,
+            name: own,
+            path,
+            files: &files,
             budget: &budget,
             triangles: session.options.limits.triangles,
             frame: &mut known.frame,
@@ -182,6 +186,9 @@ fn read(
         );
     }
     let path = find(session, asker, "data file", name)?;
+    for beside in burgeon_data::companions(&path) {
+        session.seek(&beside, beside.exists());
+    }
     let cache = session.options.inputs.cache.as_deref();
     let key = cache.and_then(|_| Cache::key(&path, &wanted, known.frame.as_ref()));
     let kept = cache.zip(key.as_deref()).and_then(|(cache, key)| cache.get(key));
@@ -214,6 +221,72 @@ fn read(
         },
     });
     Ok(layer)
+}
+
+/// The files that a script means by `name`: one, or, where `loader` takes several, those in a folder or those whose names are as a
+/// pattern says, in their order. At least one.
+fn find_all(
+    session: &Session,
+    asker: Option<&Package>,
+    loader: &Loader,
+    name: &str,
+) -> Result<Vec<(String, PathBuf)>> {
+    let (folder, last) = name.rsplit_once('/').unwrap_or((".", name));
+    let is_pattern = !loader.several.is_empty() && last.contains(['*', '?']);
+    let path = find(session, asker, loader.what, if is_pattern { folder } else { name })?;
+    if loader.several.is_empty() || !path.is_dir() {
+        return Ok(vec![(name.to_owned(), path)]);
+    }
+    let (folder, pattern) = if is_pattern { (folder, last) } else { (name.trim_end_matches('/'), "*") };
+    let entries = std::fs::read_dir(&path)
+        .map_err(|error| Error::file(&path, format!("cannot read the folder {folder}: {error}")))?;
+    let mut found: Vec<String> =
+        entries.filter_map(|entry| entry.ok()?.file_name().into_string().ok()).collect();
+    found.retain(|file| {
+        let extension =
+            Path::new(file).extension().unwrap_or_default().to_string_lossy().to_ascii_lowercase();
+        loader.several.contains(&&*extension) && matches_pattern(pattern.as_bytes(), file.as_bytes())
+    });
+    found.sort();
+    if found.is_empty() || found.len() > MOST_FILES {
+        let count = if found.is_empty() { "no".to_owned() } else { found.len().to_string() };
+        let what = format!("{name} means {count} files, each a {}", loader.what);
+        return Err(Error::file(&path, what)
+            .help(format!("name 1 to {MOST_FILES} files that end in .{}", loader.several.join(", ."))));
+    }
+    found
+        .into_iter()
+        .map(|file| {
+            let name = if folder == "." { file } else { format!("{folder}/{file}") };
+            let path = find(session, asker, loader.what, &name)?;
+            Ok((name, path))
+        })
+        .collect()
+}
+
+/// The most files that one name means.
+const MOST_FILES: usize = 1000;
+
+/// Whether a name is as a pattern says, in which `*` means any text and `?` any byte.
+fn matches_pattern(pattern: &[u8], name: &[u8]) -> bool {
+    let (mut at, mut read) = (0, 0);
+    // Where to go on after the last star, if what follows does not fit.
+    let mut star: Option<(usize, usize)> = None;
+    while read < name.len() {
+        match pattern.get(at) {
+            Some(b'*') => {
+                star = Some((at, read));
+                at += 1;
+            }
+            Some(byte) if *byte == b'?' || *byte == name[read] => (at, read) = (at + 1, read + 1),
+            _ => {
+                let Some((begin, taken)) = star else { return false };
+                star = Some((begin, taken + 1));
+                (at, read) = (begin + 1, taken + 1);
+            }
+        }
+    }
+    pattern[at..].iter().all(|byte| *byte == b'*')
 }
 
 /// The file that a script means by `name`, which is to be a `what`: in its own folder, or in one of those given with
@@ -265,4 +338,22 @@ fn find(session: &Session, asker: Option<&Package>, what: &'static str, name: &s
         true => "it is looked for from the script's folder; other folders are given with --data FOLDER",
         false => "it is looked for from the script's folder and from those given with --data",
     }))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::matches_pattern;
+
+    #[test]
+    fn stars_mean_any_text() {
+        let is = |pattern: &str, name: &str| matches_pattern(pattern.as_bytes(), name.as_bytes());
+        assert!(is("*", "a.hgt") && is("N4*.hgt", "N43E007.hgt") && is("N4?E*7.hgt", "N43E007.hgt"));
+        assert!(is("**a*", "banana") && is("a", "a") && is("*", ""));
+        assert!(
+            !is("N4*.hgt", "N53E007.hgt")
+                && !is("N4*.hgt", "N43E007.tif")
+                && !is("?", "")
+                && !is("a*b", "abc")
+        );
+    }
 }

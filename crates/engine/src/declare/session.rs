@@ -114,6 +114,7 @@ pub struct Session {
     required: Mutex<BTreeMap<String, BTreeMap<String, String>>>,
     pub(super) scripts: Mutex<ScriptFiles>,
     sought: Mutex<BTreeMap<PathBuf, bool>>,
+    notes: Mutex<BTreeSet<String>>,
     params: Mutex<Vec<Param>>,
     left_out: Mutex<Vec<(String, Error)>>,
     warnings: Warnings,
@@ -166,6 +167,7 @@ impl Session {
             required: Mutex::default(),
             scripts: Mutex::default(),
             sought: Mutex::default(),
+            notes: Mutex::default(),
             params: Mutex::default(),
             left_out: Mutex::default(),
             warnings,
@@ -212,6 +214,16 @@ impl Session {
             self.files().into_iter().chain([self.script.clone()]).chain(self.options.inputs.stdlib.clone());
         files.extend(read.chain(self.packages.manifests()).map(|path| (path, true)));
         files.into_iter().collect()
+    }
+
+    /// Adds a remark about the run's data that is no warning.
+    pub(crate) fn add_note(&self, text: String) {
+        self.notes.lock().recover().insert(text);
+    }
+
+    /// The remarks about the run's data that are no warnings, sorted.
+    pub fn notes(&self) -> Vec<String> {
+        self.notes.lock().recover().iter().cloned().collect()
     }
 
     /// Takes notice of a file that was looked for, and whether it was there.

@@ -142,6 +142,7 @@ mod tests {
             collapsed: 0,
             refused: Vec::new(),
             notes: Vec::new(),
+            derived: 0,
         })
     }
 

@@ -302,6 +302,7 @@ pub(crate) fn kind() -> Kind {
         what: "model",
         example: "model(\"window.glb\")",
         example_with_fields: "model(\"window.glb\")",
+        several: &[],
         load,
     };
     Kind::clone(Model::kind()).loaded(Vec::new(), loader)

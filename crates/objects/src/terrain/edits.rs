@@ -23,6 +23,7 @@ const LOADER: Loader = Loader {
     what: "file of edits",
     example: "edits(\"ground.json\")",
     example_with_fields: "edits(\"ground.json\")",
+    several: &[],
     load,
 };
 

@@ -90,7 +90,7 @@ impl FlatGeobuf {
         match (&self.levels, wanted.within) {
             (Some(levels), Some(_)) => {
                 let damaged = |why: &str| damaged(&self.name, why);
-                let touch = |bounds| table.may_keep(bounds);
+                let touch = |bounds| table.concerns(Some(bounds));
                 let place = (self.index, self.header.fan);
                 let found = levels.search(&self.file, place, touch, (&wanted.budget, &damaged))?;
                 let mut reader = self.reader(self.features);
@@ -154,29 +154,35 @@ impl FlatGeobuf {
         wanted.budget.tick()?;
         let bytes = reader.next(self.end, wanted)?;
         let own = (number + 1).to_string();
+        let bounds = entry.as_ref().map(|entry| entry.bounds);
         let parts = self.parts(bytes, entry, wanted);
         let attributes = self.attributes(bytes, table);
         let (parts, (attributes, key)) = match (parts, attributes) {
             (Ok(parts), Ok(attributes)) => (parts, attributes),
-            (Err(why), _) => return self.refuse(table, own, &why, wanted),
+            (Err(why), _) => return self.refuse(table, (own, bounds), &why, wanted),
             (_, Err(why)) => {
-                return self.refuse(
-                    table,
-                    own,
-                    &format!("has attributes that cannot be read: it {why}"),
-                    wanted,
-                );
+                let why = format!("has attributes that cannot be read: it {why}");
+                return self.refuse(table, (own, bounds), &why, wanted);
             }
         };
-        table.push(key.as_deref().unwrap_or(&own), parts, attributes)
+        match key {
+            Some(key) => table.push(&key, parts, attributes),
+            None => table.push_unnamed(parts, attributes),
+        }
     }
 
-    fn refuse(&self, table: &mut FeatureTable, id: String, why: &str, wanted: &SourceOptions) -> Result<()> {
+    fn refuse(
+        &self,
+        table: &mut FeatureTable,
+        (id, bounds): (String, Option<[f64; 4]>),
+        why: &str,
+        wanted: &SourceOptions,
+    ) -> Result<()> {
         // It may be that the time is over, and not the feature's fault.
         wanted.budget.check()?;
         let error = Error::data(format!("feature {id} of {} {why}", self.name))
             .help("the file is damaged, or holds what is not read; write it anew: ogr2ogr -nlt CONVERT_TO_LINEAR out.fgb FILE");
-        table.refuse(id, error)
+        table.refuse_at(id, error, bounds)
     }
 
     /// The parts of a feature's geometry.

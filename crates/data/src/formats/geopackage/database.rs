@@ -5,7 +5,7 @@ use std::sync::Arc;
 use std::sync::mpsc::{RecvTimeoutError, sync_channel};
 use std::time::Duration;
 
-use crate::formats::blob::read_blob;
+use crate::formats::blob::{envelope, read_blob};
 use crate::{Attribute, Crs, FeatureTable, SourceOptions};
 use burgeon_base::budget::Budget;
 use burgeon_base::error::{Error, Result};
@@ -151,7 +151,7 @@ impl GeoPackage {
                         // It may be that the time is over, and not the geometry's fault.
                         wanted.budget.check()?;
                         let error = wrong(&why);
-                        table.refuse(id, error)?;
+                        table.refuse_at(id, error, envelope(blob))?;
                         continue;
                     }
                 },

@@ -6,8 +6,8 @@ use std::sync::Arc;
 use glam::DVec3;
 
 use super::system::NamedSystem;
-use super::xml::{Element, Xml, XmlPiece};
 use crate::Geometry;
+use crate::formats::xml::{Element, Xml, XmlPiece};
 use burgeon_base::budget::Budget;
 use burgeon_base::error::{Error, Result as Checked};
 use burgeon_base::text::shown;
@@ -39,7 +39,7 @@ pub(super) struct GmlContext {
     /// The coordinate system, or why it is not known.
     pub(super) system: Option<Rc<Checked<NamedSystem>>>,
     /// How many numbers make a place.
-    dimension: Option<usize>,
+    pub(super) dimension: Option<usize>,
 }
 
 impl GmlContext {
@@ -99,6 +99,14 @@ fn is_curve(name: &str) -> bool {
     matches!(name, "LineString" | "LinearRing" | "Ring" | "Curve" | "CompositeCurve" | "OrientableCurve")
 }
 
+/// A piece of a geometry in space.
+pub(super) enum CityPiece {
+    /// The rings of a flat surface, which do not repeat their first places.
+    Surface(Vec<Vec<DVec3>>),
+    Line(Vec<DVec3>),
+    Point(DVec3),
+}
+
 /// Reads geometries from a file.
 pub(super) struct GeometryReader<'x> {
     pub(super) xml: &'x mut Xml,
@@ -138,6 +146,49 @@ impl GeometryReader<'_> {
                 while let Some(inner) = self.child(depth)? {
                     if is_geometry(&inner.name) {
                         self.geometry(&inner, &context, parts)?;
+                    } else if is_aside(&inner.name) {
+                        self.xml.leave(self.xml.depth - 1)?;
+                    }
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// Hands the rings of each polygon of the geometry that `element` begins to `each`, whatever they are parts of, and its lines and
+    /// points.
+    pub(super) fn surfaces(
+        &mut self,
+        element: &Element,
+        context: &GmlContext,
+        each: &mut dyn FnMut(CityPiece),
+    ) -> GeometryResult<()> {
+        self.budget.tick()?;
+        let context = context.within(element, &mut *self.named);
+        if self.system.is_none() {
+            self.system.clone_from(&context.system);
+        }
+        match &*element.name {
+            "Point" => {
+                let places = self.places(&context)?;
+                places.into_iter().take(1).for_each(|place| each(CityPiece::Point(place)));
+            }
+            name if is_curve(name) => each(CityPiece::Line(self.curve(element, &context)?)),
+            "Polygon" | "PolygonPatch" | "Triangle" | "Rectangle" => {
+                let mut rings = self.rings(&context)?;
+                // A ring ends where it begins.
+                for ring in rings.iter_mut().filter(|ring| ring.len() > 1 && ring.first() == ring.last()) {
+                    ring.pop();
+                }
+                let size: usize = rings.iter().map(Vec::len).sum();
+                self.budget.take(size * 24)?;
+                each(CityPiece::Surface(rings));
+            }
+            _ => {
+                let depth = self.xml.depth;
+                while let Some(inner) = self.child(depth)? {
+                    if is_geometry(&inner.name) {
+                        self.surfaces(&inner, &context, each)?;
                     } else if is_aside(&inner.name) {
                         self.xml.leave(self.xml.depth - 1)?;
                     }

@@ -1,7 +1,5 @@
 //! Reads the features of a collection, one by one.
 
-use std::fs::File;
-use std::path::Path;
 use std::rc::Rc;
 use std::sync::Arc;
 
@@ -9,15 +7,17 @@ use rustc_hash::FxHashMap;
 
 use super::geometry::{GeometryProblem, GeometryReader, GmlContext, is_geometry};
 use super::system::NamedSystem;
-use super::xml::{Element, Xml, XmlPiece};
+use crate::content::{DataFile, LayeredFile};
+use crate::formats::typing::TextTypes;
+use crate::formats::xml::{Element, Xml, XmlPiece};
 use crate::{Attribute, FeatureTable, Geometry, SourceOptions};
 use burgeon_base::budget::Budget;
 use burgeon_base::error::{Error, Result};
 use burgeon_base::text::shown;
 
 /// An open file of GML.
-pub struct GmlFile {
-    file: File,
+pub(crate) struct GmlFile {
+    file: DataFile,
     name: String,
     /// The types of its features, in their order.
     types: Vec<String>,
@@ -27,21 +27,19 @@ pub struct GmlFile {
 #[derive(Clone, Copy, PartialEq)]
 enum Level {
     Collection,
-    Member,
+    /// A member, which may be one of a model of a city.
+    Member {
+        is_city: bool,
+    },
 }
 
 /// The most types of features.
 const MOST_TYPES: usize = 1000;
 
 impl GmlFile {
-    /// Whether a file that begins so is XML.
-    pub(crate) fn is_one(head: &[u8]) -> bool {
-        let head = head.strip_prefix(b"\xef\xbb\xbf").unwrap_or(head).trim_ascii_start();
-        head.starts_with(b"<")
-    }
-
-    pub(crate) fn open(file: File, _path: &Path, name: &str, wanted: &SourceOptions) -> Result<Self> {
-        let mut found = Self { file, name: name.to_owned(), types: Vec::new() };
+    pub(crate) fn open(file: DataFile, wanted: &SourceOptions) -> Result<Self> {
+        let name = file.name.clone();
+        let mut found = Self { file, name: name.clone(), types: Vec::new() };
         let mut types: Vec<String> = Vec::new();
         found.walk(wanted, |xml, element, _| {
             if !types.contains(&element.name) && types.len() < MOST_TYPES {
@@ -51,45 +49,32 @@ impl GmlFile {
             Ok(true)
         })?;
         if types.is_empty() {
-            return Err(Error::data(format!("{name} is XML, but has no features of GML")).help(
-                "they stand in elements called featureMember, featureMembers, member or cityObjectMember",
+            let what = found.root(wanted)?;
+            return Err(Error::data(format!("{name} is XML ({what}), but has no features of GML")).help(
+                "they stand in elements called featureMember, featureMembers, member or cityObjectMember; for another format: \
+                 ogr2ogr out.gpkg FILE",
             ));
         }
         found.types = types;
         Ok(found)
     }
 
-    pub(crate) fn layers(&self) -> Vec<String> {
-        self.types.clone()
-    }
-
-    pub(crate) fn read(&self, layer: &str, wanted: &SourceOptions) -> Result<FeatureTable> {
-        let label =
-            if self.types.len() > 1 { format!("{}:{}", self.name, shown(layer)) } else { self.name.clone() };
-        let none = Error::data("the layer has no coordinate system")
-            .help("name its EPSG code: source(file, { crs = 3067 })");
-        let table = FeatureTable::new(layer, &label, Err(none), wanted);
-        let budget = Arc::clone(&wanted.budget);
-        let mut features =
-            FeatureBuilder { table, label, system: None, kinds: Vec::new(), number: 0, budget };
-        self.walk(wanted, |xml, element, around| {
-            if element.name != layer {
-                xml.leave(xml.depth - 1)?;
-                return Ok(true);
-            }
-            features.feature(xml, &element, around)?;
-            Ok(!features.table.is_full())
-        })?;
-        features.finish()
+    /// The name of the outermost element.
+    fn root(&self, wanted: &SourceOptions) -> Result<String> {
+        let mut xml = Xml::new(&self.file.content, &self.name, &wanted.budget)?;
+        Ok(match xml.next()? {
+            XmlPiece::Start(element) => shown(&element.name).into_owned(),
+            XmlPiece::End | XmlPiece::Eof => "empty".to_owned(),
+        })
     }
 
     /// Has `each` read every feature, whose element has begun, until it says that it has enough.
     fn walk(
         &self,
         wanted: &SourceOptions,
-        mut each: impl FnMut(&mut Xml, Element, &mut Surroundings) -> Result<bool>,
+        mut each: impl FnMut(&mut Xml, Element, (&mut Surroundings, bool)) -> Result<bool>,
     ) -> Result<()> {
-        let mut xml = Xml::new(&self.file, &self.name, &wanted.budget)?;
+        let mut xml = Xml::new(&self.file.content, &self.name, &wanted.budget)?;
         let mut around =
             Surroundings { context: GmlContext::default(), names: FxHashMap::default(), forced: wanted.crs };
         let mut levels: Vec<Level> = Vec::new();
@@ -108,12 +93,16 @@ impl GmlFile {
             );
             match levels.last() {
                 None => levels.push(Level::Collection),
-                Some(Level::Collection) if is_member => levels.push(Level::Member),
+                Some(Level::Collection) if is_member => {
+                    levels.push(Level::Member { is_city: element.name == "cityObjectMember" });
+                }
                 Some(Level::Collection) if element.name == "boundedBy" => around.bounds(&mut xml)?,
                 Some(Level::Collection) => xml.leave(xml.depth - 1)?,
-                Some(Level::Member) if element.name == "FeatureCollection" => levels.push(Level::Collection),
-                Some(Level::Member) => {
-                    if !each(&mut xml, element, &mut around)? {
+                Some(Level::Member { .. }) if element.name == "FeatureCollection" => {
+                    levels.push(Level::Collection)
+                }
+                Some(Level::Member { is_city }) => {
+                    if !each(&mut xml, element, (&mut around, *is_city))? {
                         return Ok(());
                     }
                 }
@@ -122,16 +111,49 @@ impl GmlFile {
     }
 }
 
+impl LayeredFile for GmlFile {
+    fn format(&self) -> &'static str {
+        "GML"
+    }
+
+    fn layers(&self) -> Vec<String> {
+        self.types.clone()
+    }
+
+    fn read(&self, layer: &str, wanted: &SourceOptions) -> Result<FeatureTable> {
+        let label =
+            if self.types.len() > 1 { format!("{}:{}", self.name, shown(layer)) } else { self.name.clone() };
+        let none = Error::data("the layer has no coordinate system")
+            .help("name its EPSG code: source(file, { crs = 3067 })");
+        let table = FeatureTable::new(layer, &label, Err(none), wanted);
+        let budget = Arc::clone(&wanted.budget);
+        let types = TextTypes::default();
+        let mut features = FeatureBuilder { table, label, system: None, types, number: 0, budget };
+        self.walk(wanted, |xml, element, (around, is_city)| {
+            if element.name != layer {
+                xml.leave(xml.depth - 1)?;
+                return Ok(true);
+            }
+            match is_city {
+                true => features.city_object(xml, &element, around)?,
+                false => features.feature(xml, &element, around)?,
+            }
+            Ok(!features.table.is_full())
+        })?;
+        features.finish()
+    }
+}
+
 /// What holds for all features.
-struct Surroundings {
-    context: GmlContext,
+pub(super) struct Surroundings {
+    pub(super) context: GmlContext,
     names: FxHashMap<String, Rc<Result<NamedSystem>>>,
     forced: Option<u32>,
 }
 
 impl Surroundings {
     /// The coordinate system of a name.
-    fn named(&mut self, name: &str) -> Rc<Result<NamedSystem>> {
+    pub(super) fn named(&mut self, name: &str) -> Rc<Result<NamedSystem>> {
         if let Some(known) = self.names.get(name) {
             return Rc::clone(known);
         }
@@ -141,7 +163,7 @@ impl Surroundings {
     }
 
     /// Looks for the coordinate system in the bounds of what is around features.
-    fn bounds(&mut self, xml: &mut Xml) -> Result<()> {
+    pub(super) fn bounds(&mut self, xml: &mut Xml) -> Result<()> {
         let depth = xml.depth;
         while xml.depth >= depth {
             match xml.next()? {
@@ -157,21 +179,14 @@ impl Surroundings {
     }
 }
 
-/// What all values of an attribute have been so far.
-#[derive(Clone, Copy)]
-struct ValueKinds {
-    numbers: bool,
-    booleans: bool,
-}
-
 /// The features that have been read.
-struct FeatureBuilder {
-    table: FeatureTable,
-    label: String,
-    system: Option<Rc<Result<NamedSystem>>>,
-    kinds: Vec<ValueKinds>,
-    number: usize,
-    budget: Arc<Budget>,
+pub(super) struct FeatureBuilder {
+    pub(super) table: FeatureTable,
+    pub(super) label: String,
+    pub(super) system: Option<Rc<Result<NamedSystem>>>,
+    pub(super) types: TextTypes,
+    pub(super) number: usize,
+    pub(super) budget: Arc<Budget>,
 }
 
 impl FeatureBuilder {
@@ -179,7 +194,7 @@ impl FeatureBuilder {
     fn feature(&mut self, xml: &mut Xml, element: &Element, around: &mut Surroundings) -> Result<()> {
         self.number += 1;
         let id = element.attribute("id").or_else(|| element.attribute("fid")).filter(|id| !id.is_empty());
-        let id = id.map_or_else(|| self.number.to_string(), str::to_owned);
+        let id = id.map(str::to_owned);
         let depth = xml.depth;
         let mut found = FeatureContent { parts: Vec::new(), values: Vec::new(), system: None, wrong: None };
         let mut context = around.context.clone();
@@ -199,14 +214,16 @@ impl FeatureBuilder {
                 XmlPiece::Eof => break,
             }
         }
-        self.add(&id, found)
+        self.add(id, found)
     }
 
-    fn add(&mut self, id: &str, found: FeatureContent) -> Result<()> {
+    fn add(&mut self, id: Option<String>, found: FeatureContent) -> Result<()> {
+        let shown_id = id.clone().unwrap_or_else(|| self.number.to_string());
         let refuse = |table: &mut FeatureTable, why: &str| {
+            let id = &shown_id;
             let error = Error::data(format!("feature {} of {} {why}", shown(id), self.label))
                 .help("points, curves, polygons, surfaces and collections of these are read");
-            table.refuse(id.to_owned(), error)
+            table.refuse(id.clone(), error)
         };
         if let (true, Some(why)) = (found.parts.is_empty(), &found.wrong) {
             return refuse(&mut self.table, why);
@@ -222,16 +239,12 @@ impl FeatureBuilder {
         }
         let mut attributes: Vec<(usize, Attribute)> = Vec::with_capacity(found.values.len());
         for (name, value) in found.values {
-            let number = self.table.name(&name);
-            if self.kinds.len() <= number {
-                self.kinds.resize(number + 1, ValueKinds { numbers: true, booleans: true });
-            }
-            let kind = &mut self.kinds[number];
-            kind.numbers &= as_number(&value).is_some();
-            kind.booleans &= matches!(&*value, "true" | "false");
-            attributes.push((number, self.table.text(&value)));
+            attributes.push(self.types.attribute(&mut self.table, &name, &value));
         }
-        self.table.push(id, found.parts, attributes)
+        match id {
+            Some(id) => self.table.push(&id, found.parts, attributes),
+            None => self.table.push_unnamed(found.parts, attributes),
+        }
     }
 
     /// The table; attributes of which all values are numbers, or true and false, become these.
@@ -241,34 +254,9 @@ impl FeatureBuilder {
             Some(Err(error)) => self.table.crs = Err(error.clone()),
             None => {}
         }
-        if !self.kinds.iter().any(|kind| kind.numbers || kind.booleans) {
-            return Ok(self.table);
-        }
-        for feature in &mut self.table.features {
-            self.budget.tick()?;
-            for (number, value) in Arc::make_mut(&mut feature.attributes) {
-                let Attribute::Text(text) = value else { continue };
-                let kind = self.kinds[*number];
-                if kind.booleans {
-                    *value = Attribute::Boolean(&**text == "true");
-                } else if let (true, Some(number)) = (kind.numbers, as_number(text)) {
-                    *value = Attribute::Number(number);
-                }
-            }
-        }
+        self.types.finish(&mut self.table)?;
         Ok(self.table)
     }
-}
-
-/// The number that a text is, if it means nothing else: with a zero before it, it is a code.
-fn as_number(text: &str) -> Option<f64> {
-    let digits = text.strip_prefix('-').unwrap_or(text);
-    let is_code = digits.starts_with('0') && digits[1..].starts_with(|letter: char| letter.is_ascii_digit());
-    let begins = digits.starts_with(|letter: char| letter.is_ascii_digit() || letter == '.');
-    if is_code || !begins || digits.len() > 25 {
-        return None;
-    }
-    text.parse().ok().filter(|number: &f64| number.is_finite())
 }
 
 /// What was found of a feature.

@@ -3,7 +3,7 @@
 use std::fs::File;
 use std::io::{Read, Seek, SeekFrom};
 use std::sync::atomic::{AtomicUsize, Ordering};
-use std::sync::{Mutex, OnceLock};
+use std::sync::{Mutex, MutexGuard, OnceLock};
 
 use flate2::{Decompress, FlushDecompress, Status};
 
@@ -28,7 +28,8 @@ const KNOWN: [&str; 2] = ["OsmSchema-V0.6", "DenseNodes"];
 
 /// A file of blobs.
 pub(super) struct BlobFile {
-    file: Mutex<File>,
+    /// None where all blocks are there already.
+    file: Option<Mutex<File>>,
     name: String,
     blobs: Vec<Blob>,
     /// The bytes of blocks that are kept.
@@ -50,7 +51,7 @@ impl BlobFile {
     /// Finds the blobs of `file`, and looks at its header. Fails if it is cut short, or needs what is not known.
     pub(super) fn open(file: File, name: &str, budget: &Budget) -> Result<Self> {
         let mut found = Self {
-            file: Mutex::new(file),
+            file: Some(Mutex::new(file)),
             name: name.to_owned(),
             blobs: Vec::new(),
             kept: AtomicUsize::new(0),
@@ -73,6 +74,21 @@ impl BlobFile {
         Ok(found)
     }
 
+    /// Blocks that were made of another format, as those of a file.
+    pub(super) fn of_blocks(blocks: Vec<Vec<u8>>, name: &str) -> Self {
+        let blobs = (0..).zip(blocks).map(|(at, block)| {
+            let size = block.len();
+            Blob { at, size, unpacked: OnceLock::from(block) }
+        });
+        Self { file: None, name: name.to_owned(), blobs: blobs.collect(), kept: AtomicUsize::new(0) }
+    }
+
+    /// The file, for one reader at a time.
+    fn file(&self) -> Result<MutexGuard<'_, File>> {
+        let file = self.file.as_ref().ok_or_else(|| Error::internal("a block is not there"))?;
+        Ok(file.lock().recover())
+    }
+
     /// How many blocks it has.
     pub(super) fn len(&self) -> usize {
         self.blobs.len()
@@ -87,7 +103,7 @@ impl BlobFile {
     /// The kind of the blob whose header is at `at`, where it begins and how long it is; none at the end.
     fn head(&self, at: u64, budget: &Budget) -> Result<Option<(Vec<u8>, u64, usize)>> {
         budget.tick()?;
-        let mut file = self.file.lock().recover();
+        let mut file = self.file()?;
         let ends = |_| self.damaged(&format!("the blob at byte {at} is cut short"));
         let end = file.seek(SeekFrom::End(0)).map_err(ends)?;
         if at == end {
@@ -149,7 +165,7 @@ impl BlobFile {
         }
         let mut packed = vec![0; blob.size];
         {
-            let mut file = self.file.lock().recover();
+            let mut file = self.file()?;
             let read = file.seek(SeekFrom::Start(blob.at)).and_then(|_| file.read_exact(&mut packed));
             read.map_err(|error| self.damaged(&error.to_string()))?;
         }

@@ -1,4 +1,4 @@
-//! Reads extracts of OpenStreetMap, `.osm.pbf`.
+//! Reads extracts of OpenStreetMap, `.osm.pbf`, and `.osm`, the same as XML.
 //!
 //! Comes in: a file. Goes out: a [`FeatureTable`](crate::FeatureTable) of a layer that tags choose: nodes become points, ways lines
 //! or polygons, multipolygon relations polygons. What cannot be built, as the extract lacks a part of it, is
@@ -20,5 +20,7 @@ mod shapes;
 #[cfg(test)]
 mod tests;
 mod wire;
+mod xml;
 
 pub use reader::OsmFile;
+pub(in crate::formats) use xml::is_extract as is_xml;

@@ -1,8 +1,5 @@
 //! Reads a layer of an extract: what is chosen by tags, then the ways of its relations, then the places of its nodes.
 
-use std::fs::File;
-use std::path::Path;
-
 use rayon::prelude::*;
 use rustc_hash::{FxHashMap, FxHashSet};
 
@@ -12,7 +9,8 @@ use super::choosing::{PlaceSearch, TagChoice, TagSearch, WaySearch};
 use super::layers::{LAYERS, ReadyLayer};
 use super::meaning::{TagValue, meanings};
 use super::places::Place;
-use super::shapes::{BuildResult, OsmRecord, build};
+use super::shapes::{BuildResult, OsmRecord, build, known_bounds};
+use crate::content::DataFile;
 use crate::{Attribute, Crs, FeatureTable, SourceOptions};
 use burgeon_base::MemoryOwner;
 use burgeon_base::budget::Budget;
@@ -32,11 +30,21 @@ impl OsmFile {
         is_extract(head)
     }
 
-    pub(crate) fn open(file: File, path: &Path, name: &str, wanted: &SourceOptions) -> Result<Self> {
-        let stem =
-            path.file_stem().map_or_else(|| name.to_owned(), |stem| stem.to_string_lossy().into_owned());
+    pub(crate) fn open(file: DataFile, wanted: &SourceOptions) -> Result<Self> {
+        let stem = file.stem();
         let stem = stem.strip_suffix(".osm").map_or_else(|| stem.clone(), str::to_owned);
-        Ok(Self { blobs: BlobFile::open(file, name, &wanted.budget)?, name: name.to_owned(), stem })
+        let (file, _, name) = file.on_disk("extract of OpenStreetMap")?;
+        Ok(Self { blobs: BlobFile::open(file, &name, &wanted.budget)?, name, stem })
+    }
+
+    /// Opens an extract that is XML.
+    pub(crate) fn open_xml(file: &DataFile, wanted: &SourceOptions) -> Result<Self> {
+        let blocks = super::xml::blocks(file, &wanted.budget)?;
+        Ok(Self {
+            blobs: BlobFile::of_blocks(blocks, &file.name),
+            name: file.name.clone(),
+            stem: file.stem(),
+        })
     }
 
     pub(crate) fn layers(&self) -> Vec<String> {
@@ -79,7 +87,12 @@ impl OsmFile {
         let owner = MemoryOwner::current();
         let built: Vec<BuildResult> =
             records.par_iter().map(|record| owner.charge(|| build(record))).collect();
-        self.fill(&mut table, layer, records, built, wanted)?;
+        let records = records.into_iter().zip(built).map(|(record, built)| {
+            // Where a part of the extract is wanted, it matters where a feature lies that cannot be built.
+            let bounds = built.as_ref().err().map(|_| known_bounds(&record, &ways, &places));
+            (record, built, bounds)
+        });
+        self.fill(&mut table, layer, records, wanted)?;
         Ok(table)
     }
 
@@ -172,13 +185,12 @@ impl OsmFile {
         &self,
         table: &mut FeatureTable,
         layer: Option<&ReadyLayer>,
-        records: Vec<OsmRecord>,
-        built: Vec<BuildResult>,
+        records: impl Iterator<Item = (OsmRecord, BuildResult, Option<[f64; 4]>)>,
         wanted: &SourceOptions,
     ) -> Result<()> {
         let mut cut = 0;
         let mut unread: Option<(usize, String)> = None;
-        for (record, built) in records.into_iter().zip(built) {
+        for (record, built, bounds) in records {
             let id = record.name();
             let (parts, lacks) = match built {
                 Ok(built) => built,
@@ -186,20 +198,29 @@ impl OsmFile {
                     // It may be that the time is over, and not the feature's fault.
                     wanted.budget.check()?;
                     let error = Error::data(format!("{id} of {} {why}", table.shown));
-                    table.refuse(
+                    table.refuse_at(
                         id,
                         error.help("get an extract that reaches farther, or mend it in OpenStreetMap"),
+                        bounds,
                     )?;
                     continue;
                 }
             };
-            cut += usize::from(lacks);
+            let mut odd: Vec<String> = Vec::new();
             let attributes = self.attributes(table, layer, &record, |key, value| {
-                let (count, _) =
-                    unread.get_or_insert_with(|| (0, format!("{key} = \"{}\" of {id}", shown(value))));
-                *count += 1;
+                odd.push(format!("{key} = \"{}\" of {id}", shown(value)));
             });
+            let before = table.features.len();
             table.push(&id, parts, attributes)?;
+            // What is not wanted is of no interest.
+            if table.features.len() == before {
+                continue;
+            }
+            cut += usize::from(lacks);
+            let count = odd.len();
+            if let Some(first) = odd.into_iter().next() {
+                unread.get_or_insert((0, first)).0 += count;
+            }
         }
         let shown = table.shown.clone();
         if cut > 0 {

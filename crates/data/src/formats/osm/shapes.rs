@@ -92,6 +92,21 @@ pub(super) fn build(
     }
 }
 
+/// The bounds of what is known of a record (degrees); those of nothing touch no box.
+pub(super) fn known_bounds(
+    record: &OsmRecord,
+    ways: &FxHashMap<i64, Vec<i64>>,
+    places: &FxHashMap<i64, Place>,
+) -> [f64; 4] {
+    let of_ways = record.shape.ways().iter().filter_map(|way| ways.get(way)).flatten();
+    let known = record.shape.nodes().iter().chain(of_ways).filter_map(|node| places.get(node));
+    let nothing = [f64::INFINITY, f64::INFINITY, f64::NEG_INFINITY, f64::NEG_INFINITY];
+    known.fold(nothing, |[west, south, east, north], place| {
+        let at = place.degrees();
+        [west.min(at.x), south.min(at.y), east.max(at.x), north.max(at.y)]
+    })
+}
+
 fn polygons(rings: Vec<rings::PolygonRings>) -> Vec<Geometry> {
     let points = |ring: Vec<Place>| ring.into_iter().map(Place::degrees).collect();
     rings

@@ -374,3 +374,90 @@ fn real_layers_have_as_many_features_as_those_that_were_made_of_them_elsewhere()
         assert_eq!(["trees", "furniture", "roads", "green"].map(count), counts, "{file}");
     }
 }
+
+#[test]
+fn an_extract_that_is_xml_gives_the_same_layers_as_the_packed_one() {
+    let degrees = |count: i64| {
+        format!(
+            "{}{}.{:07}",
+            if count < 0 { "-" } else { "" },
+            count.abs() / 10_000_000,
+            count.abs() % 10_000_000
+        )
+    };
+    let tags = |tags: &[(&str, &str)]| -> String {
+        let text = |text: &str| text.replace('&', "&amp;").replace('"', "&quot;");
+        tags.iter().map(|(key, value)| format!("<tag k=\"{}\" v=\"{}\"/>", text(key), text(value))).collect()
+    };
+    let mut nodes = square(1, TOWN, 1000);
+    nodes.extend(square(11, [TOWN[0] + 5000, TOWN[1]], 1000));
+    nodes.extend(square(21, [TOWN[0] + 5000, TOWN[1]], 300));
+    nodes.push((30, TOWN[0], TOWN[1] + 3000));
+    let mut text =
+        "<?xml version='1.0' encoding='UTF-8'?>\n<osm version='0.6'><bounds minlat='1'/>".to_owned();
+    for (id, x, y) in &nodes {
+        let known =
+            if *id == 30 { tags(&[("natural", "tree"), ("species", "Tilia")]) } else { String::new() };
+        text += &format!("<node id='{id}' lat='{}' lon='{}'>{known}</node>", degrees(*y), degrees(*x));
+    }
+    let way = |id: i64, nodes: &[i64], known: &[(&str, &str)]| {
+        let nodes: String = nodes.iter().map(|node| format!("<nd ref='{node}'/>")).collect();
+        format!("<way id='{id}'>{nodes}{}</way>", tags(known))
+    };
+    let house =
+        [("building", "house"), ("height", "40'"), ("building:levels", "3;4"), ("building:colour", "red")];
+    text += &way(-7, &ring(1), &house);
+    text += &way(8, &ring(11), &[]);
+    text += &way(9, &ring(21), &[]);
+    text += &way(10, &[1, 11, 99, 13, 14], &[("highway", "residential"), ("width", "wide")]);
+    text += &way(11, &ring(1), &[("highway", "footway")]);
+    text += &way(12, &[1, 2, 99, 3, 1], &[("building", "yes")]);
+    text += "<way id='13' visible='false'><nd ref='1'/><nd ref='2'/><tag k='highway' v='path'/></way>";
+    let relation = |id: i64, members: &[(&str, i64)], known: &[(&str, &str)]| {
+        let members: String =
+            members.iter().map(|(kind, id)| format!("<member type='{kind}' ref='{id}' role=''/>")).collect();
+        format!("<relation id='{id}'>{members}{}</relation>", tags(known))
+    };
+    let area = [("type", "multipolygon"), ("building", "yes"), ("building:part", "no")];
+    text += &relation(5, &[("way", 9), ("node", 30), ("way", 8)], &area);
+    text += &relation(6, &[("way", 8), ("way", 77)], &area[..2]);
+    text += &relation(7, &[("relation", 7)], &area[..2]);
+    text += "</osm>";
+    let read_xml = |wanted: &SourceOptions| {
+        let path = FOLDER.with(|folder| folder.path().join("town.osm"));
+        std::fs::write(&path, &text).unwrap();
+        Source::open_within(&path, "town.osm.pbf", wanted)?.read("town.osm.pbf", wanted)
+    };
+    let mut compared = 0;
+    for name in ["buildings", "roads", "trees", "landuse"] {
+        let told = |table: Result<FeatureTable>| match table {
+            Ok(table) => {
+                let features =
+                    table.features.iter().map(|feature| format!("{feature:?}")).collect::<Vec<_>>();
+                let refused: Vec<String> = table.refused.iter().map(|(_, error)| error.to_string()).collect();
+                (features, table.names.clone(), refused, table.notes.clone())
+            }
+            Err(error) => (vec![error.to_string()], Vec::new(), Vec::new(), Vec::new()),
+        };
+        let (packed, plain) = (told(town().read(layer(name))), told(read_xml(&layer(name))));
+        compared += packed.0.len();
+        assert_eq!(packed, plain, "{name}");
+    }
+    assert!(compared > 5);
+}
+
+#[test]
+fn where_a_box_is_wanted_only_what_lies_in_it_is_reported() {
+    let degrees = |[x, y]: [i64; 2]| [x, y].map(|count| count as f64 / 1e7);
+    let around = |[x, y]: [f64; 2], half: f64| Some([x - half, y - half, x + half, y + half]);
+    let told = |within: Option<[f64; 4]>, name: &str| {
+        let table = town().read(SourceOptions { within, ..layer(name) }).unwrap();
+        (table.refused.len(), table.notes.len())
+    };
+    assert_eq!((told(None, "buildings"), told(None, "roads")), ((3, 0), (0, 2)));
+    // The relation in the east is not built for a way that is not there, and lies within the box; way/12 does not.
+    let east = around(degrees([TOWN[0] + 5000, TOWN[1]]), 0.0002);
+    assert_eq!(told(east, "buildings"), (1, 0));
+    let west = around(degrees(TOWN), 0.0002);
+    assert_eq!(told(west, "buildings"), (1, 0));
+}

@@ -55,6 +55,7 @@ impl SourceTables {
                         collapsed: 0,
                         refused: Vec::new(),
                         notes: Vec::new(),
+                        derived: 0,
                     };
                     known.database.add_layer(&table.name, &layer, budget)?;
                 }

@@ -73,6 +73,7 @@ impl SourceHandle {
         let asker = Machine::asker(machine.lua(), &machine.session);
         let layer = machine.session.data.load(&machine.session, asker, text, wanted, table)?;
         layer.warnings().into_iter().for_each(|warning| machine.warn(warning));
+        layer.derived_note().into_iter().for_each(|note| machine.session.add_note(note));
         Ok(Self::Layer(layer))
     }
 

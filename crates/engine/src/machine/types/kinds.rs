@@ -8,7 +8,7 @@ use super::handles::{ObjectHandle, methods_key};
 use crate::machine::convert::to_field;
 use crate::machine::{Machine, compile};
 use burgeon_base::error::{Error, Result};
-use burgeon_kit::{Call, Construct, Deprecation, Kind, Table as ValueTable, TableKey, Value};
+use burgeon_kit::{Call, Construct, Deprecation, Kind, Loader, Table as ValueTable, TableKey, Value};
 
 /// Makes the constructor of a type of object and its table of methods.
 pub(in crate::machine) fn install_kind(
@@ -85,13 +85,10 @@ pub(in crate::machine) fn constructor(machine: &Machine, kind: &Arc<Kind>) -> ml
         Construct::File(loader) => {
             let (kind, loader) = (Arc::clone(kind), loader.clone());
             let session = Arc::clone(&machine.session);
-            lua.create_function(move |lua, (name, fields): (LuaValue, LuaValue)| {
-                let name = match name {
-                    LuaValue::String(name) => name.to_string_lossy(),
-                    _ => String::new(),
-                };
+            lua.create_function(move |lua, (files, fields): (LuaValue, LuaValue)| {
                 let load = || {
                     library.at_top_level(&kind.name)?;
+                    let names = file_names(&kind, &loader, files)?;
                     let fields = match to_field(&fields)? {
                         Value::Nil => Arc::default(),
                         Value::Table(fields) => fields,
@@ -109,7 +106,7 @@ pub(in crate::machine) fn constructor(machine: &Machine, kind: &Arc<Kind>) -> ml
                     }
                     let asker = Machine::asker(lua, &session);
                     let loaded =
-                        session.data.object(&session, asker, (&kind.name, &loader), &name, &fields)?;
+                        session.data.object(&session, asker, (&kind.name, &loader), &names, &fields)?;
                     let machine = library.machine()?;
                     loaded.warnings.into_iter().for_each(|warning| machine.warn(warning));
                     Ok(ObjectHandle(loaded.object))
@@ -120,6 +117,23 @@ pub(in crate::machine) fn constructor(machine: &Machine, kind: &Arc<Kind>) -> ml
     };
     machine.library.note_constructor(&constructor, kind);
     Ok(Some(constructor))
+}
+
+/// The names of the files that a constructor takes: one, or several in a list.
+fn file_names(kind: &Kind, loader: &Loader, files: LuaValue) -> Result<Vec<String>> {
+    let list = match files {
+        LuaValue::String(name) => return Ok(vec![name.to_string_lossy()]),
+        LuaValue::Table(list) if !loader.several.is_empty() => list,
+        _ => return Ok(vec![String::new()]),
+    };
+    let names = list.sequence_values::<LuaValue>().map(|name| match name {
+        Ok(LuaValue::String(name)) => Some(name.to_string_lossy()),
+        _ => None,
+    });
+    names.collect::<Option<Vec<_>>>().filter(|names| !names.is_empty()).ok_or_else(|| {
+        Error::argument(format!("{} takes the name of a file, or a list of such names", kind.name))
+            .help(format!("write {}", loader.example))
+    })
 }
 
 /// A function that does what `method` does, and takes notice of where it was used.

@@ -1,8 +1,7 @@
 //! A file of XML, element by element, within bounds.
 
 use std::cell::Cell;
-use std::fs::File;
-use std::io::{BufRead, BufReader, Read, Seek};
+use std::io::{BufRead, BufReader, Read};
 use std::rc::Rc;
 use std::sync::Arc;
 
@@ -10,6 +9,7 @@ use quick_xml::Reader;
 use quick_xml::escape::resolve_predefined_entity;
 use quick_xml::events::{BytesStart, Event};
 
+use crate::content::{Content, ContentReader};
 use burgeon_base::budget::Budget;
 use burgeon_base::error::{Error, Result};
 use burgeon_base::text::shown;
@@ -21,7 +21,7 @@ const DEEPEST: usize = 100;
 const LONGEST: usize = 100_000_000;
 
 /// A piece of a file.
-pub(super) enum XmlPiece {
+pub(in crate::formats) enum XmlPiece {
     /// An element begins.
     Start(Element),
     /// The element that began last ends.
@@ -31,44 +31,41 @@ pub(super) enum XmlPiece {
 }
 
 /// The beginning of an element.
-pub(super) struct Element {
+pub(in crate::formats) struct Element {
     /// Its name without what stands before a colon.
-    pub(super) name: String,
+    pub(in crate::formats) name: String,
     attributes: Vec<(String, String)>,
 }
 
 impl Element {
     /// The attribute called `name`, whatever stands before a colon.
-    pub(super) fn attribute(&self, name: &str) -> Option<&str> {
+    pub(in crate::formats) fn attribute(&self, name: &str) -> Option<&str> {
         self.attributes.iter().find(|(known, _)| known == name).map(|(_, value)| value.as_str())
     }
 }
 
 /// A file that is read from the front to the end.
-pub(super) struct Xml {
+pub(in crate::formats) struct Xml {
     reader: Reader<BoundedReader<BufReader<XmlText>>>,
     buffer: Vec<u8>,
     /// The text since an element began or ended.
     text: String,
     /// How many elements have begun and not ended.
-    pub(super) depth: usize,
+    pub(in crate::formats) depth: usize,
     name: String,
     budget: Arc<Budget>,
     unread: Rc<Cell<usize>>,
 }
 
 impl Xml {
-    /// Begins at the front of `file`.
-    pub(super) fn new(file: &File, name: &str, budget: &Arc<Budget>) -> Result<Self> {
+    /// Begins at the front of a file's `content`.
+    pub(in crate::formats) fn new(content: &Content, name: &str, budget: &Arc<Budget>) -> Result<Self> {
         let cannot = |error: std::io::Error| broken(name, &error.to_string());
-        let mut file = file.try_clone().map_err(cannot)?;
-        let mut head = [0; 256];
-        file.rewind().map_err(cannot)?;
-        let count = file.read(&mut head).map_err(cannot)?;
-        file.rewind().map_err(cannot)?;
+        let head = content.head(256).map_err(cannot)?;
+        let file = content.reader().map_err(cannot)?;
         let unread = Rc::new(Cell::new(0));
         let longest = LONGEST.min(budget.memory() / 4);
-        let text = XmlText { file, is_latin: is_latin(&head[..count], name)?, held: Vec::new() };
+        let text = XmlText { file, is_latin: is_latin(&head, name)?, held: Vec::new() };
         let bounded = BoundedReader {
             inner: BufReader::with_capacity(1 << 16, text),
             unread: Rc::clone(&unread),
@@ -81,12 +78,12 @@ impl Xml {
     }
 
     /// The text since the last element began or ended.
-    pub(super) fn text(&self) -> &str {
+    pub(in crate::formats) fn text(&self) -> &str {
         self.text.trim()
     }
 
     /// The next beginning or end. Text, of which [`Xml::text`] tells, begins anew where an element begins.
-    pub(super) fn next(&mut self) -> Result<XmlPiece> {
+    pub(in crate::formats) fn next(&mut self) -> Result<XmlPiece> {
         self.text.clear();
         loop {
             self.budget.tick()?;
@@ -141,8 +138,27 @@ impl Xml {
         }
     }
 
+    /// Goes to the end of the element that began last, and returns the text in it, without that of elements within it.
+    pub(in crate::formats) fn inner_text(&mut self) -> Result<String> {
+        let depth = self.depth;
+        let mut all = String::new();
+        loop {
+            let is_own = self.depth == depth;
+            let piece = self.next()?;
+            if is_own {
+                all.push_str(&self.text);
+            }
+            if self.depth < depth || matches!(piece, XmlPiece::Eof) {
+                return Ok(all.trim().to_owned());
+            }
+            if all.len() > LONGEST.min(self.budget.memory() / 4) {
+                return Err(broken(&self.name, "it has a text that is too long"));
+            }
+        }
+    }
+
     /// Passes over what is left of the elements that are deeper than `depth`.
-    pub(super) fn leave(&mut self, depth: usize) -> Result<()> {
+    pub(in crate::formats) fn leave(&mut self, depth: usize) -> Result<()> {
         while self.depth > depth {
             if matches!(self.next()?, XmlPiece::Eof) {
                 break;
@@ -192,7 +208,7 @@ fn is_latin(head: &[u8], name: &str) -> Result<bool> {
 
 /// A file as UTF-8.
 struct XmlText {
-    file: File,
+    file: ContentReader,
     is_latin: bool,
     /// What did not fit last time.
     held: Vec<u8>,

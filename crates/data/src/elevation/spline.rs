@@ -1,0 +1,205 @@
+//! The surface over a hole: a thin plate under tension.
+//!
+//! Source: Smith and Wessel, "Gridding with continuous curvature splines in tension", 1990. Method: conjugate gradients on each
+//! level of a pyramid of halves, each of which begins with what the level above it found; a cascade as in Bornemann and Deuflhard,
+//! "The cascadic multigrid method for elliptic problems", 1996.
+
+use crate::heights::count;
+use burgeon_base::budget::Budget;
+use burgeon_base::error::Result;
+
+/// How much the surface resists to being longer, beside its resistance to bending, where samples are one apart.
+const TENSION: f32 = 0.03;
+
+/// Larger patches are only smoothed on their finest levels.
+const MOST: usize = 16_000_000;
+
+/// How often they are.
+const SWEEPS: usize = 6;
+
+/// How many heights are computed in all rounds of a level, about, and the least and the most rounds.
+const WORK: usize = 40_000_000;
+const ROUNDS: [usize; 2] = [30, 400];
+
+/// What is left of the residual's square when a level ends.
+const ACCURACY: f64 = 1e-9;
+
+/// A part of a raster with holes (NaN).
+pub(super) struct Patch {
+    columns: usize,
+    rows: usize,
+    pub(super) heights: Vec<f32>,
+    tension: f32,
+}
+
+impl Patch {
+    /// A patch whose rows `line` gives.
+    pub(super) fn new<'h>(
+        columns: usize,
+        rows: usize,
+        budget: &Budget,
+        line: impl Fn(usize) -> &'h [f32],
+    ) -> Result<Self> {
+        let _held = budget.hold(columns * rows * 2 * size_of::<f32>())?;
+        let heights = (0..rows).flat_map(|row| line(row).iter().copied()).collect();
+        Ok(Self { columns, rows, heights, tension: TENSION })
+    }
+
+    /// Fills its holes. There must be a height that is known.
+    pub(super) fn fill(&mut self, budget: &Budget) -> Result<()> {
+        let missing = self.heights.iter().filter(|height| height.is_nan()).count();
+        if missing == 0 {
+            return Ok(());
+        }
+        budget.check()?;
+        let _held = budget.hold(missing * size_of::<u32>() + self.heights.len() * size_of::<f32>() / 4)?;
+        let holes: Vec<u32> =
+            (0u32..).zip(&self.heights).filter(|(_, height)| height.is_nan()).map(|(at, _)| at).collect();
+        let mut above = self.halve();
+        above.fill(budget)?;
+        for hole in holes.iter().map(|hole| *hole as usize) {
+            let (column, row) = (count(hole % self.columns), count(hole / self.columns));
+            self.heights[hole] = above.between((column - 0.5) / 2.0, (row - 0.5) / 2.0);
+        }
+        drop(above);
+        if self.heights.len() <= MOST { self.bend(&holes, budget) } else { self.smooth(&holes, budget) }
+    }
+
+    /// The means of known heights, two by two; NaN where none of the four is known.
+    fn halve(&self) -> Self {
+        let (columns, rows) = (self.columns.div_ceil(2), self.rows.div_ceil(2));
+        let mut heights = Vec::with_capacity(columns * rows);
+        for row in (0..self.rows).step_by(2) {
+            for column in (0..self.columns).step_by(2) {
+                let (mut sum, mut known) = (0.0, 0.0);
+                for y in row..self.rows.min(row + 2) {
+                    let pair = &self.heights[y * self.columns + column..][..2.min(self.columns - column)];
+                    for height in pair.iter().filter(|height| !height.is_nan()) {
+                        sum += height;
+                        known += 1.0;
+                    }
+                }
+                heights.push(sum / known);
+            }
+        }
+        Self { columns, rows, heights, tension: self.tension * 4.0 }
+    }
+
+    /// The height between the four samples around a place in columns and rows, which may lie outside.
+    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "clamped to the samples")]
+    fn between(&self, x: f64, y: f64) -> f32 {
+        let (x, y) = (x.clamp(0.0, count(self.columns - 1)), y.clamp(0.0, count(self.rows - 1)));
+        let (column, row) = (x as usize, y as usize);
+        let (right, below) = ((column + 1).min(self.columns - 1), (row + 1).min(self.rows - 1));
+        let (u, v) = (x.fract() as f32, y.fract() as f32);
+        let along = |row: usize| {
+            let line = &self.heights[row * self.columns..];
+            line[column] + (line[right] - line[column]) * u
+        };
+        let (a, b) = (along(row), along(below));
+        a + (b - a) * v
+    }
+
+    /// The up to four neighbours of a sample.
+    #[inline]
+    fn around(&self, index: usize) -> impl Iterator<Item = usize> + use<> {
+        let (column, row) = (index % self.columns, index / self.columns);
+        let (right, below) = (column + 1 < self.columns, row + 1 < self.rows);
+        let columns = self.columns;
+        [
+            (column > 0).then(|| index - 1),
+            right.then_some(index + 1),
+            (row > 0).then(|| index - columns),
+            below.then_some(index + columns),
+        ]
+        .into_iter()
+        .flatten()
+    }
+
+    /// How far the neighbours of a sample lie above it, in sum.
+    #[inline]
+    fn rise(&self, values: &[f32], index: usize) -> f32 {
+        self.around(index).map(|near| values[near] - values[index]).sum()
+    }
+
+    /// Moves the heights in `holes` towards the surface of least energy.
+    fn bend(&mut self, holes: &[u32], budget: &Budget) -> Result<()> {
+        let size = self.heights.len();
+        let _held = budget.hold(size * (2 * size_of::<f32>() + 1) + holes.len() * 4 * size_of::<f32>())?;
+        // The samples whose bending depends on the holes.
+        let mut bends = vec![false; size];
+        for hole in holes.iter().map(|hole| *hole as usize) {
+            bends[hole] = true;
+            self.around(hole).for_each(|near| bends[near] = true);
+        }
+        let bends: Vec<u32> = (0u32..).zip(bends).filter(|(_, bends)| *bends).map(|(at, _)| at).collect();
+        let mut rises = vec![0.0_f32; size];
+        let tension = self.tension;
+        let force = |patch: &Self, values: &[f32], rises: &mut [f32], into: &mut [f32]| {
+            for at in &bends {
+                rises[*at as usize] = patch.rise(values, *at as usize);
+            }
+            for (force, hole) in into.iter_mut().zip(holes) {
+                let hole = *hole as usize;
+                *force = patch.rise(rises, hole) - tension * rises[hole];
+            }
+        };
+        let mut residual = vec![0.0_f32; holes.len()];
+        force(self, &self.heights, &mut rises, &mut residual);
+        residual.iter_mut().for_each(|value| *value = -*value);
+        let mut way = vec![0.0_f32; size];
+        for (value, hole) in residual.iter().zip(holes) {
+            way[*hole as usize] = *value;
+        }
+        let mut pull = vec![0.0_f32; holes.len()];
+        let square = |values: &[f32]| values.iter().map(|value| f64::from(*value).powi(2)).sum::<f64>();
+        let mut left = square(&residual);
+        let enough = left * ACCURACY;
+        for _ in 0..(WORK / holes.len()).clamp(ROUNDS[0], ROUNDS[1]) {
+            budget.check()?;
+            if left <= enough {
+                break;
+            }
+            force(self, &way, &mut rises, &mut pull);
+            let along =
+                pull.iter().zip(holes).map(|(pull, hole)| f64::from(*pull) * f64::from(way[*hole as usize]));
+            let step = (left / along.sum::<f64>()) as f32;
+            if !step.is_finite() {
+                break;
+            }
+            for ((residual, pull), hole) in residual.iter_mut().zip(&pull).zip(holes) {
+                self.heights[*hole as usize] += step * way[*hole as usize];
+                *residual -= step * pull;
+            }
+            let before = std::mem::replace(&mut left, square(&residual));
+            let turn = (left / before) as f32;
+            for (residual, hole) in residual.iter().zip(holes) {
+                let way = &mut way[*hole as usize];
+                *way = residual + turn * *way;
+            }
+        }
+        Ok(())
+    }
+
+    /// Moves the heights in `holes` towards the means of their neighbours.
+    fn smooth(&mut self, holes: &[u32], budget: &Budget) -> Result<()> {
+        for sweep in 0..SWEEPS {
+            budget.check()?;
+            let mut relax = |hole: &u32| {
+                let hole = *hole as usize;
+                self.heights[hole] += self.rise(&self.heights, hole) / count_around(self.around(hole));
+            };
+            // Back and forth, so that nothing drifts one way.
+            if sweep % 2 == 0 {
+                holes.iter().for_each(&mut relax);
+            } else {
+                holes.iter().rev().for_each(&mut relax);
+            }
+        }
+        Ok(())
+    }
+}
+
+fn count_around(around: impl Iterator<Item = usize>) -> f32 {
+    around.map(|_| 1.0_f32).sum::<f32>().max(1.0)
+}

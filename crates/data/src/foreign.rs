@@ -1,0 +1,190 @@
+//! Formats that are recognised and not read: what a file is, and how to convert it.
+
+use std::path::Path;
+
+use burgeon_base::error::{Error, Result};
+
+/// How to convert what GDAL reads.
+const OGR: &str = "convert it: ogr2ogr out.gpkg FILE";
+
+/// What a file begins with, what it is, and what to do.
+const BEGINNINGS: [(&[u8], &str, &str); 36] = [
+    (b"PAR1", "a GeoParquet file", OGR),
+    (b"ARROW1", "an Arrow (Feather) file", OGR),
+    (b"AC10", "a drawing of AutoCAD (DWG)", "save it as DXF, and convert that: ogr2ogr out.gpkg FILE.dxf"),
+    (
+        b"AutoCAD Binary DXF",
+        "a drawing (binary DXF)",
+        "save it as a text DXF, and convert that: ogr2ogr out.gpkg FILE.dxf",
+    ),
+    (
+        b"LASF",
+        "a cloud of points (LAS or LAZ)",
+        "make heights of it: pdal translate FILE out.tif --writers.gdal.resolution=1",
+    ),
+    (b"ply", "a mesh (PLY)", "convert it to .glb, and place it: model(\"FILE.glb\")"),
+    (b"glTF", "a model (glTF)", "place it: model(\"FILE.glb\")"),
+    (
+        b"ISO-10303-21",
+        "a building model (IFC or STEP)",
+        "convert it: IfcConvert FILE out.glb, and place it: model(\"out.glb\")",
+    ),
+    (b"!table", "a MapInfo table (TAB)", OGR),
+    (b"!TABLE", "a MapInfo table (TAB)", OGR),
+    (b"\x00\x01\x00\x00Standard Jet DB", "a personal geodatabase (MDB)", OGR),
+    (b"\x00\x01\x00\x00Standard ACE DB", "an Access database", OGR),
+    (b"PMTiles", "a file of map tiles (PMTiles)", "convert it: ogr2ogr out.gpkg FILE, of one zoom level"),
+    (
+        b"\x89HDF",
+        "an HDF5 or NetCDF file",
+        "convert its heights: gdal_translate NETCDF:FILE:VARIABLE out.tif",
+    ),
+    (b"CDF\x01", "a NetCDF file", "convert its heights: gdal_translate NETCDF:FILE:VARIABLE out.tif"),
+    (b"CDF\x02", "a NetCDF file", "convert its heights: gdal_translate NETCDF:FILE:VARIABLE out.tif"),
+    (
+        b"PGDMP",
+        "a dump of a database (pg_dump)",
+        "load it into PostGIS, and read that: source(\"postgres://...\")",
+    ),
+    (b"II*\0", "a raster (TIFF)", "heights are read by elevation(\"FILE\")"),
+    (b"MM\0*", "a raster (TIFF)", "heights are read by elevation(\"FILE\")"),
+    (b"\x89PNG", "a picture (PNG)", "heights in it are read by elevation(\"FILE\")"),
+    (b"\xff\xd8\xff", "a picture (JPEG)", "name a file of features"),
+    (b"%PDF", "a PDF", "get the data that it was drawn of"),
+    (b"BZh", "packed by bzip2", "unpack it: bunzip2 FILE"),
+    (b"\xfd7zXZ", "packed by xz", "unpack it: unxz FILE"),
+    (b"\x28\xb5\x2f\xfd", "packed by zstd", "unpack it: unzstd FILE"),
+    (b"7z\xbc\xaf\x27\x1c", "packed by 7-Zip", "unpack it: 7z x FILE"),
+    (b"Rar!", "packed by RAR", "unpack it: unrar x FILE"),
+    (
+        b"\xff\xe0\x04o5m2",
+        "an extract of OpenStreetMap (o5m)",
+        "convert it: osmium cat FILE -o out.osm.pbf, or osmconvert",
+    ),
+    (
+        b"\xd0\xcf\x11\xe0",
+        "an old document of Office",
+        "save its table as .csv, with columns of longitude and latitude",
+    ),
+    (b"version https://git-lfs", "a pointer of Git LFS, not the data itself", "get the data: git lfs pull"),
+    (b"<!DOCTYPE html", "a web page, not data", "the download failed, or needs a login; get it again"),
+    (b"<!doctype html", "a web page, not data", "the download failed, or needs a login; get it again"),
+    (b"<html", "a web page, not data", "the download failed, or needs a login; get it again"),
+    (b"ncols", "a raster (ASCII grid)", "heights are read by elevation(\"FILE\")"),
+    (b"NCOLS", "a raster (ASCII grid)", "heights are read by elevation(\"FILE\")"),
+    (b"solid ", "a mesh (STL)", "convert it to .glb, and place it: model(\"FILE.glb\")"),
+];
+
+/// Extensions that tell what a file is, where its beginning does not.
+const EXTENSIONS: [(&str, &str, &str); 24] = [
+    ("dbf", "the table of a shapefile", "name its .shp file, and keep all of its files beside one another"),
+    ("shx", "the index of a shapefile", "name its .shp file, and keep all of its files beside one another"),
+    (
+        "prj",
+        "the coordinate system of a shapefile",
+        "name its .shp file, and keep all of its files beside one another",
+    ),
+    (
+        "cpg",
+        "the encoding of a shapefile",
+        "name its .shp file, and keep all of its files beside one another",
+    ),
+    ("dxf", "a drawing (DXF)", OGR),
+    ("dwg", "a drawing of AutoCAD (DWG)", "save it as DXF, and convert that: ogr2ogr out.gpkg FILE.dxf"),
+    ("dgn", "a drawing of MicroStation (DGN)", OGR),
+    ("mif", "a MapInfo file (MIF)", OGR),
+    ("mid", "the table of a MapInfo file", "name its .mif file: ogr2ogr out.gpkg FILE.mif"),
+    ("map", "a part of a MapInfo table", "name its .tab file: ogr2ogr out.gpkg FILE.tab"),
+    ("gdb", "a part of a File Geodatabase", "convert the whole folder: ogr2ogr out.gpkg FOLDER.gdb"),
+    ("gdbtable", "a part of a File Geodatabase", "convert the whole folder: ogr2ogr out.gpkg FOLDER.gdb"),
+    (
+        "laz",
+        "a cloud of points (LAZ)",
+        "make heights of it: pdal translate FILE out.tif --writers.gdal.resolution=1",
+    ),
+    ("hgt", "a raster of heights (SRTM)", "heights are read by elevation(\"FILE\")"),
+    ("asc", "a raster of heights (ASCII grid)", "heights are read by elevation(\"FILE\")"),
+    ("000", "a nautical chart (S-57)", OGR),
+    ("e00", "an ArcInfo coverage", OGR),
+    ("mvt", "a map tile (MVT)", OGR),
+    ("mbtiles", "a file of map tiles (MBTiles)", OGR),
+    ("parquet", "a GeoParquet file", OGR),
+    ("tar", "an archive (tar)", "unpack it: tar xf FILE"),
+    ("sql", "statements of SQL", "load them into PostGIS, and read that: source(\"postgres://...\")"),
+    ("xlsx", "a spreadsheet", "save its table as .csv, with columns of longitude and latitude"),
+    ("skp", "a model of SketchUp", "export it as .glb, and place it: model(\"FILE.glb\")"),
+];
+
+fn error(name: &str, what: &str, remedy: &str) -> Error {
+    Error::data(format!("{name} is {what}, which is not read as a source")).help(remedy)
+}
+
+/// Refuses a file that begins with `head`, if it is of a format that is known and not read.
+pub(crate) fn refuse_beginning(head: &[u8], name: &str) -> Result<()> {
+    let text = head.strip_prefix(b"\xef\xbb\xbf").unwrap_or(head).trim_ascii_start();
+    let found = BEGINNINGS.iter().find(|(begins, ..)| head.starts_with(begins) || text.starts_with(begins));
+    if let Some((_, what, remedy)) = found {
+        return Err(error(name, what, remedy));
+    }
+    if head.get(257..262) == Some(b"ustar") {
+        return Err(error(name, "an archive (tar)", "unpack it: tar xf FILE"));
+    }
+    // The first group of a DXF is a comment or the first section.
+    let mut lines = text.split(|byte| *byte == b'\n').map(<[u8]>::trim_ascii);
+    if let (Some(b"0"), Some(b"SECTION")) | (Some(b"999"), Some(_)) = (lines.next(), lines.next())
+        && lines.next().is_some()
+    {
+        return Err(error(name, "a drawing (DXF)", OGR));
+    }
+    Ok(())
+}
+
+/// Refuses a file by its name, if its content tells nothing.
+pub(crate) fn refuse_extension(path: &Path, name: &str) -> Result<()> {
+    let extension = path.extension().unwrap_or_default().to_string_lossy().to_ascii_lowercase();
+    let found = EXTENSIONS.iter().find(|(known, ..)| *known == extension);
+    found.map_or(Ok(()), |(_, what, remedy)| Err(error(name, what, remedy)))
+}
+
+/// The error for a folder; some formats are folders.
+pub(crate) fn folder(path: &Path, name: &str) -> Option<Error> {
+    let extension = path.extension()?.to_string_lossy().to_ascii_lowercase();
+    (extension == "gdb").then(|| error(name, "a File Geodatabase", "convert it: ogr2ogr out.gpkg FOLDER.gdb"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn formats_that_are_not_read_are_told_by_name_with_a_way_to_convert_them() {
+        let told = |head: &[u8]| refuse_beginning(head, "a").unwrap_err().to_string();
+        for head in [
+            &b"PAR1\x15\x04"[..],
+            b"AC1027\0\0",
+            b"  0\r\nSECTION\r\n  2\r\nHEADER\r\n",
+            b"999\ncomment\n0\nSECTION\n",
+            b"LASF\0\0",
+            b"ISO-10303-21;",
+            b"!table\r\n!version 300",
+            b"\r\n<!DOCTYPE html><html>",
+            b"version https://git-lfs.github.com/spec/v1",
+            b"BZh91AY",
+            b"II*\0\x08",
+        ] {
+            let told = told(head);
+            assert!(told.contains("which is not read as a source") && told.contains("help: "), "{told}");
+        }
+        for head in [&b"{\"type\""[..], b"<?xml", b"", b"0\n", b"name,lon,lat\n"] {
+            assert!(refuse_beginning(head, "a").is_ok(), "{head:?}");
+        }
+        assert!(
+            refuse_extension(Path::new("a/b.DXF"), "b").is_err()
+                && refuse_extension(Path::new("b.csv"), "b").is_ok()
+        );
+        assert!(
+            folder(Path::new("town.gdb"), "town.gdb").is_some()
+                && folder(Path::new("town"), "town").is_none()
+        );
+    }
+}

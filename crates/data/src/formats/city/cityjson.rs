@@ -1,0 +1,498 @@
+//! Reads CityJSON, and CityJSONSeq, which has an object to a line.
+
+use std::fmt;
+use std::sync::Arc;
+
+use glam::DVec3;
+use rustc_hash::FxHashMap;
+use serde::Deserialize;
+use serde::de::{Deserializer, MapAccess, Visitor};
+use serde_json::Value;
+use serde_json::value::RawValue;
+
+use super::model::{CityObject, CityValue};
+use super::shape::{CityShape, CitySurface, SurfaceRole};
+use crate::content::{DataFile, LayeredFile};
+use crate::formats::typing::TextTypes;
+use crate::{Attribute, Crs, FeatureTable, SourceOptions};
+use burgeon_base::budget::Budget;
+use burgeon_base::error::{Error, Result};
+use burgeon_base::text::shown;
+
+/// The largest file (bytes).
+const LARGEST: u64 = 1_000_000_000;
+
+/// How many of the first bytes tell that a file is CityJSON.
+const HEAD: usize = 1024;
+
+/// How many bytes an object of a line takes while it is read, for each of its own.
+const AROUND: usize = 8;
+
+/// A file of CityJSON.
+pub(crate) struct CityJson {
+    file: DataFile,
+    types: Vec<String>,
+}
+
+/// A document: the model, or an object of a sequence.
+#[derive(Deserialize)]
+struct Document<'a> {
+    r#type: Option<String>,
+    #[serde(default)]
+    transform: Option<Transform>,
+    #[serde(borrow, default)]
+    metadata: Option<&'a RawValue>,
+    #[serde(borrow, default, rename = "CityObjects")]
+    objects: Option<ObjectList<'a>>,
+    #[serde(default)]
+    vertices: Vec<Vec<f64>>,
+}
+
+#[derive(Deserialize, Clone)]
+struct Transform {
+    scale: [f64; 3],
+    translate: [f64; 3],
+}
+
+/// Objects by their ids, in the order of the file.
+struct ObjectList<'a>(Vec<(String, &'a RawValue)>);
+
+impl<'de: 'a, 'a> Deserialize<'de> for ObjectList<'a> {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> std::result::Result<Self, D::Error> {
+        struct ListVisitor;
+
+        impl<'de> Visitor<'de> for ListVisitor {
+            type Value = ObjectList<'de>;
+
+            fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+                f.write_str("an object")
+            }
+
+            fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> std::result::Result<Self::Value, A::Error> {
+                let mut list = Vec::new();
+                while let Some(entry) = map.next_entry::<String, &'de RawValue>()? {
+                    list.push(entry);
+                }
+                Ok(ObjectList(list))
+            }
+        }
+        deserializer.deserialize_map(ListVisitor)
+    }
+}
+
+/// An object as the file has it.
+#[derive(Deserialize)]
+struct RawObject<'a> {
+    #[serde(default)]
+    attributes: Option<serde_json::Map<String, Value>>,
+    #[serde(borrow, default)]
+    geometry: Vec<RawGeometry<'a>>,
+    #[serde(default)]
+    parents: Vec<String>,
+    #[serde(default)]
+    children: Vec<String>,
+}
+
+#[derive(Deserialize)]
+struct RawGeometry<'a> {
+    r#type: String,
+    #[serde(default)]
+    lod: Option<Value>,
+    #[serde(borrow, default)]
+    boundaries: Option<&'a RawValue>,
+    #[serde(default)]
+    semantics: Option<Semantics>,
+}
+
+#[derive(Deserialize)]
+struct Semantics {
+    #[serde(default)]
+    surfaces: Vec<SemanticSurface>,
+    #[serde(default)]
+    values: Value,
+}
+
+#[derive(Deserialize)]
+struct SemanticSurface {
+    #[serde(default)]
+    r#type: String,
+}
+
+/// The coordinates of a document.
+struct Vertices {
+    places: Vec<Vec<f64>>,
+    transform: Option<Transform>,
+}
+
+impl Vertices {
+    fn ring(&self, numbers: &[usize]) -> std::result::Result<Vec<DVec3>, String> {
+        numbers.iter().map(|number| self.place(*number)).collect()
+    }
+
+    fn place(&self, number: usize) -> std::result::Result<DVec3, String> {
+        let place = self
+            .places
+            .get(number)
+            .ok_or_else(|| format!("names the vertex {number}, which the file does not have"))?;
+        let [x, y, z] = place[..] else { return Err(format!("has a vertex of {} numbers", place.len())) };
+        let place = DVec3::new(x, y, z);
+        Ok(match &self.transform {
+            Some(Transform { scale, translate }) => place * DVec3::from(*scale) + DVec3::from(*translate),
+            None => place,
+        })
+    }
+}
+
+impl CityJson {
+    /// Whether a file that begins so is CityJSON.
+    pub(crate) fn is_one(head: &[u8]) -> bool {
+        let head = String::from_utf8_lossy(&head[..head.len().min(HEAD)]);
+        let text = head.trim_start_matches('\u{feff}').trim_start();
+        text.starts_with('{') && (text.contains("\"CityJSON") || text.contains("\"CityObjects\""))
+    }
+
+    pub(crate) fn open(file: DataFile, wanted: &SourceOptions) -> Result<Self> {
+        let mut found = Self { file, types: Vec::new() };
+        let mut types: Vec<String> = Vec::new();
+        found.each(wanted, |document| {
+            for (_, text) in document.objects.iter().flat_map(|list| &list.0) {
+                wanted.budget.tick()?;
+                let object: ObjectType = serde_json::from_str(text.get()).unwrap_or_default();
+                let name = object.r#type.unwrap_or_default();
+                if !name.is_empty() && !types.contains(&name) && types.len() < 1000 {
+                    types.push(name);
+                }
+            }
+            Ok(())
+        })?;
+        if types.is_empty() {
+            return Err(Error::data(format!("{} is CityJSON without city objects", found.file.name))
+                .help("it needs \"CityObjects\": { \"id\": { \"type\": \"Building\", ... } }"));
+        }
+        // Parts are read with what they belong to; they can be asked for too.
+        types.sort_by_key(|name| name.ends_with("Part"));
+        found.types = types;
+        Ok(found)
+    }
+
+    /// Hands the model to `each`, or the objects of a sequence one by one.
+    fn each(&self, wanted: &SourceOptions, mut each: impl FnMut(Document<'_>) -> Result<()>) -> Result<()> {
+        let bytes = self.file.bytes(LARGEST, &wanted.budget)?;
+        let name = &self.file.name;
+        let result = self.each_of(&bytes, wanted, &mut each);
+        if let crate::content::Content::File(_) = self.file.content {
+            wanted.budget.give(bytes.len());
+        }
+        result.map_err(|error| error.about(name))
+    }
+
+    fn each_of(
+        &self,
+        bytes: &[u8],
+        wanted: &SourceOptions,
+        each: &mut impl FnMut(Document<'_>) -> Result<()>,
+    ) -> Result<()> {
+        let name = &self.file.name;
+        let text = std::str::from_utf8(bytes).map_err(|_| {
+            Error::data(format!("{name} is not UTF-8, as CityJSON has to be"))
+                .help("convert it: iconv -f ENCODING -t UTF-8 IN > OUT.city.json")
+        })?;
+        let text = text.trim_start_matches('\u{feff}');
+        // Vertices and boundaries are numbers, of which each takes more than its text.
+        let mut documents = serde_json::Deserializer::from_str(text).into_iter::<&RawValue>();
+        let mut transform: Option<Transform> = None;
+        let mut first = true;
+        loop {
+            let before = documents.byte_offset();
+            let Some(document) = documents.next() else { break };
+            wanted.budget.check()?;
+            let line = || text[..before].matches('\n').count() + 1;
+            let broken = |error: &serde_json::Error| {
+                let why = if error.is_eof() {
+                    "it is cut short".to_owned()
+                } else {
+                    shown(&error.to_string()).into_owned()
+                };
+                Error::data(format!("{name} is not CityJSON: {why}, from line {} on", line()))
+                    .help("CityJSON is described at https://www.cityjson.org/specs")
+            };
+            let document = document.map_err(|error| broken(&error))?;
+            let _held = wanted.budget.hold(document.get().len().saturating_mul(AROUND))?;
+            let mut read: Document<'_> =
+                serde_json::from_str(document.get()).map_err(|error| broken(&error))?;
+            let is_known = matches!(read.r#type.as_deref(), Some("CityJSON" | "CityJSONFeature"));
+            if first && !is_known {
+                return Err(Error::data(format!("{name} is JSON, but not CityJSON"))
+                    .help("it needs \"type\": \"CityJSON\""));
+            }
+            first = false;
+            // The first one of a sequence tells the transform of all.
+            match &read.transform {
+                Some(own) => transform = Some(own.clone()),
+                None => read.transform.clone_from(&transform),
+            }
+            each(read)?;
+        }
+        Ok(())
+    }
+}
+
+/// The type of an object.
+#[derive(Deserialize, Default)]
+struct ObjectType {
+    r#type: Option<String>,
+}
+
+impl LayeredFile for CityJson {
+    fn format(&self) -> &'static str {
+        "CityJSON"
+    }
+
+    fn layers(&self) -> Vec<String> {
+        self.types.clone()
+    }
+
+    fn read(&self, layer: &str, wanted: &SourceOptions) -> Result<FeatureTable> {
+        let label = match self.types.len() {
+            1 => self.file.name.clone(),
+            _ => format!("{}:{}", self.file.name, shown(layer)),
+        };
+        let none = Error::data("the layer has no coordinate system")
+            .help("name its EPSG code: source(file, { crs = 3067 })");
+        let mut table = FeatureTable::new(layer, &label, Err(none), wanted);
+        let mut types = TextTypes::default();
+        self.each(wanted, |document| read_document(document, layer, &mut table, &mut types, wanted))?;
+        types.finish(&mut table)?;
+        Ok(table)
+    }
+}
+
+/// Adds the features of a type that a document holds.
+fn read_document(
+    document: Document<'_>,
+    layer: &str,
+    table: &mut FeatureTable,
+    types: &mut TextTypes,
+    wanted: &SourceOptions,
+) -> Result<()> {
+    let metadata: Option<Value> = document.metadata.and_then(|text| serde_json::from_str(text.get()).ok());
+    if let Some(name) =
+        metadata.as_ref().and_then(|metadata| metadata.get("referenceSystem")).and_then(Value::as_str)
+    {
+        table.crs = named(name);
+    }
+    let Document { objects, vertices, transform, .. } = document;
+    let vertices = Vertices { places: vertices, transform };
+    let objects = objects.map(|list| list.0).unwrap_or_default();
+    let places: FxHashMap<&str, &RawValue> = objects.iter().map(|(id, text)| (id.as_str(), *text)).collect();
+    for (id, text) in &objects {
+        wanted.budget.tick()?;
+        if table.is_full() {
+            return Ok(());
+        }
+        let of_type: ObjectType = serde_json::from_str(text.get()).unwrap_or_default();
+        if of_type.r#type.as_deref() != Some(layer) {
+            continue;
+        }
+        match object(id, text, &vertices, &places, &wanted.budget)? {
+            Ok(object) => object.add_to(table, types, &wanted.budget)?,
+            Err(why) => {
+                let error = Error::data(format!("object {} of {} {why}", shown(id), table.shown));
+                table.refuse(id.clone(), error.help("check the file with cjval or val3dity"))?;
+            }
+        }
+    }
+    Ok(())
+}
+
+/// The coordinate system that a reference names. Its coordinates are always east, north and height.
+fn named(name: &str) -> Result<Crs> {
+    let code = name.rsplit(['/', ':']).next().and_then(|code| code.parse().ok());
+    let code: u32 = code.ok_or_else(|| {
+        Error::data(format!("the coordinate system \"{}\" is not known", shown(name)))
+            .help("name its EPSG code: source(file, { crs = 3067 })")
+    })?;
+    Crs::epsg(code).or_else(|_| Crs::epsg(horizontal(code)))
+}
+
+/// The code of the places in a compound coordinate system that the registry does not have, whose other part are heights.
+fn horizontal(code: u32) -> u32 {
+    match code {
+        4979 | 9518 | 9707 => 4326,
+        7415 => 28992,
+        5554 => 25831,
+        5555 => 25832,
+        5556 => 25833,
+        5971..=5976 => 25_831 + code - 5971,
+        6697 => 6668,
+        7405 => 27700,
+        7409 | 7423 => 4258,
+        8801 | 8802 | 8803 => 3812,
+        code => code,
+    }
+}
+
+/// An object with its parts. Fails with the reason.
+fn object(
+    id: &str,
+    text: &RawValue,
+    vertices: &Vertices,
+    others: &FxHashMap<&str, &RawValue>,
+    budget: &Budget,
+) -> Result<std::result::Result<CityObject, String>> {
+    let mut made = match single(id, text, vertices, budget)? {
+        Ok(made) => made,
+        Err(why) => return Ok(Err(why)),
+    };
+    for child in &made.1 {
+        let Some(text) = others.get(child.as_str()) else { continue };
+        let of_type: ObjectType = serde_json::from_str(text.get()).unwrap_or_default();
+        if !of_type.r#type.is_some_and(|name| name.ends_with("Part")) {
+            continue;
+        }
+        match single(child, text, vertices, budget)? {
+            Ok((part, _)) => made.0.parts.push(part),
+            Err(why) => return Ok(Err(why)),
+        }
+    }
+    Ok(Ok(made.0))
+}
+
+/// An object without its parts, and the ids of its children.
+type SingleObject = (CityObject, Vec<String>);
+
+fn single(
+    id: &str,
+    text: &RawValue,
+    vertices: &Vertices,
+    budget: &Budget,
+) -> Result<std::result::Result<SingleObject, String>> {
+    budget.tick()?;
+    let raw: RawObject<'_> = match serde_json::from_str(text.get()) {
+        Ok(raw) => raw,
+        Err(error) => return Ok(Err(format!("cannot be read: {}", shown(&error.to_string())))),
+    };
+    let mut made = CityObject { id: Some(id.to_owned()), ..CityObject::default() };
+    for (name, value) in raw.attributes.unwrap_or_default() {
+        let value = match value {
+            Value::Null => continue,
+            Value::Bool(value) => Attribute::Boolean(value),
+            Value::String(text) => Attribute::Text(text.into()),
+            Value::Number(number) => match number.as_f64() {
+                Some(number) => Attribute::Number(number),
+                None => continue,
+            },
+            nested => Attribute::Nested(Arc::new(nested)),
+        };
+        made.values.push((name, CityValue::Known(value)));
+    }
+    if let Some(parent) = raw.parents.first() {
+        made.values.push(("parent".to_owned(), CityValue::Known(Attribute::Text(parent.as_str().into()))));
+    }
+    for geometry in &raw.geometry {
+        if let Err(why) = add_geometry(geometry, vertices, &mut made.shape, budget)? {
+            return Ok(Err(why));
+        }
+    }
+    Ok(Ok((made, raw.children)))
+}
+
+/// Rings of a surface, surfaces of a shell, shells of a solid, solids.
+type Rings = Vec<Vec<usize>>;
+
+/// Adds a geometry to a shape.
+fn add_geometry(
+    geometry: &RawGeometry<'_>,
+    vertices: &Vertices,
+    shape: &mut CityShape,
+    budget: &Budget,
+) -> Result<std::result::Result<(), String>> {
+    let Some(text) = geometry.boundaries.map(RawValue::get) else { return Ok(Ok(())) };
+    let level = match &geometry.lod {
+        Some(Value::Number(number)) => number.as_f64(),
+        Some(Value::String(text)) => text.parse().ok(),
+        _ => None,
+    };
+    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "the range is clamped")]
+    let level = (level.unwrap_or(1.0) * 10.0).round().clamp(0.0, 100.0) as u32;
+    let wrong = |error: serde_json::Error| {
+        format!("has boundaries that cannot be read: {}", shown(&error.to_string()))
+    };
+    let is_solid = geometry.r#type.ends_with("Solid");
+    let read = || -> std::result::Result<(Vec<Rings>, Vec<usize>), String> {
+        match &*geometry.r#type {
+            "MultiSurface" | "CompositeSurface" => {
+                Ok((serde_json::from_str(text).map_err(wrong)?, Vec::new()))
+            }
+            "Solid" => {
+                let shells: Vec<Vec<Rings>> = serde_json::from_str(text).map_err(wrong)?;
+                Ok((shells.into_iter().flatten().collect(), Vec::new()))
+            }
+            "MultiSolid" | "CompositeSolid" => {
+                let solids: Vec<Vec<Vec<Rings>>> = serde_json::from_str(text).map_err(wrong)?;
+                Ok((solids.into_iter().flatten().flatten().collect(), Vec::new()))
+            }
+            "MultiPoint" | "GeometryInstance" => Ok((Vec::new(), serde_json::from_str(text).map_err(wrong)?)),
+            "MultiLineString" => {
+                let lines: Rings = serde_json::from_str(text).map_err(wrong)?;
+                Ok((vec![lines], Vec::new()))
+            }
+            other => Err(format!("has a geometry of type \"{}\", which is not known", shown(other))),
+        }
+    };
+    let (surfaces, points) = match read() {
+        Ok(read) => read,
+        Err(why) => return Ok(Err(why)),
+    };
+    let mut roles = Vec::new();
+    if let Some(semantics) = &geometry.semantics {
+        collect_roles(&semantics.values, &semantics.surfaces, &mut roles, 0);
+    }
+    for (number, rings) in surfaces.into_iter().enumerate() {
+        budget.tick()?;
+        let rings: std::result::Result<Vec<Vec<DVec3>>, String> =
+            rings.iter().map(|ring| vertices.ring(ring)).collect();
+        let rings = match rings {
+            Ok(rings) => rings,
+            Err(why) => return Ok(Err(why)),
+        };
+        if geometry.r#type == "MultiLineString" {
+            shape.lines.extend(rings);
+            continue;
+        }
+        let told = roles.get(number).copied().flatten();
+        let role = match told {
+            Some(role) => role,
+            None if level < 10 && !is_solid => SurfaceRole::Footprint,
+            None => SurfaceRole::Other,
+        };
+        shape.surfaces.push(CitySurface { rings, role, level, is_solid });
+    }
+    for number in points {
+        match vertices.place(number) {
+            Ok(place) => shape.points.push(place),
+            Err(why) => return Ok(Err(why)),
+        }
+    }
+    Ok(Ok(()))
+}
+
+/// The roles of surfaces, in the order of the boundaries.
+fn collect_roles(
+    values: &Value,
+    surfaces: &[SemanticSurface],
+    roles: &mut Vec<Option<SurfaceRole>>,
+    depth: usize,
+) {
+    let Value::Array(values) = values else { return };
+    for value in values {
+        match value {
+            Value::Array(_) if depth < 4 => collect_roles(value, surfaces, roles, depth + 1),
+            value => {
+                let number = value.as_u64().and_then(|number| usize::try_from(number).ok());
+                let surface = number.and_then(|number| surfaces.get(number));
+                roles.push(surface.map(|surface| SurfaceRole::named(&surface.r#type)));
+            }
+        }
+    }
+}

@@ -1,0 +1,129 @@
+//! Objects of a city, and the features that they become.
+
+use super::shape::CityShape;
+use crate::formats::typing::{TextTypes, as_number};
+use crate::{Attribute, FeatureTable};
+use burgeon_base::budget::Budget;
+use burgeon_base::error::Result;
+
+/// A value of an object.
+#[derive(Debug, Clone)]
+pub(in crate::formats) enum CityValue {
+    /// A text of XML, which may be a number.
+    Text(String),
+    /// What JSON tells.
+    Known(Attribute),
+}
+
+/// An object of a city: a building, a road, a tree.
+#[derive(Debug, Default)]
+pub(in crate::formats) struct CityObject {
+    /// Its id, if it has one.
+    pub(in crate::formats) id: Option<String>,
+    pub(in crate::formats) values: Vec<(String, CityValue)>,
+    pub(in crate::formats) shape: CityShape,
+    /// Its parts, such as those of a building.
+    pub(in crate::formats) parts: Vec<CityObject>,
+}
+
+impl CityObject {
+    /// Adds a text; several of one name are listed.
+    pub(in crate::formats) fn add_text(&mut self, name: &str, value: &str) {
+        if value.is_empty() {
+            return;
+        }
+        match self.values.iter_mut().find(|(known, _)| known == name) {
+            Some((_, CityValue::Text(known))) => {
+                known.push(';');
+                known.push_str(value);
+            }
+            Some(_) => {}
+            None => self.values.push((name.to_owned(), CityValue::Text(value.to_owned()))),
+        }
+    }
+
+    /// Adds its features to `table`: one of itself, and one of each part that has a geometry, with what the whole knows. If it has
+    /// but a footprint, that is the one of all parts.
+    ///
+    /// Fails as [`FeatureTable::push`] does.
+    pub(in crate::formats) fn add_to(
+        mut self,
+        table: &mut FeatureTable,
+        types: &mut TextTypes,
+        budget: &Budget,
+    ) -> Result<()> {
+        let parts = std::mem::take(&mut self.parts);
+        let is_whole = !self.shape.surfaces.is_empty() && self.shape.is_flat();
+        let heights = self.shape.heights().or_else(|| {
+            let of_parts = parts.iter().filter_map(|part| part.shape.heights());
+            of_parts.reduce(|[low, high], [lower, higher]| [low.min(lower), high.max(higher)])
+        });
+        if !self.shape.is_empty() || parts.is_empty() {
+            self.push(heights, table, types, budget)?;
+        }
+        if is_whole {
+            return Ok(());
+        }
+        for mut part in parts {
+            let heights = part.shape.heights();
+            for (name, value) in &self.values {
+                if !part.values.iter().any(|(known, _)| known == name) {
+                    part.values.push((name.clone(), value.clone()));
+                }
+            }
+            if let Some(id) = &self.id {
+                part.values
+                    .push(("parent".to_owned(), CityValue::Known(Attribute::Text(id.as_str().into()))));
+            }
+            part.push(heights, table, types, budget)?;
+        }
+        Ok(())
+    }
+
+    /// Adds the feature that it is. What it is high, and how many storeys it has, is told under plain names too.
+    fn push(
+        &self,
+        heights: Option<[f64; 2]>,
+        table: &mut FeatureTable,
+        types: &mut TextTypes,
+        budget: &Budget,
+    ) -> Result<()> {
+        let parts = self.shape.footprint(budget)?;
+        let mut attributes: Vec<(usize, Attribute)> = Vec::with_capacity(self.values.len() + 3);
+        for (name, value) in &self.values {
+            attributes.push(match value {
+                CityValue::Text(text) => types.attribute(table, name, text),
+                CityValue::Known(value) => (table.name(name), value.clone()),
+            });
+        }
+        let number = |name: &str| {
+            self.values.iter().find(|(known, _)| known == name).and_then(|(_, value)| value.number())
+        };
+        let measured = number("measuredHeight");
+        let plain = [
+            ("height", measured.or_else(|| heights.map(|[low, high]| high - low))),
+            ("ground", heights.map(|[low, _]| low)),
+            ("levels", number("storeysAboveGround")),
+        ];
+        for (name, value) in plain {
+            let is_new = !self.values.iter().any(|(known, _)| known == name);
+            if let (Some(value), true) = (value, is_new) {
+                attributes.push((table.name(name), Attribute::Number(value)));
+            }
+        }
+        match &self.id {
+            Some(id) => table.push(id, parts, attributes),
+            None => table.push_unnamed(parts, attributes),
+        }
+    }
+}
+
+impl CityValue {
+    fn number(&self) -> Option<f64> {
+        match self {
+            Self::Text(text) => as_number(text),
+            Self::Known(Attribute::Number(number)) => Some(*number),
+            Self::Known(_) => None,
+        }
+    }
+}

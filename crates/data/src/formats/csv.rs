@@ -1,0 +1,478 @@
+//! Reads delimited text (`.csv`, `.tsv`) with a column of well-known text, or columns of coordinates.
+//!
+//! Comes in: a text with a line of names first. Goes out: a [`FeatureTable`](crate::FeatureTable) of a feature for each line after it.
+//!
+//! Source: RFC 4180; delimiters and names of columns as programs write them.
+
+use std::io::{BufRead, BufReader};
+
+use crate::codepages::{CodePage, WESTERN};
+use crate::content::{ContentReader, DataFile, LayeredFile};
+use crate::formats::typing::TextTypes;
+use crate::{Crs, FeatureTable, Geometry, SourceOptions};
+use burgeon_base::error::{Error, Result};
+use burgeon_base::text::{listed, shown};
+use glam::DVec3;
+
+/// The longest record (bytes).
+const LONGEST: usize = 100_000_000;
+
+/// The most columns.
+const MOST_COLUMNS: usize = 10_000;
+
+/// The names of columns of geometries, in small letters.
+const SHAPES: [&str; 9] =
+    ["wkt", "geometry", "geom", "the_geom", "wkt_geom", "wkb_geometry", "shape", "geojson", "geo_shape"];
+
+/// The names of columns of coordinates, which come in pairs; the first pair that is there counts. The flag tells whether they are
+/// longitude and latitude.
+const PAIRS: [(&str, &str, bool); 15] = [
+    ("lon", "lat", true),
+    ("longitude", "latitude", true),
+    ("long", "lat", true),
+    ("lng", "lat", true),
+    ("lon_wgs84", "lat_wgs84", true),
+    ("x_wgs84", "y_wgs84", true),
+    ("decimallongitude", "decimallatitude", true),
+    ("stop_lon", "stop_lat", true),
+    ("lon_deg", "lat_deg", true),
+    ("easting", "northing", false),
+    ("east", "north", false),
+    ("x", "y", false),
+    ("x_coord", "y_coord", false),
+    ("coord_x", "coord_y", false),
+    ("point_x", "point_y", false),
+];
+
+/// The names of columns of heights.
+const HEIGHTS: [&str; 5] = ["z", "alt", "altitude", "elevation", "ele"];
+
+/// A file of delimited text.
+pub(crate) struct CsvFile {
+    file: DataFile,
+    layer: String,
+}
+
+/// The columns that tell the place of a feature.
+enum PlaceColumns {
+    Shape(usize),
+    Pair { x: usize, y: usize, z: Option<usize>, is_degrees: bool },
+}
+
+impl CsvFile {
+    /// Whether the name of a file says that it is delimited text.
+    pub(crate) fn is_named_so(file: &DataFile) -> bool {
+        matches!(&*file.extension(), "csv" | "tsv" | "tab" | "psv")
+    }
+
+    pub(crate) fn open(file: DataFile) -> Self {
+        let layer = file.stem();
+        Self { file, layer }
+    }
+}
+
+impl LayeredFile for CsvFile {
+    fn format(&self) -> &'static str {
+        "CSV"
+    }
+
+    fn layers(&self) -> Vec<String> {
+        vec![self.layer.clone()]
+    }
+
+    fn read(&self, layer: &str, wanted: &SourceOptions) -> Result<FeatureTable> {
+        let name = &self.file.name;
+        let mut records = CsvRecords::open(&self.file, wanted)?;
+        let names = match records.next(wanted)? {
+            Some(names) => unique(names),
+            None => return Err(Error::data(format!("{name} is empty")).help("get it again")),
+        };
+        if names.len() > MOST_COLUMNS {
+            return Err(
+                Error::data(format!("{name} has {} columns", names.len())).help("check its delimiter")
+            );
+        }
+        let place = place_columns(&names, name)?;
+        let crs = match place {
+            PlaceColumns::Pair { is_degrees: false, .. } => Err(Error::data(format!(
+                "{name} has columns of coordinates, and does not tell their coordinate system"
+            ))
+            .help("name its EPSG code: source(file, { crs = 3067 })")),
+            _ => Crs::epsg(4326),
+        };
+        let mut table = FeatureTable::new(layer, name, crs, wanted);
+        let id =
+            names.iter().position(|name| name.eq_ignore_ascii_case("id")).map(|id| table.name(&names[id]));
+        let mut types = TextTypes::default();
+        let (mut short, mut srid) = (0, None);
+        while let Some(fields) = records.next(wanted)? {
+            if table.is_full() {
+                break;
+            }
+            // A line without anything is none.
+            if fields.len() == 1 && fields[0].is_empty() {
+                continue;
+            }
+            short += usize::from(fields.len() != names.len());
+            let mut attributes = Vec::with_capacity(names.len());
+            for (number, (name, value)) in names.iter().zip(&fields).enumerate() {
+                let is_shape = matches!(place, PlaceColumns::Shape(shape) if shape == number);
+                if !is_shape && !value.is_empty() {
+                    attributes.push(types.attribute(&mut table, name, value));
+                }
+            }
+            match parts(&place, &fields, records.comma_is_decimal, &mut srid, wanted) {
+                Ok(parts) => table.push_identified(id, parts, attributes)?,
+                Err(why) => {
+                    wanted.budget.check()?;
+                    let line = records.begin;
+                    let error = Error::data(format!("line {line} of {name} {why}"));
+                    table.refuse(line.to_string(), error.help("correct it, or leave it out"))?;
+                }
+            }
+        }
+        if let (Some(code), None) = (srid, wanted.crs) {
+            table.crs = Crs::epsg(code);
+        }
+        if short > 0 {
+            let what = if short == 1 { "line has" } else { "lines have" };
+            table.notes.push(format!(
+                "{name}: {short} {what} other than {} fields, as the first one has",
+                names.len()
+            ));
+        }
+        if records.guessed {
+            table.notes.push(format!(
+                "{name} is not UTF-8 and was read as Windows-1252 (Latin-1); if its texts look wrong, convert it: \
+                 iconv -f ENCODING -t UTF-8 IN > OUT.csv"
+            ));
+        }
+        types.finish(&mut table)?;
+        Ok(table)
+    }
+}
+
+/// The geometry of a line, in parts. Fails with the reason.
+fn parts(
+    place: &PlaceColumns,
+    fields: &[String],
+    comma_is_decimal: bool,
+    srid: &mut Option<u32>,
+    wanted: &SourceOptions,
+) -> std::result::Result<Vec<Geometry>, String> {
+    let field = |number: usize| fields.get(number).map_or("", |text| text.trim());
+    match place {
+        PlaceColumns::Shape(number) => shape(field(*number), srid, wanted),
+        PlaceColumns::Pair { x, y, z, .. } => {
+            let number = |column: usize| {
+                let text = field(column);
+                let text = if comma_is_decimal { text.replace(',', ".") } else { text.to_owned() };
+                match text.parse::<f64>() {
+                    Ok(number) => Ok(Some(number)),
+                    Err(_) if text.is_empty() => Ok(None),
+                    Err(_) => Err(format!("has \"{}\" where a coordinate should be", shown(&text))),
+                }
+            };
+            let (x, y) = (number(*x)?, number(*y)?);
+            let z = z.map(number).transpose().unwrap_or_default().flatten().unwrap_or_default();
+            Ok(match (x, y) {
+                (Some(x), Some(y)) => vec![Geometry::point(DVec3::new(x, y, z))],
+                _ => Vec::new(),
+            })
+        }
+    }
+}
+
+/// The parts of a geometry in well-known text, in well-known binary as digits, or in GeoJSON.
+fn shape(
+    text: &str,
+    srid: &mut Option<u32>,
+    wanted: &SourceOptions,
+) -> std::result::Result<Vec<Geometry>, String> {
+    if text.is_empty() || text.eq_ignore_ascii_case("null") {
+        return Ok(Vec::new());
+    }
+    if text.starts_with('{') {
+        return crate::geojson::geometry_of(text, wanted);
+    }
+    let is_binary =
+        text.len() % 2 == 0 && text.len() >= 10 && text.bytes().all(|byte| byte.is_ascii_hexdigit());
+    if is_binary {
+        let digits = text.as_bytes().chunks_exact(2).filter_map(|pair| {
+            let pair = std::str::from_utf8(pair).ok()?;
+            u8::from_str_radix(pair, 16).ok()
+        });
+        let bytes: Vec<u8> = digits.collect();
+        let near = burgeon_spatial::wkb::NEAR;
+        return burgeon_spatial::wkb::read(&bytes, near, &wanted.budget).map(Geometry::into_parts);
+    }
+    let (code, text) = match text.split_once(';') {
+        Some((code, rest)) if code.to_ascii_uppercase().starts_with("SRID=") => {
+            (code[5..].trim().parse().ok(), rest)
+        }
+        _ => (None, text),
+    };
+    if code.is_some_and(|code| code != 0) {
+        *srid = srid.or(code);
+    }
+    let read = Geometry::from_wkt_within(text, &wanted.budget).map(Geometry::into_parts);
+    read.map_err(|error| format!("has a geometry that cannot be read: {}", error.message()))
+}
+
+/// The columns that tell where features are. Fails with what to do if there are none.
+fn place_columns(names: &[String], file: &str) -> Result<PlaceColumns> {
+    let plain: Vec<String> = names.iter().map(|name| name.trim().to_lowercase()).collect();
+    let find = |wanted: &str| plain.iter().position(|name| name == wanted);
+    if let Some(shape) = SHAPES.iter().find_map(|name| find(name)) {
+        return Ok(PlaceColumns::Shape(shape));
+    }
+    let pair = PAIRS.iter().find_map(|(x, y, is_degrees)| Some((find(x)?, find(y)?, *is_degrees)));
+    let (x, y, is_degrees) = pair.ok_or_else(|| {
+        let columns = listed(names.iter().map(String::as_str));
+        Error::data(format!("{file} has no columns that tell places: it has {columns}")).help(
+            "call them lon and lat, or x and y with crs, or write well-known text in a column called WKT",
+        )
+    })?;
+    Ok(PlaceColumns::Pair { x, y, z: HEIGHTS.iter().find_map(|name| find(name)), is_degrees })
+}
+
+/// Names of columns, each of which is another one.
+fn unique(names: Vec<String>) -> Vec<String> {
+    let mut known: Vec<String> = Vec::with_capacity(names.len());
+    for (number, name) in names.into_iter().enumerate() {
+        let name = match name.trim() {
+            "" => format!("column_{}", number + 1),
+            name => name.to_owned(),
+        };
+        let mut unique = name.clone();
+        let mut count = 1;
+        while known.contains(&unique) && count < 1000 {
+            count += 1;
+            unique = format!("{name}_{count}");
+        }
+        known.push(unique);
+    }
+    known
+}
+
+/// The records of a file, from the front.
+struct CsvRecords {
+    file: BufReader<ContentReader>,
+    name: String,
+    delimiter: u8,
+    /// Whether numbers may have a comma, as the delimiter is another.
+    comma_is_decimal: bool,
+    /// The line at which the last record begins, and the one that is next.
+    begin: usize,
+    line: usize,
+    bytes: Vec<u8>,
+    /// Whether bytes were no UTF-8.
+    guessed: bool,
+}
+
+impl CsvRecords {
+    fn open(file: &DataFile, wanted: &SourceOptions) -> Result<Self> {
+        let cannot =
+            |error: std::io::Error| Error::file(&file.path, format!("cannot read {}: {error}", file.name));
+        let reader = file.content.reader().map_err(cannot)?;
+        let mut records = Self {
+            file: BufReader::with_capacity(1 << 16, reader),
+            name: file.name.clone(),
+            delimiter: b',',
+            comma_is_decimal: false,
+            begin: 1,
+            line: 1,
+            bytes: Vec::new(),
+            guessed: false,
+        };
+        wanted.budget.check()?;
+        let head = records.file.fill_buf().map_err(cannot)?;
+        if head.starts_with(b"\xff\xfe") || head.starts_with(b"\xfe\xff") {
+            return Err(Error::data(format!("{} is UTF-16, which is not read", file.name))
+                .help("convert it: iconv -f UTF-16 -t UTF-8 IN > OUT.csv"));
+        }
+        if head.starts_with(b"\xef\xbb\xbf") {
+            records.file.consume(3);
+        }
+        // Excel may say first what the delimiter is.
+        let head = records.file.fill_buf().map_err(cannot)?;
+        if head.starts_with(b"sep=") && head.len() > 5 {
+            records.delimiter = head[4];
+            let end = head.iter().position(|byte| *byte == b'\n').map_or(5, |end| end + 1);
+            records.file.consume(end);
+            records.line = 2;
+        } else {
+            records.delimiter = delimiter(head, &file.extension());
+        }
+        records.comma_is_decimal = records.delimiter != b',';
+        Ok(records)
+    }
+
+    /// The fields of the next record; none at the end.
+    fn next(&mut self, wanted: &SourceOptions) -> Result<Option<Vec<String>>> {
+        wanted.budget.tick()?;
+        self.bytes.clear();
+        self.begin = self.line;
+        let mut quotes = QuoteState::default();
+        loop {
+            let before = self.bytes.len();
+            let limit = LONGEST.min(wanted.budget.memory() / 8);
+            let count = self.line(limit)?;
+            self.line += 1;
+            self.bytes[before..].iter().for_each(|byte| quotes.take(*byte, self.delimiter));
+            if count == 0 && before == 0 {
+                return Ok(None);
+            }
+            // Within quotes a line may end without an end of the record.
+            if !quotes.inside {
+                break;
+            }
+            if count == 0 {
+                return Err(Error::data(format!(
+                    "{} cannot be read: a text in quotes begins in line {} and does not end",
+                    self.name, self.begin
+                ))
+                .help("the file is cut short, or has a single quote (\") in a text"));
+            }
+        }
+        let _held = wanted.budget.hold(self.bytes.len() * 4)?;
+        let text = match std::str::from_utf8(&self.bytes) {
+            Ok(text) => std::borrow::Cow::Borrowed(text),
+            Err(_) => {
+                self.guessed = true;
+                match CodePage::numbered(WESTERN) {
+                    Some(page) => page.decode(&self.bytes),
+                    None => String::from_utf8_lossy(&self.bytes),
+                }
+            }
+        };
+        Ok(Some(fields(text.trim_end_matches(['\r', '\n']), char::from(self.delimiter))))
+    }
+
+    /// Reads on to the end of a line, and returns how many bytes that are.
+    fn line(&mut self, limit: usize) -> Result<usize> {
+        let mut count = 0;
+        loop {
+            let cannot =
+                |error: std::io::Error| Error::data(format!("{} cannot be read: {error}", self.name));
+            let head = self.file.fill_buf().map_err(cannot)?;
+            if head.is_empty() {
+                return Ok(count);
+            }
+            let end = head.iter().position(|byte| *byte == b'\n').map(|end| end + 1);
+            let taken = end.unwrap_or(head.len());
+            if self.bytes.len() + taken > limit {
+                return Err(Error::data(format!(
+                    "{} cannot be read: line {} is too long",
+                    self.name, self.begin
+                ))
+                .help("check that it is delimited text"));
+            }
+            self.bytes.extend(&head[..taken]);
+            self.file.consume(taken);
+            count += taken;
+            if end.is_some() {
+                return Ok(count);
+            }
+        }
+    }
+}
+
+/// Whether a text goes on within quotes. Only a quote at the beginning of a field opens them.
+#[derive(Default)]
+struct QuoteState {
+    inside: bool,
+    /// Whether the field has begun, and whether the last byte closed quotes.
+    begun: bool,
+    closed: bool,
+}
+
+impl QuoteState {
+    fn take(&mut self, byte: u8, delimiter: u8) {
+        let is_quote = byte == b'"';
+        if self.inside {
+            (self.inside, self.closed) = (!is_quote, is_quote);
+        } else if is_quote && (!self.begun || self.closed) {
+            (self.inside, self.begun, self.closed) = (true, true, false);
+        } else {
+            self.closed = false;
+            self.begun = byte != delimiter && (self.begun || byte != b' ');
+        }
+    }
+}
+
+/// The delimiter of a text: the one of which the first line has most outside of quotes.
+fn delimiter(head: &[u8], extension: &str) -> u8 {
+    if matches!(extension, "tsv" | "tab") {
+        return b'\t';
+    }
+    let line = head.split(|byte| *byte == b'\n').next().unwrap_or_default();
+    let count = |delimiter: u8| {
+        let mut inside = false;
+        let counted = line.iter().filter(|byte| {
+            inside ^= **byte == b'"';
+            !inside && **byte == delimiter
+        });
+        counted.count()
+    };
+    // Of equally many, the first counts.
+    [b'|', b'\t', b';', b','].into_iter().max_by_key(|delimiter| count(*delimiter)).unwrap_or(b',')
+}
+
+/// The fields of a record.
+fn fields(text: &str, delimiter: char) -> Vec<String> {
+    let mut fields = Vec::new();
+    let mut rest = text;
+    loop {
+        let start = rest.trim_start_matches(' ');
+        let mut field = String::new();
+        if let Some(mut quoted) = start.strip_prefix('"') {
+            loop {
+                match quoted.split_once('"') {
+                    Some((part, after)) => {
+                        field.push_str(part);
+                        // Two quotes in a text are one.
+                        match after.strip_prefix('"') {
+                            Some(more) => {
+                                field.push('"');
+                                quoted = more;
+                            }
+                            None => {
+                                quoted = after;
+                                break;
+                            }
+                        }
+                    }
+                    None => {
+                        field.push_str(quoted);
+                        quoted = "";
+                        break;
+                    }
+                }
+            }
+            match quoted.split_once(delimiter) {
+                Some((extra, after)) => {
+                    field.push_str(extra.trim_end());
+                    fields.push(field);
+                    rest = after;
+                }
+                None => {
+                    field.push_str(quoted.trim_end());
+                    fields.push(field);
+                    return fields;
+                }
+            }
+            continue;
+        }
+        match rest.split_once(delimiter) {
+            Some((part, after)) => {
+                fields.push(part.trim().to_owned());
+                rest = after;
+            }
+            None => {
+                fields.push(rest.trim().to_owned());
+                return fields;
+            }
+        }
+    }
+}

@@ -1,0 +1,298 @@
+//! The objects of CityGML, whose geometries lie in space.
+
+use std::rc::Rc;
+use std::sync::Arc;
+
+use super::geometry::{CityPiece, GeometryProblem, GeometryReader, GmlContext, is_geometry};
+use super::reader::{FeatureBuilder, Surroundings};
+use super::system::NamedSystem;
+use crate::formats::city::{CityObject, CitySurface, SurfaceRole};
+use crate::formats::xml::{Element, Xml, XmlPiece};
+use burgeon_base::error::{Error, Result};
+use burgeon_base::text::shown;
+
+/// An object that is being read.
+#[derive(Default)]
+struct OpenObject {
+    object: CityObject,
+    system: Option<Rc<Result<NamedSystem>>>,
+    /// Why a geometry of it cannot be read.
+    wrong: Option<String>,
+}
+
+/// Where a geometry stands.
+#[derive(Clone, Copy)]
+struct GeometryPlace {
+    role: Option<SurfaceRole>,
+    /// The level of detail, in tenths.
+    level: u32,
+    is_solid: bool,
+}
+
+/// Whether what a property holds says nothing of the ground plan of an object: what is inside of it or mounted on it, and what other
+/// programs know of it.
+fn is_beside(name: &str) -> bool {
+    const NAMES: [&str; 10] = [
+        "externalReference",
+        "appearance",
+        "appearanceMember",
+        "opening",
+        "fillingSurface",
+        "generalizesTo",
+        "relatedTo",
+        "consistsOfBuildingUnit",
+        "buildingSubdivision",
+        "adeOfAbstractBuilding",
+    ];
+    NAMES.contains(&name)
+        || name.starts_with("interior")
+        || name.contains("Installation")
+        || name.contains("Furniture")
+        || name.contains("Room")
+        || name.contains("TerrainIntersection")
+}
+
+impl FeatureBuilder {
+    /// Reads the object that `element` begins, and adds its features.
+    pub(super) fn city_object(
+        &mut self,
+        xml: &mut Xml,
+        element: &Element,
+        around: &mut Surroundings,
+    ) -> Result<()> {
+        self.number += 1;
+        let before = around.context.clone();
+        // Places have heights unless the file says something else.
+        around.context.dimension.get_or_insert(3);
+        let read = self.object(xml, element, around);
+        around.context = before;
+        let OpenObject { object, system, wrong } = read?;
+        let has_shape = !object.shape.is_empty() || object.parts.iter().any(|part| !part.shape.is_empty());
+        let id = object.id.clone().unwrap_or_else(|| self.number.to_string());
+        let refuse = |builder: &mut Self, why: &str| {
+            let error = Error::data(format!("feature {} of {} {why}", shown(&id), builder.label))
+                .help("points, curves, polygons, surfaces, solids and collections of these are read");
+            builder.table.refuse(id.clone(), error)
+        };
+        if let (false, Some(why)) = (has_shape, &wrong) {
+            return refuse(self, why);
+        }
+        if self.system.is_none() && has_shape {
+            self.system.clone_from(&system);
+        }
+        if let (Some(Ok(own)), Some(Ok(all))) = (system.as_deref(), self.system.as_deref())
+            && own.crs != all.crs
+        {
+            let why = format!("is in {}, and others are in {}", own.crs.name(), all.crs.name());
+            return refuse(self, &why);
+        }
+        object.add_to(&mut self.table, &mut self.types, &self.budget)
+    }
+
+    fn object(&mut self, xml: &mut Xml, element: &Element, around: &mut Surroundings) -> Result<OpenObject> {
+        let id = element.attribute("id").filter(|id| !id.is_empty()).map(str::to_owned);
+        let mut open =
+            OpenObject { object: CityObject { id, ..CityObject::default() }, ..OpenObject::default() };
+        let depth = xml.depth;
+        loop {
+            match xml.next()? {
+                XmlPiece::Start(property) => self.property(xml, &property, &mut open, around)?,
+                XmlPiece::End if xml.depth < depth => break,
+                XmlPiece::End => {}
+                XmlPiece::Eof => break,
+            }
+        }
+        Ok(open)
+    }
+
+    /// Reads a property of an object.
+    fn property(
+        &mut self,
+        xml: &mut Xml,
+        property: &Element,
+        open: &mut OpenObject,
+        around: &mut Surroundings,
+    ) -> Result<()> {
+        let name = property.name.as_str();
+        if is_beside(name) {
+            return xml.leave(xml.depth - 1);
+        }
+        if name.ends_with("Part") && name.starts_with(|letter: char| letter.is_ascii_lowercase()) {
+            let depth = xml.depth;
+            while let Some(part) = child(xml, depth)? {
+                let read = self.object(xml, &part, around)?;
+                open.system = open.system.take().or(read.system);
+                open.wrong = open.wrong.take().or(read.wrong);
+                open.object.parts.push(read.object);
+            }
+            return Ok(());
+        }
+        if matches!(name, "boundedBy" | "boundary") {
+            return self.boundary(xml, open, around);
+        }
+        if name.ends_with("Attribute") || name == "genericAttributeSet" {
+            return generic(xml, property, &mut open.object);
+        }
+        let place = GeometryPlace::of_property(name);
+        self.value(xml, property, (name.to_owned(), place), open, around)
+    }
+
+    /// Reads what bounds an object: a box, or a surface with a role.
+    fn boundary(&mut self, xml: &mut Xml, open: &mut OpenObject, around: &mut Surroundings) -> Result<()> {
+        let depth = xml.depth;
+        while let Some(inner) = child(xml, depth)? {
+            if matches!(&*inner.name, "Envelope" | "Box" | "Null" | "null") {
+                let before = around.context.clone();
+                around.context = before.within(&inner, |name| around.named(name));
+                xml.leave(xml.depth - 1)?;
+                continue;
+            }
+            let role = SurfaceRole::named(&inner.name);
+            let own = xml.depth;
+            while let Some(property) = child(xml, own)? {
+                let mut place = GeometryPlace::of_property(&property.name);
+                place.role = Some(role);
+                if !property.name.starts_with("lod") || is_beside(&property.name) {
+                    xml.leave(xml.depth - 1)?;
+                    continue;
+                }
+                let within = xml.depth;
+                while let Some(geometry) = child(xml, within)? {
+                    self.geometry(xml, &geometry, place, open, around)?;
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// Reads a property whose values are texts, properties within it, or geometries.
+    fn value(
+        &mut self,
+        xml: &mut Xml,
+        element: &Element,
+        (name, place): (String, GeometryPlace),
+        open: &mut OpenObject,
+        around: &mut Surroundings,
+    ) -> Result<()> {
+        let depth = xml.depth;
+        let mut is_simple = true;
+        loop {
+            match xml.next()? {
+                XmlPiece::Start(inner) => {
+                    is_simple = false;
+                    if is_geometry(&inner.name) {
+                        self.geometry(xml, &inner, place, open, around)?;
+                        continue;
+                    }
+                    // Elements with large first letters are objects, whose names say nothing more.
+                    let is_object = inner.name.starts_with(|letter: char| letter.is_ascii_uppercase());
+                    let name = match (is_object, &*inner.name) {
+                        (true, _) | (false, "value") => name.clone(),
+                        (false, inner) => format!("{name}.{inner}"),
+                    };
+                    self.value(xml, &inner, (name, place), open, around)?;
+                }
+                XmlPiece::End if xml.depth < depth => break,
+                XmlPiece::End => {}
+                XmlPiece::Eof => return Ok(()),
+            }
+        }
+        if is_simple {
+            let value = match xml.text() {
+                "" => element.attribute("href").unwrap_or_default(),
+                text => text,
+            };
+            self.budget.take(name.len() + value.len())?;
+            open.object.add_text(&name, value);
+        }
+        Ok(())
+    }
+
+    /// Reads a geometry into the shape of an object.
+    fn geometry(
+        &mut self,
+        xml: &mut Xml,
+        element: &Element,
+        place: GeometryPlace,
+        open: &mut OpenObject,
+        around: &mut Surroundings,
+    ) -> Result<()> {
+        let depth = xml.depth;
+        let context: GmlContext = around.context.clone();
+        let is_solid = place.is_solid || element.name.ends_with("Solid");
+        let role = match place.role {
+            Some(role) => role,
+            None if place.level < 10 && !is_solid => SurfaceRole::Footprint,
+            None => SurfaceRole::Other,
+        };
+        let shape = &mut open.object.shape;
+        let mut add = |piece: CityPiece| match piece {
+            CityPiece::Surface(rings) => {
+                shape.surfaces.push(CitySurface { rings, role, level: place.level, is_solid });
+            }
+            CityPiece::Line(line) => shape.lines.push(line),
+            CityPiece::Point(point) => shape.points.push(point),
+        };
+        let mut named = |name: &str| around.named(name);
+        let budget = Arc::clone(&self.budget);
+        let mut reader = GeometryReader { xml, named: &mut named, system: None, budget };
+        let read = reader.surfaces(element, &context, &mut add);
+        let system = reader.system.take().or_else(|| context.system.clone());
+        xml.leave(depth - 1)?;
+        if open.system.is_none() {
+            open.system = system;
+        }
+        match read {
+            Ok(()) => {}
+            Err(GeometryProblem::Stop(error)) => return Err(error),
+            Err(GeometryProblem::Wrong(why)) => {
+                open.wrong.get_or_insert(why);
+            }
+        }
+        Ok(())
+    }
+}
+
+impl GeometryPlace {
+    /// The place of geometries in a property such as `lod2Solid` or `lod0FootPrint`.
+    fn of_property(name: &str) -> Self {
+        let digits = name
+            .strip_prefix("lod")
+            .and_then(|rest| rest.chars().next())
+            .and_then(|digit| digit.to_digit(10));
+        let role = name.contains("FootPrint").then_some(SurfaceRole::Footprint);
+        let role = role.or(name.contains("RoofEdge").then_some(SurfaceRole::Other));
+        Self { role, level: digits.map_or(10, |digit| digit * 10), is_solid: name.ends_with("Solid") }
+    }
+}
+
+/// The next element that begins directly within the one that began at `depth`; none where that one ends.
+fn child(xml: &mut Xml, depth: usize) -> Result<Option<Element>> {
+    loop {
+        match xml.next()? {
+            XmlPiece::Start(element) => return Ok(Some(element)),
+            XmlPiece::End if xml.depth >= depth => {}
+            XmlPiece::End | XmlPiece::Eof => return Ok(None),
+        }
+    }
+}
+
+/// Reads a generic attribute, or a set of them: its name is an attribute of its element, or an element in it.
+fn generic(xml: &mut Xml, element: &Element, object: &mut CityObject) -> Result<()> {
+    let depth = xml.depth;
+    let (mut name, mut value) = (element.attribute("name").map(str::to_owned), None);
+    while let Some(inner) = child(xml, depth)? {
+        match &*inner.name {
+            "name" => name = Some(xml.inner_text()?),
+            "value" => value = Some(xml.inner_text()?),
+            other if other.ends_with("Attribute") || other.ends_with("AttributeSet") => {
+                generic(xml, &inner, object)?
+            }
+            _ => {}
+        }
+    }
+    if let (Some(name), Some(value)) = (name, value) {
+        object.add_text(&name, &value);
+    }
+    Ok(())
+}

@@ -1,0 +1,253 @@
+//! The coordinate system that the well-known text of a `.prj` means, among those of EPSG's.
+//!
+//! ESRI's texts have names of their own and no codes. So a text is compared by its parameters, and of several systems that have the
+//! same ones, the name decides.
+
+use crate::Crs;
+use crate::formats::epsg;
+use burgeon_base::error::{Error, Result};
+use burgeon_base::text::shown;
+
+/// The deepest that brackets may be nested.
+const DEEPEST: usize = 20;
+
+/// The coordinate system of a text; `label` is for messages.
+pub(super) fn crs(text: &str, label: &str) -> Result<Crs> {
+    let unknown = |name: &str| {
+        Error::data(format!(
+            "{label} is in the coordinate system \"{}\", which is none of EPSG's that are known",
+            shown(name)
+        ))
+        .help("name its EPSG code: source(file, { crs = 3067 })")
+    };
+    let Some(node) = Node::read(text) else { return Err(unknown(text.lines().next().unwrap_or_default())) };
+    // A compound system has heights besides.
+    let is_compound = matches!(&*node.word, "COMPD_CS" | "COMPOUNDCRS");
+    let node = if is_compound { node.nodes.into_iter().next() } else { Some(node) };
+    let Some(node) = node else { return Err(unknown("")) };
+    if let Some(code) = node.code() {
+        return Crs::epsg(code);
+    }
+    let name = node.name().to_owned();
+    let method = node.child(&["PROJECTION"]).map(|method| plain(method.name()));
+    if method.as_deref() == Some("mercatorauxiliarysphere") {
+        return Crs::epsg(3857);
+    }
+    let Some(wanted) = Parameters::of(&node) else { return Err(unknown(&name)) };
+    let mut best: Option<(f64, u16)> = None;
+    epsg::each(|code, text| {
+        // Most entries are of another kind, which their text says first.
+        if !text.starts_with(&node.word) {
+            return;
+        }
+        let Some(known) = Node::read(text) else { return };
+        if !Parameters::of(&known).is_some_and(|known| known.is_same(&wanted)) {
+            return;
+        }
+        let score = likeness(&plain(&name), &plain(known.name())) + likeness(&wanted.datum, &datum(&known));
+        if best.is_none_or(|(most, _)| score > most) {
+            best = Some((score, code));
+        }
+    })?;
+    best.map_or_else(|| Err(unknown(&name)), |(_, code)| Crs::epsg(code.into()))
+}
+
+/// A word of well-known text, with what stands in its brackets.
+#[derive(Default)]
+struct Node {
+    word: String,
+    texts: Vec<String>,
+    numbers: Vec<f64>,
+    nodes: Vec<Node>,
+}
+
+impl Node {
+    fn read(text: &str) -> Option<Self> {
+        Self::begin(&mut text.trim(), 0)
+    }
+
+    fn begin(text: &mut &str, depth: usize) -> Option<Self> {
+        if depth > DEEPEST {
+            return None;
+        }
+        let end = text.find(['[', '('])?;
+        let mut node = Self { word: text[..end].trim().to_ascii_uppercase(), ..Self::default() };
+        *text = &text[end + 1..];
+        loop {
+            *text = text.trim_start();
+            match text.chars().next()? {
+                ']' | ')' => {
+                    *text = &text[1..];
+                    return Some(node);
+                }
+                ',' => *text = &text[1..],
+                '"' => {
+                    let (inner, rest) = text[1..].split_once('"')?;
+                    node.texts.push(inner.to_owned());
+                    *text = rest;
+                }
+                _ => {
+                    let end = text.find([',', ']', ')', '[', '('])?;
+                    if matches!(text.as_bytes()[end], b'[' | b'(') {
+                        node.nodes.push(Self::begin(text, depth + 1)?);
+                        continue;
+                    }
+                    let word = text[..end].trim();
+                    match word.parse() {
+                        Ok(number) => node.numbers.push(number),
+                        Err(_) => node.texts.push(word.to_owned()),
+                    }
+                    *text = &text[end..];
+                }
+            }
+        }
+    }
+
+    fn name(&self) -> &str {
+        self.texts.first().map_or("", String::as_str)
+    }
+
+    fn child(&self, words: &[&str]) -> Option<&Self> {
+        self.nodes.iter().find(|node| words.contains(&node.word.as_str()))
+    }
+
+    /// The EPSG code that it says it has.
+    fn code(&self) -> Option<u32> {
+        let node = self.child(&["AUTHORITY", "ID"])?;
+        let is_epsg = node.name().eq_ignore_ascii_case("EPSG");
+        #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "the range is checked")]
+        let number =
+            node.numbers.first().filter(|number| (1.0..1e6).contains(*number)).map(|number| *number as u32);
+        let code = number.or_else(|| node.texts.get(1)?.parse().ok());
+        code.filter(|_| is_epsg)
+    }
+}
+
+/// A name in small letters and digits, with years as EPSG's names have them.
+fn plain(name: &str) -> String {
+    let mut plain: String = name.to_lowercase().chars().filter(|letter| letter.is_alphanumeric()).collect();
+    for (long, short) in
+        [("1984", "84"), ("1983", "83"), ("1989", "89"), ("1927", "27"), ("1993", "93"), ("gcs", "")]
+    {
+        plain = plain.replace(long, short);
+    }
+    plain.replace("europeanterrestrialreferencesystem", "etrs").replace("worldgeodeticsystem", "wgs")
+}
+
+fn datum(node: &Node) -> String {
+    let base = node.child(&["GEOGCS"]).unwrap_or(node);
+    let name = base.child(&["DATUM"]).map(|datum| plain(datum.name())).unwrap_or_default();
+    name.strip_prefix('d').map(str::to_owned).unwrap_or(name)
+}
+
+/// How much two names have in common: the part of the pairs of letters of both.
+fn likeness(a: &str, b: &str) -> f64 {
+    let pairs = |text: &str| text.chars().zip(text.chars().skip(1)).collect::<Vec<_>>();
+    let (a, mut b) = (pairs(a), pairs(b));
+    let all = (a.len() + b.len()).max(1);
+    let same = a.iter().filter(|pair| {
+        let found = b.iter().position(|other| other == *pair);
+        found.map(|at| b.swap_remove(at)).is_some()
+    });
+    2.0 * crate::heights::count(same.count()) / crate::heights::count(all)
+}
+
+/// What decides on coordinates.
+struct Parameters {
+    method: &'static str,
+    /// By their names, which sort.
+    values: Vec<(&'static str, f64)>,
+    ellipsoid: [f64; 2],
+    unit: f64,
+    datum: String,
+}
+
+impl Parameters {
+    fn of(node: &Node) -> Option<Self> {
+        let is_projected = node.word == "PROJCS";
+        let base = if is_projected { node.child(&["GEOGCS"])? } else { node };
+        if !is_projected && node.word != "GEOGCS" {
+            return None;
+        }
+        let ellipsoid = base.child(&["DATUM"])?.child(&["SPHEROID"])?;
+        let ellipsoid = [*ellipsoid.numbers.first()?, *ellipsoid.numbers.get(1)?];
+        let unit = node.child(&["UNIT"]).and_then(|unit| unit.numbers.first().copied()).unwrap_or(1.0);
+        let prime = base.child(&["PRIMEM"]).and_then(|prime| prime.numbers.first().copied()).unwrap_or(0.0);
+        let mut values = vec![("prime", prime)];
+        let mut method = "geographic";
+        if is_projected {
+            method = method_of(node.child(&["PROJECTION"])?.name())?;
+            for parameter in node.nodes.iter().filter(|node| node.word == "PARAMETER") {
+                let (Some(name), Some(value)) = (parameter_of(parameter.name()), parameter.numbers.first())
+                else {
+                    continue;
+                };
+                values.push((name, *value));
+            }
+            if method == "lcc" && !values.iter().any(|(name, _)| *name == "second") {
+                // One parallel is the latitude where it begins.
+                values.retain(|(name, _)| *name != "first");
+            }
+        }
+        // A scale of 1 and offsets of 0 may be left out.
+        values.retain(|(name, value)| {
+            let usual = if *name == "scale" { 1.0 } else { 0.0 };
+            (value - usual).abs() > 1e-9
+        });
+        values.sort_by(|a, b| a.0.cmp(b.0));
+        Some(Self { method, values, ellipsoid, unit, datum: datum(node) })
+    }
+
+    fn is_same(&self, other: &Self) -> bool {
+        let near = |a: f64, b: f64, least: f64| (a - b).abs() <= least;
+        self.method == other.method
+            && near(self.unit, other.unit, 1e-6)
+            && near(self.ellipsoid[0], other.ellipsoid[0], 0.1)
+            && near(self.ellipsoid[1], other.ellipsoid[1], 1e-3)
+            && self.values.len() == other.values.len()
+            && self.values.iter().zip(&other.values).all(|(a, b)| {
+                let least = if matches!(a.0, "east" | "north") { 1e-3 } else { 1e-7 };
+                a.0 == b.0 && near(a.1, b.1, least)
+            })
+    }
+}
+
+/// The one name of a method that has several.
+fn method_of(name: &str) -> Option<&'static str> {
+    Some(match plain(name).as_str() {
+        "transversemercator" | "gausskruger" => "tmerc",
+        "lambertconformalconic" | "lambertconformalconic1sp" | "lambertconformalconic2sp" => "lcc",
+        "mercator" | "mercator1sp" | "mercator2sp" => "merc",
+        "doublestereographic" | "obliquestereographic" => "sterea",
+        "stereographic" | "polarstereographic" | "stereographicnorthpole" | "stereographicsouthpole" => {
+            "stere"
+        }
+        "albers" | "albersconicequalarea" => "albers",
+        "lambertazimuthalequalarea" => "laea",
+        "azimuthalequidistant" => "aeqd",
+        "cassini" | "cassinisoldner" => "cass",
+        "krovak" => "krovak",
+        "newzealandmapgrid" => "nzmg",
+        "swissobliquecylindrical"
+        | "hotineobliquemercatorazimuthcenter"
+        | "obliquemercator"
+        | "rectifiedskeworthomorphiccenter" => "somerc",
+        _ => return None,
+    })
+}
+
+fn parameter_of(name: &str) -> Option<&'static str> {
+    Some(match plain(name).as_str() {
+        "centralmeridian" | "longitudeofcenter" | "longitudeoforigin" | "longitudeofnaturalorigin" => {
+            "longitude"
+        }
+        "latitudeoforigin" | "latitudeofcenter" | "latitudeofnaturalorigin" => "latitude",
+        "scalefactor" => "scale",
+        "falseeasting" => "east",
+        "falsenorthing" => "north",
+        "standardparallel1" => "first",
+        "standardparallel2" => "second",
+        "azimuth" => "azimuth",
+        _ => return None,
+    })
+}

@@ -1,0 +1,87 @@
+//! Attributes that a file holds as texts: those whose values are all numbers, or all true or false, become these.
+
+use std::sync::Arc;
+
+use crate::{Attribute, FeatureTable};
+use burgeon_base::error::Result;
+
+/// The kinds of value that all texts of an attribute have been so far.
+#[derive(Clone, Copy)]
+struct ValueKinds {
+    numbers: bool,
+    booleans: bool,
+}
+
+/// The kinds of value of all attributes.
+#[derive(Default)]
+pub(in crate::formats) struct TextTypes {
+    kinds: Vec<ValueKinds>,
+}
+
+impl TextTypes {
+    /// The attribute called `name`, with the text `value`, in `table`.
+    pub(in crate::formats) fn attribute(
+        &mut self,
+        table: &mut FeatureTable,
+        name: &str,
+        value: &str,
+    ) -> (usize, Attribute) {
+        let number = table.name(name);
+        let kind = self.kind(number);
+        kind.numbers &= as_number(value).is_some();
+        kind.booleans &= matches!(value, "true" | "false");
+        (number, table.text(value))
+    }
+
+    /// The same for an attribute whose values are told to be texts.
+    pub(in crate::formats) fn text(
+        &mut self,
+        table: &mut FeatureTable,
+        name: &str,
+        value: &str,
+    ) -> (usize, Attribute) {
+        let number = table.name(name);
+        *self.kind(number) = ValueKinds { numbers: false, booleans: false };
+        (number, table.text(value))
+    }
+
+    fn kind(&mut self, number: usize) -> &mut ValueKinds {
+        if self.kinds.len() <= number {
+            self.kinds.resize(number + 1, ValueKinds { numbers: true, booleans: true });
+        }
+        &mut self.kinds[number]
+    }
+
+    /// Makes numbers and booleans of the texts of attributes that have no others.
+    pub(in crate::formats) fn finish(self, table: &mut FeatureTable) -> Result<()> {
+        if !self.kinds.iter().any(|kind| kind.numbers || kind.booleans) {
+            return Ok(());
+        }
+        let budget = Arc::clone(&table.budget);
+        for feature in &mut table.features {
+            budget.tick()?;
+            for (number, value) in Arc::make_mut(&mut feature.attributes) {
+                let (Attribute::Text(text), Some(kind)) = (&*value, self.kinds.get(*number)) else {
+                    continue;
+                };
+                if kind.booleans {
+                    *value = Attribute::Boolean(&**text == "true");
+                } else if let (true, Some(number)) = (kind.numbers, as_number(text)) {
+                    *value = Attribute::Number(number);
+                }
+            }
+        }
+        Ok(())
+    }
+}
+
+/// The number that a text is, if it means nothing else: with a zero before it, it is a code.
+pub(in crate::formats) fn as_number(text: &str) -> Option<f64> {
+    let digits = text.strip_prefix('-').unwrap_or(text);
+    let is_code = digits.starts_with('0') && digits[1..].starts_with(|letter: char| letter.is_ascii_digit());
+    let begins = digits.starts_with(|letter: char| letter.is_ascii_digit() || letter == '.');
+    if is_code || !begins || digits.len() > 25 {
+        return None;
+    }
+    text.parse().ok().filter(|number: &f64| number.is_finite())
+}

@@ -1,0 +1,162 @@
+//! Files that are packed: `.gz`, and the data files in a `.zip`.
+
+use std::io::{Cursor, Read};
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use flate2::read::MultiGzDecoder;
+
+use super::packed::{DEFLATED, can_hold};
+use crate::SourceOptions;
+use crate::content::{Content, DataFile};
+use burgeon_base::budget::Budget;
+use burgeon_base::error::{Error, Limit, Result};
+use burgeon_base::text::{listed, shown};
+
+/// The most bytes of a file, packed and unpacked.
+const LARGEST_PACKED: u64 = 1_000_000_000;
+const LARGEST: usize = 2_000_000_000;
+
+/// How many bytes are unpacked at a time.
+const PIECE: usize = 1 << 20;
+
+/// The most files of a zip that are looked at.
+const MOST_FILES: usize = 100_000;
+
+fn damaged(name: &str) -> Error {
+    Error::data(format!("{name} cannot be unpacked")).help("the file is damaged or cut short; get it again")
+}
+
+/// Unpacks what `packed` gives, and takes memory for it.
+fn unpack(mut packed: impl Read, name: &str, budget: &Budget) -> Result<Arc<[u8]>> {
+    let mut bytes = Vec::new();
+    loop {
+        budget.check()?;
+        // Room is asked for before it is made; a vector may have twice as much as it needs.
+        let held = budget.hold(2 * (bytes.len() + PIECE))?;
+        let count = (&mut packed).take(PIECE as u64).read_to_end(&mut bytes).map_err(|_| damaged(name))?;
+        if bytes.len() > LARGEST {
+            let what = format!("{name} is larger than {} MB when it is unpacked", LARGEST / 1_000_000);
+            return Err(Error::limit(Limit::Size, what).help("unpack it, and take a part of it"));
+        }
+        if count == 0 {
+            drop(held);
+            budget.take(bytes.len())?;
+            return Ok(bytes.into());
+        }
+    }
+}
+
+/// Unpacks a file that was packed by gzip.
+pub(crate) fn gunzip(file: DataFile, wanted: &SourceOptions) -> Result<DataFile> {
+    let cannot =
+        |error: std::io::Error| Error::file(&file.path, format!("cannot read {}: {error}", file.name));
+    let packed = file.content.reader().map_err(cannot)?;
+    let bytes = unpack(MultiGzDecoder::new(packed), &file.name, &wanted.budget)?;
+    // town.geojson.gz becomes town.geojson.
+    let path = match file.extension().as_str() {
+        "gz" | "gzip" => file.path.with_extension(""),
+        "tgz" => file.path.with_extension("tar"),
+        _ => file.path.clone(),
+    };
+    Ok(DataFile { content: Content::Memory(bytes), path, name: file.name })
+}
+
+/// A zip, and the names of its files.
+pub(crate) struct ZippedFiles {
+    bytes: Arc<[u8]>,
+    name: String,
+    path: PathBuf,
+    pub(crate) names: Vec<String>,
+}
+
+impl ZippedFiles {
+    pub(crate) fn open(file: &DataFile, wanted: &SourceOptions) -> Result<Self> {
+        let bytes = file.bytes(LARGEST_PACKED, &wanted.budget)?;
+        let archive = zip::ZipArchive::new(Cursor::new(&bytes)).map_err(|_| damaged(&file.name))?;
+        if archive.len() > MOST_FILES {
+            return Err(Error::data(format!("{} holds {} files", file.name, archive.len()))
+                .help("unpack it, and name the file of data itself"));
+        }
+        let mut names: Vec<String> = archive.file_names().map(str::to_owned).collect();
+        // Finders of macOS leave shadows of files behind.
+        names.retain(|name| !name.ends_with('/') && !name.starts_with("__MACOSX/"));
+        names.sort();
+        Ok(Self { bytes, name: file.name.clone(), path: file.path.clone(), names })
+    }
+
+    /// The names that end in one of some extensions, in whatever letters.
+    pub(crate) fn with_extensions(&self, extensions: &[&str]) -> Vec<&str> {
+        let ends = |name: &&str| {
+            let extension =
+                Path::new(name).extension().unwrap_or_default().to_string_lossy().to_ascii_lowercase();
+            extensions.contains(&&*extension)
+        };
+        self.names.iter().map(String::as_str).filter(ends).collect()
+    }
+
+    /// Unpacks one of its files.
+    pub(crate) fn file(&self, name: &str, budget: &Budget) -> Result<DataFile> {
+        let shown = format!("{} in {}", shown(name), self.name);
+        let mut archive = zip::ZipArchive::new(Cursor::new(&self.bytes)).map_err(|_| damaged(&self.name))?;
+        let entry = archive.by_name(name).map_err(|_| damaged(&shown))?;
+        let (packed, size) = (entry.compressed_size(), entry.size());
+        let [packed, size] = [packed, size].map(|size| usize::try_from(size).unwrap_or(usize::MAX));
+        if packed > self.bytes.len() || !can_hold(packed, DEFLATED, size) {
+            return Err(damaged(&shown));
+        }
+        let bytes = unpack(entry, &shown, budget)?;
+        let path = self.path.with_file_name(Path::new(name).file_name().unwrap_or_default());
+        Ok(DataFile { content: Content::Memory(bytes), path, name: self.name.clone() })
+    }
+
+    /// The one data file that it holds, which is no shapefile. Fails if there is none, or if there are several.
+    pub(crate) fn only(&self, budget: &Budget) -> Result<DataFile> {
+        if self.names.iter().any(|name| name.contains(".gdb/")) {
+            return Err(Error::data(format!(
+                "{} holds a File Geodatabase (.gdb), which is not read",
+                self.name
+            ))
+            .help("convert it: ogr2ogr out.gpkg FILE.zip"));
+        }
+        let office = [
+            ("xl/workbook.xml", "spreadsheet"),
+            ("content.xml", "spreadsheet"),
+            ("word/document.xml", "document"),
+        ];
+        if let Some((_, what)) = office.iter().find(|(part, _)| self.names.iter().any(|name| name == part)) {
+            return Err(Error::data(format!("{} is a {what}, which is not read", self.name)).help(
+                "save its table as .csv, with columns of longitude and latitude or of well-known text",
+            ));
+        }
+        // A KMZ begins with this one, whatever else is in it.
+        let main = self.names.iter().find(|name| name.eq_ignore_ascii_case("doc.kml"));
+        let found = match main {
+            Some(main) => vec![main.as_str()],
+            None => {
+                // Beside data there may be descriptions of them.
+                let (descriptions, data): (Vec<&str>, Vec<&str>) = crate::EXTENSIONS
+                    .into_iter()
+                    .filter(|extension| !matches!(*extension, "zip" | "gz" | "kmz"))
+                    .partition(|extension| matches!(*extension, "xml" | "json"));
+                let found = self.with_extensions(&data);
+                if found.is_empty() { self.with_extensions(&descriptions) } else { found }
+            }
+        };
+        match found[..] {
+            [one] => self.file(one, budget),
+            [] if !self.with_extensions(&["hgt", "tif", "asc"]).is_empty() => {
+                Err(Error::data(format!("{} holds heights, not features", self.name))
+                    .help("ask it for heights: elevation(\"N43E007.hgt.zip\")"))
+            }
+            [] => Err(Error::data(format!("{} is a zip without a data file", self.name))
+                .help("it may hold one shapefile or several, or one .kml, .geojson, .gml, .csv or the like")),
+            _ => Err(Error::data(format!(
+                "{} holds several data files: {}",
+                self.name,
+                listed(found.iter().copied())
+            ))
+            .help("unpack it, and name the one that is meant")),
+        }
+    }
+}
