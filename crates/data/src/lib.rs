@@ -26,10 +26,10 @@ use std::path::Path;
 
 pub use burgeon_spatial::{Geometry, GeometryKind};
 pub use cache::Cache;
-#[cfg(feature = "data")]
-pub use formats::TableShape;
 pub use formats::output::{check_geopackage, write_geopackage};
 pub use formats::{FlatGeobuf, GeoPackage, GmlFile, OsmFile};
+#[cfg(feature = "data")]
+pub use formats::{PackageState, TableShape};
 pub use frame::{Crs, Passage, ReferenceFrame};
 pub use id::FeatureId;
 pub use layer::Layer;

@@ -92,6 +92,10 @@ impl Source {
             }
             _ => Error::file(path, format!("cannot read {name}: {error}")).help(NAME_ONE),
         };
+        if path.metadata().is_ok_and(|meta| burgeon_base::files::is_locked(&meta)) {
+            // A database of this process reads it, and would lose its lock when another handle is closed.
+            return Ok(Self::GeoPackage(GeoPackage::open(path, name, wanted)?));
+        }
         let (mut file, meta) = burgeon_base::files::open(path).map_err(cannot)?;
         let mut head = Vec::new();
         (&mut file).take(1024).read_to_end(&mut head).map_err(cannot)?;
@@ -101,6 +105,7 @@ impl Source {
             return Err(Error::data(format!("{name} is empty")).help("get the file again"));
         }
         if head.starts_with(b"SQLite format 3") {
+            drop(file);
             return Ok(Self::GeoPackage(GeoPackage::open(path, name, wanted)?));
         }
         if FlatGeobuf::is_one(&head) {

@@ -18,6 +18,6 @@ pub(crate) mod projection;
 pub(crate) mod zipped;
 
 pub use flatgeobuf::FlatGeobuf;
-pub use geopackage::{GeoPackage, TableShape};
+pub use geopackage::{GeoPackage, PackageState, TableShape};
 pub use gml::GmlFile;
 pub use osm::OsmFile;
