@@ -8,7 +8,7 @@ use rusqlite::{CachedStatement, ToSql};
 use crate::blob;
 use crate::cell::{Cell, QueryAnswer};
 use crate::connection::DatabaseLink;
-use crate::database::{ColumnKind, PreparedStatement, StatementShape};
+use crate::database::{AnswerColumn, PreparedStatement, StatementShape};
 use crate::errors;
 use crate::place;
 use crate::rewrite::SqlType;
@@ -68,11 +68,11 @@ fn shape(
     prepared: &PreparedStatement,
     as_rewritten: bool,
 ) -> StatementShape {
-    let mut kinds: Vec<ColumnKind> = statement
+    let mut kinds: Vec<AnswerColumn> = statement
         .columns()
         .map(|column| match column.decl_type() {
-            Some(kind) if kind.eq_ignore_ascii_case("boolean") => ColumnKind::Boolean,
-            _ => ColumnKind::Plain,
+            Some(kind) if kind.eq_ignore_ascii_case("boolean") => AnswerColumn::Boolean,
+            _ => AnswerColumn::Plain,
         })
         .collect();
     let mut names: Vec<String> = statement.column_names().map(str::to_owned).collect();
@@ -80,8 +80,8 @@ fn shape(
         if let Some(columns) = known.columns.as_ref().filter(|columns| columns.len() == kinds.len()) {
             for (kind, (_, known)) in kinds.iter_mut().zip(columns) {
                 match known {
-                    SqlType::Boolean => *kind = ColumnKind::Boolean,
-                    SqlType::List => *kind = ColumnKind::List,
+                    SqlType::Boolean => *kind = AnswerColumn::Boolean,
+                    SqlType::List => *kind = AnswerColumn::List,
                     _ => {}
                 }
             }
@@ -146,7 +146,7 @@ fn all_rows(
     let mut answer = QueryAnswer::new(Arc::clone(&shape.names), budget);
     let mut rows = statement.raw_query();
     while let Some(row) = rows.next()? {
-        let cell = |(index, kind): (usize, &ColumnKind)| {
+        let cell = |(index, kind): (usize, &AnswerColumn)| {
             cell(row.get_ref(index)?, *kind, frame, link, budget)
                 .map_err(|error| QueryFailure::Told(error.noting(&format!("column {}", answer.names[index]))))
         };
@@ -208,18 +208,18 @@ pub(crate) fn whole(number: f64) -> Option<i64> {
 /// A value on its way out.
 fn cell(
     value: ValueRef<'_>,
-    kind: ColumnKind,
+    kind: AnswerColumn,
     frame: Option<&ReferenceFrame>,
     link: &DatabaseLink,
     budget: &Budget,
 ) -> BurgeonResult<Cell> {
     Ok(match value {
         ValueRef::Null => Cell::Null,
-        ValueRef::Integer(value) if kind == ColumnKind::Boolean => Cell::Boolean(value != 0),
+        ValueRef::Integer(value) if kind == AnswerColumn::Boolean => Cell::Boolean(value != 0),
         #[allow(clippy::cast_precision_loss, reason = "Lua's own numbers are f64")]
         ValueRef::Integer(value) => Cell::Number(value as f64),
         ValueRef::Real(value) => Cell::Number(value),
-        ValueRef::Text(text) if kind == ColumnKind::List => list(text)?,
+        ValueRef::Text(text) if kind == AnswerColumn::List => list(text)?,
         ValueRef::Text(text) => Cell::Text(String::from_utf8_lossy(text).into()),
         ValueRef::Blob(bytes) => {
             let geometry = blob::read(bytes, budget).map_err(|why| {

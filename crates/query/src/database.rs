@@ -80,7 +80,7 @@ pub(crate) struct PreparedStatement {
 
 /// What a column holds that SQLite has otherwise.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum ColumnKind {
+pub(crate) enum AnswerColumn {
     /// What SQLite has.
     Plain,
     /// What is true or false, as 1 or 0.
@@ -94,7 +94,7 @@ pub(crate) struct StatementShape {
     /// The names of columns.
     pub names: Arc<[String]>,
     /// What columns hold.
-    pub kinds: Vec<ColumnKind>,
+    pub kinds: Vec<AnswerColumn>,
     /// The names of parameters, by number.
     pub parameters: Vec<Option<String>>,
 }

@@ -103,7 +103,7 @@ fn quoted(text: &str) -> String {
 
 /// The box around all geometries, and their reference system.
 #[derive(Default)]
-struct Extent {
+struct GroupExtent {
     bounds: Option<[f64; 4]>,
     foreign: Option<u32>,
 }
@@ -112,12 +112,12 @@ struct ExtentOfAll {
     state: Arc<ConnectionState>,
 }
 
-impl Aggregate<Extent, Value> for ExtentOfAll {
-    fn init(&self, _: &mut Context<'_>) -> rusqlite::Result<Extent> {
-        Ok(Extent::default())
+impl Aggregate<GroupExtent, Value> for ExtentOfAll {
+    fn init(&self, _: &mut Context<'_>) -> rusqlite::Result<GroupExtent> {
+        Ok(GroupExtent::default())
     }
 
-    fn step(&self, context: &mut Context<'_>, extent: &mut Extent) -> rusqlite::Result<()> {
+    fn step(&self, context: &mut Context<'_>, extent: &mut GroupExtent) -> rusqlite::Result<()> {
         let bytes = match context.get_raw(0) {
             ValueRef::Null => return Ok(()),
             ValueRef::Blob(bytes) => bytes,
@@ -137,8 +137,8 @@ impl Aggregate<Extent, Value> for ExtentOfAll {
         Ok(())
     }
 
-    fn finalize(&self, _: &mut Context<'_>, extent: Option<Extent>) -> rusqlite::Result<Value> {
-        let Some(Extent { bounds: Some([west, south, east, north]), foreign }) = extent else {
+    fn finalize(&self, _: &mut Context<'_>, extent: Option<GroupExtent>) -> rusqlite::Result<Value> {
+        let Some(GroupExtent { bounds: Some([west, south, east, north]), foreign }) = extent else {
             return Ok(Value::Null);
         };
         let at = |x: f64, y: f64| DVec3::new(x, y, 0.0);
@@ -157,7 +157,7 @@ impl Aggregate<Extent, Value> for ExtentOfAll {
 
 /// The geometries of a partition, and the number of the clusters that were found in it.
 #[derive(Default)]
-struct Partition {
+struct ClusterPartition {
     geometries: Vec<Option<Arc<GeometryArgument>>>,
     distance: f64,
     least: usize,
@@ -169,7 +169,7 @@ struct Clusters {
 }
 
 impl Clusters {
-    fn find(&self, partition: &mut Partition) -> rusqlite::Result<i64> {
+    fn find(&self, partition: &mut ClusterPartition) -> rusqlite::Result<i64> {
         if let Some(found) = partition.found {
             return Ok(found);
         }
@@ -183,15 +183,15 @@ impl Clusters {
     }
 }
 
-impl Aggregate<AssertUnwindSafe<Partition>, Option<i64>> for Clusters {
-    fn init(&self, _: &mut Context<'_>) -> rusqlite::Result<AssertUnwindSafe<Partition>> {
-        Ok(AssertUnwindSafe(Partition::default()))
+impl Aggregate<AssertUnwindSafe<ClusterPartition>, Option<i64>> for Clusters {
+    fn init(&self, _: &mut Context<'_>) -> rusqlite::Result<AssertUnwindSafe<ClusterPartition>> {
+        Ok(AssertUnwindSafe(ClusterPartition::default()))
     }
 
     fn step(
         &self,
         context: &mut Context<'_>,
-        partition: &mut AssertUnwindSafe<Partition>,
+        partition: &mut AssertUnwindSafe<ClusterPartition>,
     ) -> rusqlite::Result<()> {
         let number = |index: usize| match context.get_raw(index) {
             #[allow(clippy::cast_precision_loss, reason = "a number of points")]
@@ -230,18 +230,25 @@ impl Aggregate<AssertUnwindSafe<Partition>, Option<i64>> for Clusters {
     fn finalize(
         &self,
         _: &mut Context<'_>,
-        partition: Option<AssertUnwindSafe<Partition>>,
+        partition: Option<AssertUnwindSafe<ClusterPartition>>,
     ) -> rusqlite::Result<Option<i64>> {
         partition.map(|mut partition| self.find(&mut partition)).transpose()
     }
 }
 
-impl WindowAggregate<AssertUnwindSafe<Partition>, Option<i64>> for Clusters {
-    fn value(&self, partition: Option<&mut AssertUnwindSafe<Partition>>) -> rusqlite::Result<Option<i64>> {
+impl WindowAggregate<AssertUnwindSafe<ClusterPartition>, Option<i64>> for Clusters {
+    fn value(
+        &self,
+        partition: Option<&mut AssertUnwindSafe<ClusterPartition>>,
+    ) -> rusqlite::Result<Option<i64>> {
         partition.map(|partition| self.find(partition)).transpose()
     }
 
-    fn inverse(&self, _: &mut Context<'_>, _: &mut AssertUnwindSafe<Partition>) -> rusqlite::Result<()> {
+    fn inverse(
+        &self,
+        _: &mut Context<'_>,
+        _: &mut AssertUnwindSafe<ClusterPartition>,
+    ) -> rusqlite::Result<()> {
         Err(failed("ST_ClusterDBSCAN: a window has no frame here; leave ROWS and RANGE out"))
     }
 }
@@ -253,8 +260,8 @@ impl WindowAggregate<AssertUnwindSafe<Partition>, Option<i64>> for Clusters {
 ///
 /// Method: Ester, Kriegel, Sander and Xu, "A density-based algorithm for discovering clusters in large spatial databases
 /// with noise", 1996.
-fn clusters(partition: &Partition, budget: &Budget) -> Result<Vec<Option<u32>>, String> {
-    let Partition { geometries, distance, least, .. } = partition;
+fn clusters(partition: &ClusterPartition, budget: &Budget) -> Result<Vec<Option<u32>>, String> {
+    let ClusterPartition { geometries, distance, least, .. } = partition;
     let boxed = |(index, geometry): (usize, &Option<Arc<GeometryArgument>>)| {
         let [low, high] = geometry.as_ref()?.geometry.bounds()?;
         let corners = Rectangle::from_corners([low.x, low.y], [high.x, high.y]);

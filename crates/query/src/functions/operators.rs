@@ -9,20 +9,22 @@ use super::decimals::{as_numeric, float_text, round_decimal};
 use super::texts::{lower, wrong};
 
 /// Runs with arguments of which none is NULL.
-type Operator = fn(&Context<'_>) -> Result<Value, String>;
+type OperatorBody = fn(&Context<'_>) -> Result<Value, String>;
 
 /// The operators with the number of their arguments.
-const OPERATORS: [(&str, i32, Operator); 15] = [
+const OPERATORS: [(&str, i32, OperatorBody); 15] = [
     ("abs", 1, |context| {
         Ok(match whole_or_real(context, 0)? {
-            Number::Whole(number) => Value::Integer(number.checked_abs().ok_or("integer out of range")?),
-            Number::Real(number) => Value::Real(number.abs()),
+            OperandNumber::Whole(number) => {
+                Value::Integer(number.checked_abs().ok_or("integer out of range")?)
+            }
+            OperandNumber::Real(number) => Value::Real(number.abs()),
         })
     }),
     ("burgeon_divide", 2, |context| {
         Ok(match (whole_or_real(context, 0)?, whole_or_real(context, 1)?) {
-            (Number::Whole(_), Number::Whole(0)) => return Err("division by zero".into()),
-            (Number::Whole(a), Number::Whole(b)) => {
+            (OperandNumber::Whole(_), OperandNumber::Whole(0)) => return Err("division by zero".into()),
+            (OperandNumber::Whole(a), OperandNumber::Whole(b)) => {
                 Value::Integer(a.checked_div(b).ok_or("integer out of range")?)
             }
             (a, b) => quotient(a.real(), b.real())?,
@@ -79,7 +81,7 @@ const OPERATORS: [(&str, i32, Operator); 15] = [
         }))
     }),
     ("burgeon_truth", 1, |context| {
-        let truth = matches!(whole_or_real(context, 0)?, Number::Whole(1..));
+        let truth = matches!(whole_or_real(context, 0)?, OperandNumber::Whole(1..));
         Ok(Value::Text(truth.to_string()))
     }),
     ("sign", 1, |context| {
@@ -93,12 +95,12 @@ pub(super) fn names() -> impl Iterator<Item = &'static str> {
     OPERATORS.iter().map(|(name, ..)| *name).chain(["burgeon_like", "burgeon_ilike"])
 }
 
-enum Number {
+enum OperandNumber {
     Whole(i64),
     Real(f64),
 }
 
-impl Number {
+impl OperandNumber {
     fn real(&self) -> f64 {
         match self {
             #[allow(clippy::cast_precision_loss, reason = "PostgreSQL does the same")]
@@ -108,10 +110,10 @@ impl Number {
     }
 }
 
-fn whole_or_real(context: &Context<'_>, index: usize) -> Result<Number, String> {
+fn whole_or_real(context: &Context<'_>, index: usize) -> Result<OperandNumber, String> {
     match context.get_raw(index) {
-        ValueRef::Integer(number) => Ok(Number::Whole(number)),
-        ValueRef::Real(number) => Ok(Number::Real(number)),
+        ValueRef::Integer(number) => Ok(OperandNumber::Whole(number)),
+        ValueRef::Real(number) => Ok(OperandNumber::Real(number)),
         other => Err(wrong(index, "a number", other)),
     }
 }
@@ -130,8 +132,8 @@ fn quotient(a: f64, b: f64) -> Result<Value, String> {
 
 fn modulo(context: &Context<'_>) -> Result<Value, String> {
     Ok(match (whole_or_real(context, 0)?, whole_or_real(context, 1)?) {
-        (Number::Whole(_), Number::Whole(0)) => return Err("division by zero".into()),
-        (Number::Whole(a), Number::Whole(b)) => Value::Integer(a.checked_rem(b).unwrap_or(0)),
+        (OperandNumber::Whole(_), OperandNumber::Whole(0)) => return Err("division by zero".into()),
+        (OperandNumber::Whole(a), OperandNumber::Whole(b)) => Value::Integer(a.checked_rem(b).unwrap_or(0)),
         (a, b) => {
             if b.real() == 0.0 {
                 return Err("division by zero".into());
@@ -168,7 +170,7 @@ fn whole(context: &Context<'_>, round: fn(f64) -> f64) -> Result<Value, String> 
 /// Whether a text is like a pattern, in which `%` stands for any letters and `_` for one.
 fn is_like(text: &[char], pattern: &[char], escape: Option<char>) -> Result<bool, String> {
     /// A part of a pattern.
-    enum Part {
+    enum PatternPart {
         Any,
         One,
         Letter(char),
@@ -178,27 +180,27 @@ fn is_like(text: &[char], pattern: &[char], escape: Option<char>) -> Result<bool
     while let Some(letter) = letters.next() {
         parts.push(match letter {
             letter if Some(*letter) == escape => match letters.next() {
-                Some(letter) => Part::Letter(*letter),
+                Some(letter) => PatternPart::Letter(*letter),
                 None => return Err("LIKE pattern must not end with escape character".into()),
             },
-            '%' => Part::Any,
-            '_' => Part::One,
-            letter => Part::Letter(*letter),
+            '%' => PatternPart::Any,
+            '_' => PatternPart::One,
+            letter => PatternPart::Letter(*letter),
         });
     }
     // The last `%`, and where in the text what follows it was tried.
     let (mut at, mut part, mut last) = (0, 0, None);
     while at < text.len() {
         match parts.get(part) {
-            Some(Part::Any) => {
+            Some(PatternPart::Any) => {
                 last = Some((part, at));
                 part += 1;
             }
-            Some(Part::One) => {
+            Some(PatternPart::One) => {
                 at += 1;
                 part += 1;
             }
-            Some(Part::Letter(letter)) if *letter == text[at] => {
+            Some(PatternPart::Letter(letter)) if *letter == text[at] => {
                 at += 1;
                 part += 1;
             }
@@ -209,7 +211,7 @@ fn is_like(text: &[char], pattern: &[char], escape: Option<char>) -> Result<bool
             }
         }
     }
-    Ok(parts[part..].iter().all(|part| matches!(part, Part::Any)))
+    Ok(parts[part..].iter().all(|part| matches!(part, PatternPart::Any)))
 }
 
 fn like(context: &Context<'_>, any_case: bool) -> Result<Value, String> {

@@ -62,7 +62,7 @@ impl Drop for ServerConnection {
 }
 
 /// The reason why work on a connection came to no end.
-enum Unfinished {
+enum WaitFailure {
     /// A limit of the run.
     Over(Error),
     /// Its own time.
@@ -75,7 +75,7 @@ fn wait<T>(
     budget: Option<&Budget>,
     most: Duration,
     work: impl Future<Output = T>,
-) -> std::result::Result<T, Unfinished> {
+) -> std::result::Result<T, WaitFailure> {
     runtime.block_on(async {
         let begin = Instant::now();
         let mut work = pin!(work);
@@ -84,9 +84,9 @@ fn wait<T>(
             if let Ok(done) = tokio::time::timeout(PERIOD.min(left), work.as_mut()).await {
                 return Ok(done);
             }
-            budget.map_or(Ok(()), Budget::check).map_err(Unfinished::Over)?;
+            budget.map_or(Ok(()), Budget::check).map_err(WaitFailure::Over)?;
             if begin.elapsed() >= most {
-                return Err(Unfinished::Late);
+                return Err(WaitFailure::Late);
             }
         }
     })
@@ -119,8 +119,8 @@ impl ServerConnection {
                 });
             }
             Ok(Err(error)) => unreachable(address, &error),
-            Err(Unfinished::Over(over)) => over.noting(&format!("waiting for {address}")),
-            Err(Unfinished::Late) => late(address, most, "connect_timeout"),
+            Err(WaitFailure::Over(over)) => over.noting(&format!("waiting for {address}")),
+            Err(WaitFailure::Late) => late(address, most, "connect_timeout"),
         };
         runtime.shutdown_background();
         Err(result.into())
@@ -145,8 +145,8 @@ impl ServerConnection {
             Err(unfinished) => {
                 self.cancel(&runtime);
                 Err(match unfinished {
-                    Unfinished::Over(over) => over.noting(&format!("waiting for {}", self.address)),
-                    Unfinished::Late => late(&self.address, most, "answer_timeout"),
+                    WaitFailure::Over(over) => over.noting(&format!("waiting for {}", self.address)),
+                    WaitFailure::Late => late(&self.address, most, "answer_timeout"),
                 }
                 .into())
             }

@@ -6,7 +6,7 @@ use sqlparser::ast::{
 
 use super::casts::as_text;
 use super::expressions::{Expressions, made};
-use super::signatures::{self, Signature};
+use super::signatures::{self, FunctionSignature};
 use super::types::SqlType;
 use super::typing::{TypeScope, error_at};
 use burgeon_base::error::Result;
@@ -43,7 +43,7 @@ impl Expressions<'_, '_> {
             }
             FunctionArguments::None => {}
         }
-        let Signature { takes, gives } = signatures::find(&name);
+        let FunctionSignature { takes, gives } = signatures::find(&name);
         let wrong = kinds.iter().find(|kind| match takes {
             signatures::Takes::Numbers => {
                 matches!(kind, SqlType::Text | SqlType::Boolean | SqlType::Geometry)

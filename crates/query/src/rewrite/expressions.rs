@@ -114,6 +114,11 @@ impl<'a, 'b> Expressions<'a, 'b> {
             Expr::UnaryOp { op, expr } => {
                 let kind = self.expression(expr, scope)?;
                 match op {
+                    UnaryOperator::Not if matches!(kind, T::Text | T::Geometry | T::List) => {
+                        let what = format!("argument of NOT must be type boolean, not type {}", kind.name());
+                        let error = error_at(expression, &what);
+                        return Err(error.help("write a comparison, such as name IS NOT NULL"));
+                    }
                     UnaryOperator::Not => T::Boolean,
                     UnaryOperator::Minus | UnaryOperator::Plus if matches!(kind, T::Text | T::Boolean) => {
                         let what = format!("{op} {}", kind.name());

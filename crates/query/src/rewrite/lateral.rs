@@ -17,7 +17,7 @@ use super::{order, walk};
 use burgeon_base::error::{Error, Result};
 
 /// What a subquery behind LATERAL becomes.
-struct Flattened {
+struct LateralForm {
     substitutions: Vec<Substitution>,
     /// The relation in its place, and the condition of its join.
     join: Option<(TableFactor, Expr)>,
@@ -38,7 +38,7 @@ pub(super) fn flatten(query: &mut Query, tables: &Catalogue) -> Result<()> {
             let joins = std::mem::take(&mut item.joins);
             // A comma joins as CROSS JOIN does.
             match flattened(&item.relation, tables, &known)? {
-                Some(Flattened { substitutions: more, join }) => {
+                Some(LateralForm { substitutions: more, join }) => {
                     substitutions.extend(more);
                     if let Some((relation, condition)) = join {
                         and(&mut select.selection, condition);
@@ -48,7 +48,7 @@ pub(super) fn flatten(query: &mut Query, tables: &Catalogue) -> Result<()> {
                 None => kept.push(item),
             }
             for mut join in joins {
-                let Some(Flattened { substitutions: more, join: other }) =
+                let Some(LateralForm { substitutions: more, join: other }) =
                     flattened(&join.relation, tables, &known)?
                 else {
                     match kept.last_mut() {
@@ -136,7 +136,7 @@ fn and(place: &mut Option<Expr>, condition: Expr) {
     });
 }
 
-fn flattened(factor: &TableFactor, tables: &Catalogue, known: &[String]) -> Result<Option<Flattened>> {
+fn flattened(factor: &TableFactor, tables: &Catalogue, known: &[String]) -> Result<Option<LateralForm>> {
     let TableFactor::Derived { lateral: true, subquery, alias: Some(alias), .. } = factor else {
         return Ok(None);
     };
@@ -165,7 +165,7 @@ fn flattened(factor: &TableFactor, tables: &Catalogue, known: &[String]) -> Resu
     };
     if plain && select.from.is_empty() && select.selection.is_none() && !starred {
         let substitutions = columns.into_iter().map(|(name, it)| substitution(name, it)).collect();
-        return Ok(Some(Flattened { substitutions, join: None }));
+        return Ok(Some(LateralForm { substitutions, join: None }));
     }
     let grouped = !order::is_ungrouped(&select.group_by);
     if order::aggregates(select) && !grouped && !starred {
@@ -176,7 +176,10 @@ fn flattened(factor: &TableFactor, tables: &Catalogue, known: &[String]) -> Resu
             }
             substitution(name, Expr::Subquery(query))
         };
-        return Ok(Some(Flattened { substitutions: columns.into_iter().map(scalar).collect(), join: None }));
+        return Ok(Some(LateralForm {
+            substitutions: columns.into_iter().map(scalar).collect(),
+            join: None,
+        }));
     }
     if !plain || grouped || order::aggregates(select) {
         return Err(unsupported("with DISTINCT, GROUP BY or HAVING"));
@@ -193,7 +196,7 @@ fn joined(
     columns: Vec<(String, Expr)>,
     starred: bool,
     substitution: impl Fn(String, Expr) -> Substitution,
-) -> Result<Flattened> {
+) -> Result<LateralForm> {
     let inner = relations(select, tables);
     let [only] = inner.as_slice() else { return Err(unsupported("with several tables")) };
     let (Some(table), Some(alias)) = (only.table, &only.alias) else {
@@ -236,5 +239,5 @@ fn joined(
             if names.len() == 2 && names[0].value == owner && names[1].value.eq_ignore_ascii_case(&name));
         (!same || !starred).then(|| substitution(name, made))
     });
-    Ok(Flattened { substitutions: computed.collect(), join: Some((relation, condition)) })
+    Ok(LateralForm { substitutions: computed.collect(), join: Some((relation, condition)) })
 }

@@ -21,7 +21,7 @@ pub(super) fn rewrite(query: &mut Query, tables: &Catalogue) {
 }
 
 /// The table that is asked for the nearest alone.
-struct Nearest {
+struct NearestTable {
     /// Its place behind FROM.
     place: (usize, usize),
     /// Its name and what it is called.
@@ -151,7 +151,7 @@ fn nearest(
     items: &[FromItem<'_>],
     from: &[sqlparser::ast::TableWithJoins],
     selection: Option<&Expr>,
-) -> Option<Nearest> {
+) -> Option<NearestTable> {
     let (comma, join) = item.place;
     let mut conditions: Vec<String> = Vec::new();
     let mut optional = false;
@@ -213,5 +213,5 @@ fn nearest(
     let TableFactor::Table { .. } = factor else { return None };
     let alias = item.alias.as_ref()?;
     let relation = format!("{} AS {}", quoted(&item.table?.name), quoted(&alias.value));
-    Some(Nearest { place: item.place, relation, conditions, optional })
+    Some(NearestTable { place: item.place, relation, conditions, optional })
 }

@@ -15,7 +15,7 @@ pub(super) enum Takes {
 }
 
 /// The types of a function.
-pub(super) struct Signature {
+pub(super) struct FunctionSignature {
     pub(super) takes: Takes,
     /// Gives the type of the result for those of the arguments.
     pub(super) gives: fn(&[SqlType]) -> SqlType,
@@ -80,9 +80,9 @@ fn average(kinds: &[SqlType]) -> SqlType {
 }
 
 /// The type of a function with a name in small letters.
-pub(super) fn find(name: &str) -> Signature {
+pub(super) fn find(name: &str) -> FunctionSignature {
     use Takes::{Anything, Numbers, Texts};
-    let signature = |takes: Takes, gives: fn(&[SqlType]) -> SqlType| Signature { takes, gives };
+    let signature = |takes: Takes, gives: fn(&[SqlType]) -> SqlType| FunctionSignature { takes, gives };
     if let Some(function) = functions::find(name) {
         return signature(
             Anything,

@@ -312,6 +312,18 @@ pub(super) const STATEMENTS: [&str; 34] = [
     "SELECT count(*), 1 + 1, levels::text, CASE WHEN part THEN 1 END, max(fid) FROM houses WHERE fid = 3 GROUP BY levels, part",
 ];
 
+/// The town in the projection of its package, and that.
+pub(super) fn framed(folder: &Path, houses: usize) -> (Database, burgeon_data::ReferenceFrame) {
+    let crs = burgeon_data::Crs::epsg(3067).unwrap();
+    let frame = burgeon_data::ReferenceFrame::around(&crs, [385_000.0, 6_672_000.0], "the town").unwrap();
+    let database = Database::new(Some(frame.clone())).unwrap();
+    let (path, budget) = (town(folder, houses), budget());
+    for layer in ["houses", "roads", "lamps"] {
+        database.add_geopackage(layer, &path, "town.gpkg", layer, &budget).unwrap();
+    }
+    (database, frame)
+}
+
 /// The value of an expression for some houses, or that it is refused.
 pub(super) fn statement(expression: &str) -> String {
     format!("SELECT fid, {} AS it FROM houses WHERE fid <= 6", expression.trim_start_matches('!'))
@@ -320,7 +332,7 @@ pub(super) fn statement(expression: &str) -> String {
 #[test]
 fn expressions_give_what_they_give_in_postgresql_or_are_refused() {
     let folder = tempfile::tempdir().unwrap();
-    let database = database(folder.path(), 60);
+    let (database, _) = framed(folder.path(), 60);
     let mut told = String::new();
     let mut refused = 0;
     for expression in EXPRESSIONS {

@@ -142,7 +142,8 @@ fn a_server_gives_the_same_rows() {
         total += here.rows.len();
     }
     assert!(count >= 25 && total > 3000, "{count} statements, {total} rows");
-    meaning(&database, &server);
+    let other = tempfile::tempdir().unwrap();
+    meaning(other.path(), &server);
     schemas(&address);
     encryption(&address);
     safety(&server);
@@ -152,12 +153,14 @@ fn a_server_gives_the_same_rows() {
 }
 
 /// Expressions and statements mean the same here and there, and those that are refused there are refused here.
-fn meaning(database: &Database, server: &Server) {
+fn meaning(folder: &Path, server: &Server) {
+    let (database, frame) = meaning::framed(folder, 400);
     let mut different = String::new();
     let expressions = meaning::EXPRESSIONS.map(|expression| (meaning::statement(expression), expression));
     let statements = meaning::STATEMENTS.map(|sql| (sql.to_owned(), sql));
     for (sql, shown) in expressions.into_iter().chain(statements) {
-        let (here, there) = (database.query(&sql, &[], &budget()), server.query(&sql, &[], None, &budget()));
+        let (here, there) =
+            (database.query(&sql, &[], &budget()), server.query(&sql, &[], Some(&frame), &budget()));
         let same = match (&here, &there) {
             (Ok(here), Ok(there)) => {
                 here.names == there.names

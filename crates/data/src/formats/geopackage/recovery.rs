@@ -6,7 +6,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use rusqlite::{Connection, OpenFlags};
 
-use super::state::{COPIED, Failure, FileStamp, begin, beside};
+use super::state::{COPIED, PackageStamp, StateFailure, begin, beside};
 use burgeon_base::error::{Error, Result};
 use burgeon_base::files;
 
@@ -19,12 +19,12 @@ pub(super) struct PrivateCopy(PathBuf);
 impl PrivateCopy {
     /// Copies the database at `path` and the file beside it whose name ends in `suffix`. Gives up while another program is
     /// writing either.
-    pub(super) fn of(path: &Path, suffix: &str, shown: &str) -> std::result::Result<Self, Failure> {
+    pub(super) fn of(path: &Path, suffix: &str, shown: &str) -> std::result::Result<Self, StateFailure> {
         let log = beside(path, suffix);
-        let stamps = || [FileStamp::of(path), FileStamp::of(&log)];
+        let stamps = || [PackageStamp::of(path), PackageStamp::of(&log)];
         let before = stamps();
         if before.iter().any(|stamp| stamp.is_none_or(|stamp| !stamp.is_settled())) {
-            return Err(Failure::Busy);
+            return Err(StateFailure::Busy);
         }
         if before.iter().flatten().any(|stamp| stamp.length > 4 * COPIED) {
             return Err(Error::unavailable(format!(
@@ -35,7 +35,7 @@ impl PrivateCopy {
         }
         let copy = Self::new()?;
         let cannot = |error: std::io::Error| {
-            Failure::Final(Error::system(format!("cannot recover {shown} in a private copy: {error}")).help(
+            StateFailure::Final(Error::system(format!("cannot recover {shown} in a private copy: {error}")).help(
                 "make room in the folder for temporary files, or open the file once in the program that wrote it",
             ))
         };
@@ -47,12 +47,12 @@ impl PrivateCopy {
         for copied in copied {
             match copied {
                 Ok(Some(_)) => {}
-                Ok(None) => return Err(Failure::Busy),
-                Err(error) if error.kind() == std::io::ErrorKind::NotFound => return Err(Failure::Busy),
+                Ok(None) => return Err(StateFailure::Busy),
+                Err(error) if error.kind() == std::io::ErrorKind::NotFound => return Err(StateFailure::Busy),
                 Err(error) => return Err(cannot(error)),
             }
         }
-        if stamps() != before { Err(Failure::Busy) } else { Ok(copy) }
+        if stamps() != before { Err(StateFailure::Busy) } else { Ok(copy) }
     }
 
     fn new() -> Result<Self> {

@@ -114,9 +114,9 @@ fn the_other_process() {
 }
 
 /// Another process at work, until this is dropped.
-struct Writer(Child);
+struct OtherWriter(Child);
 
-impl Writer {
+impl OtherWriter {
     fn start(task: &str, path: &Path) -> Self {
         let ready = path.with_extension("ready");
         let child = Command::new(std::env::current_exe().unwrap())
@@ -136,7 +136,7 @@ impl Writer {
     }
 }
 
-impl Drop for Writer {
+impl Drop for OtherWriter {
     fn drop(&mut self) {
         let _ = self.0.kill();
         self.0.wait().unwrap();
@@ -198,7 +198,7 @@ fn a_run_sees_one_committed_state_of_a_package_that_is_written_all_the_time() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("town.gpkg");
         package(&path, mode);
-        let writer = Writer::start(task, &path);
+        let writer = OtherWriter::start(task, &path);
         let (mut good, mut locked, mut states) = (0, 0, std::collections::BTreeSet::new());
         for _ in 0..25 {
             match batches(&path, &within(Duration::from_secs(30))) {
@@ -225,7 +225,7 @@ fn a_locked_package_is_waited_for_within_the_time_limit() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("town.gpkg");
     package(&path, "delete");
-    let writer = Writer::start("lock", &path);
+    let writer = OtherWriter::start("lock", &path);
     let begin = Instant::now();
     let error = batches(&path, &within(Duration::from_millis(200))).unwrap_err();
     assert!(begin.elapsed() < Duration::from_secs(1));
@@ -246,7 +246,7 @@ fn what_a_dead_program_has_left_is_taken_back_in_a_copy_alone() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("town.gpkg");
         package(&path, mode);
-        drop(Writer::start(task, &path));
+        drop(OtherWriter::start(task, &path));
         // As of a folder that was copied, where nobody has the file open.
         let _ = std::fs::remove_file(folder.path().join("town.gpkg-shm"));
         assert_eq!(beside(&path), ["town.gpkg", left]);

@@ -60,32 +60,32 @@ enum Keeper {
     /// A read transaction on the file, and a connection outside of it that notices commits. The lock is the last to go.
     Lock { _transaction: Mutex<Connection>, observer: Mutex<Connection>, version: i64, _lock: FileLock },
     /// Nothing: nobody has the file open, and its time and size tell if that changes.
-    Stamp(FileStamp),
+    Stamp(PackageStamp),
 }
 
 /// The time, size and identity of a file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) struct FileStamp {
+pub(super) struct PackageStamp {
     pub(super) length: u64,
     modified: Option<SystemTime>,
     identity: u64,
 }
 
 /// The reason why an attempt gave no state.
-pub(super) enum Failure {
+pub(super) enum StateFailure {
     /// Another program is writing.
     Busy,
     /// Anything that waiting does not help.
     Final(Error),
 }
 
-impl From<Error> for Failure {
+impl From<Error> for StateFailure {
     fn from(error: Error) -> Self {
         Self::Final(error)
     }
 }
 
-impl FileStamp {
+impl PackageStamp {
     /// Returns the stamp of the file at `path`, if there is one.
     pub(super) fn of(path: &Path) -> Option<Self> {
         let meta = fs::metadata(path).ok()?;
@@ -160,8 +160,8 @@ impl PackageState {
         loop {
             match (Attempt { path, shown, budget }).state() {
                 Ok(state) => return Ok(state),
-                Err(Failure::Final(error)) => return Err(error),
-                Err(Failure::Busy) => {}
+                Err(StateFailure::Final(error)) => return Err(error),
+                Err(StateFailure::Busy) => {}
             }
             budget.check().map_err(|over| over.noting(&format!("{shown} is locked by another program")))?;
             if begin.elapsed() > PATIENCE {
@@ -217,10 +217,10 @@ impl PackageState {
     pub fn pin(&self, connection: &Connection, schema: &str) -> Result<()> {
         if self.is_locked() {
             pin(connection, schema).map_err(|error| match failure(error) {
-                Sorted::Busy => changed(&self.shown),
-                Sorted::Unrecovered(error) | Sorted::Unlockable(error) | Sorted::Other(error) => {
-                    broken(&self.shown, &error)
-                }
+                SqliteFailure::Busy => changed(&self.shown),
+                SqliteFailure::Unrecovered(error)
+                | SqliteFailure::Unlockable(error)
+                | SqliteFailure::Other(error) => broken(&self.shown, &error),
             })?;
         }
         self.check()
@@ -233,7 +233,7 @@ impl PackageState {
             Keeper::Lock { observer, version, .. } => {
                 data_version(&observer.lock().recover()).is_ok_and(|now| now == *version)
             }
-            Keeper::Stamp(stamp) => FileStamp::of(&self.path).as_ref() == Some(stamp),
+            Keeper::Stamp(stamp) => PackageStamp::of(&self.path).as_ref() == Some(stamp),
         };
         if same { Ok(()) } else { Err(changed(&self.shown)) }
     }
@@ -255,7 +255,7 @@ pub(super) fn broken(name: &str, error: &rusqlite::Error) -> Error {
 }
 
 /// An error of SQLite by what helps.
-enum Sorted {
+enum SqliteFailure {
     /// Waiting.
     Busy,
     /// Recovery, which needs to write.
@@ -266,7 +266,7 @@ enum Sorted {
     Other(rusqlite::Error),
 }
 
-fn failure(error: rusqlite::Error) -> Sorted {
+fn failure(error: rusqlite::Error) -> SqliteFailure {
     let code = match &error {
         rusqlite::Error::SqliteFailure(code, _) => code.extended_code,
         _ => 0,
@@ -275,16 +275,16 @@ fn failure(error: rusqlite::Error) -> Sorted {
         ffi::SQLITE_READONLY_ROLLBACK
         | ffi::SQLITE_READONLY_RECOVERY
         | ffi::SQLITE_READONLY_CANTINIT
-        | ffi::SQLITE_READONLY_CANTLOCK => Sorted::Unrecovered(error),
+        | ffi::SQLITE_READONLY_CANTLOCK => SqliteFailure::Unrecovered(error),
         ffi::SQLITE_IOERR_LOCK
         | ffi::SQLITE_IOERR_RDLOCK
         | ffi::SQLITE_IOERR_CHECKRESERVEDLOCK
         | ffi::SQLITE_IOERR_SHMLOCK
-        | ffi::SQLITE_IOERR_SHMMAP => Sorted::Unlockable(error),
+        | ffi::SQLITE_IOERR_SHMMAP => SqliteFailure::Unlockable(error),
         code => match code & 0xff {
-            ffi::SQLITE_BUSY | ffi::SQLITE_LOCKED | ffi::SQLITE_PROTOCOL => Sorted::Busy,
-            ffi::SQLITE_CANTOPEN => Sorted::Unrecovered(error),
-            _ => Sorted::Other(error),
+            ffi::SQLITE_BUSY | ffi::SQLITE_LOCKED | ffi::SQLITE_PROTOCOL => SqliteFailure::Busy,
+            ffi::SQLITE_CANTOPEN => SqliteFailure::Unrecovered(error),
+            _ => SqliteFailure::Other(error),
         },
     }
 }
@@ -297,13 +297,13 @@ struct Attempt<'a> {
 }
 
 impl Attempt<'_> {
-    fn state(&self) -> std::result::Result<PackageState, Failure> {
-        let Some(stamp) = FileStamp::of(self.path) else {
+    fn state(&self) -> std::result::Result<PackageState, StateFailure> {
+        let Some(stamp) = PackageStamp::of(self.path) else {
             return Err(Error::file(self.path, format!("cannot read {}: it has gone", self.shown))
                 .help("check the path")
                 .into());
         };
-        let logged = FileStamp::of(&beside(self.path, "-wal"));
+        let logged = PackageStamp::of(&beside(self.path, "-wal"));
         let shared = beside(self.path, "-shm").exists();
         match logged {
             // A program has it open.
@@ -328,7 +328,7 @@ impl Attempt<'_> {
     }
 
     /// The state as SQLite's locks guard it.
-    fn locked(&self, stamp: FileStamp, logged: bool) -> std::result::Result<PackageState, Failure> {
+    fn locked(&self, stamp: PackageStamp, logged: bool) -> std::result::Result<PackageState, StateFailure> {
         let lock = FileLock::announce(self.path)
             .map_err(|error| Error::file(self.path, format!("cannot read {}: {error}", self.shown)))?;
         let open = || -> rusqlite::Result<Option<(Connection, Connection, i64)>> {
@@ -341,18 +341,18 @@ impl Attempt<'_> {
         };
         let (mut connection, observer, version) = match open().map_err(failure) {
             Ok(Some(opened)) => opened,
-            Ok(None) => return Err(Failure::Busy),
-            Err(Sorted::Busy) => return Err(Failure::Busy),
-            Err(Sorted::Unlockable(_)) => {
+            Ok(None) => return Err(StateFailure::Busy),
+            Err(SqliteFailure::Busy) => return Err(StateFailure::Busy),
+            Err(SqliteFailure::Unlockable(_)) => {
                 drop(lock);
                 return self.unlocked(stamp);
             }
-            Err(Sorted::Unrecovered(error)) => {
+            Err(SqliteFailure::Unrecovered(error)) => {
                 drop(lock);
                 let suffix = if logged { "-wal" } else { "-journal" };
-                return match FileStamp::of(&beside(self.path, suffix)) {
+                return match PackageStamp::of(&beside(self.path, suffix)) {
                     Some(_) if stamp.length <= COPIED => self.recovered(suffix),
-                    Some(_) => Err(Failure::Final(
+                    Some(_) => Err(StateFailure::Final(
                         Error::unavailable(format!(
                             "a program that wrote {} has ended in the middle of a change",
                             self.shown
@@ -360,18 +360,18 @@ impl Attempt<'_> {
                         .help("open the file once in that program, so that it takes the change back, and run again"),
                     )),
                     // The writer has just closed it.
-                    None if logged => Err(Failure::Busy),
+                    None if logged => Err(StateFailure::Busy),
                     None => Err(broken(self.shown, &error).into()),
                 };
             }
-            Err(Sorted::Other(error)) => return Err(broken(self.shown, &error).into()),
+            Err(SqliteFailure::Other(error)) => return Err(broken(self.shown, &error).into()),
         };
         if stamp.length <= COPIED {
             let copied = self.copy(&mut connection);
             drop((connection, observer, lock));
             // Whatever the locks are worth, nobody has written meanwhile. A log is brought home at any time.
-            if !logged && FileStamp::of(self.path) != Some(stamp) {
-                return Err(Failure::Busy);
+            if !logged && PackageStamp::of(self.path) != Some(stamp) {
+                return Err(StateFailure::Busy);
             }
             return Ok(copied?);
         }
@@ -390,9 +390,9 @@ impl Attempt<'_> {
     }
 
     /// The state of a file that nobody has open, or that cannot be locked.
-    fn unlocked(&self, stamp: FileStamp) -> std::result::Result<PackageState, Failure> {
+    fn unlocked(&self, stamp: PackageStamp) -> std::result::Result<PackageState, StateFailure> {
         if !stamp.is_settled() {
-            return Err(Failure::Busy);
+            return Err(StateFailure::Busy);
         }
         if stamp.length > COPIED {
             return Ok(PackageState {
@@ -414,16 +414,17 @@ impl Attempt<'_> {
             .map_err(|error| broken(self.shown, &error))
             .and_then(|mut connection| self.copy(&mut connection));
         drop(lock);
-        if FileStamp::of(self.path) != Some(stamp) {
-            return Err(Failure::Busy);
+        if PackageStamp::of(self.path) != Some(stamp) {
+            return Err(StateFailure::Busy);
         }
         Ok(copied?)
     }
 
     /// The state after what the file with `suffix` beside the database says was done, or taken back.
-    fn recovered(&self, suffix: &str) -> std::result::Result<PackageState, Failure> {
+    fn recovered(&self, suffix: &str) -> std::result::Result<PackageState, StateFailure> {
         let private = PrivateCopy::of(self.path, suffix, self.shown)?;
-        let mut connection = private.connect().map_err(|error| Failure::Final(broken(self.shown, &error)))?;
+        let mut connection =
+            private.connect().map_err(|error| StateFailure::Final(broken(self.shown, &error)))?;
         Ok(self.copy(&mut connection)?)
     }
 
