@@ -11,7 +11,7 @@ use super::decimals::float_text;
 type TextFunction = fn(&TextCall<'_>) -> Result<Value, String>;
 
 /// The functions with the least and the greatest number of their arguments.
-const FUNCTIONS: [(&str, i32, i32, TextFunction); 24] = [
+const FUNCTIONS: [(&str, i32, i32, TextFunction); 25] = [
     ("ascii", 1, 1, |call| {
         Ok(Value::Integer(call.text(0)?.chars().next().map_or(0, |letter| i64::from(u32::from(letter)))))
     }),
@@ -73,6 +73,8 @@ const FUNCTIONS: [(&str, i32, i32, TextFunction); 24] = [
         let found = text.find(call.text(1)?).map_or(0, |at| text[..at].chars().count() + 1);
         Ok(Value::Integer(i64::try_from(found).unwrap_or(i64::MAX)))
     }),
+    // The parser takes the other two for one expression.
+    ("burgeon_substr", 2, 3, part),
     ("substr", 2, 3, part),
     ("substring", 2, 3, part),
     ("translate", 3, 3, |call| {

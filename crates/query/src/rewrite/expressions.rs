@@ -174,7 +174,7 @@ impl<'a, 'b> Expressions<'a, 'b> {
             Expr::Substring { expr, substring_from, substring_for, .. } => {
                 let from = substring_from.as_ref().map_or_else(|| "1".to_owned(), ToString::to_string);
                 let length = substring_for.as_ref().map_or_else(String::new, |length| format!(", {length}"));
-                *expression = made(&format!("substr({expr}, {from}{length})"), expression)?;
+                *expression = made(&format!("burgeon_substr({expr}, {from}{length})"), expression)?;
                 self.expression(expression, scope)?
             }
             Expr::Trim { trim_where, trim_what, expr, trim_characters } => {

@@ -115,8 +115,8 @@ pub(super) fn find(name: &str) -> FunctionSignature {
         "cume_dist" | "percent_rank" => signature(Anything, double),
         "ascii" | "char_length" | "character_length" | "length" | "strpos" => signature(Texts, integer),
         "btrim" | "initcap" | "left" | "lower" | "lpad" | "ltrim" | "repeat" | "replace" | "reverse"
-        | "right" | "rpad" | "rtrim" | "split_part" | "substr" | "substring" | "translate" | "trim"
-        | "upper" => signature(Texts, text),
+        | "right" | "rpad" | "rtrim" | "split_part" | "burgeon_substr" | "substr" | "substring"
+        | "translate" | "trim" | "upper" => signature(Texts, text),
         "starts_with" => signature(Texts, boolean),
         "array_to_string" | "char" | "chr" | "concat" | "concat_ws" | "format" | "group_concat" | "hex"
         | "printf" | "quote" | "string_agg" | "typeof" => signature(Anything, text),

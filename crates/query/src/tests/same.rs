@@ -234,11 +234,11 @@ fn subqueries_laterals_and_least_distances_give_the_rows_of_plain_statements() {
         ),
         (
             "WITH a AS (SELECT fid, ST_Buffer(geom, 2) AS around FROM houses), b AS (SELECT fid, ST_Buffer(geom, 1) AS around FROM lamps) SELECT a.fid, b.fid AS lamp FROM a, b WHERE ST_Intersects(a.around, b.around)",
-            "SELECT a.fid, b.fid AS lamp FROM houses a, lamps b WHERE 0 + ST_Intersects(ST_Buffer(a.geom, 2), ST_Buffer(b.geom, 1)) = 1",
+            "SELECT a.fid, b.fid AS lamp FROM houses a, lamps b WHERE CASE WHEN ST_Intersects(ST_Buffer(a.geom, 2), ST_Buffer(b.geom, 1)) THEN 1 END = 1",
         ),
         (
             "SELECT * FROM (SELECT fid, geom FROM lamps) x JOIN (SELECT fid AS house, geom AS place FROM houses) y ON ST_Intersects(x.geom, y.place)",
-            "SELECT a.fid, a.geom, b.fid AS house, b.geom AS place FROM lamps a JOIN houses b ON 0 + ST_Intersects(a.geom, b.geom) = 1",
+            "SELECT a.fid, a.geom, b.fid AS house, b.geom AS place FROM lamps a JOIN houses b ON CASE WHEN ST_Intersects(a.geom, b.geom) THEN 1 END = 1",
         ),
         (
             "SELECT h.fid, min(ST_Distance(h.geom, r.geom)) AS far FROM houses h, roads r GROUP BY h.fid",

@@ -76,9 +76,9 @@ const MANNERS: [(&str, Manner); 7] = [
         welcome(&mut stream)?;
         silence(stream)
     }),
-    ("welcomes and gives notices for ever", |mut stream| {
+    ("welcomes and tells of its settings for ever", |mut stream| {
         welcome(&mut stream)?;
-        trickle(stream, b"N\0\0\0\x05\0")
+        trickle(stream, b"S\0\0\0\x08a\0b\0")
     }),
 ];
 
