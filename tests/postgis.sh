@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Runs a command with BURGEON_POSTGIS naming an empty PostGIS server on loopback, which is installed where it is missing,
-# and ends with the command: tests/postgis.sh cargo test -p burgeon-query
+# and BURGEON_POSTGIS_CA its certificate, and ends with the command: tests/postgis.sh cargo test -p burgeon-query
 set -euo pipefail
 
 programs=/usr/lib/postgresql/15/bin
@@ -29,8 +29,19 @@ trap stop EXIT
 
 cd "$folder"
 "${as[@]}" "$programs/initdb" -D "$data" -U postgres -A trust -E UTF8 --locale=C.UTF-8 -N >/dev/null
+# A certificate for localhost, signed by itself.
+if command -v openssl >/dev/null; then
+  openssl req -x509 -newkey ec -pkeyopt ec_paramgen_curve:prime256v1 -nodes -days 30 -subj /CN=localhost \
+    -addext subjectAltName=DNS:localhost -keyout "$folder/server.key" -out "$folder/server.crt" 2>/dev/null
+  "${as[@]}" install -m 600 /dev/null "$data/server.key"
+  cat "$folder/server.key" > "$data/server.key"
+  cp "$folder/server.crt" "$data/server.crt"
+  chmod 644 "$folder/server.crt" "$data/server.crt"
+  export BURGEON_POSTGIS_CA=$folder/server.crt
+  ssl="-c ssl=on -c ssl_cert_file=server.crt -c ssl_key_file=server.key"
+fi
 "${as[@]}" "$programs/pg_ctl" -D "$data" -w -l "$data/log" \
-  -o "-c listen_addresses=127.0.0.1 -p $port -k $data -c fsync=off -c jit=off" start >/dev/null
+  -o "-c listen_addresses=127.0.0.1 -p $port -k $data -c fsync=off -c jit=off ${ssl:-}" start >/dev/null
 psql=("$programs/psql" -q -h 127.0.0.1 -p "$port" -U postgres -v ON_ERROR_STOP=1)
 "${psql[@]}" -d postgres -c "CREATE DATABASE town"
 "${psql[@]}" -d town -c "CREATE EXTENSION postgis"

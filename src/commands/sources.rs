@@ -1,6 +1,7 @@
 //! `burgeon sources`: what data files hold.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
 use std::time::Duration;
 
 use burgeon::sources::Listing;
@@ -11,10 +12,11 @@ use serde_json::json;
 use super::report;
 use super::shared::{megabytes, seconds};
 
-/// Lists the layers of data files, with their attributes, coordinate systems and extents
+/// Lists the layers of data files and databases, with their attributes, coordinate systems and extents
 #[derive(Args)]
 pub(crate) struct SourcesCommand {
-    /// Data files: GeoJSON, GeoPackage, FlatGeobuf, Shapefile, CSV, GML, CityGML, CityJSON, KML, GPX, .osm, .osm.pbf
+    /// Data files: GeoJSON, GeoPackage, FlatGeobuf, Shapefile, CSV, GML, CityGML, CityJSON, KML, GPX, .osm, .osm.pbf;
+    /// or PostGIS databases: postgres://USER:PASSWORD@HOST/NAME
     #[arg(required = true, value_name = "FILE")]
     files: Vec<PathBuf>,
 
@@ -43,7 +45,7 @@ impl SourcesCommand {
         let time = Duration::from_secs_f64(self.time_limit);
         let budget = Budget::within(time, self.memory_limit as usize * 1_000_000);
         for file in &self.files {
-            match Listing::read(file, &budget) {
+            match listing(file, &budget) {
                 Ok(listing) => listings.push(listing),
                 Err(error) => problems.push(error),
             }
@@ -61,4 +63,25 @@ impl SourcesCommand {
         }
         Ok(())
     }
+}
+
+/// What a file, or the database at an address, holds.
+fn listing(file: &Path, budget: &Arc<Budget>) -> Result<Listing> {
+    match file.to_str() {
+        Some(text) if text.starts_with("postgres://") || text.starts_with("postgresql://") => {
+            database(text, budget)
+        }
+        _ => Listing::read(file, budget),
+    }
+}
+
+#[cfg(feature = "postgis")]
+fn database(address: &str, budget: &Arc<Budget>) -> Result<Listing> {
+    use burgeon::query::postgis::{Server, ServerAddress};
+    Server::new(&ServerAddress::parse(address)?, None).listing(budget)
+}
+
+#[cfg(not(feature = "postgis"))]
+fn database(_: &str, _: &Arc<Budget>) -> Result<Listing> {
+    Err(Error::left_out("databases", "postgis"))
 }

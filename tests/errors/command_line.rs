@@ -306,7 +306,7 @@ fn help_reads_well() {
       mods         Lists the packages that scripts can use, and what they replace; checks, explains, makes and adds them
       new          Makes a script to start from
       setup        Writes into a folder what Visual Studio Code with luau-lsp needs to complete and check scripts
-      sources      Lists the layers of data files, with their attributes, coordinate systems and extents
+      sources      Lists the layers of data files and databases, with their attributes, coordinate systems and extents
       completions  Prints a script that completes the command line in a shell
       help         Print this message or the help of the given subcommand(s)
 
@@ -415,4 +415,31 @@ fn a_reader_that_goes_away_is_no_error() {
         .unwrap();
     assert_eq!(out.stdout, b"[ A(1");
     assert!(!String::from_utf8_lossy(&out.stderr).contains("error"));
+}
+
+#[test]
+fn no_message_shows_the_password_of_an_address() {
+    let script = "local houses = lsystem { object = footprint }\nhouses:axiom(source \"ADDRESS\", function(f) return f end)\n";
+    for address in [
+        "postgres://me:s3cret@127.0.0.1:1/town",
+        "postgres://me:s3cret@127.0.0.1:1/town:houses",
+        "postgres://me:s3cret@127.0.0.1:x/town",
+        "postgres://me:s3cret@127.0.0.1:1/town?sslmode=never",
+        "postgre://me:s3cret@127.0.0.1:1/town",
+    ] {
+        let folder = Folder::new().with("s.lua", script.replace("ADDRESS", address));
+        for arguments in [
+            vec!["sources", address],
+            vec!["run", "s.lua", "-o", "a.glb"],
+            vec!["run", "s.lua", "-o", "a.glb", "--database", address],
+            vec!["run", "s.lua", "-o", "a.glb", "--data", address],
+            vec!["check", "s.lua", "--database", address],
+        ] {
+            for more in [&[][..], &["--json"]] {
+                let said = folder.burgeon(&[&arguments, more].concat());
+                let text = format!("{}{}", said.stdout, said.stderr);
+                assert!(!text.contains("s3cret"), "{arguments:?}: {text}");
+            }
+        }
+    }
 }

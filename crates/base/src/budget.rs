@@ -1,11 +1,14 @@
 //! What reading foreign bytes may take: time until someone stops it, and memory that is asked for before it is taken.
 
+use std::any::{Any, TypeId};
+use std::collections::BTreeMap;
 use std::fmt;
-use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::sync::{Arc, Mutex};
 use std::time::{Duration, Instant};
 
 use crate::error::{Error, Limit, Result};
+use crate::locks::LockRecovery;
 
 /// How many small pieces of work lie between two looks at the clock.
 const PIECES: usize = 1024;
@@ -25,6 +28,10 @@ pub struct Budget {
     /// Whether more was asked for than there is.
     spent: AtomicBool,
     pieces: AtomicUsize,
+    /// What readers share, by its type.
+    shared: Mutex<BTreeMap<TypeId, Arc<dyn Any + Send + Sync>>>,
+    /// The memory (bytes) that what is shared takes.
+    reserved: AtomicUsize,
 }
 
 impl Default for Budget {
@@ -36,6 +43,8 @@ impl Default for Budget {
             taken: AtomicUsize::new(0),
             spent: AtomicBool::new(false),
             pieces: AtomicUsize::new(0),
+            shared: Mutex::default(),
+            reserved: AtomicUsize::new(0),
         }
     }
 }
@@ -86,7 +95,12 @@ impl Budget {
     /// Takes memory (bytes) that will be kept. Fails if there is not as much left.
     pub fn take(&self, bytes: usize) -> Result<()> {
         let taken = self.taken.fetch_add(bytes, Ordering::Relaxed);
-        if taken.checked_add(bytes).is_some_and(|taken| taken <= self.most) {
+        let reserved = self.reserved.load(Ordering::Relaxed);
+        if taken
+            .checked_add(bytes)
+            .and_then(|taken| taken.checked_add(reserved))
+            .is_some_and(|taken| taken <= self.most)
+        {
             return Ok(());
         }
         self.give(bytes);
@@ -108,6 +122,21 @@ impl Budget {
     pub fn hold(&self, bytes: usize) -> Result<MemoryReservation<'_>> {
         self.take(bytes)?;
         Ok(MemoryReservation { budget: self, bytes })
+    }
+
+    /// Takes memory (bytes) for as long as the budget lasts, whatever readers give back. Fails if there is not as much left.
+    pub fn reserve(&self, bytes: usize) -> Result<()> {
+        drop(self.hold(bytes)?);
+        self.reserved.fetch_add(bytes, Ordering::Relaxed);
+        Ok(())
+    }
+
+    /// Returns the value of type `T` that all readers of this budget share, which is made when first asked for.
+    pub fn share<T: Any + Send + Sync + Default>(&self) -> Arc<T> {
+        let mut shared = self.shared.lock().recover();
+        let known = shared.entry(TypeId::of::<T>()).or_insert_with(|| Arc::new(T::default()));
+        // The type is the key.
+        Arc::clone(known).downcast().unwrap_or_default()
     }
 
     /// What is taken so far (bytes).
@@ -150,6 +179,18 @@ mod tests {
         reading takes more than 1 MB of memory
           help: read a part, or raise the limit: --memory-limit MEGABYTES
         ");
+    }
+
+    #[test]
+    fn what_is_shared_is_made_once_and_its_memory_stays_taken() {
+        let budget = Budget::within(Duration::from_secs(60), 1_000_000);
+        budget.share::<AtomicUsize>().store(7, Ordering::Relaxed);
+        assert_eq!(budget.share::<AtomicUsize>().load(Ordering::Relaxed), 7);
+        budget.reserve(600_000).unwrap();
+        budget.settle(0, 0);
+        assert!(budget.take(500_000).is_err());
+        budget.settle(0, 0);
+        budget.take(400_000).unwrap();
     }
 
     #[test]

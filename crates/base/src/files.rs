@@ -3,6 +3,69 @@
 use std::fs::{File, Metadata};
 use std::io::{Error, ErrorKind, Read, Result};
 use std::path::Path;
+use std::sync::RwLock;
+
+use crate::locks::LockRecovery;
+
+/// The files that databases of this process have locked, by [`identity`], once for each lock.
+static LOCKED: RwLock<Vec<u64>> = RwLock::new(Vec::new());
+
+/// A file that a database of this process has locked, until this is dropped.
+///
+/// On Unix a process loses its locks on a file when it closes any handle of it, so nothing else of the process may open
+/// the file meanwhile. [`read_unlocked`] and [`is_locked`] ask for that.
+#[derive(Debug)]
+pub struct FileLock(u64);
+
+impl FileLock {
+    /// Announces that a database is about to lock the file at `path`. Waits for readers of the file.
+    pub fn announce(path: &Path) -> Result<Self> {
+        let identity = identity(&path.metadata()?);
+        LOCKED.write().recover().push(identity);
+        Ok(Self(identity))
+    }
+}
+
+impl Drop for FileLock {
+    fn drop(&mut self) {
+        let mut locked = LOCKED.write().recover();
+        if let Some(index) = locked.iter().position(|known| *known == self.0) {
+            locked.swap_remove(index);
+        }
+    }
+}
+
+/// Reports whether a database of this process has locked the file.
+pub fn is_locked(meta: &Metadata) -> bool {
+    cfg!(unix) && LOCKED.read().recover().contains(&identity(meta))
+}
+
+/// Returns what `read` makes of the file at `path`, or `None` if a database of this process has locked the file. No
+/// database locks it meanwhile.
+pub fn read_unlocked<T>(path: &Path, read: impl FnOnce(File, Metadata) -> Result<T>) -> Result<Option<T>> {
+    let locked = LOCKED.read().recover();
+    if cfg!(unix) && locked.contains(&identity(&path.metadata()?)) {
+        return Ok(None);
+    }
+    let (file, meta) = open(path)?;
+    let read = read(file, meta).map(Some);
+    drop(locked);
+    read
+}
+
+/// Returns a number that tells a file or folder from one that gets its name later, where the system numbers them.
+#[cfg(unix)]
+pub fn identity(metadata: &Metadata) -> u64 {
+    use std::os::unix::fs::MetadataExt;
+    metadata.ino() ^ metadata.dev().rotate_left(48)
+}
+
+/// Returns a number that tells a file or folder from one that gets its name later, by the time it was made.
+#[cfg(not(unix))]
+pub fn identity(metadata: &Metadata) -> u64 {
+    let made = metadata.created().ok().and_then(|made| made.duration_since(std::time::UNIX_EPOCH).ok());
+    made.map_or(0, |made| made.as_secs() ^ u64::from(made.subsec_nanos()).rotate_left(32))
+}
 
 /// Opens the file at `path` for reading. A pipe, a socket or a device is refused before anything is read from it, and
 /// so is a folder.
@@ -68,5 +131,27 @@ mod tests {
         std::fs::write(folder.path().join("a"), "12345678901").unwrap();
         assert_eq!(told(&folder.path().join("a")), "it has more than 10 bytes");
         assert_eq!(read(&folder.path().join("a"), 11).unwrap(), b"12345678901");
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn a_file_that_a_database_has_locked_is_not_opened() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("a");
+        std::fs::write(&path, "text").unwrap();
+        let text = || {
+            read_unlocked(&path, |mut file, _| {
+                let mut text = String::new();
+                file.read_to_string(&mut text)?;
+                Ok(text)
+            })
+        };
+        let locks = [FileLock::announce(&path).unwrap(), FileLock::announce(&path).unwrap()];
+        for lock in locks {
+            assert!(is_locked(&path.metadata().unwrap()) && text().unwrap().is_none());
+            drop(lock);
+        }
+        assert!(!is_locked(&path.metadata().unwrap()));
+        assert_eq!(text().unwrap().as_deref(), Some("text"));
     }
 }

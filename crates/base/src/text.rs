@@ -18,9 +18,12 @@ pub fn escaped_lines(text: &str) -> Cow<'_, str> {
 
 /// A name or an id for a message: escaped, and cut where it is long.
 pub fn shown(text: &str) -> Cow<'_, str> {
-    match text.char_indices().nth(LONGEST) {
-        Some((end, _)) => Cow::Owned(format!("{}...", escaped(&text[..end]))),
-        None => escaped(text),
+    // A password cannot be told from other text once its address is cut.
+    let known = without_passwords(text);
+    match (known.char_indices().nth(LONGEST), &known) {
+        (Some((end, _)), known) => Cow::Owned(format!("{}...", escaped(&known[..end]))),
+        (None, Cow::Borrowed(text)) => escaped(text),
+        (None, Cow::Owned(text)) => Cow::Owned(escaped(text).into_owned()),
     }
 }
 
@@ -31,6 +34,33 @@ pub fn listed<'a>(names: impl ExactSizeIterator<Item = &'a str>) -> String {
     let some: Vec<_> = names.take(MOST).map(shown).collect();
     let more = if count > MOST { format!(" and {} more", count - MOST) } else { String::new() };
     format!("{}{more}", some.join(", "))
+}
+
+/// `text`, with `***` in place of each password in an address such as `postgres://user:password@host/database`.
+pub fn without_passwords(text: &str) -> Cow<'_, str> {
+    let mut made = String::new();
+    let mut rest = text;
+    while let Some(found) = rest.find("://") {
+        let (before, address) = rest.split_at(found + 3);
+        made.push_str(before);
+        // An address ends where a word or a string does.
+        let end = address.find(|letter: char| letter.is_whitespace() || "\"'`<>".contains(letter));
+        let (address, after) = address.split_at(end.unwrap_or(address.len()));
+        match address.rfind('@').and_then(|at| Some((address[..at].find(':')?, at))) {
+            Some((colon, at)) => {
+                made.push_str(&address[..=colon]);
+                made.push_str("***");
+                made.push_str(&address[at..]);
+            }
+            None => made.push_str(address),
+        }
+        rest = after;
+    }
+    if made.is_empty() {
+        return Cow::Borrowed(text);
+    }
+    made.push_str(rest);
+    Cow::Owned(made)
 }
 
 fn escape(text: &str, stays: impl Fn(char) -> bool) -> Cow<'_, str> {
@@ -86,6 +116,22 @@ pub fn panic_message(panic: &(dyn std::any::Any + Send)) -> &str {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn passwords_in_addresses_are_hidden_and_nothing_else() {
+        for (text, hidden) in [
+            ("postgres://me:pw@host/db", "postgres://me:***@host/db"),
+            ("read \"x://a:b@c\" and 'y://d:e/f@g:1/h'", "read \"x://a:***@c\" and 'y://d:***@g:1/h'"),
+            ("postgres://me:p@w:x@host/db:layer", "postgres://me:***@host/db:layer"),
+        ] {
+            assert_eq!(without_passwords(text), hidden);
+        }
+        for text in ["http://host:80/a", "postgres://me@host/db", "a: b@c", "://", "x://:"] {
+            assert_eq!(without_passwords(text), text);
+        }
+        let long = format!("postgres://me:{}@host/db", "pw".repeat(100));
+        assert!(!shown(&long).contains("pw"));
+    }
 
     #[test]
     fn what_a_terminal_would_obey_is_written_out() {

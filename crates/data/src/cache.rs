@@ -1,6 +1,7 @@
 //! Layers and rasters as they were read last, for runs that follow one another.
 
 use std::fmt;
+use std::io::Read;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex};
 
@@ -8,6 +9,7 @@ use super::elevation::{HeightOptions, Raster};
 use super::{Layer, ReferenceFrame, SourceOptions, companions};
 use burgeon_base::budget::Budget;
 use burgeon_base::error::Result;
+use burgeon_base::files;
 use burgeon_base::locks::LockRecovery;
 
 /// How many layers are kept.
@@ -29,23 +31,23 @@ impl fmt::Debug for Cache {
 }
 
 impl Cache {
-    /// What tells a layer from all others; `None` if that cannot be told.
+    /// Returns the text that tells a layer of the file at `path`, which messages call `name`, from all others; `None` if
+    /// that is not known. Fails if the file is a database that another program has locked.
     ///
     /// `frame` is that of the run so far, into which the layer is brought.
-    pub fn key(path: &Path, wanted: &SourceOptions, frame: Option<&ReferenceFrame>) -> Option<String> {
-        let mut log = path.as_os_str().to_owned();
-        log.push("-wal");
-        // Changes that another program makes stand elsewhere.
-        if std::fs::metadata(&log).is_ok_and(|meta| meta.len() > 0) {
-            return None;
-        }
-        let mut content = hash(path).ok()?.to_hex().to_string();
+    pub fn key(
+        path: &Path,
+        name: &str,
+        wanted: &SourceOptions,
+        frame: Option<&ReferenceFrame>,
+    ) -> Result<Option<String>> {
+        let Some(mut content) = content(path, name, &wanted.budget)? else { return Ok(None) };
         for beside in companions(path) {
             // One that is not there yet counts as nothing.
             content += &hash(&beside).map(|hash| hash.to_hex().to_string()).unwrap_or_default();
         }
         let frame = frame.map(|frame| (&frame.name, frame.origin));
-        Some(format!("{content} {} {wanted:?} {frame:?}", path.display()))
+        Ok(Some(format!("{content} {} {wanted:?} {frame:?}", path.display())))
     }
 
     /// The layer with this key, and the frame that it is in.
@@ -87,6 +89,32 @@ impl Cache {
         kept.push((key, Arc::clone(&raster)));
         Ok(raster)
     }
+}
+
+/// Returns the text that tells the content of a file from all others, if it can be told.
+fn content(path: &Path, name: &str, budget: &Arc<Budget>) -> Result<Option<String>> {
+    let mut head = Vec::new();
+    let read = files::read_unlocked(path, |file, _| {
+        file.take(16).read_to_end(&mut head)?;
+        Ok(())
+    });
+    // What cannot be read is left to the reader, which says so.
+    let Ok(read) = read else { return Ok(None) };
+    // A file that a database of this process has locked is a database.
+    if read.is_none() || head.starts_with(b"SQLite format 3") {
+        return database_content(path, name, budget);
+    }
+    Ok(hash(path).ok().map(|hash| hash.to_hex().to_string()))
+}
+
+#[cfg(feature = "data")]
+fn database_content(path: &Path, name: &str, budget: &Arc<Budget>) -> Result<Option<String>> {
+    Ok(super::PackageState::open(path, name, budget)?.key().map(str::to_owned))
+}
+
+#[cfg(not(feature = "data"))]
+fn database_content(_: &Path, _: &str, _: &Arc<Budget>) -> Result<Option<String>> {
+    Ok(None)
 }
 
 /// What tells a file's content from all others.

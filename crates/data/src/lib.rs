@@ -33,10 +33,10 @@ pub use burgeon_spatial::{Geometry, GeometryKind};
 pub use cache::Cache;
 pub use companions::companions;
 pub use content::LayeredFile;
-#[cfg(feature = "data")]
-pub use formats::TableShape;
 pub use formats::output::{check_geopackage, write_geopackage};
 pub use formats::{FlatGeobuf, GeoPackage, OsmFile};
+#[cfg(feature = "data")]
+pub use formats::{PackageState, TableShape};
 pub use frame::{Crs, Passage, ReferenceFrame};
 pub use id::FeatureId;
 pub use layer::Layer;

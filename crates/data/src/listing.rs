@@ -157,7 +157,7 @@ pub fn nearest_file(folder: &Path, wanted: &str) -> Option<String> {
 
 impl LayerListing {
     /// What is in a table, without places that are no numbers, which every run leaves out.
-    fn of(mut table: FeatureTable) -> Result<Self> {
+    pub fn of(mut table: FeatureTable) -> Result<Self> {
         table.refuse_endless()?;
         let mut kinds = BTreeMap::new();
         let mut attributes: Vec<AttributeListing> = table

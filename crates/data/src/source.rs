@@ -102,6 +102,10 @@ impl Source {
             }),
             _ => Error::file(path, format!("cannot read {name}: {error}")).help(NAME_ONE),
         };
+        if path.metadata().is_ok_and(|meta| burgeon_base::files::is_locked(&meta)) {
+            // A database of this process reads it, and would lose its lock when another handle is closed.
+            return Ok(Self::GeoPackage(GeoPackage::open(path, name, wanted)?));
+        }
         let (file, _) = burgeon_base::files::open(path).map_err(cannot)?;
         let file = DataFile::new(file, path, name);
         let head = file.content.head(HEAD).map_err(cannot)?;
@@ -126,7 +130,8 @@ impl Source {
             return Err(Error::data(format!("{} is empty", file.name)).help("get the file again"));
         }
         if head.starts_with(b"SQLite format 3") {
-            let (_, path, name) = file.on_disk("GeoPackage")?;
+            let (open, path, name) = file.on_disk("GeoPackage")?;
+            drop(open);
             return Ok(Self::GeoPackage(GeoPackage::open(&path, &name, wanted)?));
         }
         if FlatGeobuf::is_one(head) {

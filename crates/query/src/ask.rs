@@ -8,9 +8,10 @@ use rusqlite::{CachedStatement, ToSql};
 use crate::blob;
 use crate::cell::{Cell, QueryAnswer};
 use crate::connection::DatabaseLink;
-use crate::database::{PreparedStatement, StatementShape};
+use crate::database::{AnswerColumn, PreparedStatement, StatementShape};
 use crate::errors;
 use crate::place;
+use crate::rewrite::SqlType;
 use burgeon_base::budget::Budget;
 use burgeon_base::error::{Error, Result as BurgeonResult};
 use burgeon_data::ReferenceFrame;
@@ -67,25 +68,66 @@ fn shape(
     prepared: &PreparedStatement,
     as_rewritten: bool,
 ) -> StatementShape {
-    let mut booleans: Vec<bool> = statement
+    let mut kinds: Vec<AnswerColumn> = statement
         .columns()
-        .map(|column| column.decl_type().is_some_and(|kind| kind.eq_ignore_ascii_case("boolean")))
+        .map(|column| match column.decl_type() {
+            Some(kind) if kind.eq_ignore_ascii_case("boolean") => AnswerColumn::Boolean,
+            _ => AnswerColumn::Plain,
+        })
         .collect();
-    let known = prepared.rewritten.as_ref().filter(|_| as_rewritten);
-    let told = known.map_or(&[][..], |rewritten| &rewritten.booleans);
-    if told.len() == booleans.len() {
-        booleans.iter_mut().zip(told).for_each(|(boolean, told)| *boolean |= told);
+    let mut names: Vec<String> = statement.column_names().map(str::to_owned).collect();
+    if let Some(known) = prepared.rewritten.as_ref().filter(|_| as_rewritten) {
+        if let Some(columns) = known.columns.as_ref().filter(|columns| columns.len() == kinds.len()) {
+            for (kind, (_, known)) in kinds.iter_mut().zip(columns) {
+                match known {
+                    SqlType::Boolean => *kind = AnswerColumn::Boolean,
+                    SqlType::List => *kind = AnswerColumn::List,
+                    _ => {}
+                }
+            }
+        }
+        if known.names.len() == names.len() {
+            for (name, known) in names.iter_mut().zip(&known.names) {
+                if let Some(known) = known {
+                    name.clone_from(known);
+                }
+            }
+        }
     }
     let parameters = 1..=statement.parameter_count();
     StatementShape {
-        names: statement.column_names().map(str::to_owned).collect(),
-        booleans,
+        names: names.into(),
+        kinds,
         parameters: parameters.map(|index| statement.parameter_name(index).map(str::to_owned)).collect(),
     }
 }
 
 /// The rows of a statement.
 pub(crate) fn rows(
+    link: &DatabaseLink,
+    prepared: &PreparedStatement,
+    parameters: &[(&str, Cell)],
+    frame: Option<&ReferenceFrame>,
+    budget: &Arc<Budget>,
+) -> Result<Arc<QueryAnswer>, QueryFailure> {
+    let made = prepared.rewritten.iter().flat_map(|rewritten| &rewritten.made);
+    for table in made.clone() {
+        link.make(table, |statement| -> Result<(), QueryFailure> {
+            for index in 1..=statement.parameter_count() {
+                let name = statement.parameter_name(index).map(str::to_owned);
+                let cell = errors::parameter(&prepared.original, name.as_deref(), parameters)?;
+                statement.raw_bind_parameter(index, Bound { cell, frame })?;
+            }
+            Ok(())
+        })?;
+    }
+    let answer = all_rows(link, prepared, parameters, frame, budget);
+    made.map(|table| link.forget(table)).collect::<rusqlite::Result<()>>()?;
+    answer
+}
+
+/// The rows of a statement whose tables are there.
+fn all_rows(
     link: &DatabaseLink,
     prepared: &PreparedStatement,
     parameters: &[(&str, Cell)],
@@ -104,11 +146,11 @@ pub(crate) fn rows(
     let mut answer = QueryAnswer::new(Arc::clone(&shape.names), budget);
     let mut rows = statement.raw_query();
     while let Some(row) = rows.next()? {
-        let cell = |(index, boolean): (usize, &bool)| {
-            cell(row.get_ref(index)?, *boolean, frame, link, budget)
+        let cell = |(index, kind): (usize, &AnswerColumn)| {
+            cell(row.get_ref(index)?, *kind, frame, link, budget)
                 .map_err(|error| QueryFailure::Told(error.noting(&format!("column {}", answer.names[index]))))
         };
-        let row = shape.booleans.iter().enumerate().map(cell).collect::<Result<Vec<Cell>, QueryFailure>>()?;
+        let row = shape.kinds.iter().enumerate().map(cell).collect::<Result<Vec<Cell>, QueryFailure>>()?;
         answer.push(row)?;
     }
     let known = prepared.rewritten.as_ref().filter(|_| as_rewritten);
@@ -120,6 +162,9 @@ pub(crate) fn rows(
 
 /// What SQLite does for a statement.
 pub(crate) fn plan(link: &DatabaseLink, prepared: &PreparedStatement) -> Result<String, QueryFailure> {
+    for table in prepared.rewritten.iter().flat_map(|rewritten| &rewritten.made) {
+        link.make(table, |_| Ok::<(), QueryFailure>(()))?;
+    }
     let (mut statement, _) = prepare(link, prepared, true)?;
     let mut rows = statement.raw_query();
     let mut lines: Vec<String> = Vec::new();
@@ -144,6 +189,9 @@ impl ToSql for Bound<'_> {
                 ToSqlOutput::Owned(whole(*number).map_or(Value::Real(*number), Value::Integer))
             }
             Cell::Text(text) => ToSqlOutput::Borrowed(ValueRef::Text(text.as_bytes())),
+            Cell::List(_) => {
+                return Err(rusqlite::Error::ToSqlConversionFailure("a list is no parameter".into()));
+            }
             Cell::Geometry(geometry) => {
                 ToSqlOutput::Owned(Value::Blob(blob::write(&place::leave(geometry, self.frame))))
             }
@@ -160,17 +208,18 @@ pub(crate) fn whole(number: f64) -> Option<i64> {
 /// A value on its way out.
 fn cell(
     value: ValueRef<'_>,
-    boolean: bool,
+    kind: AnswerColumn,
     frame: Option<&ReferenceFrame>,
     link: &DatabaseLink,
     budget: &Budget,
 ) -> BurgeonResult<Cell> {
     Ok(match value {
         ValueRef::Null => Cell::Null,
-        ValueRef::Integer(value) if boolean => Cell::Boolean(value != 0),
+        ValueRef::Integer(value) if kind == AnswerColumn::Boolean => Cell::Boolean(value != 0),
         #[allow(clippy::cast_precision_loss, reason = "Lua's own numbers are f64")]
         ValueRef::Integer(value) => Cell::Number(value as f64),
         ValueRef::Real(value) => Cell::Number(value),
+        ValueRef::Text(text) if kind == AnswerColumn::List => list(text)?,
         ValueRef::Text(text) => Cell::Text(String::from_utf8_lossy(text).into()),
         ValueRef::Blob(bytes) => {
             let geometry = blob::read(bytes, budget).map_err(|why| {
@@ -178,7 +227,23 @@ fn cell(
                 Error::data(format!("a geometry {why}"))
                     .help("bytes are taken as geometries; take hex(...) of others")
             })?;
-            Cell::Geometry(Arc::new(place::enter(geometry, frame)))
+            match (blob::foreign(bytes), frame) {
+                (Some(code), Some(frame)) => Cell::Geometry(Arc::new(place::entered(geometry, code, frame)?)),
+                _ => Cell::Geometry(Arc::new(place::enter(geometry, frame))),
+            }
         }
     })
+}
+
+/// A list that the database has as JSON.
+fn list(text: &[u8]) -> BurgeonResult<Cell> {
+    let values: Vec<serde_json::Value> = serde_json::from_slice(text)
+        .map_err(|error| Error::internal(format!("a list is no JSON: {error}")))?;
+    let cell = |value: serde_json::Value| match value {
+        serde_json::Value::Bool(value) => Cell::Boolean(value),
+        serde_json::Value::Number(number) => number.as_f64().map_or(Cell::Null, Cell::Number),
+        serde_json::Value::String(text) => Cell::Text(text.into()),
+        _ => Cell::Null,
+    };
+    Ok(Cell::List(values.into_iter().map(cell).collect()))
 }

@@ -41,12 +41,27 @@ pub(crate) fn read(bytes: &[u8], budget: &Budget) -> Result<Geometry, String> {
     Err(format!("has a coordinate {why}"))
 }
 
+/// The version of blobs whose coordinates are not those of the run, but of the reference system that they name.
+const FOREIGN: u8 = 0xb7;
+
+/// The code of the reference system of a blob, if that is not the run's.
+pub(crate) fn foreign(bytes: &[u8]) -> Option<u32> {
+    let code = bytes.strip_prefix(&[b'G', b'P', FOREIGN])?.get(1..5)?;
+    Some(u32::from_le_bytes(code.try_into().ok()?))
+}
+
 /// A geometry as a GeoPackage's blob with its bounds.
 pub(crate) fn write(geometry: &Geometry) -> Vec<u8> {
+    write_in(geometry, None)
+}
+
+/// The same, in the reference system with this code if it is not that of the run.
+pub(crate) fn write_in(geometry: &Geometry, foreign: Option<u32>) -> Vec<u8> {
     let bounds = geometry.bounds();
-    let mut bytes = b"GP\0".to_vec();
+    let mut bytes = b"GP".to_vec();
+    bytes.push(if foreign.is_some() { FOREIGN } else { 0 });
     bytes.push(1 | if bounds.is_some() { 2 } else { 0x10 });
-    bytes.extend([0; 4]);
+    bytes.extend(foreign.unwrap_or(0).to_le_bytes());
     if let Some([low, high]) = bounds {
         for value in [low.x, high.x, low.y, high.y] {
             bytes.extend(value.to_le_bytes());

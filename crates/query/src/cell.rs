@@ -21,10 +21,12 @@ pub enum Cell {
     Text(Arc<str>),
     /// A geometry, in the run's metres.
     Geometry(Arc<Geometry>),
+    /// A list of values, of which none is a list.
+    List(Arc<[Cell]>),
 }
 
 impl Cell {
-    /// `null`, `boolean`, `number`, `text` or `geometry`.
+    /// `null`, `boolean`, `number`, `text`, `geometry` or `list`.
     pub fn kind(&self) -> &'static str {
         match self {
             Self::Null => "null",
@@ -32,6 +34,7 @@ impl Cell {
             Self::Number(_) => "number",
             Self::Text(_) => "text",
             Self::Geometry(_) => "geometry",
+            Self::List(_) => "list",
         }
     }
 
@@ -41,6 +44,7 @@ impl Cell {
             Self::Null | Self::Boolean(_) | Self::Number(_) => 24,
             Self::Text(text) => 40 + text.len(),
             Self::Geometry(geometry) => 120 + 24 * geometry.points().count(),
+            Self::List(cells) => 40 + cells.iter().map(Self::weight).sum::<usize>(),
         }
     }
 
@@ -52,6 +56,7 @@ impl Cell {
             Self::Number(_) => 2,
             Self::Text(_) => 3,
             Self::Geometry(_) => 4,
+            Self::List(_) => 5,
         };
         match (self, other) {
             (Self::Boolean(a), Self::Boolean(b)) => a.cmp(b),
@@ -67,6 +72,10 @@ impl Cell {
                     a.points().count().cmp(&b.points().count()).then_with(|| a.kind().cmp(&b.kind()))
                 })
             }
+            (Self::List(a), Self::List(b)) => {
+                let first = a.iter().zip(&**b).map(|(a, b)| a.order(b)).find(|order| order.is_ne());
+                first.unwrap_or_else(|| a.len().cmp(&b.len()))
+            }
             _ => rank(self).cmp(&rank(other)),
         }
     }
@@ -80,6 +89,10 @@ impl fmt::Display for Cell {
             Self::Number(value) => value.fmt(f),
             Self::Text(text) => write!(f, "{text:?}"),
             Self::Geometry(geometry) => f.write_str(&geometry.to_wkt()),
+            Self::List(cells) => {
+                let cells: Vec<String> = cells.iter().map(Self::to_string).collect();
+                write!(f, "{{{}}}", cells.join(", "))
+            }
         }
     }
 }

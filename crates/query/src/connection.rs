@@ -3,8 +3,8 @@
 //! Each reads the same pages in memory, and the files beside them; none can write. What a statement may do is asked by
 //! SQLite before it runs: reading, and calling functions of a list.
 
-use std::cell::Cell;
-use std::collections::BTreeMap;
+use std::cell::{Cell, RefCell};
+use std::collections::{BTreeMap, BTreeSet};
 use std::hash::BuildHasher as _;
 use std::panic::{AssertUnwindSafe, RefUnwindSafe, UnwindSafe};
 use std::sync::{Arc, Mutex, RwLock};
@@ -12,14 +12,18 @@ use std::sync::{Arc, Mutex, RwLock};
 use rusqlite::config::DbConfig;
 use rusqlite::hooks::{AuthAction, AuthContext, Authorization};
 use rusqlite::limits::Limit;
-use rusqlite::{Connection, OpenFlags};
+use rusqlite::{Connection, OpenFlags, Statement};
 use rustc_hash::FxBuildHasher;
 
+use crate::errors::{self, TableError};
 use crate::functions::{self, GeometryArgument};
 use crate::index::SpatialIndex;
+use crate::rewrite::MadeTable;
+use crate::tables;
 use burgeon_base::budget::Budget;
 use burgeon_base::error::Result;
 use burgeon_base::locks::LockRecovery;
+use burgeon_data::{PackageState, ReferenceFrame};
 
 /// The longest text or blob (bytes).
 const LONGEST: i32 = 200_000_000;
@@ -27,14 +31,14 @@ const LONGEST: i32 = 200_000_000;
 /// The longest statement (bytes).
 pub(crate) const LONGEST_STATEMENT: usize = 200_000;
 
-/// Where SQLite finds files.
-const FILES: &str = if cfg!(windows) { "win32" } else { "unix" };
-
 /// How many files are read as they are; others are copied.
 pub(crate) const MOST_FILES: usize = 8;
 
 /// How many kibibytes of pages a connection keeps.
 const PAGES: i64 = 32_768;
+
+/// How many tables that were made of subqueries a connection keeps.
+const MOST_KEPT: usize = 16;
 
 /// How many prepared statements a connection keeps.
 const STATEMENTS: usize = 64;
@@ -51,12 +55,18 @@ pub(crate) struct ConnectionState {
     budget: Mutex<Arc<Budget>>,
     /// The indexes that there are.
     pub indexes: Arc<Indexes>,
+    /// The indexes of tables that were made of subqueries.
+    pub own_indexes: Mutex<BTreeMap<String, Arc<SpatialIndex>>>,
     /// The geometries that were read last: those of an outer loop are asked for again and again, and of neighbours.
     recent: Mutex<RecentGeometries>,
     /// The blob that was no geometry.
     unreadable: Mutex<Option<Vec<u8>>>,
     /// Whether what comes is Burgeon's own.
     trusted: Mutex<bool>,
+    /// The projection of the run, in whose coordinates tables are.
+    pub frame: Option<ReferenceFrame>,
+    /// The clusters that the statement has found so far, by row of a partition.
+    pub clusters: Mutex<Vec<Vec<Option<u32>>>>,
 }
 
 impl UnwindSafe for ConnectionState {}
@@ -106,6 +116,7 @@ impl ConnectionState {
     /// Lets the next statement take something.
     pub(crate) fn give(&self, budget: &Arc<Budget>) {
         *self.budget.lock().recover() = Arc::clone(budget);
+        self.clusters.lock().recover().clear();
     }
 
     /// The geometry in a blob. Fails with the reason.
@@ -145,15 +156,18 @@ pub(crate) struct DatabaseLink {
     pub generation: usize,
     /// Whether SQLite makes indexes of its own now.
     makes_indexes: Cell<Option<bool>>,
+    files: Vec<AttachedFile>,
+    /// The tables that were made of subqueries without parameters.
+    kept: RefCell<BTreeSet<String>>,
 }
 
-/// A file that is read as it is: its name in statements, and its address.
-#[derive(Debug, Clone)]
+/// A file that is read as it is: its name in statements, and the state of it that is read.
+#[derive(Clone)]
 pub(crate) struct AttachedFile {
     /// Such as `file1`.
     pub schema: String,
-    /// An address that SQLite takes.
-    pub address: String,
+    /// The state that all connections see.
+    pub state: Arc<PackageState>,
 }
 
 /// A name in statements for a table of a file.
@@ -188,15 +202,15 @@ impl DatabaseLink {
         files: &[AttachedFile],
         views: &[TableView],
         indexes: &Arc<Indexes>,
+        frame: Option<&ReferenceFrame>,
         generation: usize,
     ) -> rusqlite::Result<Self> {
         let mut connection = open_memory(address, false)?;
         connection.pragma_update(None, "temp_store", "MEMORY")?;
         connection.pragma_update(None, "cache_size", -PAGES)?;
         connection.pragma_update(None, "case_sensitive_like", true)?;
-        for AttachedFile { schema, address } in files {
-            // Without a name it would be looked for in memory, too.
-            connection.execute(&format!("ATTACH ?1 AS {schema}"), [format!("{address}&vfs={FILES}")])?;
+        for AttachedFile { schema, state } in files {
+            connection.execute(&format!("ATTACH ?1 AS {schema}"), [state.address()])?;
         }
         for TableView { name, schema, table } in views {
             let (name, table) = (quoted(name), quoted(table));
@@ -206,15 +220,25 @@ impl DatabaseLink {
         let state = Arc::new(ConnectionState {
             budget: Mutex::default(),
             indexes: Arc::clone(indexes),
+            own_indexes: Mutex::default(),
             recent: Mutex::default(),
             unreadable: Mutex::default(),
             trusted: Mutex::new(false),
+            frame: frame.cloned(),
+            clusters: Mutex::default(),
         });
         functions::register(&connection, &state)?;
         rusqlite::vtab::array::load_module(&connection)?;
         lock(&mut connection, &state)?;
         connection.set_prepared_statement_cache_capacity(STATEMENTS);
-        Ok(Self { connection, state, generation, makes_indexes: Cell::new(None) })
+        Ok(Self {
+            connection,
+            state,
+            generation,
+            makes_indexes: Cell::new(None),
+            files: files.to_vec(),
+            kept: RefCell::default(),
+        })
     }
 
     /// Lets SQLite make indexes of its own for a statement, or not: where rows are looked up by keys they only hinder.
@@ -222,12 +246,99 @@ impl DatabaseLink {
         if self.makes_indexes.get() == Some(on) {
             return Ok(());
         }
-        let trust = |trusted| *self.state.trusted.lock().recover() = trusted;
-        trust(true);
-        let done = self.connection.pragma_update(None, "automatic_index", on);
-        trust(false);
+        let done = self.trusted(|connection| connection.pragma_update(None, "automatic_index", on));
         self.makes_indexes.set(done.is_ok().then_some(on));
         done
+    }
+
+    /// Does `work` that statements of scripts may not do.
+    fn trusted<T>(&self, work: impl FnOnce(&Connection) -> T) -> T {
+        *self.state.trusted.lock().recover() = true;
+        let done = work(&self.connection);
+        *self.state.trusted.lock().recover() = false;
+        done
+    }
+
+    /// Makes a table of a subquery, with an index for each of its geometries, unless it is kept. Its parameters are bound by
+    /// `bind`.
+    pub(crate) fn make<E: From<rusqlite::Error> + From<burgeon_base::error::Error>>(
+        &self,
+        made: &MadeTable,
+        bind: impl FnOnce(&mut Statement<'_>) -> std::result::Result<(), E>,
+    ) -> std::result::Result<(), E> {
+        let info = &made.info;
+        if self.kept.borrow().contains(&info.name) {
+            return Ok(());
+        }
+        if self.kept.borrow().len() >= MOST_KEPT {
+            let kept = std::mem::take(&mut *self.kept.borrow_mut());
+            kept.iter().try_for_each(|name| self.unmake(name))?;
+        }
+        self.unmake(&info.name)?;
+        let columns: Vec<String> = info.columns.iter().skip(1).map(|name| quoted(name)).collect();
+        let (name, key) = (quoted(&info.name), quoted(info.key.as_deref().unwrap_or_default()));
+        let columns = columns.join(", ");
+        self.trusted(|connection| -> std::result::Result<(), E> {
+            connection
+                .execute_batch(&format!("CREATE TEMP TABLE {name} ({key} INTEGER PRIMARY KEY, {columns})"))?;
+            let sql = format!("INSERT INTO temp.{name} ({columns}) {}", made.sql);
+            let mut statement = connection.prepare(&sql)?;
+            let constant = statement.parameter_count() == 0;
+            bind(&mut statement)?;
+            statement.raw_execute()?;
+            drop(statement);
+            if constant {
+                self.kept.borrow_mut().insert(info.name.clone());
+            }
+            Ok(())
+        })?;
+        let budget = self.state.budget();
+        for column in &info.geometries {
+            budget.check()?;
+            // Its memory goes with the statement.
+            let built = tables::index(&self.connection, info, column, false, &Arc::default());
+            let built = built.map_err(|error| match error {
+                TableError::Told(error) => E::from(error),
+                TableError::Sqlite(error) => E::from(error),
+            })?;
+            let name = format!("{}.{column}", info.name);
+            self.state.own_indexes.lock().recover().insert(name, Arc::new(built));
+        }
+        Ok(())
+    }
+
+    /// Forgets a table that was made of a subquery with parameters.
+    pub(crate) fn forget(&self, made: &MadeTable) -> rusqlite::Result<()> {
+        if self.kept.borrow().contains(&made.info.name) { Ok(()) } else { self.unmake(&made.info.name) }
+    }
+
+    fn unmake(&self, name: &str) -> rusqlite::Result<()> {
+        let prefix = format!("{name}.");
+        self.state.own_indexes.lock().recover().retain(|index, _| !index.starts_with(&prefix));
+        self.trusted(|connection| {
+            connection.execute_batch(&format!("DROP TABLE IF EXISTS temp.{}", quoted(name)))
+        })
+    }
+
+    /// Begins to read the files that are read in place, each in its state. Fails if one has changed.
+    pub(crate) fn pin(&self) -> Result<()> {
+        if !self.files.iter().any(|file| file.state.is_locked()) {
+            return Ok(());
+        }
+        self.trusted(|connection| {
+            connection.execute_batch("BEGIN").map_err(|error| errors::internal(&error))?;
+            let pinned = self.files.iter().try_for_each(|file| file.state.pin(connection, &file.schema));
+            pinned.inspect_err(|_| drop(connection.execute_batch("COMMIT")))
+        })
+    }
+
+    /// Ends to read the files, so that the tables in memory can be written again. Fails if a file has changed meanwhile.
+    pub(crate) fn unpin(&self) -> Result<()> {
+        if !self.connection.is_autocommit() {
+            let ended = self.trusted(|connection| connection.execute_batch("COMMIT"));
+            ended.map_err(|error| errors::internal(&error))?;
+        }
+        self.files.iter().try_for_each(|file| file.state.check())
     }
 }
 
@@ -257,7 +368,8 @@ fn lock(connection: &mut Connection, state: &Arc<ConnectionState>) -> rusqlite::
         match context.action {
             // SQLite's own tables tell of its pages, and of files.
             AuthAction::Read { table_name, .. }
-                if table_name.starts_with("sqlite_") || table_name.eq_ignore_ascii_case("dbstat") =>
+                if !trusted()
+                    && (table_name.starts_with("sqlite_") || table_name.eq_ignore_ascii_case("dbstat")) =>
             {
                 Authorization::Deny
             }
@@ -265,7 +377,17 @@ fn lock(connection: &mut Connection, state: &Arc<ConnectionState>) -> rusqlite::
             AuthAction::Function { function_name } if functions::is_allowed(function_name) => {
                 Authorization::Allow
             }
-            AuthAction::Pragma { pragma_name: "automatic_index", .. } if trusted() => Authorization::Allow,
+            AuthAction::Pragma { pragma_name: "automatic_index" | "schema_version", .. }
+            | AuthAction::Transaction { .. }
+            | AuthAction::CreateTempTable { .. }
+            | AuthAction::DropTempTable { .. }
+            | AuthAction::Insert { .. }
+            | AuthAction::Update { .. }
+            | AuthAction::Delete { .. }
+                if trusted() =>
+            {
+                Authorization::Allow
+            }
             _ => Authorization::Deny,
         }
     }))

@@ -78,12 +78,23 @@ pub(crate) struct PreparedStatement {
     pub shape: OnceLock<StatementShape>,
 }
 
+/// What a column holds that SQLite has otherwise.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum AnswerColumn {
+    /// What SQLite has.
+    Plain,
+    /// What is true or false, as 1 or 0.
+    Boolean,
+    /// Lists, as JSON.
+    List,
+}
+
 /// The columns of a statement, and its parameters.
 pub(crate) struct StatementShape {
     /// The names of columns.
     pub names: Arc<[String]>,
-    /// By column: whether it is of booleans.
-    pub booleans: Vec<bool>,
+    /// What columns hold.
+    pub kinds: Vec<AnswerColumn>,
     /// The names of parameters, by number.
     pub parameters: Vec<Option<String>>,
 }
@@ -158,7 +169,7 @@ impl Database {
             return Ok(());
         }
         let found = FileLayer::find(path, shown_name, layer, budget)?;
-        let known = tables.files.iter().position(|file| file.address == found.address);
+        let known = tables.files.iter().position(|file| file.state.is_same(&found.state));
         let fits = found.stays(self.frame.as_ref())? && (known.is_some() || tables.files.len() < MOST_FILES);
         if !fits {
             let writer = self.writer.lock().recover();
@@ -170,7 +181,7 @@ impl Database {
             Some(index) => tables.files[index].schema.clone(),
             None => {
                 let schema = format!("file{}", tables.files.len() + 1);
-                tables.files.push(AttachedFile { schema: schema.clone(), address: found.address.clone() });
+                tables.files.push(AttachedFile { schema: schema.clone(), state: Arc::clone(&found.state) });
                 schema
             }
         };
@@ -226,13 +237,15 @@ impl Database {
         work: impl FnOnce(&DatabaseLink, &PreparedStatement) -> std::result::Result<T, ask::QueryFailure>,
     ) -> Result<T> {
         budget.check()?;
-        let link = self.link().map_err(|error| errors::internal(&error))?;
+        let link = self.link()?;
         link.state.give(budget);
+        link.pin()?;
         let prepared = self.prepared(sql, &link, budget)?;
         link.state.take_unreadable();
         let within = WorkWithin::begin(budget);
         let done = work(&link, &prepared);
         drop(within);
+        link.unpin()?;
         let result = done.map_err(|failure| {
             // What was interrupted does not say why.
             budget.check().err().unwrap_or_else(|| self.error(sql, failure, &link))
@@ -262,7 +275,7 @@ impl Database {
     }
 
     /// A connection that sees all tables.
-    fn link(&self) -> rusqlite::Result<DatabaseLink> {
+    fn link(&self) -> Result<DatabaseLink> {
         let tables = self.tables.read().recover();
         let mut idle = self.idle.lock().recover();
         while let Some(link) = idle.pop() {
@@ -271,7 +284,9 @@ impl Database {
             }
         }
         drop(idle);
-        DatabaseLink::open(&self.address, &tables.files, &tables.views, &self.indexes, tables.generation)
+        let TableSet { files, views, generation, .. } = &*tables;
+        DatabaseLink::open(&self.address, files, views, &self.indexes, self.frame.as_ref(), *generation)
+            .map_err(|error| errors::internal(&error))
     }
 
     /// The statement as it is asked, with all indexes that it needs.
@@ -288,7 +303,7 @@ impl Database {
         }
         errors::check_length(sql)?;
         let catalogue = self.tables.read().recover().catalogue.clone();
-        let rewritten = rewrite::rewrite(sql, &catalogue, &rewrite::ChosenRows::new(), Dialect::Sqlite);
+        let rewritten = rewrite::rewrite(sql, &catalogue, &rewrite::ChosenRows::new(), Dialect::Sqlite)?;
         for (name, nearest) in rewritten.iter().flat_map(|rewritten| &rewritten.indexes) {
             self.index(name, *nearest, link, &catalogue, budget)?;
         }

@@ -1,6 +1,7 @@
 //! Moves geometries between the metres around the run's origin and the coordinates that statements have.
 
-use burgeon_data::ReferenceFrame;
+use burgeon_base::error::{Error, Result};
+use burgeon_data::{Crs, ReferenceFrame};
 use burgeon_spatial::Geometry;
 
 /// From the projection's coordinates to the run's.
@@ -11,6 +12,44 @@ pub(crate) fn enter(geometry: Geometry, frame: Option<&ReferenceFrame>) -> Geome
 /// From the run's coordinates to the projection's.
 pub(crate) fn leave(geometry: &Geometry, frame: Option<&ReferenceFrame>) -> Geometry {
     shifted(geometry.clone(), frame, 1.0)
+}
+
+/// From the coordinates of a reference system to the run's. Fails if there is no such place.
+pub(crate) fn entered(mut geometry: Geometry, code: u32, frame: &ReferenceFrame) -> Result<Geometry> {
+    let crs = Crs::epsg(code)?;
+    let passage = frame.passage(&crs)?;
+    for point in geometry.points_mut() {
+        [point.x, point.y] = passage.enter([point.x, point.y]);
+    }
+    if geometry.is_sound() {
+        return Ok(geometry);
+    }
+    Err(Error::data(format!("a geometry of EPSG:{code} has no place in {}", frame.name))
+        .help("check its reference system: ST_SetSRID and ST_Transform take EPSG's codes"))
+}
+
+/// A geometry in another reference system; both are the run's where they have no code. Fails if there is no such place.
+pub(crate) fn transformed(
+    geometry: &Geometry,
+    from: Option<u32>,
+    to: Option<u32>,
+    frame: &ReferenceFrame,
+) -> Result<Geometry> {
+    let mut geometry = match from {
+        Some(code) => entered(geometry.clone(), code, frame)?,
+        None => enter(geometry.clone(), Some(frame)),
+    };
+    let Some(code) = to else { return Ok(leave(&geometry, Some(frame))) };
+    let crs = Crs::epsg(code)?;
+    let passage = frame.passage(&crs)?;
+    for point in geometry.points_mut() {
+        [point.x, point.y] = passage.leave([point.x, point.y]);
+    }
+    if geometry.is_sound() {
+        return Ok(geometry);
+    }
+    Err(Error::data(format!("a geometry has no place in EPSG:{code}"))
+        .help("check its reference system: ST_SetSRID and ST_Transform take EPSG's codes"))
 }
 
 fn shifted(mut geometry: Geometry, frame: Option<&ReferenceFrame>, sign: f64) -> Geometry {
@@ -35,10 +74,7 @@ impl<'a> Move<'a> {
     }
 
     /// The way between a frame and a coordinate system.
-    pub(crate) fn between(
-        frame: &'a ReferenceFrame,
-        crs: &burgeon_data::Crs,
-    ) -> burgeon_base::error::Result<Self> {
+    pub(crate) fn between(frame: &'a ReferenceFrame, crs: &Crs) -> Result<Self> {
         frame.passage(crs).map(|passage| Self(Some(passage)))
     }
 

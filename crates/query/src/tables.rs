@@ -11,11 +11,11 @@ use crate::blob;
 use crate::connection::quoted;
 use crate::errors::{self, TableError};
 use crate::index::{IndexBuilder, SpatialIndex};
-use crate::rewrite::TableInfo;
+use crate::rewrite::{SqlType, TableInfo};
 use burgeon_base::budget::Budget;
 use burgeon_base::error::{Error, Result};
 use burgeon_base::text::shown;
-use burgeon_data::{Attribute, Crs, GeoPackage, Layer, ReferenceFrame};
+use burgeon_data::{Attribute, Crs, GeoPackage, Layer, PackageState, ReferenceFrame};
 use burgeon_spatial::Geometry;
 use glam::DVec3;
 
@@ -66,8 +66,8 @@ pub(crate) fn row_of(connection: &Connection, table: &TableInfo, bytes: &[u8]) -
 pub(crate) struct FileLayer {
     /// What is known of its table, under its own name.
     pub info: TableInfo,
-    /// An address of the file that SQLite takes.
-    pub address: String,
+    /// The state of the file that is read.
+    pub state: Arc<PackageState>,
     crs: Result<Crs>,
     shown: String,
     /// How columns were declared.
@@ -81,12 +81,14 @@ impl FileLayer {
         let info = TableInfo {
             name: layer.to_owned(),
             columns: shape.columns.iter().map(|(name, _)| name.clone()).collect(),
+            kinds: shape.columns.iter().map(|(_, kind)| SqlType::declared(kind)).collect(),
             geometries: vec![shape.geometry],
             key: shape.key,
             rows: shape.rows,
+            ..TableInfo::default()
         };
-        let address = GeoPackage::address(path);
-        Ok(Self { info, address, crs: shape.crs, shown: format!("{name}:{layer}"), kinds: shape.columns })
+        let state = PackageState::open(path, name, budget)?;
+        Ok(Self { info, state, crs: shape.crs, shown: format!("{name}:{layer}"), kinds: shape.columns })
     }
 
     /// Whether it can be read as it is: its coordinates are those of the frame's projection, and rows have keys.
@@ -142,11 +144,9 @@ impl FileLayer {
             names.push(column.clone());
         }
         let position = names.iter().position(|known| known == geometry);
+        let declared = columns.iter().map(|column| kind_of(column)).collect();
         let work = || -> std::result::Result<usize, TableError> {
-            let mut source = Connection::open_with_flags(
-                &self.address,
-                rusqlite::OpenFlags::SQLITE_OPEN_READ_ONLY | rusqlite::OpenFlags::SQLITE_OPEN_URI,
-            )?;
+            let mut source = self.state.connect()?;
             let clock = Arc::clone(budget);
             source.progress_handler(1000, Some(move || clock.check().is_err()))?;
             let mut statement =
@@ -178,14 +178,22 @@ impl FileLayer {
                 })
             })
         })?;
+        self.state.check()?;
         Ok(TableInfo {
             name: name.to_owned(),
             key: Some(key),
             geometries: vec![geometry.clone()],
+            kinds: declared,
             columns: names,
             rows,
+            ..TableInfo::default()
         })
     }
+}
+
+/// The type of a column that was declared so, with its name in quotes before it.
+fn kind_of(column: &str) -> SqlType {
+    SqlType::declared(column.rsplit('"').next().unwrap_or_default())
 }
 
 /// A name that none of `taken` is, in whatever letters.
@@ -231,6 +239,7 @@ pub(crate) fn write_layer(
     }
     columns.push(format!("{} BLOB", quoted(&geometry)));
     names.push(geometry.clone());
+    let declared = columns.iter().map(|column| kind_of(column)).collect();
     let [x, y] = layer.origin;
     let mut features = layer.features.iter().zip(1i64..);
     let next = || -> std::result::Result<Option<Vec<Value>>, TableError> {
@@ -260,7 +269,15 @@ pub(crate) fn write_layer(
     };
     let rows = write(writer, name, &columns, budget, next)
         .map_err(|error| errors::or_sqlite(error, |error| errors::internal(error).about(&layer.shown)))?;
-    Ok(TableInfo { name: name.to_owned(), key: Some(key), geometries: vec![geometry], columns: names, rows })
+    Ok(TableInfo {
+        name: name.to_owned(),
+        key: Some(key),
+        geometries: vec![geometry],
+        kinds: declared,
+        columns: names,
+        rows,
+        ..TableInfo::default()
+    })
 }
 
 /// How the columns of a layer's attributes are declared: as what all of their values are.

@@ -7,12 +7,15 @@ use super::*;
 use burgeon_base::budget::Budget;
 use burgeon_spatial::Geometry;
 
+mod meaning;
 mod odd;
 mod plans;
 #[cfg(feature = "postgis")]
 mod postgis;
 mod safety;
 mod same;
+#[cfg(feature = "postgis")]
+mod silent;
 
 /// A GeoPackage with houses on a lattice, roads between them and lamps, in EPSG:3067.
 pub(crate) fn town(folder: &Path, houses: usize) -> PathBuf {

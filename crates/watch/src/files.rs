@@ -2,8 +2,12 @@
 
 use std::collections::BTreeMap;
 use std::fs::{self, Metadata};
+use std::io::Read;
 use std::path::{Path, PathBuf};
-use std::time::{Duration, SystemTime};
+use std::time::{Duration, Instant, SystemTime};
+
+use super::database;
+use burgeon_base::files::{identity, read_unlocked};
 
 /// Larger files (bytes) are told apart by their size and time alone.
 const LARGE: u64 = 64 << 20;
@@ -26,7 +30,7 @@ struct FileState {
     stamp: Option<FileStamp>,
 }
 
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone)]
 enum FileContent {
     /// Never looked at, so any look finds a change.
     Unknown,
@@ -36,6 +40,8 @@ enum FileContent {
     NoFile,
     /// A regular file, by the place that links lead to and the hash of its content.
     File { place: PathBuf, hash: blake3::Hash, empty: bool },
+    /// A database, by what has been committed to it.
+    Database { place: PathBuf, hash: blake3::Hash },
     /// A regular file that is too large to be read again and again.
     Large { place: PathBuf, stamp: FileStamp },
 }
@@ -46,12 +52,40 @@ pub(super) struct FileStamp {
     length: u64,
     modified: Option<SystemTime>,
     file: u64,
+    /// The length and the time of the log beside a database.
+    log: Option<(u64, Option<SystemTime>)>,
+}
+
+impl PartialEq for FileContent {
+    fn eq(&self, other: &Self) -> bool {
+        match (self, other) {
+            (Self::Unknown, Self::Unknown)
+            | (Self::Missing, Self::Missing)
+            | (Self::NoFile, Self::NoFile) => true,
+            (
+                Self::File { place, hash, empty: _ } | Self::Database { place, hash },
+                Self::File { place: other, hash: content, empty: _ }
+                | Self::Database { place: other, hash: content },
+            ) => (place, hash) == (other, content),
+            (Self::Large { place, stamp }, Self::Large { place: other, stamp: now }) => {
+                // What changes while the log stays is brought home from there.
+                let same = stamp.log.is_some_and(|(length, _)| length > 0) && stamp.log == now.log;
+                place == other && (same && stamp.file == now.file || stamp == now)
+            }
+            _ => false,
+        }
+    }
 }
 
 impl FileStamp {
     /// Whether the file may have been written again since, in the same moment as far as times of files tell.
     fn is_new(&self) -> bool {
-        self.modified.is_some_and(|modified| modified + GRAIN > SystemTime::now())
+        self.last_write().is_some_and(|modified| modified + GRAIN > SystemTime::now())
+    }
+
+    /// The time of the last write into the file, or into the log beside it.
+    fn last_write(&self) -> Option<SystemTime> {
+        self.modified.max(self.log.and_then(|(_, modified)| modified))
     }
 }
 
@@ -69,6 +103,11 @@ impl FileChange {
         &self.path
     }
 
+    /// Reports whether it is a database, of which only commits count.
+    pub(super) fn is_database(&self) -> bool {
+        matches!(self.now.content, FileContent::Database { .. })
+    }
+
     /// Whether it has become missing or empty, as in the middle of a save.
     pub(super) fn looks_unfinished(&self) -> bool {
         let nothing = matches!(
@@ -83,14 +122,16 @@ impl FileState {
     /// Where a regular file lies.
     fn place(&self) -> Option<&PathBuf> {
         match &self.content {
-            FileContent::File { place, .. } | FileContent::Large { place, .. } => Some(place),
+            FileContent::File { place, .. }
+            | FileContent::Database { place, .. }
+            | FileContent::Large { place, .. } => Some(place),
             _ => None,
         }
     }
 
     /// Whether it is probably not what someone found at the time `since`, when it was there or not.
     fn is_newer(&self, since: SystemTime, there: bool) -> bool {
-        let modified = self.stamp.and_then(|stamp| stamp.modified);
+        let modified = self.stamp.and_then(|stamp| stamp.last_write());
         let written = self.place().is_some() && modified.is_some_and(|modified| modified + GRAIN > since);
         written || there == (self.content == FileContent::Missing)
     }
@@ -112,14 +153,15 @@ impl WatchedFiles {
             let seen = match self.known.remove(&path) {
                 Some(seen) => seen,
                 None => {
-                    let mut seen = look(&path);
+                    let unknown = || FileState { content: FileContent::Unknown, stamp: None };
+                    let mut seen = look(&path).unwrap_or_else(unknown);
                     if let Some(same) = seen.place().and_then(|place| places.get(place)) {
                         known.insert(path, same.clone());
                         continue;
                     }
                     if since.is_some_and(|since| seen.is_newer(since, there)) {
                         late = true;
-                        seen = FileState { content: FileContent::Unknown, stamp: None };
+                        seen = unknown();
                     }
                     seen
                 }
@@ -141,11 +183,15 @@ impl WatchedFiles {
             if by_stamp && settled && stamp_of(path) == seen.stamp {
                 continue;
             }
-            let now = look(path);
+            // A database that is in the middle of a change still holds what it held.
+            let Some(now) = look(path) else { continue };
             if now.content != seen.content {
                 let was_there = matches!(
                     seen.content,
-                    FileContent::File { empty: false, .. } | FileContent::Large { .. } | FileContent::Unknown
+                    FileContent::File { empty: false, .. }
+                        | FileContent::Database { .. }
+                        | FileContent::Large { .. }
+                        | FileContent::Unknown
                 );
                 found.push(FileChange { path: path.clone(), now, was_there });
             }
@@ -174,7 +220,15 @@ impl WatchedFiles {
     }
 
     fn spell(&mut self) {
-        let mut spellings: Vec<PathBuf> = self.known.keys().flat_map(|path| hops(path)).collect();
+        let mut spellings: Vec<PathBuf> = Vec::new();
+        for (path, seen) in &self.known {
+            let hops = hops(path);
+            if !matches!(seen.content, FileContent::File { .. } | FileContent::NoFile) {
+                let beside = |path: &PathBuf| database::SUFFIXES.map(|suffix| database::beside(path, suffix));
+                spellings.extend(hops.iter().flat_map(beside));
+            }
+            spellings.extend(hops);
+        }
         spellings.sort();
         spellings.dedup();
         self.spellings = spellings;
@@ -200,24 +254,56 @@ pub(super) fn hops(path: &Path) -> Vec<PathBuf> {
     hops
 }
 
-fn look(path: &Path) -> FileState {
-    let Ok(metadata) = fs::metadata(path) else {
-        return FileState { content: FileContent::Missing, stamp: None };
-    };
-    let stamp = stamp(&metadata);
-    let content = if !metadata.is_file() {
-        FileContent::NoFile
-    } else if metadata.len() > LARGE {
-        FileContent::Large { place: place(path), stamp }
-    } else {
-        match fs::read(path) {
-            Ok(bytes) => {
-                FileContent::File { place: place(path), hash: blake3::hash(&bytes), empty: bytes.is_empty() }
-            }
-            Err(_) => FileContent::Missing,
+/// Looks at a file. `None` if it is a database that is in the middle of a change.
+fn look(path: &Path) -> Option<FileState> {
+    let begin = Instant::now();
+    loop {
+        match try_look(path) {
+            Ok(state) => return state,
+            // Its own process reads it, or its log was written meanwhile.
+            Err(Again) if begin.elapsed() < GRAIN => std::thread::sleep(GRAIN / 20),
+            Err(Again) => return None,
         }
+    }
+}
+
+/// Says that a file could not be read as it is.
+struct Again;
+
+fn try_look(path: &Path) -> Result<Option<FileState>, Again> {
+    let Some(stamp) = stamp_of(path) else {
+        return Ok(Some(FileState { content: FileContent::Missing, stamp: None }));
     };
-    FileState { content, stamp: Some(stamp) }
+    let state = |content| Ok(Some(FileState { content, stamp: Some(stamp) }));
+    if !path.is_file() {
+        return state(FileContent::NoFile);
+    }
+    if stamp.length > LARGE {
+        return match database::is_changing(path) {
+            true => Ok(None),
+            false => state(FileContent::Large { place: place(path), stamp }),
+        };
+    }
+    let log_path = database::beside(&place(path), "-wal");
+    // The log comes first: what it has brought home meanwhile is in the file, too.
+    let log = fs::read(&log_path).unwrap_or_default();
+    let mut bytes = Vec::new();
+    match read_unlocked(path, |mut file, _| file.read_to_end(&mut bytes)) {
+        Ok(Some(_)) => {}
+        Ok(None) => return Err(Again),
+        Err(_) => return state(FileContent::Missing),
+    }
+    let place = place(path);
+    if !database::is_one(&bytes) {
+        return state(FileContent::File { place, hash: blake3::hash(&bytes), empty: bytes.is_empty() });
+    }
+    if database::is_changing(&place) {
+        return Ok(None);
+    }
+    if stamp_of(path) != Some(stamp) {
+        return Err(Again);
+    }
+    state(FileContent::Database { hash: database::content(&bytes, &log), place })
 }
 
 /// Where `path` leads; a link that leads elsewhere is a change, since what lies beside the file changes too.
@@ -226,14 +312,17 @@ fn place(path: &Path) -> PathBuf {
 }
 
 pub(super) fn stamp_of(path: &Path) -> Option<FileStamp> {
-    fs::metadata(path).ok().map(|metadata| stamp(&metadata))
+    let metadata = fs::metadata(path).ok()?;
+    let log = fs::metadata(database::beside(&place(path), "-wal")).ok();
+    Some(FileStamp { log: log.map(|log| (log.len(), log.modified().ok())), ..stamp(&metadata) })
 }
 
 fn stamp(metadata: &Metadata) -> FileStamp {
     FileStamp {
         length: metadata.len(),
         modified: metadata.modified().ok(),
-        file: super::folders::identity(metadata),
+        file: identity(metadata),
+        log: None,
     }
 }
 

@@ -8,6 +8,7 @@ use notify::event::{AccessKind, AccessMode, ModifyKind, RenameMode};
 use notify::{Event, EventKind, RecursiveMode, Watcher};
 
 use super::files::WatchedFiles;
+use burgeon_base::files::identity;
 
 /// What an event tells of a file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -126,20 +127,6 @@ fn around(path: &Path) -> Vec<PathBuf> {
 
 fn identity_of(folder: &Path) -> Option<u64> {
     fs::metadata(folder).ok().filter(Metadata::is_dir).map(|metadata| identity(&metadata))
-}
-
-/// Tells a file or folder from another one that gets its name later, where the system numbers them.
-#[cfg(unix)]
-pub(super) fn identity(metadata: &Metadata) -> u64 {
-    use std::os::unix::fs::MetadataExt;
-    metadata.ino() ^ metadata.dev().rotate_left(48)
-}
-
-/// Tells a file or folder from another one that gets its name later, by when it was made.
-#[cfg(not(unix))]
-pub(super) fn identity(metadata: &Metadata) -> u64 {
-    let made = metadata.created().ok().and_then(|made| made.duration_since(std::time::UNIX_EPOCH).ok());
-    made.map_or(0, |made| made.as_secs() ^ u64::from(made.subsec_nanos()).rotate_left(32))
 }
 
 #[cfg(test)]

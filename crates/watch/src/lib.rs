@@ -6,6 +6,7 @@
 //! Folders are watched, not files, since most editors save by renaming a new file over the old one (`folders`).
 //! What an event means is decided by comparing contents (`files`).
 
+mod database;
 mod files;
 mod folders;
 
@@ -262,12 +263,13 @@ impl Watcher {
             let open = |it: &files::FileChange| {
                 files::hops(it.path()).iter().find_map(|path| self.open.get(path)).copied()
             };
-            if found.iter().any(|it| open(it) == Some(true)) {
+            if found.iter().any(|it| !it.is_database() && open(it) == Some(true)) {
                 // That it is closed comes as an event.
                 return Some(first + SAVE);
             }
-            // It was seen before its events have come.
-            if found.iter().any(|it| open(it).is_none() && unsettled([it.path()]).is_some()) {
+            // It was seen before its events have come. A program may keep a database open for as long as it runs.
+            let early = |it: &files::FileChange| it.is_database() || open(it).is_none();
+            if found.iter().any(|it| early(it) && unsettled([it.path()]).is_some()) {
                 return Some(Instant::now() + QUIET);
             }
         }

@@ -235,3 +235,55 @@ fn what_was_just_written_in_part_is_read_again() {
     fs::write(&path, "[").unwrap();
     assert_eq!(settled(&path, read).unwrap_err().message(), "[");
 }
+
+/// A watch of a database that is written through one connection, which stays open.
+fn database(mode: &str) -> (Trial, rusqlite::Connection) {
+    let trial = Trial::new();
+    let path = trial.at("sub/town.gpkg");
+    let writer = rusqlite::Connection::open(&path).unwrap();
+    writer
+        .execute_batch(&format!(
+            "PRAGMA journal_mode = {mode}; CREATE TABLE a(x, filling); \
+             INSERT INTO a VALUES (0, randomblob(200000)), (0, 'x')"
+        ))
+        .unwrap();
+    trial.watch.follow(vec![(path, true)], SystemTime::now() + Duration::from_secs(5));
+    std::thread::sleep(Duration::from_millis(300));
+    while trial.told.try_recv().is_ok() {}
+    (trial, writer)
+}
+
+#[test]
+fn every_commit_to_a_database_that_stays_open_is_told_once() {
+    for mode in ["wal", "delete", "truncate", "persist"] {
+        let (trial, writer) = database(mode);
+        for round in 1..=6 {
+            writer.execute("UPDATE a SET x = ?1", [round]).unwrap();
+            assert!(trial.tells("sub/town.gpkg") < Duration::from_millis(900), "{mode}");
+            trial.tells_nothing();
+        }
+        // What is not committed is no change, and neither is what is taken back.
+        for end in ["COMMIT", "ROLLBACK"] {
+            writer.execute_batch("BEGIN; UPDATE a SET x = x + 1").unwrap();
+            trial.tells_nothing();
+            writer.execute_batch(end).unwrap();
+            match end {
+                "COMMIT" => drop(trial.tells("sub/town.gpkg")),
+                _ => trial.tells_nothing(),
+            }
+        }
+        // What a log brings home was told before.
+        if mode == "wal" {
+            for kind in ["PASSIVE", "TRUNCATE"] {
+                writer.execute("UPDATE a SET x = x + 1", []).unwrap();
+                trial.tells("sub/town.gpkg");
+                writer.query_row(&format!("PRAGMA wal_checkpoint({kind})"), [], |_| Ok(())).unwrap();
+                trial.tells_nothing();
+            }
+            writer.execute("UPDATE a SET x = x + 1", []).unwrap();
+            trial.tells("sub/town.gpkg");
+            drop(writer);
+            trial.tells_nothing();
+        }
+    }
+}

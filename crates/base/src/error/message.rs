@@ -4,7 +4,7 @@ use std::borrow::Cow;
 use std::fmt;
 
 use super::ErrorKind;
-use crate::text::escaped_lines;
+use crate::text::{escaped_lines, without_passwords};
 
 /// The characters of a message or a remedy that are told at most; more are left out in the middle.
 const LONGEST: usize = 2000;
@@ -41,7 +41,8 @@ impl SourcePlace {
         let Ok(text) = std::fs::read_to_string(path) else { return Vec::new() };
         let first = self.line.saturating_sub(before).max(1);
         let lines = text.lines().enumerate().skip(first - 1).take(self.line + after + 1 - first);
-        let lines = lines.map(|(index, line)| (index + 1, line.trim_end().chars().take(WIDEST).collect()));
+        let shown = |line: &str| without_passwords(line.trim_end()).chars().take(WIDEST).collect();
+        let lines = lines.map(|(index, line)| (index + 1, shown(line)));
         let lines: Vec<(usize, String)> = lines.collect();
         let there =
             lines.iter().any(|(number, line): &(usize, String)| *number == self.line && !line.is_empty());
@@ -98,7 +99,7 @@ impl Error {
     pub fn of(kind: ErrorKind, message: impl fmt::Display) -> Self {
         Self(Box::new(ErrorParts {
             kind,
-            message: shortened(&message.to_string(), LONGEST).into_owned(),
+            message: told(&message.to_string(), LONGEST),
             place: None,
             caller: None,
             rule: None,
@@ -139,15 +140,16 @@ impl Error {
     /// Says `message` in place of its own, and something else about the same.
     #[must_use]
     pub fn saying(mut self, message: impl fmt::Display) -> Self {
-        self.0.message = shortened(&message.to_string(), LONGEST).into_owned();
+        self.0.message = told(&message.to_string(), LONGEST);
         self
     }
 
     /// Says what it is about, unless the message says that already.
     #[must_use]
     pub fn about(mut self, what: &str) -> Self {
-        if !self.0.message.contains(what) {
-            self.0.message = format!("{}: {}", shortened(what, LONGEST_NAME), self.0.message);
+        let what = without_passwords(what);
+        if !self.0.message.contains(&*what) {
+            self.0.message = format!("{}: {}", shortened(&what, LONGEST_NAME), self.0.message);
         }
         self
     }
@@ -155,7 +157,7 @@ impl Error {
     /// Adds `what` in brackets to the message.
     #[must_use]
     pub fn noting(mut self, what: &str) -> Self {
-        self.0.message = format!("{} ({})", self.0.message, shortened(what, LONGEST_NAME));
+        self.0.message = format!("{} ({})", self.0.message, told(what, LONGEST_NAME));
         self
     }
 
@@ -189,7 +191,7 @@ impl Error {
     /// Says what to do about it.
     #[must_use]
     pub fn help(mut self, help: impl fmt::Display) -> Self {
-        self.0.help.get_or_insert_with(|| shortened(&help.to_string(), LONGEST).into_owned());
+        self.0.help.get_or_insert_with(|| told(&help.to_string(), LONGEST));
         self
     }
 
@@ -231,7 +233,7 @@ impl Error {
     /// Names the rule, unless it is named already.
     #[must_use]
     pub fn rule(mut self, rule: impl fmt::Display) -> Self {
-        self.0.rule.get_or_insert_with(|| shortened(&rule.to_string(), LONGEST_NAME).into_owned());
+        self.0.rule.get_or_insert_with(|| told(&rule.to_string(), LONGEST_NAME));
         self
     }
 
@@ -239,7 +241,7 @@ impl Error {
     #[must_use]
     pub fn module(mut self, module: impl fmt::Display, step: usize) -> Self {
         if self.0.module.is_none() {
-            self.0.module = Some(shortened(&module.to_string(), LONGEST_NAME).into_owned());
+            self.0.module = Some(told(&module.to_string(), LONGEST_NAME));
             self.0.step = Some(step);
         }
         self
@@ -366,6 +368,11 @@ impl fmt::Display for Error {
 
 impl std::error::Error for Error {}
 
+/// Returns a text for people: without passwords, and not too long.
+fn told(text: &str, most: usize) -> String {
+    shortened(&without_passwords(text), most).into_owned()
+}
+
 /// `text`, without its middle where it has more than `most` characters: how long it is stands in its place.
 pub fn shortened(text: &str, most: usize) -> Cow<'_, str> {
     // A text has at least as many bytes as characters.
@@ -387,6 +394,20 @@ pub fn shortened(text: &str, most: usize) -> Cow<'_, str> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn no_part_of_an_error_holds_the_password_of_an_address() {
+        let address = "postgre://me:s3cret@host/db";
+        let error = Error::argument(format!("there is no data file {address}"))
+            .saying(format!("cannot read {address}"))
+            .about(&format!("{address}:houses"))
+            .noting(address)
+            .rule(address)
+            .module(address, 1)
+            .help(format!("write {address}"));
+        let text = format!("{error} {error:?} {}", error.to_json());
+        assert!(!text.contains("s3cret") && text.contains("postgre://me:***@host/db"), "{text}");
+    }
 
     #[test]
     fn an_error_reads_place_rule_message_module_and_help() {

@@ -31,6 +31,6 @@ mod xml;
 pub(crate) mod zipped;
 
 pub use flatgeobuf::FlatGeobuf;
-pub use geopackage::{GeoPackage, TableShape};
+pub use geopackage::{GeoPackage, PackageState, TableShape};
 pub(crate) use opening::{layered, unpacked};
 pub use osm::OsmFile;

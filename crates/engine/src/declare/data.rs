@@ -190,7 +190,10 @@ fn read(
         session.seek(&beside, beside.exists());
     }
     let cache = session.options.inputs.cache.as_deref();
-    let key = cache.and_then(|_| Cache::key(&path, &wanted, known.frame.as_ref()));
+    let key = match cache {
+        Some(_) => Cache::key(&path, name, &wanted, known.frame.as_ref())?,
+        None => None,
+    };
     let kept = cache.zip(key.as_deref()).and_then(|(cache, key)| cache.get(key));
     let layer = match kept {
         Some((layer, frame)) => {

@@ -27,8 +27,10 @@ pub(crate) enum FunctionResult {
     Count(usize),
     /// Text.
     Text(String),
-    /// A geometry.
+    /// A geometry, in the reference system of the arguments.
     Geometry(Geometry),
+    /// A geometry in the reference system with a code, or in the run's.
+    Placed(Geometry, Option<u32>),
     /// Bytes.
     Bytes(Vec<u8>),
 }
@@ -62,8 +64,51 @@ pub(super) fn run(
     }
     state.budget().tick().map_err(|error| failed(error.message().to_owned()))?;
     let name = function.name;
+    let told = |why: String| failed(format!("{name}: {why}"));
+    let foreign = foreign(context).map_err(told)?;
     let output = (function.run)(&FunctionCall { function, context, state });
-    value(output.map_err(|why| failed(format!("{name}: {why}")))?)
+    match output.map_err(told)? {
+        FunctionResult::Geometry(geometry) => value(FunctionResult::Placed(geometry, foreign)),
+        output => value(output),
+    }
+}
+
+/// The reference system that all geometries among the arguments have, if it is not the run's. Fails if they have several.
+fn foreign(context: &Context<'_>) -> Result<Option<u32>, String> {
+    let mut found: Option<Option<u32>> = None;
+    for index in 0..context.len() {
+        if let ValueRef::Blob(bytes) = context.get_raw(index) {
+            let own = blob::foreign(bytes);
+            if *found.get_or_insert(own) != own {
+                return Err("the geometries have different reference systems; bring both into one: ST_Transform(geometry, srid)".into());
+            }
+        }
+    }
+    Ok(found.flatten())
+}
+
+/// Runs a function that gives a list of geometries.
+pub(super) fn run_list(
+    context: &Context<'_>,
+    state: &ConnectionState,
+    name: &str,
+    run: impl FnOnce(&GeometryArgument, &Context<'_>) -> Result<Vec<Geometry>, String>,
+) -> rusqlite::Result<KeyList> {
+    state.budget().tick().map_err(|error| failed(error.message().to_owned()))?;
+    let told = |why: String| failed(format!("{name}: {why}"));
+    let foreign = foreign(context).map_err(told)?;
+    let parsed = match context.get_raw(0) {
+        ValueRef::Null => return Ok(keys(&[])),
+        ValueRef::Blob(bytes) => state.geometry(bytes).map_err(told)?,
+        ValueRef::Text(text) => {
+            let read = Geometry::from_wkt_within(&String::from_utf8_lossy(text), &state.budget());
+            Arc::new(GeometryArgument::from(read.map_err(|error| told(error.message().to_owned()))?))
+        }
+        other => return Err(told(super::texts::wrong(0, "a geometry", other))),
+    };
+    let made = run(&parsed, context).map_err(told)?;
+    let values = made.iter().map(|geometry| Value::Blob(blob::write_in(geometry, foreign))).collect();
+    Ok(KeyList(Rc::new(values)))
 }
 
 /// What SQLite gets.
@@ -75,6 +120,7 @@ pub(super) fn value(output: FunctionResult) -> rusqlite::Result<Value> {
         FunctionResult::Count(count) => Value::Integer(i64::try_from(count).unwrap_or(i64::MAX)),
         FunctionResult::Text(text) => Value::Text(text),
         FunctionResult::Geometry(geometry) => Value::Blob(blob::write(&geometry)),
+        FunctionResult::Placed(geometry, foreign) => Value::Blob(blob::write_in(&geometry, foreign)),
         FunctionResult::Bytes(bytes) => Value::Blob(bytes),
     })
 }
@@ -159,6 +205,19 @@ impl FunctionCall<'_> {
             ValueRef::Blob(bytes) => Ok(bytes),
             _ => Err(self.wrong(index, "well-known binary")),
         }
+    }
+
+    /// The code of the reference system of a geometry, if it is not the run's.
+    pub(super) fn foreign(&self, index: usize) -> Option<u32> {
+        match self.context.get_raw(index) {
+            ValueRef::Blob(bytes) => blob::foreign(bytes),
+            _ => None,
+        }
+    }
+
+    /// What a connection knows.
+    pub(super) fn state(&self) -> &ConnectionState {
+        self.state
     }
 
     /// What may be taken.
@@ -249,6 +308,9 @@ fn index(context: &Context<'_>, state: &ConnectionState) -> rusqlite::Result<Arc
     // Kept as long as the statement runs.
     let found = context.get_or_create_aux(0, |name| -> Result<Arc<SpatialIndex>, rusqlite::Error> {
         let name = name.as_str().map_err(|error| failed(error.to_string()))?;
+        if let Some(own) = state.own_indexes.lock().recover().get(name) {
+            return Ok(Arc::clone(own));
+        }
         let indexes = state.indexes.read().recover();
         indexes.get(name).cloned().ok_or_else(|| failed(format!("there is no index {name}")))
     })?;
@@ -261,6 +323,10 @@ fn geometry(
     state: &ConnectionState,
 ) -> rusqlite::Result<Option<Arc<GeometryArgument>>> {
     match context.get_raw(1) {
+        ValueRef::Blob(bytes) if blob::foreign(bytes).is_some() => Err(failed(
+            "the geometries have different reference systems; bring both into one: ST_Transform(geometry, srid)"
+                .into(),
+        )),
         ValueRef::Blob(bytes) => {
             state.geometry(bytes).map(Some).map_err(|why| failed(format!("a geometry {why}")))
         }
@@ -277,6 +343,7 @@ fn geometry(
 /// The bounds of the second argument, which may be empty; nothing if it is NULL.
 fn asked(context: &Context<'_>, state: &ConnectionState) -> rusqlite::Result<Option<Option<[f64; 4]>>> {
     if let ValueRef::Blob(bytes) = context.get_raw(1)
+        && blob::foreign(bytes).is_none()
         && let Some(bounds) = blob::told_bounds(bytes)
     {
         return Ok(Some(Some(bounds)));
@@ -285,11 +352,12 @@ fn asked(context: &Context<'_>, state: &ConnectionState) -> rusqlite::Result<Opt
 }
 
 /// Keys as a list that a statement reads.
-fn keys(keys: &[i64]) -> KeyList {
+pub(super) fn keys(keys: &[i64]) -> KeyList {
     KeyList(Rc::new(keys.iter().map(|key| Value::Integer(*key)).collect()))
 }
 
-struct KeyList(Array);
+/// A list that a statement reads.
+pub(super) struct KeyList(pub(super) Array);
 
 impl rusqlite::ToSql for KeyList {
     fn to_sql(&self) -> rusqlite::Result<ToSqlOutput<'_>> {

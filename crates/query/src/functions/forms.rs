@@ -1,5 +1,6 @@
 //! Where geometries come from, and the forms in which they go out.
 
+use burgeon_data::Crs;
 use burgeon_geometry::Rings;
 use burgeon_spatial::{Geometry, wkb};
 use glam::DVec3;
@@ -12,7 +13,7 @@ use super::{FunctionCall, FunctionResult, SpatialFunction};
 pub(super) const FORMS: &[SpatialFunction] = &[
     function("ST_MakePoint", (2, 3), "(east, north [, up])", "geometry", "A point.", point),
     function("ST_Point", (2, 3), "(east, north [, srid])", "geometry", "A point.", |call| {
-        sound(Geometry::point(DVec3::new(call.number(0)?, call.number(1)?, 0.0)))
+        placed(call, 2, Geometry::point(DVec3::new(call.number(0)?, call.number(1)?, 0.0)))
     }),
     function(
         "ST_MakeLine",
@@ -47,7 +48,7 @@ pub(super) const FORMS: &[SpatialFunction] = &[
                 [call.number(0)?, call.number(1)?, call.number(2)?, call.number(3)?];
             let ring = [[west, south], [west, north], [east, north], [east, south]]
                 .map(|[x, y]| DVec3::new(x, y, 0.0));
-            sound(Geometry::Polygon(Rings(vec![ring.to_vec()])))
+            placed(call, 4, Geometry::Polygon(Rings(vec![ring.to_vec()])))
         },
     ),
     function(
@@ -58,7 +59,7 @@ pub(super) const FORMS: &[SpatialFunction] = &[
         "The geometry of well-known text.",
         |call| {
             let read = Geometry::from_wkt_within(call.text(0)?, &call.budget());
-            read.map(FunctionResult::Geometry).map_err(|error| error.message().to_owned())
+            placed(call, 1, read.map_err(|error| error.message().to_owned())?)
         },
     ),
     function(
@@ -70,7 +71,7 @@ pub(super) const FORMS: &[SpatialFunction] = &[
         |call| {
             let geometry = wkb::read(call.bytes(0)?, 0.01, &call.budget())
                 .map_err(|why| format!("well-known binary {why}"))?;
-            sound(geometry)
+            placed(call, 1, geometry)
         },
     ),
     function(
@@ -78,11 +79,65 @@ pub(super) const FORMS: &[SpatialFunction] = &[
         (2, 2),
         "(geometry, srid)",
         "geometry",
-        "The same: all tables share one coordinate system here.",
-        |call| Ok(FunctionResult::Geometry(call.geometry(0)?.geometry.clone())),
+        "The same coordinates, taken for those of a reference system.",
+        |call| placed(call, 1, call.geometry(0)?.geometry.clone()),
     ),
-    function("ST_AsText", (1, 1), ONE, "text", "Its well-known text.", |call| {
-        Ok(FunctionResult::Text(call.geometry(0)?.geometry.to_wkt()))
+    function(
+        "ST_SRID",
+        (1, 1),
+        ONE,
+        "number",
+        "The EPSG code of its reference system; 0 if it has none.",
+        |call| {
+            call.geometry(0)?;
+            let own = call.state().frame.as_ref().and_then(|frame| frame.epsg).map_or(0, u32::from);
+            Ok(FunctionResult::Count(call.foreign(0).unwrap_or(own) as usize))
+        },
+    ),
+    function(
+        "ST_Transform",
+        (2, 2),
+        "(geometry, srid)",
+        "geometry",
+        "The same place in the coordinates of a reference system, by its EPSG code.",
+        |call| {
+            let (geometry, from) = (call.geometry(0)?, call.foreign(0));
+            let Some(frame) = &call.state().frame else {
+                return Err("the tables have no reference system".into());
+            };
+            let to = code(call, 1)?;
+            let made = crate::place::transformed(&geometry.geometry, from, to, frame);
+            made.map(|made| FunctionResult::Placed(made, to)).map_err(|error| error.message().to_owned())
+        },
+    ),
+    function(
+        "ST_AsText",
+        (1, 2),
+        "(geometry [, digits])",
+        "text",
+        "Its well-known text, with at most so many digits behind the point, 15 unless given.",
+        |call| {
+            Ok(FunctionResult::Text(super::text::well_known(&call.geometry(0)?.geometry, digits(call, 15)?)))
+        },
+    ),
+    function(
+        "ST_AsGeoJSON",
+        (1, 2),
+        "(geometry [, digits])",
+        "text",
+        "Its GeoJSON, with at most so many digits behind the point, 9 unless given.",
+        |call| {
+            let own = call.state().frame.as_ref().and_then(|frame| frame.epsg).map_or(0, u32::from);
+            let code = call.foreign(0).unwrap_or(own);
+            Ok(FunctionResult::Text(super::text::geojson(
+                &call.geometry(0)?.geometry,
+                digits(call, 9)?,
+                code,
+            )))
+        },
+    ),
+    function("GeometryType", (1, 1), ONE, "text", "Its kind in large letters, such as `POLYGON`.", |call| {
+        Ok(FunctionResult::Text(call.geometry(0)?.geometry.kind().wkt().to_owned()))
     }),
     function("ST_AsBinary", (1, 1), ONE, "bytes", "Its well-known binary.", |call| {
         Ok(FunctionResult::Bytes(call.geometry(0)?.geometry.to_wkb()))
@@ -91,4 +146,34 @@ pub(super) const FORMS: &[SpatialFunction] = &[
 
 fn point(call: &FunctionCall<'_>) -> Result<FunctionResult, String> {
     sound(Geometry::point(DVec3::new(call.number(0)?, call.number(1)?, call.number_or(2, 0.0)?)))
+}
+
+/// A geometry in the reference system whose code is the argument `index`, if there is one.
+fn placed(call: &FunctionCall<'_>, index: usize, geometry: Geometry) -> Result<FunctionResult, String> {
+    geometry.check().map_err(|error| error.message().to_owned())?;
+    let own = if index < call.len() { code(call, index)? } else { call.foreign(0) };
+    Ok(FunctionResult::Placed(geometry, own))
+}
+
+/// A code of EPSG's; nothing if it is that of the run, or 0, or if the run has no projection.
+fn code(call: &FunctionCall<'_>, index: usize) -> Result<Option<u32>, String> {
+    let number = call.number(index)?;
+    if number.fract() != 0.0 || !(0.0..1e6).contains(&number) {
+        return Err(format!("argument {} must be a code of EPSG's, not {number}", index + 1));
+    }
+    let Some(frame) = &call.state().frame else { return Ok(None) };
+    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "the range is checked")]
+    let code = number as u32;
+    if code == 0 || frame.epsg.is_some_and(|own| u32::from(own) == code) {
+        return Ok(None);
+    }
+    Crs::epsg(code).map_err(|error| error.message().to_owned())?;
+    Ok(Some(code))
+}
+
+/// The digits behind the point that the second argument asks for.
+fn digits(call: &FunctionCall<'_>, other: i32) -> Result<i32, String> {
+    let number = call.number_or(1, f64::from(other))?;
+    #[allow(clippy::cast_possible_truncation, reason = "it is small then")]
+    Ok(number.clamp(0.0, 40.0) as i32)
 }

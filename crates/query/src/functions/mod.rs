@@ -6,17 +6,24 @@
 mod aggregates;
 mod argument;
 mod call;
+mod decimals;
 mod forms;
+mod groups;
+mod lists;
 mod making;
 mod measures;
 mod numbers;
+mod operators;
 mod parts;
 mod registry;
 mod relations;
 mod simple;
 mod table;
+mod text;
+mod texts;
 
 pub(crate) use argument::GeometryArgument;
 pub(crate) use call::{FunctionCall, FunctionResult};
-pub(crate) use registry::{find, is_allowed, is_predicate, names, register};
+pub(crate) use lists::NAMES as ROW_FUNCTIONS;
+pub(crate) use registry::{find, is_allowed, names, register};
 pub use table::{FUNCTIONS, SpatialFunction};

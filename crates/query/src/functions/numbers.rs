@@ -1,8 +1,10 @@
-//! Functions of numbers, which SQLite has only where it is built so: as PostgreSQL's, but that NULL is what has no value.
+//! Functions of numbers, which SQLite has only where it is built so, as PostgreSQL's: what has no value is an error.
 
 use rusqlite::Connection;
 use rusqlite::functions::{Context, FunctionFlags};
 use rusqlite::types::{Value, ValueRef};
+
+use super::texts::wrong;
 
 /// A function of one number, by its name.
 type UnaryFunction = (&'static str, fn(f64) -> f64);
@@ -11,16 +13,18 @@ type UnaryFunction = (&'static str, fn(f64) -> f64);
 type BinaryFunction = (&'static str, fn(f64, f64) -> f64);
 
 /// Those of one number.
-const OF_ONE: [UnaryFunction; 24] = [
+const OF_ONE: [UnaryFunction; 26] = [
     ("acos", f64::acos),
     ("acosh", f64::acosh),
     ("asin", f64::asin),
     ("asinh", f64::asinh),
     ("atan", f64::atan),
     ("atanh", f64::atanh),
+    ("cbrt", f64::cbrt),
     ("ceil", f64::ceil),
     ("ceiling", f64::ceil),
     ("cos", f64::cos),
+    ("cot", |angle| 1.0 / angle.tan()),
     ("cosh", f64::cosh),
     ("degrees", f64::to_degrees),
     ("exp", f64::exp),
@@ -42,7 +46,10 @@ const OF_ONE: [UnaryFunction; 24] = [
 const OF_TWO: [BinaryFunction; 5] = [
     ("atan2", f64::atan2),
     ("log", |base, number| number.ln() / base.ln()),
-    ("mod", |number, by| number % by),
+    ("trunc", |number, decimals| {
+        let scale = 10f64.powf(decimals.trunc());
+        (number * scale).trunc() / scale
+    }),
     ("pow", f64::powf),
     ("power", f64::powf),
 ];
@@ -62,33 +69,19 @@ pub(super) fn register(connection: &Connection) -> rusqlite::Result<()> {
     connection.create_scalar_function("pi", 0, flags, |_| Ok(std::f64::consts::PI))
 }
 
-/// What a function gives: NULL if an argument is, or if there is no such number.
+/// What a function gives: NULL if an argument is. Fails if there is no such number.
 fn called(context: &Context<'_>, name: &str, run: impl Fn([f64; 2]) -> f64) -> rusqlite::Result<Value> {
+    let failed = |why: String| rusqlite::Error::UserFunctionError(format!("{name}: {why}").into());
     let mut numbers = [0.0; 2];
-    let mut whole = true;
     for (index, number) in numbers.iter_mut().enumerate().take(context.len()) {
         *number = match context.get_raw(index) {
             ValueRef::Null => return Ok(Value::Null),
             #[allow(clippy::cast_precision_loss, reason = "SQLite does the same")]
             ValueRef::Integer(value) => value as f64,
-            ValueRef::Real(value) => {
-                whole = false;
-                value
-            }
-            ValueRef::Text(_) | ValueRef::Blob(_) => {
-                let why = format!("argument {} of {name} must be a number", index + 1);
-                return Err(rusqlite::Error::UserFunctionError(why.into()));
-            }
+            ValueRef::Real(value) => value,
+            other => return Err(failed(wrong(index, "a number", other))),
         };
     }
     let found = run(numbers);
-    #[allow(clippy::cast_possible_truncation, reason = "the range is checked")]
-    Ok(if !found.is_finite() {
-        Value::Null
-    } else if whole && found.fract() == 0.0 && found.abs() < 9e15 {
-        // What counts rows, and divides as whole numbers do, stays whole.
-        Value::Integer(found as i64)
-    } else {
-        Value::Real(found)
-    })
+    if found.is_finite() { Ok(Value::Real(found)) } else { Err(failed("input is out of range".into())) }
 }

@@ -51,6 +51,14 @@ pub(super) fn collected(geometries: Vec<Geometry>) -> Geometry {
     }
 }
 
+/// Single geometries as one: itself if there is one alone.
+pub(super) fn collected_single(mut geometries: Vec<Geometry>) -> Geometry {
+    match geometries.len() {
+        1 => geometries.swap_remove(0),
+        _ => collected(geometries),
+    }
+}
+
 /// The union of geometries. Fails with the reason.
 #[allow(clippy::unnecessary_wraps, reason = "what is made of many may come to fail")]
 pub(super) fn united(geometries: &[Geometry]) -> Result<Geometry, String> {

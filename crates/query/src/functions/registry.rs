@@ -7,13 +7,12 @@ use rusqlite::functions::FunctionFlags;
 
 use crate::connection::ConnectionState;
 
-use super::{FUNCTIONS, SpatialFunction, aggregates, call, numbers};
+use super::{FUNCTIONS, SpatialFunction, aggregates, call, groups, lists, numbers, operators, texts};
 
 /// Functions of SQLite that statements may call: those that give the same each time, and reach nothing.
-const ALLOWED: [&str; 97] = [
+const ALLOWED: [&str; 86] = [
     "->",
     "->>",
-    "abs",
     "acos",
     "acosh",
     "asin",
@@ -22,14 +21,14 @@ const ALLOWED: [&str; 97] = [
     "atan2",
     "atanh",
     "avg",
+    "cbrt",
     "ceil",
     "ceiling",
     "char",
     "coalesce",
-    "concat",
-    "concat_ws",
     "cos",
     "cosh",
+    "cot",
     "count",
     "cume_dist",
     "degrees",
@@ -58,7 +57,6 @@ const ALLOWED: [&str; 97] = [
     "lag",
     "last_value",
     "lead",
-    "length",
     "like",
     "likelihood",
     "likely",
@@ -66,11 +64,8 @@ const ALLOWED: [&str; 97] = [
     "log",
     "log10",
     "log2",
-    "lower",
-    "ltrim",
     "max",
     "min",
-    "mod",
     "nth_value",
     "ntile",
     "nullif",
@@ -87,25 +82,19 @@ const ALLOWED: [&str; 97] = [
     "replace",
     "round",
     "row_number",
-    "rtrim",
-    "sign",
     "sin",
     "sinh",
     "sqrt",
     "string_agg",
-    "substr",
-    "substring",
     "subtype",
     "sum",
     "tan",
     "tanh",
     "total",
-    "trim",
     "trunc",
     "typeof",
     "unicode",
     "unlikely",
-    "upper",
     "greatest",
     "least",
 ];
@@ -122,17 +111,17 @@ pub(crate) fn find(name: &str) -> Option<&'static SpatialFunction> {
 pub(crate) fn is_allowed(name: &str) -> bool {
     find(name).is_some()
         || ALLOWED.iter().chain(&OWN).any(|known| known.eq_ignore_ascii_case(name))
-        || aggregates::NAMES.iter().any(|known| known.eq_ignore_ascii_case(name))
+        || aggregates::NAMES.iter().chain(&groups::NAMES).any(|known| known.eq_ignore_ascii_case(name))
+        || texts::names().chain(operators::names()).any(|known| known.eq_ignore_ascii_case(name))
+        || lists::NAMES.iter().any(|(_, own)| own.eq_ignore_ascii_case(name))
 }
 
 /// The names of all functions that statements may call.
 pub(crate) fn names() -> impl Iterator<Item = &'static str> {
-    FUNCTIONS.iter().map(|function| function.name).chain(aggregates::NAMES).chain(ALLOWED)
-}
-
-/// Whether a function gives true or false.
-pub(crate) fn is_predicate(name: &str) -> bool {
-    find(name).is_some_and(|function| function.gives == "boolean")
+    let own = groups::NAMES.into_iter().chain(texts::names()).chain(operators::names());
+    let own = own.filter(|name| !name.starts_with("burgeon_"));
+    let all = FUNCTIONS.iter().map(|function| function.name).chain(aggregates::NAMES).chain(ALLOWED);
+    all.chain(own).chain(lists::NAMES.iter().map(|(name, _)| *name)).chain(["ST_ClusterDBSCAN"])
 }
 
 /// Gives a connection all functions.
@@ -147,7 +136,11 @@ pub(crate) fn register(connection: &Connection, state: &Arc<ConnectionState>) ->
     }
     call::register_index(connection, state)?;
     aggregates::register(connection, state)?;
+    groups::register(connection, state)?;
+    lists::register(connection, state)?;
     numbers::register(connection)?;
+    operators::register(connection)?;
+    texts::register(connection)?;
     for (name, greater) in [("greatest", true), ("least", false)] {
         connection.create_scalar_function(name, -1, flags, move |context| call::extreme(context, greater))?;
     }
@@ -175,7 +168,9 @@ mod tests {
     #[test]
     fn every_function_that_may_be_called_is_there() {
         let connection = Connection::open_in_memory().unwrap();
-        super::super::numbers::register(&connection).unwrap();
+        numbers::register(&connection).unwrap();
+        operators::register(&connection).unwrap();
+        texts::register(&connection).unwrap();
         let mut statement =
             connection.prepare("SELECT DISTINCT lower(name) FROM pragma_function_list").unwrap();
         let there: rusqlite::Result<Vec<String>> =
@@ -193,11 +188,15 @@ mod tests {
             found("SELECT degrees(pi()) + ceil(1.2) + floor(-0.5) + power(2, 3) + mod(7, 4)"),
             Some(192.0)
         );
-        assert_eq!(found("SELECT 7 / ceil(2) + log(100) + log(2, 8)"), Some(8.0));
-        assert_eq!(
-            [found("SELECT sqrt(-1)"), found("SELECT ln(NULL)"), found("SELECT mod(1, 0)")],
-            [None; 3]
-        );
+        // As in PostgreSQL, where the result of ceil divides as a number with a fraction.
+        assert_eq!(found("SELECT 7 / ceil(2) + log(100) + log(2, 8)"), Some(8.5));
+        assert_eq!([found("SELECT ln(NULL)"), found("SELECT mod(NULL, 0)")], [None; 2]);
+        for sql in
+            ["SELECT sqrt(-1)", "SELECT mod(1, 0)", "SELECT ln(0)", "SELECT upper(3)", "SELECT abs('x')"]
+        {
+            let failed = connection.query_row(sql, [], |row| row.get::<_, Option<f64>>(0));
+            assert!(failed.is_err(), "{sql}");
+        }
     }
 
     #[test]

@@ -134,6 +134,14 @@ pub(super) const RELATIONS: &[SpatialFunction] = &[
         Ok(FunctionResult::Boolean(boxes_meet(call)?))
     }),
     function(
+        "geometry_same",
+        (2, 2),
+        PAIR,
+        "boolean",
+        "Whether they have the same points in the same order: `a = b`.",
+        |call| Ok(FunctionResult::Boolean(call.geometry(0)?.geometry == call.geometry(1)?.geometry)),
+    ),
+    function(
         "ST_Distance",
         (2, 2),
         PAIR,

@@ -1,6 +1,8 @@
 //! Addresses of servers.
 
 use std::fmt;
+use std::path::PathBuf;
+use std::time::Duration;
 
 use burgeon_base::error::{Error, Result};
 use burgeon_base::text::shown;
@@ -10,6 +12,38 @@ const SCHEMES: [&str; 2] = ["postgres://", "postgresql://"];
 
 /// The port of a server whose address names none.
 const PORT: u16 = 5432;
+
+/// How long a connection may take to come about, unless the address says otherwise.
+const CONNECT: Duration = Duration::from_secs(10);
+
+/// The options that may stand behind the question mark.
+const OPTIONS: [&str; 5] = ["sslmode", "sslrootcert", "connect_timeout", "answer_timeout", "search_path"];
+
+/// The ways to encrypt a connection and to verify its server, as libpq names them.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub enum EncryptionMode {
+    /// No encryption.
+    Disable,
+    /// Encryption if the server offers it, without verification.
+    #[default]
+    Prefer,
+    /// Encryption without verification.
+    Require,
+    /// Encryption, with a certificate that a known authority has signed.
+    VerifyCa,
+    /// The same, with a certificate that is made out to the host.
+    VerifyFull,
+}
+
+impl EncryptionMode {
+    const ALL: [(&'static str, Self); 5] = [
+        ("disable", Self::Disable),
+        ("prefer", Self::Prefer),
+        ("require", Self::Require),
+        ("verify-ca", Self::VerifyCa),
+        ("verify-full", Self::VerifyFull),
+    ];
+}
 
 /// Where a database is, and who asks. It never shows its password.
 #[derive(Clone, PartialEq, Eq)]
@@ -22,6 +56,16 @@ pub struct ServerAddress {
     pub port: u16,
     /// The database.
     pub database: String,
+    /// The encryption of connections.
+    pub encryption: EncryptionMode,
+    /// The file with the certificates of authorities; those of the system if there is none.
+    pub authorities: Option<PathBuf>,
+    /// The time that a connection may take to come about.
+    pub connect_timeout: Duration,
+    /// The time that a statement may take; that of the run if there is none.
+    pub answer_timeout: Option<Duration>,
+    /// The schemas in which tables are found by their names alone; those of the server's settings if there are none.
+    pub search_path: Vec<String>,
     password: Option<String>,
 }
 
@@ -32,7 +76,10 @@ impl fmt::Display for ServerAddress {
         if !user.is_empty() {
             write!(f, "{user}@")?;
         }
-        f.write_str(host)?;
+        match host.contains(':') {
+            true => write!(f, "[{host}]")?,
+            false => f.write_str(host)?,
+        }
         if *port != PORT {
             write!(f, ":{port}")?;
         }
@@ -52,7 +99,8 @@ impl ServerAddress {
         SCHEMES.iter().any(|scheme| text.starts_with(scheme))
     }
 
-    /// Reads `postgres://user:password@host:port/database`, of which user, password and port may be left out.
+    /// Reads `postgres://user:password@host:port/database?option=value`, of which user, password, port and options may be
+    /// left out.
     pub fn parse(text: &str) -> Result<Self> {
         let (address, layer) = Self::split(text)?;
         match layer {
@@ -64,7 +112,7 @@ impl ServerAddress {
         }
     }
 
-    /// Reads an address and the layer behind the colon that may follow it.
+    /// Reads an address and the layer behind the colon that may follow the database.
     pub fn split(text: &str) -> Result<(Self, Option<String>)> {
         // Whatever is wrong, a password is not part of what is said.
         let wrong = |why: &str| {
@@ -74,6 +122,7 @@ impl ServerAddress {
         let scheme = SCHEMES.iter().find_map(|scheme| text.strip_prefix(scheme));
         let rest = scheme.ok_or_else(|| wrong("begins with postgres://"))?;
         let (place, path) = rest.split_once('/').ok_or_else(|| wrong("names a database behind a slash"))?;
+        let (path, options) = path.split_once('?').map_or((path, None), |(path, rest)| (path, Some(rest)));
         let (database, layer) = match path.split_once(':') {
             Some((database, layer)) => (database, Some(layer.to_owned())),
             None => (path, None),
@@ -83,16 +132,88 @@ impl ServerAddress {
             Some((user, password)) => (user, Some(decoded(password))),
             None => (user, None),
         };
-        let (host, port) = match host.rsplit_once(':') {
-            Some((host, port)) => (host, port.parse().map_err(|_| wrong("has a port that is no number"))?),
-            None => (host, PORT),
+        // An address of IPv6 has colons of its own.
+        let bracketed = host.strip_prefix('[').and_then(|host| host.split_once(']'));
+        let (host, port) = match bracketed {
+            Some((host, port)) => (host, port.strip_prefix(':')),
+            None => host.rsplit_once(':').map_or((host, None), |(host, port)| (host, Some(port))),
         };
-        if host.is_empty() || database.is_empty() || database.contains(['?', '/']) {
+        let port = match port {
+            Some(port) => port.parse().map_err(|_| wrong("has a port that is no number"))?,
+            None => PORT,
+        };
+        if host.is_empty() || database.is_empty() || database.contains('/') {
             return Err(wrong("names a host and a database, and nothing more"));
         }
-        let address =
-            Self { user: decoded(user), host: decoded(host), port, database: decoded(database), password };
+        let mut address = Self {
+            user: decoded(user),
+            host: decoded(host),
+            port,
+            database: decoded(database),
+            encryption: EncryptionMode::default(),
+            authorities: None,
+            connect_timeout: CONNECT,
+            answer_timeout: None,
+            search_path: Vec::new(),
+            password,
+        };
+        for option in options.into_iter().flat_map(|options| options.split('&')) {
+            let (name, value) =
+                option.split_once('=').ok_or_else(|| wrong("has an option without a value"))?;
+            address.set(name, &decoded(value))?;
+        }
         Ok((address, layer))
+    }
+
+    /// Sets an option that stands behind the question mark.
+    fn set(&mut self, name: &str, value: &str) -> Result<()> {
+        let wrong = |allowed: &str| {
+            // What stands there may have been meant as something else.
+            Error::argument(format!(
+                "the option {name} of the address of a database has a value that is not known"
+            ))
+            .help(format!("write {name}={allowed}; a layer stands before the question mark"))
+        };
+        let seconds = || match value.parse::<f64>() {
+            Ok(seconds) if (0.001..=1e6).contains(&seconds) => Ok(Duration::from_secs_f64(seconds)),
+            _ => Err(wrong("10, in seconds")),
+        };
+        match name {
+            "sslmode" => {
+                let all = EncryptionMode::ALL;
+                let known = all.iter().find(|(known, _)| *known == value);
+                let names = EncryptionMode::ALL.map(|(name, _)| name).join(", ");
+                self.encryption = known.ok_or_else(|| wrong(&format!("... with one of {names}")))?.1;
+            }
+            // libpq's name for the certificates of the system.
+            "sslrootcert" if value == "system" => self.authorities = None,
+            "sslrootcert" if !value.is_empty() => self.authorities = Some(value.into()),
+            "sslrootcert" => return Err(wrong("FILE")),
+            "connect_timeout" => self.connect_timeout = seconds()?,
+            "answer_timeout" => self.answer_timeout = Some(seconds()?),
+            "search_path" => {
+                self.search_path = value.split(',').map(|name| name.trim().to_owned()).collect();
+                let plain = |name: &String| {
+                    !name.is_empty() && name.chars().all(|it| it.is_alphanumeric() || it == '_')
+                };
+                if !self.search_path.iter().all(plain) {
+                    return Err(wrong("one,public"));
+                }
+            }
+            _ => {
+                let is_name = name.chars().all(|letter| letter.is_ascii_lowercase() || letter == '_');
+                // Anything else may be the rest of a password.
+                let name = if is_name { shown(name).into_owned() } else { "that is no name".to_owned() };
+                return Err(Error::not_found(
+                    "option",
+                    &name,
+                    OPTIONS,
+                    format!("the address of a database has an option {name}"),
+                )
+                .help(format!("it may have {}", OPTIONS.join(", "))));
+            }
+        }
+        Ok(())
     }
 
     /// The address among `allowed` that this one means: that of the same database, with the user and the password that
@@ -146,16 +267,42 @@ mod tests {
         assert_eq!(address.to_string(), "postgres://me@db.example:5433/town");
         assert_eq!(format!("{address:?}"), "postgres://me@db.example:5433/town");
         assert_eq!(ServerAddress::parse("postgresql://host/db").unwrap().to_string(), "postgres://host/db");
+        let (address, layer) = ServerAddress::split(
+            "postgres://me@[::1]:5433/db:old.houses?sslmode=verify-full&sslrootcert=%2Fa%2Fca.pem&connect_timeout=2.5&answer_timeout=60&search_path=old,public",
+        )
+        .unwrap();
+        assert_eq!(layer.as_deref(), Some("old.houses"));
+        assert_eq!(address.to_string(), "postgres://me@[::1]:5433/db");
+        assert_eq!(address.encryption, EncryptionMode::VerifyFull);
+        assert_eq!(address.authorities, Some("/a/ca.pem".into()));
+        assert_eq!(address.connect_timeout, Duration::from_millis(2500));
+        assert_eq!(address.answer_timeout, Some(Duration::from_secs(60)));
+        assert_eq!(address.search_path, ["old", "public"]);
+    }
+
+    #[test]
+    fn no_message_about_an_address_holds_its_password() {
+        let mut told = String::new();
         for wrong in [
             "postgres://host",
             "postgres:///db",
-            "postgres://me:pass@host:port/db",
-            "mysql://a/b",
-            "postgres://a/b?c",
+            "postgres://me:s3cret@host:port/db",
+            "postgres://me:s3cret/4@host/db",
+            "postgres://me:s3cret#4@host:x/db",
+            "postgres://me:pw@host/db?s3cret",
+            "postgres://me:pw@host/db?s3cret=1",
+            "postgres://me:pw@host/db?sslmode=s3cret",
+            "postgres://me:pw@host/db?password=s3cret",
+            "postgres://me:pw@host/db?search_path=s3cret;x",
+            "postgres://me:pw@host/db?connect_timeout=s3cret",
+            "mysql://me:s3cret@a/b",
+            "postgres://me:s3cret@a/b:layer",
         ] {
-            let error = ServerAddress::parse(wrong).unwrap_err().to_string();
-            assert!(!error.contains("pass"), "{error}");
+            let error = ServerAddress::parse(wrong).unwrap_err();
+            assert!(!format!("{error} {error:?}").contains("s3cret"), "{error}");
+            told += &format!("{}\n", error.message());
         }
+        insta::assert_snapshot!(told);
     }
 
     #[test]

@@ -4,7 +4,7 @@ use std::error::Error as StdError;
 use std::sync::Arc;
 
 use bytes::BytesMut;
-use postgres::types::{FromSql, IsNull, Kind, ToSql, Type, to_sql_checked};
+use tokio_postgres::types::{FromSql, IsNull, Kind, ToSql, Type, to_sql_checked};
 
 use crate::ask::whole;
 use crate::blob;
@@ -33,6 +33,7 @@ impl BoundCell {
                     || is_integer(kind) && number(text).and_then(whole).is_some()
             }
             Cell::Geometry(_) => *kind == Type::BYTEA,
+            Cell::List(_) => false,
         }
     }
 }
@@ -59,6 +60,7 @@ impl ToSql for BoundCell {
             Cell::Text(text) if is_text(kind) => return text.as_ref().to_sql(&Type::TEXT, out),
             Cell::Number(value) if is_text(kind) => return value.to_string().to_sql(&Type::TEXT, out),
             Cell::Number(value) => *value,
+            Cell::List(_) => return Err("a list is no parameter".into()),
             Cell::Text(text) => text.trim().parse::<f64>()?,
         };
         let whole = || whole(number).ok_or_else(|| BoxedError::from(format!("{number} is no whole number")));
@@ -98,6 +100,19 @@ impl<'a> FromSql<'a> for ServerCell {
         let text = |raw: &[u8]| Cell::Text(String::from_utf8_lossy(raw).into());
         if let Kind::Domain(of) = kind.kind() {
             return Self::from_sql(of, raw);
+        }
+        if let Kind::Array(of) = kind.kind() {
+            let values = Vec::<Option<Self>>::from_sql(kind, raw).map_err(|error| {
+                BoxedError::from(format!("is of type {}[]: {error}; make it text: ...::text", of.name()))
+            })?;
+            let mut cells = Vec::with_capacity(values.len());
+            for value in values {
+                match value.unwrap_or(Self::Cell(Cell::Null)) {
+                    Self::Cell(cell) => cells.push(cell),
+                    unreadable @ Self::Unreadable(_) => return Ok(unreadable),
+                }
+            }
+            return Ok(Self::Cell(Cell::List(cells.into())));
         }
         Ok(Self::Cell(match *kind {
             Type::BOOL => Cell::Boolean(bool::from_sql(kind, raw)?),
@@ -186,7 +201,7 @@ mod tests {
         Type::TEXT,
         Type::BPCHAR,
         Type::NAME,
-        Type::INT4_ARRAY,
+        Type::DATE,
     ];
 
     proptest! {

@@ -1,6 +1,8 @@
 //! What is told of a server that is not there, and of a statement that it does not take.
 
-use postgres::error::{ErrorPosition, SqlState};
+use std::time::Duration;
+
+use tokio_postgres::error::{ErrorPosition, SqlState};
 
 use super::ServerAddress;
 use crate::errors;
@@ -10,30 +12,44 @@ use burgeon_base::error::{Error, Limit};
 use burgeon_base::text::{listed, shown};
 
 /// Whether the connection is gone, and not the statement wrong.
-pub(super) fn is_lost(error: &postgres::Error) -> bool {
+pub(super) fn is_lost(error: &tokio_postgres::Error) -> bool {
     let ended = [SqlState::ADMIN_SHUTDOWN, SqlState::CRASH_SHUTDOWN, SqlState::CANNOT_CONNECT_NOW];
     error.is_closed()
         || error.code().map_or(error.as_db_error().is_none() && has_io(error), |code| ended.contains(code))
 }
 
-fn has_io(error: &postgres::Error) -> bool {
+fn has_io(error: &tokio_postgres::Error) -> bool {
     use std::error::Error as _;
     error.source().is_some_and(|source| source.is::<std::io::Error>())
 }
 
 /// The error of a server that cannot be reached.
-pub(super) fn unreachable(address: &ServerAddress, error: &postgres::Error) -> Error {
+pub(super) fn unreachable(address: &ServerAddress, error: &tokio_postgres::Error) -> Error {
     let why = cause(error);
-    Error::unavailable(format!("the database {address} cannot be reached: {why}"))
-        .help("start the server, or check the address that --database names")
+    let failed = Error::unavailable(format!("the database {address} cannot be reached: {why}"));
+    if why.contains("certificate") {
+        return failed.help(
+            "name the file with the certificate of its authority, sslrootcert=FILE, or encrypt without verification, sslmode=require",
+        );
+    }
+    if why.contains("does not support TLS") {
+        return failed.help("let the server encrypt, or ask it not to: sslmode=prefer");
+    }
+    failed.help("start the server, or check the address that --database names")
+}
+
+/// The error of a server that accepts a connection, or a question, and does not answer in time.
+pub(super) fn late(address: &ServerAddress, most: Duration, option: &str) -> Error {
+    Error::unavailable(format!("the database {address} has not answered for {} s", most.as_secs_f64()))
+        .help(format!("check the server, or wait longer: {address}?{option}=SECONDS behind --database"))
 }
 
 /// The innermost reason.
-fn cause(error: &postgres::Error) -> String {
+fn cause(error: &tokio_postgres::Error) -> String {
     use std::error::Error as _;
     match (error.as_db_error(), error.source()) {
         (Some(told), _) => shown(told.message()).into_owned(),
-        (None, Some(source)) => source.to_string(),
+        (None, Some(source)) => shown(&source.to_string()).into_owned(),
         (None, None) => error.to_string(),
     }
 }
@@ -41,7 +57,7 @@ fn cause(error: &postgres::Error) -> String {
 /// The error of a statement `sql` that was asked as `asked`.
 pub(super) fn server_error(
     address: &ServerAddress,
-    error: &postgres::Error,
+    error: &tokio_postgres::Error,
     (sql, asked): (&str, &str),
     catalogue: &Catalogue,
 ) -> Error {
@@ -74,7 +90,8 @@ pub(super) fn server_error(
     let code = told.code();
     if *code == SqlState::UNDEFINED_TABLE {
         let name = quoted().unwrap_or(word);
-        let known: Vec<&str> = catalogue.values().map(|table| table.name.as_str()).collect();
+        let known: Vec<&str> =
+            catalogue.values().filter(|table| !table.is_alias).map(|table| table.name.as_str()).collect();
         let what = format!("{}no table called {}", place(&name), shown(&name));
         return Error::not_found("table", &name, known.iter().copied(), what)
             .help(format!("the database has {}", listed(known.iter().copied())));

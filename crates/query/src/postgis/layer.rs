@@ -8,21 +8,48 @@ use super::Server;
 use super::server::{ServerAnswer, ServerFailure};
 use crate::cell::Cell;
 use crate::place::Move;
+use burgeon_base::budget::Budget;
 use burgeon_base::error::{Error, Result};
 use burgeon_base::text::{listed, shown};
-use burgeon_data::{Attribute, Crs, FeatureTable, SourceOptions};
+use burgeon_data::{Attribute, Crs, FeatureTable, LayerListing, Listing, SourceOptions};
 
 impl Server {
     /// Reads what is `wanted` of a layer, whose table statements see no more of, in the order of its keys, as [`Source::read`](burgeon_data::Source::read) does.
     ///
     /// Fails if there is no such table, and if it has no geometries.
     pub fn read(&self, wanted: &SourceOptions) -> Result<FeatureTable> {
+        self.table(wanted)?.finished(wanted)
+    }
+
+    /// Lists its layers, as [`Listing::read`] lists those of a file.
+    pub fn listing(&self, budget: &Arc<Budget>) -> Result<Listing> {
+        let before = budget.taken();
+        let tables = self.known(budget)?.catalogue.values();
+        let names: Vec<&String> = tables
+            .filter(|table| !table.geometries.is_empty() && !table.is_alias)
+            .map(|table| &table.name)
+            .collect();
+        let mut layers = Vec::new();
+        for name in names {
+            let wanted = SourceOptions {
+                layer: Some(name.clone()),
+                budget: Arc::clone(budget),
+                ..SourceOptions::default()
+            };
+            layers.push(LayerListing::of(self.table(&wanted)?)?);
+            budget.settle(before, 0);
+        }
+        Ok(Listing { file: self.address().to_string(), format: "PostGIS", layers })
+    }
+
+    /// Reads what is `wanted` of a layer, which may be nothing.
+    fn table(&self, wanted: &SourceOptions) -> Result<FeatureTable> {
         let budget = &wanted.budget;
         let known = self.known(budget)?;
         let with: Vec<&str> = known
             .catalogue
             .values()
-            .filter(|table| !table.geometries.is_empty())
+            .filter(|table| !table.geometries.is_empty() && !table.is_alias)
             .map(|table| table.name.as_str())
             .collect();
         let layer = match (&wanted.layer, with.as_slice()) {
@@ -52,7 +79,12 @@ impl Server {
             let foreign = known.foreign.contains(&(layer.to_ascii_lowercase(), (*name).clone()));
             sql += &format!(", {}{}", quoted(name), if foreign { "::text" } else { "" });
         }
-        let mut rows = format!(" FROM {}", quoted(&table.name));
+        let place = match &table.place {
+            // Its plain name may mean something else by now.
+            Some((schema, name)) => format!("{}.{}", quoted(schema), quoted(name)),
+            None => quoted(&table.name),
+        };
+        let mut rows = format!(" FROM {place}");
         if let Some(condition) = &wanted.condition {
             // The line's end ends a comment.
             rows += &format!(" WHERE (\n{condition}\n)");
@@ -134,11 +166,11 @@ fn features(answer: &ServerAnswer, mut table: FeatureTable, wanted: &SourceOptio
                 Cell::Boolean(value) => Attribute::Boolean(*value),
                 Cell::Number(value) => Attribute::Number(*value),
                 Cell::Text(text) => Attribute::Text(Arc::clone(text)),
-                Cell::Null | Cell::Geometry(_) => return None,
+                Cell::Null | Cell::Geometry(_) | Cell::List(_) => return None,
             };
             Some((index, value))
         });
         table.push(&id, parts, attributes.collect())?;
     }
-    table.finished(wanted)
+    Ok(table)
 }

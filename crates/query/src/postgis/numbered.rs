@@ -40,7 +40,7 @@ pub(super) fn numbered(
         made.sql += &match (value(name), types) {
             (Some(Cell::Geometry(_)), _) => format!("ST_GeomFromWKB(${number}::bytea, {srid})"),
             (Some(Cell::Null), _) => format!("${number}::text"),
-            (_, ParameterTypes::Inferred) | (None, _) => format!("${number}"),
+            (Some(Cell::List(_)), _) | (_, ParameterTypes::Inferred) | (None, _) => format!("${number}"),
             (Some(Cell::Number(_)), ParameterTypes::Told) => format!("${number}::float8"),
             (Some(Cell::Text(_)), ParameterTypes::Told) => format!("${number}::text"),
             (Some(Cell::Boolean(_)), ParameterTypes::Told) => format!("${number}::bool"),

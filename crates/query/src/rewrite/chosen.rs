@@ -30,7 +30,8 @@ fn seen(factor: &mut TableFactor, tables: &Catalogue, chosen: &ChosenRows) -> Op
     let TableFactor::Table { name, alias, args: None, .. } = factor else { return None };
     let known = table(name, tables)?;
     let select = chosen.get(&known.name.to_ascii_lowercase())?;
-    let parsed = parse(&format!("SELECT * FROM ({select}) AS {}", quoted(&known.name)));
+    let own = known.place.as_ref().map_or(&known.name, |(_, name)| name);
+    let parsed = parse(&format!("SELECT * FROM ({select}) AS {}", quoted(own)));
     let mut part = parsed.ok().and_then(first_relation)?;
     if let (TableFactor::Derived { alias: own, .. }, Some(alias)) = (&mut part, alias.take()) {
         *own = Some(alias);

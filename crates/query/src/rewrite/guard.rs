@@ -164,7 +164,12 @@ impl Guard<'_> {
         if known || functions::is_allowed(&plain) || OF_ROWS.contains(&plain.as_str()) {
             return Ok(());
         }
-        let names: Vec<&str> = self.catalogue.values().map(|table| table.name.as_str()).collect();
+        let names: Vec<&str> = self
+            .catalogue
+            .values()
+            .filter(|table| !table.is_alias)
+            .map(|table| table.name.as_str())
+            .collect();
         let what = format!("{}no table called {}", self.place(&plain), shown(&written));
         Err(Error::not_found("table", &plain, names.iter().copied(), what)
             .help(format!("the database has {}", listed(names.iter().copied()))))

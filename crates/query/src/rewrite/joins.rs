@@ -31,14 +31,40 @@ enum ConditionPlace {
     On(usize, usize),
 }
 
+/// A way to look rows up by their keys.
+enum Lookup {
+    /// The rows whose boxes in the index are near those of a geometry.
+    Near {
+        /// The index.
+        index: String,
+        /// The geometry.
+        other: String,
+        /// How far the boxes may be from each other.
+        distance: String,
+    },
+    /// The row with a key.
+    Key(String),
+}
+
+impl Lookup {
+    /// The keys as a query.
+    fn sql(&self) -> String {
+        match self {
+            Self::Near { index, other, distance } => {
+                format!("SELECT value FROM rarray(burgeon_near({}, {other}, {distance}))", text(index))
+            }
+            Self::Key(key) => format!("SELECT {key}"),
+        }
+    }
+}
+
 /// One side of a spatial condition whose table can be looked up.
 struct ConditionSide<'a> {
     relation: usize,
     table: &'a TableInfo,
-    column: &'a str,
-    /// What its boxes are compared with.
-    other: String,
-    /// What that speaks of.
+    /// The ways to look its rows up; those that any of them gives may meet the condition.
+    lookups: Vec<Lookup>,
+    /// What these speak of.
     needs: Vec<usize>,
 }
 
@@ -46,8 +72,6 @@ struct ConditionSide<'a> {
 struct SpatialCondition<'a> {
     site: ConditionPlace,
     sides: Vec<ConditionSide<'a>>,
-    /// How far the boxes may be from each other.
-    distance: String,
 }
 
 /// Adds conditions on boxes to a query; gives the names of the indexes that they ask.
@@ -65,19 +89,18 @@ pub(super) fn index(select: &mut Select, tables: &Catalogue) -> Vec<String> {
     }
     let mut looked_up = vec![false; relations.len()];
     let mut added = Vec::new();
-    let mut add = |site, side: &ConditionSide<'_>, distance: &str| {
-        let ConditionSide { relation, table, column, other, .. } = side;
+    let mut add = |site, side: &ConditionSide<'_>| {
+        let ConditionSide { relation, table, lookups, .. } = side;
         let Some((alias, key)) = relations[*relation].alias.as_ref().zip(table.key.as_ref()) else { return };
-        let name = format!("{}.{column}", table.name);
-        let index = text(&name);
+        let indexes = lookups.iter().filter_map(|lookup| match lookup {
+            Lookup::Near { index, .. } => Some(index.clone()),
+            Lookup::Key(_) => None,
+        });
+        let keys: Vec<String> = lookups.iter().map(Lookup::sql).collect();
         added.push((
             site,
-            name,
-            format!(
-                "{}.{} IN (SELECT value FROM rarray(burgeon_near({index}, {other}, {distance})))",
-                quoted(&alias.value),
-                quoted(key)
-            ),
+            indexes.collect::<Vec<String>>(),
+            format!("{}.{} IN ({})", quoted(&alias.value), quoted(key), keys.join(" UNION ")),
         ));
     };
     // What is compared with a constant comes first: it decides which table the others begin with.
@@ -86,7 +109,7 @@ pub(super) fn index(select: &mut Select, tables: &Catalogue) -> Vec<String> {
             if !looked_up[side.relation] {
                 looked_up[side.relation] = true;
                 rows[side.relation] *= LEFT[2];
-                add(condition.site, side, &condition.distance);
+                add(condition.site, side);
             }
         }
     }
@@ -97,11 +120,11 @@ pub(super) fn index(select: &mut Select, tables: &Catalogue) -> Vec<String> {
             .max_by(|a, b| rows[a.relation].total_cmp(&rows[b.relation]).then(a.relation.cmp(&b.relation)));
         if let Some(side) = best {
             looked_up[side.relation] = true;
-            add(condition.site, side, &condition.distance);
+            add(condition.site, side);
         }
     }
     let attached = added.into_iter().filter(|(site, _, condition)| attach(select, *site, condition));
-    attached.map(|(_, name, _)| name).collect()
+    attached.flat_map(|(_, names, _)| names).collect()
 }
 
 fn rows(relation: &FromItem<'_>) -> f64 {
@@ -156,38 +179,128 @@ fn spatial<'a>(
     site: ConditionPlace,
     relations: &[FromItem<'a>],
 ) -> Option<SpatialCondition<'a>> {
-    let (a, b, distance) = near(part)?;
-    // The distance is asked before the row is there.
-    if distance.is_some_and(|distance| !mentioned(distance, relations).is_empty()) {
+    if let Some((a, b, distance)) = near(part) {
+        let sides = [(a, b), (b, a)].into_iter();
+        let sides = sides.filter_map(|(own, other)| side(own, other, distance, site, relations));
+        let sides: Vec<ConditionSide<'a>> = sides.collect();
+        return (!sides.is_empty()).then_some(SpatialCondition { site, sides });
+    }
+    let parts = disjuncts(part);
+    if parts.len() < 2 {
         return None;
     }
-    let sides = [(a, b), (b, a)].into_iter().filter_map(|(own, other)| side(own, other, site, relations));
+    let sides = (0..relations.len()).filter_map(|relation| any(&parts, relation, site, relations));
     let sides: Vec<ConditionSide<'a>> = sides.collect();
-    let distance = distance.map_or_else(|| "0".to_owned(), ToString::to_string);
-    (!sides.is_empty()).then_some(SpatialCondition { site, sides, distance })
+    (!sides.is_empty()).then_some(SpatialCondition { site, sides })
 }
 
-fn side<'a>(
-    own: &Expr,
-    other: &Expr,
+/// The parts of a condition of which one must hold.
+fn disjuncts(condition: &Expr) -> Vec<&Expr> {
+    match condition {
+        Expr::BinaryOp { left, op: BinaryOperator::Or, right } => {
+            let mut parts = disjuncts(left);
+            parts.extend(disjuncts(right));
+            parts
+        }
+        Expr::Nested(inner) => disjuncts(inner),
+        other => vec![other],
+    }
+}
+
+/// The ways to look up the rows of a relation that meet one of several conditions, if there is one for each.
+fn any<'a>(
+    parts: &[&Expr],
+    relation: usize,
     site: ConditionPlace,
     relations: &[FromItem<'a>],
 ) -> Option<ConditionSide<'a>> {
-    let (relation, table, column) = geometry_column(own, relations)?;
-    table.key.as_ref()?;
+    let mut all: Option<ConditionSide<'a>> = None;
+    for part in parts {
+        let found = conjuncts(part).into_iter().find_map(|part| {
+            if let Some((a, b, distance)) = near(part) {
+                let mut sides = [(a, b), (b, a)]
+                    .into_iter()
+                    .filter_map(|(own, other)| side(own, other, distance, site, relations));
+                return sides.find(|side| side.relation == relation);
+            }
+            keyed(part, relation, site, relations)
+        })?;
+        match &mut all {
+            Some(all) => {
+                all.lookups.extend(found.lookups);
+                all.needs.extend(found.needs);
+            }
+            None => all = Some(found),
+        }
+    }
+    let mut all = all?;
+    all.needs.sort_unstable();
+    all.needs.dedup();
+    // Keys alone are looked up by SQLite.
+    all.lookups.iter().any(|lookup| matches!(lookup, Lookup::Near { .. })).then_some(all)
+}
+
+/// The row of a relation whose key equals something.
+fn keyed<'a>(
+    part: &Expr,
+    relation: usize,
+    site: ConditionPlace,
+    relations: &[FromItem<'a>],
+) -> Option<ConditionSide<'a>> {
+    let Expr::BinaryOp { left, op: BinaryOperator::Eq, right } = part else { return None };
+    let item = &relations[relation];
+    let (table, alias) = (item.table?, item.alias.as_ref()?);
+    let key = table.key.as_ref()?;
+    let is_key = |expression: &Expr| match expression {
+        Expr::CompoundIdentifier(names) => matches!(names.as_slice(), [owner, name]
+            if owner.value.eq_ignore_ascii_case(&alias.value) && name.value.eq_ignore_ascii_case(key)),
+        _ => false,
+    };
+    let other = match (is_key(left), is_key(right)) {
+        (true, false) => right,
+        (false, true) => left,
+        _ => return None,
+    };
+    let needs = mentioned(other, relations);
+    let fits = is_allowed(relation, site, relations) && !needs.contains(&relation) && is_plain(other);
+    fits.then(|| ConditionSide { relation, table, lookups: vec![Lookup::Key(other.to_string())], needs })
+}
+
+/// Whether a condition at a site may decide which rows of a relation there are.
+fn is_allowed(relation: usize, site: ConditionPlace, relations: &[FromItem<'_>]) -> bool {
     let place = relations[relation].place;
     // The condition of an outer join says which of its own rows belong to one that is there already.
-    let allowed = match site {
+    match site {
         ConditionPlace::Where => !relations[relation].optional,
         ConditionPlace::On(comma, join) => {
             let joined = relations.iter().find(|relation| relation.place == (comma, join + 1));
             place == (comma, join + 1)
                 || joined.is_some_and(|joined| !joined.optional && !relations[relation].optional)
         }
-    };
+    }
+}
+
+fn side<'a>(
+    own: &Expr,
+    other: &Expr,
+    distance: Option<&Expr>,
+    site: ConditionPlace,
+    relations: &[FromItem<'a>],
+) -> Option<ConditionSide<'a>> {
+    let (relation, table, column) = geometry_column(own, relations)?;
+    table.key.as_ref()?;
+    // The distance is asked before the row is there.
+    if distance.is_some_and(|distance| !mentioned(distance, relations).is_empty()) {
+        return None;
+    }
     let needs = mentioned(other, relations);
-    let fits = allowed && !needs.contains(&relation) && is_plain(other);
-    fits.then(|| ConditionSide { relation, table, column, other: other.to_string(), needs })
+    let fits = is_allowed(relation, site, relations) && !needs.contains(&relation) && is_plain(other);
+    let lookup = Lookup::Near {
+        index: format!("{}.{column}", table.name),
+        other: other.to_string(),
+        distance: distance.map_or_else(|| "0".to_owned(), ToString::to_string),
+    };
+    fits.then(|| ConditionSide { relation, table, lookups: vec![lookup], needs })
 }
 
 /// Whether an expression may be computed once more: one that holds no query of its own.

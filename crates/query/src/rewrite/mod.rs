@@ -3,22 +3,37 @@
 //! Comes in: a statement and the tables that there are. Goes out: the statement that the database is asked. What is added
 //! follows from what is there already, or settles what was left open, so that the rows stay the same.
 
+mod calls;
+mod casts;
 mod chosen;
+mod distinct;
+mod expressions;
 #[cfg(feature = "postgis")]
 mod guard;
 mod joins;
+mod lateral;
+mod least;
+mod made;
 mod nearest;
 mod operators;
 mod order;
 mod parse;
+mod rows;
 mod scope;
+mod signatures;
 mod statement;
+mod substitute;
+mod types;
+mod typing;
 mod walk;
+mod windows;
 
 pub(crate) use chosen::ChosenRows;
 #[cfg(feature = "postgis")]
 pub(crate) use guard::check;
+pub(crate) use made::MadeTable;
 #[cfg(feature = "postgis")]
 pub(crate) use parse::placeholder_ranges;
 pub(crate) use parse::{find_word, second_statement};
 pub(crate) use statement::{Catalogue, Dialect, RewrittenQuery, TableInfo, rewrite};
+pub(crate) use types::SqlType;

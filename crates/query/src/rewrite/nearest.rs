@@ -1,19 +1,20 @@
 //! The nearest rows: `ORDER BY ST_Distance(t.geom, ...) LIMIT 1` is answered by an index.
 //!
 //! Of one table without conditions it is the nearest row itself. With a condition, those rows are taken that are
-//! nearest, some more than are wanted; should too few of them meet it, all.
+//! nearest, more and more until enough of them meet it; should too few do so, all.
 
 use sqlparser::ast::{
-    Expr, GroupByExpr, LimitClause, OrderBy, OrderByExpr, OrderByKind, OrderBySort, Query, Select, SetExpr,
-    Value,
+    Expr, GroupByExpr, LimitClause, OrderBy, OrderByExpr, OrderByKind, OrderBySort, Query, Select,
+    SelectItem, SetExpr, Value,
 };
 
 use super::operators::call;
 use super::scope::{geometry_column, mentioned, quoted, relations, text};
 use super::{Catalogue, order, parse};
 
-/// How many rows more than are wanted are looked at where there is a condition.
-const MORE: usize = 64;
+/// How many rows are looked at, one after the other, where there is a condition: so many times those that are wanted, and
+/// so many more. What few rows meet is found among all.
+const STEPS: [(usize, usize); 3] = [(1, 64), (8, 1024), (64, 16_384)];
 
 /// Lets an index answer a query, and gives its name. The order of the rows is settled then.
 pub(super) fn index(query: &mut Query, tables: &Catalogue) -> Option<String> {
@@ -50,7 +51,7 @@ fn asked(query: &Query, tables: &Catalogue) -> Option<NearestAnswer> {
     }
     let relations = relations(select, tables);
     let [relation] = relations.as_slice() else { return None };
-    let (name, arguments) = call(&first.expr)?;
+    let (name, arguments) = call(meant(&first.expr, select))?;
     let [a, b] = arguments.as_slice() else { return None };
     if name != "st_distance" {
         return None;
@@ -74,19 +75,52 @@ fn asked(query: &Query, tables: &Catalogue) -> Option<NearestAnswer> {
             (format!("{column_of_keys} IN (SELECT value FROM rarray({nearest}))"), false)
         }
         Some(condition) => {
-            let some = format!("{wanted} + {MORE}");
-            let few = format!(
-                "(SELECT count(*) FROM {} AS {} WHERE ({condition}) AND {column_of_keys} IN \
-                 (SELECT value FROM rarray(burgeon_nearest({index}, {other}, {some}))))",
-                quoted(&table.name),
-                quoted(alias)
-            );
-            let enough = format!("CASE WHEN {few} >= {wanted} THEN {some} ELSE -1 END");
+            let steps = STEPS.iter().take_while(|(_, more)| *more < 2 * table.rows).map(|(times, more)| {
+                let some = format!("{wanted} * {times} + {more}");
+                format!(
+                    "WHEN (SELECT count(*) FROM (SELECT 1 FROM {} AS {} WHERE ({condition}) AND \
+                     {column_of_keys} IN (SELECT value FROM rarray(burgeon_nearest({index}, {other}, {some}))) \
+                     LIMIT {wanted})) >= {wanted} THEN {some}",
+                    quoted(&table.name),
+                    quoted(alias)
+                )
+            });
+            let steps: Vec<String> = steps.collect();
+            let enough = match steps.is_empty() {
+                true => "-1".to_owned(),
+                false => format!("CASE {} ELSE -1 END", steps.join(" ")),
+            };
             let nearest = format!("burgeon_nearest({index}, {other}, {enough})");
             (format!("{column_of_keys} IN (SELECT value FROM rarray({nearest})) AND ({condition})"), false)
         }
     };
     Some(NearestAnswer { index: name, condition, only })
+}
+
+/// What an order calls by the name of a column, or by its number.
+fn meant<'a>(key: &'a Expr, select: &'a Select) -> &'a Expr {
+    let found = match key {
+        Expr::Identifier(name) => select.projection.iter().find_map(|item| match item {
+            SelectItem::ExprWithAlias { expr, alias } if alias.value.eq_ignore_ascii_case(&name.value) => {
+                Some(expr)
+            }
+            _ => None,
+        }),
+        Expr::Value(value) => match &value.value {
+            Value::Number(number, _) => {
+                let index = number.parse::<usize>().ok().and_then(|number| number.checked_sub(1));
+                match index.and_then(|index| select.projection.get(index)) {
+                    Some(SelectItem::UnnamedExpr(expr) | SelectItem::ExprWithAlias { expr, .. }) => {
+                        Some(expr)
+                    }
+                    _ => None,
+                }
+            }
+            _ => None,
+        },
+        _ => None,
+    };
+    found.unwrap_or(key)
 }
 
 /// Whether each row of the table gives one of the result.

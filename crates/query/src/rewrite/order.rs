@@ -101,6 +101,11 @@ fn columns(body: &SetExpr) -> Option<usize> {
     }
 }
 
+/// Whether rows are not grouped by anything.
+pub(super) fn is_ungrouped(keys: &GroupByExpr) -> bool {
+    matches!(keys, GroupByExpr::Expressions(keys, _) if keys.is_empty())
+}
+
 /// Whether many rows give one.
 pub(super) fn aggregates(select: &Select) -> bool {
     let walked = walk(&select.projection, |part| match part {
@@ -111,7 +116,7 @@ pub(super) fn aggregates(select: &Select) -> bool {
 }
 
 /// Whether an expression is the call of a function of many rows.
-fn is_aggregate(expression: &Expr) -> bool {
+pub(super) fn is_aggregate(expression: &Expr) -> bool {
     let Expr::Function(function) = expression else { return false };
     // With several arguments these are functions of one row.
     let of_one_row = call(expression).is_some_and(|(name, arguments)| {

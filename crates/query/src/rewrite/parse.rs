@@ -1,6 +1,6 @@
 //! Reads statements: in the words that SQLite and PostgreSQL share, with operators of PostGIS.
 
-use sqlparser::ast::{BinaryOperator, Expr, Query};
+use sqlparser::ast::{BinaryOperator, Expr, Parens, Query, SetExpr, TableFactor, Values};
 use sqlparser::dialect::Dialect as Grammar;
 use sqlparser::keywords::Keyword;
 use sqlparser::parser::{Parser, ParserError};
@@ -91,7 +91,25 @@ pub(crate) struct SyntaxError {
 
 fn tokens(sql: &str) -> Result<Vec<TokenWithSpan>, SyntaxError> {
     let tokens = Tokenizer::new(&SharedGrammar, sql).tokenize_with_location();
-    tokens.map_err(|error| SyntaxError { message: error.to_string() })
+    let tokens = tokens.map_err(|error| SyntaxError { message: error.to_string() })?;
+    let mut joined: Vec<TokenWithSpan> = Vec::with_capacity(tokens.len());
+    for token in tokens {
+        // SQLite's quoted name `[1]` is a place in an array right behind another name.
+        if let (Some(TokenWithSpan { token: Token::Word(before), span }), Token::Word(word)) =
+            (joined.last_mut(), &token.token)
+            && word.quote_style == Some('[')
+            && before.quote_style.is_none()
+            && !word.value.is_empty()
+            && word.value.bytes().all(|letter| letter.is_ascii_digit())
+        {
+            before.value += &format!("[{}]", word.value);
+            before.keyword = Keyword::NoKeyword;
+            *span = span.union(&token.span);
+            continue;
+        }
+        joined.push(token);
+    }
+    Ok(joined)
 }
 
 /// Reads a statement, which must ask for rows.
@@ -131,6 +149,44 @@ pub(crate) fn parse(sql: &str) -> Result<SyntaxTree, SyntaxError> {
 pub(super) fn expression(text: &str) -> Option<Expr> {
     let parser = Parser::new(&SharedGrammar).with_recursion_limit(2 * DEEPEST).try_with_sql(text);
     parser.ok()?.parse_expr().ok()
+}
+
+/// Reads what may stand behind FROM, which was made here.
+pub(super) fn relation(text: &str) -> Option<TableFactor> {
+    let parsed = parse(&format!("SELECT 1 FROM {text}")).ok()?;
+    match *parsed.query.body {
+        SetExpr::Select(mut select) => Some(select.from.pop()?.relation),
+        _ => None,
+    }
+}
+
+/// A query that holds an expression, so that it can be walked over.
+pub(super) fn holder(expression: Expr) -> Query {
+    let values = Values {
+        explicit_row: false,
+        value_keyword: false,
+        rows: vec![Parens::with_empty_span(vec![expression])],
+    };
+    Query {
+        with: None,
+        body: Box::new(SetExpr::Values(values)),
+        order_by: None,
+        limit_clause: None,
+        fetch: None,
+        locks: Vec::new(),
+        for_clause: None,
+        settings: None,
+        format_clause: None,
+        pipe_operators: Vec::new(),
+    }
+}
+
+/// The expression that a query holds.
+pub(super) fn held(query: Query) -> Option<Expr> {
+    match *query.body {
+        SetExpr::Values(mut values) => values.rows.pop()?.content.pop(),
+        _ => None,
+    }
 }
 
 /// Where names behind `$` stand in a statement (bytes).

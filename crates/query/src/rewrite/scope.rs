@@ -39,10 +39,10 @@ pub(super) fn declared(query: &Query) -> Vec<String> {
     names
 }
 
-/// The table that a name without a schema means.
+/// The table that a name means, which may have a schema.
 pub(super) fn table<'a>(name: &ObjectName, tables: &'a Catalogue) -> Option<&'a TableInfo> {
-    let [part] = name.0.as_slice() else { return None };
-    tables.get(&part.as_ident()?.value.to_ascii_lowercase())
+    let parts: Option<Vec<&str>> = name.0.iter().map(|part| Some(part.as_ident()?.value.as_str())).collect();
+    tables.get(&parts?.join(".").to_ascii_lowercase())
 }
 
 /// All that stands behind FROM.

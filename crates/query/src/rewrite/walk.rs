@@ -29,8 +29,6 @@ pub(super) enum StatementPartMut<'a> {
     Query(&'a mut Query),
     /// What stands between SELECT and ORDER BY.
     Select(&'a mut Select),
-    /// An expression.
-    Expression(&'a mut Expr),
     /// What stands behind FROM.
     TableFactor(&'a mut TableFactor),
 }
@@ -46,6 +44,22 @@ pub(super) fn walk(
 /// Gives `change` the parts of `query`, the inner before the outer.
 pub(super) fn walk_mut(query: &mut Query, mut change: impl FnMut(StatementPartMut<'_>)) {
     let _ = VisitMut::visit(query, &mut PartMutVisitor(&mut change));
+}
+
+/// Gives `change` the expressions of `query`, the inner before the outer.
+pub(super) fn walk_expressions(query: &mut Query, change: &mut dyn FnMut(&mut Expr)) {
+    let _ = VisitMut::visit(query, &mut ExpressionVisitor(change));
+}
+
+struct ExpressionVisitor<'a>(&'a mut dyn FnMut(&mut Expr));
+
+impl VisitorMut for ExpressionVisitor<'_> {
+    type Break = ();
+
+    fn post_visit_expr(&mut self, expression: &mut Expr) -> ControlFlow<()> {
+        (self.0)(expression);
+        ControlFlow::Continue(())
+    }
 }
 
 /// Whether each query in `tree` asks for rows.
@@ -94,11 +108,6 @@ impl VisitorMut for PartMutVisitor<'_> {
 
     fn post_visit_select(&mut self, select: &mut Select) -> ControlFlow<()> {
         (self.0)(StatementPartMut::Select(select));
-        ControlFlow::Continue(())
-    }
-
-    fn post_visit_expr(&mut self, expression: &mut Expr) -> ControlFlow<()> {
-        (self.0)(StatementPartMut::Expression(expression));
         ControlFlow::Continue(())
     }
 

@@ -3,7 +3,7 @@
 use super::*;
 
 /// Each form, and what is looked up by its key.
-const FORMS: [(&str, &str); 23] = [
+const FORMS: [(&str, &str); 32] = [
     ("SELECT a.fid, b.fid FROM houses a JOIN houses b ON ST_Intersects(a.geom, b.geom)", "b"),
     ("SELECT a.fid, b.fid FROM houses a, houses b WHERE ST_Intersects(a.geom, b.geom)", "b"),
     (
@@ -52,6 +52,30 @@ const FORMS: [(&str, &str); 23] = [
     ("SELECT h.fid, (SELECT r.fid FROM roads r ORDER BY h.geom <-> r.geom LIMIT 1) FROM houses h", "r"),
     (
         "WITH tall AS (SELECT * FROM houses WHERE levels > 3) SELECT r.fid FROM tall t JOIN roads r ON ST_Intersects(t.geom, r.geom)",
+        "r",
+    ),
+    ("SELECT fid, geom <-> $g AS far FROM roads ORDER BY far LIMIT 3", "roads"),
+    ("SELECT fid FROM houses WHERE levels = 3 AND name LIKE 'house%' ORDER BY geom <-> $g LIMIT 2", "houses"),
+    ("SELECT fid FROM houses WHERE ST_Intersects(geom, $g) OR ST_DWithin(geom, $h, 5)", "houses"),
+    (
+        "SELECT a.fid, b.fid FROM houses a JOIN houses b ON ST_Touches(a.geom, b.geom) OR a.levels = 2 AND ST_DWithin(a.geom, b.geom, 1) OR b.fid = a.fid",
+        "b",
+    ),
+    (
+        "SELECT x.fid, y.fid FROM (SELECT * FROM houses WHERE levels > 2) x JOIN (SELECT fid, geom FROM roads WHERE kind = 'path') y ON ST_Intersects(x.geom, y.geom)",
+        "y",
+    ),
+    (
+        "SELECT x.fid, y.fid FROM (SELECT fid, ST_Buffer(geom, 2) AS around FROM houses) x, (SELECT fid, ST_Buffer(geom, 1) AS around FROM lamps) y WHERE ST_Intersects(x.around, y.around)",
+        "y",
+    ),
+    (
+        "WITH a AS (SELECT fid, geom FROM houses), b AS (SELECT fid, geom FROM lamps) SELECT a.fid, b.fid FROM a JOIN b ON ST_DWithin(a.geom, b.geom, 4)",
+        "b",
+    ),
+    ("SELECT h.fid, min(ST_Distance(h.geom, r.geom)) AS far FROM houses h, roads r GROUP BY h.fid", "r"),
+    (
+        "SELECT h.fid, near.fid FROM houses h CROSS JOIN LATERAL (SELECT r.fid FROM roads r ORDER BY r.geom <-> h.geom LIMIT 2) near",
         "r",
     ),
 ];

@@ -142,10 +142,123 @@ fn a_server_gives_the_same_rows() {
         total += here.rows.len();
     }
     assert!(count >= 25 && total > 3000, "{count} statements, {total} rows");
+    let other = tempfile::tempdir().unwrap();
+    meaning(other.path(), &server);
+    schemas(&address);
+    encryption(&address);
     safety(&server);
     lost(&server);
     layers(&server);
     odd(&address);
+}
+
+/// Expressions and statements mean the same here and there, and those that are refused there are refused here.
+fn meaning(folder: &Path, server: &Server) {
+    let (database, frame) = meaning::framed(folder, 400);
+    let mut different = String::new();
+    let expressions = meaning::EXPRESSIONS.map(|expression| (meaning::statement(expression), expression));
+    let statements = meaning::STATEMENTS.map(|sql| (sql.to_owned(), sql));
+    for (sql, shown) in expressions.into_iter().chain(statements) {
+        let (here, there) =
+            (database.query(&sql, &[], &budget()), server.query(&sql, &[], Some(&frame), &budget()));
+        let same = match (&here, &there) {
+            (Ok(here), Ok(there)) => {
+                here.names == there.names
+                    && here.rows.len() == there.rows.len()
+                    && here.rows.iter().flatten().zip(there.rows.iter().flatten()).all(|(a, b)| same(a, b))
+            }
+            (Err(_), Err(_)) => true,
+            _ => false,
+        };
+        if !same {
+            let shown_of = |answer: Result<Arc<QueryAnswer>, burgeon_base::error::Error>| match answer {
+                Ok(answer) => answer.to_string().chars().take(600).collect(),
+                Err(error) => error.to_string(),
+            };
+            different += &format!("{shown}\n  here: {}\n  there: {}\n", shown_of(here), shown_of(there));
+        }
+    }
+    assert!(different.is_empty(), "{different}");
+}
+
+/// Tables of other schemas are layers, and are found by their whole names or by the search path.
+fn schemas(address: &ServerAddress) {
+    writer()
+        .batch_execute(
+            "CREATE SCHEMA burgeon_other; CREATE TABLE burgeon_other.houses (fid int PRIMARY KEY, geom geometry(Geometry, 3067), wing text);
+             INSERT INTO burgeon_other.houses SELECT n, ST_SetSRID(ST_MakePoint(385000 + n, 6672000), 3067), 'w' FROM generate_series(1, 7) n;
+             CREATE TABLE burgeon_other.wells (fid int PRIMARY KEY, geom geometry(Point, 3067));
+             INSERT INTO burgeon_other.wells SELECT fid, geom FROM burgeon_other.houses",
+        )
+        .unwrap();
+    let server = Server::new(address, None);
+    let read = |server: &Server, layer: &str| {
+        let wanted = burgeon_data::SourceOptions {
+            layer: Some(layer.to_owned()),
+            ..burgeon_data::SourceOptions::default()
+        };
+        server.read(&wanted).map(|table| table.features.len())
+    };
+    assert_eq!(read(&server, "burgeon_other.houses").unwrap(), 7);
+    assert_eq!(read(&server, "houses").unwrap(), 396);
+    assert!(read(&server, "wells").is_err());
+    let count = |server: &Server, sql: &str| {
+        server.query(sql, &[], None, &budget()).map(|answer| answer.rows[0][0].clone())
+    };
+    assert_eq!(
+        count(
+            &server,
+            "SELECT count(*) FROM burgeon_other.houses h JOIN burgeon_other.wells w ON h.fid = w.fid"
+        )
+        .unwrap(),
+        Cell::Number(7.0)
+    );
+    assert!(count(&server, "SELECT count(*) FROM wells").is_err());
+    assert!(count(&server, "SELECT count(*) FROM pg_catalog.pg_authid").is_err());
+    let text = format!("{}?search_path=burgeon_other,public", std::env::var("BURGEON_POSTGIS").unwrap());
+    let other = Server::new(&ServerAddress::parse(&text).unwrap(), None);
+    assert_eq!(count(&other, "SELECT count(*) FROM wells").unwrap(), Cell::Number(7.0));
+    assert_eq!(read(&other, "houses").unwrap(), 7);
+    let listing = server.listing(&budget()).unwrap();
+    let names: Vec<&str> = listing.layers.iter().map(|layer| layer.name.as_str()).collect();
+    assert_eq!(names, ["burgeon_other.houses", "burgeon_other.wells", "houses", "lamps", "roads"]);
+    assert_eq!(listing.layers[2].records, 396);
+    writer().batch_execute("DROP SCHEMA burgeon_other CASCADE").unwrap();
+}
+
+/// Connections are encrypted as the address asks, where `BURGEON_POSTGIS_CA` names the certificate of the server's authority.
+fn encryption(address: &ServerAddress) {
+    let Ok(authority) = std::env::var("BURGEON_POSTGIS_CA") else {
+        eprintln!("left out: BURGEON_POSTGIS_CA names no certificate");
+        return;
+    };
+    let encrypted = "SELECT count(*) AS n FROM houses";
+    let asked = |host: &str, options: &str| {
+        let text =
+            format!("postgres://{}@{host}:{}/{}?{options}", address.user, address.port, address.database);
+        Server::new(&ServerAddress::parse(&text).unwrap(), None).query(encrypted, &[], None, &budget())
+    };
+    for (host, options) in [
+        ("127.0.0.1", "sslmode=disable".to_owned()),
+        ("127.0.0.1", "sslmode=prefer".to_owned()),
+        ("127.0.0.1", "sslmode=require".to_owned()),
+        ("127.0.0.1", format!("sslmode=verify-ca&sslrootcert={authority}")),
+        ("localhost", format!("sslmode=verify-full&sslrootcert={authority}")),
+    ] {
+        asked(host, &options).unwrap_or_else(|error| panic!("{host} {options}: {error}"));
+    }
+    for (host, options, why) in [
+        ("127.0.0.1", format!("sslmode=verify-full&sslrootcert={authority}"), "certificate"),
+        ("localhost", "sslmode=verify-full".to_owned(), "certificate"),
+        (
+            "localhost",
+            "sslmode=verify-ca&sslrootcert=/no/such/file".to_owned(),
+            "cannot read the certificates",
+        ),
+    ] {
+        let error = asked(host, &options).unwrap_err();
+        assert!(error.message().contains(why) && error.remedy().is_some(), "{host} {options}: {error}");
+    }
 }
 
 /// Whether two values are the same but for what engines round otherwise.
@@ -324,14 +437,14 @@ fn odd(address: &ServerAddress) {
     "#);
     let told = |sql: &str| server.query(sql, &[], None, &budget()).unwrap_err().to_string();
     insta::assert_snapshot!(
-        ["SELECT gid, geom FROM odd", "SELECT geom FROM odd WHERE gid > 3 ORDER BY gid", "SELECT marks FROM odd"].map(told).join("\n"),
+        ["SELECT gid, geom FROM odd", "SELECT geom FROM odd WHERE gid > 3 ORDER BY gid", "SELECT day FROM odd"].map(told).join("\n"),
         @r#"
     SQL: the column geom has a geometry that has a coordinate that is no finite number (the row with gid 2)
       help: repair it, or leave its row out: WHERE ...
     SQL: the column geom has a geometry that has a coordinate that is no finite number (row 1)
       help: repair it, or leave its row out: WHERE ...
-    SQL: the column marks is of type int4[]; make it text: ...::text
-      help: ask for numbers, texts, true or false, or geometries
+    SQL: the column day is of type date; make it text: ...::text
+      help: ask for numbers, texts, true or false, geometries, or lists of them
     "#
     );
     let rows = server.query("SELECT gid, kind, size, price FROM odd WHERE gid = 3", &[], None, &budget());

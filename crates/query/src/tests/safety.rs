@@ -213,8 +213,8 @@ fn errors_tell_the_place_and_what_there_is() {
       help: check the statement; the book's page on SQL tells what functions take
 
     SELECT geom::geography FROM houses
-    -> SQL, line 1, column 14: no function called geography
-      help: the book's page on SQL lists what there is
+    -> SQL, line 1, column 8: the type geography is not supported here
+      help: geometries are in metres here: leave the cast out
 
     SELECT name FROM dbstat
     -> SQL, line 1, column 18: the table dbstat may not be read

@@ -5,6 +5,7 @@ use std::sync::Arc;
 use std::sync::mpsc::{RecvTimeoutError, sync_channel};
 use std::time::Duration;
 
+use super::state::{PackageState, broken};
 use crate::formats::blob::{envelope, read_blob};
 use crate::{Attribute, Crs, FeatureTable, SourceOptions};
 use burgeon_base::budget::Budget;
@@ -14,7 +15,7 @@ use rusqlite::config::DbConfig;
 use rusqlite::hooks::{AuthAction, Authorization};
 use rusqlite::limits::Limit;
 use rusqlite::types::ValueRef;
-use rusqlite::{Connection, OpenFlags, OptionalExtension};
+use rusqlite::{Connection, OptionalExtension};
 
 /// The longest text or blob (bytes) of a file.
 const LONGEST: i32 = 200_000_000;
@@ -31,6 +32,7 @@ const GRACE: Duration = Duration::from_millis(500);
 /// An open GeoPackage.
 pub struct GeoPackage {
     connection: Connection,
+    state: Arc<PackageState>,
     name: String,
     layers: Vec<LayerDescription>,
 }
@@ -80,12 +82,19 @@ struct LayerDescription {
 
 impl GeoPackage {
     pub(crate) fn open(path: &Path, name: &str, wanted: &SourceOptions) -> Result<Self> {
-        let connection = connect(path).map_err(|error| broken(name, &error))?;
+        let state = PackageState::open(path, name, &wanted.budget)?;
         let (owned, budget) = (name.to_owned(), Arc::clone(&wanted.budget));
-        watched(connection, &wanted.budget, move |connection| Self::with(connection, owned, &budget))
+        watched(state.connect()?, &wanted.budget, move |connection| {
+            Self::with(connection, state, owned, &budget)
+        })
     }
 
-    fn with(mut connection: Connection, name: String, budget: &Arc<Budget>) -> Result<Self> {
+    fn with(
+        mut connection: Connection,
+        state: Arc<PackageState>,
+        name: String,
+        budget: &Arc<Budget>,
+    ) -> Result<Self> {
         let error = |error: rusqlite::Error| broken(&name, &error);
         // Rows are read once, in order: no more pages than that takes.
         connection.pragma_update(None, "cache_size", -PAGES).map_err(error)?;
@@ -97,7 +106,7 @@ impl GeoPackage {
             }
             error => broken(&name, &error),
         })?;
-        Ok(Self { connection, name, layers })
+        Ok(Self { connection, state, name, layers })
     }
 
     pub(crate) fn layers(&self) -> Vec<String> {
@@ -105,11 +114,14 @@ impl GeoPackage {
     }
 
     pub(crate) fn read(self, layer: &str, wanted: &SourceOptions) -> Result<FeatureTable> {
-        let Self { connection, name, layers } = self;
+        let Self { connection, state, name, layers } = self;
         let (layer, wanted) = (layer.to_owned(), wanted.clone());
         let budget = Arc::clone(&wanted.budget);
         watched(connection, &budget, move |connection| {
-            Self { connection, name, layers }.table(&layer, &wanted)
+            let read = Self { connection, state: Arc::clone(&state), name, layers }.table(&layer, &wanted);
+            // What was read of two states may be an error of either.
+            state.check()?;
+            read
         })
     }
 
@@ -272,36 +284,6 @@ impl GeoPackage {
             read().map_err(|error| broken(&name, &error))
         })
     }
-
-    /// An address by which SQLite opens the file at `path` so that nothing beside it is made or changed.
-    pub fn address(path: &Path) -> String {
-        address(path)
-    }
-}
-
-/// Opens the database so that nothing beside it is made or changed.
-fn connect(path: &Path) -> rusqlite::Result<Connection> {
-    let flags =
-        OpenFlags::SQLITE_OPEN_READ_ONLY | OpenFlags::SQLITE_OPEN_NO_MUTEX | OpenFlags::SQLITE_OPEN_URI;
-    Connection::open_with_flags(address(path), flags)
-}
-
-fn address(path: &Path) -> String {
-    let mut log = path.as_os_str().to_owned();
-    log.push("-wal");
-    // Changes that another program has not yet brought home stand in the log; without one, the file is all.
-    let changing = std::fs::metadata(&log).is_ok_and(|meta| meta.len() > 0);
-    let mut address = "file:".to_owned();
-    for byte in path.as_os_str().as_encoded_bytes() {
-        match byte {
-            b'/' | b'.' | b'-' | b'_' | b'0'..=b'9' | b'a'..=b'z' | b'A'..=b'Z' => {
-                address.push(char::from(*byte))
-            }
-            byte => address.push_str(&format!("%{byte:02x}")),
-        }
-    }
-    address.push_str(if changing { "?mode=ro" } else { "?mode=ro&immutable=1" });
-    address
 }
 
 /// The layers of features, in the order of the file.
@@ -408,18 +390,13 @@ fn id_text(value: ValueRef<'_>) -> Option<String> {
 }
 
 /// What SQLite says, in its own words.
-fn words(error: &rusqlite::Error) -> String {
+pub(super) fn words(error: &rusqlite::Error) -> String {
     match error {
         rusqlite::Error::SqliteFailure(_, Some(text)) => text.clone(),
         rusqlite::Error::SqlInputError { msg, .. } => msg.clone(),
         rusqlite::Error::MultipleStatement => "it holds more than one statement".to_owned(),
         other => other.to_string(),
     }
-}
-
-fn broken(name: &str, error: &rusqlite::Error) -> Error {
-    Error::data(format!("cannot read {name}: {}", words(error)))
-        .help("the file is damaged or cut short; get it again")
 }
 
 /// The error of a query, which is the condition's fault if there is one.

@@ -6,8 +6,13 @@
 //! Source: OGC 12-128r18, GeoPackage Encoding Standard.
 
 mod database;
+mod recovery;
+#[cfg(test)]
+mod shared;
+mod state;
 #[cfg(test)]
 mod tests;
 
 pub use database::{GeoPackage, TableShape};
 pub(super) use database::{guard, quoted, refused, watched};
+pub use state::PackageState;

@@ -9,7 +9,7 @@ use burgeon_base::budget::Budget;
 use burgeon_base::error::{Error, Limit, Result};
 use burgeon_base::text::grouped;
 use burgeon_data::{Layer, ReferenceFrame};
-use burgeon_kit::{GeometryObject, Value};
+use burgeon_kit::{GeometryObject, Table, TableKey, Value};
 use burgeon_query::{Cell, Database};
 
 /// The database with the tables that are in it.
@@ -129,5 +129,9 @@ fn value(cell: &Cell) -> Value {
         Cell::Number(value) => Value::Number(*value),
         Cell::Text(text) => Value::Text(Arc::clone(text)),
         Cell::Geometry(geometry) => Value::Object(Arc::new(GeometryObject::shared(Arc::clone(geometry)))),
+        Cell::List(cells) => {
+            let entries = cells.iter().zip(1..).map(|(cell, number)| (TableKey::Index(number), value(cell)));
+            Value::Table(Arc::new(Table { class: None, entries: entries.collect() }))
+        }
     }
 }

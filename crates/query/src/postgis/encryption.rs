@@ -1,0 +1,228 @@
+//! The encryption of connections, and the verification of servers.
+//!
+//! Source: PostgreSQL's manual, "SSL Support".
+
+use std::future::Future;
+use std::io;
+use std::path::Path;
+use std::pin::Pin;
+use std::sync::Arc;
+use std::task::{Context, Poll};
+
+use rustls::client::WebPkiServerVerifier;
+use rustls::client::danger::{HandshakeSignatureValid, ServerCertVerified, ServerCertVerifier};
+use rustls::crypto::{CryptoProvider, ring, verify_tls12_signature, verify_tls13_signature};
+use rustls::pki_types::pem::PemObject;
+use rustls::pki_types::{CertificateDer, ServerName, UnixTime};
+use rustls::{
+    CertificateError, ClientConfig, DigitallySignedStruct, Error as TlsError, RootCertStore, SignatureScheme,
+};
+use tokio::io::{AsyncRead, AsyncWrite, ReadBuf};
+use tokio_postgres::config::SslMode;
+use tokio_postgres::tls::{ChannelBinding, MakeTlsConnect, TlsConnect, TlsStream};
+
+use super::{EncryptionMode, ServerAddress};
+use burgeon_base::error::{Error, Result};
+
+/// The bundles of certificates that systems have, in the order in which they are looked for.
+const BUNDLES: [&str; 6] = [
+    "/etc/ssl/certs/ca-certificates.crt",
+    "/etc/pki/tls/certs/ca-bundle.crt",
+    "/etc/ssl/ca-bundle.pem",
+    "/etc/ssl/cert.pem",
+    "/opt/homebrew/etc/ca-certificates/cert.pem",
+    "/usr/local/etc/openssl/cert.pem",
+];
+
+/// Encrypts the connections to a server.
+#[derive(Clone)]
+pub(super) struct Encryption {
+    config: Arc<ClientConfig>,
+}
+
+impl Encryption {
+    /// The encryption that an address asks for. Fails if the certificates of authorities cannot be read.
+    pub(super) fn new(address: &ServerAddress) -> Result<Self> {
+        let provider = Arc::new(ring::default_provider());
+        let verifier: Arc<dyn ServerCertVerifier> = match address.encryption {
+            EncryptionMode::Disable | EncryptionMode::Prefer | EncryptionMode::Require => {
+                Arc::new(LaxVerifier { provider: Arc::clone(&provider), chain: None })
+            }
+            EncryptionMode::VerifyCa | EncryptionMode::VerifyFull => {
+                let roots = Arc::new(authorities(address.authorities.as_deref())?);
+                let chain = WebPkiServerVerifier::builder_with_provider(roots, Arc::clone(&provider)).build();
+                let chain = chain.map_err(|error| {
+                    Error::data(format!("the certificates of authorities cannot be used: {error}"))
+                        .help("name a file of certificates in PEM: sslrootcert=FILE")
+                })?;
+                match address.encryption {
+                    EncryptionMode::VerifyFull => chain,
+                    _ => Arc::new(LaxVerifier { provider: Arc::clone(&provider), chain: Some(chain) }),
+                }
+            }
+        };
+        let versions = ClientConfig::builder_with_provider(provider).with_safe_default_protocol_versions();
+        let config = versions
+            .map_err(|error| Error::internal(format!("TLS: {error}")))?
+            .dangerous()
+            .with_custom_certificate_verifier(verifier)
+            .with_no_client_auth();
+        Ok(Self { config: Arc::new(config) })
+    }
+}
+
+/// The way to ask a server for encryption.
+pub(super) fn mode(encryption: EncryptionMode) -> SslMode {
+    match encryption {
+        EncryptionMode::Disable => SslMode::Disable,
+        EncryptionMode::Prefer => SslMode::Prefer,
+        EncryptionMode::Require | EncryptionMode::VerifyCa | EncryptionMode::VerifyFull => SslMode::Require,
+    }
+}
+
+/// The certificates of authorities in a file, or those of the system.
+fn authorities(file: Option<&Path>) -> Result<RootCertStore> {
+    let named = std::env::var_os("SSL_CERT_FILE").map(std::path::PathBuf::from);
+    let known = BUNDLES.iter().map(Path::new).find(|path| path.is_file());
+    let Some(path) = file.or(named.as_deref()).or(known) else {
+        return Err(Error::unavailable("there is no file with the certificates of authorities")
+            .help("name a file of certificates in PEM: sslrootcert=FILE"));
+    };
+    let unread = |why: &str| {
+        Error::file(path, format!("cannot read the certificates in {}: {why}", path.display()))
+            .help("name a file of certificates in PEM: sslrootcert=FILE")
+    };
+    let text = burgeon_base::files::read(path, 20_000_000).map_err(|error| unread(&error.to_string()))?;
+    let mut roots = RootCertStore::empty();
+    for certificate in CertificateDer::pem_slice_iter(&text) {
+        let certificate = certificate.map_err(|error| unread(&error.to_string()))?;
+        // A system may have certificates that are of no use here.
+        let added = roots.add(certificate);
+        if file.is_some() {
+            added.map_err(|error| unread(&error.to_string()))?;
+        }
+    }
+    if roots.is_empty() { Err(unread("it holds none")) } else { Ok(roots) }
+}
+
+/// Verifies no more of a server's certificate than its chain, if that.
+#[derive(Debug)]
+struct LaxVerifier {
+    provider: Arc<CryptoProvider>,
+    chain: Option<Arc<WebPkiServerVerifier>>,
+}
+
+impl ServerCertVerifier for LaxVerifier {
+    fn verify_server_cert(
+        &self,
+        end_entity: &CertificateDer<'_>,
+        intermediates: &[CertificateDer<'_>],
+        server_name: &ServerName<'_>,
+        ocsp_response: &[u8],
+        now: UnixTime,
+    ) -> Result<ServerCertVerified, TlsError> {
+        let Some(chain) = &self.chain else { return Ok(ServerCertVerified::assertion()) };
+        match chain.verify_server_cert(end_entity, intermediates, server_name, ocsp_response, now) {
+            // The name is looked at last.
+            Err(TlsError::InvalidCertificate(
+                CertificateError::NotValidForName | CertificateError::NotValidForNameContext { .. },
+            )) => Ok(ServerCertVerified::assertion()),
+            verified => verified,
+        }
+    }
+
+    fn verify_tls12_signature(
+        &self,
+        message: &[u8],
+        certificate: &CertificateDer<'_>,
+        signed: &DigitallySignedStruct,
+    ) -> Result<HandshakeSignatureValid, TlsError> {
+        let algorithms = &self.provider.signature_verification_algorithms;
+        verify_tls12_signature(message, certificate, signed, algorithms)
+    }
+
+    fn verify_tls13_signature(
+        &self,
+        message: &[u8],
+        certificate: &CertificateDer<'_>,
+        signed: &DigitallySignedStruct,
+    ) -> Result<HandshakeSignatureValid, TlsError> {
+        let algorithms = &self.provider.signature_verification_algorithms;
+        verify_tls13_signature(message, certificate, signed, algorithms)
+    }
+
+    fn supported_verify_schemes(&self) -> Vec<SignatureScheme> {
+        self.provider.signature_verification_algorithms.supported_schemes()
+    }
+}
+
+impl<S> MakeTlsConnect<S> for Encryption
+where
+    S: AsyncRead + AsyncWrite + Unpin + Send + 'static,
+{
+    type Stream = EncryptedStream<S>;
+    type TlsConnect = Handshake;
+    type Error = io::Error;
+
+    fn make_tls_connect(&mut self, domain: &str) -> io::Result<Handshake> {
+        let name = ServerName::try_from(domain.to_owned()).map_err(io::Error::other)?;
+        Ok(Handshake { config: Arc::clone(&self.config), name })
+    }
+}
+
+/// A handshake that is about to begin.
+pub(super) struct Handshake {
+    config: Arc<ClientConfig>,
+    name: ServerName<'static>,
+}
+
+impl<S> TlsConnect<S> for Handshake
+where
+    S: AsyncRead + AsyncWrite + Unpin + Send + 'static,
+{
+    type Stream = EncryptedStream<S>;
+    type Error = io::Error;
+    type Future = Pin<Box<dyn Future<Output = io::Result<EncryptedStream<S>>> + Send>>;
+
+    fn connect(self, stream: S) -> Self::Future {
+        let connector = tokio_rustls::TlsConnector::from(self.config);
+        Box::pin(async move { connector.connect(self.name, stream).await.map(EncryptedStream) })
+    }
+}
+
+/// An encrypted connection.
+pub(super) struct EncryptedStream<S>(tokio_rustls::client::TlsStream<S>);
+
+impl<S: AsyncRead + AsyncWrite + Unpin> TlsStream for EncryptedStream<S> {
+    fn channel_binding(&self) -> ChannelBinding {
+        ChannelBinding::none()
+    }
+}
+
+impl<S: AsyncRead + AsyncWrite + Unpin> AsyncRead for EncryptedStream<S> {
+    fn poll_read(
+        mut self: Pin<&mut Self>,
+        context: &mut Context<'_>,
+        buffer: &mut ReadBuf<'_>,
+    ) -> Poll<io::Result<()>> {
+        Pin::new(&mut self.0).poll_read(context, buffer)
+    }
+}
+
+impl<S: AsyncRead + AsyncWrite + Unpin> AsyncWrite for EncryptedStream<S> {
+    fn poll_write(
+        mut self: Pin<&mut Self>,
+        context: &mut Context<'_>,
+        bytes: &[u8],
+    ) -> Poll<io::Result<usize>> {
+        Pin::new(&mut self.0).poll_write(context, bytes)
+    }
+
+    fn poll_flush(mut self: Pin<&mut Self>, context: &mut Context<'_>) -> Poll<io::Result<()>> {
+        Pin::new(&mut self.0).poll_flush(context)
+    }
+
+    fn poll_shutdown(mut self: Pin<&mut Self>, context: &mut Context<'_>) -> Poll<io::Result<()>> {
+        Pin::new(&mut self.0).poll_shutdown(context)
+    }
+}

@@ -1,0 +1,120 @@
+//! Casts as PostgreSQL has them.
+
+use sqlparser::ast::{CastKind, DataType, Expr, Value};
+
+use super::expressions::{Expressions, made, unsupported};
+use super::types::SqlType;
+use super::typing::{TypeScope, error_at};
+use burgeon_base::error::Result;
+use burgeon_base::text::shown;
+
+impl Expressions<'_, '_> {
+    /// Types a cast, and writes it as a function that rounds and refuses as PostgreSQL does.
+    pub(super) fn cast(&mut self, expression: &mut Expr, scope: &TypeScope<'_>) -> Result<SqlType> {
+        use SqlType as T;
+        let place = expression.clone();
+        let Expr::Cast { kind, expr, data_type, .. } = &mut *expression else { return Ok(T::Unknown) };
+        if !matches!(kind, CastKind::Cast | CastKind::DoubleColon) {
+            return Err(unsupported(&place, "such a cast", "write value::type"));
+        }
+        let name = data_type.to_string();
+        let from = self.expression(expr, scope)?;
+        // A type that the grammar knows by another name.
+        let Some(to) = SqlType::named(&name) else {
+            return match data_type {
+                DataType::Custom(name, _) if name.to_string().eq_ignore_ascii_case("geography") => {
+                    Err(unsupported(
+                        &place,
+                        "the type geography",
+                        "geometries are in metres here: leave the cast out",
+                    ))
+                }
+                _ => Err(unsupported(
+                    &place,
+                    &format!("the type {}", shown(&name.to_ascii_lowercase())),
+                    "values are text, integer, numeric, double precision, boolean or geometry; dates are texts",
+                )),
+            };
+        };
+        let wrong = |to: &str, remedy: &str| -> Result<SqlType> {
+            Err(error_at(&place, &format!("cannot cast type {} to {to}", from.name())).help(remedy))
+        };
+        let written = match to {
+            T::Boolean if from == T::Boolean => expr.to_string(),
+            T::Boolean if matches!(from, T::Geometry | T::Double | T::Numeric) => {
+                return wrong("boolean", "write a comparison");
+            }
+            T::Boolean => format!("burgeon_boolean({expr})"),
+            T::Integer if from == T::Geometry => {
+                return wrong("integer", "take ST_X, ST_Area and the like");
+            }
+            T::Integer if matches!(from, T::Numeric) => format!("burgeon_whole_decimal({expr})"),
+            T::Integer => format!("burgeon_whole({expr})"),
+            T::Numeric => match scale(&name) {
+                Some(scale) => format!("burgeon_round_decimal(burgeon_decimal({expr}), {scale})"),
+                None => format!("burgeon_decimal({expr})"),
+            },
+            T::Double if name.eq_ignore_ascii_case("real") || name.eq_ignore_ascii_case("float4") => {
+                return Err(unsupported(&place, "the type real", "take double precision"));
+            }
+            T::Double => format!("burgeon_number({expr})"),
+            T::Text => {
+                let text = match (from, &**expr) {
+                    // As it is written, with zeros at its end.
+                    (T::Numeric, Expr::Value(value)) => format!("'{value}'"),
+                    (from, expr) => as_text(expr, from)?.to_string(),
+                };
+                match length(&name) {
+                    Some(length) => format!("left({text}, {length})"),
+                    None => text,
+                }
+            }
+            T::Geometry => match &**expr {
+                text if from == T::Literal => format!("ST_GeomFromText({text})"),
+                other => other.to_string(),
+            },
+            T::List | T::Literal | T::Unknown => return Ok(T::Unknown),
+        };
+        *expression = made(&format!("({written})"), &place)?;
+        Ok(to)
+    }
+}
+
+/// A value as a text.
+pub(super) fn as_text(expression: &Expr, kind: SqlType) -> Result<Expr> {
+    Ok(match kind {
+        SqlType::Text | SqlType::Literal | SqlType::List => expression.clone(),
+        SqlType::Boolean => made(&format!("burgeon_truth({expression})"), expression)?,
+        _ => made(&format!("burgeon_text({expression})"), expression)?,
+    })
+}
+
+/// A text in quotes as the number that stands beside it.
+pub(super) fn as_number(expression: &Expr, other: SqlType) -> Result<Expr> {
+    let Expr::Value(value) = expression else { return Ok(expression.clone()) };
+    let Value::SingleQuotedString(text) = &value.value else { return Ok(expression.clone()) };
+    let number = text.trim();
+    let fits = match other {
+        SqlType::Numeric | SqlType::Double => number.parse::<f64>().is_ok_and(f64::is_finite),
+        _ => number.parse::<i64>().is_ok(),
+    };
+    match fits {
+        true => made(&format!("({number})"), expression),
+        false => {
+            let kind = if other.is_number() { other.name() } else { "integer" };
+            Err(error_at(expression, &format!("invalid input syntax for type {kind}: {:?}", shown(text)))
+                .help("compare numbers with numbers, and texts with texts"))
+        }
+    }
+}
+
+/// The digits behind the point of `numeric(8, 2)`.
+fn scale(name: &str) -> Option<i32> {
+    let inside = name.split_once('(')?.1.trim_end_matches(')');
+    inside.split_once(',').map_or(Some(0), |(_, scale)| scale.trim().parse().ok())
+}
+
+/// The length of `varchar(8)`.
+fn length(name: &str) -> Option<u32> {
+    name.split_once('(')?.1.trim_end_matches(')').trim().parse().ok()
+}

@@ -1,0 +1,148 @@
+//! Functions that give several rows, behind FROM or in a projection, as lists that SQLite reads.
+
+use sqlparser::ast::{
+    AccessExpr, Expr, Function, FunctionArguments, Query, Select, SelectItem, TableAlias, TableFactor,
+};
+
+use super::Catalogue;
+use super::parse;
+use super::scope::{quoted, relations};
+use super::substitute::{Substitution, each_query, factors, select_of, substitute};
+use super::typing::{column_name, error_at};
+use super::walk::walk_expressions;
+use crate::functions::ROW_FUNCTIONS;
+use burgeon_base::error::Result;
+
+/// The columns of what ST_Dump and the like give, and what they are of a list.
+const DUMPED: [(&str, &str); 3] = [("geom", "value"), ("path[1]", "rowid"), ("path", "rowid")];
+
+/// Writes functions of rows as lists.
+pub(super) fn expand(query: &mut Query, tables: &Catalogue) -> Result<()> {
+    each_query(query, |query| {
+        if let Some(select) = select_of(query) {
+            let mut found = in_from(select, tables);
+            found.extend(in_projection(query, tables)?);
+            if !found.is_empty() {
+                substitute(query, &found);
+            }
+        }
+        Ok(())
+    })
+}
+
+/// The function that SQLite has in place of one that gives rows.
+fn own(name: &str) -> Option<(&'static str, &'static str)> {
+    let plain = name.trim_matches('"').to_ascii_lowercase();
+    ROW_FUNCTIONS.iter().find(|(known, _)| *known == plain).copied()
+}
+
+fn in_from(select: &mut Select, tables: &Catalogue) -> Vec<Substitution> {
+    let known: Vec<String> = relations(select, tables)
+        .iter()
+        .filter_map(|relation| relation.table)
+        .flat_map(|table| table.columns.iter().map(|name| name.to_ascii_lowercase()))
+        .collect();
+    let mut found = Vec::new();
+    for factor in factors(select) {
+        let (name, arguments, alias) = match factor {
+            TableFactor::Table { name, args: Some(args), alias, .. } => (name, &args.args, alias),
+            TableFactor::Function { name, args, alias, .. } => (name, &*args, alias),
+            _ => continue,
+        };
+        let Some((plain, own)) = own(&name.to_string()) else { continue };
+        let arguments: Vec<String> = arguments.iter().map(ToString::to_string).collect();
+        let called = alias.as_ref().map_or_else(|| plain.to_owned(), |alias| alias.name.value.clone());
+        let columns = alias.as_ref().map(|alias: &TableAlias| alias.columns.clone()).unwrap_or_default();
+        let text = format!("rarray({own}({})) AS {}", arguments.join(", "), quoted(&called));
+        let Some(list) = parse::relation(&text) else { continue };
+        *factor = list;
+        let mut add = |column: &str, of_list: &str, alone: bool| {
+            if let Some(expression) = parse::expression(&format!("{}.{of_list}", quoted(&called))) {
+                found.push(Substitution {
+                    owner: called.clone(),
+                    column: column.to_owned(),
+                    alone,
+                    expression,
+                });
+            }
+        };
+        if plain.starts_with("st_dump") {
+            for (column, of_list) in DUMPED {
+                add(column, of_list, !known.contains(&column.to_owned()));
+            }
+        } else {
+            let column = columns.first().map_or_else(|| called.clone(), |column| column.name.value.clone());
+            add(&column, "value", !known.contains(&column.to_ascii_lowercase()));
+        }
+    }
+    found
+}
+
+/// Adds a list for the function of rows in a projection; gives nothing to substitute, since each call is replaced.
+fn in_projection(query: &mut Query, _: &Catalogue) -> Result<Vec<Substitution>> {
+    let Some(select) = select_of(query) else { return Ok(Vec::new()) };
+    let mut calls: Vec<String> = Vec::new();
+    let mut wrong = None;
+    for item in &mut select.projection {
+        let (SelectItem::UnnamedExpr(expression) | SelectItem::ExprWithAlias { expr: expression, .. }) = item
+        else {
+            continue;
+        };
+        let (before, written) = (calls.len(), column_name(expression));
+        let mut holder = parse::holder(expression.clone());
+        walk_expressions(&mut holder, &mut |part: &mut Expr| {
+            let (call, column) = match &*part {
+                Expr::CompoundFieldAccess { root, access_chain } => {
+                    let root = if let Expr::Nested(inner) = &**root { &**inner } else { &**root };
+                    let [AccessExpr::Dot(Expr::Identifier(column))] = access_chain.as_slice() else { return };
+                    (root, DUMPED.iter().find(|(name, _)| column.value.eq_ignore_ascii_case(name)))
+                }
+                other => (other, None),
+            };
+            let Expr::Function(Function { name, args: FunctionArguments::List(list), over: None, .. }) = call
+            else {
+                return;
+            };
+            let Some((plain, own)) = own(&name.to_string()) else { return };
+            let column = match (plain.starts_with("st_dump"), column) {
+                (true, Some((_, column))) => *column,
+                (false, None) => "value",
+                // It is taken apart one level further up.
+                _ => return,
+            };
+            let text = format!("{own}({list})");
+            let index = calls.iter().position(|known| *known == text).unwrap_or_else(|| {
+                calls.push(text);
+                calls.len() - 1
+            });
+            if let Some(made) = parse::expression(&format!("burgeon_rows{}.{column}", index + 1)) {
+                *part = made;
+            }
+        });
+        if calls.len() > 1 {
+            wrong.get_or_insert_with(|| {
+                error_at(expression, "several functions that give rows stand in one SELECT")
+                    .help("put them behind FROM: SELECT ... FROM houses, ST_Dump(houses.geom) AS d")
+            });
+        }
+        if let Some(made) = parse::held(holder) {
+            *expression = made;
+        }
+        // A column keeps the name that it had.
+        if let (SelectItem::UnnamedExpr(expression), true) = (&*item, calls.len() > before) {
+            *item = SelectItem::ExprWithAlias {
+                expr: expression.clone(),
+                alias: sqlparser::ast::Ident::with_quote('"', written),
+            };
+        }
+    }
+    if let Some(wrong) = wrong {
+        return Err(wrong);
+    }
+    for (index, call) in calls.iter().enumerate() {
+        let text = format!("rarray({call}) AS burgeon_rows{}", index + 1);
+        let Some(list) = parse::relation(&text) else { continue };
+        select.from.push(sqlparser::ast::TableWithJoins { relation: list, joins: Vec::new() });
+    }
+    Ok(Vec::new())
+}
