@@ -4,6 +4,7 @@
 
 mod check;
 mod cities;
+mod words;
 
 use std::path::PathBuf;
 
@@ -158,13 +159,13 @@ fn grammars_that_cannot_be_are_refused_in_the_line_that_gives_them() {
         ("roads.districts({ { pattern = roads.organic() } })", "at of district 1 must be a place (m)"),
         ("roads.contours()", "roads.contours: height must be a function of a place"),
         ("roads.radial({ middle = { 'a' } })", "roads.radial: middle must be a place (m)"),
-        ("roads.grow({ extent = 0 })", "roads.system: extent must be a number from 1 to 500000, not 0"),
+        ("roads.grow({ extent = 0 })", "roads.grow: extent must be a number from 1 to 500000, not 0"),
         ("roads.grow({ extent = 0 / 0 })", "extent must be a number from 1 to 500000, not nan"),
-        ("roads.grow({ pattern = {} })", "roads.system: pattern has no function called toward"),
+        ("roads.grow({ pattern = {} })", "roads.grow: pattern has no function called toward"),
         ("roads.grow({ headings = {} })", "centres and headings say where streets begin"),
-        ("roads.grow({ headings = { 0 / 0 } })", "roads.system: heading 1 must be a number"),
+        ("roads.grow({ headings = { 0 / 0 } })", "roads.grow: heading 1 must be a number"),
         ("roads.grow({ onto = true })", "onto = true takes streets that are there"),
-        ("roads.grow({ join = 0 / 0 })", "roads.system: join must be a number from 0 to 2000, not nan"),
+        ("roads.grow({ join = 0 / 0 })", "roads.grow: join must be a number from 0 to 2000, not nan"),
     ];
     for (line, expected) in cases {
         let text = refused(line);

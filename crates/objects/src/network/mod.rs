@@ -9,6 +9,7 @@ mod existing;
 mod grounds;
 mod kinds;
 mod land;
+mod lines;
 mod lots;
 mod object;
 mod overlaps;
@@ -16,5 +17,6 @@ mod proposals;
 mod sites;
 mod streets;
 mod walk;
+mod walked;
 
 pub use object::Network;
