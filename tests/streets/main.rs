@@ -136,8 +136,8 @@ fn grammars_that_cannot_be_are_refused_in_the_line_that_gives_them() {
         ("roads.word({ axiom = 'F[+F' })", "the axiom \"F[+F\" has 1 [ without a ]"),
         ("roads.word({ axiom = 'F+F]' })", "has a ] at 4 that closes no ["),
         (
-            "roads.word({ productions = { X = 'FYF' } })",
-            "the production of X, \"FYF\" has Y at 2, which is no symbol",
+            "roads.word({ productions = { X = { 3 } } })",
+            "the production of X, must be a word of characters, not 3",
         ),
         ("roads.word({ branch = 180 })", "a branch of 180 degrees leads a road onto itself"),
         ("roads.word({ bend = 0 })", "a bend of 0 degrees leads a road onto itself"),

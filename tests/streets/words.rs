@@ -80,7 +80,7 @@ fn told(text: &str) -> [u64; 5] {
     all
 }
 
-fn run(set: &[(&str, String)], seed: u64) -> (Arc<Network>, Vec<burgeon::base::warning::Warning>) {
+fn run(set: &[(&str, String)], seed: u64) -> (Arc<Network>, Vec<burgeon::Warning>) {
     let path = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("scripts/charroads.lua");
     let params: Vec<_> = set.iter().map(|(name, value)| ((*name).to_owned(), value.clone())).collect();
     let options = RunOptions { seed, params: params.into(), lod: 0, ..burgeon::options() };

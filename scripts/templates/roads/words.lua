@@ -115,7 +115,10 @@ function words.word(options: { [string]: any })
   local growth: { [string]: { [string]: number } } = {}
   for name, list in productions do
     if type(name) ~= "string" or utf8.len(name) ~= 1 or string.find(name, "[%[%]%s]") then
-      error(`roads.word: a production of {name} cannot be: one character is rewritten, which is no bracket and no white space`, 2)
+      error(
+        `roads.word: a production of {name} cannot be: one character is rewritten, which is no bracket and no white space`,
+        2
+      )
     end
     trees[name], growth[name] = {}, {}
     for _, word in if type(list) == "table" then list else { list } do

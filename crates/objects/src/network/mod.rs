@@ -13,6 +13,7 @@ mod lines;
 mod lots;
 mod object;
 mod overlaps;
+mod passes;
 mod proposals;
 mod sites;
 mod streets;

@@ -18,9 +18,9 @@ use super::streets::{JunctionRecords, StreetRecords};
 use super::walk::NetworkWalk;
 use crate::Terrain;
 use burgeon_base::error::{Error, Result};
-use burgeon_base::warning::{Warning, WarningKind};
+use burgeon_base::warning::Warning;
 use burgeon_geometry::{Polygon, Rings};
-use burgeon_kit::{Color, TableOf, Value, Vector, Warn, fields, methods, object};
+use burgeon_kit::{Color, TableOf, Value, Vector, fields, methods, object};
 use burgeon_streets::{
     Constraints, ExistingLoss, Fate, JunctionId, Obstacles, StreetAttributes, StreetFit, StreetGrowth,
     StreetKind, StreetNetwork, SurfaceOptions,
@@ -130,19 +130,19 @@ pub struct Network {
     /// How high its streets lie, with the version of the network that this is of.
     pub(super) fit: OnceLock<(u64, Arc<StreetFit>)>,
     /// What became of what was proposed in the last pass, by junction and heading.
-    growths: FxHashMap<(u32, u64), StreetGrowth>,
-    walk: NetworkWalk,
+    pub(super) growths: FxHashMap<(u32, u64), StreetGrowth>,
+    pub(super) walk: NetworkWalk,
     /// Parts of existing streets that are missing.
     pub(super) omitted: Vec<ExistingLoss>,
     /// What scripts have asked of blocks and lots.
     pub(super) answers: AnswerCache,
-    warnings: Vec<Warning>,
+    pub(super) warnings: Vec<Warning>,
     /// What became of all that was proposed.
-    proposals: ProposalTally,
+    pub(super) proposals: ProposalTally,
     /// Whether it was told that streets were refused.
-    has_warned_of_refusals: bool,
+    pub(super) has_warned_of_refusals: bool,
     /// Whether it was told that the ground hides streets.
-    has_warned_of_hiding: bool,
+    pub(super) has_warned_of_hiding: bool,
 }
 
 #[methods("network")]
@@ -456,67 +456,6 @@ impl Network {
             .help("give a finite heading, and a length above 0"));
         }
         Ok((from, self.network.at(from) + DVec2::from_angle(heading.to_radians()) * length))
-    }
-
-    fn restart(&mut self) {
-        self.growths.clear();
-        self.proposals.begin();
-        self.walk.restart();
-    }
-
-    fn open_branch(&mut self) {
-        self.walk.open_branch();
-    }
-
-    fn close_branch(&mut self) -> Result<()> {
-        self.walk.close_branch();
-        Ok(())
-    }
-
-    /// Tells if a pass proposed streets and there is none, or hardly any has room.
-    fn finish(&mut self) -> Result<()> {
-        if self.fit.get().is_some_and(|(version, _)| *version != self.network.version()) {
-            self.fit = OnceLock::new();
-        }
-        // Where there is no ground is told when the streets are drawn.
-        if !self.has_warned_of_hiding
-            && let Ok(Some(warning)) = self.hidden()
-        {
-            self.has_warned_of_hiding = true;
-            self.warnings.push(warning);
-        }
-        self.warnings.extend(self.walk.tally().warning());
-        self.warnings.extend(self.bare());
-        if !self.has_warned_of_refusals
-            && let Some(warning) = self.proposals.warning(self.network.size())
-        {
-            self.has_warned_of_refusals = true;
-            self.warnings.push(warning);
-        }
-        Ok(())
-    }
-}
-
-impl Network {
-    /// Reports that there is no block to fill.
-    fn bare(&self) -> Option<Warning> {
-        let is_bare =
-            self.options.ground.is_some() && self.network.size() > 0 && self.network.faces().is_empty();
-        is_bare.then(|| {
-            let text = format!(
-                "network: {} pieces of streets enclose no block, so `ground` fills nothing",
-                self.network.size()
-            );
-            Warning::new(WarningKind::DrawsNothing, text)
-                .help("let more streets meet: grow or walk farther, or join dead ends within a greater distance")
-                .of_pass()
-        })
-    }
-}
-
-impl Warn for Network {
-    fn take_warnings(&mut self) -> Vec<Warning> {
-        std::mem::take(&mut self.warnings)
     }
 }
 
