@@ -17,6 +17,10 @@ const LEADS_AWAY: f64 = 0.5;
 /// An edge that leads away is on a street all the same if no place of it is farther (m): so are cut corners.
 const BESIDE: f64 = 1.0;
 
+/// A block lies at its streets if one of its edges is nearer (m), and what is then farther (m) is on no street.
+const AT_STREET: f64 = 0.5;
+const BEHIND: f64 = 2.0;
+
 /// A side of a block: edges that follow one another along a street.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct BlockSide {
@@ -82,6 +86,8 @@ impl StreetBlock {
 struct EdgeStreet {
     piece: Option<PieceId>,
     way: DVec2,
+    /// How far (m) the farther end of the edge is from that of the street.
+    off: f64,
 }
 
 impl StreetNetwork {
@@ -117,26 +123,31 @@ impl StreetNetwork {
             }
         };
         let mut sides = Vec::new();
-        let mut edge_pieces: Vec<Vec<Option<PieceId>>> = Vec::new();
-        let edge_sides = rings.iter().enumerate();
-        let edge_sides = edge_sides
-            .map(|(number, ring)| {
-                let streets: Vec<Option<EdgeStreet>> = burgeon_geometry::planar::edges(ring)
-                    .map(|edge| {
-                        if self.size() > 0 {
-                            return self.street_beside(edge, reach);
-                        }
-                        // Nobody knows of streets in a courtyard.
-                        let way = (edge[1] - edge[0]).normalize_or_zero();
-                        (number == 0).then_some(EdgeStreet { piece: None, way })
-                    })
-                    .collect();
-                edge_pieces
-                    .push(streets.iter().map(|street| street.and_then(|street| street.piece)).collect());
-                sides_of(ring, &streets, &mut sides)
-            })
-            .collect();
-        let edge_sides: Vec<Vec<Option<u32>>> = edge_sides;
+        let mut streets: Vec<Vec<Option<EdgeStreet>>> = Vec::new();
+        for (number, ring) in rings.iter().enumerate() {
+            let of_ring = burgeon_geometry::planar::edges(ring).map(|edge| {
+                if self.size() > 0 {
+                    return self.street_beside(edge, reach);
+                }
+                // Nobody knows of streets in a courtyard.
+                let way = (edge[1] - edge[0]).normalize_or_zero();
+                (number == 0).then_some(EdgeStreet { piece: None, way, off: 0.0 })
+            });
+            streets.push(of_ring.collect());
+        }
+        // Where a block lies at its streets, what is farther away is behind something, such as a river along the street.
+        let nearest =
+            streets.iter().flatten().flatten().map(|street| street.off).fold(f64::INFINITY, f64::min);
+        if reach.is_finite() && nearest < AT_STREET {
+            let is_near = |street: &EdgeStreet| street.off <= BEHIND;
+            streets.iter_mut().flatten().for_each(|street| *street = street.filter(is_near));
+        }
+        let piece_of = |street: &Option<EdgeStreet>| street.and_then(|street| street.piece);
+        let edge_pieces: Vec<Vec<Option<PieceId>>> =
+            streets.iter().map(|ring| ring.iter().map(piece_of).collect()).collect();
+        let of_rings = rings.iter().zip(&streets);
+        let edge_sides: Vec<Vec<Option<u32>>> =
+            of_rings.map(|(ring, streets)| sides_of(ring, streets, &mut sides)).collect();
         let mut side_lines = vec![Vec::new(); sides.len()];
         for (side, piece) in edge_sides.iter().flatten().zip(edge_pieces.iter().flatten()) {
             if let (Some(side), Some(piece)) = (side, piece) {
@@ -174,9 +185,9 @@ impl StreetNetwork {
         };
         let [from, to] = self.line(piece);
         // What begins at a street and leads away from it, as the bank of a river does, is not on it.
+        let off = |at: DVec2| crate::grid::foot(at, [from, to]).0 - self.half(piece);
+        let [begin, end] = [off(a), off(b)];
         if reach.is_finite() {
-            let off = |at: DVec2| crate::grid::foot(at, [from, to]).0 - self.half(piece);
-            let [begin, end] = [off(a), off(b)];
             let leads_away = (begin - end).abs() > LEADS_AWAY * a.distance(b);
             if begin.max(end) > reach + 0.5 || (leads_away && begin.max(end) > BESIDE) {
                 return None;
@@ -184,7 +195,8 @@ impl StreetNetwork {
         }
         let way = (to - from).normalize_or_zero();
         let way = if way.dot(along) < 0.0 { -way } else { way };
-        (distance <= reach + 0.5).then_some(EdgeStreet { piece: Some(piece), way })
+        let off = begin.max(end);
+        (distance <= reach + 0.5).then_some(EdgeStreet { piece: Some(piece), way, off })
     }
 }
 
