@@ -27,15 +27,13 @@ local LEFT_OUT =
   { footway = true, path = true, steps = true, cycleway = true, pedestrian = true, service = true }
 
 local town = source(file)
-local existing = {}
+local existing, ways = {}, {}
 for _, feature in town do
   local kind = feature.highway or feature.kind or ""
   if feature.geometry.kind == "line" and not LEFT_OUT[kind] then
-    table.insert(existing, {
-      lines = { feature.geometry },
-      depth = DEPTH[kind] or 2,
-      bridge = feature.bridge ~= nil and feature.bridge ~= false and feature.bridge ~= "no",
-    })
+    -- Its bridges and tunnels are known by its attributes.
+    table.insert(existing, { lines = feature, depth = DEPTH[kind] or 2 })
+    table.insert(ways, feature.geometry)
   end
 end
 
@@ -43,61 +41,6 @@ if #existing == 0 then
   error(
     `annex: {file} has no lines that are streets, so there is nothing to grow onto: name a layer of streets, FILE:LAYER`
   )
-end
-
--- What is not connected to the town, on which a district would lie by itself, is left out: streets are connected where their
--- lines have a point in common.
-local part: { [number]: number } = {}
-local function whole(street: number): number
-  while part[street] ~= street do
-    part[street] = part[part[street]]
-    street = part[street]
-  end
-  return street
-end
-local seen: { [string]: number }, lengths: { [number]: number } = {}, {}
-for number, street in existing do
-  part[number] = number
-  for _, point in street.lines[1].points do
-    local at = `{math.round(point[1] * 10)} {math.round(point[2] * 10)}`
-    if seen[at] then
-      part[whole(number)] = whole(seen[at])
-    end
-    seen[at] = number
-  end
-end
-local most = 1
-for number, street in existing do
-  local of = whole(number)
-  lengths[of] = (lengths[of] or 0) + street.lines[1]:length()
-end
-for of, length in lengths do
-  if length > (lengths[most] or 0) then
-    most = of
-  end
-end
--- What ends near them is joined to them when it is laid.
-local SNAP = 14
-local connected, apart = {}, {}
-for number, street in existing do
-  table.insert(if whole(number) == most then connected else apart, street)
-end
-repeat
-  local before, rest = #apart, {}
-  for _, street in apart do
-    local is_near = false
-    for _, other in connected do
-      is_near = is_near or street.lines[1]:distance(other.lines[1]) < SNAP * 0.7
-      if is_near then
-        break
-      end
-    end
-    table.insert(if is_near then connected else rest, street)
-  end
-  apart = rest
-until #apart == before
-if #apart > 0 then
-  print(`annex: left out {#apart} of {#existing} streets, which are not connected to the others`)
 end
 
 local low, high = town.bounds.min, town.bounds.max
@@ -122,16 +65,12 @@ end
 -- The buildings that are near enough. New streets lead around them; what reaches into a street already is in nobody's way.
 local known: { any }, covered: { any }, obstacles: { any } = {}, {}, {}
 if standing ~= "" then
-  local lines = {}
-  for _, street in connected do
-    table.insert(lines, street.lines[1])
-  end
-  local near, ways = box(reach), united(lines, 1, #lines)
+  local near, all = box(reach), united(ways, 1, #ways)
   for _, building in source(standing) do
     if building.geometry:area() > 0 and building.geometry:intersects(near) then
       table.insert(known, building)
       table.insert(covered, building.geometry:buffer(0.5))
-      if not building.geometry:buffer(10):intersects(ways) then
+      if not building.geometry:buffer(10):intersects(all) then
         table.insert(obstacles, building.geometry)
       end
     end
@@ -177,10 +116,10 @@ local streets = roads.grow({
       { width = 12, sidewalk = 2.4 },
       { width = 9, sidewalk = 1.7 },
     },
-    existing = connected,
+    existing = existing,
     starts = {},
     min_angle = 35,
-    snap = SNAP,
+    snap = 14,
     obstacles = obstacles,
   },
   onto = true,

@@ -1,4 +1,4 @@
-//! `burgeon check`: tells all problems of a script at once, without deriving.
+//! `burgeon check`: reports all problems of a script, those that only a run meets included.
 
 use burgeon::Result;
 use clap::Args;
@@ -7,9 +7,12 @@ use serde_json::json;
 use super::report;
 use super::shared::ScriptFlags;
 
-/// Loads a script and everything it requires, compiles every rule, and reports all problems at once
+/// Checks a script and its required files as far as a run goes, and reports all problems
 #[derive(Args)]
 pub(crate) struct CheckCommand {
+    /// Loads the script and compiles every rule, without deriving anything
+    #[arg(long)]
+    quick: bool,
     #[command(flatten)]
     script: ScriptFlags,
 }
@@ -20,9 +23,19 @@ impl CheckCommand {
     }
 
     pub(crate) fn run(&self) -> Result<()> {
-        let mut options = self.script.options()?;
-        options.limits.whole_program = true;
-        let burgeon::ScriptCheck { params, warnings, .. } = burgeon::check(&self.script.script, options)?;
+        let path = &self.script.script;
+        let options = || -> Result<_> {
+            let mut options = self.script.options()?;
+            options.limits.whole_program = true;
+            Ok(options)
+        };
+        // What is wrong with calls is found all at once, and the rest by a run.
+        let burgeon::ScriptCheck { params, mut warnings, .. } = burgeon::check(path, options()?)?;
+        if !self.quick {
+            let run = burgeon::run(path, options()?)?;
+            warnings.retain(|known| !run.warnings.iter().any(|other| other.is_same(known)));
+            warnings.extend(run.warnings);
+        }
         if self.script.json {
             let params: Vec<_> = params
                 .iter()

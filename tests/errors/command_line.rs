@@ -145,17 +145,18 @@ fn the_seed_decides_and_threads_do_not() {
 }
 
 #[test]
-fn check_lists_the_parameters_and_derives_nothing() {
+fn a_check_finds_what_only_a_run_meets_and_a_quick_one_derives_nothing() {
     let folder = Folder::new().with(
         "s.lua",
         format!("local n = param(\"n\", {{ default = 3, unit = \"m\", text = \"how far\" }})\n{HEAD}s:rule(\"A(x)\", function(this, x) error(\"ran\") end)\ns:derive(n)\n"),
     );
-    let said = folder.burgeon(&["check", "s.lua"]).done();
+    assert_eq!(folder.refuses(&["check", "s.lua"]), folder.refuses(&["run", "s.lua"]));
+    let said = folder.burgeon(&["check", "s.lua", "--quick"]).done();
     assert_snapshot!(said.stderr, @r"
     s.lua is fine
       n = 3 m  how far
     ");
-    let document = folder.burgeon(&["check", "s.lua", "--json", "--set", "n=4"]).done().json();
+    let document = folder.burgeon(&["check", "s.lua", "--quick", "--json", "--set", "n=4"]).done().json();
     assert_eq!(
         document.to_string(),
         r#"{"ok":true,"params":[{"name":"n","value":4.0,"unit":"m","text":"how far"}],"warnings":[]}"#
@@ -365,7 +366,7 @@ fn help_reads_well() {
           --background <BACKGROUND>  What is behind the model [default: light] [possible values: light, dark, clear]
     ");
     assert_snapshot!(Folder::new().burgeon(&["check", "-h"]).done().stdout, @r"
-    Loads a script and everything it requires, compiles every rule, and reports all problems at once
+    Checks a script and its required files as far as a run goes, and reports all problems
 
     Usage: burgeon check [OPTIONS] <SCRIPT>
 
@@ -373,6 +374,7 @@ fn help_reads_well() {
       <SCRIPT>  The script, a Lua file
 
     Options:
+          --quick               Loads the script and compiles every rule, without deriving anything
           --set <NAME=VALUE>    Sets a parameter of the script
           --preset <NAME>       Takes the parameters and the seed from a preset of the script; --set and --seed win over it
           --data <FOLDER>       Lets the script read data files in this folder and below it; may be repeated

@@ -4,7 +4,7 @@ use insta::assert_snapshot;
 
 use crate::networks::grown;
 use crate::support::{Folder, printed, refused};
-use crate::warnings::warned;
+use crate::warnings::{silent, warned};
 
 #[test]
 fn streets_are_probed_and_walked_and_those_that_are_there_are_grown_onto() {
@@ -58,23 +58,21 @@ fn existing_streets_that_cannot_be_are_told() {
       | network({ existing = { { lines = 3 } } })
     ");
     assert_snapshot!(refused("network({ most = 1, existing = { { lines = { { 0, 0 }, { 90, 0 }, { 90, 90 } } } } })"), @r"
-    error: s.lua:1: the network has 1 pieces of streets
+    error: s.lua:1: the existing streets have more than 1 pieces, which is the limit
       | network({ most = 1, existing = { { lines = { { 0, 0 }, { 90, 0 }, { 90, 90 } } } } })
-      help: let fewer streets grow, or raise the limit: network { most = ... }
+      help: give fewer streets, or raise the limit: network { most = ... }
     ");
     let sharp = "existing = { { lines = { { { 0, 0 }, { 200, 0 } }, { { 0, 0 }, { 200, 50 } } } } }";
-    assert_snapshot!(warned(&[&grown(sharp, "this:grow(1, 180, 90, 0)")]), @r#"
-    local A = module("A")
-    local s = lsystem({ object = network({ existing = { { lines = { { { 0, 0 }, { 200, 0 } }, { { 0, 0 }, { 200, 50 } } } } } }) })
-    s:axiom(A())
-    s:interpret("A", function(this)
-      this:grow(1, 180, 90, 0)
-    end)
-    s:derive(0)
-    warning: s.lua:2: network: existing: pieces were left out: 1 refused (angle)
-      | local s = lsystem({ object = network({ existing = { { lines = { { { 0, 0 }, { 200, 0 } }, { { 0, 0 }, { 200, 50 } } } } } }) })
-      help: they keep their place where min_angle, clearance, min_length and snap are less
-    "#);
+    silent(&[&grown(sharp, "this:grow(1, 180, 90, 0)")]);
+    let named = "existing = { { lines = { { name = \"High Street\", width = \"broad\", geometry = line({ { 0, 0 }, { 0.001, 0 } }) }, \
+                 { name = \"Hill\", width = \"7.5 m\", geometry = line({ { 0, 0 }, { 90, 0 } }) } }, width = \"width\" } }";
+    let told = warned(&[&grown(named, "this:grow(1, 180, 90, 0)")]);
+    for expected in [
+        "s.lua:2: network: existing: 0.0 of 90.0 m of streets are missing in the network: High Street at 0.0, 0.0 (0.00 m, no length)",
+        "s.lua:2: network: existing: 1 line has no usable width, such as \"broad\" of High Street",
+    ] {
+        assert!(told.contains(expected), "{told}");
+    }
     assert_snapshot!(refused(&grown("", "this:walk(0)")), @r"
     error: s.lua:5: rule A (interpretation): network:walk: a street of 0 m cannot be
       | this:walk(0)

@@ -51,6 +51,38 @@ fn fields_given_through_the_library_of_roads_are_refused_in_the_line_of_the_scri
 }
 
 #[test]
+fn a_word_tells_which_of_its_streets_are_missing_and_why() {
+    let word = |width: u32| {
+        with_roads(&format!(
+            "local roads = roads.word({{ axiom = \"X\", productions = {{ X = \"F[+X]F[-X]+X\" }}, iterations = 5, bend = 20, \
+             split = \"plain\", network = {{ streets = {{ {{ width = {width} }} }} }} }}):derive(5).objects[1]\nprint(roads:size())"
+        ))
+        .burgeon(&["run", "s.lua"])
+        .done()
+        .stderr
+    };
+    let narrow = word(4);
+    let size: usize = narrow.lines().next().and_then(|line| line.parse().ok()).expect("a number");
+    assert!(size > 40, "{narrow}");
+    assert!(narrow.contains(" of 242 streets were added"), "{narrow}");
+    assert!(word(16).contains("corners ("), "{}", word(16));
+}
+
+#[test]
+fn a_symbol_without_a_production_or_a_meaning_is_copied() {
+    let word = |production: &str| {
+        with_roads(&format!(
+            "local roads = roads.word({{ axiom = \"X\", productions = {{ X = \"{production}\" }}, iterations = 3, bend = 90 }})\n\
+             print(roads:derive(3).objects[1]:size())"
+        ))
+        .burgeon(&["run", "s.lua"])
+        .done()
+        .stderr
+    };
+    assert_eq!(word("AF+ßX.").lines().next(), word("F+X").lines().next());
+}
+
+#[test]
 fn exits_end_at_their_rim() {
     let square = "polygon({ { -500, -420 }, { 450, -470 }, { 520, 460 }, { -480, 500 } })";
     for rim in ["480", square] {
@@ -75,7 +107,7 @@ fn exits_end_at_their_rim() {
 fn a_rim_that_is_not_convex_is_refused() {
     let rim = "polygon({ { 0, 0 }, { 400, 0 }, { 100, 100 }, { 0, 400 } })";
     assert_snapshot!(refused_by_roads(&format!("roads.grow({{ exits = {{ rim = {rim} }} }})")), @r"
-    error: s.lua:2: roads.system: exits: rim must be a distance (m) or a convex polygon
+    error: s.lua:2: roads.grow: exits: rim must be a distance (m) or a convex polygon
       | roads.grow({ exits = { rim = polygon({ { 0, 0 }, { 400, 0 }, { 100, 100 }, { 0, 400 } }) } })
     ");
 }
@@ -330,7 +362,7 @@ fn highways_that_do_not_arrive_are_told() {
     let told = with_roads(&towns("", "")).burgeon(&["run", "s.lua", "--strict"]).done().stderr;
     assert!(!told.contains("warning"), "{told}");
     assert_snapshot!(refused_by_roads(&towns("", "steps = 12,")), @r"
-    error: s.lua:2: roads.system: the highway from centre 1 to centre 2, 1200 m, takes 15 steps or more, and there are 12; give more, or centres that are nearer
+    error: s.lua:2: roads.grow: the highway from centre 1 to centre 2, 1200 m, takes 15 steps or more, and there are 12; give more, or centres that are nearer
       | roads.grow({ pattern = roads.raster(), network = {  }, centres = { { -600, 0 }, { 600, 0 } }, steps = 12,
     ");
     let lake = "obstacles = { { { -100, -900 }, { 100, -900 }, { 100, 900 }, { -100, 900 } } }";

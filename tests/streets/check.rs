@@ -75,7 +75,7 @@ pub(crate) fn check(grown: &Network, radius: f64, about: &str) {
                         network.at(far) - network.at(*junction)
                     };
                     let angle = way(ends).angle_to(way(others)).abs().to_degrees();
-                    assert!(angle >= network.constraints().min_angle, "{about}: {angle} degrees");
+                    assert!(angle >= network.constraints().least_angle(), "{about}: {angle} degrees");
                 }
                 _ => panic!("{about}: two streets join the same junctions"),
             }

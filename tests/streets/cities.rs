@@ -278,7 +278,7 @@ pub(crate) fn figures(town: &Town, seed: u64, extent: Option<&str>) -> TownFigur
             least = least.min(way(ends).angle_to(way(others)).abs().to_degrees());
         }
     }
-    figures.angle = least - network.constraints().min_angle;
+    figures.angle = least - network.constraints().least_angle();
 
     // Buildings: those that stand on others are inside of them.
     let footprints: Vec<&Footprint> =

@@ -5,6 +5,7 @@
 mod check;
 mod cities;
 mod ground;
+mod words;
 
 use std::path::PathBuf;
 
@@ -136,8 +137,8 @@ fn grammars_that_cannot_be_are_refused_in_the_line_that_gives_them() {
         ("roads.word({ axiom = 'F[+F' })", "the axiom \"F[+F\" has 1 [ without a ]"),
         ("roads.word({ axiom = 'F+F]' })", "has a ] at 4 that closes no ["),
         (
-            "roads.word({ productions = { X = 'FYF' } })",
-            "the production of X, \"FYF\" has Y at 2, which is no symbol",
+            "roads.word({ productions = { X = { 3 } } })",
+            "the production of X, must be a word of characters, not 3",
         ),
         ("roads.word({ branch = 180 })", "a branch of 180 degrees leads a road onto itself"),
         ("roads.word({ bend = 0 })", "a bend of 0 degrees leads a road onto itself"),
@@ -159,13 +160,13 @@ fn grammars_that_cannot_be_are_refused_in_the_line_that_gives_them() {
         ("roads.districts({ { pattern = roads.organic() } })", "at of district 1 must be a place (m)"),
         ("roads.contours()", "roads.contours: height must be a function of a place"),
         ("roads.radial({ middle = { 'a' } })", "roads.radial: middle must be a place (m)"),
-        ("roads.grow({ extent = 0 })", "roads.system: extent must be a number from 1 to 500000, not 0"),
+        ("roads.grow({ extent = 0 })", "roads.grow: extent must be a number from 1 to 500000, not 0"),
         ("roads.grow({ extent = 0 / 0 })", "extent must be a number from 1 to 500000, not nan"),
-        ("roads.grow({ pattern = {} })", "roads.system: pattern has no function called toward"),
+        ("roads.grow({ pattern = {} })", "roads.grow: pattern has no function called toward"),
         ("roads.grow({ headings = {} })", "centres and headings say where streets begin"),
-        ("roads.grow({ headings = { 0 / 0 } })", "roads.system: heading 1 must be a number"),
+        ("roads.grow({ headings = { 0 / 0 } })", "roads.grow: heading 1 must be a number"),
         ("roads.grow({ onto = true })", "onto = true takes streets that are there"),
-        ("roads.grow({ join = 0 / 0 })", "roads.system: join must be a number from 0 to 2000, not nan"),
+        ("roads.grow({ join = 0 / 0 })", "roads.grow: join must be a number from 0 to 2000, not nan"),
     ];
     for (line, expected) in cases {
         let text = refused(line);

@@ -10,7 +10,8 @@
 //! - *An object* keeps a list, adds to it while it is made, in a method that changes it or while it grows, and gives it
 //!   away in `Object::take_warnings`. The line is that of the constructor's or
 //!   the method's call, or of the system. Where passes begin empty, only what the last pass said counts.
-//!   [`Warning::of_all`] keeps it back as long as some module of the kind does better.
+//!   [`Warning::of_all`] keeps it back as long as some module of the kind does better, and [`Warning::of_pass`] lets a
+//!   later pass replace it.
 //! - *An object that is only asked* [defers](defer_warning) it; whoever asked it in the line of a script
 //!   [takes](take_deferred) what was deferred.
 //! - *A file*: what it was loaded into keeps the warnings, and the function that a script asked for it hands them on to
@@ -121,12 +122,19 @@ pub struct Warning {
     told: Error,
     count: usize,
     of_all: bool,
+    of_pass: bool,
 }
 
 impl Warning {
     /// A warning that says `message`, a clause without a full stop.
     pub fn new(kind: WarningKind, message: impl fmt::Display) -> Self {
-        Self { kind, told: Error::of(ErrorKind::Warning(kind), message), count: 1, of_all: false }
+        Self {
+            kind,
+            told: Error::of(ErrorKind::Warning(kind), message),
+            count: 1,
+            of_all: false,
+            of_pass: false,
+        }
     }
 
     /// Says what to do about it.
@@ -169,6 +177,17 @@ impl Warning {
     /// Whether only all modules with the same symbol together give rise to it.
     pub fn is_of_all(&self) -> bool {
         self.of_all
+    }
+
+    /// Holds for one interpretation pass only: a later pass of the system replaces it.
+    #[must_use]
+    pub fn of_pass(self) -> Self {
+        Self { of_pass: true, ..self }
+    }
+
+    /// Tells if a later interpretation pass replaces it.
+    pub fn is_of_pass(&self) -> bool {
+        self.of_pass
     }
 
     /// What it is about.

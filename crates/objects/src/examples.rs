@@ -94,6 +94,7 @@ pub const PLAIN_EXAMPLES: &[ScriptExample] = examples! {
     "model/size" shows "model:low" "model:high";
     "network/dead_ends" shows "network:grow" "network:join_dead_ends" "network:remove_dead_ends"
         "network:open_ends" "network:joinable" "network:dead_ends";
+    "network/existing" shows "network:omitted";
     "network/fate" shows "network:arrived" "network:fate" "network:probe" "network:place"
         "network:places" "network:degree";
     "network/lots" shows "network:measures" "network:size" "network:distance" "network:streets"

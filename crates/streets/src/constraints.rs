@@ -9,7 +9,7 @@ use burgeon_base::error::{Error, Result};
 pub struct Constraints {
     /// How near (m) the end of a street comes to a junction or another street before it joins that.
     pub snap: f64,
-    /// The least angle (degrees) between streets at a junction.
+    /// The least angle (degrees) between streets at a junction, to within [0.06 degrees](Self::least_angle).
     pub min_angle: f64,
     /// The least length (m) of a street between two junctions.
     pub min_length: f64,
@@ -46,7 +46,18 @@ impl Default for Constraints {
     }
 }
 
+/// By how much (degrees) an angle may come out below the least one: places are rounded to the grid, and a street that is
+/// divided turns a little.
+const ANGLE_TOLERANCE: f64 = 0.06;
+
 impl Constraints {
+    /// The angle (degrees) below which no two streets meet: `min_angle` but for what rounding takes.
+    ///
+    /// A street that is proposed at exactly `min_angle` to another is built.
+    pub fn least_angle(&self) -> f64 {
+        self.min_angle - ANGLE_TOLERANCE
+    }
+
     /// Fails where they contradict one another, and says how.
     pub fn check(&self) -> Result<()> {
         let Self { snap, min_angle, min_length, clearance, corner, bend, bridge, .. } = *self;

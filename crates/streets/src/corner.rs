@@ -199,7 +199,7 @@ fn clear(arms: [Arm; 2], bend: f64) -> f64 {
 }
 
 /// How many chords an arc of a radius (m) is drawn with.
-fn pieces(swept: f64, radius: f64) -> u32 {
+pub(crate) fn pieces(swept: f64, radius: f64) -> u32 {
     let step = 2.0 * (1.0 - (DEVIATION / radius.max(0.5)).min(0.9)).acos();
     chords(swept.abs() / step)
 }

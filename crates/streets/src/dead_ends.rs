@@ -56,7 +56,8 @@ impl StreetNetwork {
         }
     }
 
-    /// Takes dead ends away, and the streets that thereby become dead ends; gives how many pieces that were.
+    /// Takes dead ends away, and the streets that thereby become dead ends, but for existing streets; gives how many pieces
+    /// that were.
     ///
     /// ```
     /// use burgeon_streets::{Constraints, Obstacles, StreetAttributes, StreetNetwork};
@@ -78,6 +79,10 @@ impl StreetNetwork {
         let mut removed = 0;
         while let Some(end) = due.pop() {
             let Some(&piece) = self.junctions[end as usize].pieces.first() else { continue };
+            // What existed before stays.
+            if self.pieces[piece as usize].is_existing {
+                continue;
+            }
             let far = self.across(piece, end);
             self.remove(piece);
             removed += 1;
@@ -102,7 +107,8 @@ impl StreetNetwork {
 
     /// Where a dead end can be joined to, the best there is.
     fn way_out(&self, from: JunctionId, options: DeadEndOptions) -> Option<StreetEnd> {
-        let piece = *self.junctions[from as usize].pieces.first()?;
+        let piece =
+            *self.junctions[from as usize].pieces.first().filter(|piece| self.is_on_ground(**piece))?;
         let attributes = self.pieces[piece as usize].attributes;
         let (here, ahead) = (self.at(from), -self.leaves(piece, from));
         let mut ends: SmallVec<[(f64, u64, StreetEnd); 32]> = SmallVec::new();
@@ -115,11 +121,11 @@ impl StreetNetwork {
         };
         let around = [here; 2];
         for junction in self.junctions_near(around, options.radius) {
-            if junction != from && !self.junctions[junction as usize].pieces.is_empty() {
+            if junction != from && self.has_ground(junction) {
                 add(StreetEnd::Junction(junction), self.at(junction), u64::from(junction));
             }
         }
-        for other in self.pieces_near(around, options.radius) {
+        for other in self.ground_near(around, options.radius) {
             if other == piece {
                 continue;
             }

@@ -30,7 +30,9 @@ impl StreetNetwork {
         let mut next: FxHashMap<Course, Course> = FxHashMap::default();
         #[allow(clippy::cast_possible_truncation, reason = "pieces are limited far below")]
         for junction in 0..self.junctions.len() as JunctionId {
-            let arms = self.arms(junction);
+            let mut arms = self.arms(junction);
+            // What passes over the ground bounds nothing on it.
+            arms.retain(|(piece, _)| self.is_on_ground(*piece));
             for (index, (piece, _)) in arms.iter().enumerate() {
                 // Whoever arrives by an arm leaves by the one before it, counted counter-clockwise.
                 let before = arms[(index + arms.len() - 1) % arms.len()].0;

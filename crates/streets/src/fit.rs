@@ -12,7 +12,8 @@ use std::collections::BinaryHeap;
 use glam::DVec2;
 use smallvec::SmallVec;
 
-use crate::network::StreetNetwork;
+use crate::grid::{crossing, touch};
+use crate::network::{PieceId, StreetNetwork};
 use crate::profile::StreetProfiles;
 use crate::shape::{ArmShape, StreetShapes};
 use crate::surface::SurfaceOptions;
@@ -23,6 +24,9 @@ const STEP: f64 = 20.0;
 const ROUNDS: usize = 4;
 /// How many places across a street the ground is asked at.
 const ACROSS: [f64; 3] = [-0.5, 0.0, 0.5];
+
+/// How high (m) a street of one level lies over the ground of the level below.
+const CLEARANCE: f64 = 5.5;
 
 /// How streets are laid on the ground.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -89,8 +93,11 @@ impl StreetNetwork {
         for (piece, known) in self.pieces() {
             let [start, stop] = self.line(piece);
             let way = (stop - start).normalize_or_zero();
+            let is_merged = self.has_existing();
             let clear = known.ends.map(|end| shapes.arm(end, piece).map_or(0.0, ArmShape::clear));
-            let room = shapes.room(piece);
+            // Where streets lie in one another, the level part of a junction may be all of them.
+            let (clear, room) =
+                if is_merged { ([0.0; 2], self.length(piece)) } else { (clear, shapes.room(piece)) };
             #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "pieces are short")]
             let inner = (room / STEP).floor() as u32;
             let step = room / f64::from(inner + 1);
@@ -123,6 +130,20 @@ impl StreetNetwork {
                 alongs.push(along);
                 before = next;
             }
+            for (along, height) in self.passed_over(piece, &ground) {
+                // Both places around it, so that all between is as high.
+                let after = alongs.partition_point(|at| *at <= along).clamp(1, alongs.len() - 1);
+                for index in [after - 1, after] {
+                    let place = match index {
+                        0 => known.ends[0],
+                        _ if index == alongs.len() - 1 => known.ends[1],
+                        #[allow(clippy::cast_possible_truncation, reason = "pieces have few places")]
+                        _ => first + index as u32 - 1,
+                    };
+                    let least = &mut places[place as usize].least;
+                    *least = least.max(height);
+                }
+            }
             chains[piece as usize] = (first, alongs);
         }
         let heights = bounded(&places, slopes.max_slope);
@@ -145,6 +166,30 @@ impl StreetNetwork {
             fit.depths.push(deepest);
         }
         Ok(fit)
+    }
+}
+
+impl StreetNetwork {
+    /// Where along a piece (m) it passes over others of a lower level, and how high (m) it has to be there.
+    fn passed_over(&self, piece: PieceId, ground: &impl Fn(DVec2) -> Option<f64>) -> Vec<(f64, f64)> {
+        let level = self.attributes(piece).level;
+        if level <= 0 {
+            return Vec::new();
+        }
+        let line = self.line(piece);
+        let lower = self.pieces_near(line, 0.0).filter_map(|other| {
+            let below = self.attributes(other).level.max(0);
+            let shares = self.ends(other).iter().any(|end| self.ends(piece).contains(end));
+            if below >= level || shares || !touch(self.grid_line(piece), self.grid_line(other)) {
+                return None;
+            }
+            let along = crossing(line, self.line(other))?.clamp(0.0, 1.0);
+            let height = ground(line[0].lerp(line[1], along))? + CLEARANCE * f64::from(level - below);
+            Some((along * self.length(piece), height))
+        });
+        let mut passed: Vec<(f64, f64)> = lower.collect();
+        passed.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.total_cmp(&b.1)));
+        passed
     }
 }
 

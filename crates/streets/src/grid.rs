@@ -4,7 +4,7 @@ use burgeon_geometry::planar;
 use glam::DVec2;
 
 /// How many steps of the grid are a metre.
-const PER_METRE: f64 = 1024.0;
+pub(crate) const PER_METRE: f64 = 1024.0;
 /// The farthest (m) from the origin that a place may lie: products of two differences fit in 64 bits.
 pub const FARTHEST: f64 = 500_000.0;
 
@@ -24,6 +24,11 @@ impl GridPlace {
             let steps = (place * PER_METRE).round();
             Self { x: steps.x as i64, y: steps.y as i64 }
         })
+    }
+
+    /// The place at these steps to the east and to the north.
+    pub(crate) fn of_steps([x, y]: [i64; 2]) -> Self {
+        Self { x, y }
     }
 
     /// Where it lies (m), exactly.

@@ -75,7 +75,7 @@ impl StreetNetwork {
         if let Some(found) = self.junction_at(on_grid) {
             return Ok(found);
         }
-        match self.nearest(place) {
+        match self.nearest_on_ground(place) {
             Some((piece, distance)) if distance < 0.5 => {
                 let (_, along) = foot(place, self.line(piece));
                 let [a, b] = self.line(piece);
@@ -274,7 +274,7 @@ impl StreetNetwork {
             return ends;
         }
         let ahead = to + way / length * snap;
-        let near: SmallVec<[PieceId; 16]> = self.pieces_near([start, ahead], snap).collect();
+        let near: SmallVec<[PieceId; 16]> = self.ground_near([start, ahead], snap).collect();
         // The first street in the way, and a little beyond the end.
         let crossed = near.iter().filter_map(|&piece| {
             let ends = self.ends(piece);
@@ -296,7 +296,7 @@ impl StreetNetwork {
         *looked_at += near.len() as u64;
         for junction in self.junctions_near([start, until], snap) {
             *looked_at += 1;
-            if junction == from || self.junctions[junction as usize].pieces.is_empty() {
+            if junction == from || !self.has_ground(junction) {
                 continue;
             }
             let place = self.at(junction);

@@ -1,9 +1,6 @@
 //! What growth promises beside obstacles, on streets that are there, and before anything is built.
 
-use std::collections::BTreeMap;
-
 use glam::DVec2;
-use proptest::prelude::*;
 
 use crate::tests::{TestNumbers, check, grown};
 use crate::*;
@@ -113,95 +110,4 @@ fn what_is_probed_is_what_is_built() {
         }
     }
     check(&network);
-}
-
-fn street(line: &[(f64, f64)], is_bridge: bool) -> ExistingStreet {
-    let attributes = StreetAttributes { width: 10.0, ..StreetAttributes::default() };
-    ExistingStreet { line: line.iter().copied().map(DVec2::from).collect(), attributes, is_bridge }
-}
-
-#[test]
-fn existing_streets_meet_at_junctions_where_they_cross_and_touch() {
-    let mut network = StreetNetwork::new(Constraints::default(), Obstacles::default()).expect("defaults");
-    let streets = [
-        street(&[(100.0, -200.0), (100.0, 200.0)], true),
-        street(&[(0.0, 0.0), (200.0, 0.0), (203.0, 0.5), (400.0, 30.0)], false),
-        street(&[(40.0, -100.0), (40.0, 100.0)], false),
-        // Touches the first, nearly.
-        street(&[(160.0, 80.0), (160.0, 0.1)], false),
-        // Runs beside it.
-        street(&[(0.0, 5.0), (200.0, 5.0)], false),
-        street(&[(0.0, f64::NAN), (0.0, 200.0)], false),
-    ];
-    let losses = network.add_existing(&streets).expect("room");
-    assert_eq!((losses.outside, losses.over), (1, 1));
-    assert_eq!(losses.refused, BTreeMap::new());
-    assert_eq!((network.size(), network.components(), network.dead_ends().count()), (7, 1, 5));
-    check(&network);
-    // The same again is nothing new.
-    network.add_existing(&streets).expect("room");
-    assert_eq!(network.size(), 7);
-    let end = network.dead_ends().next().expect("an end");
-    assert!(network.grow(end, DVec2::new(-80.0, 0.0), street(&[], false).attributes).is_ok());
-}
-
-#[test]
-fn existing_streets_that_come_back_to_where_they_began_are_laid_and_those_that_are_there_twice_once() {
-    let square = [(0.0, 0.0), (200.0, 0.0), (200.0, 200.0), (0.0, 200.0), (0.0, 0.0)];
-    let round: Vec<(f64, f64)> = (0..=40)
-        .map(|step| std::f64::consts::TAU * f64::from(step % 40) / 40.0)
-        .map(|angle| (60.0 * angle.cos(), 60.0 * angle.sin()))
-        .collect();
-    let spur = [(60.0, 0.0), (200.0, 0.0)];
-    let way = [(0.0, 300.0), (200.0, 300.0)];
-    let back = [way[1], way[0]];
-    for (lines, pieces, blocks) in [
-        (vec![&square[..]], 4, 1),
-        (vec![&square[..3], &square[2..]], 4, 1),
-        (vec![&way[..], &way[..]], 1, 0),
-        (vec![&way[..], &back[..]], 1, 0),
-        (vec![&way[..], &way[..], &[(0.0, 0.0), (200.0, 0.0)]], 2, 0),
-    ] {
-        let mut network = StreetNetwork::new(Constraints::default(), Obstacles::default()).expect("defaults");
-        let streets: Vec<ExistingStreet> = lines.iter().map(|line| street(line, false)).collect();
-        let losses = network.add_existing(&streets).expect("room");
-        assert_eq!(losses, ExistingLosses::default(), "{lines:?}");
-        assert_eq!((network.size(), network.faces().len()), (pieces, blocks), "{lines:?}");
-        check(&network);
-    }
-    let mut network = StreetNetwork::new(Constraints::default(), Obstacles::default()).expect("defaults");
-    network.add_existing(&[street(&round, false), street(&spur, false)]).expect("room");
-    assert_eq!((network.faces().len(), network.dead_ends().count(), network.components()), (1, 1, 1));
-    let all: f64 = network.pieces().map(|(piece, _)| network.length(piece)).sum();
-    assert!((all / (std::f64::consts::TAU * 60.0 + 140.0) - 1.0).abs() < 0.05, "{all}");
-}
-
-proptest! {
-    #![proptest_config(ProptestConfig::with_cases(150))]
-
-    #[test]
-    fn existing_streets_at_random_keep_what_others_do(
-        lines in prop::collection::vec(prop::collection::vec((-60_i32..60, -60_i32..60), 0..5), 1..25),
-        scale in prop::sample::select(vec![0.01, 0.37, 1.0, 5.3, 11.3]),
-        snap in prop::sample::select(vec![0.0, 8.0, 25.0]),
-    ) {
-        let constraints = Constraints { snap, ..Constraints::default() };
-        let mut network = StreetNetwork::new(constraints, Obstacles::default()).expect("constraints");
-        let streets: Vec<ExistingStreet> = lines.iter().map(|line| {
-            let places = line.iter().map(|(x, y)| (f64::from(*x) * scale, f64::from(*y) * scale));
-            street(&places.collect::<Vec<_>>(), lines.len() % 3 == 0)
-        }).collect();
-        network.add_existing(&streets).expect("room");
-        let pieces: Vec<u32> = network.pieces().map(|(id, _)| id).collect();
-        for (index, &a) in pieces.iter().enumerate() {
-            for &b in &pieces[..index] {
-                let shares = network.ends(a).iter().filter(|end| network.ends(b).contains(end)).count();
-                prop_assert!(shares < 2, "twice the same");
-                let meets = crate::grid::touch(network.grid_line(a), network.grid_line(b));
-                prop_assert!(shares == 1 || !meets, "{:?} {:?}", network.line(a), network.line(b));
-            }
-        }
-        let there = network.junctions().iter().filter(|junction| junction.degree() > 0).count();
-        prop_assert_eq!(there + network.faces().len(), network.size() + network.components());
-    }
 }

@@ -8,8 +8,8 @@ use crate::grid::{GridPlace, foot, touch};
 use crate::grow::StreetEnd;
 use crate::network::{JunctionId, PieceId, StreetAttributes, StreetNetwork};
 
-/// Junctions may come out nearer by this angle (degrees) than was asked, for a piece that is divided turns a little.
-const TURN_OF_DIVISION: f64 = 0.05;
+/// Tolerance (degrees) of the least angle for a new street: both ends are rounded to the grid.
+const ROUNDING: f64 = 0.01;
 /// By how much (m) corners may take more of a street than they did before a new one came.
 const EVEN: f64 = 1e-6;
 
@@ -80,7 +80,7 @@ impl StreetNetwork {
         let line = places.map(GridPlace::metres);
         let to = if let StreetEnd::Junction(junction) = end { Some(junction) } else { None };
         let most = self.constraints.clearance + width / 2.0 + self.widest() / 2.0;
-        for piece in self.pieces_near(line, most) {
+        for piece in self.ground_near(line, most) {
             *looked_at += 1;
             let ends = self.ends(piece);
             let of_end = to.is_some_and(|to| ends.contains(&to));
@@ -133,7 +133,7 @@ impl StreetNetwork {
 
     /// Tests the angles and the corners of a junction to which an arm comes; gives how much of that its corners take.
     fn test_corners(&self, mut arms: Arms, new: Arm) -> std::result::Result<f64, Refusal> {
-        let least = (self.constraints.min_angle + TURN_OF_DIVISION).to_radians();
+        let least = (self.constraints.min_angle - ROUNDING).to_radians();
         let too_sharp = |known: &MeasuredArm| {
             let angle = turn(new.way, known.arm.way);
             angle.min(std::f64::consts::TAU - angle) < least
@@ -167,7 +167,7 @@ impl StreetNetwork {
             return false;
         }
         let at = place.metres();
-        let least = self.constraints.min_angle.to_radians();
+        let least = self.constraints.least_angle().to_radians();
         ends.into_iter().all(|end| {
             let to = self.at(end);
             let way = (at - to).normalize_or_zero();
@@ -177,7 +177,7 @@ impl StreetNetwork {
             });
             let half = [place, self.junctions[end as usize].place];
             let crosses = || {
-                self.pieces_near(half.map(GridPlace::metres), 0.01).any(|other| {
+                self.ground_near(half.map(GridPlace::metres), 0.01).any(|other| {
                     other != piece && !self.ends(other).contains(&end) && touch(half, self.grid_line(other))
                 })
             };

@@ -48,7 +48,38 @@ impl StreetKind {
     /// What streets of this kind are in a network.
     pub fn attributes(&self, depth: u32) -> StreetAttributes {
         let Self { width, sidewalk, median, .. } = *self;
-        StreetAttributes { width, sidewalk, median, depth }
+        StreetAttributes { width, sidewalk, median, lanes: 0, depth, level: 0 }
+    }
+
+    /// The kind as a street of these attributes has it: what the street sets itself counts, and what then has no room is
+    /// left out.
+    #[must_use]
+    pub fn adapted(self, attributes: StreetAttributes) -> Self {
+        let StreetAttributes { width, sidewalk, median, lanes, .. } = attributes;
+        if (self.width, self.sidewalk, self.median, 0) == (width, sidewalk, median, lanes) {
+            return self;
+        }
+        let lanes = if lanes > 0 { Some(lanes) } else { self.lanes };
+        let has_room = |kind: &Self| kind.check().is_ok();
+        let set = Self { width, sidewalk, median, lanes, ..self };
+        let mut choices = [
+            set,
+            Self { parking: 0.0, ..set },
+            Self { trees: 0.0, lamps: 0.0, ..set },
+            Self { parking: 0.0, trees: 0.0, lamps: 0.0, ..set },
+            Self { parking: 0.0, trees: 0.0, lamps: 0.0, lanes: None, ..set },
+            Self { parking: 0.0, trees: 0.0, lamps: 0.0, lanes: None, median: 0.0, ..set },
+        ]
+        .into_iter();
+        choices.find(has_room).unwrap_or(Self {
+            width,
+            sidewalk,
+            parking: 0.0,
+            median: 0.0,
+            lanes: Some(1),
+            trees: 0.0,
+            lamps: 0.0,
+        })
     }
 
     /// Width (m) between the kerbs.

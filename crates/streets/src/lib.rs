@@ -41,6 +41,7 @@ mod kinds;
 mod lots;
 mod marks;
 mod measures;
+mod merged;
 mod network;
 mod obstacles;
 mod placement;
@@ -61,7 +62,7 @@ mod verge;
 pub use areas::StreetArea;
 pub use constraints::{Constraints, Fate, Refusal};
 pub use dead_ends::DeadEndOptions;
-pub use existing::{ExistingLosses, ExistingStreet};
+pub use existing::{ExistingLoss, ExistingLossReason, ExistingReport, ExistingStreet};
 pub use faces::{Course, StreetFace};
 pub use fit::{SlopeOptions, StreetFit};
 pub use grid::{FARTHEST, GridPlace};
@@ -76,5 +77,8 @@ pub use placement::{SiteOptions, StreetSite, StreetSites};
 pub use profile::StreetProfiles;
 pub use spans::StreetSpan;
 pub use stretches::StreetStretch;
-pub use surface::{Median, Sidewalk, StreetFooting, StreetSurface, StreetSurfaces, SurfaceOptions};
+pub use surface::{
+    Median, MergedSurfaces, Sidewalk, StreetDeck, StreetFooting, StreetSurface, StreetSurfaces,
+    SurfaceOptions,
+};
 pub use verge::{VergeKind, VergePlace};

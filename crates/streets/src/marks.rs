@@ -83,8 +83,8 @@ impl StreetNetwork {
     ) -> Vec<Marking> {
         let shapes = StreetShapes::new(self, options.turning);
         let mut markings = Vec::new();
-        for (piece, found) in self.pieces() {
-            let kind = StreetKind::of(kinds, found.attributes.depth);
+        for (piece, found) in self.pieces().filter(|(_, piece)| piece.attributes.level >= 0) {
+            let kind = StreetKind::of(kinds, found.attributes.depth).adapted(found.attributes);
             let mut painter = Painter::new(&shapes, profiles, piece, kind, &mut markings);
             painter.paint();
         }

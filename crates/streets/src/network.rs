@@ -8,6 +8,7 @@ use smallvec::SmallVec;
 use crate::constraints::Constraints;
 use crate::corner::{Arm, Corner};
 use crate::grid::GridPlace;
+use crate::merged::MergeCache;
 use crate::obstacles::Obstacles;
 use burgeon_base::error::Result;
 
@@ -25,8 +26,12 @@ pub struct StreetAttributes {
     pub sidewalk: f64,
     /// Width (m) of the raised strip in its middle; 0 for none.
     pub median: f64,
+    /// The number of lanes for both directions; 0 for as many as its kind has.
+    pub lanes: u32,
     /// How many times its way branched off: 0 for a main street.
     pub depth: u32,
+    /// 0 on the ground, 1 on a bridge, -1 in a tunnel, and so on: streets of different levels cross without a junction.
+    pub level: i32,
 }
 
 /// Where streets meet, turn or end.
@@ -71,14 +76,16 @@ pub struct StreetPiece {
     pub(crate) is_there: bool,
     /// Whether it leads over an obstacle.
     pub is_bridge: bool,
+    /// Whether it existed before the network grew, so that it stays.
+    pub is_existing: bool,
 }
 
 type IndexItem<G> = GeomWithData<G, u32>;
 
-/// A planar network of streets, which meet only at junctions.
+/// A network of streets, which meet only at junctions.
 ///
-/// No two of its pieces have a place in common but a junction, each keeps its distance from what it does not join, and
-/// at no junction is an angle smaller than the least one. All of it is decided on a grid, exactly.
+/// No two of its pieces of one level have a place in common but a junction. Each that grew keeps its distance from what it
+/// does not join, and meets others at no angle smaller than the least one. All of it is decided on a grid, exactly.
 #[derive(Clone)]
 pub struct StreetNetwork {
     pub(crate) constraints: Constraints,
@@ -88,6 +95,9 @@ pub struct StreetNetwork {
     piece_index: RTree<IndexItem<IndexLine<[f64; 2]>>>,
     junction_index: RTree<IndexItem<[f64; 2]>>,
     widest: f64,
+    pub(crate) has_existing: bool,
+    /// Surfaces that were asked for last.
+    pub(crate) merge_cache: MergeCache,
     /// How often pieces were added or taken away.
     version: u64,
     /// How many neighbours were looked at, to show what the index saves.
@@ -106,6 +116,8 @@ impl StreetNetwork {
             piece_index: RTree::new(),
             junction_index: RTree::new(),
             widest: 0.0,
+            has_existing: false,
+            merge_cache: MergeCache::default(),
             version: 0,
             looked_at: 0,
         })
@@ -255,7 +267,7 @@ impl StreetNetwork {
         let id = self.pieces.len() as PieceId;
         self.widest = self.widest.max(attributes.width);
         self.version += 1;
-        self.pieces.push(StreetPiece { ends, attributes, is_there: true, is_bridge });
+        self.pieces.push(StreetPiece { ends, attributes, is_there: true, is_bridge, is_existing: false });
         for end in ends {
             self.junctions[end as usize].pieces.push(id);
         }
@@ -287,13 +299,88 @@ impl StreetNetwork {
 
     /// Divides a piece at a place near it; gives the junction there.
     pub(crate) fn divide(&mut self, piece: PieceId, place: GridPlace) -> JunctionId {
-        let StreetPiece { ends: [a, b], attributes, is_bridge, .. } = self.pieces[piece as usize];
+        let StreetPiece { ends: [a, b], attributes, is_bridge, is_existing, .. } =
+            self.pieces[piece as usize];
         let middle = self.junction(place);
         // The junctions of its ends stay, for a half of it leads to each.
-        self.add([a, middle], attributes, is_bridge);
-        self.add([middle, b], attributes, is_bridge);
+        for ends in [[a, middle], [middle, b]] {
+            let half = self.add(ends, attributes, is_bridge);
+            self.pieces[half as usize].is_existing = is_existing;
+        }
         self.remove(piece);
         middle
+    }
+
+    /// Takes a piece out, whose junctions stay.
+    pub(crate) fn take_out(&mut self, piece: usize) {
+        #[allow(clippy::cast_possible_truncation, reason = "pieces are limited far below")]
+        let id = piece as PieceId;
+        if !std::mem::replace(&mut self.pieces[piece].is_there, false) {
+            return;
+        }
+        self.version += 1;
+        self.piece_index.remove(&self.indexed(id));
+        for end in self.pieces[piece].ends {
+            self.junctions[end as usize].pieces.retain(|known| *known != id);
+        }
+    }
+
+    /// Moves a junction without streets to a place.
+    pub(crate) fn relocate(&mut self, junction: JunctionId, place: GridPlace) {
+        let known = &mut self.junctions[junction as usize];
+        let before = std::mem::replace(&mut known.place, place);
+        self.junction_index.remove(&GeomWithData::new(before.metres().to_array(), junction));
+        self.junction_index.insert(GeomWithData::new(place.metres().to_array(), junction));
+    }
+
+    /// Gives the streets of one junction to another one, which has none and takes its place.
+    pub(crate) fn replace_junction(&mut self, bare: JunctionId, of: JunctionId) {
+        let place = self.junctions[of as usize].place;
+        self.junction_index.remove(&GeomWithData::new(place.metres().to_array(), of));
+        self.relocate(bare, place);
+        let pieces = std::mem::take(&mut self.junctions[of as usize].pieces);
+        for piece in &pieces {
+            for end in &mut self.pieces[*piece as usize].ends {
+                if *end == of {
+                    *end = bare;
+                }
+            }
+        }
+        self.junctions[bare as usize].pieces = pieces;
+        self.version += 1;
+    }
+
+    /// Tells if some of its streets existed before it grew.
+    pub fn has_existing(&self) -> bool {
+        self.has_existing
+    }
+
+    /// Tells if a piece lies on the ground, neither on a bridge over other streets nor in a tunnel.
+    pub fn is_on_ground(&self, piece: PieceId) -> bool {
+        self.pieces[piece as usize].attributes.level == 0
+    }
+
+    /// Tells if a street on the ground leads to a junction.
+    pub(crate) fn has_ground(&self, junction: JunctionId) -> bool {
+        self.junctions[junction as usize].pieces.iter().any(|piece| self.is_on_ground(*piece))
+    }
+
+    /// The pieces on the ground whose boxes come within `margin` (m) of a box around `line`.
+    pub(crate) fn ground_near(&self, line: [DVec2; 2], margin: f64) -> impl Iterator<Item = PieceId> + '_ {
+        self.pieces_near(line, margin).filter(|piece| self.is_on_ground(*piece))
+    }
+
+    /// The nearest piece on the ground to a place and its distance (m); `None` without any.
+    pub fn nearest_on_ground(&self, place: DVec2) -> Option<(PieceId, f64)> {
+        self.nearest_of_level(place, 0)
+    }
+
+    /// The nearest piece of a level to a place and its distance (m); `None` without any.
+    pub(crate) fn nearest_of_level(&self, place: DVec2, level: i32) -> Option<(PieceId, f64)> {
+        let place = place.to_array();
+        let mut near = self.piece_index.nearest_neighbor_iter(&place);
+        let found = near.find(|found| self.attributes(found.data).level == level)?;
+        Some((found.data, found.distance_2(&place).sqrt()))
     }
 
     /// The widest street (m) so far.

@@ -126,7 +126,8 @@ impl StreetNetwork {
             return Err(Error::argument(text).help("give greater distances along and away"));
         }
         let mut index = SiteIndex::new(self, surface);
-        let mut pieces: Vec<PieceId> = self.pieces().map(|(piece, _)| piece).collect();
+        let ground = self.pieces().filter(|(_, piece)| piece.attributes.level == 0);
+        let mut pieces: Vec<PieceId> = ground.map(|(piece, _)| piece).collect();
         let order = |piece: &PieceId| {
             let [a, b] = self.grid_line(*piece);
             (self.attributes(*piece).depth, a.min(b), a.max(b))
@@ -221,6 +222,7 @@ impl SiteIndex {
         let surfaces = network.surfaces(surface, &StreetProfiles::default());
         let edges =
             surfaces.sidewalks.iter().flat_map(|sidewalk| burgeon_geometry::planar::edges(&sidewalk.edge));
+        let edges = edges.chain(surfaces.merged.edges.iter().copied());
         let edges = edges.filter_map(|edge| {
             let [a, b] = edge.map(|end| FinePlace::nearest(end.truncate()));
             let (a, b) = (a?.metres(), b?.metres());

@@ -17,6 +17,12 @@ pub struct StreetProfiles {
 pub(crate) type PieceProfile = SmallVec<[[f64; 2]; 2]>;
 
 impl StreetProfiles {
+    /// Tells if all streets are at height 0.
+    pub fn is_flat(&self) -> bool {
+        self.junctions.iter().all(|height| *height == 0.0)
+            && self.pieces.iter().flatten().all(|[_, height]| *height == 0.0)
+    }
+
     /// The height (m) of a junction.
     pub fn junction(&self, junction: JunctionId) -> f64 {
         self.junctions.get(junction as usize).copied().unwrap_or(0.0)

@@ -5,6 +5,7 @@ use smallvec::SmallVec;
 
 use crate::corner::{Arm, Corner, LINES};
 use crate::grid::foot;
+use crate::merged::goes_on;
 use crate::network::{JunctionId, PieceId, StreetNetwork};
 
 /// Places (m) that are nearer are one: what lies between them would be a sliver.
@@ -70,6 +71,12 @@ impl<'a> StreetShapes<'a> {
     pub(crate) fn new(network: &'a StreetNetwork, turning: f64) -> Self {
         #[allow(clippy::cast_possible_truncation, reason = "pieces are limited far below")]
         let count = network.junctions.len() as JunctionId;
+        if network.has_existing() {
+            let clear = network.clear_lengths();
+            let junctions =
+                (0..count).map(|junction| JunctionShape::beside(network, junction, &clear)).collect();
+            return Self { network, junctions };
+        }
         let junctions = (0..count).map(|junction| JunctionShape::new(network, junction, turning)).collect();
         let mut shapes = Self { network, junctions };
         shapes.change(|shape| shape.arms.iter().any(|arm| arm.corner.is_taper()), JunctionShape::shortened);
@@ -193,7 +200,7 @@ fn merge<'a>(first: DVec2, points: impl Iterator<Item = &'a mut DVec2>) {
 }
 
 /// The greatest radius (m), up to `turning`, of a circle around a dead end that meets neither other streets nor their circles.
-fn room_around(network: &StreetNetwork, dead_end: JunctionId, turning: f64) -> f64 {
+pub(crate) fn room_around(network: &StreetNetwork, dead_end: JunctionId, turning: f64) -> f64 {
     let at = network.at(dead_end);
     let streets = network.pieces_near([at; 2], turning + network.widest() / 2.0);
     let beside = streets
@@ -238,6 +245,32 @@ impl JunctionShape {
                 (corner.reaches[0].max(before.reaches[1]), 0.0)
             };
             ArmShape { piece, arm, corner, reach, skew }
+        });
+        Self { at, arms: shapes.collect(), is_mitred }
+    }
+
+    /// A junction of a network with existing streets: each piece begins where it is free of others, without a corner of its
+    /// own.
+    fn beside(network: &StreetNetwork, junction: JunctionId, clear: &[[f64; 2]]) -> Self {
+        let at = network.at(junction);
+        let arms = network.corner_arms(junction);
+        let count = arms.len();
+        let reach = |piece: PieceId| {
+            let [first, last] = clear[piece as usize];
+            let [begin, end] = network.ends(piece);
+            let room = network.length(piece) - first - last;
+            let own = if begin == junction { first } else { last };
+            let is_corner = |end: JunctionId| network.junctions[end as usize].degree() > 2;
+            let share = if is_corner(begin) && is_corner(end) { 0.5 } else { 1.0 };
+            let corner = if count > 2 { network.constraints.corner.min(room * share * SHARE) } else { 0.0 };
+            own + corner.max(0.0)
+        };
+        let is_mitred = goes_on(network, junction) && arms.iter().all(|(piece, _)| reach(*piece) == 0.0);
+        let is_mitred = is_mitred || (count == 1 && network.constraints.square_ends);
+        let shapes = arms.iter().enumerate().map(|(index, &(piece, arm))| {
+            let corner = Corner::new([arm, arms[(index + 1) % count].1], 0.0);
+            let skew = if is_mitred && count == 2 { 1.0 / (corner.angle / 2.0).tan() } else { 0.0 };
+            ArmShape { piece, arm, corner, reach: reach(piece), skew }
         });
         Self { at, arms: shapes.collect(), is_mitred }
     }

@@ -30,7 +30,7 @@ fn stars(seed: u64) -> StreetNetwork {
         width,
         sidewalk: width * pick(&[0.0, 0.1, 0.25]),
         median: if width > 10.0 { pick(&[0.0, 0.0, width * 0.1]) } else { 0.0 },
-        depth: 0,
+        ..StreetAttributes::default()
     });
     let mut network = StreetNetwork::new(constraints, Obstacles::default()).expect("constraints");
     let near = |random: &mut TestNumbers| {

@@ -32,10 +32,10 @@ pub struct StreetSpan {
 }
 
 impl StreetNetwork {
-    /// The bridges of its streets.
+    /// The bridges of its streets on the ground; those over other streets are decks of its surfaces.
     pub fn spans(&self, options: SurfaceOptions, profiles: &StreetProfiles) -> Vec<StreetSpan> {
         let shapes = StreetShapes::new(self, options.turning);
-        let bridges = self.pieces().filter(|(_, piece)| piece.is_bridge);
+        let bridges = self.pieces().filter(|(_, piece)| piece.is_bridge && piece.attributes.level == 0);
         bridges.map(|(piece, _)| self.span(&shapes, profiles, piece)).collect()
     }
 

@@ -63,6 +63,32 @@ pub struct StreetSurfaces {
     pub sidewalks: Vec<Sidewalk>,
     /// Between the two directions.
     pub medians: Vec<Median>,
+    /// What streets that lie in one another have in place of [sidewalks](Self::sidewalks).
+    pub merged: MergedSurfaces,
+}
+
+/// The sidewalks of a network with existing streets, and its bridges over other streets.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct MergedSurfaces {
+    /// Where people walk.
+    pub walks: Vec<StreetSurface>,
+    /// Edges (m) of carriageways, which are on their right.
+    pub kerbs: Vec<[DVec3; 2]>,
+    /// Edges (m) of streets on the ground, which are on their right.
+    pub edges: Vec<[DVec3; 2]>,
+    /// What carries streets over others.
+    pub decks: Vec<StreetDeck>,
+}
+
+/// What carries the streets of a level over those of lower ones.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct StreetDeck {
+    /// All that it carries, carriageways and sidewalks.
+    pub surface: StreetSurface,
+    /// Its edges (m), with the deck on their right, and whether a railing stands there: none does where it ends.
+    pub sides: Vec<([DVec3; 2], bool)>,
+    /// Where piers stand below it (m), at the height of the street, with the direction of the street there.
+    pub piers: Vec<(DVec3, DVec2)>,
 }
 
 impl StreetNetwork {
@@ -70,14 +96,22 @@ impl StreetNetwork {
     pub fn surfaces(&self, options: SurfaceOptions, profiles: &StreetProfiles) -> StreetSurfaces {
         let shapes = StreetShapes::new(self, options.turning);
         let mut surfaces = StreetSurfaces::default();
-        for (piece, _) in self.pieces() {
+        for (piece, known) in self.pieces().filter(|(_, piece)| piece.attributes.level >= 0) {
             let rows = PieceRows::new(&shapes, profiles, piece);
-            surfaces.carriageways.push(rows.carriageway());
+            // The medians of merged streets lie on the carriageway.
             surfaces.medians.extend(rows.median());
+            if !self.has_existing() {
+                surfaces.carriageways.push(rows.carriageway());
+            }
+            debug_assert!(self.has_existing() || known.attributes.level == 0);
         }
         #[allow(clippy::cast_possible_truncation, reason = "pieces are limited far below")]
-        for junction in 0..self.junctions.len() as JunctionId {
+        for junction in (0..self.junctions.len() as JunctionId).filter(|_| !self.has_existing()) {
             surfaces.carriageways.extend(junction_surface(&shapes, profiles, junction));
+        }
+        if let Some(merged) = self.merged(self.merge_options(options, profiles)) {
+            self.add_merged(&merged, profiles, &mut surfaces);
+            return surfaces;
         }
         for way in self.ways() {
             let is_around_block = self.area(&way) > 0.0;
@@ -111,6 +145,9 @@ impl StreetNetwork {
 
     /// The same, at the heights of `profiles`.
     pub fn blocks_at(&self, options: SurfaceOptions, profiles: &StreetProfiles) -> Vec<Rings> {
+        if let Some(merged) = self.merged(self.merge_options(options, profiles)) {
+            return self.merged_blocks(&merged, profiles);
+        }
         let shapes = StreetShapes::new(self, options.turning);
         let ring = |way: &[Course]| {
             let sides = sides(&shapes, profiles, way);
@@ -143,7 +180,7 @@ impl StreetNetwork {
     pub fn footings(&self, options: SurfaceOptions, profiles: &StreetProfiles) -> Vec<StreetFooting> {
         let shapes = StreetShapes::new(self, options.turning);
         let mut footings = Vec::new();
-        for (piece, known) in self.pieces() {
+        for (piece, known) in self.pieces().filter(|(_, piece)| piece.attributes.level == 0) {
             let [start, stop] = self.line(piece);
             let (way, length) = ((stop - start).normalize_or_zero(), start.distance(stop));
             let [first, last] = known.ends.map(|end| profiles.junction(end));
@@ -180,6 +217,10 @@ impl StreetNetwork {
         for junction in 0..self.junctions.len() as JunctionId {
             let shape = shapes.junction(junction);
             if shape.arms.is_empty() || shape.is_mitred {
+                continue;
+            }
+            if self.has_existing() {
+                footings.extend(self.round_footing(junction, profiles));
                 continue;
             }
             let mut line = outline(&shapes, junction, StreetLine::Edge);

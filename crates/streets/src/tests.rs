@@ -63,7 +63,7 @@ pub(crate) fn grown(seed: u64, size: usize, constraints: Constraints, obstacles:
 /// Asserts all that a network promises, by looking at every pair of pieces.
 pub(crate) fn check(network: &StreetNetwork) {
     let pieces: Vec<u32> = network.pieces().map(|(id, _)| id).collect();
-    let least = network.constraints().min_angle;
+    let least = network.constraints().least_angle();
     for (index, &a) in pieces.iter().enumerate() {
         assert!(network.length(a) >= network.constraints().min_length - 1e-3, "length {}", network.length(a));
         for &b in &pieces[..index] {

@@ -52,8 +52,8 @@ impl StreetNetwork {
     ) -> Vec<VergePlace> {
         let shapes = StreetShapes::new(self, options.turning);
         let mut places = Vec::new();
-        for (piece, known) in self.pieces() {
-            let kind = StreetKind::of(kinds, known.attributes.depth);
+        for (piece, known) in self.pieces().filter(|(_, piece)| piece.attributes.level == 0) {
+            let kind = StreetKind::of(kinds, known.attributes.depth).adapted(known.attributes);
             // No tree grows on what carries a street.
             let carried = self.carried(piece).filter(|_| thing == VergeKind::Tree);
             let is_carried = |along: f64| carried.is_some_and(|[from, to]| (from..=to).contains(&along));

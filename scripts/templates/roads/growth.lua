@@ -97,7 +97,9 @@ end
 function growth.system(options: RoadOptions, ...: number)
   -- How many functions are called between this and the script, for errors.
   local level = 3 + ((...) or 0)
-  checks.options("roads.system", options :: any, KNOWN, level)
+  -- What the script has called, for errors.
+  local caller = if level > 3 then "roads.grow" else "roads.system"
+  checks.options(caller, options :: any, KNOWN, level)
   local given: any = options.pattern or patterns.organic()
   local is_by_place = type(given) == "function"
   local pattern_at: (x: number, y: number) -> Pattern = if is_by_place
@@ -108,11 +110,11 @@ function growth.system(options: RoadOptions, ...: number)
       return given
     end
   if not is_by_place then
-    patterns.check("roads.system: pattern", given, level)
+    patterns.check(`{caller}: pattern`, given, level)
   end
   local extent: any = options.extent
   if type(extent) ~= "function" then
-    extent = number("roads.system: extent", extent, 500, 1, 500000, level)
+    extent = number(`{caller}: extent`, extent, 500, 1, 500000, level)
   end
   local inside: (x: number, y: number) -> boolean = if type(extent) == "function"
     then function(x, y)
@@ -126,37 +128,37 @@ function growth.system(options: RoadOptions, ...: number)
       return x * x + y * y < extent * extent
     end
   local people = options.population
-  local deepest = number("roads.system: deepest", options.deepest, 4, 0, 20, level)
-  local steps = number("roads.system: steps", options.steps, 24, 1, 10000, level)
+  local deepest = number(`{caller}: deepest`, options.deepest, 4, 0, 20, level)
+  local steps = number(`{caller}: steps`, options.steps, 24, 1, 10000, level)
   if steps % 1 ~= 0 then
-    error(`roads.system: steps must be a whole number, not {steps}`, level - 1)
+    error(`{caller}: steps must be a whole number, not {steps}`, level - 1)
   end
-  local detour = number("roads.system: detour", options.detour, 2.5, 1, 100, level)
+  local detour = number(`{caller}: detour`, options.detour, 2.5, 1, 100, level)
   local dead_ends = options.dead_ends or "keep"
   if dead_ends ~= "keep" and dead_ends ~= "remove" then
-    error(`roads.system: dead_ends is "keep" or "remove", not "{dead_ends}"`, level - 1)
+    error(`{caller}: dead_ends is "keep" or "remove", not "{dead_ends}"`, level - 1)
   end
   -- What is removed should rather have been joined, or not have stopped.
   local keeps = dead_ends == "keep"
   local usual_join = if is_by_place then JOIN else given.join or JOIN
-  local join = number("roads.system: join", options.join, if keeps then usual_join else 130, 0, 2000, level)
+  local join = number(`{caller}: join`, options.join, if keeps then usual_join else 130, 0, 2000, level)
   local centres = options.centres or { { 0, 0 } }
   local headings = options.headings or { 8, 98, 188, 278 }
   if options.onto then
     if not (options.network and options.network.existing) then
-      error("roads.system: onto = true takes streets that are there: network = { existing = ... }", level - 1)
+      error(`{caller}: onto = true takes streets that are there: network = \{ existing = ... }`, level - 1)
     end
   elseif #centres == 0 or #headings == 0 then
     error(
-      "roads.system: centres and headings say where streets begin; leave them out, or give one or more",
+      `{caller}: centres and headings say where streets begin; leave them out, or give one or more`,
       level - 1
     )
   end
   for index, heading in headings do
-    number(`roads.system: heading {index}`, heading, 0, -360000, 360000, level)
+    number(`{caller}: heading {index}`, heading, 0, -360000, 360000, level)
   end
   for index, centre in centres do
-    checks.place(`roads.system: centre {index}`, centre, level)
+    checks.place(`{caller}: centre {index}`, centre, level)
   end
 
   local fields: any =
@@ -168,13 +170,13 @@ function growth.system(options: RoadOptions, ...: number)
     fields.starts = fields.starts or {}
   elseif fields.starts then
     error(
-      "roads.system: network has starts, but streets begin at centres: give centres = { { x, y } }",
+      `{caller}: network has starts, but streets begin at centres: give centres = \{ \{ x, y } }`,
       level - 1
     )
   else
     fields.starts = centres
   end
-  local leads_out = if options.exits then exits.check("roads.system: exits", options.exits, level) else nil
+  local leads_out = if options.exits then exits.check(`{caller}: exits`, options.exits, level) else nil
   local growing = if leads_out then math.max(steps - exits.STEPS, 1) else steps
   local allowed = options.allowed
   local system = lsystem({ object = checks.construct(network, fields, level) :: Network })
@@ -353,7 +355,7 @@ function growth.system(options: RoadOptions, ...: number)
     looks[math.floor(growing * share)] = growing >= 8
   end
 
-  local axiom: { any } = if #centres > 1 then highways.axiom(centres, growing, level) else {}
+  local axiom: { any } = if #centres > 1 then highways.axiom(centres, growing, caller, level) else {}
   local wait = if #axiom > 0 then TOWN_WAIT else 0
   if options.onto then
     table.insert(axiom, Outskirts())

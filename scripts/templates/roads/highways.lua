@@ -39,8 +39,8 @@ local function joined(centres: { { number } }): { { number } }
   return pairs
 end
 
--- The modules of the highways that join centres in so many steps, from errors that are told `level` functions above.
-function highways.axiom(centres: { { number } }, steps: number, level: number): { any }
+-- The modules of the highways that join centres in so many steps; errors name `caller`, `level` functions above.
+function highways.axiom(centres: { { number } }, steps: number, caller: string, level: number): { any }
   local modules = {}
   for _, pair in joined(centres) do
     local from, to = centres[pair[1]], centres[pair[2]]
@@ -49,7 +49,7 @@ function highways.axiom(centres: { { number } }, steps: number, level: number): 
     local least = math.ceil(far / LENGTH) + 1
     if least > steps then
       error(
-        `roads.system: the highway from centre {pair[1]} to centre {pair[2]}, {math.round(far)} m, takes {least} steps or more, and there are {steps}; give more, or centres that are nearer`,
+        `{caller}: the highway from centre {pair[1]} to centre {pair[2]}, {math.round(far)} m, takes {least} steps or more, and there are {steps}; give more, or centres that are nearer`,
         level
       )
     end

@@ -28,15 +28,20 @@ local WORD = {
   detour = "number",
   dead_ends = "string",
 }
-local SYMBOLS = "F builds a street, + and - turn clockwise and back, [ and ] hold a branch, X only rewrites"
 -- The most symbols that a word may have.
 local LONGEST = 500000
 
--- A word as a list of characters and, for each branch, a list; refuses what cannot be read.
-local function parsed(what: string, word: string, productions: { [string]: any }, ...: any): { any }
+-- A word as a list of characters and, for each branch, a list; refuses what cannot be read. Every character but a bracket
+-- and white space is a symbol.
+local function parsed(what: string, word: string, ...: any): { any }
+  if type(word) ~= "string" or not utf8.len(word) then
+    error(`roads.word: {what} must be a word of characters, not {word}`, 3)
+  end
   local open: { { any } } = { {} }
-  for place = 1, #word do
-    local name = string.sub(word, place, place)
+  local place = 0
+  for _, code in utf8.codes(word) do
+    local name = utf8.char(code)
+    place += 1
     if name == "[" then
       local branch: { any } = {}
       table.insert(open, branch)
@@ -46,13 +51,8 @@ local function parsed(what: string, word: string, productions: { [string]: any }
         error(`roads.word: {what} "{word}" has a ] at {place} that closes no [`, 3)
       end
       table.insert(open[#open], branch)
-    elseif string.find("F+-X", name, 1, true) or productions[name] then
-      table.insert(open[#open], name)
     elseif not string.find(name, "%s") then
-      error(
-        `roads.word: {what} "{word}" has {name} at {place}, which is no symbol: {SYMBOLS}, and so do symbols with a production`,
-        3
-      )
+      table.insert(open[#open], name)
     end
   end
   if #open > 1 then
@@ -114,12 +114,15 @@ function words.word(options: { [string]: any })
   local trees: { [string]: { { any } } } = {}
   local growth: { [string]: { [string]: number } } = {}
   for name, list in productions do
-    if type(name) ~= "string" or #name ~= 1 or name == "[" or name == "]" then
-      error(`roads.word: a production of {name} cannot be: one character but a bracket is rewritten`, 2)
+    if type(name) ~= "string" or utf8.len(name) ~= 1 or string.find(name, "[%[%]%s]") then
+      error(
+        `roads.word: a production of {name} cannot be: one character is rewritten, which is no bracket and no white space`,
+        2
+      )
     end
     trees[name], growth[name] = {}, {}
     for _, word in if type(list) == "table" then list else { list } do
-      local tree = parsed(`the production of {name},`, word, productions)
+      local tree = parsed(`the production of {name},`, word)
       table.insert(trees[name], tree)
       for symbol, count in counted(tree, {}) do
         growth[name][symbol] = math.max(growth[name][symbol] or 0, count)
@@ -129,7 +132,7 @@ function words.word(options: { [string]: any })
       error(`roads.word: {name} has an empty list of productions`, 2)
     end
   end
-  local axiom = parsed("the axiom", options.axiom or "X", productions)
+  local axiom = parsed("the axiom", options.axiom or "X")
 
   -- How long the word becomes at most is known before it is written.
   local counts = counted(axiom, {})
@@ -151,10 +154,10 @@ function words.word(options: { [string]: any })
     end
   end
 
-  -- What branches off at a small angle is allowed to.
+  -- The network allows the angles that the word asks for, down to its own limit of 10 degrees.
   local leaves = if split == "plain" then bend else branch
   local sharpest = math.min(leaves % 180, 180 - leaves % 180)
-  local sharp = math.clamp(sharpest, 15, 50)
+  local sharp = math.clamp(sharpest, 10, 50)
   local fields: any = { streets = growth.STREETS, min_angle = sharp, snap = 25 }
   for name, value in options.network or {} do
     fields[name] = value

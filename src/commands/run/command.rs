@@ -144,7 +144,8 @@ impl RunCommand {
 
     /// Warns of files without a model in them; such a run fails if it is to be strict.
     fn warn_of_nothing(&self, session: &Session, run: &mut burgeon::Run) -> Result<()> {
-        if self.writes(Format::has_layers) && layers(session, &run.systems).is_empty() {
+        let is_bare = || layers(session, &run.systems).iter().all(|layer| layer.records.is_empty());
+        if self.writes(Format::has_layers) && is_bare() {
             let text = "there are no layers to write, for no module of the final chains has a geometry";
             let warning = Warning::new(WarningKind::EmptyModel, text)
                 .at(run.systems.first().and_then(|system| system.place.clone()))

@@ -172,6 +172,7 @@ impl<'a> Growth<'a> {
             // What only earlier passes drew is gone.
             self.later.clear();
         }
+        self.later.retain(|warning| !warning.is_of_pass());
         let (leader, uses) = (self.leader, &mut self.interpretations);
         let chain = InterpretationPass::pass(leader, plan, chain, step, uses, &mut self.later)?;
         plan.expand(&self.rewriter, &mut self.later)?;

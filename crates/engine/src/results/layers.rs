@@ -83,6 +83,8 @@ impl LayerTables {
             if lists.contains(name) {
                 continue;
             }
+            // A layer without features is one, too.
+            self.named(name);
             for (number, feature) in (1..).zip(&features) {
                 let Value::Table(feature) = feature else { continue };
                 let layer = self.named(name);

@@ -5,12 +5,15 @@ use std::sync::Arc;
 use burgeon_base::error::{Error, Result};
 use burgeon_base::warning::{Warning, WarningKind};
 use burgeon_kit::{Parameter, Table, TableKey, Value, Vector};
-use burgeon_streets::{DeadEndOptions, Fate, JunctionId, Measures, Refusal, StreetNetwork, StreetProspect};
+use burgeon_streets::{
+    DeadEndOptions, ExistingLoss, Fate, JunctionId, Measures, Refusal, StreetNetwork, StreetProspect,
+};
 use glam::DVec2;
 
 /// A table of named values.
 fn named<const N: usize>(entries: [(&str, Value); N]) -> Value {
-    let entries = entries.into_iter().map(|(name, value)| (TableKey::Name(name.into()), value));
+    let there = entries.into_iter().filter(|(_, value)| !matches!(value, Value::Nil));
+    let entries = there.map(|(name, value)| (TableKey::Name(name.into()), value));
     Value::Table(Arc::new(Table { class: None, entries: entries.collect() }))
 }
 
@@ -63,9 +66,24 @@ pub(super) fn measures(measures: &Measures) -> Value {
     )
 }
 
-/// The dead ends: their junctions, where they are, where they lead on to, and the depth of their streets.
+/// The missing parts of existing streets.
+pub(super) fn omitted(losses: &[ExistingLoss]) -> Value {
+    let parts = losses.iter().map(|loss| {
+        named([
+            ("name", Value::Text(loss.name.as_str().into())),
+            ("place", loss.at.map_or(Value::Nil, place)),
+            ("length", Value::Number(loss.length)),
+            ("reason", Value::Text(loss.why.name().into())),
+        ])
+    });
+    parts.collect::<Vec<_>>().into_value()
+}
+
+/// The dead ends on the ground: their junctions, where they are, where they lead on to, and the depth of their streets.
 pub(super) fn open_ends(network: &StreetNetwork) -> Value {
-    let ends = network.dead_ends().map(|end| {
+    let on_ground =
+        |end: &JunctionId| network.arms(*end).iter().all(|(piece, _)| network.is_on_ground(*piece));
+    let ends = network.dead_ends().filter(on_ground).map(|end| {
         let arms = network.arms(end);
         let (piece, way) = arms[0];
         named([

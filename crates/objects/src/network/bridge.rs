@@ -5,7 +5,7 @@ use glam::{DVec2, DVec3};
 use burgeon_base::error::Result;
 use burgeon_geometry::face;
 use burgeon_scene::Part;
-use burgeon_streets::StreetSpan;
+use burgeon_streets::{StreetDeck, StreetSpan};
 use smallvec::SmallVec;
 
 /// How thick (m) a deck is.
@@ -47,6 +47,29 @@ pub(super) fn draw_span(part: &mut Part, span: &StreetSpan, kerb: f64, water: f6
         let aside = span.way * (ABUTMENT / 2.0 - 0.2) * if index == 0 { -1.0 } else { 1.0 };
         let middle = *shore + aside.extend(0.0);
         block(part, middle, span.way, [ABUTMENT / 2.0, half], [water - FOOT, shore.z - DECK])?;
+    }
+    Ok(())
+}
+
+/// Draws what carries streets over others, whose kerbs are so high (m): a slab, railings, and piers.
+pub(super) fn draw_deck(part: &mut Part, deck: &StreetDeck, kerb: f64) -> Result<()> {
+    let points = &deck.surface.points;
+    for corners in &deck.surface.triangles {
+        let [a, b, c] = corners.map(|corner| points[corner as usize] - DVec3::Z * DECK);
+        face(part, &[a, c, b])?;
+    }
+    for ([a, b], has_railing) in &deck.sides {
+        let (low, top) = (-DVec3::Z * DECK, DVec3::Z * kerb);
+        // The deck is on the right, so seen from the left.
+        face(part, &[*b + low, *a + low, *a + top, *b + top])?;
+        if *has_railing {
+            let inward = -(*b - *a).truncate().normalize_or_zero().perp() * PARAPET[1];
+            parapet(part, &[*b, *a], inward, kerb)?;
+        }
+    }
+    for (at, way) in &deck.piers {
+        let [thick, wide] = [PIER[0] / 2.0, PIER[0]];
+        block(part, *at, *way, [thick, wide], [-FOOT.min(at.z), at.z - DECK])?;
     }
     Ok(())
 }

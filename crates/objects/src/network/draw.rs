@@ -2,7 +2,7 @@
 
 use glam::{DVec2, DVec3, Vec3};
 
-use super::bridge::{beside_spans, draw_span, spans_beside};
+use super::bridge::{beside_spans, draw_deck, draw_span, spans_beside};
 use super::grounds::{WATER, WATER_LEVEL, draw_water};
 use super::object::Network;
 use crate::surface::plain_material;
@@ -52,6 +52,24 @@ impl Network {
         let part = drawing.part(paving);
         for sidewalk in &surfaces.sidewalks {
             draw_sidewalk(part, sidewalk, kerb);
+        }
+        let merged = &surfaces.merged;
+        for walk in &merged.walks {
+            add_surface(part, walk, kerb);
+        }
+        for [a, b] in &merged.kerbs {
+            // With the carriageway, which is lower, in front of it.
+            upright(part, [*a, *b], kerb);
+        }
+        for edge in merged.edges.iter().map(|[a, b]| [*b, *a]) {
+            // Down to the blocks, which are level where there is no ground, or into the ground.
+            let skirt = if self.options.on.is_some() { SKIRT } else { edge[0].z.max(edge[1].z) };
+            if skirt > 0.0 {
+                upright(part, edge.map(|at| at + DVec3::Z * (kerb - skirt)), skirt);
+            }
+        }
+        for deck in &merged.decks {
+            draw_deck(part, deck, kerb)?;
         }
         if self.options.on.is_some() {
             // The ground beside lies lower by what it can be off, and by more where another street is lower. Below a bridge

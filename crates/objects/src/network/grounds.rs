@@ -9,7 +9,7 @@ use burgeon_geometry::Polygon;
 use burgeon_geometry::planar::distance;
 use burgeon_kit::Color;
 use burgeon_scene::Part;
-use burgeon_streets::StreetFit;
+use burgeon_streets::{StreetFit, StreetProfiles};
 
 /// The colour of water.
 pub(super) const WATER: Color = Color([0.055, 0.105, 0.125, 1.0]);
@@ -26,7 +26,10 @@ impl Network {
         let kerb = self.options.kerb;
         let is_flat = self.options.on.is_none();
         let level = self.water_level().unwrap_or(WATER_LEVEL);
-        for rings in self.network.blocks_at(self.surface_options(), &fit.profiles) {
+        // Blocks without a ground are level, also beside a street that rises to a bridge.
+        let level_streets = StreetProfiles::default();
+        let profiles = if is_flat { &level_streets } else { &fit.profiles };
+        for rings in self.network.blocks_at(self.surface_options(), profiles) {
             let block: Polygon<DVec3> = Polygon::new(rings)?;
             let outline = block.flat();
             let is_wet = is_flat && self.water.iter().any(|water| meets(&outline, water));

@@ -10,7 +10,7 @@ use burgeon_base::warning::{Warning, WarningKind};
 use burgeon_data::Geometry;
 use burgeon_geometry::Polygon;
 use burgeon_kit::{Answer, Parameter, Table, TableKey, Value, Vector};
-use burgeon_streets::{SlopeOptions, StreetArea, StreetFit, StreetFooting, VergeKind};
+use burgeon_streets::{SlopeOptions, StreetArea, StreetFit, StreetFooting, StreetPiece, VergeKind};
 use burgeon_terrain::{Edit, GroundBed, GroundCut, GroundCuts};
 
 /// How far (m) the ground stays below the edge of a sidewalk.
@@ -61,7 +61,7 @@ impl Network {
     }
 
     fn laid(&self) -> Result<StreetFit> {
-        let Some(ground) = &self.options.on else { return Ok(StreetFit::default()) };
+        let Some(ground) = &self.options.on else { return Ok(self.raised()) };
         let water = self.water_level();
         let slopes = SlopeOptions {
             max_slope: self.options.max_slope / 100.0,
@@ -77,6 +77,16 @@ impl Network {
                 "make the terrain greater, derive it before, or keep streets on it: network { limit = ... }",
             )
         })
+    }
+
+    /// Heights of the streets of a network without ground: some rise to bridges over others.
+    fn raised(&self) -> StreetFit {
+        let is_above = |piece: &StreetPiece| piece.attributes.level > 0;
+        if !self.network.pieces().any(|(_, piece)| is_above(piece)) {
+            return StreetFit::default();
+        }
+        let slopes = SlopeOptions { max_slope: self.options.max_slope / 100.0, least: [None; 2] };
+        self.network.lay(self.surface_options(), slopes, |_| Some(0.0)).unwrap_or_default()
     }
 
     /// The height (m) of the water that bridges lead over.

@@ -9,12 +9,15 @@ mod existing;
 mod grounds;
 mod kinds;
 mod land;
+mod lines;
 mod lots;
 mod object;
 mod overlaps;
+mod passes;
 mod proposals;
 mod sites;
 mod streets;
 mod walk;
+mod walked;
 
 pub use object::Network;

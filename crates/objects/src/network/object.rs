@@ -20,18 +20,18 @@ use crate::Terrain;
 use burgeon_base::error::{Error, Result};
 use burgeon_base::warning::Warning;
 use burgeon_geometry::{Polygon, Rings};
-use burgeon_kit::{Color, TableOf, Value, Vector, Warn, fields, methods, object};
+use burgeon_kit::{Color, TableOf, Value, Vector, fields, methods, object};
 use burgeon_streets::{
-    Constraints, Fate, JunctionId, Obstacles, StreetAttributes, StreetFit, StreetGrowth, StreetKind,
-    StreetNetwork, SurfaceOptions,
+    Constraints, ExistingLoss, Fate, JunctionId, Obstacles, StreetAttributes, StreetFit, StreetGrowth,
+    StreetKind, StreetNetwork, SurfaceOptions,
 };
 
 /// What `network(...)` takes.
 #[fields("network")]
 pub struct NetworkOptions {
-    /// Where streets begin (m): junctions 1, 2, 3 and so on.
-    #[default(vec![Vector(glam::DVec3::ZERO)])]
-    pub starts: Vec<Vector>,
+    /// Where streets begin (m): junctions 1, 2, 3 and so on. The origin if omitted, unless streets exist and an obstacle is
+    /// there.
+    pub starts: Option<Vec<Vector>>,
     /// The kinds of streets, by depth from 0 on; the last one holds for all that are deeper.
     #[default([20.0, 14.0, 11.0].map(StreetOptions::of_width).to_vec())]
     pub streets: Vec<StreetOptions>,
@@ -67,7 +67,8 @@ pub struct NetworkOptions {
     /// Whether a street may end before an obstacle, in place of being refused.
     #[default(true)]
     pub shorten: bool,
-    /// Streets that are there before any grows: a list of { lines = ..., depth = ..., bridge = ... }.
+    /// Existing streets, which stay where they are whatever the constraints ask: a list of { lines = ..., depth = ...,
+    /// width = ..., lanes = ..., level = ... }.
     #[default(Vec::new())]
     pub existing: Vec<ExistingLines>,
     /// The most pieces of streets.
@@ -129,17 +130,19 @@ pub struct Network {
     /// How high its streets lie, with the version of the network that this is of.
     pub(super) fit: OnceLock<(u64, Arc<StreetFit>)>,
     /// What became of what was proposed in the last pass, by junction and heading.
-    growths: FxHashMap<(u32, u64), StreetGrowth>,
-    walk: NetworkWalk,
+    pub(super) growths: FxHashMap<(u32, u64), StreetGrowth>,
+    pub(super) walk: NetworkWalk,
+    /// Parts of existing streets that are missing.
+    pub(super) omitted: Vec<ExistingLoss>,
     /// What scripts have asked of blocks and lots.
     pub(super) answers: AnswerCache,
-    warnings: Vec<Warning>,
+    pub(super) warnings: Vec<Warning>,
     /// What became of all that was proposed.
-    proposals: ProposalTally,
+    pub(super) proposals: ProposalTally,
     /// Whether it was told that streets were refused.
-    has_warned_of_refusals: bool,
+    pub(super) has_warned_of_refusals: bool,
     /// Whether it was told that the ground hides streets.
-    has_warned_of_hiding: bool,
+    pub(super) has_warned_of_hiding: bool,
 }
 
 #[methods("network")]
@@ -174,9 +177,12 @@ impl Network {
             return Err(Error::argument(format!("network:walk: a street of {length} m cannot be"))
                 .help("give a length above 0"));
         }
+        if self.network.junctions().is_empty() {
+            return Err(Error::argument("network:walk: the network has no junction to walk from")
+                .help("give it starts, such as network { starts = { { 0, 0 } } }"));
+        }
         let attributes = self.attributes(self.walk.depth());
         if let Some((junction, heading, growth)) = self.walk.ahead(&mut self.network, length, attributes)? {
-            self.proposals.count(growth.fate);
             self.growths.insert((junction + 1, heading.to_bits()), growth);
         }
         Ok(())
@@ -284,8 +290,8 @@ impl Network {
     }
 
     /// The streets from one junction to the next, as features: each has an id, a geometry (its middle line), how often its way has
-    /// branched off (depth), the name of its kind, its width, sidewalk, lanes, median and parking, its length (m), whether it
-    /// is a bridge, and the junctions that it leads from and to.
+    /// branched off (depth), the name of its kind, its width, sidewalk, lanes, median and parking, its level, its length (m),
+    /// whether it is a bridge, and the junctions that it leads from and to.
     pub fn streets(&self) -> StreetRecords {
         self.street_records()
     }
@@ -294,6 +300,12 @@ impl Network {
     /// point), its junction, its degree, and the least depth and the greatest width of its streets.
     pub fn junctions(&self) -> JunctionRecords {
         self.junction_records()
+    }
+
+    /// The parts of `existing` streets that are missing in the network: a list of tables with the `name` of the street, the
+    /// `place` (m) where the part begins, its `length` (m) and the `reason`.
+    pub fn omitted(&self) -> Value {
+        answers::omitted(&self.omitted)
     }
 
     /// The blocks between the streets, inside of their sidewalks, as features: each has an id, a geometry, its area (m²) and the
@@ -371,18 +383,29 @@ impl Network {
         let NetworkAreas { areas, waters, mut warnings } = NetworkAreas::new(&options);
         let mut network =
             StreetNetwork::new(constraints, Obstacles::new(areas)).map_err(|error| error.about("network"))?;
-        for start in &options.starts {
-            network.begin(start.0.truncate()).map_err(|error| error.about("network: starts"))?;
+        match &options.starts {
+            Some(starts) => {
+                for start in starts {
+                    network.begin(start.0.truncate()).map_err(|error| error.about("network: starts"))?;
+                }
+            }
+            // What exists says where streets begin; nobody asked for the origin.
+            None if !options.existing.is_empty() => {
+                let _ = network.begin(DVec2::ZERO);
+            }
+            None => {
+                network.begin(DVec2::ZERO).map_err(|error| error.about("network: starts"))?;
+            }
         }
-        warnings.extend(existing::add(&mut network, &options.existing, |depth| {
-            StreetKind::of(&kinds, depth).attributes(depth)
-        })?);
+        let (existing, said) = existing::add(&mut network, &options.existing, &kinds)?;
+        warnings.extend(said);
         Ok(Self {
             options,
             kinds,
             network,
             fit: OnceLock::new(),
             water: waters.into(),
+            omitted: existing.losses,
             growths: FxHashMap::default(),
             walk: NetworkWalk::default(),
             answers: AnswerCache::default(),
@@ -433,48 +456,6 @@ impl Network {
             .help("give a finite heading, and a length above 0"));
         }
         Ok((from, self.network.at(from) + DVec2::from_angle(heading.to_radians()) * length))
-    }
-
-    fn restart(&mut self) {
-        self.growths.clear();
-        self.proposals.begin();
-        self.walk.restart();
-    }
-
-    fn open_branch(&mut self) {
-        self.walk.open_branch();
-    }
-
-    fn close_branch(&mut self) -> Result<()> {
-        self.walk.close_branch();
-        Ok(())
-    }
-
-    /// Tells if a pass proposed streets and there is none, or hardly any has room.
-    fn finish(&mut self) -> Result<()> {
-        if self.fit.get().is_some_and(|(version, _)| *version != self.network.version()) {
-            self.fit = OnceLock::new();
-        }
-        // Where there is no ground is told when the streets are drawn.
-        if !self.has_warned_of_hiding
-            && let Ok(Some(warning)) = self.hidden()
-        {
-            self.has_warned_of_hiding = true;
-            self.warnings.push(warning);
-        }
-        if !self.has_warned_of_refusals
-            && let Some(warning) = self.proposals.warning(self.network.size())
-        {
-            self.has_warned_of_refusals = true;
-            self.warnings.push(warning);
-        }
-        Ok(())
-    }
-}
-
-impl Warn for Network {
-    fn take_warnings(&mut self) -> Vec<Warning> {
-        std::mem::take(&mut self.warnings)
     }
 }
 

@@ -14,7 +14,7 @@ pub struct StreetRecords(Vec<Value>);
 impl Answer for StreetRecords {
     fn luau() -> String {
         "{ { id: string, geometry: Geometry, depth: number, kind: string, width: number, sidewalk: number, lanes: number, \
-         median: number, parking: number, length: number, bridge: boolean, from: number, to: number } }"
+         median: number, parking: number, level: number, length: number, bridge: boolean, from: number, to: number } }"
             .into()
     }
 
@@ -60,7 +60,7 @@ impl Network {
 
     fn street_record(&self, street: &StreetStretch, id: String) -> Value {
         let depth = street.attributes.depth;
-        let kind = StreetKind::of(&self.kinds, depth);
+        let kind = StreetKind::of(&self.kinds, depth).adapted(street.attributes);
         let points: Vec<DVec3> = street.line.iter().map(|at| at.extend(0.0)).collect();
         let [from, to] = street.junctions.map(number);
         let metres = Value::Number;
@@ -74,6 +74,7 @@ impl Network {
             ("lanes", kind.lanes().into_value()),
             ("median", metres(kind.median)),
             ("parking", metres(kind.parking)),
+            ("level", Value::Number(f64::from(street.attributes.level))),
             ("length", metres(street.length())),
             ("bridge", Value::Boolean(street.is_bridge)),
             ("from", from),

@@ -1,10 +1,12 @@
 //! Ways that a network is walked by, as a turtle walks: ahead, aside, and back to where a branch began.
 
 use glam::DVec2;
-use rustc_hash::FxHashMap;
+use rustc_hash::{FxHashMap, FxHashSet};
 
 use burgeon_base::error::Result;
-use burgeon_streets::{Fate, JunctionId, StreetAttributes, StreetNetwork};
+use burgeon_streets::{Fate, JunctionId, StreetAttributes, StreetGrowth, StreetNetwork};
+
+use super::walked::{WalkStep, WalkTally};
 
 /// Where a way is, and where its branches began.
 #[derive(Debug, Clone, Default)]
@@ -12,8 +14,18 @@ pub(super) struct NetworkWalk {
     at: WalkPlace,
     branches: Vec<WalkPlace>,
     /// Where the steps of all passes led to, by junction, heading and length.
-    steps: FxHashMap<(JunctionId, u64, u64), JunctionId>,
+    steps: FxHashMap<WalkKey, JunctionId>,
+    /// The steps of the present pass.
+    of_pass: FxHashSet<WalkKey>,
+    /// What became of them.
+    tally: WalkTally,
 }
+
+/// Where a step begins, its heading and its length.
+type WalkKey = (JunctionId, u64, u64);
+
+/// Where a street was proposed: the junction, the heading (degrees), and what became of it.
+type WalkProposal = (JunctionId, f64, StreetGrowth);
 
 /// A place on a way.
 #[derive(Debug, Clone, Copy, Default)]
@@ -32,6 +44,13 @@ impl NetworkWalk {
     pub(super) fn restart(&mut self) {
         self.at = WalkPlace::default();
         self.branches.clear();
+        self.of_pass.clear();
+        self.tally = WalkTally::default();
+    }
+
+    /// What became of the streets of the present pass.
+    pub(super) fn tally(&self) -> &WalkTally {
+        &self.tally
     }
 
     /// Goes on from a junction.
@@ -57,22 +76,28 @@ impl NetworkWalk {
         network: &mut StreetNetwork,
         length: f64,
         attributes: StreetAttributes,
-    ) -> Result<Option<(JunctionId, f64, burgeon_streets::StreetGrowth)>> {
+    ) -> Result<Option<WalkProposal>> {
         let WalkPlace { junction, heading, has_ended, .. } = self.at;
         if has_ended {
+            self.tally.count(WalkStep::Behind);
             return Ok(None);
         }
         let step = (junction, heading.to_bits(), length.to_bits());
         if let Some(&end) = self.steps.get(&step) {
             self.at.junction = end;
+            let is_new = self.of_pass.insert(step);
+            self.tally.count(if is_new { WalkStep::Known } else { WalkStep::Again });
             return Ok(None);
         }
-        let to = network.at(junction) + DVec2::from_angle(heading.to_radians()) * length;
+        let from = network.at(junction);
+        let to = from + DVec2::from_angle(heading.to_radians()) * length;
         let growth = network.grow(junction, to, attributes)?;
+        self.tally.count(WalkStep::Proposed(growth.fate, from, heading));
         self.at.has_ended = matches!(growth.fate, Fate::Refused(_));
         if !self.at.has_ended {
             self.at.junction = growth.end;
             self.steps.insert(step, growth.end);
+            self.of_pass.insert(step);
         }
         Ok(Some((junction, heading, growth)))
     }

@@ -12,6 +12,15 @@ const TURN: f64 = 35.0;
 /// A side does not turn away from its first edge by more than this (degrees).
 const BEND: f64 = 55.0;
 
+/// An edge leads away from a street if its ends differ by more than this part of its length in how far they are from it.
+const LEADS_AWAY: f64 = 0.5;
+/// An edge that leads away is on a street all the same if no place of it is farther (m): so are cut corners.
+const BESIDE: f64 = 1.0;
+
+/// A block lies at its streets if one of its edges is nearer (m), and what is then farther (m) is on no street.
+const AT_STREET: f64 = 0.5;
+const BEHIND: f64 = 2.0;
+
 /// A side of a block: edges that follow one another along a street.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct BlockSide {
@@ -34,6 +43,8 @@ pub struct StreetBlock {
     pub(crate) edge_sides: Vec<Vec<Option<u32>>>,
     /// For each edge of each ring, the piece of a street that it is on.
     edge_pieces: Vec<Vec<Option<PieceId>>>,
+    /// The middle lines (m) of the pieces that its sides are on, with half of their widths (m), by side.
+    side_lines: Vec<Vec<([DVec2; 2], f64)>>,
 }
 
 impl StreetBlock {
@@ -43,6 +54,13 @@ impl StreetBlock {
             return 0.0;
         };
         own.area() - own.without(&[other]).iter().map(Polygon::area).sum::<f64>()
+    }
+
+    /// How far (m) a place on one of its sides is from the edge of the street there; 0 if nobody knows of a street.
+    pub(super) fn off_street(&self, side: u32, place: DVec2) -> f64 {
+        let lines = self.side_lines.get(side as usize).into_iter().flatten();
+        let off = lines.map(|(line, half)| crate::grid::foot(place, *line).0 - half);
+        off.reduce(f64::min).unwrap_or(0.0)
     }
 
     /// The piece of a street that a place on one of its sides is on.
@@ -68,6 +86,8 @@ impl StreetBlock {
 struct EdgeStreet {
     piece: Option<PieceId>,
     way: DVec2,
+    /// How far (m) the farther end of the edge is from that of the street.
+    off: f64,
 }
 
 impl StreetNetwork {
@@ -103,26 +123,42 @@ impl StreetNetwork {
             }
         };
         let mut sides = Vec::new();
-        let mut edge_pieces = Vec::new();
-        let edge_sides = rings.iter().enumerate();
-        let edge_sides = edge_sides
-            .map(|(number, ring)| {
-                let streets: Vec<Option<EdgeStreet>> = burgeon_geometry::planar::edges(ring)
-                    .map(|edge| {
-                        if self.size() > 0 {
-                            return self.street_beside(edge, reach);
-                        }
-                        // Nobody knows of streets in a courtyard.
-                        let way = (edge[1] - edge[0]).normalize_or_zero();
-                        (number == 0).then_some(EdgeStreet { piece: None, way })
-                    })
-                    .collect();
-                edge_pieces
-                    .push(streets.iter().map(|street| street.and_then(|street| street.piece)).collect());
-                sides_of(ring, &streets, &mut sides)
-            })
-            .collect();
-        Some(StreetBlock { id, rings, sides, edge_sides, edge_pieces })
+        let mut streets: Vec<Vec<Option<EdgeStreet>>> = Vec::new();
+        for (number, ring) in rings.iter().enumerate() {
+            let of_ring = burgeon_geometry::planar::edges(ring).map(|edge| {
+                if self.size() > 0 {
+                    return self.street_beside(edge, reach);
+                }
+                // Nobody knows of streets in a courtyard.
+                let way = (edge[1] - edge[0]).normalize_or_zero();
+                (number == 0).then_some(EdgeStreet { piece: None, way, off: 0.0 })
+            });
+            streets.push(of_ring.collect());
+        }
+        // Where a block lies at its streets, what is farther away is behind something, such as a river along the street.
+        let nearest =
+            streets.iter().flatten().flatten().map(|street| street.off).fold(f64::INFINITY, f64::min);
+        if reach.is_finite() && nearest < AT_STREET {
+            let is_near = |street: &EdgeStreet| street.off <= BEHIND;
+            streets.iter_mut().flatten().for_each(|street| *street = street.filter(is_near));
+        }
+        let piece_of = |street: &Option<EdgeStreet>| street.and_then(|street| street.piece);
+        let edge_pieces: Vec<Vec<Option<PieceId>>> =
+            streets.iter().map(|ring| ring.iter().map(piece_of).collect()).collect();
+        let of_rings = rings.iter().zip(&streets);
+        let edge_sides: Vec<Vec<Option<u32>>> =
+            of_rings.map(|(ring, streets)| sides_of(ring, streets, &mut sides)).collect();
+        let mut side_lines = vec![Vec::new(); sides.len()];
+        for (side, piece) in edge_sides.iter().flatten().zip(edge_pieces.iter().flatten()) {
+            if let (Some(side), Some(piece)) = (side, piece) {
+                let line = (self.line(*piece), self.half(*piece));
+                let known: &mut Vec<([DVec2; 2], f64)> = &mut side_lines[*side as usize];
+                if known.last() != Some(&line) {
+                    known.push(line);
+                }
+            }
+        }
+        Some(StreetBlock { id, rings, sides, edge_sides, edge_pieces, side_lines })
     }
 
     /// The street that an edge is on: the one whose edge is nearest to its middle.
@@ -137,20 +173,30 @@ impl StreetNetwork {
             distance - self.half(piece) + turned * 0.5
         };
         let margin = self.widest() / 2.0 + reach.min(30.0);
-        let near = self.pieces_near([middle, middle], margin);
+        let near = self.ground_near([middle, middle], margin);
         let near =
             near.map(|piece| (beyond(piece), piece)).min_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
         let (distance, piece) = match near {
             Some(found) => found,
             None => {
-                let (piece, _) = self.nearest(middle).filter(|_| reach.is_infinite())?;
+                let (piece, _) = self.nearest_on_ground(middle).filter(|_| reach.is_infinite())?;
                 (0.0, piece)
             }
         };
         let [from, to] = self.line(piece);
+        // What begins at a street and leads away from it, as the bank of a river does, is not on it.
+        let off = |at: DVec2| crate::grid::foot(at, [from, to]).0 - self.half(piece);
+        let [begin, end] = [off(a), off(b)];
+        if reach.is_finite() {
+            let leads_away = (begin - end).abs() > LEADS_AWAY * a.distance(b);
+            if begin.max(end) > reach + 0.5 || (leads_away && begin.max(end) > BESIDE) {
+                return None;
+            }
+        }
         let way = (to - from).normalize_or_zero();
         let way = if way.dot(along) < 0.0 { -way } else { way };
-        (distance <= reach + 0.5).then_some(EdgeStreet { piece: Some(piece), way })
+        let off = begin.max(end);
+        (distance <= reach + 0.5).then_some(EdgeStreet { piece: Some(piece), way, off })
     }
 }
 

@@ -239,8 +239,10 @@ impl Division<'_> {
             rings: rings.iter().map(|ring| ring.iter().map(|at| self.partition.at(*at)).collect()).collect(),
             area,
             front_length: first.map_or(0.0, |front| front.length),
-            piece: first.and_then(|front| block.piece_at(front.side, front.middle())),
-            access: first.map_or(DVec2::ZERO, FrontRun::middle),
+            piece: first.and_then(|front| {
+                block.piece_at(front.side, front.access(|at| block.off_street(front.side, at)))
+            }),
+            access: first.map_or(DVec2::ZERO, |front| front.access(|at| block.off_street(front.side, at))),
             facing: -way.perp(),
             width: along,
             depth: behind,

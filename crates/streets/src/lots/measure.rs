@@ -5,6 +5,9 @@ use glam::DVec2;
 use super::partition::{CornerId, Cut, Partition};
 use burgeon_geometry::planar;
 
+/// Places that are farther from a street by less (m) are as near as others.
+const AS_NEAR: f64 = 0.5;
+
 /// A box around a cell, turned so that it is as small as can be.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct CellBox {
@@ -31,23 +34,49 @@ pub(super) struct FrontRun {
 }
 
 impl FrontRun {
-    /// The place (m) half of the way along it.
-    pub(super) fn middle(&self) -> DVec2 {
-        let mut left = self.length / 2.0;
-        for pair in self.points.windows(2) {
-            let length = pair[0].distance(pair[1]);
-            if left <= length && length > 0.0 {
-                return pair[0].lerp(pair[1], left / length);
-            }
-            left -= length;
+    /// The place (m) half of the way along it, or along the longest part of it that is as near to the street as any, where that
+    /// is `off` (m) from it.
+    pub(super) fn access(&self, off: impl Fn(DVec2) -> f64) -> DVec2 {
+        let middle = middle(&self.points);
+        let nearest = self.points.iter().map(|at| off(*at)).fold(f64::INFINITY, f64::min);
+        let is_near = |at: DVec2| off(at) <= nearest + AS_NEAR;
+        if !nearest.is_finite() || is_near(middle) {
+            return middle;
         }
-        self.points[0]
+        let mut best: (f64, DVec2) = (-1.0, middle);
+        let mut part: Vec<DVec2> = Vec::new();
+        for (index, at) in self.points.iter().enumerate() {
+            if is_near(*at) {
+                part.push(*at);
+            }
+            if !is_near(*at) || index + 1 == self.points.len() {
+                let length = part.windows(2).map(|pair| pair[0].distance(pair[1])).sum::<f64>();
+                if !part.is_empty() && length > best.0 {
+                    best = (length, self::middle(&part));
+                }
+                part.clear();
+            }
+        }
+        best.1
     }
 
     /// Its direction from end to end, with the cell on its left.
     pub(super) fn way(&self) -> DVec2 {
         (self.points[self.points.len() - 1] - self.points[0]).normalize_or_zero()
     }
+}
+
+/// The place (m) half of the way along a line of a point or more.
+fn middle(points: &[DVec2]) -> DVec2 {
+    let mut left = points.windows(2).map(|pair| pair[0].distance(pair[1])).sum::<f64>() / 2.0;
+    for pair in points.windows(2) {
+        let length = pair[0].distance(pair[1]);
+        if left <= length && length > 0.0 {
+            return pair[0].lerp(pair[1], left / length);
+        }
+        left -= length;
+    }
+    points[0]
 }
 
 /// The extent (m) of places along a direction: the least and the greatest.

@@ -153,6 +153,65 @@ fn lots_of_networks_at_random_have_fronts_on_their_streets() {
     assert!(long * 200 < count, "{long} of {count} lots are too long");
 }
 
+/// A river at random: a band along a winding line, whose banks have a point every few metres.
+fn river(random: &mut TestNumbers) -> Option<Polygon> {
+    let from = DVec2::new(random.below(300.0) - 150.0, random.below(300.0) - 150.0);
+    let heading = random.below(6.3);
+    let (half, step) = (3.0 + random.below(12.0), 1.5 + random.below(8.0));
+    let (swing, wave) = (random.below(0.5), 20.0 + random.below(60.0));
+    let count = (600.0 / step) as u32;
+    let (mut at, mut left, mut right) = (from - DVec2::from_angle(heading) * 300.0, Vec::new(), Vec::new());
+    for index in 0..count {
+        let way = DVec2::from_angle(heading + swing * (f64::from(index) * step / wave).sin());
+        at += way * step;
+        left.push(at + way.perp() * half);
+        right.push(at - way.perp() * half);
+    }
+    right.reverse();
+    let ring: Vec<DVec2> = right.into_iter().rev().chain(left.into_iter().rev()).collect();
+    Polygon::new(Rings(vec![ring])).ok()
+}
+
+#[test]
+fn lots_whose_front_a_river_cuts_have_their_access_on_the_street() {
+    let (mut count, mut cut, mut worst) = (0, 0, 0.0_f64);
+    for seed in 1..=60 {
+        let network = grown(seed, 30 + seed as usize % 40, Constraints::default(), Obstacles::default());
+        let mut random = TestNumbers(seed + 77);
+        let rivers: Vec<Polygon> = (0..2).filter_map(|_| river(&mut random)).collect();
+        for block in network.lot_blocks(SurfaceOptions::default()) {
+            let whole = Polygon::new(block.rings.clone()).expect("a block");
+            let parts = whole.without(&rivers);
+            let is_cut = parts.len() != 1 || (parts[0].area() - whole.area()).abs() > 1.0;
+            for part in parts.iter().filter(|_| is_cut) {
+                let Some(block) = network.block(None, &Rings::from(part), 6.0) else { continue };
+                let options = LotOptions {
+                    pattern: LotPattern::ALL[seed as usize % 3].1,
+                    ..LotOptions::new(16.0, 24.0)
+                };
+                for lot in block.divide(&options, &mut || random.below(1.0)) {
+                    if lot.purpose != LotUse::Building {
+                        continue;
+                    }
+                    let off = |at: DVec2| {
+                        let each = network.pieces().map(|(piece, _)| {
+                            crate::grid::foot(at, network.line(piece)).0 - network.half(piece)
+                        });
+                        each.fold(f64::INFINITY, f64::min)
+                    };
+                    count += 1;
+                    worst = worst.max(off(lot.access));
+                    cut += usize::from(off(lot.access) > 2.0);
+                    let on = lot.fronts[0].edges().map(|edge| crate::grid::foot(lot.access, edge).0);
+                    assert!(on.fold(f64::INFINITY, f64::min) < 1e-6, "the access is not on the front");
+                }
+            }
+        }
+    }
+    assert!(count > 400, "{count} lots");
+    assert_eq!(cut, 0, "of {count} lots the farthest access is {worst} m off its street");
+}
+
 #[test]
 fn terraces_keep_apart_inside_of_their_lots() {
     let (mut count, mut area_of_rows) = (0, 0.0);

@@ -1,0 +1,69 @@
+//! What a network does before, within and after a pass over the chains, and what it reports of it.
+
+use std::sync::OnceLock;
+
+use super::Network;
+use burgeon_base::error::Result;
+use burgeon_base::warning::{Warning, WarningKind};
+use burgeon_kit::Warn;
+
+impl Network {
+    pub(super) fn restart(&mut self) {
+        self.growths.clear();
+        self.proposals.begin();
+        self.walk.restart();
+    }
+
+    pub(super) fn open_branch(&mut self) {
+        self.walk.open_branch();
+    }
+
+    pub(super) fn close_branch(&mut self) -> Result<()> {
+        self.walk.close_branch();
+        Ok(())
+    }
+
+    /// Tells if a pass proposed streets and there is none, or hardly any has room.
+    pub(super) fn finish(&mut self) -> Result<()> {
+        if self.fit.get().is_some_and(|(version, _)| *version != self.network.version()) {
+            self.fit = OnceLock::new();
+        }
+        // Where there is no ground is told when the streets are drawn.
+        if !self.has_warned_of_hiding
+            && let Ok(Some(warning)) = self.hidden()
+        {
+            self.has_warned_of_hiding = true;
+            self.warnings.push(warning);
+        }
+        self.warnings.extend(self.walk.tally().warning());
+        self.warnings.extend(self.bare());
+        if !self.has_warned_of_refusals
+            && let Some(warning) = self.proposals.warning(self.network.size())
+        {
+            self.has_warned_of_refusals = true;
+            self.warnings.push(warning);
+        }
+        Ok(())
+    }
+
+    /// Reports that there is no block to fill.
+    fn bare(&self) -> Option<Warning> {
+        let is_bare =
+            self.options.ground.is_some() && self.network.size() > 0 && self.network.faces().is_empty();
+        is_bare.then(|| {
+            let text = format!(
+                "network: {} pieces of streets enclose no block, so `ground` fills nothing",
+                self.network.size()
+            );
+            Warning::new(WarningKind::DrawsNothing, text)
+                .help("let more streets meet: grow or walk farther, or join dead ends within a greater distance")
+                .of_pass()
+        })
+    }
+}
+
+impl Warn for Network {
+    fn take_warnings(&mut self) -> Vec<Warning> {
+        std::mem::take(&mut self.warnings)
+    }
+}

@@ -1,0 +1,179 @@
+//! Lines that meet only at their vertices: every crossing becomes a vertex of both lines.
+//!
+//! Method: snap rounding (J. Hobby, "Practical segment intersection with finite precision output", 1999) in whole numbers:
+//! every segment is led through the centre of each hot pixel that it touches, which are those of vertices and of
+//! crossings. Crossings are rounded exactly, so no two segments of the result cross.
+
+use rstar::primitives::{GeomWithData, Line as IndexLine};
+use rstar::{AABB, RTree};
+use rustc_hash::FxHashSet;
+
+use super::Strand;
+use crate::grid::{GridPlace, PER_METRE, WholePlace, touch};
+
+/// How often lines are led through pixels; once is enough by the method, and the second time proves it.
+const ROUNDS: usize = 8;
+
+/// A segment: the number of its strand, that of its first vertex, and its ends.
+#[derive(Clone, Copy)]
+struct Edge {
+    strand: usize,
+    first: usize,
+    ends: [GridPlace; 2],
+}
+
+type EdgeIndex = RTree<GeomWithData<IndexLine<[f64; 2]>, usize>>;
+
+/// Adds vertices where strands of one level meet. Gives the segments that cross others all the same, as the number of their
+/// strand and of their first vertex; there is none as far as anyone knows.
+pub(crate) fn node(strands: &mut [Strand]) -> Vec<(usize, usize)> {
+    let mut levels: Vec<i32> = strands.iter().map(|strand| strand.level).collect();
+    levels.sort_unstable();
+    levels.dedup();
+    let mut unresolved = Vec::new();
+    for level in levels {
+        for round in 0.. {
+            let edges = edges_of(strands, level);
+            let index = index_of(&edges);
+            let mut hot: FxHashSet<GridPlace> = edges.iter().flat_map(|edge| edge.ends).collect();
+            let vertices = hot.len();
+            let mut faulty = Vec::new();
+            for (number, edge) in edges.iter().enumerate() {
+                for other in near(&index, edge.ends).filter(|other| *other < number) {
+                    if let Some(place) = meeting(edge.ends, edges[other].ends) {
+                        hot.insert(place);
+                        faulty.push((edge.strand, edge.first));
+                    }
+                }
+            }
+            let is_changed = lead_through(strands, level, &edges, &hot);
+            if !is_changed && hot.len() == vertices {
+                unresolved.extend(faulty);
+                break;
+            }
+            if round >= ROUNDS {
+                unresolved.extend(faulty);
+                break;
+            }
+        }
+    }
+    unresolved.sort_unstable();
+    unresolved.dedup();
+    unresolved
+}
+
+fn edges_of(strands: &[Strand], level: i32) -> Vec<Edge> {
+    let of_level = strands.iter().enumerate().filter(|(_, strand)| strand.level == level);
+    let edges = of_level.flat_map(|(number, strand)| {
+        let pairs = strand.places.windows(2).enumerate();
+        pairs.map(move |(first, pair)| Edge { strand: number, first, ends: [pair[0], pair[1]] })
+    });
+    edges.collect()
+}
+
+fn index_of(edges: &[Edge]) -> EdgeIndex {
+    let items = edges.iter().enumerate().map(|(number, edge)| {
+        let [a, b] = edge.ends.map(|end| end.metres().to_array());
+        GeomWithData::new(IndexLine::new(a, b), number)
+    });
+    RTree::bulk_load(items.collect())
+}
+
+/// The numbers of the segments whose boxes meet that of a segment, in order.
+fn near(index: &EdgeIndex, ends: [GridPlace; 2]) -> impl Iterator<Item = usize> {
+    let [a, b] = ends.map(GridPlace::metres);
+    let around = AABB::from_corners(a.min(b).to_array(), a.max(b).to_array());
+    let mut found: Vec<usize> =
+        index.locate_in_envelope_intersecting(&around).map(|item| item.data).collect();
+    found.sort_unstable();
+    found.into_iter()
+}
+
+/// The vertex that two segments lack: where they cross or touch but at ends that they share; `None` if they lack none.
+fn meeting([a, b]: [GridPlace; 2], [c, d]: [GridPlace; 2]) -> Option<GridPlace> {
+    let shared = [a, b].into_iter().filter(|end| *end == c || *end == d).count();
+    let lies_on = |end: GridPlace, [from, to]: [GridPlace; 2]| {
+        end != from && end != to && end.side_of(from, to) == 0 && end.is_between(from, to)
+    };
+    if shared > 0 || !touch([a, b], [c, d]) {
+        if shared != 1 {
+            return None;
+        }
+        // Two that leave one place in one direction: the nearer end lies on the other.
+        let on = [a, b].into_iter().find(|end| lies_on(*end, [c, d]));
+        return on.or_else(|| [c, d].into_iter().find(|end| lies_on(*end, [a, b])));
+    }
+    let on = [a, b].into_iter().find(|end| lies_on(*end, [c, d]));
+    let on = on.or_else(|| [c, d].into_iter().find(|end| lies_on(*end, [a, b])));
+    on.or_else(|| crossing([a, b], [c, d]))
+}
+
+/// The place nearest to where two segments cross that are not parallel.
+fn crossing([a, b]: [GridPlace; 2], [c, d]: [GridPlace; 2]) -> Option<GridPlace> {
+    let [[ax, ay], [bx, by], [cx, cy], [dx, dy]] = [a, b, c, d].map(|end| end.steps().map(i128::from));
+    let ([east, north], [other_east, other_north]) = ([bx - ax, by - ay], [dx - cx, dy - cy]);
+    let below = east * other_north - north * other_east;
+    if below == 0 {
+        return None;
+    }
+    let above = (cx - ax) * other_north - (cy - ay) * other_east;
+    let (above, below) = (above * below.signum(), below.abs());
+    let along = |from: i128, way: i128| -> Option<i64> {
+        i64::try_from(from + (2 * way * above + below).div_euclid(2 * below)).ok()
+    };
+    Some(GridPlace::of_steps([along(ax, east)?, along(ay, north)?]))
+}
+
+/// Tells if a segment touches the pixel around a place.
+fn touches([a, b]: [GridPlace; 2], pixel: GridPlace) -> bool {
+    // In half steps from its centre the pixel reaches from -1 to 1.
+    let [x, y] = pixel.steps();
+    let [[ax, ay], [bx, by]] = [a, b]
+        .map(GridPlace::steps)
+        .map(|[east, north]| [i128::from(2 * (east - x)), i128::from(2 * (north - y))]);
+    let (east, north) = (bx - ax, by - ay);
+    let within = |a: i128, b: i128| a.min(b) <= 1 && a.max(b) >= -1;
+    within(ax, bx) && within(ay, by) && (ax * by - ay * bx).abs() <= east.abs() + north.abs()
+}
+
+/// Leads segments through the hot pixels that they touch; tells if any was changed.
+fn lead_through(strands: &mut [Strand], level: i32, edges: &[Edge], hot: &FxHashSet<GridPlace>) -> bool {
+    let mut places: Vec<GridPlace> = hot.iter().copied().collect();
+    places.sort_unstable();
+    let items = places.iter().map(|place| GeomWithData::new(place.metres().to_array(), *place));
+    let index = RTree::bulk_load(items.collect());
+    let mut is_changed = false;
+    let mut led: Vec<Vec<GridPlace>> = vec![Vec::new(); strands.len()];
+    for Edge { strand, ends: [a, b], .. } in edges.iter().copied() {
+        let [from, to] = [a, b].map(GridPlace::metres);
+        let (low, high) = (from.min(to) - 1.0 / PER_METRE, from.max(to) + 1.0 / PER_METRE);
+        let around = AABB::from_corners(low.to_array(), high.to_array());
+        let mut on: Vec<(i128, GridPlace)> = index
+            .locate_in_envelope(&around)
+            .map(|item| item.data)
+            .filter(|place| *place != a && *place != b && touches([a, b], *place))
+            .map(|place| (along(a, b, place), place))
+            .collect();
+        on.sort_unstable();
+        is_changed |= !on.is_empty();
+        let line = &mut led[strand];
+        if line.is_empty() {
+            line.push(a);
+        }
+        line.extend(on.into_iter().map(|(_, place)| place));
+        line.push(b);
+        line.dedup();
+    }
+    if is_changed {
+        for (strand, line) in strands.iter_mut().zip(led).filter(|(strand, _)| strand.level == level) {
+            strand.places = line;
+        }
+    }
+    is_changed
+}
+
+/// How far along a segment a place lies, times the length of the segment, in whole numbers.
+fn along(a: GridPlace, b: GridPlace, place: GridPlace) -> i128 {
+    let [[ax, ay], [bx, by], [x, y]] = [a, b, place].map(|at| at.steps().map(i128::from));
+    (bx - ax) * (x - ax) + (by - ay) * (y - ay)
+}

@@ -1,0 +1,242 @@
+//! The parts that cover the streets of a level: a rectangle for each piece, and what bends, corners and ends add.
+
+use std::f64::consts::{PI, TAU};
+
+use glam::DVec2;
+use rstar::primitives::{GeomWithData, Rectangle};
+use rstar::{AABB, RTree};
+
+use super::MergeOptions;
+use crate::corner::{Arm, Corner, LINES, StreetLine, left, meeting, pieces, turn};
+use crate::network::{JunctionId, PieceId, StreetNetwork};
+use crate::shape::room_around;
+use burgeon_geometry::planar::contains;
+
+/// Bends by less (radians) have a mitre in place of an arc.
+const MITRED: f64 = 0.35;
+/// Corners of a smaller radius (m) are cut off straight, this far (m) apart.
+const LEAST_RADIUS: f64 = 1.0;
+/// How much of a piece its corners may take.
+const SHARE: f64 = 0.9;
+
+/// An area that a street covers.
+#[derive(Debug, Clone)]
+pub(super) struct CoverPart {
+    /// Whether it is a part of the carriageway, or of the whole street.
+    pub(super) line: StreetLine,
+    pub(super) depth: u32,
+    /// Its outline (m), counter-clockwise.
+    pub(super) ring: Vec<DVec2>,
+}
+
+/// The parts of a level, and those of the ground that its ends lie on.
+pub(super) struct Cover {
+    pub(super) parts: Vec<CoverPart>,
+    index: RTree<GeomWithData<Rectangle<[f64; 2]>, usize>>,
+    /// How many of the parts are of the level itself; the others take what they cover away from it.
+    own: usize,
+}
+
+/// What covers a place.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Covered {
+    /// No street.
+    Free,
+    /// A sidewalk.
+    Walk,
+    /// The carriageway of a street of this depth.
+    Carriageway(u32),
+}
+
+impl Cover {
+    pub(super) fn new(network: &StreetNetwork, level: i32, options: MergeOptions) -> Self {
+        let mut parts = parts_of(network, options, |of| of == level, |_| true);
+        let own = parts.len();
+        if level > 0 {
+            // Where it comes down, it ends at the streets on the ground.
+            let is_end = |junction: JunctionId| {
+                let levels = || {
+                    network.junctions[junction as usize]
+                        .pieces
+                        .iter()
+                        .map(|piece| network.attributes(*piece).level)
+                };
+                levels().any(|of| of == level) && levels().any(|of| (0..level).contains(&of))
+            };
+            parts.extend(parts_of(network, options, |of| (0..level).contains(&of), is_end));
+        }
+        let boxes = parts.iter().enumerate().map(|(number, part)| {
+            let low = part.ring.iter().copied().fold(DVec2::INFINITY, DVec2::min);
+            let high = part.ring.iter().copied().fold(DVec2::NEG_INFINITY, DVec2::max);
+            GeomWithData::new(Rectangle::from_corners(low.to_array(), high.to_array()), number)
+        });
+        let index = RTree::bulk_load(boxes.collect());
+        Self { parts, index, own }
+    }
+
+    /// What covers a place.
+    pub(super) fn at(&self, place: DVec2) -> Covered {
+        let mut covered = Covered::Free;
+        for item in self.index.locate_in_envelope_intersecting(&AABB::from_point(place.to_array())) {
+            let part = &self.parts[item.data];
+            if !contains(&part.ring, place) {
+                continue;
+            }
+            if item.data >= self.own {
+                return Covered::Free;
+            }
+            covered = match (part.line, covered) {
+                (StreetLine::Kerb, Covered::Carriageway(depth)) => {
+                    Covered::Carriageway(depth.min(part.depth))
+                }
+                (StreetLine::Kerb, _) => Covered::Carriageway(part.depth),
+                (StreetLine::Edge, Covered::Free) => Covered::Walk,
+                (StreetLine::Edge, known) => known,
+            };
+        }
+        covered
+    }
+}
+
+/// The parts of the streets of some levels at some junctions.
+fn parts_of(
+    network: &StreetNetwork,
+    options: MergeOptions,
+    is_level: impl Fn(i32) -> bool,
+    is_at: impl Fn(JunctionId) -> bool,
+) -> Vec<CoverPart> {
+    let mut parts = Vec::new();
+    for (piece, known) in network.pieces() {
+        let attributes = known.attributes;
+        if !is_level(attributes.level) || !known.ends.iter().any(|end| is_at(*end)) {
+            continue;
+        }
+        let [a, b] = network.line(piece);
+        let way = (b - a).normalize_or_zero();
+        for line in LINES {
+            let aside = way.perp() * attributes.arm(way).aside(line);
+            let ring = vec![a - aside, b - aside, b + aside, a + aside];
+            parts.push(CoverPart { line, depth: attributes.depth, ring });
+        }
+    }
+    for (junction, known) in (0..).zip(&network.junctions) {
+        let home = known
+            .pieces
+            .iter()
+            .map(|piece| network.attributes(*piece).level)
+            .filter(|level| *level >= 0)
+            .min();
+        if home.is_some_and(&is_level) && is_at(junction) {
+            junction_parts(network, junction, options, &mut parts);
+        }
+    }
+    parts
+}
+
+/// Adds what lies between the rectangles of the streets at a junction.
+fn junction_parts(
+    network: &StreetNetwork,
+    junction: JunctionId,
+    options: MergeOptions,
+    parts: &mut Vec<CoverPart>,
+) {
+    let at = network.at(junction);
+    let all = network.corner_arms(junction);
+    let arms: Vec<(PieceId, Arm)> =
+        all.iter().copied().filter(|(piece, _)| network.attributes(*piece).level >= 0).collect();
+    let depth = |index: usize| network.attributes(arms[index].0).depth;
+    if let [(piece, arm)] = arms[..] {
+        // The mouth of a tunnel is open.
+        if all.len() == 1 && !network.constraints.square_ends {
+            let far = network.across(piece, junction);
+            let room = network.length(piece)
+                * if network.junctions[far as usize].degree() == 1 { 0.45 } else { 0.8 };
+            let radius = options.turning.min(room).min(room_around(network, junction, options.turning));
+            let corner = Corner::around(arm, radius);
+            for line in LINES {
+                let ring: Vec<DVec2> = corner.points(line).into_iter().map(|point| at + point).collect();
+                parts.push(CoverPart { line, depth: depth(0), ring });
+            }
+        }
+        return;
+    }
+    for index in 0..arms.len() {
+        let next = (index + 1) % arms.len();
+        let ((piece, first), (beside, second)) = (arms[index], arms[next]);
+        let angle = if arms.len() == 1 { TAU } else { turn(first.way, second.way) };
+        let room = [piece, beside].map(|piece| network.length(piece) * SHARE);
+        for line in LINES {
+            let ring = if angle > PI {
+                wedge(first, second, angle, line)
+            } else {
+                let radius = match line {
+                    StreetLine::Edge => network.constraints.corner,
+                    StreetLine::Kerb => network.constraints.corner + first.walk.min(second.walk),
+                };
+                match fillet([first, second], angle, line, radius, room) {
+                    Some(ring) => ring,
+                    None => continue,
+                }
+            };
+            let ring = ring.into_iter().map(|point| at + point).collect();
+            parts.push(CoverPart { line, depth: depth(index).min(depth(next)), ring });
+        }
+    }
+}
+
+/// What the outside of a bend adds, as seen from the junction.
+fn wedge(first: Arm, second: Arm, angle: f64, line: StreetLine) -> Vec<DVec2> {
+    let (a, b) = (first.aside(line), second.aside(line));
+    let swept = angle - PI;
+    let from = first.way.perp().to_angle();
+    let mut ring = vec![DVec2::ZERO, left(first, 0.0, a)];
+    if swept < MITRED && (a - b).abs() < 0.01 {
+        ring.push(DVec2::from_angle(from + swept / 2.0) * (a / (swept / 2.0).cos()));
+    } else {
+        let chords = pieces(swept, first.half.max(second.half));
+        ring.extend((1..chords).map(|index| {
+            let part = f64::from(index) / f64::from(chords);
+            DVec2::from_angle(from + swept * part) * (a + (b - a) * part)
+        }));
+    }
+    ring.push(left(second, 0.0, -b));
+    ring
+}
+
+/// What the rounding of a corner adds, as seen from the junction; `None` if there is no room.
+fn fillet(
+    [first, second]: [Arm; 2],
+    angle: f64,
+    line: StreetLine,
+    radius: f64,
+    room: [f64; 2],
+) -> Option<Vec<DVec2>> {
+    if angle > PI - MITRED || angle < 0.02 {
+        return None;
+    }
+    let (a, b) = (first.aside(line), second.aside(line));
+    let meets = [meeting(angle, a, b), meeting(angle, b, a)];
+    let free = (room[0] - meets[0]).min(room[1] - meets[1]);
+    if meets.iter().any(|along| *along < 0.0) || free <= 0.0 {
+        return None;
+    }
+    let tangent = (angle / 2.0).tan();
+    let round = radius.min(free * tangent);
+    let corner = left(first, meets[0], a);
+    if round < LEAST_RADIUS {
+        // So far from the corner that what lies behind is wide enough to be seen.
+        let along = free.min(LEAST_RADIUS / tangent);
+        return Some(vec![corner, left(first, meets[0] + along, a), left(second, meets[1] + along, -b)]);
+    }
+    let along = round / tangent;
+    let center = left(first, meets[0] + along, a + round);
+    let swept = PI - angle;
+    let from = (-first.way.perp()).to_angle();
+    let chords = pieces(swept, radius);
+    let mut ring = vec![corner, left(first, meets[0] + along, a)];
+    ring.extend((1..chords).map(|index| {
+        center + DVec2::from_angle(from - swept * f64::from(index) / f64::from(chords)) * round
+    }));
+    ring.push(left(second, meets[1] + along, -b));
+    Some(ring)
+}

@@ -1,0 +1,72 @@
+//! How much of each piece is free of other streets, so that something can be painted on it or stand beside it.
+
+use glam::DVec2;
+
+use crate::grid::foot;
+use crate::network::{JunctionId, PieceId, StreetNetwork};
+
+/// How closely (m) a piece is looked at.
+const STEP: f64 = 1.0;
+/// Streets of which one goes on in the other turn by less than this (degrees).
+const GOES_ON: f64 = 20.0;
+
+/// For each piece, how far (m) from its first and from its last junction other streets of its level reach into it; as much as
+/// it is long, in all, if nothing of it is free.
+pub(crate) fn clear_lengths(network: &StreetNetwork) -> Vec<[f64; 2]> {
+    let mut lengths = vec![[0.0; 2]; network.pieces.len()];
+    let streets = street_numbers(network);
+    for (piece, _) in network.pieces() {
+        lengths[piece as usize] = clear_length(network, piece, &streets);
+    }
+    lengths
+}
+
+/// Tells if a street goes on at a junction of two pieces, and only turns a little.
+pub(crate) fn goes_on(network: &StreetNetwork, junction: JunctionId) -> bool {
+    let [a, b] = network.junctions[junction as usize].pieces[..] else { return false };
+    let same = network.attributes(a) == network.attributes(b) && network.is_bridge(a) == network.is_bridge(b);
+    same && (-network.leaves(a, junction)).angle_to(network.leaves(b, junction)).abs().to_degrees() < GOES_ON
+}
+
+/// By piece, the number of the street that it is a part of from one junction to the next.
+fn street_numbers(network: &StreetNetwork) -> Vec<u32> {
+    let mut numbers = vec![u32::MAX; network.pieces.len()];
+    for (number, way) in (0..).zip(network.ways_between(|junction| !goes_on(network, junction))) {
+        way.iter().for_each(|course| numbers[course.piece as usize] = number);
+    }
+    numbers
+}
+
+fn clear_length(network: &StreetNetwork, piece: PieceId, streets: &[u32]) -> [f64; 2] {
+    let (line, length) = (network.line(piece), network.length(piece));
+    let level = network.attributes(piece).level;
+    let way = (line[1] - line[0]).normalize_or_zero();
+    let half = network.half(piece);
+    let others: Vec<([DVec2; 2], f64)> = network
+        .pieces_near(line, half + network.widest() / 2.0)
+        .filter(|other| *other != piece && network.attributes(*other).level == level)
+        .filter(|other| streets[*other as usize] != streets[piece as usize])
+        .map(|other| (network.line(other), network.half(other)))
+        .collect();
+    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "pieces are short")]
+    let count = (length / STEP).ceil().max(1.0) as usize;
+    #[allow(clippy::cast_precision_loss, reason = "pieces are short")]
+    let along = |index: usize| length * index as f64 / count as f64;
+    let is_free = |index: &usize| {
+        let at = line[0] + way * along(*index);
+        let asides = [-half, -half / 2.0, 0.0, half / 2.0, half].map(|aside| at + way.perp() * aside);
+        others.iter().all(|(other, reach)| asides.iter().all(|place| foot(*place, *other).0 >= *reach))
+    };
+    // The longest stretch of free places.
+    let (mut best, mut begin) = ([0, 0], None);
+    for index in 0..=count + 1 {
+        if index <= count && is_free(&index) {
+            begin.get_or_insert(index);
+        } else if let Some(first) = begin.take()
+            && index - 1 - first > best[1] - best[0]
+        {
+            best = [first, index - 1];
+        }
+    }
+    if best[0] == best[1] { [length / 2.0; 2] } else { [along(best[0]), length - along(best[1])] }
+}
