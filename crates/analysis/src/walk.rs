@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use full_moon::ast::punctuated::Punctuated;
-use full_moon::ast::{Ast, Block, Expression, FunctionBody, LastStmt, NumericFor, Stmt, Var};
+use full_moon::ast::{Assignment, Ast, Block, Expression, FunctionBody, LastStmt, NumericFor, Stmt, Var};
 use full_moon::node::Node;
 use full_moon::tokenizer::TokenReference;
 
@@ -176,6 +176,7 @@ impl<'a> Walk<'a> {
                 for variable in assignment.variables() {
                     self.assign(variable, statement);
                 }
+                self.check_state(assignment);
             }
             Stmt::CompoundAssignment(assignment) => {
                 self.expression(assignment.rhs());
