@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use full_moon::ast::punctuated::Punctuated;
-use full_moon::ast::{Assignment, Ast, Block, Expression, FunctionBody, LastStmt, NumericFor, Stmt, Var};
+use full_moon::ast::{Ast, Block, Expression, FunctionBody, LastStmt, NumericFor, Stmt, Var};
 use full_moon::node::Node;
 use full_moon::tokenizer::TokenReference;
 

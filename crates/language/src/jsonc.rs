@@ -177,13 +177,13 @@ struct Reader<'a> {
     at: usize,
 }
 
-impl Reader<'_> {
+impl<'a> Reader<'a> {
     fn complaint(&self) -> String {
         let line = 1 + self.text[..self.at.min(self.text.len())].matches('\n').count();
         format!("line {line} is not JSON")
     }
 
-    fn rest(&self) -> &str {
+    fn rest(&self) -> &'a str {
         &self.text[self.at..]
     }
 

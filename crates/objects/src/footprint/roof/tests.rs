@@ -44,10 +44,10 @@ fn model(size: DVec3) -> Arc<Model> {
         meaning: None,
     };
     Arc::new(Model::new(Scene {
-        shared: burgeon_scene::SharedMeshes::default(),
         materials: vec![Material::default()],
         meshes: vec![mesh],
         instances: vec![instance],
+        ..Scene::default()
     }))
 }
 
