@@ -92,6 +92,8 @@ fn a_hostile_zip_is_refused_and_leaves_nothing_behind() {
         with("nul.lua", "x"),
         with("a\nb", "x"),
         with("trailing.", "x"),
+        with("a\u{202e}gpj.lua", "x"),
+        refused(&zipped(&[("mod.toml", MOD), ("\u{e9}.lua", "1"), ("e\u{301}.lua", "2")])),
         with("../evil/", ""),
         with("link.png", "-> /etc/passwd"),
         with("MOD.toml", "x"),
@@ -114,6 +116,8 @@ fn a_hostile_zip_is_refused_and_leaves_nothing_behind() {
     FOLDER/castle.zip has a file nul.lua, whose name not every system can have
     FOLDER/castle.zip has a file a\nb, whose name not every system can have
     FOLDER/castle.zip has a file trailing., whose name not every system can have
+    FOLDER/castle.zip has a file a\u{202e}gpj.lua, whose name not every system can have
+    FOLDER/castle.zip has é.lua twice
     FOLDER/castle.zip has a file ../evil, which leads out of the package
     FOLDER/castle.zip has link.png, which is a link
     FOLDER/castle.zip has mod.toml and MOD.toml, which many systems take for one
