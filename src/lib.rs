@@ -107,7 +107,7 @@ pub use burgeon_base::{
 };
 pub use burgeon_data as sources;
 pub use burgeon_engine::run::{Run, RunTimes, run, run_session};
-pub use burgeon_engine::{ScriptCheck, check, check_package};
+pub use burgeon_engine::{ScriptCheck, check, check_package, declared_types, declared_types_of_package};
 pub use burgeon_engine::{results, script, trace};
 pub use burgeon_export as export;
 pub use burgeon_geometry as geometry;

@@ -116,6 +116,7 @@ pub(crate) fn summary_json(run: &Run, writing: Duration, total: Duration) -> ser
         "notes": run.notes,
         "warnings": warnings_json(&run.warnings),
         "params": params_json(&run.params),
+        "packages": packages_json(&run.scene.packages),
         "seconds": {
             "total": seconds(total),
             "script": seconds(run.times.script),
@@ -126,6 +127,12 @@ pub(crate) fn summary_json(run: &Run, writing: Duration, total: Duration) -> ser
         },
         "peak_memory_mb": peak_memory(),
     })
+}
+
+/// The packages that a model was made with, for machines.
+fn packages_json(packages: &[burgeon::scene::ScenePackage]) -> serde_json::Value {
+    let list = packages.iter().map(|it| json!({ "name": it.name, "version": it.version, "hash": it.hash }));
+    list.collect()
 }
 
 /// The parameters' values by their names, for machines.

@@ -2,15 +2,22 @@
 
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::time::Duration;
 
-use burgeon::language::{SETTINGS, editor_files, merged_settings};
+use burgeon::kit::Kind;
+use burgeon::language::{LUAURC, SETTINGS, editor_files, merged_luaurc, merged_settings, with_types};
+use burgeon::packages::{Package, PackageOrigin, PackageSearch, Packages};
+use burgeon::script::{Limits, RunInputs, RunOptions, api_version};
 use burgeon::{Error, Result};
 use clap::Args;
 use serde_json::json;
 
 use super::report;
+use super::shared::user_mods;
 
-/// Writes into a folder what Visual Studio Code with luau-lsp needs to complete and check scripts
+/// Writes into a folder what Visual Studio Code with luau-lsp needs to complete and check scripts, with the types of objects
+/// that they declare
 #[derive(Args)]
 pub(crate) struct SetupCommand {
     /// The folder with the scripts, which the editor opens
@@ -32,17 +39,26 @@ impl SetupCommand {
             let message = format!("there is no folder {}", self.folder.display());
             return Err(Error::file(&self.folder, message).help("make the folder first"));
         }
-        // Looked at first, so that nothing is written where it cannot be merged.
-        let there = read(&self.folder.join(SETTINGS))?;
-        let settings = merged_settings(there.as_deref()).map_err(|wanted| {
-            let path = self.folder.join(SETTINGS);
-            let message = format!("{} is no plain JSON, so nothing was written", path.display());
-            let wanted: Vec<&str> = wanted.lines().map(str::trim).collect();
-            Error::file(&path, message)
-                .help(format!("take its comments out for once, or add these yourself: {}", wanted.join(" ")))
-        })?;
+        let packages = self.packages();
+        // Looked at first, so that nothing is written where one of them cannot be merged.
+        let merged = [
+            (SETTINGS, merged_settings(read(&self.folder.join(SETTINGS))?.as_deref())),
+            (LUAURC, merged_luaurc(read(&self.folder.join(LUAURC))?.as_deref(), &self.aliases(&packages))),
+        ];
+        let mut texts = Vec::new();
+        for (file, merged) in merged {
+            texts.push((
+                file,
+                merged.map_err(|why| {
+                    let path = self.folder.join(file);
+                    let message = format!("{} is no JSON, so nothing was written: {why}", path.display());
+                    Error::file(&path, message).help("mend it, or move it away")
+                })?,
+            ));
+        }
+        let registry = with_types(&burgeon::objects::registry(), self.types(&packages));
         let (mut written, mut kept) = (Vec::new(), Vec::new());
-        for file in editor_files(&burgeon::objects::registry()) {
+        for file in editor_files(&registry) {
             let known = read(&self.folder.join(file.path))?;
             if known.as_deref() == Some(&file.text) || known.is_some() && !file.generated {
                 kept.push(file.path);
@@ -51,12 +67,14 @@ impl SetupCommand {
                 written.push(file.path);
             }
         }
-        match settings {
-            Some(settings) => {
-                write(&self.folder.join(SETTINGS), &settings)?;
-                written.push(SETTINGS);
+        for (file, text) in texts {
+            match text {
+                Some(text) => {
+                    write(&self.folder.join(file), &text)?;
+                    written.push(file);
+                }
+                None => kept.push(file),
             }
-            None => kept.push(SETTINGS),
         }
         if self.json {
             return report::print(&format!("{}\n", json!({ "ok": true, "written": written, "kept": kept })));
@@ -71,6 +89,57 @@ impl SetupCommand {
         Ok(())
     }
 }
+
+impl SetupCommand {
+    /// The packages that scripts of the folder can use.
+    fn packages(&self) -> Packages {
+        let search =
+            PackageSearch { script: Some(self.folder.clone()), given: Vec::new(), user: user_mods() };
+        Packages::find(&search, &api_version())
+    }
+
+    /// For each package its name and where it is: those in the folder from there.
+    fn aliases(&self, packages: &Packages) -> Vec<(String, String)> {
+        let alias = |package: &Package| {
+            let folder = match package.origin {
+                PackageOrigin::Beside => package.shown.strip_prefix(&self.folder).unwrap_or(&package.shown),
+                _ => package.folder.as_path(),
+            };
+            let parts: Vec<_> = folder.iter().map(|part| part.to_string_lossy()).collect();
+            (package.manifest.name.clone(), parts.join("/").replace("//", "/"))
+        };
+        packages.order().iter().map(alias).collect()
+    }
+
+    /// The types of objects that the scripts of the folder and its packages declare, as far as they run.
+    fn types(&self, packages: &Packages) -> Vec<Arc<Kind>> {
+        let options = |mods: Vec<PathBuf>| {
+            let inputs = RunInputs { mods, user_mods: user_mods(), ..RunInputs::default() };
+            let limits = Limits { time: LONGEST, ..Limits::default() };
+            RunOptions { inputs, limits, ..burgeon::options() }
+        };
+        let entries = std::fs::read_dir(&self.folder).into_iter().flatten().flatten();
+        let mut scripts: Vec<PathBuf> = entries.map(|entry| entry.path()).collect();
+        scripts.retain(|path| path.extension().is_some_and(|extension| extension == "lua") && path.is_file());
+        scripts.sort();
+        scripts.truncate(MOST);
+        let of_scripts =
+            scripts.iter().flat_map(|script| burgeon::declared_types(script, options(Vec::new())));
+        let beside = self.folder.join("mods");
+        let of_packages = packages.order().iter().flat_map(|package| {
+            // What the folder of a package is called by is how its files are named.
+            let mods = std::iter::once(package.shown.clone()).chain(beside.is_dir().then(|| beside.clone()));
+            burgeon::declared_types_of_package(&package.shown, options(mods.collect()))
+        });
+        of_scripts.chain(of_packages).collect()
+    }
+}
+
+/// The most scripts of a folder that are looked through for types of objects.
+const MOST: usize = 200;
+
+/// How long one of them may run for that.
+const LONGEST: Duration = Duration::from_secs(10);
 
 /// What is in a file; nothing if there is none.
 fn read(path: &Path) -> Result<Option<String>> {

@@ -121,8 +121,12 @@ impl ScriptFlags {
         let preset = match &self.preset {
             // A script that is not there is told of by the run.
             Some(name) if self.script.is_file() => {
-                let (path, name) = self.presets(name)?;
-                Some(Presets::read_file(&path)?.get(&name)?.clone())
+                let (path, inner) = self.presets(name)?;
+                let preset = Presets::read_file(&path)?.get(&inner)?.clone();
+                Some(match FileName::parse(name) {
+                    Ok(file) => preset.of_package(&file.package),
+                    Err(_) => preset,
+                })
             }
             _ => None,
         };

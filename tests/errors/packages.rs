@@ -221,7 +221,7 @@ fn a_package_uses_only_those_that_it_depends_on() {
 }
 
 #[test]
-fn packages_that_cannot_be_used_together_end_a_run_before_it_begins() {
+fn packages_that_cannot_be_used_end_a_run_that_uses_them() {
     insta::assert_snapshot!(refused(&castle("[depends]\nmasonry = \"1.2\"\nmortar = \"1\"")), @r#"
     error: mods/castle/mod.toml:5: the package castle needs masonry ^1.2, which is not there
       | masonry = "1.2"
@@ -242,7 +242,14 @@ fn packages_that_cannot_be_used_together_end_a_run_before_it_begins() {
       | masonry = "1"
       help: move what both need into a third package
     "#);
-    insta::assert_snapshot!(refused(&masonry("[conflicts]\nmasonry = \"*\"", "")), @r#"
+    let both = |folder: Folder| {
+        folder
+            .with("mods/masonry/init.lua", "return 1")
+            .with("s.lua", format!("require(\"@masonry\")\n{SCRIPT}"))
+    };
+    // What is not used is in nobody's way.
+    assert_eq!(prints(&masonry("[conflicts]\nmasonry = \"*\"", ""), &[]), "12\tcastle\n");
+    insta::assert_snapshot!(refused(&both(masonry("[conflicts]\nmasonry = \"*\"", ""))), @r#"
     error: mods/castle/mod.toml:5: the package castle cannot be used with masonry 1.0.0
       | masonry = "*"
       help: remove one of mods/castle and mods/masonry

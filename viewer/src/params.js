@@ -60,6 +60,13 @@ export class Params {
   }
 }
 
+/** The name of a parameter; that of a package stands smaller before it. */
+function labelled({ name, package: owner }, id) {
+  if (!owner) return make('label', { for: id, text: name });
+  const own = name.slice(owner.length + 1);
+  return make('label', { for: id, title: name }, make('span', { class: 'owner', text: `${owner} ` }), own);
+}
+
 /** Rows of one kind can be changed into each other without new elements. */
 function kind({ control }) {
   return control.type === 'choice'
@@ -101,7 +108,7 @@ class Row {
       make(
         'div',
         { class: 'param-head' },
-        make('label', { for: this.id, text: name }),
+        labelled(param, this.id),
         this.resetter,
         make('span', { class: 'value' }, this.input.field, this.unit),
       ),

@@ -31,6 +31,8 @@ pub(super) struct CallCheck<'a> {
     pub(super) scope: Vec<(String, Inference)>,
     /// The names of variables that are set more than once.
     assigned: BTreeSet<String>,
+    /// The package that the file is of; none for the script.
+    pub(super) package: Option<&'a str>,
     /// The functions that the file adds to types: the type's name, if it is known, and the function's.
     pub(super) added: BTreeSet<(Option<String>, String)>,
     /// What the function is for that is being walked.
@@ -104,6 +106,7 @@ impl<'a> CallCheck<'a> {
         let added = BTreeSet::new();
         Self {
             added,
+            package: None,
             file,
             registry,
             scope: Vec::new(),
@@ -137,13 +140,13 @@ impl<'a> CallCheck<'a> {
                     assignment.expressions().iter().map(|value| self.expression(value)).collect();
                 let found = found.into_iter().chain(std::iter::repeat(Inference::Unknown));
                 for (variable, value) in assignment.variables().iter().zip(found) {
-                    self.assigned_to(variable);
+                    self.assigned_to(variable, &value);
                     self.remember(variable, value);
                 }
             }
             Stmt::CompoundAssignment(assignment) => {
                 self.expression(assignment.rhs());
-                self.assigned_to(assignment.lhs());
+                self.assigned_to(assignment.lhs(), &Inference::Unknown);
             }
             Stmt::FunctionCall(call) => {
                 self.call(call);

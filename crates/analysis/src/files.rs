@@ -17,6 +17,8 @@ use burgeon_kit::Registry;
 pub struct CheckedFile {
     /// Its name for messages.
     pub name: String,
+    /// The package that it is of; none for the script.
+    pub package: Option<String>,
     /// What stands in it.
     pub ast: Arc<Ast>,
     /// By what it writes in `require`: the names of the files that are meant.
@@ -56,6 +58,7 @@ impl<'a> FileChecks<'a> {
         self.exports.borrow_mut().insert(&file.name, Inference::Unknown);
         let required = |name: &str| self.required(file, name);
         let mut check = CallCheck::new(&file.name, &file.ast, self.registry, Some(&required));
+        check.package = file.package.as_deref();
         let found = check.file(&file.ast);
         self.problems.borrow_mut().append(&mut check.problems);
         self.exports.borrow_mut().insert(&file.name, found.clone());

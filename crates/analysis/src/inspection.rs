@@ -13,9 +13,96 @@ pub fn inspects_tables(text: &str) -> bool {
     })
 }
 
+/// The first arguments of the calls of `function` in `text` that are texts in quotes, without escapes. Comments and other
+/// texts are passed over.
+pub fn calls_with_text<'a>(text: &'a str, function: &'a str) -> impl Iterator<Item = String> + use<'a> {
+    let mut tokens = Tokens { rest: text };
+    let mut called = 0;
+    std::iter::from_fn(move || {
+        loop {
+            let token = tokens.next()?;
+            called = match (called, token) {
+                (0 | 1 | 2, Token::Word(word)) if word == function => 1,
+                (1, Token::Other('(')) => 2,
+                (1 | 2, Token::Text(text)) => {
+                    called = 0;
+                    return Some(text.to_owned());
+                }
+                _ => 0,
+            };
+        }
+    })
+}
+
+/// A part of a script, as far as its calls matter.
+enum Token<'a> {
+    Word(&'a str),
+    Text(&'a str),
+    Other(char),
+}
+
+struct Tokens<'a> {
+    rest: &'a str,
+}
+
+impl<'a> Tokens<'a> {
+    fn next(&mut self) -> Option<Token<'a>> {
+        loop {
+            self.rest = self.rest.trim_start();
+            let Some(comment) = self.rest.strip_prefix("--") else { break };
+            self.rest = match long_bracket(comment) {
+                Some((_, after)) => after,
+                None => comment.find('\n').map_or("", |end| &comment[end..]),
+            };
+        }
+        if let Some((inner, after)) = long_bracket(self.rest) {
+            self.rest = after;
+            return Some(Token::Text(inner));
+        }
+        let first = self.rest.chars().next()?;
+        let is_word = |c: char| c.is_alphanumeric() || c == '_';
+        if is_word(first) {
+            let end = self.rest.find(|c| !is_word(c)).unwrap_or(self.rest.len());
+            let (word, after) = self.rest.split_at(end);
+            self.rest = after;
+            return Some(Token::Word(word));
+        }
+        self.rest = &self.rest[first.len_utf8()..];
+        if !matches!(first, '"' | '\'' | '`') {
+            return Some(Token::Other(first));
+        }
+        let mut escaped = false;
+        let end = self.rest.find(|c| {
+            let is_end = c == first && !escaped;
+            escaped = c == '\\' && !escaped;
+            is_end
+        });
+        let (inner, after) = self.rest.split_at(end.unwrap_or(self.rest.len()));
+        self.rest = after.get(1..).unwrap_or("");
+        Some(if first == '`' { Token::Other(first) } else { Token::Text(inner) })
+    }
+}
+
+/// What stands between `[[` and `]]` at the beginning of `text`, and what comes after it.
+fn long_bracket(text: &str) -> Option<(&str, &str)> {
+    let level = text.strip_prefix('[')?.find(|c| c != '=')?;
+    let inner = text.get(level + 1..)?.strip_prefix('[')?;
+    let end = format!("]{}]", "=".repeat(level));
+    Some(inner.split_once(&end).unwrap_or((inner, "")))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn calls_are_found_and_comments_and_texts_are_not() {
+        let script = "-- param(\"a\")\nlocal b = param( \"b\", {}) --[[ param(\"c\") ]] local d = param 'd'\n\
+                      local t = \"param('e')\" local u = [==[ param(\"f\") ]==] local g = param(name)\n\
+                      local h = params(\"h\") local i = `param(\"i\")` local k = param([[k]]) param";
+        assert_eq!(calls_with_text(script, "param").collect::<Vec<_>>(), ["b", "d", "k"]);
+        assert_eq!(calls_with_text("param(\"\\\"x", "param").count(), 1);
+    }
 
     #[test]
     fn only_whole_names_of_functions_count() {

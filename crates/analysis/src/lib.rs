@@ -26,7 +26,7 @@ mod syntax;
 mod walk;
 
 pub use files::{CheckedFile, call_problems};
-pub use inspection::inspects_tables;
+pub use inspection::{calls_with_text, inspects_tables};
 pub use parameters::sql_parameters;
 pub use pure::has_metatables;
 pub use queries::QueryCall;

@@ -3,13 +3,16 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use full_moon::ast::{Expression, Field, FunctionArgs, Index, Prefix, Suffix, TableConstructor, Var};
+use full_moon::ast::{
+    Assignment, BinOp, Expression, Field, FunctionArgs, Index, Prefix, Suffix, TableConstructor, Var,
+};
+use full_moon::node::Node;
 use full_moon::tokenizer::TokenReference;
 
 use super::calls::{CallCheck, expressions_of};
 use super::inference::Inference;
-use super::syntax::{string_of, text_of};
-use super::walk::FunctionRole;
+use super::syntax::{end_of, string_of, text_of};
+use super::walk::{FunctionRole, Walk};
 use burgeon_base::error::Error;
 use burgeon_kit::{Kind, Value};
 use burgeon_language::Literal;
@@ -30,6 +33,40 @@ fn added_names(table: &TableConstructor) -> Vec<String> {
     parts.flatten().map(|(name, _)| name).collect()
 }
 
+impl Walk<'_> {
+    /// Has what is assigned to a part of `self` looked at where it is assigned: what cannot be kept in the state of an
+    /// object is told of in that line.
+    pub(super) fn check_state(&mut self, assignment: &Assignment) {
+        let (mut variables, mut values) = (assignment.variables().iter(), assignment.expressions().iter());
+        let (Some(Var::Expression(variable)), None) = (variables.next(), variables.next()) else { return };
+        let (Some(value), None) = (values.next(), values.next()) else { return };
+        let is_self = matches!(variable.prefix(), Prefix::Name(name) if text_of(name) == "self");
+        let suffixes: Vec<&Suffix> = variable.suffixes().collect();
+        let Some(Suffix::Index(Index::Dot { name, .. })) = suffixes.first().filter(|_| is_self) else {
+            return;
+        };
+        if self.find("self").is_none() || is_plain(value) {
+            return;
+        }
+        let (Some(begin), Some(end)) = (value.start_position(), end_of(value)) else { return };
+        let direct = suffixes.len() == 1;
+        self.edit(begin.bytes(), begin.bytes(), format!("__kept(self, \"{}\", {direct}, ", text_of(name)));
+        self.edit(end.bytes(), end.bytes(), ")".to_owned());
+    }
+}
+
+/// Whether a value can be seen to be a number, a text, a switch or nothing.
+fn is_plain(value: &Expression) -> bool {
+    match value {
+        Expression::Number(_) | Expression::String(_) | Expression::InterpolatedString(_) => true,
+        Expression::Symbol(symbol) => text_of(symbol) != "...",
+        Expression::UnaryOperator { .. } => true,
+        Expression::BinaryOperator { binop, .. } => !matches!(binop, BinOp::And(_) | BinOp::Or(_)),
+        Expression::Parentheses { expression, .. } => is_plain(expression),
+        _ => false,
+    }
+}
+
 impl CallCheck<'_> {
     /// `object(name, { ... })` or `extend(constructor, { ... })`: walks its functions, which have objects of that type. Gives
     /// the constructor, if it is known which type that is.
@@ -38,7 +75,12 @@ impl CallCheck<'_> {
         let first = written.first().map(|first| (self.expression(first), *first));
         let kind = match first {
             Some((_, Expression::String(text))) if word == "object" => {
-                string_of(text).and_then(|name| self.registry.get(&name).cloned())
+                let name = string_of(text);
+                let full = name.map(|name| match self.package {
+                    Some(package) => format!("{package}.{name}"),
+                    None => name,
+                });
+                full.and_then(|name| self.registry.get(&name).cloned())
             }
             Some((Inference::Constructor(kind), _)) if word == "extend" => Some(kind),
             _ => None,
@@ -142,7 +184,7 @@ impl CallCheck<'_> {
     }
 
     /// Something is assigned to a variable, or to a part of what one holds.
-    pub(super) fn assigned_to(&mut self, variable: &Var) {
+    pub(super) fn assigned_to(&mut self, variable: &Var, value: &Inference) {
         let Var::Expression(inner) = variable else { return };
         let suffixes: Vec<&Suffix> = inner.suffixes().collect();
         let Some((Suffix::Index(Index::Dot { name, .. }), before)) = suffixes.split_last() else {
@@ -167,8 +209,14 @@ impl CallCheck<'_> {
         }) {
             return;
         } else {
-            Error::scope(format!("{kind_name} has no state called {text}"))
-                .help(format!("declare it: state = {{ {text} = ... }}"))
+            let error = Error::scope(format!("{kind_name} has no state called {text}"));
+            match value {
+                Inference::Object(kind) => error.help(format!(
+                    "declare what it draws with: state = {{ {text} = {}() }}, and call its methods: self.{text}:...",
+                    kind.name
+                )),
+                _ => error.help(format!("declare it: state = {{ {text} = ... }}")),
+            }
         };
         self.problem(name, error);
     }

@@ -74,6 +74,8 @@ pub(super) fn declared_module(value: &Expression) -> Option<Signature> {
         _ => return None,
     };
     let (name, parameters) = texts.split_first()?;
+    // A module of a package is named with it.
+    let name = name.rsplit('.').next().unwrap_or(name);
     Signature::new(name, parameters).ok()
 }
 

@@ -179,6 +179,7 @@ impl<'a> Walk<'a> {
                 for variable in assignment.variables() {
                     self.assign(variable, statement);
                 }
+                self.check_state(assignment);
             }
             Stmt::CompoundAssignment(assignment) => {
                 self.expression(assignment.rhs());

@@ -12,6 +12,7 @@ pub mod error;
 pub mod files;
 pub mod locks;
 pub mod memory;
+pub mod names;
 pub mod stop;
 pub mod text;
 pub mod warning;

@@ -67,6 +67,8 @@ pub enum WarningKind {
     HiddenPackage,
     /// Something of a package that two others replace.
     ReplacedTwice,
+    /// A package that is there and cannot be used.
+    BrokenPackage,
 }
 
 impl WarningKind {
@@ -96,6 +98,7 @@ impl WarningKind {
             Self::Deprecated => "warning.deprecated",
             Self::HiddenPackage => "warning.hidden-package",
             Self::ReplacedTwice => "warning.replaced-twice",
+            Self::BrokenPackage => "warning.broken-package",
         }
     }
 }

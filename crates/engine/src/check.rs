@@ -37,7 +37,9 @@ pub fn check_package(folder: &Path, options: RunOptions) -> Result<ScriptCheck> 
     let Some(package) = package else {
         // It is hidden by another one, or there is a problem that tells why.
         let shown = folder.display();
-        let problems = packages.problems.clone();
+        let broken = packages.broken.iter().filter(|broken| broken.folder == session.root());
+        let broken = broken.map(|broken| broken.error.clone());
+        let problems: Vec<Error> = packages.problems.iter().cloned().chain(broken).collect();
         return Err(if problems.is_empty() {
             Error::not_found("package", &shown, [], format!("{shown} is no package that is used"))
                 .help("burgeon mods lists those that are")
@@ -46,6 +48,26 @@ pub fn check_package(folder: &Path, options: RunOptions) -> Result<ScriptCheck> 
         });
     };
     checked(&session, |machine| machine.run_package(package))
+}
+
+/// The types of objects that the script at `path` declares, and those that it adds methods to, as far as it comes: for
+/// editors, which are of use before a script is complete.
+pub fn declared_types(path: &Path, options: RunOptions) -> Vec<Arc<Kind>> {
+    let Ok(session) = Session::new(path, RunOptions { check: true, ..options }) else { return Vec::new() };
+    // What is wrong with it is told when it is run or checked.
+    let _ = declare_with(&session, &mut Vec::new(), Machine::run);
+    session.types()
+}
+
+/// The same of the package in `folder`.
+pub fn declared_types_of_package(folder: &Path, options: RunOptions) -> Vec<Arc<Kind>> {
+    let options = RunOptions { check: true, ..options };
+    let Ok(session) = Session::new(&folder.join(MANIFEST), options) else { return Vec::new() };
+    let packages = session.packages();
+    if let Some(package) = packages.order().iter().find(|package| package.folder == session.root()) {
+        let _ = declare_with(&session, &mut Vec::new(), |machine| machine.run_package(package));
+    }
+    session.types()
 }
 
 /// What comes of `run` in a session whose options say to check only.

@@ -22,5 +22,5 @@ pub mod script {
     pub use crate::questions::{Question, RowSource, Rows};
 }
 
-pub use check::{ScriptCheck, check, check_package};
+pub use check::{ScriptCheck, check, check_package, declared_types, declared_types_of_package};
 pub use run::{Run, RunTimes, run_session};

@@ -14,7 +14,7 @@ use crate::results::{
 use burgeon_base::error::{Error, Result};
 use burgeon_base::warning::Warning;
 use burgeon_data::ReferenceFrame;
-use burgeon_scene::Scene;
+use burgeon_scene::{Scene, ScenePackage};
 
 /// What a run of a script gave.
 pub struct Run {
@@ -42,6 +42,15 @@ impl Run {
             report.add(system.given, &system.remarks);
         }
         report
+    }
+
+    /// Notes in its scene which packages it was made with, as they are: that reads all of their files.
+    pub fn note_packages(&mut self, session: &Session) -> Result<()> {
+        let locked = session.lock()?.into_iter();
+        let noted =
+            locked.map(|it| ScenePackage { name: it.name, version: it.version.to_string(), hash: it.hash });
+        self.scene.packages = noted.collect();
+        Ok(())
     }
 
     /// The warning that tells why nothing of a model is seen, also of one that was to be seen in part only; `None` if
@@ -176,15 +185,21 @@ pub(crate) fn declare_with(
 /// Refuses values for parameters that the script does not have.
 pub(crate) fn refuse_unknown(session: &Session, params: &[Param]) -> Result<()> {
     for (name, _) in &session.options.params.set {
-        if !params.iter().any(|param| param.name == *name) {
-            session.forgive(name, no_such(session.script(), name, params))?;
+        match Param::find(params, name) {
+            Ok(Some(_)) => {}
+            Ok(None) => session.forgive(name, no_such(session.script(), name, params))?,
+            Err(error) => session.forgive(name, error)?,
         }
     }
     if let Some(preset) = &session.options.params.preset {
         for (name, _) in &preset.params {
-            if !params.iter().any(|param| param.name == *name) {
-                let script = session.script().display().to_string();
-                session.forgive(name, preset.outdated(name, &script, params))?;
+            match Param::find(params, name) {
+                Ok(Some(_)) => {}
+                Ok(None) => {
+                    let script = session.script().display().to_string();
+                    session.forgive(name, preset.outdated(name, &script, params))?;
+                }
+                Err(error) => session.forgive(name, preset.refused(name, &error))?,
             }
         }
     }

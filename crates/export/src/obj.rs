@@ -53,6 +53,9 @@ fn write_objects(
     if checked.origin != DVec3::ZERO {
         writeln!(out, "# Counted from ({x}, {y}, {z}): add this to each point for its place in the world.")?;
     }
+    for package in &checked.scene.packages {
+        writeln!(out, "# package {} {} {}", package.name, package.version, package.hash)?;
+    }
     writeln!(out, "mtllib {library}")?;
     let mut numbers = ObjNumbers { point: 1, tex_coord: 1 };
     for instance in checked.scene.instances.iter().filter(|instance| checked.meshes[instance.mesh]) {

@@ -359,7 +359,7 @@ impl Kind {
                 .chain(letters)
                 .collect::<String>()
         };
-        self.name.split('_').map(capital).collect()
+        self.name.split(['_', '-', '.']).map(capital).collect()
     }
 
     /// Whether it is called `name`, or extends a type that is.

@@ -11,8 +11,9 @@ use burgeon_kit::{Argument, Construct, Field, Kind, Method, Registry, is_keyword
 
 use crate::form::{is_name, may_be_left_out};
 use crate::luau_type::LuauType;
-use crate::names::{Name, NameKind, Operator, names};
+use crate::names::{Name, NameKind, OBJECT, Operator, names};
 use crate::notation::{capital, is_plain, key, merged, module_form, optional, with_parameters};
+use crate::script_types::{members, plain_name};
 
 /// What editors are given.
 #[derive(Debug, Clone)]
@@ -26,12 +27,20 @@ pub struct Definitions {
 /// What editors are given of the types in `registry` and of the language.
 pub fn definitions(registry: &Registry) -> Definitions {
     let mut writer = Writer::default();
-    for kind in registry.kinds() {
+    for kind in registry.kinds().filter(|kind| kind.script.is_none()) {
         writer.types.insert(kind.luau());
         writer.types.extend(kind.family.as_ref().map(ToString::to_string));
     }
     writer.types.extend(names().iter().filter(|name| name.sort == NameKind::Given).map(type_name));
-    writer.types.insert("Module".to_owned());
+    writer.types.extend(["Module", "Object", "ScriptObject"].map(str::to_owned));
+    for kind in registry.kinds().filter(|kind| kind.script.is_some()) {
+        let mut own = kind.luau();
+        // A script may call its type what Burgeon calls another.
+        while !writer.types.insert(own.clone()) {
+            own.push_str("Type");
+        }
+        writer.classes.insert(kind.name.to_string(), own);
+    }
     let mut body = String::new();
     for name in names().iter().filter(|name| name.sort == NameKind::Given) {
         writer.given(&mut body, name);
@@ -55,6 +64,7 @@ pub fn definitions(registry: &Registry) -> Definitions {
                 let method = registry.get(kind).and_then(|kind| kind.method(method));
                 writer.module(&mut body, name, method);
             }
+            NameKind::Global if name.name == OBJECT.name => writer.declaring(&mut body, name, registry),
             NameKind::Global => match generic_returns(name) {
                 Some(generic) => writer.object_function(&mut body, name, generic, registry),
                 None => writer.global(&mut body, name),
@@ -102,6 +112,8 @@ struct Writer {
     docs: BTreeMap<String, String>,
     /// What the next table of named fields is called.
     options: String,
+    /// By the names of types that scripts declare: what their classes are called.
+    classes: BTreeMap<String, String>,
 }
 
 impl Writer {
@@ -199,7 +211,7 @@ impl Writer {
     }
 
     fn kind(&mut self, out: &mut String, kind: &Kind) {
-        let own = kind.luau();
+        let own = self.class_name(kind);
         self.doc(out, &format!("globaltype/{own}"), &kind.doc, "");
         let _ = writeln!(out, "declare class {own} extends {}", kind.family.as_deref().unwrap_or("Object"));
         let read = if matches!(kind.construct, Construct::Given) { &kind.fields[..] } else { &[] };
@@ -208,7 +220,17 @@ impl Writer {
             let luau = self.got(field.luau.trim_end_matches('?'));
             let _ = writeln!(out, "  {}: {luau}", field.name);
         }
+        for (name, luau) in members(kind) {
+            let luau = self.got(&luau);
+            let _ = writeln!(out, "  {name}: {luau}");
+        }
         for method in &kind.methods {
+            let doubled = kind.script.as_ref().is_some_and(|it| it.parts().any(|part| part == method.name));
+            if doubled {
+                // It is a part of the state and a method of one name, which no class has.
+                let _ = writeln!(out, "  {}: any", method.name);
+                continue;
+            }
             self.doc(out, &format!("globaltype/{own}.{}", method.name), &method.doc, "  ");
             self.options = format!("{own}{}Options", capital(&method.name));
             let arguments = self.arguments(&method.arguments, true);
@@ -221,7 +243,7 @@ impl Writer {
             let _ = writeln!(out, "  function {}({arguments}): {returns}", method.name);
         }
         out.push_str("end\n\n");
-        if let Some(arguments) = self.constructor(kind) {
+        if let Some(arguments) = self.constructor(kind).filter(|_| kind.script.is_none()) {
             self.doc(out, &format!("global/{}", kind.name), &kind.doc, "");
             let _ = writeln!(out, "declare function {}({arguments}): {own}\n", kind.name);
         }
@@ -229,7 +251,7 @@ impl Writer {
 
     /// The arguments of a type's constructor; `None` where scripts cannot make one.
     fn constructor(&mut self, kind: &Kind) -> Option<String> {
-        let options = format!("{}Options", kind.luau());
+        let options = format!("{}Options", self.class_name(kind));
         if !kind.fields.is_empty() && !matches!(kind.construct, Construct::Given) {
             let table = self.table(&kind.fields);
             self.aliases.insert(options.clone(), table);
@@ -296,7 +318,7 @@ impl Writer {
         let of_use = |kind: &&std::sync::Arc<Kind>| kind.show.is_some() || kind.expand.is_some();
         for kind in registry.kinds().filter(of_use) {
             if let (Construct::Fields(_), Some(arguments)) = (&kind.construct, self.constructor(kind)) {
-                let own = kind.luau();
+                let own = self.class_name(kind);
                 let _ = writeln!(
                     out,
                     "  & ((options: {{ read object: ({arguments}) -> {own} }}) -> {})",
@@ -310,6 +332,39 @@ impl Writer {
             let _ = writeln!(out, "  & ((options: {{ read seed: {luau} }}) -> {})", given("any"));
         }
         let _ = writeln!(out, "  & (() -> {})\n", given("any"));
+    }
+
+    /// What Luau calls the class of a type.
+    fn class_name(&self, kind: &Kind) -> String {
+        self.classes.get(&*kind.name).cloned().unwrap_or_else(|| kind.luau())
+    }
+
+    /// The function that declares a type of object: by its name it is known which type that is.
+    fn declaring(&mut self, out: &mut String, name: &Name, registry: &Registry) {
+        let scripts: Vec<_> = registry.kinds().filter(|kind| kind.script.is_some()).collect();
+        let is_alone =
+            |kind: &Kind| scripts.iter().filter(|other| plain_name(other) == plain_name(kind)).count() == 1;
+        let own: Vec<String> = scripts
+            .iter()
+            .filter(|kind| is_alone(kind))
+            .filter_map(|kind| {
+                let (arguments, class) = (self.constructor(kind)?, self.class_name(kind));
+                Some(format!(
+                    "(name: \"{}\", declaration: any) -> (({arguments}) -> {class})",
+                    plain_name(kind)
+                ))
+            })
+            .collect();
+        if own.is_empty() {
+            return self.global(out, name);
+        }
+        self.doc(out, &format!("global/{}", name.name), &name.doc, "");
+        let _ = writeln!(out, "declare {}:", name.name);
+        for (index, form) in own.iter().enumerate() {
+            let and = if index == 0 { "" } else { "& " };
+            let _ = writeln!(out, "  {and}({form})");
+        }
+        let _ = writeln!(out, "  & ((name: string, declaration: any) -> ((fields: any?) -> ScriptObject))\n");
     }
 
     fn global(&mut self, out: &mut String, name: &Name) {

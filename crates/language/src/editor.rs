@@ -4,6 +4,7 @@ use burgeon_kit::Registry;
 use serde_json::{Map, Value, json};
 
 use crate::definitions::definitions;
+use crate::jsonc::{add_missing, is_comments};
 
 /// A file that an editor reads.
 #[derive(Debug, Clone)]
@@ -19,7 +20,10 @@ pub struct EditorFile {
 /// Where the settings are, from the folder of the scripts.
 pub const SETTINGS: &str = ".vscode/settings.json";
 
-/// The files that an editor reads, without its settings.
+/// Where Luau's own settings are, from the folder of the scripts.
+pub const LUAURC: &str = ".luaurc";
+
+/// The files that an editor reads, without its settings and [`LUAURC`]. Types that scripts declare may be in `registry`.
 pub fn editor_files(registry: &Registry) -> Vec<EditorFile> {
     let definitions = definitions(registry);
     let docs: Map<String, Value> =
@@ -29,50 +33,40 @@ pub fn editor_files(registry: &Registry) -> Vec<EditorFile> {
         file(".burgeon/burgeon.d.luau", definitions.luau, true),
         file(".burgeon/burgeon.docs.json", written(&Value::Object(docs)), true),
         file(".vscode/burgeon.code-snippets", written(&snippets()), false),
-        file(".luaurc", written(&json!({ "languageMode": "nonstrict" })), false),
     ]
 }
 
-/// The settings of an editor with what Burgeon needs: what stands in them stays. None if it all stands there already.
+/// The settings of an editor with what Burgeon needs: what stands in them stays, comments too. None if it all stands there
+/// already.
 ///
-/// `there` is the content of the file, if there is one. Fails with what is to be added, where that is no plain JSON.
+/// `there` is the content of the file, if there is one. Fails with what is wrong if that is no JSON, where comments may
+/// stand.
 pub fn merged_settings(there: Option<&str>) -> Result<Option<String>, String> {
-    let wanted = settings();
-    let mut merged = match there.map(str::trim).filter(|text| !text.is_empty()) {
-        None => Map::new(),
-        Some(text) => match serde_json::from_str(text) {
-            Ok(Value::Object(known)) => known,
-            _ => return Err(written(&Value::Object(wanted))),
-        },
-    };
-    let mut changed = there.is_none();
-    for (name, value) in wanted {
-        match (merged.get_mut(&name), value) {
-            (None, value) => {
-                merged.insert(name, value);
-                changed = true;
-            }
-            (Some(Value::Object(known)), Value::Object(more)) => {
-                for (name, value) in more {
-                    if !known.contains_key(&name) {
-                        known.insert(name, value);
-                        changed = true;
-                    }
-                }
-            }
-            (Some(Value::Array(known)), Value::Array(more)) => {
-                for value in more {
-                    if !known.contains(&value) {
-                        known.push(value);
-                        changed = true;
-                    }
-                }
-            }
-            // What somebody chose stays.
-            (Some(_), _) => {}
-        }
+    merged(there, &settings())
+}
+
+/// The `.luaurc` with an alias for each of `packages`, a name and a folder, so that `require("@castle/towers")` is found;
+/// what stands in it stays. None if it all stands there already. Fails as [`merged_settings`] does.
+pub fn merged_luaurc(there: Option<&str>, packages: &[(String, String)]) -> Result<Option<String>, String> {
+    let mut wanted = Map::new();
+    if there.is_none_or(|there| there.trim().is_empty()) {
+        wanted.insert("languageMode".to_owned(), "nonstrict".into());
     }
-    Ok(changed.then(|| written(&Value::Object(merged))))
+    if !packages.is_empty() {
+        let aliases = packages.iter().map(|(name, folder)| (name.clone(), Value::from(folder.as_str())));
+        wanted.insert("aliases".to_owned(), aliases.collect());
+    }
+    merged(there, &wanted)
+}
+
+fn merged(there: Option<&str>, wanted: &Map<String, Value>) -> Result<Option<String>, String> {
+    match there.filter(|text| !text.trim_start_matches('\u{feff}').trim().is_empty()) {
+        Some(text) if is_comments(text) => {
+            Ok(Some(format!("{}\n{}", text.trim_end(), written(&Value::Object(wanted.clone())))))
+        }
+        Some(text) => add_missing(text, wanted),
+        None => Ok(Some(written(&Value::Object(wanted.clone())))),
+    }
 }
 
 fn settings() -> Map<String, Value> {
@@ -153,9 +147,25 @@ mod tests {
     }
 
     #[test]
-    fn settings_with_comments_are_left_to_people() {
-        let wanted = merged_settings(Some("{ // mine\n}")).expect_err("no plain JSON");
-        assert!(wanted.contains("enableNewSolver"), "{wanted}");
-        assert!(merged_settings(Some("[]")).is_err());
+    fn settings_keep_their_comments() {
+        let there = "{\n  // mine\n  \"editor.tabSize\": 2, // two\n}\n";
+        let merged = merged_settings(Some(there)).expect("JSON").expect("something new");
+        assert!(
+            merged.starts_with("{\n  // mine\n  \"editor.tabSize\": 2, // two\n  \"files.associations\""),
+            "{merged}"
+        );
+        assert_eq!(merged_settings(Some(&merged)).expect("JSON"), None);
+        assert!(merged_settings(Some("[]")).is_err() && merged_settings(Some("{ \"a\" }")).is_err());
+    }
+
+    #[test]
+    fn packages_have_aliases_and_what_somebody_chose_stays() {
+        let packages = [("castle".to_owned(), "mods/castle".to_owned())];
+        let made = merged_luaurc(None, &packages).expect("nothing there").expect("all of it");
+        let read: Value = serde_json::from_str(&made).expect("JSON");
+        assert_eq!(read, json!({ "languageMode": "nonstrict", "aliases": { "castle": "mods/castle" } }));
+        let there = "{ \"languageMode\": \"strict\", // mine\n  \"aliases\": { \"castle\": \"elsewhere\" } }";
+        assert_eq!(merged_luaurc(Some(there), &packages).expect("JSON"), None);
+        assert_eq!(merged_luaurc(Some("{}"), &[]).expect("JSON"), None);
     }
 }

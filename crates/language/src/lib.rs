@@ -8,12 +8,14 @@ mod definitions;
 mod editor;
 mod examples;
 mod form;
+mod jsonc;
 mod luau_type;
 mod names;
 mod notation;
+mod script_types;
 
 pub use definitions::{Definitions, definitions};
-pub use editor::{EditorFile, SETTINGS, editor_files, merged_settings};
+pub use editor::{EditorFile, LUAURC, SETTINGS, editor_files, merged_luaurc, merged_settings};
 pub use examples::EXAMPLES;
 pub use form::{CallForm, argument};
 pub use luau_type::{Literal, LuauType};
@@ -22,3 +24,4 @@ pub use names::{
     SYSTEM, VECTOR, deprecated_names, is_pure_function, is_pure_method, library_effect, names,
 };
 pub use notation::module_form;
+pub use script_types::with_types;

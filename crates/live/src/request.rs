@@ -74,7 +74,7 @@ impl Request {
                     )));
                 }
             };
-            let param = params.and_then(|params| params.iter().find(|param| param.name == *name));
+            let param = params.map(|params| Param::find(params, name)).transpose()?.flatten();
             match (&text, param, params) {
                 (Some(text), Some(param), _) => {
                     param.accept(text)?;
@@ -86,7 +86,8 @@ impl Request {
                 }
                 _ => {}
             }
-            read.push((name.clone(), text, param.map(|param| param.default.clone())));
+            let full = param.map_or(name, |param| &param.name);
+            read.push((full.clone(), text, param.map(|param| param.default.clone())));
         }
         if !read.is_empty() {
             self.preset = None;
@@ -165,8 +166,26 @@ impl Request {
         self.params(&requested)
     }
 
+    /// Gives values their parameters' full names, where a plain one meant one of a package.
+    fn qualify(&mut self, params: &[Param]) {
+        let plain: Vec<(String, String)> = self
+            .values
+            .keys()
+            .filter_map(|name| {
+                let param = Param::find(params, name).ok().flatten().filter(|param| param.name != *name)?;
+                Some((name.clone(), param.name.clone()))
+            })
+            .collect();
+        for (name, full) in plain {
+            if let Some(given) = self.values.remove(&name) {
+                self.values.entry(full).or_insert(given);
+            }
+        }
+    }
+
     /// The parameters of a run as pages show them, the script's own first. Notes the defaults of values whose default was not known.
     pub(super) fn params(&mut self, params: &[Param]) -> Vec<ParamMessage> {
+        self.qualify(params);
         let mut messages = Vec::with_capacity(params.len());
         for param in params {
             let given = self.values.get_mut(&param.name);
@@ -200,6 +219,7 @@ mod tests {
     fn param(default: f64, max: f64) -> Param {
         Param {
             name: "floors".into(),
+            package: None,
             value: Setting::Number(default),
             default: Setting::Number(default),
             control: Control::Number { min: Some(1.0), max: Some(max), step: Some(1.0) },

@@ -56,7 +56,7 @@ fn find(state: &ServerState, own: &Presets, name: &str) -> Result<Preset> {
         let message = format!("no package called {package} has presets");
         return Err(Error::not_found("package", package, known, message));
     };
-    let preset = Presets::read_file(path)?.get(inner)?.clone();
+    let preset = Presets::read_file(path)?.get(inner)?.clone().of_package(package);
     Ok(Preset { name: name.to_owned(), ..preset })
 }
 
@@ -68,7 +68,7 @@ fn of_package(name: &str) -> Option<(&str, &str)> {
 /// Takes notice of the packages that a run has found to have presets. Returns their files.
 pub(super) fn find_package_presets(state: &ServerState, session: &Session) -> Vec<(PathBuf, bool)> {
     let found = session.package_presets();
-    let files = found.iter().map(|(_, path)| (path.clone(), true)).collect();
+    let files = session.package_preset_places();
     let mut known = state.package_presets.lock().recover();
     let is_new = *known != found;
     *known = found;
@@ -182,7 +182,7 @@ pub(super) fn variations(
         };
         let over = over?;
         if let (VariationAxis::Param { name, .. }, Some(params)) = (&over, &params)
-            && !params.iter().any(|param| param.name == *name)
+            && Param::find(params, name)?.is_none()
         {
             let names = params.iter().map(|param| param.name.as_str());
             let message = format!("the script has no parameter called {name}");

@@ -1,83 +1,101 @@
-//! Whether packages can be used together.
+//! Checks which packages can be used, and which can be used together.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet, HashSet};
 
 use burgeon_base::WarningKind;
-use burgeon_base::error::Error;
+use burgeon_base::error::{Error, Result};
 use burgeon_base::warning::Warning;
 use semver::Version;
 
 use super::find::{Package, PackageOrigin, Packages};
+use super::manifest::{Dependency, Manifest};
 use super::order::DependencyCircle;
 
-/// Notes at each package why it cannot be used, and at `found` what those that are chosen lack.
+/// The most packages that are named as the cause of why another one cannot be used.
+const MOST_CAUSES: usize = 20;
+
+/// Notes at each package why it cannot be used, and in `found` what people should know of them.
 pub(crate) fn check(found: &mut Packages, api: &Version, circles: Vec<DependencyCircle>) {
     let own: Vec<Vec<Error>> =
         found.order().iter().map(|package| problems(found, package, api, &circles)).collect();
-    // What is wrong with a package is wrong with all that need it.
-    let all: Vec<Vec<Error>> = found
-        .order()
-        .iter()
-        .map(|package| {
-            let needed = found.with_dependencies(&package.manifest.name);
-            let needed = needed.into_iter().filter_map(|one| found.place_in_order(&one.manifest.name));
-            let mut all: Vec<Error> = needed.flat_map(|place| own[place].clone()).collect();
-            let mut known = Vec::new();
-            all.retain(|error| {
-                let text = error.to_string();
-                let new = !known.contains(&text);
-                known.push(text);
-                new
-            });
-            all
-        })
-        .collect();
-    let chosen: Vec<String> = found
-        .order()
-        .iter()
-        .filter(|package| package.origin != PackageOrigin::User)
-        .flat_map(|package| found.with_dependencies(&package.manifest.name))
-        .map(|package| package.manifest.name.clone())
-        .collect();
+    let all = inherited(found, &own);
+    let mut chosen: BTreeSet<String> = BTreeSet::new();
+    for package in found.order().iter().filter(|package| package.origin != PackageOrigin::User) {
+        if !chosen.contains(&package.manifest.name) {
+            let wanted = found.with_wanted(&package.manifest.name);
+            chosen.extend(wanted.into_iter().map(|package| package.manifest.name.clone()));
+        }
+    }
     for (package, problems) in found.order_mut().iter_mut().zip(all) {
         package.problems = problems;
         package.is_replacing = chosen.contains(&package.manifest.name);
     }
-    let mut problems: Vec<Error> = found
-        .order()
-        .iter()
-        .zip(own)
-        .filter(|(package, _)| package.is_replacing)
-        .flat_map(|(_, problems)| problems)
+    let mut warnings = contested(found);
+    warnings.extend(unfit(found));
+    found.warnings.extend(warnings.iter().map(|(_, warning)| warning.clone()));
+    found.notices.extend(warnings);
+    let everyone: Vec<&Package> = found.order().iter().collect();
+    let conflicts = everyone.iter().flat_map(|package| conflicts(package, &everyone));
+    let conflicts: Vec<Warning> = conflicts
+        .map(|error| {
+            let warning = Warning::new(WarningKind::BrokenPackage, error.message());
+            warning.help(error.remedy().unwrap_or_default()).at(error.place().cloned())
+        })
         .collect();
-    problems.extend(found.conflicts(|_| false));
-    let mut known = Vec::new();
-    problems.retain(|error| {
-        let text = error.to_string();
-        let new = !known.contains(&text);
-        known.push(text);
-        new
-    });
-    let warnings = contested(found);
-    found.problems.extend(problems);
-    found.warnings.extend(warnings);
+    found.warnings.extend(conflicts);
 }
 
 impl Packages {
-    /// What is wrong with using the packages together whose names `used` takes.
+    /// The errors for packages called by the names in `used` that cannot be used together.
     pub fn conflicts(&self, used: impl Fn(&str) -> bool) -> Vec<Error> {
-        let together: Vec<&Package> = self
-            .order()
-            .iter()
-            .filter(|package| package.is_replacing || used(&package.manifest.name))
-            .collect();
+        let together: Vec<&Package> =
+            self.order().iter().filter(|package| used(&package.manifest.name)).collect();
         together.iter().flat_map(|package| conflicts(package, &together)).collect()
     }
+
+    /// The warnings for scripts that use the package `name`.
+    pub fn notices(&self, name: &str) -> impl Iterator<Item = &Warning> {
+        self.notices.iter().filter(move |(of, _)| of == name).map(|(_, warning)| warning)
+    }
+
+    /// Fails if a package that says `manifest` needs others that are not among these, or not in the versions that it needs.
+    pub fn check_needs(&self, manifest: &Manifest) -> Result<()> {
+        let missing: Vec<Error> =
+            manifest.depends.iter().filter_map(|wanted| need(self, manifest, wanted)).collect();
+        if missing.is_empty() { Ok(()) } else { Err(Error::several(missing)) }
+    }
+}
+
+/// The problems of each package, and of those that it needs.
+fn inherited(found: &Packages, own: &[Vec<Error>]) -> Vec<Vec<Error>> {
+    // Those that others need come first, but for those of circles, which have no order.
+    let mut causes: Vec<BTreeSet<usize>> = Vec::with_capacity(own.len());
+    for (place, package) in found.order().iter().enumerate() {
+        let mut of: BTreeSet<usize> = (!own[place].is_empty()).then_some(place).into_iter().collect();
+        for wanted in &package.manifest.depends {
+            match found.place_in_order(&wanted.name) {
+                Some(other) if other < place => of.extend(causes[other].iter().take(MOST_CAUSES)),
+                Some(other) if other > place => {
+                    let needed = found.with_dependencies(&wanted.name);
+                    let places = needed.iter().filter_map(|it| found.place_in_order(&it.manifest.name));
+                    of.extend(places.filter(|it| !own[*it].is_empty()).take(MOST_CAUSES));
+                }
+                _ => {}
+            }
+        }
+        causes.push(of.into_iter().take(MOST_CAUSES).collect());
+    }
+    let of = causes.into_iter().map(|causes| {
+        let mut known = HashSet::new();
+        let all = causes.into_iter().flat_map(|place| own[place].iter());
+        all.filter(|error| known.insert(error.to_string())).cloned().collect()
+    });
+    of.collect()
 }
 
 /// The errors for those of `together` that `package` cannot be used with.
 fn conflicts(package: &Package, together: &[&Package]) -> Vec<Error> {
-    let with = |conflict: &super::Dependency| {
+    let with = |conflict: &Dependency| {
         let other = together.iter().find(|other| other.manifest.name == conflict.name)?;
         let versions = &conflict.versions;
         versions.matches(&other.manifest.version).then(|| {
@@ -90,7 +108,7 @@ fn conflicts(package: &Package, together: &[&Package]) -> Vec<Error> {
     package.manifest.conflicts.iter().filter_map(with).collect()
 }
 
-/// What is wrong with `package` itself.
+/// The problems of `package` itself.
 fn problems(found: &Packages, package: &Package, api: &Version, circles: &[DependencyCircle]) -> Vec<Error> {
     let manifest = &package.manifest;
     let name = &manifest.name;
@@ -106,37 +124,7 @@ fn problems(found: &Packages, package: &Package, api: &Version, circles: &[Depen
                 .at(Some(manifest.place(manifest.api_line))),
         );
     }
-    for wanted in &manifest.depends {
-        let place = Some(manifest.place(wanted.line));
-        let versions = &wanted.versions;
-        match found.get(&wanted.name) {
-            None => {
-                let known = found.order().iter().map(|package| package.manifest.name.as_str());
-                let message =
-                    format!("the package {name} needs {} {versions}, which is not there", wanted.name);
-                let broken =
-                    found.broken.iter().any(|it| it.folder.file_name().is_some_and(|it| it == &*wanted.name));
-                problems.push(match broken {
-                    true => Error::data(message).help("its mod.toml cannot be read").at(place),
-                    false => Error::not_found("package", &wanted.name, known, message)
-                        .help("put it beside the other packages: burgeon mods add FOLDER")
-                        .at(place),
-                });
-            }
-            Some(other) if !versions.matches(&other.manifest.version) => {
-                problems.push(unmatched(found, package, wanted, other).at(place));
-            }
-            Some(_) => {}
-        }
-    }
-    // What is optional is not used in a version that does not fit, and that could not be seen.
-    for wanted in &manifest.optional {
-        if let Some(other) =
-            found.get(&wanted.name).filter(|it| !wanted.versions.matches(&it.manifest.version))
-        {
-            problems.push(unmatched(found, package, wanted, other).at(Some(manifest.place(wanted.line))));
-        }
-    }
+    problems.extend(manifest.depends.iter().filter_map(|wanted| need(found, manifest, wanted)));
     for replaced in &manifest.replaces {
         if !manifest.wanted().any(|wanted| wanted.name == replaced.target.package) {
             problems.push(undeclared(
@@ -153,23 +141,62 @@ fn problems(found: &Packages, package: &Package, api: &Version, circles: &[Depen
         }
     }
     for circle in circles.iter().filter(|circle| circle.first() == Some(name)) {
-        let line =
-            manifest.wanted().find(|wanted| Some(&wanted.name) == circle.get(1)).map_or(1, |it| it.line);
+        let line = manifest
+            .depends
+            .iter()
+            .find(|wanted| Some(&wanted.name) == circle.get(1))
+            .map_or(1, |it| it.line);
         problems.push(
             Error::data(format!("packages depend on each other in a circle: {}", circle.join(" -> ")))
                 .help("move what both need into a third package")
                 .at(Some(manifest.place(line))),
         );
     }
+    // What it needs is used with it, so nothing of that may be in its way.
+    let needed = found.with_dependencies(name);
+    if needed.len() > 1 {
+        problems.extend(needed.iter().flat_map(|package| conflicts(package, &needed)));
+    }
     problems
 }
 
-/// The error for a package of another version than `package` wants.
-fn unmatched(found: &Packages, package: &Package, wanted: &super::Dependency, other: &Package) -> Error {
+/// The error for what a package that says `manifest` needs, if it is not there.
+fn need(found: &Packages, manifest: &Manifest, wanted: &Dependency) -> Option<Error> {
+    let place = Some(manifest.place(wanted.line));
+    let (name, versions) = (&manifest.name, &wanted.versions);
+    let Some(other) = found.get(&wanted.name) else {
+        if found.is_off(&wanted.name) {
+            let file = found.off.1.display();
+            let message =
+                format!("the package {name} needs {}, which is switched off in {file}", wanted.name);
+            let help = format!("switch it on: burgeon mods enable {}", wanted.name);
+            return Some(Error::data(message).help(help).at(place));
+        }
+        let known = found.order().iter().map(|package| package.manifest.name.as_str());
+        let message = format!("the package {name} needs {} {versions}, which is not there", wanted.name);
+        return Some(match found.broken_called(&wanted.name) {
+            Some(broken) => {
+                Error::data(message).help(format!("mend it first: {}", broken.error.message())).at(place)
+            }
+            None => Error::not_found("package", &wanted.name, known, message)
+                .help("put it beside the other packages: burgeon mods add FOLDER")
+                .at(place),
+        });
+    };
+    (!versions.matches(&other.manifest.version)).then(|| unmatched(found, manifest, wanted, other).at(place))
+}
+
+/// The error for a package of another version than `manifest` wants.
+pub(crate) fn unmatched(
+    found: &Packages,
+    manifest: &Manifest,
+    wanted: &Dependency,
+    other: &Package,
+) -> Error {
     let (name, versions) = (&wanted.name, &wanted.versions);
     let (shown, version) = (other.shown.display(), &other.manifest.version);
     let message =
-        format!("the package {} needs {name} {versions}, but {version} is in {shown}", package.manifest.name);
+        format!("the package {} needs {name} {versions}, but {version} is in {shown}", manifest.name);
     let better = found.hidden.iter().find(|it| it.name == *name && versions.matches(&it.version));
     Error::data(message).help(match better {
         Some(better) => {
@@ -179,35 +206,77 @@ fn unmatched(found: &Packages, package: &Package, wanted: &super::Dependency, ot
     })
 }
 
-fn undeclared(manifest: &super::Manifest, does: &str, other: &str, line: usize) -> Error {
+fn undeclared(manifest: &Manifest, does: &str, other: &str, line: usize) -> Error {
     Error::data(format!("the package {} {does} {other}, which it does not depend on", manifest.name))
         .help(format!("write below [depends]: {other} = \"*\""))
         .at(Some(manifest.place(line)))
 }
 
-/// Warns of what two packages replace, unless the one that counts depends on the other: then it knows.
-fn contested(found: &Packages) -> Vec<Warning> {
-    let mut claims: BTreeMap<String, Vec<(&Package, usize)>> = BTreeMap::new();
-    for package in found.order().iter().filter(|package| package.is_replacing) {
+/// The warnings about packages that are there and yet not used, each with the package whose users are warned: one that is
+/// to replace something and cannot, and an optional one that does not fit.
+fn unfit(found: &Packages) -> Vec<(String, Warning)> {
+    let mut warnings = Vec::new();
+    for package in found.order() {
+        let manifest = &package.manifest;
+        let name = &manifest.name;
+        if let (true, Some(problem)) = (package.is_replacing, package.problems.first()) {
+            let targets: BTreeSet<&str> = manifest
+                .replaces
+                .iter()
+                .map(|one| one.target.package.as_str())
+                .chain(manifest.params.iter().map(|one| one.package.as_str()))
+                .collect();
+            for target in targets {
+                let message = format!("{name} changes nothing of {target}: {}", problem.message());
+                let warning = Warning::new(WarningKind::BrokenPackage, message);
+                let help = problem.remedy().unwrap_or("burgeon mods check tells more");
+                warnings.push((target.to_owned(), warning.help(help).at(problem.place().cloned())));
+            }
+        }
+        for wanted in &manifest.optional {
+            let Some(other) = found.get(&wanted.name) else { continue };
+            let why = if !wanted.versions.matches(&other.manifest.version) {
+                unmatched(found, manifest, wanted, other)
+            } else if let Some(problem) = other.problems.first() {
+                problem.clone()
+            } else {
+                continue;
+            };
+            let message = format!("{name} does without {}, which is there: {}", wanted.name, why.message());
+            let warning = Warning::new(WarningKind::BrokenPackage, message);
+            let warning = warning.help(why.remedy().unwrap_or("burgeon mods check tells more"));
+            warnings.push((name.clone(), warning.at(Some(manifest.place(wanted.line)))));
+        }
+    }
+    warnings
+}
+
+/// The warnings about what two packages replace, each with the package that it is of, unless the one that counts depends
+/// on the other: then it knows.
+fn contested(found: &Packages) -> Vec<(String, Warning)> {
+    let mut claims: BTreeMap<(String, String), Vec<(&Package, usize)>> = BTreeMap::new();
+    for package in found.order().iter().filter(|package| package.replaces()) {
         for one in &package.manifest.replaces {
-            claims.entry(one.target.to_string()).or_default().push((package, one.line));
+            let key = (one.target.to_string(), one.target.package.clone());
+            claims.entry(key).or_default().push((package, one.line));
         }
         for param in &package.manifest.params {
             let what = format!("the default of {} of {}", param.name, param.package);
-            claims.entry(what).or_default().push((package, param.line));
+            claims.entry((what, param.package.clone())).or_default().push((package, param.line));
         }
     }
     let mut warnings = Vec::new();
-    for (what, claims) in claims {
+    for ((what, of), claims) in claims {
         for pair in claims.windows(2) {
             let [(first, line), (then, _)] = pair else { continue };
             let (name, wins) = (&first.manifest.name, &then.manifest.name);
-            let knows = found.with_dependencies(wins).iter().any(|package| package.manifest.name == *name);
+            let knows = found.with_wanted(wins).iter().any(|package| package.manifest.name == *name);
             if !knows {
                 let message = format!("{name} and {wins} both replace {what}, and that of {wins} counts");
                 let help = format!("remove one of them, or let {wins} depend on {name} if that is meant");
                 let warning = Warning::new(WarningKind::ReplacedTwice, message);
-                warnings.push(warning.help(help).at(Some(first.manifest.place(*line))));
+                let warning = warning.help(help).at(Some(first.manifest.place(*line)));
+                warnings.push((of.clone(), warning));
             }
         }
     }

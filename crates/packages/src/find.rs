@@ -1,5 +1,6 @@
 //! Finds the packages in some folders.
 
+use std::collections::{BTreeSet, HashMap};
 use std::path::{Path, PathBuf};
 
 use burgeon_base::error::{Error, Result};
@@ -7,10 +8,11 @@ use burgeon_base::warning::Warning;
 use semver::Version;
 
 use super::manifest::{MANIFEST, Manifest};
+use super::switches::{SWITCHES, disabled_names};
 use super::{check, order};
 
 /// The folder beside a script that its packages are in.
-const BESIDE: &str = "mods";
+pub(crate) const BESIDE: &str = "mods";
 
 /// The most entries that a folder of packages may have.
 const MOST: usize = 10_000;
@@ -49,10 +51,22 @@ pub struct Package {
     pub shown: PathBuf,
     /// Where it was found.
     pub origin: PackageOrigin,
-    /// Whether what it replaces counts: it was put beside the script or given, or one of those depends on it.
+    /// Whether it is to replace files and defaults of others by itself: it was put beside the script or given, or one of
+    /// those depends on it.
     pub is_replacing: bool,
-    /// Why it cannot be used; empty if it can.
+    /// Errors that stop every script that uses it; empty if it can be used.
     pub problems: Vec<Error>,
+}
+
+/// A package that is switched off in a file beside the script.
+#[derive(Debug, Clone)]
+pub struct DisabledPackage {
+    /// Its name.
+    pub name: String,
+    /// Its version.
+    pub version: Version,
+    /// Its folder as people find it.
+    pub shown: PathBuf,
 }
 
 /// A package that is not used, since another one of its name comes first.
@@ -77,35 +91,57 @@ pub struct BrokenPackage {
     pub error: Error,
 }
 
-/// The packages that there are, those that others depend on first, and else by name.
+/// The packages that there are, those that others depend on first, and otherwise by name.
 #[derive(Debug, Clone, Default)]
 pub struct Packages {
     packages: Vec<Package>,
-    /// The folders that were searched, without links.
+    /// The places of `packages` by name.
+    places: HashMap<String, usize>,
+    /// The folders that were searched, and those that would be if they were there, without links.
     pub(crate) roots: Vec<PathBuf>,
+    /// The paths that decide which packages there are, and whether something is there.
+    sought: Vec<(PathBuf, bool)>,
     /// Packages of which others count.
     pub hidden: Vec<HiddenPackage>,
-    /// Packages that cannot be read.
+    /// Packages that are switched off.
+    pub disabled: Vec<DisabledPackage>,
+    /// The names that are switched off, sorted, and the file that says so as people find it.
+    pub(crate) off: (Vec<String>, PathBuf),
+    /// Packages that cannot be read. No script that does not use them is stopped.
     pub broken: Vec<BrokenPackage>,
-    /// Why no script can be run with these packages; empty if one can.
+    /// Errors that stop every script: folders that were named and are not there.
     pub problems: Vec<Error>,
-    /// What people should know.
+    /// Warnings about all packages, used or not.
     pub warnings: Vec<Warning>,
+    /// Warnings for scripts that use the package of the name.
+    pub(crate) notices: Vec<(String, Warning)>,
+}
+
+impl Package {
+    /// Whether its replacements count. A package that cannot be used replaces nothing.
+    pub fn replaces(&self) -> bool {
+        self.is_replacing && self.problems.is_empty()
+    }
 }
 
 impl Packages {
     /// The packages in the folders of `search`, for scripts of version `api` of the script API.
     ///
-    /// Only each `mod.toml` is read. What is wrong is kept: with those in the user's folder, until someone asks for them.
+    /// Only each `mod.toml` is read. Errors in a package are kept with it until a script uses it.
     pub fn find(search: &PackageSearch, api: &Version) -> Self {
         let mut found = Self::default();
         if let Some(script) = &search.script {
             let folder = if script.as_os_str().is_empty() { Path::new(".") } else { script };
             if let Ok(script_root) = folder.canonicalize() {
                 let root = script_root.join(BESIDE);
-                // A link may lead anywhere.
+                found.sought.push((root.join(SWITCHES), root.join(SWITCHES).exists()));
+                match disabled_names(&root) {
+                    Ok(names) => found.off = (names, script.join(BESIDE).join(SWITCHES)),
+                    Err(error) => found.warn(error),
+                }
+                // Whoever puts a link there means what it leads to, such as a checkout.
                 match root.canonicalize() {
-                    Ok(root) if root.starts_with(&script_root) && root.is_dir() => {
+                    Ok(root) if root.is_dir() => {
                         found.search(&root, &script.join(BESIDE), PackageOrigin::Beside);
                     }
                     Ok(_) => {}
@@ -122,19 +158,30 @@ impl Packages {
                 Ok(root) if root.is_dir() => found.search(&root, given, PackageOrigin::Given),
                 _ => {
                     let shown = given.display();
+                    found.sought.push((given.clone(), false));
                     let error = Error::not_found("folder", &shown, [], format!("there is no folder {shown}"));
                     found.problems.push(error.help("--mods names a folder of packages"));
                 }
             }
         }
-        if let Some(user) = &search.user
-            && let Ok(root) = user.canonicalize()
-            && root.is_dir()
-        {
-            found.search(&root, user, PackageOrigin::User);
+        if let Some(user) = &search.user {
+            match user.canonicalize() {
+                Ok(root) if root.is_dir() => found.search(&root, user, PackageOrigin::User),
+                Ok(_) => {}
+                Err(_) => found.roots.push(user.clone()),
+            }
         }
-        let (packages, circles) = order::sort(std::mem::take(&mut found.packages));
+        let off = std::mem::take(&mut found.packages);
+        let (packages, off) = off.into_iter().partition::<Vec<_>, _>(|it| !found.is_off(&it.manifest.name));
+        found.disabled.extend(off.into_iter().map(|package| DisabledPackage {
+            name: package.manifest.name,
+            version: package.manifest.version,
+            shown: package.shown,
+        }));
+        let (packages, circles) = order::sort(packages);
         found.packages = packages;
+        let places = found.packages.iter().enumerate().map(|(place, it)| (it.manifest.name.clone(), place));
+        found.places = places.collect();
         check::check(&mut found, api, circles);
         found
     }
@@ -150,34 +197,62 @@ impl Packages {
 
     /// The package called `name`.
     pub fn get(&self, name: &str) -> Option<&Package> {
-        self.packages.iter().find(|package| package.manifest.name == name)
+        self.place_in_order(name).map(|place| &self.packages[place])
     }
 
     /// Where the package called `name` stands in the order.
     pub(crate) fn place_in_order(&self, name: &str) -> Option<usize> {
-        self.packages.iter().position(|package| package.manifest.name == name)
+        self.places.get(name).copied()
     }
 
-    /// Every `mod.toml` that was read, which decides what the names of files mean.
-    pub fn manifests(&self) -> impl Iterator<Item = PathBuf> {
-        let folders = self.packages.iter().map(|package| &package.folder);
-        folders.chain(self.broken.iter().map(|broken| &broken.folder)).map(|folder| folder.join(MANIFEST))
+    /// Whether the packages called `name` are switched off.
+    pub(crate) fn is_off(&self, name: &str) -> bool {
+        self.off.0.binary_search_by(|known| known.as_str().cmp(name)).is_ok()
     }
 
-    /// The package `name` and all that it comes after, in order.
+    /// Every path that decides which packages there are and what they say, and whether something is there: the folders
+    /// that were searched, each `mod.toml`, and the file that switches packages off.
+    pub fn sought(&self) -> Vec<(PathBuf, bool)> {
+        let roots = self.roots.iter().map(|root| (root.clone(), root.is_dir()));
+        self.sought.iter().cloned().chain(roots).collect()
+    }
+
+    /// The package `name` and all that it needs, in order.
     pub fn with_dependencies(&self, name: &str) -> Vec<&Package> {
-        let mut wanted = vec![name];
-        let mut at = 0;
-        while at < wanted.len() {
-            let next = self.get(wanted[at]).into_iter().flat_map(|package| package.manifest.wanted());
-            for dependency in next {
-                if !wanted.contains(&&*dependency.name) {
-                    wanted.push(&dependency.name);
+        self.closure(name, false)
+    }
+
+    /// The package `name` and all that comes before it, since it needs it or uses it if it is there, in order.
+    pub(crate) fn with_wanted(&self, name: &str) -> Vec<&Package> {
+        self.closure(name, true)
+    }
+
+    fn closure(&self, name: &str, with_optional: bool) -> Vec<&Package> {
+        let mut wanted: BTreeSet<usize> = self.place_in_order(name).into_iter().collect();
+        let mut next: Vec<usize> = wanted.iter().copied().collect();
+        while let Some(place) = next.pop() {
+            let manifest = &self.packages[place].manifest;
+            let optional = manifest.optional.iter().filter(|_| with_optional);
+            for dependency in manifest.depends.iter().chain(optional) {
+                if let Some(other) = self.place_in_order(&dependency.name)
+                    && wanted.insert(other)
+                {
+                    next.push(other);
                 }
             }
-            at += 1;
         }
-        self.packages.iter().filter(|package| wanted.contains(&&*package.manifest.name)).collect()
+        wanted.into_iter().map(|place| &self.packages[place]).collect()
+    }
+
+    /// The package that cannot be read in a folder called `name`.
+    pub(crate) fn broken_called(&self, name: &str) -> Option<&BrokenPackage> {
+        self.broken.iter().find(|broken| broken.folder.file_name().is_some_and(|it| it == name))
+    }
+
+    fn warn(&mut self, error: Error) {
+        let warning = Warning::new(burgeon_base::WarningKind::BrokenPackage, error.message());
+        let warning = warning.help(error.remedy().unwrap_or("burgeon mods check tells more"));
+        self.warnings.push(warning.at(error.place().cloned()));
     }
 
     /// Adds the packages in the folder `root`, which people find as `shown`.
@@ -188,22 +263,30 @@ impl Packages {
             Err(error) => {
                 let error = Error::file(shown, format!("cannot look into {}: {error}", shown.display()))
                     .help("packages are folders with a mod.toml in it");
-                return self.problems.push(error);
+                return match origin {
+                    PackageOrigin::Given => self.problems.push(error),
+                    _ => self.warn(error),
+                };
             }
         };
         for name in names {
-            let folder = root.join(&name);
-            if folder.join(MANIFEST).symlink_metadata().is_err() {
-                continue;
-            }
-            let shown = shown.join(&name);
+            let (folder, shown) = (root.join(&name), shown.join(&name));
             match folder.canonicalize() {
-                Ok(folder) if folder.starts_with(root) => self.add(folder, shown, origin),
-                Ok(_) => {
-                    let message = format!("{} is a link that leads out of its folder", shown.display());
-                    let error = Error::file(&shown, message);
-                    let error = error.help("copy the package, or name where it is: --mods FOLDER");
-                    self.add_broken(folder, error, origin);
+                // A link leads to a package that is worked on elsewhere.
+                Ok(place) => {
+                    let there = place.join(MANIFEST).symlink_metadata().is_ok();
+                    if there {
+                        self.add(place, shown, origin);
+                    } else if place.is_dir() {
+                        // It may become one.
+                        self.sought.push((folder.join(MANIFEST), false));
+                    }
+                }
+                Err(_) if folder.is_symlink() => {
+                    let message = format!("{} is a link that leads to nothing", shown.display());
+                    let error = Error::file(&shown, message).help("remove it, or put a package there");
+                    self.sought.push((folder.join(MANIFEST), false));
+                    self.broken.push(BrokenPackage { folder, error });
                 }
                 // It is gone by now.
                 Err(_) => {}
@@ -211,23 +294,17 @@ impl Packages {
         }
     }
 
-    fn add_broken(&mut self, folder: PathBuf, error: Error, origin: PackageOrigin) {
-        if origin != PackageOrigin::User {
-            self.problems.push(error.clone());
-        }
-        self.broken.push(BrokenPackage { folder, error });
-    }
-
     /// Adds the package in `folder`, unless there is one of that name already.
     fn add(&mut self, folder: PathBuf, shown: PathBuf, origin: PackageOrigin) {
+        self.sought.push((folder.join(MANIFEST), true));
         let manifest = match Manifest::read(&folder, &shown) {
             Ok(manifest) => manifest,
-            Err(error) => return self.add_broken(folder, error, origin),
+            Err(error) => return self.broken.push(BrokenPackage { folder, error }),
         };
-        let known = self.packages.iter_mut().find(|known| known.manifest.name == manifest.name);
-        let Some(known) = known else {
+        let Some(known) = self.places.get(&manifest.name).map(|place| &mut self.packages[*place]) else {
             let is_replacing = origin != PackageOrigin::User;
             let problems = Vec::new();
+            self.places.insert(manifest.name.clone(), self.packages.len());
             return self.packages.push(Package { manifest, folder, shown, origin, is_replacing, problems });
         };
         if known.folder == folder {
@@ -235,7 +312,7 @@ impl Packages {
         }
         let (name, version) = (manifest.name.clone(), manifest.version.clone());
         let both = format!("{} {} in {}", name, known.manifest.version, known.shown.display());
-        if known.folder.parent() == folder.parent() {
+        if known.shown.parent() == shown.parent() {
             let error = Error::data(format!(
                 "there are two packages {name}: {both}, and {version} in {}",
                 shown.display()
@@ -243,16 +320,16 @@ impl Packages {
             .help("remove one of them")
             .at(Some(manifest.begin()));
             // Whoever uses it is told which one is not meant.
-            if origin == PackageOrigin::User {
-                known.problems.push(error.clone());
-            }
-            return self.add_broken(folder, error, origin);
+            known.problems.push(error.clone());
+            return self.broken.push(BrokenPackage { folder, error });
         }
         // The user's folder is there for all scripts, and each may have versions of its own.
         if origin != PackageOrigin::User {
             let message = format!("{name} {version} in {} is not used, for there is {both}", shown.display());
             let warning = Warning::new(burgeon_base::WarningKind::HiddenPackage, message);
-            self.warnings.push(warning.at(Some(manifest.begin())).help("remove the one that is not meant"));
+            let warning = warning.at(Some(manifest.begin())).help("remove the one that is not meant");
+            self.warnings.push(warning.clone());
+            self.notices.push((name.clone(), warning));
         }
         let by = known.shown.clone();
         self.hidden.push(HiddenPackage { name, version, shown, by });

@@ -48,7 +48,7 @@ fn refused(bytes: &[u8]) -> String {
     let folder = tempfile::tempdir().unwrap();
     let zip = folder.path().join("castle.zip");
     std::fs::write(&zip, bytes).unwrap();
-    let error = install(&zip, &folder.path().join("mods"), false).unwrap_err();
+    let error = install(&zip, &folder.path().join("mods"), false, |_| Ok(())).unwrap_err();
     assert_eq!(all(folder.path()), ["castle.zip"], "{error}");
     assert!(error.remedy().is_some(), "{error}");
     error.message().replace(&folder.path().display().to_string(), "FOLDER")
@@ -64,15 +64,15 @@ fn a_zip_is_installed_whole_from_its_root_or_from_its_only_folder() {
         let files = [(a.as_str(), MOD), (&b, "return 1"), (&c, "x"), (&d, "")];
         std::fs::write(&zip, zipped(&files)).unwrap();
         let mods = folder.path().join("mods");
-        let made = install(&zip, &mods, false).unwrap();
+        let made = install(&zip, &mods, false, |_| Ok(())).unwrap();
         assert_eq!((made.files, made.replaced.is_none(), made.folder), (2, true, mods.join("castle")));
         assert_eq!(all(&mods), ["castle", "castle/a", "castle/a/b.lua", "castle/mod.toml"]);
         // It is not replaced unless that is asked for, and then the old one is told.
-        let said = install(&zip, &mods, false).unwrap_err().to_string();
+        let said = install(&zip, &mods, false, |_| Ok(())).unwrap_err().to_string();
         assert!(said.contains("there is a package castle 1.0.0 in ") && said.contains("--replace"), "{said}");
         std::fs::write(mods.join("castle/old.lua"), "").unwrap();
         std::fs::write(&zip, zipped(&[(&a, &MOD.replace("1.0.0", "2.0.0"))])).unwrap();
-        let made = install(&zip, &mods, true).unwrap();
+        let made = install(&zip, &mods, true, |_| Ok(())).unwrap();
         assert_eq!(made.replaced.unwrap().to_string(), "1.0.0");
         assert_eq!(all(&mods), ["castle", "castle/mod.toml"]);
     }
@@ -92,6 +92,8 @@ fn a_hostile_zip_is_refused_and_leaves_nothing_behind() {
         with("nul.lua", "x"),
         with("a\nb", "x"),
         with("trailing.", "x"),
+        with("a\u{202e}gpj.lua", "x"),
+        refused(&zipped(&[("mod.toml", MOD), ("\u{e9}.lua", "1"), ("e\u{301}.lua", "2")])),
         with("../evil/", ""),
         with("link.png", "-> /etc/passwd"),
         with("MOD.toml", "x"),
@@ -114,6 +116,8 @@ fn a_hostile_zip_is_refused_and_leaves_nothing_behind() {
     FOLDER/castle.zip has a file nul.lua, whose name not every system can have
     FOLDER/castle.zip has a file a\nb, whose name not every system can have
     FOLDER/castle.zip has a file trailing., whose name not every system can have
+    FOLDER/castle.zip has a file a\u{202e}gpj.lua, whose name not every system can have
+    FOLDER/castle.zip has é.lua twice
     FOLDER/castle.zip has a file ../evil, which leads out of the package
     FOLDER/castle.zip has link.png, which is a link
     FOLDER/castle.zip has mod.toml and MOD.toml, which many systems take for one
@@ -166,7 +170,7 @@ fn every_damaged_zip_is_refused_or_sound() {
         let folder = tempfile::tempdir().unwrap();
         let zip = folder.path().join("castle.zip");
         std::fs::write(&zip, &damaged).unwrap();
-        if install(&zip, &folder.path().join("mods"), false).is_err() {
+        if install(&zip, &folder.path().join("mods"), false, |_| Ok(())).is_err() {
             assert_eq!(all(folder.path()), ["castle.zip"], "byte {at}");
         }
         if at % 5 == 0 {
@@ -186,7 +190,7 @@ fn a_folder_with_links_or_devices_is_refused_and_a_sound_one_is_copied() {
     std::fs::write(from.join("a/b.lua"), "return 1").unwrap();
     let mods = folder.path().join("mods");
     let refused = || {
-        let error = install(&from, &mods, false).unwrap_err();
+        let error = install(&from, &mods, false, |_| Ok(())).unwrap_err();
         assert!(!mods.exists(), "{error}");
         error.message().replace(&folder.path().display().to_string(), "FOLDER")
     };
@@ -203,10 +207,10 @@ fn a_folder_with_links_or_devices_is_refused_and_a_sound_one_is_copied() {
     std::fs::write(from.join("A"), "").unwrap();
     assert!(refused().contains("which many systems take for one"));
     std::fs::remove_file(from.join("A")).unwrap();
-    install(&from, &mods, false).unwrap();
+    install(&from, &mods, false, |_| Ok(())).unwrap();
     assert_eq!(all(&mods), ["castle", "castle/a", "castle/a/b.lua", "castle/mod.toml"]);
     // A folder into itself would not end.
     std::fs::rename(from.join("mod.toml"), from.join("a/mod.toml")).unwrap();
-    let said = install(&from.join("a"), &from.join("a/mods"), false).unwrap();
+    let said = install(&from.join("a"), &from.join("a/mods"), false, |_| Ok(())).unwrap();
     assert_eq!(said.files, 2);
 }

@@ -6,6 +6,7 @@ use std::io::{self, Read, Write as _};
 use std::path::{Path, PathBuf};
 
 use burgeon_base::error::{Error, Limit, Result};
+use burgeon_base::names::{folded, has_bidi_controls, normal_form};
 use semver::Version;
 
 use super::find::Packages;
@@ -41,7 +42,15 @@ pub struct Installation {
 /// Files whose names begin with a point are left out. Fails if it is no package, if there is one already and `replace`
 /// does not say to put this one in its place, and for what a package may not hold: links, devices, names that lead
 /// elsewhere or differ by nothing but capitals, more than [`MOST`] files or [`LARGEST`] bytes. Then all is as before.
-pub fn install(from: &Path, into: &Path, replace: bool) -> Result<Installation> {
+///
+/// `check` sees what the package says of itself before anything is put into its place, and may refuse it. A folder that is
+/// no package of this name is never replaced, nor is a link or a checkout.
+pub fn install(
+    from: &Path,
+    into: &Path,
+    replace: bool,
+    check: impl Fn(&Manifest) -> Result<()>,
+) -> Result<Installation> {
     let meta = from.metadata().map_err(|_| {
         let shown = from.display();
         Error::not_found("package", &shown, [], format!("there is no folder or zip {shown}"))
@@ -58,7 +67,7 @@ pub fn install(from: &Path, into: &Path, replace: bool) -> Result<Installation> 
         } else {
             unzip::unpack(from, &mut copy)?;
         }
-        copy.put(built.path(), into, from, replace)
+        copy.put(built.path(), into, from, replace, &check)
     });
     if installed.is_err() && !was_there {
         // Only if nobody has put anything there.
@@ -88,6 +97,8 @@ impl PackageCopy {
 
     /// Adds what `content` has as the file `name`, whose parts are apart by `/`. It is about the package `from`.
     pub(crate) fn add(&mut self, from: &Path, name: &str, content: &mut dyn Read) -> Result<()> {
+        let normal = normal_form(name);
+        let name = &*normal;
         let parts = parts(from, name)?;
         if is_left_out(&parts) {
             return Ok(());
@@ -132,7 +143,7 @@ impl PackageCopy {
             }
             path += part;
             let is_folder = index + 1 < parts.len();
-            let known = self.names.insert(path.to_lowercase(), (path.clone(), is_folder));
+            let known = self.names.insert(folded(&path), (path.clone(), is_folder));
             let Some((written, was_folder)) = known else {
                 self.files += usize::from(!is_folder);
                 let most = self.most_files;
@@ -171,10 +182,18 @@ impl PackageCopy {
     }
 
     /// Puts the package into its place in `into`.
-    fn put(self, temporary: &Path, into: &Path, from: &Path, replace: bool) -> Result<Installation> {
+    fn put(
+        self,
+        temporary: &Path,
+        into: &Path,
+        from: &Path,
+        replace: bool,
+        check: &dyn Fn(&Manifest) -> Result<()>,
+    ) -> Result<Installation> {
         let built = self.package(from)?;
         let inner = built.strip_prefix(&self.folder).unwrap_or(Path::new(""));
         let manifest = Manifest::read(&built, &from.join(inner))?;
+        check(&manifest)?;
         let folder = into.join(&manifest.name);
         let there = folder.symlink_metadata().is_ok();
         let before = match there {
@@ -200,6 +219,9 @@ impl PackageCopy {
                 Error::file(&folder, message).help(format!("put {name} {new} in its place: --replace"))
             );
         }
+        if there {
+            refuse_to_replace(&folder, &manifest.name, before.as_ref())?;
+        }
         let cannot = |error: io::Error| unwritable(&folder, &error);
         let old = temporary.join("old");
         if there {
@@ -216,6 +238,31 @@ impl PackageCopy {
         Ok(Installation { manifest, folder, replaced, files: self.files, bytes: self.bytes })
     }
 }
+
+/// Fails if the folder, which is in the place of a package `name` and whose `mod.toml` says `before`, is not just that
+/// package: what is not known to come from a package is not deleted.
+fn refuse_to_replace(folder: &Path, name: &str, before: Option<&Result<Manifest>>) -> Result<()> {
+    let shown = folder.display();
+    let refuse = |what: &str| {
+        Err(Error::file(folder, format!("{shown} {what}, so it is not replaced"))
+            .help("move it away, or remove it yourself; then add the package again"))
+    };
+    if folder.is_symlink() {
+        return refuse("is a link");
+    }
+    match before {
+        Some(Ok(before)) if before.name == name => {}
+        Some(Ok(before)) => return refuse(&format!("is the package {}", before.name)),
+        _ => return refuse("is no package"),
+    }
+    match CHECKOUTS.iter().find(|inner| folder.join(inner).symlink_metadata().is_ok()) {
+        Some(inner) => refuse(&format!("is a checkout, with a folder {inner}")),
+        None => Ok(()),
+    }
+}
+
+/// What tells a folder in which people work on a package from a copy of one.
+const CHECKOUTS: [&str; 5] = [".git", ".hg", ".svn", ".jj", ".bzr"];
 
 /// The folder in `into` that holds a package `name`, whatever it is called.
 fn elsewhere(into: &Path, name: &str) -> Option<PathBuf> {
@@ -245,6 +292,7 @@ fn parts<'a>(from: &Path, name: &'a str) -> Result<Vec<&'a str>> {
             || part.ends_with([' ', '.'])
             || part.contains(['\\', ':', '*', '?', '"', '<', '>', '|'])
             || part.chars().any(char::is_control)
+            || has_bidi_controls(part)
             || is_device(part)
     };
     if parts.iter().any(is_odd) {

@@ -21,23 +21,33 @@
 //! out: [`Packages`] in an order that depends on nothing but what they say of each other, the file that a name means
 //! ([`Packages::locate`]), and an installed folder ([`install()`]). It never runs a script, and it never leads to a file
 //! outside the folder of a package.
+//!
+//! A package that is broken, or that cannot be used with another one, stops nobody who does not use it.
 
 mod check;
 mod find;
 mod install;
 mod locate;
+mod lock;
 mod manifest;
 mod order;
+mod switches;
 #[cfg_attr(not(feature = "zip"), path = "absent.rs")]
 mod unzip;
 
+#[cfg(test)]
+mod generated;
 #[cfg(test)]
 mod hostile;
 #[cfg(test)]
 mod tests;
 
-pub use find::{BrokenPackage, HiddenPackage, Package, PackageOrigin, PackageSearch, Packages};
+pub use find::{
+    BrokenPackage, DisabledPackage, HiddenPackage, Package, PackageOrigin, PackageSearch, Packages,
+};
 pub use install::{Installation, LARGEST, MOST, install};
 pub use locate::{FileName, PackageFile};
+pub use lock::LockedPackage;
 pub use manifest::{Dependency, MANIFEST, Manifest, ParamDefault, Replacement, is_name};
 pub use semver::{Version, VersionReq};
+pub use switches::{SWITCHES, switch};

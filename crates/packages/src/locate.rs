@@ -4,7 +4,9 @@ use std::fmt;
 use std::path::{Path, PathBuf};
 
 use burgeon_base::error::{Error, Result};
+use burgeon_base::names::{has_bidi_controls, normal_form};
 
+use super::check::unmatched;
 use super::find::{Package, Packages};
 use super::install::MOST;
 use super::manifest::{MANIFEST, Replacement, is_name};
@@ -44,8 +46,15 @@ impl FileName {
             return Err(Error::file(name, format!("{name} leads outside the package {package}"))
                 .help(format!("name a file in its folder or below it: \"@{package}/stone.png\"")));
         }
+        if has_bidi_controls(path) {
+            return Err(Error::file(
+                name,
+                format!("{} has a character that turns text round", name.escape_unicode()),
+            )
+            .help("rename the file: such names do not read as they are written"));
+        }
         let parts: Vec<&str> = path.split('/').filter(|part| !part.is_empty() && *part != ".").collect();
-        Ok(Self { package: package.to_owned(), path: parts.join("/") })
+        Ok(Self { package: package.to_owned(), path: normal_form(&parts.join("/")).into_owned() })
     }
 
     /// Reads `@castle/towers`, without an ending, as the name of a script: `towers.lua` of that package, `init.lua` where
@@ -91,7 +100,7 @@ impl Packages {
             (package, path) = (replacing, replacement.file.clone());
             by = Some(replacement);
         }
-        let wanted = package.folder.join(&path);
+        let wanted = spelling(&package.folder, &path);
         let shown = package.shown.join(&path);
         let found = wanted.canonicalize();
         seek(&wanted, found.is_ok());
@@ -126,14 +135,24 @@ impl Packages {
             return Err(asker.not_declared(name));
         }
         if let Some(package) = self.get(name) {
+            if let Some(asker) = asker
+                && let Some(wanted) = asker.manifest.wanted().find(|wanted| wanted.name == name)
+                && !wanted.versions.matches(&package.manifest.version)
+            {
+                let place = asker.manifest.place(wanted.line);
+                return Err(unmatched(self, &asker.manifest, wanted, package).at(Some(place)));
+            }
             return match package.problems.as_slice() {
                 [] => Ok(package),
                 problems => Err(Error::several(problems.to_vec())),
             };
         }
-        if let Some(broken) =
-            self.broken.iter().find(|broken| broken.folder.file_name().is_some_and(|it| it == name))
-        {
+        if self.is_off(name) {
+            let file = self.off.1.display();
+            return Err(Error::file(name, format!("the package {name} is switched off in {file}"))
+                .help(format!("switch it on: burgeon mods enable {name}")));
+        }
+        if let Some(broken) = self.broken_called(name) {
             return Err(broken.error.clone());
         }
         for root in &self.roots {
@@ -155,7 +174,7 @@ impl Packages {
     ) -> Option<(&Package, &Replacement)> {
         let is = |one: &&Replacement| one.target.package == of.manifest.name && one.target.path == path;
         let before =
-            asker.filter(|asker| asker.is_replacing && asker.manifest.replaces.iter().any(|one| is(&one)));
+            asker.filter(|asker| asker.replaces() && asker.manifest.replaces.iter().any(|one| is(&one)));
         let before = before.and_then(|asker| self.place_in_order(&asker.manifest.name));
         let found = self.replacements(of, path).rev();
         let mut found = found.filter(|(place, ..)| before.is_none_or(|before| *place < before));
@@ -168,7 +187,7 @@ impl Packages {
         of: &Package,
         path: &str,
     ) -> impl DoubleEndedIterator<Item = (usize, &'a Package, &'a Replacement)> {
-        let replacing = self.order().iter().enumerate().filter(|(_, package)| package.is_replacing);
+        let replacing = self.order().iter().enumerate().filter(|(_, package)| package.replaces());
         replacing.filter_map(move |(place, package)| {
             let one = package
                 .manifest
@@ -187,7 +206,7 @@ impl Packages {
 
     /// The files of `package` that others replace, each with the package whose file counts.
     pub fn replaced(&self, package: &Package) -> Vec<(FileName, &str)> {
-        let replacing = self.order().iter().filter(|other| other.is_replacing);
+        let replacing = self.order().iter().filter(|other| other.replaces());
         let targets = replacing.flat_map(|other| other.manifest.replaces.iter().map(|one| &one.target));
         let mut files: Vec<FileName> =
             targets.filter(|target| target.package == package.manifest.name).cloned().collect();
@@ -256,6 +275,32 @@ impl Packages {
         }
         problems
     }
+}
+
+/// The path of the file `path` in `folder` as it is written there: its name may not be in normal form.
+fn spelling(folder: &Path, path: &str) -> PathBuf {
+    let plain = folder.join(path);
+    if path.is_ascii() || plain.symlink_metadata().is_ok() {
+        return plain;
+    }
+    let mut found = folder.to_path_buf();
+    for part in path.split('/') {
+        let plain = found.join(part);
+        let other = || {
+            let entries = std::fs::read_dir(&found).ok()?.take(MOST).flatten();
+            let mut same: Vec<_> = entries
+                .map(|entry| entry.file_name())
+                .filter(|name| name.to_str().is_some_and(|name| normal_form(name) == part))
+                .collect();
+            same.sort();
+            same.into_iter().next()
+        };
+        found = match plain.symlink_metadata() {
+            Ok(_) => plain,
+            Err(_) => other().map_or(plain, |name| found.join(name)),
+        };
+    }
+    found
 }
 
 /// The error for a file that is not there; `by` is why it is looked for there.

@@ -1,58 +1,170 @@
-//! The order of packages: each after those that it depends on, and else by name.
+//! The order of packages: each after those that it depends on, and otherwise by name.
+
+use std::collections::{BTreeMap, BTreeSet, VecDeque};
 
 use super::find::Package;
 
 /// Packages that depend on each other in a circle, from one of them back to it.
 pub(crate) type DependencyCircle = Vec<String>;
 
-/// Sorts `packages`. Those of circles come last, by name.
+/// Sorts `packages`, each after those that it depends on and those optional ones that are there.
+///
+/// Optional dependencies among packages that lead back to each other do not count: they may name one another. Packages of
+/// circles of dependencies that are needed come last, by name, as do those that need them.
 pub(crate) fn sort(mut packages: Vec<Package>) -> (Vec<Package>, Vec<DependencyCircle>) {
     packages.sort_by(|a, b| a.manifest.name.cmp(&b.manifest.name));
-    let mut sorted: Vec<Package> = Vec::with_capacity(packages.len());
-    loop {
-        let waits = |package: &Package| {
-            let mut wanted = package.manifest.wanted();
-            wanted.any(|wanted| packages.iter().any(|other| other.manifest.name == wanted.name))
-        };
-        // The first by name of those that wait for nobody.
-        match packages.iter().position(|package| !waits(package)) {
-            Some(next) => sorted.push(packages.remove(next)),
-            None => break,
-        }
-    }
-    let circles = circles(&packages);
-    sorted.append(&mut packages);
+    let graph = DependencyGraph::new(&packages);
+    let (order, waiting) = graph.order();
+    let circles = graph.circles(&waiting, &packages);
+    let mut taken: Vec<Option<Package>> = packages.into_iter().map(Some).collect();
+    let sorted = order.into_iter().chain(waiting).filter_map(|place| taken[place].take()).collect();
     (sorted, circles)
 }
 
-/// A circle for each of `packages`, all of which wait for one another, that is in one; each circle once.
-fn circles(packages: &[Package]) -> Vec<DependencyCircle> {
-    let mut circles: Vec<DependencyCircle> = Vec::new();
-    for package in packages {
-        let start = &package.manifest.name;
-        if circles.iter().any(|circle| circle.contains(start)) {
-            continue;
+/// The packages, by their places in the order of their names, and those that each depends on.
+struct DependencyGraph {
+    /// Dependencies that are needed.
+    needed: Vec<Vec<usize>>,
+    /// Those and the optional ones.
+    wanted: Vec<Vec<usize>>,
+}
+
+impl DependencyGraph {
+    fn new(packages: &[Package]) -> Self {
+        let places: BTreeMap<&str, usize> =
+            packages.iter().enumerate().map(|(place, it)| (it.manifest.name.as_str(), place)).collect();
+        let of = |list: &[super::Dependency]| -> Vec<usize> {
+            list.iter().filter_map(|one| places.get(one.name.as_str()).copied()).collect()
+        };
+        let needed: Vec<Vec<usize>> = packages.iter().map(|it| of(&it.manifest.depends)).collect();
+        let wanted = packages.iter().zip(&needed).map(|(it, needed)| {
+            let mut all = needed.clone();
+            all.extend(of(&it.manifest.optional));
+            all
+        });
+        Self { wanted: wanted.collect(), needed }
+    }
+
+    /// The places in order, and those that wait for themselves or for such, by name.
+    fn order(&self) -> (Vec<usize>, Vec<usize>) {
+        let count = self.needed.len();
+        let group = groups(&self.wanted);
+        let mut waits = vec![0_usize; count];
+        let mut followers: Vec<Vec<usize>> = vec![Vec::new(); count];
+        for place in 0..count {
+            let in_other_group = self.wanted[place].iter().filter(|other| group[**other] != group[place]);
+            let before: BTreeSet<usize> = self.needed[place].iter().chain(in_other_group).copied().collect();
+            waits[place] = before.len();
+            before.into_iter().for_each(|other| followers[other].push(place));
         }
-        // Breadth first, so that the circle is as short as can be.
-        let mut ways = vec![vec![start.clone()]];
-        let mut seen: Vec<&str> = Vec::new();
-        let mut at = 0;
-        'search: while at < ways.len() {
-            let way = ways[at].clone();
-            at += 1;
-            let last = packages.iter().find(|known| Some(&known.manifest.name) == way.last());
-            for wanted in last.into_iter().flat_map(|last| last.manifest.wanted()) {
-                let next = || way.iter().cloned().chain([wanted.name.clone()]).collect::<Vec<_>>();
-                if wanted.name == *start {
-                    circles.push(next());
-                    break 'search;
-                }
-                if !seen.contains(&&*wanted.name) {
-                    seen.push(&wanted.name);
-                    ways.push(next());
+        let mut ready: BTreeSet<usize> = (0..count).filter(|place| waits[*place] == 0).collect();
+        let mut order = Vec::with_capacity(count);
+        while let Some(place) = ready.pop_first() {
+            order.push(place);
+            for follower in &followers[place] {
+                waits[*follower] -= 1;
+                if waits[*follower] == 0 {
+                    ready.insert(*follower);
                 }
             }
         }
+        (order, (0..count).filter(|place| waits[*place] > 0).collect())
     }
-    circles
+
+    /// The shortest circle of each group of `waiting` packages that need each other.
+    fn circles(&self, waiting: &[usize], packages: &[Package]) -> Vec<DependencyCircle> {
+        let group = groups(&self.needed);
+        let mut known = BTreeSet::new();
+        let name = |place: &usize| packages[*place].manifest.name.clone();
+        let mut circles = Vec::new();
+        for start in waiting {
+            if known.contains(&group[*start]) {
+                continue;
+            }
+            if let Some(circle) = self.circle(*start) {
+                known.insert(group[*start]);
+                circles.push(circle.iter().map(name).collect());
+            }
+        }
+        circles
+    }
+
+    /// The shortest way from `start` back to it.
+    fn circle(&self, start: usize) -> Option<Vec<usize>> {
+        let mut from: BTreeMap<usize, usize> = BTreeMap::new();
+        let mut next = VecDeque::from([start]);
+        while let Some(place) = next.pop_front() {
+            for other in &self.needed[place] {
+                if *other == start {
+                    let mut way = vec![start, place];
+                    let mut at = place;
+                    while at != start {
+                        at = from[&at];
+                        way.push(at);
+                    }
+                    way.reverse();
+                    // A package that needs itself has been written twice at once.
+                    way.dedup();
+                    if way.len() == 1 {
+                        way.push(start);
+                    }
+                    return Some(way);
+                }
+                if !from.contains_key(other) {
+                    from.insert(*other, place);
+                    next.push_back(*other);
+                }
+            }
+        }
+        None
+    }
+}
+
+/// The group of each place: those that lead back to each other are in one.
+///
+/// Method: R. Tarjan, "Depth-first search and linear graph algorithms", 1972, without recursion.
+fn groups(edges: &[Vec<usize>]) -> Vec<usize> {
+    const NONE: usize = usize::MAX;
+    let count = edges.len();
+    let (mut index, mut low, mut group) = (vec![NONE; count], vec![0; count], vec![NONE; count]);
+    let (mut stack, mut numbered, mut found) = (Vec::new(), 0, 0);
+    for root in 0..count {
+        if index[root] != NONE {
+            continue;
+        }
+        let mut open = vec![(root, 0)];
+        while let Some((place, at)) = open.last().copied() {
+            if at == 0 {
+                index[place] = numbered;
+                low[place] = numbered;
+                numbered += 1;
+                stack.push(place);
+            }
+            if let Some(&other) = edges[place].get(at) {
+                if let Some(top) = open.last_mut() {
+                    top.1 += 1;
+                }
+                if index[other] == NONE {
+                    open.push((other, 0));
+                } else if group[other] == NONE {
+                    low[place] = low[place].min(index[other]);
+                }
+                continue;
+            }
+            open.pop();
+            if let Some((above, _)) = open.last() {
+                low[*above] = low[*above].min(low[place]);
+            }
+            if low[place] == index[place] {
+                while let Some(member) = stack.pop() {
+                    group[member] = found;
+                    if member == place {
+                        break;
+                    }
+                }
+                found += 1;
+            }
+        }
+    }
+    group
 }

@@ -47,6 +47,17 @@ fn told(folder: &tempfile::TempDir, problems: &[burgeon_base::Error]) -> String 
     text.join("\n").replace(&folder.path().display().to_string(), "FOLDER")
 }
 
+/// All that is wrong with packages, used or not, without the folder that they are in.
+fn troubles(folder: &tempfile::TempDir, packages: &Packages) -> String {
+    let of_packages = packages.order().iter().flat_map(|package| &package.problems);
+    let broken = packages.broken.iter().map(|broken| &broken.error);
+    let errors = packages.problems.iter().chain(of_packages).chain(broken).map(ToString::to_string);
+    let mut all: Vec<String> = errors.chain(packages.warnings.iter().map(ToString::to_string)).collect();
+    let mut known = std::collections::BTreeSet::new();
+    all.retain(|text| known.insert(text.clone()));
+    all.join("\n").replace(&folder.path().display().to_string(), "FOLDER")
+}
+
 fn locate(packages: &Packages, name: &str, asker: &str) -> std::result::Result<PathBuf, String> {
     let name = FileName::parse(name).map_err(|error| error.to_string())?;
     let found = packages.locate("file", &name, packages.get(asker), &mut |_, _| {});
@@ -89,7 +100,9 @@ fn of_one_name_the_one_beside_the_script_counts_and_the_others_are_told() {
 fn what_cannot_be_used_together_is_told_with_its_line() {
     let told_of = |packages: &[(&str, &str)]| {
         let folder = folder(packages);
-        told(&folder, &find(&folder).problems)
+        let packages = find(&folder);
+        assert!(packages.problems.is_empty());
+        troubles(&folder, &packages)
     };
     insta::assert_snapshot!(told_of(&[("mods/castle", "[depends]\nmasonry = \"1\"")]), @r"
     FOLDER/mods/castle/mod.toml:5: the package castle needs masonry ^1, which is not there
@@ -124,6 +137,66 @@ fn what_cannot_be_used_together_is_told_with_its_line() {
       help: write below [depends]: b = "*"
     "#);
     insta::assert_snapshot!(told_of(&[("mods/one/castle", "")]), @"");
+}
+
+#[test]
+fn optional_packages_may_name_one_another() {
+    let folder = folder(&[
+        ("mods/a", "[optional]\nb = \"1\""),
+        ("mods/b", "[optional]\na = \"1\"\n[depends]\nc = \"1\""),
+        ("mods/c", "[optional]\nb = \"2\"\na = \"1\""),
+    ]);
+    write(folder.path(), "mods/b/x.lua", "");
+    let packages = find(&folder);
+    assert_eq!(order(&packages), ["a", "c", "b"]);
+    assert!(locate(&packages, "@b/x.lua", "a").is_ok());
+    // One of another version is done without, and refused to whoever asks for it.
+    assert!(locate(&packages, "@b/x.lua", "").is_ok());
+    let said = locate(&packages, "@b/x.lua", "c").unwrap_err();
+    assert!(said.contains("the package c needs b ^2, but 1.0.0 is in"), "{said}");
+    insta::assert_snapshot!(troubles(&folder, &packages), @"");
+}
+
+#[cfg(unix)]
+#[test]
+fn switched_off_packages_are_not_there() {
+    let folder =
+        folder(&[("mods/castle", ""), ("user/castle", ""), ("mods/ruins", "[depends]\ncastle = \"1\"")]);
+    let script = folder.path();
+    assert_eq!(switch(script, "castle", true).unwrap().1, false);
+    assert_eq!(switch(script, "castle", false).unwrap().1, true);
+    assert_eq!(switch(script, "castle", false).unwrap().1, false);
+    let packages = find(&folder);
+    assert_eq!((order(&packages), packages.disabled.len()), (vec!["ruins"], 1));
+    insta::assert_snapshot!(locate(&packages, "@ruins/a.lua", "").unwrap_err().replace(&script.display().to_string(), "FOLDER"), @"");
+    insta::assert_snapshot!(locate(&packages, "@castle/a.lua", "").unwrap_err().replace(&script.display().to_string(), "FOLDER"), @"");
+    let file = script.join("mods").join(SWITCHES);
+    std::fs::write(&file, "# for now\ncastle # until it is done\n\nruins\n").unwrap();
+    switch(script, "castle", true).unwrap();
+    assert_eq!(std::fs::read_to_string(&file).unwrap(), "# for now\n\nruins\n");
+    switch(script, "ruins", true).unwrap();
+    assert_eq!(std::fs::read_to_string(&file).unwrap(), "# for now\n\n");
+    std::fs::write(&file, "Castle!").unwrap();
+    assert!(switch(script, "castle", false).unwrap_err().place().is_some());
+    assert_eq!(order(&find(&folder)), ["castle", "ruins"]);
+    // A link is not followed, for what it leads to would be shown.
+    std::fs::remove_file(&file).unwrap();
+    std::os::unix::fs::symlink("/etc/passwd", &file).unwrap();
+    let said = switch(script, "castle", false).unwrap_err().to_string();
+    assert!(said.contains("it is no regular file") && !said.contains("root"), "{said}");
+}
+
+#[test]
+fn names_of_files_are_the_same_however_their_accents_are_written() {
+    let folder = folder(&[("mods/castle", "")]);
+    write(folder.path(), "mods/castle/de\u{301}cor/e\u{301}.lua", "");
+    write(folder.path(), "mods/castle/\u{fc}.lua", "");
+    let packages = find(&folder);
+    for name in ["d\u{e9}cor/\u{e9}.lua", "de\u{301}cor/\u{e9}.lua", "u\u{308}.lua", "\u{fc}.lua"] {
+        assert!(locate(&packages, &format!("@castle/{name}"), "").is_ok(), "{name:?}");
+    }
+    let said = locate(&packages, "@castle/a\u{202e}b.lua", "").unwrap_err();
+    assert!(said.contains("turns text round") && !said.contains('\u{202e}'), "{said}");
 }
 
 #[test]
@@ -218,36 +291,44 @@ fn names_lead_nowhere_but_into_the_folders_of_packages() {
 #[test]
 fn links_lead_nowhere_but_into_the_folders_of_packages() {
     use std::os::unix::fs::symlink;
-    let outside = folder(&[("castle", "")]);
+    let outside = folder(&[("castle", ""), ("gate", "")]);
     write(outside.path(), "secret", "secret");
+    write(outside.path(), "gate/a.lua", "return 1");
     let folder = folder(&[("mods/castle", ""), ("mods/tower", "")]);
     let mods = folder.path().join("mods");
     symlink(outside.path().join("secret"), mods.join("castle/stone.png")).unwrap();
     symlink(outside.path(), mods.join("castle/all")).unwrap();
     symlink("../tower/mod.toml", mods.join("castle/beside")).unwrap();
     symlink("mod.toml", mods.join("castle/within")).unwrap();
-    symlink(outside.path().join("castle"), mods.join("gate")).unwrap();
+    // A package that is worked on elsewhere, and one that has gone.
+    symlink(outside.path().join("gate"), mods.join("gate")).unwrap();
+    symlink(outside.path().join("nowhere"), mods.join("gone")).unwrap();
+    symlink(outside.path().join("gate"), mods.join("castle/inner")).unwrap();
     let packages = find(&folder);
-    for name in ["stone.png", "all/secret", "beside"] {
+    assert_eq!(
+        locate(&packages, "@gate/a.lua", ""),
+        Ok(outside.path().canonicalize().unwrap().join("gate/a.lua"))
+    );
+    for name in ["stone.png", "all/secret", "beside", "inner/a.lua"] {
         let said = locate(&packages, &format!("@castle/{name}"), "").unwrap_err();
         assert!(said.contains("is a link that leads outside the package castle"), "{said}");
     }
     assert!(locate(&packages, "@castle/within", "").is_ok());
-    insta::assert_snapshot!(told(&folder, &packages.problems), @r"
-    FOLDER/mods/gate is a link that leads out of its folder
-      help: copy the package, or name where it is: --mods FOLDER
+    insta::assert_snapshot!(troubles(&folder, &packages), @r"
+    FOLDER/mods/gone is a link that leads to nothing
+      help: remove it, or put a package there
     ");
-    // Nor is the whole folder, nor a mod.toml, anywhere else.
-    std::fs::remove_file(mods.join("gate")).unwrap();
+    // A mod.toml is nowhere else than its package.
+    std::fs::remove_file(mods.join("gone")).unwrap();
     std::fs::remove_file(mods.join("tower/mod.toml")).unwrap();
     symlink(outside.path().join("castle/mod.toml"), mods.join("tower/mod.toml")).unwrap();
-    insta::assert_snapshot!(told(&folder, &find(&folder).problems), @r"
+    insta::assert_snapshot!(troubles(&folder, &find(&folder)), @r"
     cannot read FOLDER/mods/tower/mod.toml: it is a link to a file outside the package
       help: a package is a folder with a text file mod.toml
     ");
     let linked = tempfile::tempdir().unwrap();
     symlink(outside.path(), linked.path().join("mods")).unwrap();
-    assert!(order(&find(&linked)).is_empty());
+    assert_eq!(order(&find(&linked)), ["castle", "gate"]);
 }
 
 #[test]

@@ -25,6 +25,7 @@ use serde_json::value::RawValue;
 use serde_json::{Map, Number, Value};
 
 use burgeon_base::error::{Error, Limit, Result, SourcePlace};
+use burgeon_base::names::{has_bidi_controls, normal_form};
 use burgeon_engine::script::{Preset, Setting};
 use burgeon_watch::settled;
 
@@ -63,6 +64,10 @@ impl Presets {
             Error::file(&path, format!("cannot read the presets in {}: {why}", path.display()))
                 .help("presets are a JSON file that Burgeon can read; move that away if it is something else")
         };
+        // Messages show lines of the file, which may be one of somebody else's where a link leads.
+        if path.is_symlink() {
+            return Err(cannot(&"it is a link"));
+        }
         let bytes = match burgeon_base::files::read(&path, LARGEST) {
             Ok(bytes) => bytes,
             Err(error) if error.kind() == std::io::ErrorKind::NotFound => {
@@ -89,7 +94,8 @@ impl Presets {
     pub fn save(script: &Path, preset: Preset) -> Result<Self> {
         check_name(&preset.name)?;
         let mut presets = Self::read(script)?;
-        match presets.presets.iter_mut().find(|known| known.name == preset.name) {
+        let preset = Preset { name: normal_form(&preset.name).into_owned(), ..preset };
+        match presets.presets.iter_mut().find(|known| is_same(&known.name, &preset.name)) {
             Some(known) => *known = preset,
             None => presets.presets.push(preset),
         }
@@ -103,14 +109,14 @@ impl Presets {
     pub fn remove(script: &Path, name: &str) -> Result<Self> {
         let mut presets = Self::read(script)?;
         presets.get(name)?;
-        presets.presets.retain(|known| known.name != name);
+        presets.presets.retain(|known| !is_same(&known.name, name));
         presets.write()?;
         Ok(presets)
     }
 
     /// The preset called `name`. Fails with the names that there are.
     pub fn get(&self, name: &str) -> Result<&Preset> {
-        self.presets.iter().find(|preset| preset.name == name).ok_or_else(|| {
+        self.presets.iter().find(|preset| is_same(&preset.name, name)).ok_or_else(|| {
             let file = self.path.display();
             if self.presets.is_empty() {
                 return Error::not_found(
@@ -153,6 +159,11 @@ impl Presets {
     }
 }
 
+/// Whether two names are the same to people.
+fn is_same(one: &str, other: &str) -> bool {
+    normal_form(one) == normal_form(other)
+}
+
 /// A setting as JSON; whole numbers without a decimal point.
 fn value(setting: &Setting) -> Value {
     match setting {
@@ -167,11 +178,11 @@ fn value(setting: &Setting) -> Value {
 /// Refuses what would be hard to name again.
 pub fn check_name(name: &str) -> Result<()> {
     let fits = name.trim() == name && !name.is_empty() && name.chars().count() <= LONGEST;
-    if fits && !name.chars().any(char::is_control) {
+    if fits && !name.chars().any(char::is_control) && !has_bidi_controls(name) {
         return Ok(());
     }
     Err(Error::argument(format!("{name:?} cannot be the name of a preset")).help(format!(
-        "use 1 to {LONGEST} characters, without line breaks, and no space at the beginning or the end"
+        "use 1 to {LONGEST} characters, without line breaks and characters that turn text round, and no space at the beginning or the end"
     )))
 }
 
@@ -239,7 +250,7 @@ impl<'a> PresetsFile<'a> {
         })?;
         let mut known = FxHashSet::default();
         for (name, raw) in &members {
-            if !known.insert(name) {
+            if !known.insert(normal_form(name)) {
                 return Err(refuse(format!("{what} has two members called {name}"), raw)
                     .help("remove or rename one of them"));
             }
@@ -413,9 +424,39 @@ mod tests {
     }
 
     #[test]
+    fn names_that_look_the_same_are_one() {
+        let folder = tempfile::tempdir().unwrap();
+        let script = folder.path().join("t.lua");
+        Presets::save(&script, preset("e\u{301}te\u{301}", 1.0)).unwrap();
+        let presets = Presets::save(&script, preset("\u{e9}t\u{e9}", 2.0)).unwrap();
+        assert_eq!(presets.names().collect::<Vec<_>>(), ["\u{e9}t\u{e9}"]);
+        assert_eq!(presets.get("e\u{301}te\u{301}").unwrap().params[0].1, Setting::Number(2.0));
+        assert!(refused("{ \"\u{e9}\": {},\n\"e\u{301}\": {} }").contains("two members called"));
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn a_link_is_not_read_and_nothing_of_its_target_is_shown() {
+        let folder = tempfile::tempdir().unwrap();
+        let (script, secret) = (folder.path().join("t.lua"), folder.path().join("secret"));
+        std::fs::write(&secret, "password = hunter2\n").unwrap();
+        std::os::unix::fs::symlink(&secret, Presets::path_of(&script)).unwrap();
+        for error in [
+            Presets::read(&script).unwrap_err(),
+            Presets::save(&script, preset("a", 1.0)).unwrap_err(),
+            Presets::remove(&script, "a").unwrap_err(),
+        ] {
+            let text = format!("{error} {:?}", error.place());
+            assert!(text.contains("it is a link") && !text.contains("hunter2"), "{text}");
+            assert!(error.place().is_none(), "{text}");
+        }
+        assert_eq!(std::fs::read_to_string(&secret).unwrap(), "password = hunter2\n");
+    }
+
+    #[test]
     fn a_name_that_is_hard_to_write_is_refused() {
         let folder = tempfile::tempdir().unwrap();
-        for name in ["", " ", "a ", "a\nb", "\u{7}", &"x".repeat(81)] {
+        for name in ["", " ", "a ", "a\nb", "\u{7}", "a\u{202e}b", "\u{2067}a", &"x".repeat(81)] {
             assert!(Presets::save(&folder.path().join("t.lua"), preset(name, 1.0)).is_err(), "{name:?}");
         }
         assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 0);

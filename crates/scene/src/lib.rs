@@ -40,6 +40,19 @@ pub struct Scene {
     pub shared: SharedMeshes,
     /// Up and north for the default camera; z and y if an object does not set them.
     pub upright: Option<Upright>,
+    /// The packages that it was made with, for files that tell what is needed to make it again.
+    pub packages: Vec<ScenePackage>,
+}
+
+/// A package of scripts that a scene was made with.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct ScenePackage {
+    /// Its name.
+    pub name: String,
+    /// Its version, of three numbers.
+    pub version: String,
+    /// The hash of its files, with the name of the method before it.
+    pub hash: String,
 }
 
 /// A mesh put somewhere.

@@ -298,12 +298,13 @@ fn mean(pixels: [[u8; 4]; 4]) -> [u8; 4] {
 /// The parameter `name` of `script`.
 fn find(script: &Path, options: &RunOptions, name: &str) -> Result<Param> {
     let mut options = RunOptions { check: true, ..options.clone() };
-    options.params.set.retain(|(known, _)| known != name);
+    let short = name.rsplit('.').next().unwrap_or(name);
+    options.params.set.retain(|(known, _)| known != name && known != short);
     let session = Session::new(script, options)?;
     // A script that fails may have declared the parameter all the same; each cell tells the failure.
     let ran = declare(&session);
     let params = session.params();
-    match params.iter().find(|param| param.name == name) {
+    match Param::find(&params, name)? {
         Some(param) => Ok(param.clone()),
         None => {
             ran?;

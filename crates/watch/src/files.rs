@@ -12,6 +12,9 @@ use burgeon_base::files::{identity, read_unlocked};
 /// Larger files (bytes) are told apart by their size and time alone.
 const LARGE: u64 = 64 << 20;
 
+/// The most names in a folder that are looked at.
+const MOST_NAMES: usize = 20_000;
+
 /// How far behind the clock the times of files may be: they are taken from the system's last tick, which is late on a
 /// busy machine. A change that is told for nothing costs a run, one that is missed shows the wrong model.
 const GRAIN: Duration = Duration::from_millis(100);
@@ -22,6 +25,8 @@ pub(super) struct WatchedFiles {
     known: BTreeMap<PathBuf, FileState>,
     /// Every path whose change may matter: the files, and the links that lead to them.
     spellings: Vec<PathBuf>,
+    /// The same of folders: what is put into them matters.
+    folders: Vec<PathBuf>,
 }
 
 #[derive(Debug, Clone, PartialEq)]
@@ -36,8 +41,10 @@ enum FileContent {
     Unknown,
     /// Not there, or not to be read.
     Missing,
-    /// A folder, a pipe or the like.
+    /// A pipe, a device or the like.
     NoFile,
+    /// A folder, by the place that links lead to and the hash of the names in it, but those that begin with a point.
+    Folder { place: PathBuf, names: blake3::Hash },
     /// A regular file, by the place that links lead to and the hash of its content.
     File { place: PathBuf, hash: blake3::Hash, empty: bool },
     /// A database, by what has been committed to it.
@@ -112,19 +119,23 @@ impl FileChange {
     pub(super) fn looks_unfinished(&self) -> bool {
         let nothing = matches!(
             self.now.content,
-            FileContent::Missing | FileContent::File { empty: true, .. } | FileContent::NoFile
+            FileContent::Missing
+                | FileContent::File { empty: true, .. }
+                | FileContent::NoFile
+                | FileContent::Folder { .. }
         );
         self.was_there && nothing
     }
 }
 
 impl FileState {
-    /// Where a regular file lies.
+    /// Where a regular file or a folder lies.
     fn place(&self) -> Option<&PathBuf> {
         match &self.content {
             FileContent::File { place, .. }
             | FileContent::Database { place, .. }
-            | FileContent::Large { place, .. } => Some(place),
+            | FileContent::Large { place, .. }
+            | FileContent::Folder { place, .. } => Some(place),
             _ => None,
         }
     }
@@ -211,7 +222,15 @@ impl WatchedFiles {
 
     /// Whether what happened to `paths`, or to anything if there are none, may have changed a file.
     pub(super) fn concerned_by(&self, paths: &[PathBuf]) -> bool {
-        paths.is_empty() || self.spellings.iter().any(|file| paths.iter().any(|path| file.starts_with(path)))
+        let is_in = |path: &PathBuf| self.folders.iter().any(|folder| path.parent() == Some(folder));
+        paths.is_empty()
+            || self.spellings.iter().any(|file| paths.iter().any(|path| file.starts_with(path)))
+            || paths.iter().any(is_in)
+    }
+
+    /// The folders themselves among what is watched, by every path that leads to them.
+    pub(super) fn folders(&self) -> &[PathBuf] {
+        &self.folders
     }
 
     /// Every path whose change may matter, in no folder twice.
@@ -232,6 +251,11 @@ impl WatchedFiles {
         spellings.sort();
         spellings.dedup();
         self.spellings = spellings;
+        let folders =
+            self.known.iter().filter(|(_, seen)| matches!(seen.content, FileContent::Folder { .. }));
+        self.folders = folders.flat_map(|(path, _)| hops(path)).filter(|path| path.is_dir()).collect();
+        self.folders.sort();
+        self.folders.dedup();
     }
 }
 
@@ -275,6 +299,9 @@ fn try_look(path: &Path) -> Result<Option<FileState>, Again> {
         return Ok(Some(FileState { content: FileContent::Missing, stamp: None }));
     };
     let state = |content| Ok(Some(FileState { content, stamp: Some(stamp) }));
+    if path.is_dir() {
+        return state(FileContent::Folder { place: place(path), names: names(path) });
+    }
     if !path.is_file() {
         return state(FileContent::NoFile);
     }
@@ -304,6 +331,21 @@ fn try_look(path: &Path) -> Result<Option<FileState>, Again> {
         return Err(Again);
     }
     state(FileContent::Database { hash: database::content(&bytes, &log), place })
+}
+
+/// The hash of the names in a folder. One that has more than so many is told from others by the first of them alone.
+fn names(folder: &Path) -> blake3::Hash {
+    let entries = fs::read_dir(folder).into_iter().flatten().take(MOST_NAMES).flatten();
+    let mut names: Vec<_> = entries
+        .map(|entry| entry.file_name().into_encoded_bytes())
+        .filter(|name| !name.starts_with(b"."))
+        .collect();
+    names.sort();
+    let mut hasher = blake3::Hasher::new();
+    for name in names {
+        hasher.update(&name).update(b"/");
+    }
+    hasher.finalize()
 }
 
 /// Where `path` leads; a link that leads elsewhere is a change, since what lies beside the file changes too.
@@ -405,6 +447,26 @@ mod tests {
         assert!(files.concerned_by(&[at("sub/a.lua")]) && files.concerned_by(&[at("sub")]));
         assert!(files.concerned_by(&[]));
         assert!(!files.concerned_by(&[at("sub/b.lua"), at("a.lua")]));
+    }
+
+    #[test]
+    fn a_folder_changes_with_the_names_in_it_and_not_with_what_is_in_the_files() {
+        let folder = tempfile::tempdir().unwrap();
+        let at = |name: &str| folder.path().join(name);
+        let mut files = WatchedFiles::default();
+        files.follow(vec![(at("mods"), false)], None);
+        fs::create_dir(at("mods")).unwrap();
+        assert_eq!((changed(&mut files), changed(&mut files)), (1, 0));
+        assert!(files.concerned_by(&[at("mods/castle")]) && !files.concerned_by(&[at("mods/castle/a.lua")]));
+        fs::create_dir(at("mods/castle")).unwrap();
+        assert_eq!((changed(&mut files), changed(&mut files)), (1, 0));
+        fs::write(at("mods/castle/a.lua"), "one").unwrap();
+        fs::write(at("mods/.hidden"), "one").unwrap();
+        assert_eq!(changed(&mut files), 0);
+        fs::rename(at("mods/castle"), at("mods/gate")).unwrap();
+        assert_eq!(changed(&mut files), 1);
+        fs::remove_dir_all(at("mods")).unwrap();
+        assert_eq!((changed(&mut files), changed(&mut files)), (1, 0));
     }
 
     #[cfg(unix)]

@@ -70,7 +70,8 @@ impl Folders {
     /// Watches what `files` need, and nothing else.
     pub(super) fn cover(&mut self, files: &WatchedFiles) {
         let Ok(watcher) = &mut self.watcher else { return };
-        let wanted: BTreeSet<PathBuf> = files.spellings().iter().flat_map(|path| around(path)).collect();
+        let mut wanted: BTreeSet<PathBuf> = files.spellings().iter().flat_map(|path| around(path)).collect();
+        wanted.extend(files.folders().iter().cloned());
         self.watched.retain(|folder, known| {
             let keep = wanted.contains(folder) && identity_of(folder) == Some(*known);
             if !keep {

@@ -1,7 +1,7 @@
 //! Watching: tells when files that decide what a run makes hold something else than before.
 //!
-//! Comes in: paths, of files that are there or not. Goes out: a [`Change`] soon after one of them holds something
-//! else, appears or goes. It never tells of a save that changes nothing, and it never opens what is no regular file.
+//! Comes in: paths, of files and folders that are there or not. Goes out: a [`Change`] soon after one of them holds something
+//! else, appears or goes; a folder holds the names in it. It never tells of a save that changes nothing, and it never opens what is no regular file.
 //!
 //! Folders are watched, not files, since most editors save by renaming a new file over the old one (`folders`).
 //! What an event means is decided by comparing contents (`files`).

@@ -8,7 +8,7 @@ use super::{book, pictures, text};
 use crate::commands::report;
 use crate::commands::shared::user_mods;
 use burgeon::kit::{Kind, Registry};
-use burgeon::language::{definitions, names};
+use burgeon::language::{definitions, names, with_types};
 use burgeon::script::{RunInputs, RunOptions};
 use burgeon::{Error, Result};
 use clap::Args;
@@ -29,7 +29,7 @@ pub(crate) struct ApiCommand {
     mods: Vec<PathBuf>,
 
     /// Prints the definition file that luau-lsp takes, for editors
-    #[arg(long, conflicts_with_all = ["name", "json", "script"])]
+    #[arg(long, conflicts_with_all = ["name", "json"])]
     luau: bool,
 
     /// Writes the pages of the reference into the sources of this mdBook, such as docs/book
@@ -52,7 +52,9 @@ impl ApiCommand {
 
     pub(crate) fn run(&self) -> Result<()> {
         if self.luau {
-            return report::print(&definitions(&burgeon::objects::registry()).luau);
+            let own = self.script.as_deref().map(|script| self.declared(script)).transpose()?;
+            let registry = with_types(&burgeon::objects::registry(), own.unwrap_or_default());
+            return report::print(&definitions(&registry).luau);
         }
         let registry = burgeon::objects::registry();
         let own = self.script.as_deref().map(|script| self.declared(script)).transpose()?;
@@ -140,10 +142,12 @@ fn find<'a>(entries: &'a [Entry], name: &str) -> Result<ApiSubject<'a>> {
     if let Some(entry) = entries.iter().find(|entry| entry.name == name) {
         return Ok(ApiSubject::Entry(entry));
     }
-    if let Some(end) = name.find([':', '.'])
-        && let Some(entry) = entries.iter().find(|entry| entry.name == name[..end])
-    {
-        return within(&entry.name, &entry.members, &name[end..]).map(ApiSubject::Member);
+    // The name of a package's type has a point in it, too.
+    let ends = name.match_indices([':', '.']).map(|(end, _)| end);
+    for end in ends {
+        if let Some(entry) = entries.iter().find(|entry| entry.name == name[..end]) {
+            return within(&entry.name, &entry.members, &name[end..]).map(ApiSubject::Member);
+        }
     }
     let message = format!("scripts have nothing called {name}");
     // Whoever gives a method's name alone wants to know whose it is.

@@ -1,9 +1,9 @@
-//! `burgeon mods` and its parts: `check`, `explain`, `new` and `add`.
+//! `burgeon mods` and its parts: `check`, `explain`, `new`, `add`, `disable` and `enable`.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
-use burgeon::packages::{self, Package, PackageSearch, Packages};
+use burgeon::packages::{self, Package, PackageSearch, Packages, is_name};
 use burgeon::script::{Param, RunInputs, RunOptions, api_version};
 use burgeon::{Error, Result, ScriptCheck, Warning};
 use clap::{Args, Subcommand};
@@ -14,7 +14,7 @@ use super::super::shared::user_mods;
 use super::create::create;
 use super::text;
 
-/// Lists the packages that scripts can use, and what they replace; checks, explains, makes and adds them
+/// Lists the packages that scripts can use, and what they replace; checks, explains, makes, adds and disables them
 #[derive(Args)]
 #[command(args_conflicts_with_subcommands = false)]
 pub(crate) struct ModsCommand {
@@ -65,6 +65,16 @@ enum ModsAction {
         #[arg(long)]
         replace: bool,
     },
+    /// Switches a package off for the scripts of the folder, wherever it is
+    Disable {
+        /// Its name
+        name: String,
+    },
+    /// Switches a package on again
+    Enable {
+        /// Its name
+        name: String,
+    },
 }
 
 impl ModsCommand {
@@ -79,6 +89,8 @@ impl ModsCommand {
             Some(ModsAction::Explain { name }) => self.explain(name),
             Some(ModsAction::New { name }) => self.create(name),
             Some(ModsAction::Add { from, into, replace }) => self.add(from, into.as_deref(), *replace),
+            Some(ModsAction::Disable { name }) => self.switch(name, false),
+            Some(ModsAction::Enable { name }) => self.switch(name, true),
         }
     }
 
@@ -139,6 +151,9 @@ impl ModsCommand {
         let search = PackageSearch { script: Some(self.beside()?), given, user: user_mods() };
         let packages = Packages::find(&search, &api_version());
         let mut problems = packages.problems.clone();
+        if folder.is_none() {
+            problems.extend(packages.broken.iter().map(|broken| broken.error.clone()));
+        }
         let mut declared: BTreeMap<String, Vec<Param>> = BTreeMap::new();
         let mut warnings: Vec<Warning> = packages.warnings.clone();
         let meant = match folder {
@@ -154,10 +169,10 @@ impl ModsCommand {
                 Error::not_found("package", &shown, [], format!("{shown} has no package that is used"));
             problems.push(problem.help("name the folder that has the mod.toml; burgeon mods lists all"));
         }
-        for package in &meant {
-            problems
-                .extend(package.problems.iter().filter(|_| problems.is_empty()).cloned().collect::<Vec<_>>());
-        }
+        // What is wrong with one package is wrong with those that need it, too.
+        let mut known: BTreeSet<String> = problems.iter().map(ToString::to_string).collect();
+        let of_packages = meant.iter().flat_map(|package| &package.problems);
+        problems.extend(of_packages.filter(|problem| known.insert(problem.to_string())).cloned());
         // What cannot be used together cannot be run.
         if problems.is_empty() {
             for package in &meant {
@@ -224,8 +239,10 @@ impl ModsCommand {
                 continue;
             }
             let Some(params) = declared.get(&default.package) else { continue };
-            if !params.iter().any(|param| param.name == default.name) {
-                let names = params.iter().map(|param| param.name.as_str());
+            let of_package =
+                || params.iter().filter(|param| param.package.as_ref() == Some(&default.package));
+            if !of_package().any(|param| param.short_name() == default.name) {
+                let names = of_package().map(burgeon::script::Param::short_name);
                 let message =
                     format!("the package {} has no parameter called {}", default.package, default.name);
                 let error = Error::not_found("parameter", &default.name, names, message);
@@ -236,12 +253,49 @@ impl ModsCommand {
         problems
     }
 
+    /// Switches the package `name` on or off for the scripts of the folder.
+    fn switch(&self, name: &str, on: bool) -> Result<()> {
+        let name = name.trim_start_matches('@');
+        let packages = self.packages()?;
+        let known = packages.order().iter().map(|package| package.manifest.name.as_str());
+        let known = known.chain(packages.disabled.iter().map(|package| package.name.as_str()));
+        let known: Vec<&str> = known.collect();
+        // One that has gone may still be switched off.
+        if !known.contains(&name) && (!on || !is_name(name)) {
+            let error = Error::not_found("package", name, known, format!("there is no package {name}"));
+            return Err(error.help("burgeon mods lists those that there are"));
+        }
+        let (file, changed) = packages::switch(&self.beside()?, name, on)?;
+        if self.json {
+            let document =
+                json!({ "ok": true, "name": name, "enabled": on, "changed": changed, "file": file });
+            return report::print(&format!("{document}\n"));
+        }
+        let state = if on { "on" } else { "off" };
+        let file = file.display();
+        report::eprint(&match (changed, on) {
+            (false, _) => format!("{name} is switched {state} already\n"),
+            (true, false) => {
+                format!("switched {name} off in {file}; switch it on again: burgeon mods enable {name}\n")
+            }
+            (true, true) => format!("switched {name} on\n"),
+        });
+        Ok(())
+    }
+
     fn add(&self, from: &Path, into: Option<&Path>, replace: bool) -> Result<()> {
         let into = match into {
             Some(into) => into.to_path_buf(),
             None => self.beside()?.join("mods"),
         };
-        let added = packages::install(from, &into, replace)?;
+        let search = PackageSearch {
+            script: Some(self.beside()?),
+            given: self.mods.iter().cloned().chain(into.is_dir().then(|| into.clone())).collect(),
+            user: user_mods(),
+        };
+        // What it needs may be in another folder than the one that it is added to.
+        let available = Packages::find(&search, &api_version());
+        let added = packages::install(from, &into, replace, |manifest| available.check_needs(manifest))?;
         let (name, version) = (&added.manifest.name, &added.manifest.version);
         let replaced = added.replaced.as_ref();
         if self.json {

@@ -21,9 +21,13 @@ pub(super) fn list(packages: &Packages) -> String {
         text += &replaced(packages, package);
         text += &problems(package);
     }
-    if packages.order().is_empty() {
+    if packages.order().is_empty() && packages.disabled.is_empty() {
         text +=
             "there are no packages; make one, burgeon mods new NAME, or add one: burgeon mods add FOLDER\n";
+    }
+    for disabled in &packages.disabled {
+        let (name, version, shown) = (&disabled.name, &disabled.version, disabled.shown.display());
+        let _ = writeln!(text, "switched off: {name} {version} in {shown}");
     }
     for hidden in &packages.hidden {
         let (name, version, by) = (&hidden.name, &hidden.version, hidden.by.display());
@@ -39,6 +43,9 @@ pub(super) fn list(packages: &Packages) -> String {
         if !text.contains(&said) {
             text += &said;
         }
+    }
+    for warning in &packages.warnings {
+        let _ = writeln!(text, "warning: {warning}");
     }
     text
 }
@@ -91,6 +98,7 @@ fn replaced(packages: &Packages, package: &Package) -> String {
         let winner = packages.replacer(&one.target);
         let but = match winner {
             _ if !package.is_replacing => " (not by itself: it is in the user's folder)".to_owned(),
+            _ if !package.replaces() => " (not at present: it cannot be used)".to_owned(),
             Some(winner) if winner != package.manifest.name => format!(" (that of {winner} counts)"),
             _ => String::new(),
         };
@@ -132,11 +140,16 @@ pub(super) fn list_json(packages: &Packages) -> Value {
         .iter()
         .map(|it| json!({ "name": it.name, "version": it.version.to_string(), "folder": it.shown, "by": it.by }))
         .collect();
+    let disabled: Vec<Value> = packages
+        .disabled
+        .iter()
+        .map(|it| json!({ "name": it.name, "version": it.version.to_string(), "folder": it.shown }))
+        .collect();
     let broken: Vec<Value> = packages.broken.iter().map(|broken| broken.error.to_json()).collect();
     let problems: Vec<Value> = packages.problems.iter().map(burgeon::Error::to_json).collect();
     let warnings: Vec<Value> = packages.warnings.iter().map(burgeon::Warning::to_json).collect();
     json!({
-        "ok": true, "packages": all, "hidden": hidden, "broken": broken, "problems": problems, "warnings": warnings,
+        "ok": true, "packages": all, "hidden": hidden, "disabled": disabled, "broken": broken, "problems": problems, "warnings": warnings,
     })
 }
 

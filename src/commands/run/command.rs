@@ -119,6 +119,7 @@ impl RunCommand {
             if stale() {
                 return Ok(None);
             }
+            run.note_packages(session)?;
             self.warn_of_nothing(session, &mut run)?;
             let writing = Instant::now();
             self.write(&run, session)?;
@@ -186,8 +187,13 @@ impl RunCommand {
     fn save(&self, name: &str, session: &Session, params: &[Param]) -> Result<()> {
         let options = &session.options;
         let preset = options.params.preset.iter().flat_map(|preset| &preset.params).map(|(name, _)| name);
-        let given: Vec<&String> = preset.chain(options.params.set.iter().map(|(name, _)| name)).collect();
-        let params = params.iter().filter(|param| given.contains(&&param.name));
+        let given = preset.chain(options.params.set.iter().map(|(name, _)| name));
+        // Those that a plain name meant are saved under their full one.
+        let given: Vec<&str> = given
+            .filter_map(|name| Param::find(params, name).ok().flatten())
+            .map(|param| &*param.name)
+            .collect();
+        let params = params.iter().filter(|param| given.contains(&&*param.name));
         let params = params.map(|param| (param.name.clone(), param.value.clone())).collect();
         let preset = Preset { name: name.to_owned(), seed: Some(options.seed), params, ..Preset::default() };
         Presets::save(&self.script.script, preset).map(|_| ())

@@ -27,3 +27,4 @@ pub use preset::Preset;
 pub(crate) use scripts::SourceFile;
 pub use session::{RunProgress, Session};
 pub(crate) use tables::ListTable;
+pub(crate) use types::{contested_method, qualified_name};

@@ -1,5 +1,6 @@
 //! The files of packages, as a run's scripts ask for them.
 
+use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
 use super::param::Param;
@@ -7,7 +8,7 @@ use super::session::Session;
 use burgeon_base::error::{Error, Result, SourcePlace};
 use burgeon_base::locks::LockRecovery;
 use burgeon_data::split_name;
-use burgeon_packages::{FileName, Package, PackageFile};
+use burgeon_packages::{FileName, LockedPackage, Package, PackageFile};
 
 /// The file of a package's presets.
 const PRESETS: &str = "presets.json";
@@ -27,17 +28,25 @@ impl Session {
         name: &FileName,
         asker: Option<&Package>,
     ) -> Result<PackageFile<'_>> {
-        let located = self.packages().locate(what, name, asker, &mut |path, there| self.seek(path, there));
+        let located = self.packages().locate(what, name, asker, &mut |path, there| self.seek(path, there))?;
         if let Some(package) = self.packages().get(&name.package) {
             self.together(package)?;
         }
-        located
+        // It may be of a package that has replaced the file.
+        self.together(located.package)?;
+        Ok(located)
+    }
+
+    /// The packages that the run has used, as they are, in order. Fails if one cannot be read.
+    pub fn lock(&self) -> Result<Vec<LockedPackage>> {
+        let used = self.used.lock().recover().clone();
+        self.packages().lock(|name| used.contains(name))
     }
 
     /// The files of presets that packages have: of those that are there for this script, and of others that it has used.
     pub fn package_presets(&self) -> Vec<(String, PathBuf)> {
         let used = self.used.lock().recover().clone();
-        let meant = |package: &&Package| package.is_replacing || used.contains(&package.manifest.name);
+        let meant = |package: &&Package| package.replaces() || used.contains(&package.manifest.name);
         let found = self.packages().order().iter().filter(meant).filter_map(|package| {
             let name = package.manifest.name.clone();
             let file = FileName { package: name.clone(), path: PRESETS.to_owned() };
@@ -47,9 +56,21 @@ impl Session {
         found.collect()
     }
 
-    /// Whether there is a package `name` that can be used.
-    pub(crate) fn has_package(&self, name: &str) -> bool {
-        self.packages().get(name).is_some_and(|package| package.problems.is_empty())
+    /// Where those packages have, or would have, their presets, and whether a file is there.
+    pub fn package_preset_places(&self) -> Vec<(PathBuf, bool)> {
+        let used = self.used.lock().recover().clone();
+        let packages = self.packages().order().iter();
+        let meant = packages.filter(|package| package.replaces() || used.contains(&package.manifest.name));
+        let places = meant.map(|package| package.folder.join(PRESETS));
+        places.map(|path| (path.clone(), path.is_file())).collect()
+    }
+
+    /// Whether there is a package `name` that `asker` can use; the script can use all.
+    pub(crate) fn has_package(&self, name: &str, asker: Option<&Package>) -> bool {
+        let Some(package) = self.packages().get(name) else { return false };
+        let wanted = asker.and_then(|asker| asker.manifest.wanted().find(|wanted| wanted.name == name));
+        package.problems.is_empty()
+            && wanted.is_none_or(|wanted| wanted.versions.matches(&package.manifest.version))
     }
 
     /// Refuses packages that cannot be used with others whose files were asked for before.
@@ -58,10 +79,21 @@ impl Session {
         if used.contains(&package.manifest.name) {
             return Ok(());
         }
-        let needed = self.packages().with_dependencies(&package.manifest.name);
-        used.extend(needed.iter().map(|package| package.manifest.name.clone()));
-        let problems = self.packages().conflicts(|name| used.contains(name));
-        if problems.is_empty() { Ok(()) } else { Err(Error::several(problems)) }
+        let packages = self.packages();
+        let needed = packages.with_dependencies(&package.manifest.name);
+        let new: Vec<String> = needed
+            .iter()
+            .map(|package| package.manifest.name.clone())
+            .filter(|name| !used.contains(name))
+            .collect();
+        let together: BTreeSet<String> = used.iter().chain(&new).cloned().collect();
+        let problems = packages.conflicts(|name| together.contains(name));
+        if !problems.is_empty() {
+            return Err(Error::several(problems));
+        }
+        new.iter().flat_map(|name| packages.notices(name)).for_each(|warning| self.warn(warning.clone()));
+        *used = together;
+        Ok(())
     }
 
     /// The file of a package that `name` means, if a name is that of one at all.
@@ -112,14 +144,15 @@ impl Session {
         }
     }
 
-    /// Gives a parameter that is declared in `place` the default that packages ask for, if any does.
-    pub(crate) fn redefault(&self, param: &mut Param, place: Option<&SourcePlace>) -> Result<()> {
-        let Some(owner) = place.and_then(|place| self.package_of(&place.file)) else { return Ok(()) };
-        for package in self.packages().order().iter().filter(|package| package.is_replacing) {
+    /// Gives a parameter that is declared in a file of `owner` the default that packages ask for, if any does. Its name is
+    /// that without a package yet.
+    pub(crate) fn redefault(&self, param: &mut Param, owner: &Package) -> Result<()> {
+        for package in self.packages().order().iter().filter(|package| package.replaces()) {
             let manifest = &package.manifest;
             let mut params = manifest.params.iter();
             let wanted = params.find(|it| it.package == owner.manifest.name && it.name == param.name);
             let Some(wanted) = wanted else { continue };
+            self.together(package)?;
             param.default = param.accept(&wanted.value).map_err(|error| {
                 let message =
                     format!("the default that the package {} sets: {}", manifest.name, error.message());

@@ -8,8 +8,10 @@ use burgeon_language::PARAM;
 /// A declared parameter and the value it has in this run.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Param {
-    /// Its name.
+    /// Its name, by which it is set: that of a package has the package before it, `castle.size`.
     pub name: String,
+    /// The package whose file declares it, if it is of one.
+    pub package: Option<String>,
     /// Its value in this run.
     pub value: Setting,
     /// The script's own value.
@@ -88,6 +90,37 @@ impl Setting {
 }
 
 impl Param {
+    /// The parameter of `params` that `name` means: one of that very name, or otherwise the only one of a package that is
+    /// called so without its package. None if there is no such parameter.
+    ///
+    /// Fails if several packages have one, with their names.
+    pub fn find<'a>(params: &'a [Self], name: &str) -> Result<Option<&'a Self>> {
+        if let Some(exact) = params.iter().find(|param| param.name == name) {
+            return Ok(Some(exact));
+        }
+        let mut of_packages = params.iter().filter(|param| param.short_name() == name);
+        match (of_packages.next(), of_packages.next()) {
+            (Some(first), Some(second)) => Err(Self::ambiguous(&[first, second])),
+            (found, _) => Ok(found),
+        }
+    }
+
+    /// Its name as its file declares it, without its package.
+    pub fn short_name(&self) -> &str {
+        let prefix = self.package.as_ref().map_or(0, |package| package.len() + 1);
+        self.name.get(prefix..).unwrap_or(&self.name)
+    }
+
+    /// The error for a plain name that these have.
+    pub(crate) fn ambiguous(of: &[&Self]) -> Error {
+        let owner = |param: &&&Self| param.package.clone().unwrap_or_else(|| "the script".to_owned());
+        let owners: Vec<String> = of.iter().map(|param| owner(&param)).collect();
+        let named: Vec<String> = of.iter().map(|param| format!("--set {}=VALUE", param.name)).collect();
+        let name = of.first().map_or("", |param| param.short_name());
+        Error::argument(format!("{name} is a parameter of {}", owners.join(" and of ")))
+            .help(format!("say which one: {}", named.join(" or ")))
+    }
+
     /// Reads `param(name, { default = ..., ... })`; its value is the default.
     pub fn declare(name: &str, options: &Table) -> Result<Self> {
         for (key, _) in &options.entries {
@@ -160,6 +193,7 @@ impl Param {
         };
         let param = Self {
             name: name.to_owned(),
+            package: None,
             value: default.clone(),
             default,
             control,
@@ -174,17 +208,24 @@ impl Param {
         Ok(param)
     }
 
-    /// Its value where `set` holds those given from outside, which win over those of `preset`.
-    pub(crate) fn given(&self, set: &[(String, String)], preset: Option<&Preset>) -> Result<Setting> {
-        if let Some((_, given)) = set.iter().rev().find(|(known, _)| *known == self.name) {
+    /// Its value where `set` holds those given from outside, which override those of `preset`. Its name without its package
+    /// means it, too, if it is `alone` with it.
+    pub(crate) fn given(
+        &self,
+        set: &[(String, String)],
+        preset: Option<&Preset>,
+        alone: bool,
+    ) -> Result<Setting> {
+        let names = [Some(&*self.name), (alone && self.package.is_some()).then(|| self.short_name())];
+        let names = || names.into_iter().flatten();
+        let mut given = names().filter_map(|name| set.iter().rev().find(|(known, _)| known == name));
+        if let Some((_, given)) = given.next() {
             return self.accept(given);
         }
-        match preset
-            .and_then(|preset| Some((preset, preset.params.iter().find(|(known, _)| *known == self.name)?)))
-        {
-            Some((preset, (_, given))) => {
-                self.accept(&given.plain()).map_err(|error| preset.refused(&self.name, &error))
-            }
+        let Some(preset) = preset else { return Ok(self.default.clone()) };
+        let mut given = names().filter_map(|name| preset.params.iter().find(|(known, _)| known == name));
+        match given.next() {
+            Some((name, given)) => self.accept(&given.plain()).map_err(|error| preset.refused(name, &error)),
             None => Ok(self.default.clone()),
         }
     }

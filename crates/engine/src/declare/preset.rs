@@ -26,6 +26,20 @@ impl Preset {
         self.params.iter().map(|(name, value)| (name.clone(), value.plain())).collect()
     }
 
+    /// The same as a preset of `package`, whose names mean that package's own parameters: those of others have their package
+    /// before them, as in `masonry.stone`.
+    #[must_use]
+    pub fn of_package(mut self, package: &str) -> Self {
+        for (name, _) in &mut self.params {
+            let has_package =
+                name.split_once('.').is_some_and(|(package, _)| burgeon_packages::is_name(package));
+            if !has_package {
+                *name = format!("{package}.{name}");
+            }
+        }
+        self
+    }
+
     /// Whether `other` has the same name, seed and values, wherever they stand.
     pub fn is_like(&self, other: &Self) -> bool {
         (&self.name, self.seed, &self.params) == (&other.name, other.seed, &other.params)

@@ -1,6 +1,6 @@
 //! The files of a run's scripts: each is read once for all virtual machines, and begun before it is asked for.
 
-use std::collections::VecDeque;
+use std::collections::{BTreeSet, VecDeque};
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, MutexGuard};
 
@@ -8,7 +8,7 @@ use rustc_hash::FxHashMap;
 
 use super::bytecode::compile;
 use super::session::Session;
-use burgeon_analysis::{Analysis, Globals, ScriptReader};
+use burgeon_analysis::{Analysis, Globals, ScriptReader, calls_with_text};
 use burgeon_base::MemoryOwner;
 use burgeon_base::error::{Error, Limit, Result, SourcePlace};
 use burgeon_base::locks::LockRecovery;
@@ -111,6 +111,30 @@ impl Session {
         });
         located.collect()
     }
+}
+
+/// The most files that are looked through for parameters.
+const MOST_LOOKED_THROUGH: usize = 1000;
+
+/// The names of the parameters that the file `script` declares, and those that it requires from the folder `root`, as far
+/// as their texts tell.
+pub(super) fn own_params(script: &Path, root: &Path) -> BTreeSet<String> {
+    let mut names = BTreeSet::new();
+    let mut next: Vec<PathBuf> = script.canonicalize().into_iter().collect();
+    let mut known: BTreeSet<PathBuf> = next.iter().cloned().collect();
+    while let Some(path) = next.pop() {
+        let Ok(bytes) = burgeon_base::files::read(&path, LARGEST) else { continue };
+        let text = String::from_utf8_lossy(&bytes);
+        names.extend(calls_with_text(&text, "param"));
+        let folder = path.parent().unwrap_or(root);
+        for name in calls_with_text(&text, "require").filter(|name| !FileName::is_meant(name)) {
+            let file = format!("{}.lua", name.strip_suffix(".lua").unwrap_or(&name));
+            let found = [folder, root].into_iter().find_map(|from| from.join(&file).canonicalize().ok());
+            let inside = found.filter(|found| found.starts_with(root) && known.len() < MOST_LOOKED_THROUGH);
+            next.extend(inside.filter(|found| known.insert(found.clone())));
+        }
+    }
+    names
 }
 
 /// Begins to read the file at `path`; `name` is for messages.

@@ -3,7 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
-use std::sync::{Arc, Mutex};
+use std::sync::{Arc, Mutex, OnceLock};
 use std::time::Duration;
 
 use super::api::api_version;
@@ -12,7 +12,7 @@ use super::deprecations::Deprecations;
 use super::options::RunOptions;
 use super::param::Param;
 use super::positions::RandomPositions;
-use super::scripts::{ScriptFiles, SourceFile, read_stdlib, unreadable};
+use super::scripts::{ScriptFiles, SourceFile, own_params, read_stdlib, unreadable};
 use super::types::DeclaredTypes;
 use crate::questions::{AskedRows, Question, RowCache, RowSource, Rows};
 use burgeon_analysis::{Analysis, CheckedFile, QueryCall, call_problems, has_metatables, inspects_tables};
@@ -126,6 +126,8 @@ pub struct Session {
     /// Whether modules have been made that stand for others.
     pending: AtomicBool,
     kept: Mutex<Vec<f64>>,
+    /// The names of the parameters that the script's own files declare, as far as their texts tell, once someone asks.
+    own_params: OnceLock<BTreeSet<String>>,
 }
 
 impl Session {
@@ -143,7 +145,6 @@ impl Session {
         };
         let packages = Packages::find(&search, &api_version());
         let warnings = Warnings::default();
-        packages.warnings.iter().cloned().for_each(|warning| warnings.add(warning));
         let deprecated = Deprecations::new(&options.registry);
         let stop = Stop::under(options.stop.clone()).limited(options.limits.memory);
         if let Some(memory) = stop.memory().filter(|_| options.limits.whole_program) {
@@ -176,6 +177,7 @@ impl Session {
             facts: ScriptFacts::default(),
             pending: AtomicBool::new(false),
             kept: Mutex::default(),
+            own_params: OnceLock::new(),
         }))
     }
 
@@ -199,6 +201,11 @@ impl Session {
         &self.packages
     }
 
+    /// Whether a file of the script's own, and none of a package, declares a parameter `name`, as far as their texts tell.
+    pub(crate) fn declares_own(&self, name: &str) -> bool {
+        self.own_params.get_or_init(|| own_params(&self.script, &self.root)).contains(name)
+    }
+
     /// Every file that was read, in the order of their paths.
     pub fn files(&self) -> Vec<PathBuf> {
         let mut files: Vec<PathBuf> = self.script_files().read.keys().cloned().collect();
@@ -206,13 +213,14 @@ impl Session {
         files
     }
 
-    /// Every file that decides what the run makes, and whether it was there: the script, the standard library's
-    /// replacement, and all that was read or looked for, in the order of their paths.
+    /// Every path that decides what the run makes, and whether something was there: the script, the standard library's
+    /// replacement, all that was read or looked for, and the folders of packages, in the order of their paths.
     pub fn sought(&self) -> Vec<(PathBuf, bool)> {
         let mut files = self.sought.lock().recover().clone();
         let read =
             self.files().into_iter().chain([self.script.clone()]).chain(self.options.inputs.stdlib.clone());
-        files.extend(read.chain(self.packages.manifests()).map(|path| (path, true)));
+        files.extend(read.map(|path| (path, true)));
+        files.extend(self.packages.sought());
         files.into_iter().collect()
     }
 
@@ -330,7 +338,8 @@ impl Session {
             .filter_map(|source| {
                 let (name, ast) = (source.name.clone(), Arc::clone(source.analysis.ast.as_ref()?));
                 let required = required.get(&name).cloned().unwrap_or_default();
-                Some(CheckedFile { name, ast, required })
+                let package = self.package_of(&name).map(|package| package.manifest.name.clone());
+                Some(CheckedFile { name, package, ast, required })
             })
             .collect();
         files.sort_by(|a, b| a.name.cmp(&b.name));

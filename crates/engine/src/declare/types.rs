@@ -4,14 +4,37 @@ use std::sync::Arc;
 
 use super::session::Session;
 use burgeon_base::locks::LockRecovery;
-use burgeon_kit::{Kind, Method, Registry};
+use burgeon_kit::{Argument, Call, Kind, Method, Registry};
 
 /// Types of objects that scripts have declared, and methods that they have added to others.
 #[derive(Default)]
 pub(crate) struct DeclaredTypes {
     types: Vec<Arc<Kind>>,
-    /// By the name of the type.
-    methods: Vec<(String, Method)>,
+    /// By the names of the type and of the package that adds it, which is empty for the script.
+    methods: Vec<(String, String, Method)>,
+}
+
+impl DeclaredTypes {
+    /// The methods that were added, each with its type: by their plain names, and those of packages also in full.
+    fn added(&self) -> Vec<(&String, Method)> {
+        let mut all: Vec<(&String, Method)> = Vec::new();
+        for (of, owner, method) in &self.methods {
+            let same = self.methods.iter().filter(|(kind, _, known)| kind == of && known.name == method.name);
+            let owners: Vec<&String> = same.map(|(_, owner, _)| owner).collect();
+            let plain = match owners.len() {
+                1 => method.clone(),
+                _ => contested_method(&method.name, owners.into_iter()),
+            };
+            let qualified = (!owner.is_empty())
+                .then(|| Method { name: qualified_name(owner, &method.name).into(), ..method.clone() });
+            for method in std::iter::once(plain).chain(qualified) {
+                if !all.iter().any(|(kind, known)| *kind == of && known.name == method.name) {
+                    all.push((of, method));
+                }
+            }
+        }
+        all
+    }
 }
 
 impl Session {
@@ -24,10 +47,13 @@ impl Session {
     }
 
     /// Takes notice of a method that a script adds to the type called `kind`.
-    pub(crate) fn note_method(&self, kind: &str, method: Method) {
+    pub(crate) fn note_method(&self, kind: &str, owner: &str, method: Method) {
         let mut declared = self.declared.lock().recover();
-        if !declared.methods.iter().any(|(of, known)| of == kind && known.name == method.name) {
-            declared.methods.push((kind.to_owned(), method));
+        let is_same = |(of, by, known): &(String, String, Method)| {
+            of == kind && by == owner && known.name == method.name
+        };
+        if !declared.methods.iter().any(is_same) {
+            declared.methods.push((kind.to_owned(), owner.to_owned(), method));
         }
     }
 
@@ -42,18 +68,39 @@ impl Session {
     pub fn types(&self) -> Vec<Arc<Kind>> {
         let declared = self.declared.lock().recover();
         let mut types = declared.types.clone();
-        for (of, method) in &declared.methods {
+        for (of, method) in declared.added() {
             let known = types.iter_mut().find(|known| known.name == *of);
             match (known, self.options.registry.get(of)) {
-                (Some(known), _) => Arc::make_mut(known).methods.push(method.clone()),
+                (Some(known), _) => Arc::make_mut(known).methods.push(method),
                 (None, Some(kind)) => {
                     let mut kind = Kind::clone(kind);
-                    kind.methods.push(method.clone());
+                    kind.methods.push(method);
                     types.push(Arc::new(kind));
                 }
                 (None, None) => {}
             }
         }
         types
+    }
+}
+
+/// The name by which scripts find what the package `owner` has added as `name`, whoever else has.
+pub(crate) fn qualified_name(owner: &str, name: &str) -> String {
+    format!("{}_{name}", owner.replace('-', "_"))
+}
+
+/// What people are told of a method that several packages have added: it may be any of theirs.
+pub(crate) fn contested_method<'a>(name: &str, owners: impl Iterator<Item = &'a String>) -> Method {
+    let named = owners.filter(|owner| !owner.is_empty()).map(|owner| qualified_name(owner, name));
+    let doc = format!(
+        "One of {}: that of the package that has been required.",
+        named.collect::<Vec<_>>().join(", ")
+    );
+    Method {
+        name: name.to_owned().into(),
+        doc: doc.into(),
+        arguments: vec![Argument::new("...")],
+        returns: "any".to_owned(),
+        call: Call::Script { changes: false },
     }
 }

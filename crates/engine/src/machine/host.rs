@@ -9,7 +9,7 @@ use super::current::WorkState;
 use super::native;
 use crate::machine::convert::{to_argument, to_lua, to_value};
 use crate::machine::library::Library;
-use crate::machine::types::ObjectHandle;
+use crate::machine::types::{ObjectHandle, claim};
 use burgeon_base::error::{Error, Limit, SourcePlace};
 use burgeon_base::warning::take_deferred;
 use burgeon_kit::declare::as_ref;
@@ -270,6 +270,13 @@ fn add_script_objects(
             Ok(owner.kind_of(&constructor).map(|kind| kind.name.to_string()))
         })?,
     )?;
+    let owner = Rc::clone(library);
+    host.set(
+        "claim",
+        lua.create_function(move |lua, (kind, name, owners): (String, String, Vec<String>)| {
+            claim(&owner, lua, &kind, &name, &owners).map_err(mlua::Error::external)
+        })?,
+    )?;
     let state = Rc::clone(current);
     host.set("chain_of", lua.create_function(move |_, application: usize| Ok(state.chain_of(application)))?)?;
     let state = Rc::clone(current);
@@ -311,6 +318,15 @@ fn add_script_objects(
             state.keep_state(chain, slot, kept).map_err(mlua::Error::external)
         })?,
     )?;
+    host.set(
+        "drawing_type",
+        lua.create_function(|_, value: LuaValue| {
+            let LuaValue::UserData(data) = &value else { return Ok(None) };
+            let Ok(handle) = data.borrow::<ObjectHandle>() else { return Ok(None) };
+            Ok(handle.0.kind().draw.is_some().then(|| handle.0.kind().name.to_string()))
+        })?,
+    )?;
+    host.set("is_object", lua.create_function(|_, value: LuaValue| Ok(to_value(&value, false).is_ok()))?)?;
     let (state, owner) = (Rc::clone(current), Rc::clone(library));
     host.set(
         "unknown_member",

@@ -1,6 +1,7 @@
 //! The names that scripts have: `module`, `lsystem`, `param`, `require`, objects, and the standard library.
 
 use std::cell::RefCell;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, LazyLock};
 
@@ -12,19 +13,19 @@ use super::require::require;
 use super::system::{EagerMark, SourceHandle, SystemDeclaration, SystemHandle, install_lazy};
 use super::table_classes::declare_class;
 use super::types::{
-    ScriptFunction, ScriptTypeEntry, declare_type, extend_type, install_geometries, install_kind,
-    named_fields, no_table,
+    Extension, ScriptTypeEntry, declare_type, extend_type, install_geometries, install_kind, named_fields,
+    no_table,
 };
 use super::{Machine, compile, native};
-use crate::declare::{API_VERSION, Param, Print, has_name};
+use crate::declare::{API_VERSION, Param, Print, Setting, has_name};
 use burgeon_analysis::Globals;
 use burgeon_base::MemoryOwner;
 use burgeon_base::error::{Error, Result, SourcePlace};
 use burgeon_base::warning::{Warning, WarningKind};
-use burgeon_kit::rules::{FRAGMENT, QUERY, Signature, Symbol, Symbols};
+use burgeon_kit::rules::{FRAGMENT, NameScope, QUERY, Signature, Symbol, Symbols};
 use burgeon_kit::{Construct, Kind, Registry};
 use burgeon_language::LOCKED;
-use burgeon_packages::FileName;
+use burgeon_packages::{FileName, Package};
 
 /// The standard library, which every script has, compiled once for all machines.
 static STANDARD_COMPILED: LazyLock<Vec<u8>> =
@@ -65,11 +66,13 @@ pub(crate) struct Library {
     constructed: RefCell<FxHashMap<usize, Arc<Kind>>>,
     /// The functions of the types that the script declared, and those that it added to others, by their names.
     pub script_types: RefCell<Vec<ScriptTypeEntry>>,
-    pub extensions: RefCell<Vec<(String, ScriptFunction)>>,
+    pub extensions: RefCell<Vec<Extension>>,
     /// The constructors of objects, by name.
     kinds: RefCell<Vec<String>>,
     /// The parameters as they were declared first, and where.
     params: RefCell<Vec<(Param, Option<SourcePlace>)>>,
+    /// By package, and none for the script: the packages that its files have required.
+    pub(super) required: RefCell<BTreeMap<Option<Arc<str>>, BTreeSet<Arc<str>>>>,
     machine: RefCell<Option<std::rc::Weak<Machine>>>,
 }
 
@@ -109,6 +112,61 @@ impl Library {
     /// The type of what `constructor` makes, if it makes objects.
     pub(super) fn kind_of(&self, constructor: &Function) -> Option<Arc<Kind>> {
         self.constructed.borrow().get(&(constructor.to_pointer() as usize)).cloned()
+    }
+
+    /// Whoever runs the line at hand, as one that asks for names.
+    pub(crate) fn scope_at(&self, lua: &Lua) -> NameScope {
+        match self.machine() {
+            Ok(machine) => self.scope_of(Machine::asker(lua, &machine.session)),
+            Err(_) => NameScope::default(),
+        }
+    }
+
+    /// A package, or the script, as one that asks for names.
+    pub(crate) fn scope_of(&self, package: Option<&Package>) -> NameScope {
+        let package: Option<Arc<str>> = package.map(|package| package.manifest.name.as_str().into());
+        let required = self.required.borrow().get(&package).cloned().unwrap_or_default();
+        NameScope { package, required }
+    }
+
+    /// The value of a parameter that is being declared, as far as it is given from outside.
+    fn given(&self, param: &Param) -> Result<Setting> {
+        let machine = self.machine()?;
+        let session = &machine.session;
+        let values = &session.options.params;
+        let name = param.short_name();
+        let is_set = |name: &str| {
+            let preset = values.preset.iter().flat_map(|preset| &preset.params);
+            values.set.iter().any(|(known, _)| known == name)
+                || preset.into_iter().any(|(known, _)| known == name)
+        };
+        if !is_set(name) {
+            return param.given(&values.set, values.preset.as_ref(), false);
+        }
+        let params = self.params.borrow();
+        let others = || {
+            params
+                .iter()
+                .map(|(other, _)| other)
+                .filter(|other| other.short_name() == name && other.package != param.package)
+        };
+        match param.package {
+            // The script's own is meant, wherever it is declared.
+            Some(_) if session.declares_own(name) => param.given(&values.set, values.preset.as_ref(), false),
+            Some(_) => match others().find(|other| other.package.is_some()) {
+                Some(other) => Err(Param::ambiguous(&[other, param])),
+                None => param.given(&values.set, values.preset.as_ref(), true),
+            },
+            // That it is the script's own could not be seen before.
+            None => match others().find(|other| !is_set(&other.name) && !session.declares_own(name)) {
+                Some(other) => {
+                    let owner = other.package.as_deref().unwrap_or("a package");
+                    Err(Error::argument(format!("{name} is a parameter of the script and of {owner}"))
+                        .help(format!("give that of {owner} a value too: --set {}=VALUE", other.name)))
+                }
+                None => param.given(&values.set, values.preset.as_ref(), false),
+            },
+        }
     }
 
     /// Declares a parameter, or tells that it has been declared before. The same words in another file, or in the same
@@ -299,8 +357,9 @@ impl Library {
             "module",
             lua.create_function(move |lua, (name, parameters): (String, Variadic<String>)| {
                 library.at_top_level("module").map_err(mlua::Error::external)?;
+                let scope = library.scope_at(lua);
                 let (symbol, constructor) =
-                    declare(&library, &name, &parameters).map_err(mlua::Error::external)?;
+                    declare(&library, &scope, &name, &parameters).map_err(mlua::Error::external)?;
                 if let (false, Some(place)) =
                     (library.symbols.borrow().is_standard(symbol), Machine::place(lua))
                 {
@@ -325,10 +384,15 @@ impl Library {
                     named_fields(&format!("param {name}"), options).map_err(mlua::Error::external)?;
                 let mut param = Param::declare(&name, &options).map_err(mlua::Error::external)?;
                 let place = Machine::place(lua);
-                session.redefault(&mut param, place.as_ref()).map_err(mlua::Error::external)?;
-                match param.given(&session.options.params.set, session.options.params.preset.as_ref()) {
+                if let Some(owner) = place.as_ref().and_then(|place| session.package_of(&place.file)) {
+                    session.redefault(&mut param, owner).map_err(mlua::Error::external)?;
+                    let package = owner.manifest.name.clone();
+                    param.name = format!("{package}.{name}");
+                    param.package = Some(package);
+                }
+                match library.given(&param) {
                     Ok(value) => param.value = value,
-                    Err(error) => session.forgive(&name, error).map_err(mlua::Error::external)?,
+                    Err(error) => session.forgive(&param.name, error).map_err(mlua::Error::external)?,
                 }
                 let value = param.value.to_value();
                 library.add_param(param, place).map_err(mlua::Error::external)?;
@@ -420,7 +484,7 @@ impl Library {
         let session = Arc::clone(&machine.session);
         api.raw_set(
             "has",
-            lua.create_function(move |_, name: LuaValue| {
+            lua.create_function(move |lua, name: LuaValue| {
                 let LuaValue::String(name) = name else {
                     return Err(mlua::Error::external(
                         Error::argument("api.has takes a name").help("write api.has(\"extruder.bend\")"),
@@ -428,7 +492,9 @@ impl Library {
                 };
                 let name = name.to_string_lossy();
                 Ok(match FileName::parse(&name) {
-                    Ok(file) if file.path.is_empty() => session.has_package(&file.package),
+                    Ok(file) if file.path.is_empty() => {
+                        session.has_package(&file.package, Machine::asker(lua, &session))
+                    }
                     _ => has_name(&name, &session.options.registry),
                 })
             })?,
@@ -437,9 +503,20 @@ impl Library {
     }
 }
 
-fn declare(library: &Library, name: &str, parameters: &[String]) -> Result<(Symbol, Function)> {
-    let signature = Signature::new(name, parameters)?;
-    let symbol = library.symbols.borrow_mut().declare(signature)?;
+fn declare(
+    library: &Library,
+    scope: &NameScope,
+    name: &str,
+    parameters: &[String],
+) -> Result<(Symbol, Function)> {
+    let symbol = match name.contains('.') {
+        // Burgeon itself names modules of packages so, in successors that are given as texts.
+        true => library.symbols.borrow().find_in(name, scope)?,
+        false => {
+            let signature = Signature::new(name, parameters)?;
+            library.symbols.borrow_mut().declare_in(signature, scope.package.as_deref())?
+        }
+    };
     if let Some(constructor) = library.constructors.borrow().get(&symbol) {
         return Ok((symbol, constructor.clone()));
     }

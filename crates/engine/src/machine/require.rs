@@ -3,12 +3,13 @@
 use std::path::{Path, PathBuf};
 
 use mlua::{Lua, Value as LuaValue};
+use rustc_hash::FxHashSet;
 
 use super::Machine;
 use super::library::Library;
 use crate::declare::Session;
 use crate::declare::paths::{is_absolute, lead};
-use burgeon_base::error::{Error, ErrorKind, Result};
+use burgeon_base::error::{Error, ErrorKind, Result, SourcePlace};
 use burgeon_packages::{FileName, Package};
 
 /// Runs another file once and gives what it returns.
@@ -20,6 +21,10 @@ pub(super) fn require(library: &Library, session: &Session, lua: &Lua, name: &st
             .help("write require(\"facade\") for facade.lua"));
     }
     let asker = Machine::asker(lua, session);
+    if let Ok(file) = FileName::parse(bare) {
+        let scope = asker.map(|package| package.manifest.name.as_str().into());
+        library.required.borrow_mut().entry(scope).or_default().insert(file.package.into());
+    }
     let (path, shown) = match asker {
         _ if FileName::is_meant(name) => located(session, &FileName::script(bare)?, asker)?,
         Some(package) => find_in_package(session, package, &caller(lua), bare)?,
@@ -86,25 +91,39 @@ fn load(
         .and_then(|chunk| machine.call::<LuaValue>(&chunk, ()).map_err(|error| machine.translate(error)));
     library.loading.borrow_mut().pop();
     let value = value?;
-    if session.package_of(shown).is_some() {
-        freeze_all(&value);
+    if let Some(package) = session.package_of(shown) {
+        freeze_all(&value, &package.manifest.name)
+            .map_err(|error| error.rather_at(Some(SourcePlace { file: shown.to_owned(), line: 1 })))?;
     }
     library.loaded.borrow_mut().insert(path, value.clone());
     Ok(value)
 }
 
-/// Makes what a package gives to others read-only, so that none of them changes it for the rest.
-fn freeze_all(value: &LuaValue) {
+/// Makes what a package gives to others read-only, so that none of them changes it for the rest: every table that can be
+/// reached through tables and their metatables, also through those that are read-only already. What functions capture stays
+/// as it is. Fails for a buffer, which nothing makes read-only.
+fn freeze_all(value: &LuaValue, package: &str) -> Result<()> {
     let mut queue = vec![value.clone()];
+    let mut seen = FxHashSet::default();
     while let Some(value) = queue.pop() {
-        let LuaValue::Table(table) = value else { continue };
-        if table.is_readonly() {
+        let table = match value {
+            LuaValue::Table(table) => table,
+            LuaValue::Buffer(_) => {
+                return Err(Error::scope(format!(
+                    "the package {package} gives a buffer, which everybody who uses it could change for the others"
+                ))
+                .help("give a function that makes one, or a string: buffer.tostring(b)"));
+            }
+            _ => continue,
+        };
+        if !seen.insert(table.to_pointer() as usize) {
             continue;
         }
         table.set_readonly(true);
         queue.extend(table.metatable().map(LuaValue::Table));
         queue.extend(table.pairs::<LuaValue, LuaValue>().flatten().flat_map(|(key, value)| [key, value]));
     }
+    Ok(())
 }
 
 /// The folder of the file that is being run, as people find it.

@@ -162,7 +162,7 @@ impl Trace {
         let signature = self.symbols.signature(symbol);
         Some(Module {
             text: module_brief(&self.symbols, &self.values, symbol, params),
-            symbol: signature.name.clone(),
+            symbol: self.symbols.shown(symbol).to_owned(),
             params: signature
                 .parameters
                 .iter()

@@ -14,7 +14,7 @@ use crate::texture::Images;
 use crate::{SceneFacts, stem, uri};
 use burgeon_base::error::{Error, Result};
 use burgeon_base::stop::Stop;
-use burgeon_scene::Scene;
+use burgeon_scene::{Scene, ScenePackage};
 use glam::DAffine3;
 use gltf_json as json;
 use json::extras::RawValue;
@@ -114,6 +114,19 @@ pub(crate) fn write_gltf(
     files.write(path, |out| document.description.write_pretty(out))
 }
 
+/// The packages that a scene was made with, as extras of the asset; nothing if there are none.
+fn packages_extras(packages: &[ScenePackage]) -> json::extras::Extras {
+    if packages.is_empty() {
+        return None;
+    }
+    let list: Vec<_> = packages
+        .iter()
+        .map(|it| serde_json::json!({ "name": it.name, "version": it.version, "hash": it.hash }))
+        .collect();
+    let text = serde_json::json!({ "packages": list }).to_string();
+    RawValue::from_string(text).ok()
+}
+
 impl<'a> Document<'a> {
     fn new(
         checked: &SceneCheck<'a>,
@@ -128,6 +141,7 @@ impl<'a> Document<'a> {
         description.root.asset = json::Asset {
             generator: Some(format!("Burgeon {}", env!("CARGO_PKG_VERSION"))),
             version: "2.0".into(),
+            extras: packages_extras(&checked.scene.packages),
             ..json::Asset::default()
         };
         let mut body = Body::default();

@@ -12,7 +12,7 @@ use super::super::{stem, uri};
 use super::shape::{self, LookReference, Looks, numbers, title, write_feature};
 use super::xml::{identifier, listed};
 use burgeon_base::error::Result;
-use burgeon_scene::{Instance, Scene};
+use burgeon_scene::{Instance, Scene, ScenePackage};
 use glam::{DAffine3, DQuat, DVec3};
 use rayon::prelude::*;
 use rustc_hash::FxHashMap;
@@ -73,7 +73,7 @@ pub(crate) fn write(scene: &Scene, path: &Path, files: &mut Files) -> Result<()>
     let image = |file: &Option<usize>| file.map(|file| uri(&names[file]));
     let looks = Looks { materials: &scene.materials, images: images.of_material.iter().map(image).collect() };
     let plan = DocumentPlan::new(&checked);
-    let head = head(&stem(path), checked.origin);
+    let head = head(&stem(path), checked.origin, &scene.packages);
     files.write(path, |out| {
         out.write_all(head.as_bytes())?;
         for (number, chunk) in plan.items.chunks(CHUNK).enumerate() {
@@ -87,8 +87,13 @@ pub(crate) fn write(scene: &Scene, path: &Path, files: &mut Files) -> Result<()>
 }
 
 /// All that stands before the items.
-fn head(name: &str, origin: DVec3) -> String {
+fn head(name: &str, origin: DVec3, packages: &[ScenePackage]) -> String {
     let version = env!("CARGO_PKG_VERSION");
+    // Their names, versions and hashes have no letter that XML takes for something else.
+    let packages: String = packages
+        .iter()
+        .map(|it| format!("<meta name='package' content='{} {} {}'/>\n", it.name, it.version, it.hash))
+        .collect();
     let mut head = format!(
         "<?xml version='1.0' encoding='UTF-8'?>\n\
          <!DOCTYPE X3D PUBLIC 'ISO//Web3D//DTD X3D 3.3//EN' 'http://www.web3d.org/specifications/x3d-3.3.dtd'>\n\
@@ -98,6 +103,7 @@ fn head(name: &str, origin: DVec3) -> String {
          <meta name='title' content='{}'/>\n\
          <meta name='generator' content='Burgeon {version}'/>\n\
          <meta name='description' content='Metres, y up: east is x, north is -z.'/>\n\
+{packages}\
          </head>\n\
          <Scene>\n",
         title(name)

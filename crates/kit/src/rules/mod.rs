@@ -21,7 +21,7 @@ pub use key::ModuleKey;
 pub use links::Links;
 pub use matching::{Bindings, ContextMatcher};
 pub use pattern::{Context, Item, Pattern};
-pub use symbols::{FIRST_SYMBOL, FRAGMENT, QUERY, Signature, Symbols};
+pub use symbols::{FIRST_SYMBOL, FRAGMENT, NameScope, QUERY, Signature, Symbols};
 pub use text::{chain_text, module_brief, module_text, write_chains};
 pub use values::Values;
 

@@ -1,7 +1,7 @@
 //! Patterns such as `A B < S(x) > C [D] E`, and how they are read.
 
 use super::chain::{DEEPEST, Symbol};
-use super::symbols::Symbols;
+use super::symbols::{NameScope, Symbols};
 use burgeon_base::error::{Error, Result};
 
 /// Characters of a pattern that are shown before the place where reading stopped, and behind it.
@@ -59,7 +59,12 @@ impl Pattern {
     /// # Ok::<(), burgeon_base::error::Error>(())
     /// ```
     pub fn parse(text: &str, symbols: &Symbols) -> Result<Self> {
-        PatternReader { text, at: 0, depth: 0, symbols, formals: Vec::new() }.pattern()
+        Self::parse_in(text, symbols, &NameScope::default())
+    }
+
+    /// Reads a pattern whose names mean what they mean where `scope` asks; see [`Symbols::find_in`].
+    pub fn parse_in(text: &str, symbols: &Symbols, scope: &NameScope) -> Result<Self> {
+        PatternReader { text, at: 0, depth: 0, symbols, scope, formals: Vec::new() }.pattern()
     }
 
     /// The names of the values that the functions of a rule are given besides `this`, each with its place among them:
@@ -101,6 +106,7 @@ struct PatternReader<'a> {
     /// How many branches are open there.
     depth: usize,
     symbols: &'a Symbols,
+    scope: &'a NameScope,
     formals: Vec<String>,
 }
 
@@ -200,8 +206,8 @@ impl PatternReader<'_> {
 
     fn item(&mut self) -> Result<Item> {
         let begin = self.at;
-        let name = self.name("a module's name")?;
-        let symbol = self.symbols.find(&name).map_err(|error| {
+        let name = self.module_name()?;
+        let symbol = self.symbols.find_in(&name, self.scope).map_err(|error| {
             let text = format!("{} in the pattern \"{}\"", error.message(), self.text.trim());
             error.saying(text)
         })?;
@@ -237,6 +243,25 @@ impl PatternReader<'_> {
             ));
         }
         Ok(Item { symbol, bound })
+    }
+
+    /// The name of a module, before which that of a package may stand: `castle.Stone`.
+    fn module_name(&mut self) -> Result<String> {
+        self.peek();
+        let rest = &self.text[self.at..];
+        let is_of_package = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || "_-".contains(c);
+        if let Some((package, _)) = rest.split_once('.')
+            && package.starts_with(|c: char| c.is_ascii_lowercase())
+            && package.chars().all(is_of_package)
+        {
+            let package = package.to_owned();
+            self.at += package.len() + 1;
+            if self.text[self.at..].starts_with(char::is_whitespace) {
+                return Err(self.unexpected("the name of a module of the package belongs here"));
+            }
+            return Ok(format!("{package}.{}", self.name("a module's name")?));
+        }
+        self.name("a module's name")
     }
 
     fn name(&mut self, what: &str) -> Result<String> {

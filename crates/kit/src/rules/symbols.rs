@@ -1,5 +1,8 @@
 //! The declared modules: their names and parameters.
 
+use std::collections::BTreeSet;
+use std::sync::Arc;
+
 use rustc_hash::FxHashMap;
 
 use super::chain::{END, Symbol};
@@ -106,12 +109,28 @@ fn is_name(text: &str) -> bool {
         && text.chars().all(|c| c.is_ascii_alphanumeric() || c == '_')
 }
 
+/// Who asks for a module by its name: the script, or a package.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct NameScope {
+    /// The package whose file asks; none for the script's own.
+    pub package: Option<Arc<str>>,
+    /// The packages that whoever asks has required, as far as it has run.
+    pub required: BTreeSet<Arc<str>>,
+}
+
 /// All declared modules. A symbol is a place in this list.
+///
+/// What a package declares is its own: modules of two packages, or of a package and the script, may have one name.
 #[derive(Debug, Clone)]
 pub struct Symbols {
     /// Those of [`QUERY`] and [`FRAGMENT`], then the declared ones.
     signatures: Vec<Signature>,
-    by_name: FxHashMap<String, Symbol>,
+    /// By symbol: the package that declares it.
+    owners: Vec<Option<Arc<str>>>,
+    /// By symbol: the name that people are shown, with its package where there are several of one name.
+    shown: Vec<String>,
+    /// The symbols of each name, in the order of their declaration.
+    by_name: FxHashMap<String, Vec<Symbol>>,
     /// How many of the declared ones are the standard library's.
     standard: usize,
 }
@@ -125,23 +144,37 @@ impl Default for Symbols {
         };
         let query = signature("query", &["sql", "module", "values", "line"], 2);
         let fragment = signature("fragment", &["module", "line"], 1);
-        Self { signatures: vec![query, fragment], by_name: FxHashMap::default(), standard: 0 }
+        Self {
+            shown: vec![query.name.clone(), fragment.name.clone()],
+            signatures: vec![query, fragment],
+            owners: vec![None, None],
+            by_name: FxHashMap::default(),
+            standard: 0,
+        }
     }
 }
 
 impl Symbols {
-    /// Declares a module and gives its symbol; the same declaration again gives the same symbol.
+    /// Declares a module of the script and gives its symbol; the same declaration again gives the same symbol.
     ///
-    /// A script may declare a module of the standard library anew, with other parameters; then the name means
+    /// A script may declare a module of the standard library again, with other parameters; then the name means
     /// the script's.
     pub fn declare(&mut self, signature: Signature) -> Result<Symbol> {
-        if let Some(&symbol) = self.by_name.get(&signature.name) {
-            let known = self.signature(symbol);
-            if *known == signature {
+        self.declare_in(signature, None)
+    }
+
+    /// Declares a module of the package `owner`, or of the script; see [`declare`](Self::declare).
+    pub fn declare_in(&mut self, signature: Signature, owner: Option<&str>) -> Result<Symbol> {
+        let known = self.by_name.get(&signature.name).map(Vec::as_slice).unwrap_or_default();
+        let own = known.iter().rev().find(|symbol| self.owner(**symbol) == owner);
+        let standard = known.iter().find(|symbol| self.is_standard(**symbol));
+        for symbol in own.into_iter().chain(standard).copied() {
+            if *self.signature(symbol) == signature {
                 return Ok(symbol);
             }
-            if usize::from(symbol - FIRST_SYMBOL) >= self.standard {
-                return Err(Error::script(format!("module {} is declared already", known.usage()))
+            if !self.is_standard(symbol) {
+                let usage = self.signature(symbol).usage();
+                return Err(Error::script(format!("module {usage} is declared already"))
                     .help("declare it once, or give the other module another name"));
             }
         }
@@ -150,8 +183,18 @@ impl Symbols {
             Error::limit(Limit::Size, "more than 65,000 modules are declared")
                 .help("declare fewer, and tell them apart by a parameter")
         })?;
-        self.by_name.insert(signature.name.clone(), symbol);
+        self.shown.push(signature.name.clone());
+        self.owners.push(owner.map(Into::into));
+        let of_name = self.by_name.entry(signature.name.clone()).or_default();
+        of_name.push(symbol);
+        // A module of the script's own hides that of the standard library, so these two need no other names.
+        let same: Vec<Symbol> = if of_name.len() > 1 { of_name.clone() } else { Vec::new() };
         self.signatures.push(signature);
+        for other in same {
+            if let Some(owner) = &self.owners[usize::from(other - QUERY)] {
+                self.shown[usize::from(other - QUERY)] = format!("{owner}.{}", self.signature(other).name);
+            }
+        }
         Ok(symbol)
     }
 
@@ -165,11 +208,69 @@ impl Symbols {
         usize::from(symbol) < usize::from(FIRST_SYMBOL) + self.standard
     }
 
-    /// The symbol called `name`; unknown ones are an error with the nearest known one.
+    /// The package that declares `symbol`; none if the script or the standard library does.
+    pub fn owner(&self, symbol: Symbol) -> Option<&str> {
+        self.owners[usize::from(symbol - QUERY)].as_deref()
+    }
+
+    /// The name of `symbol` for people: with its package, `castle.Stone`, where several modules have one name.
+    pub fn shown(&self, symbol: Symbol) -> &str {
+        &self.shown[usize::from(symbol - QUERY)]
+    }
+
+    /// The symbol that `name` means in the script; see [`find_in`](Self::find_in).
     pub fn find(&self, name: &str) -> Result<Symbol> {
-        self.by_name.get(name).copied().ok_or_else(|| {
-            Error::not_found("symbol", name, self.names(), format!("unknown symbol {name}"))
-                .help(format!("declare it: local {name} = module(\"{name}\")"))
+        self.find_in(name, &NameScope::default())
+    }
+
+    /// The symbol that `name` means where `scope` asks: its own module of that name, or that of the standard library, or
+    /// otherwise the only one that others declare, or the only one of those that it has required.
+    ///
+    /// `castle.Stone` is that of the package castle. Fails if there is none, with the nearest known one, and if there are
+    /// several, with all of them.
+    pub fn find_in(&self, name: &str, scope: &NameScope) -> Result<Symbol> {
+        if let Some((package, inner)) = name.split_once('.') {
+            return self.find_of_package(name, package, inner);
+        }
+        let known = self.by_name.get(name).map(Vec::as_slice).unwrap_or_default();
+        let own = known.iter().rev().find(|symbol| self.owner(**symbol) == scope.package.as_deref());
+        let standard = known.iter().find(|symbol| self.is_standard(**symbol));
+        if let Some(symbol) = own.or(standard) {
+            return Ok(*symbol);
+        }
+        let is_required =
+            |symbol: &&Symbol| self.owner(**symbol).is_some_and(|owner| scope.required.contains(owner));
+        let required: Vec<&Symbol> = known.iter().filter(is_required).collect();
+        match (known, required.as_slice()) {
+            ([symbol], _) => Ok(*symbol),
+            (_, [symbol]) => Ok(**symbol),
+            ([], _) => Err(Error::not_found("symbol", name, self.names(), format!("unknown symbol {name}"))
+                .help(format!("declare it: local {name} = module(\"{name}\")"))),
+            _ => {
+                let owners: Vec<&str> =
+                    known.iter().map(|symbol| self.owner(*symbol).unwrap_or("the script")).collect();
+                let named =
+                    known.iter().filter_map(|symbol| Some(format!("{}.{name}", self.owner(*symbol)?)));
+                let message = format!("{name} is a module of {}", owners.join(" and of "));
+                Err(Error::script(message)
+                    .help(format!("say which one: {}", named.collect::<Vec<_>>().join(" or "))))
+            }
+        }
+    }
+
+    fn find_of_package(&self, name: &str, package: &str, inner: &str) -> Result<Symbol> {
+        let of_package =
+            || (QUERY..).zip(&self.owners).filter(|(_, owner)| owner.as_deref() == Some(package));
+        let mut named = of_package().map(|(symbol, _)| symbol);
+        named.find(|symbol| self.signature(*symbol).name == inner).ok_or_else(|| {
+            let known: Vec<String> =
+                of_package().map(|(it, _)| format!("{package}.{}", self.signature(it).name)).collect();
+            let message = format!("unknown symbol {name}");
+            let error = Error::not_found("symbol", name, known.iter().map(String::as_str), message);
+            error.help(match known.is_empty() {
+                true => format!("no file of a package {package} that was required declares a module"),
+                false => format!("{package} declares {}", known.join(", ")),
+            })
         })
     }
 
@@ -219,6 +320,44 @@ mod tests {
         let own = symbols.declare(signature("F", &["l", "w"]).unwrap()).unwrap();
         assert_ne!(standard, own);
         assert_eq!(symbols.find("F").unwrap(), own);
+    }
+
+    #[test]
+    fn modules_of_packages_may_have_one_name() {
+        let mut symbols = Symbols::default();
+        let standard = symbols.declare(signature("F", &["length?"]).unwrap()).unwrap();
+        symbols.end_of_standard();
+        let stone = |parameters: &[&str]| signature("Stone", parameters).unwrap();
+        let castle = symbols.declare_in(stone(&["w"]), Some("castle")).unwrap();
+        assert_eq!((symbols.shown(castle), symbols.find("Stone").unwrap()), ("Stone", castle));
+        let tower = symbols.declare_in(stone(&["w", "h"]), Some("tower")).unwrap();
+        assert_eq!(symbols.declare_in(stone(&["w"]), Some("castle")).unwrap(), castle);
+        assert!(symbols.declare_in(stone(&["x"]), Some("castle")).is_err());
+        assert_eq!((symbols.shown(castle), symbols.shown(tower)), ("castle.Stone", "tower.Stone"));
+        let of = |package: Option<&str>, required: &[&str]| NameScope {
+            package: package.map(Into::into),
+            required: required.iter().map(|&name| name.into()).collect(),
+        };
+        let find = |name: &str, scope: &NameScope| symbols.find_in(name, scope);
+        assert_eq!(find("Stone", &of(Some("castle"), &["tower"])).unwrap(), castle);
+        assert_eq!(find("Stone", &of(None, &["tower"])).unwrap(), tower);
+        assert_eq!(find("tower.Stone", &of(Some("castle"), &[])).unwrap(), tower);
+        for scope in [of(None, &[]), of(None, &["castle", "tower"]), of(Some("gate"), &[])] {
+            let error = find("Stone", &scope).unwrap_err();
+            assert_eq!(error.message(), "Stone is a module of castle and of tower");
+            assert_eq!(error.remedy(), Some("say which one: castle.Stone or tower.Stone"));
+        }
+        assert!(
+            find("tower.Stole", &of(None, &[]))
+                .unwrap_err()
+                .to_string()
+                .contains("did you mean tower.Stone?")
+        );
+        // What a package declares again is its own, and hides the standard library's from nobody else.
+        let own = symbols.declare_in(signature("F", &["l", "w"]).unwrap(), Some("castle")).unwrap();
+        assert_eq!(symbols.find_in("F", &of(Some("castle"), &[])).unwrap(), own);
+        assert_eq!(symbols.find_in("F", &of(None, &["castle"])).unwrap(), standard);
+        assert_eq!((symbols.shown(standard), symbols.shown(own)), ("F", "castle.F"));
     }
 
     #[test]

@@ -39,7 +39,8 @@ fn write_module(
     while shown.len() > signature.required && shown.last().is_some_and(|last| last == "nil") {
         shown.pop();
     }
-    if shown.is_empty() { signature.name.clone() } else { format!("{}({})", signature.name, shown.join(",")) }
+    let name = symbols.shown(symbol);
+    if shown.is_empty() { name.to_owned() } else { format!("{name}({})", shown.join(",")) }
 }
 
 /// Writes one line for each chain: modules separated by one space, branches as `[ ... ]`.

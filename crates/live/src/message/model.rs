@@ -65,8 +65,10 @@ pub struct Bounds {
 /// A parameter with its control.
 #[derive(Debug, Clone, Serialize)]
 pub struct ParamMessage {
-    /// Its name.
+    /// Its name, by which it is set.
     pub name: String,
+    /// The package that declares it, which its name begins with.
+    pub package: Option<String>,
     /// Its value in this run: a number, a switch or text.
     pub value: Value,
     /// The script's own value.
@@ -176,6 +178,7 @@ impl ParamMessage {
     pub fn new(param: &Param, old_default: Option<&Setting>) -> Self {
         Self {
             name: param.name.clone(),
+            package: param.package.clone(),
             value: json(&param.value),
             default: json(&param.default),
             old_default: old_default.filter(|old| **old != param.default).map(json),

@@ -281,7 +281,7 @@ impl SystemDeclaration {
         let functions =
             types.iter().flat_map(|known| known.functions.iter().map(|it| (&*known.kind.name, it)));
         let extensions = machine.library.extensions.borrow();
-        for (of, known) in functions.chain(extensions.iter().map(|(_, it)| ("extend", it))) {
+        for (of, known) in functions.chain(extensions.iter().map(|it| ("extend", &it.function))) {
             let (name, function) = (format!("{of}: {}", known.name), known.function.clone());
             reached.push(ReachableFunction { function, name, place: None });
         }

@@ -1,5 +1,7 @@
 //! What `axiom`, `rule` and `interpret` add to a system, and what they refuse.
 
+use std::collections::BTreeSet;
+
 use mlua::{Function, Lua, Table, Value as LuaValue};
 
 use crate::declare::Session;
@@ -12,7 +14,7 @@ use burgeon_base::error::{Error, Limit, Result, SourcePlace};
 use burgeon_base::text::grouped;
 use burgeon_base::warning::{Warning, WarningKind};
 use burgeon_kit::Value;
-use burgeon_kit::rules::{FIRST_SYMBOL, MOST_RULES, Pattern, Rule, Symbol, Symbols};
+use burgeon_kit::rules::{MOST_RULES, NameScope, Pattern, Rule, Symbols};
 use burgeon_language::RULE;
 
 use super::{DeclaredAxiom, DeclaredInterpretation, DeclaredRule, SourceHandle, SystemDeclaration};
@@ -51,7 +53,8 @@ impl SystemDeclaration {
             )
             .help("let one rule stand for many: carry what tells them apart in a parameter"));
         }
-        let pattern = Pattern::parse(&text.to_string_lossy(), &library.symbols.borrow())?;
+        let scope = library.scope_at(lua);
+        let pattern = Pattern::parse_in(&text.to_string_lossy(), &library.symbols.borrow(), &scope)?;
         let name = pattern.text.clone();
         let named = |error: Error| error.rule(&name);
         let options = match (arguments.len(), arguments.get(1)) {
@@ -82,7 +85,7 @@ impl SystemDeclaration {
                 (function, asks)
             }
             Some(LuaValue::String(body)) => {
-                compile_successor(library, &pattern, &body.to_string_lossy(), place.as_ref())
+                compile_successor(library, &scope, &pattern, &body.to_string_lossy(), place.as_ref())
                     .map_err(named)?
             }
             other => {
@@ -116,7 +119,9 @@ impl SystemDeclaration {
         let LuaValue::String(text) = pattern else {
             return Err(Error::argument("an interpretation begins with a pattern").help(usage));
         };
-        let pattern = Pattern::parse(&text.to_string_lossy(), &library.symbols.borrow())?;
+        let symbols = library.symbols.borrow();
+        let pattern = Pattern::parse_in(&text.to_string_lossy(), &symbols, &library.scope_at(lua))?;
+        drop(symbols);
         let name = pattern.text.clone();
         if !pattern.left.is_empty() || !pattern.right.is_empty() {
             return Err(Error::argument("an interpretation has no contexts")
@@ -246,6 +251,7 @@ fn check_open(queries: &[QueryCall], file: &str, pattern: &Pattern, symbols: &Sy
 /// whether it may look at `this`.
 fn compile_successor(
     library: &Library,
+    scope: &NameScope,
     pattern: &Pattern,
     body: &str,
     place: Option<&SourcePlace>,
@@ -255,14 +261,15 @@ fn compile_successor(
     let (file, line) = place.map_or(("rule", 1), |place| (place.file.as_str(), place.line));
     let line = marked.unwrap_or(line);
     let symbols = library.symbols.borrow();
-    let mentioned: Vec<(Symbol, &str)> = (FIRST_SYMBOL..)
-        .zip(symbols.names())
-        .filter(|(symbol, name)| {
-            symbols.find(name).is_ok_and(|known| known == *symbol) && mentions(body, name)
-        })
-        .collect();
+    let names: BTreeSet<&str> = symbols.names().filter(|name| mentions(body, name)).collect();
     let mut text = "\n".repeat(line.saturating_sub(1));
-    for (symbol, name) in mentioned {
+    for name in names {
+        let symbol = symbols.find_in(name, scope).map_err(|error| {
+            let help = "let a function make it, by a constructor that the package gives: function(this) return stone(1) end";
+            Error::of(error.kind().clone(), error.message()).help(help)
+        })?;
+        let owner = symbols.owner(symbol).filter(|owner| scope.package.as_deref() != Some(*owner));
+        let owner = owner.map_or_else(String::new, |owner| format!("{owner}."));
         let signature = symbols.signature(symbol);
         let parameters: String = signature
             .parameters
@@ -271,7 +278,7 @@ fn compile_successor(
             .map(|(index, name)| format!(", \"{name}{}\"", if index < signature.required { "" } else { "?" }))
             .collect();
         // The analysis learns the signature from this call; it declares the same module again.
-        text.push_str(&format!("local {name} = module(\"{name}\"{parameters}) "));
+        text.push_str(&format!("local {name} = module(\"{owner}{name}\"{parameters}) "));
     }
     let formals: String = pattern.formals.iter().map(|formal| format!(", {formal}")).collect();
     text.push_str(&format!("lsystem:rule(\"\", function(this{formals}) {body}\nend)"));

@@ -190,7 +190,7 @@ impl UserData for SystemHandle {
         methods.add_function("ignore", |lua, (this, names): (UserDataRef<Self>, MultiValue)| {
             let library = Rc::clone(&this.library);
             this.declare(lua, "ignore", |system| {
-                let symbols = named_symbols(&library, &names)?;
+                let symbols = named_symbols(&library, lua, &names)?;
                 system.ignored.extend(symbols);
                 Ok(())
             })?;
@@ -199,7 +199,7 @@ impl UserData for SystemHandle {
         methods.add_function("consider", |lua, (this, names): (UserDataRef<Self>, MultiValue)| {
             let library = Rc::clone(&this.library);
             this.declare(lua, "consider", |system| {
-                let symbols = named_symbols(&library, &names)?;
+                let symbols = named_symbols(&library, lua, &names)?;
                 system.considered.get_or_insert_default().extend(symbols);
                 Ok(())
             })?;
@@ -258,14 +258,15 @@ impl SystemHandle {
     }
 }
 
-fn named_symbols(library: &Library, names: &MultiValue) -> Result<Vec<Symbol>> {
+fn named_symbols(library: &Library, lua: &Lua, names: &MultiValue) -> Result<Vec<Symbol>> {
     let symbols = library.symbols.borrow();
+    let scope = library.scope_at(lua);
     let mut found = Vec::new();
     for name in names {
         match name {
             LuaValue::String(text) => {
                 for name in text.to_string_lossy().split_whitespace() {
-                    found.push(symbols.find(name)?);
+                    found.push(symbols.find_in(name, &scope)?);
                 }
             }
             _ => {

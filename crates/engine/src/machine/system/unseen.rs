@@ -48,7 +48,7 @@ impl SystemDeclaration {
                 |warning: Warning| machine.warn(warning.at(rule.place.clone()).rule(&rule.pattern.text));
             let earlier = sure.forestalls(rule, guard);
             if let Some(item) = rule.contexts().iter().find(|item| grammar.is_skipped(item.symbol)) {
-                let name = &grammar.symbols().signature(item.symbol).name;
+                let name = grammar.symbols().shown(item.symbol);
                 let (text, help) = match self.considered {
                     Some(_) if !self.ignored.contains(&item.symbol) => (
                         format!("{name} is not among the modules to consider, so this context never occurs"),
@@ -113,13 +113,13 @@ impl SystemDeclaration {
             return None;
         }
         let bare = signature.parameters.join(", ");
-        let name = &signature.name;
-        let pattern = if bare.is_empty() { name.clone() } else { format!("{name}({bare})") };
+        let name = symbols.shown(symbol);
+        let pattern = if bare.is_empty() { name.to_owned() } else { format!("{name}({bare})") };
         let comma = if bare.is_empty() { "" } else { ", " };
         let interpret = format!("system:interpret(\"{pattern}\", function(this{comma}{bare}) ... end)");
         let place = library.places.borrow().get(&symbol).cloned();
         let hidden = standard.iter().find(|known| {
-            known.symbol != symbol && is_a(known) && symbols.signature(known.symbol).name == *name
+            known.symbol != symbol && is_a(known) && symbols.signature(known.symbol).name == signature.name
         });
         if let Some(hidden) = hidden {
             let text = format!(

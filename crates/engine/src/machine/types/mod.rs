@@ -3,16 +3,19 @@
 //! Comes in: kinds from the registry, and what a script declares. Goes out: constructors and methods that scripts call. What
 //! they do is a matter of the kinds; no kind is known by its name.
 
+mod extensions;
 mod geometries;
 mod handles;
 mod kinds;
 mod mentions;
 mod script_types;
 
+pub(crate) use extensions::Extension;
+pub(super) use extensions::{claim, extend_type};
 pub(crate) use geometries::POINTS;
 pub(super) use geometries::install_geometries;
 pub(super) use handles::{DerivedHandle, methods_key};
 pub(crate) use handles::{ObjectHandle, Objects};
 pub(super) use kinds::{install_kind, named_fields, no_table};
 pub(super) use mentions::object_of_system;
-pub(super) use script_types::{ScriptFunction, ScriptTypeEntry, declare_type, extend_type};
+pub(super) use script_types::{ScriptTypeEntry, declare_type};

@@ -4,17 +4,18 @@ use std::sync::Arc;
 
 use mlua::{Function, Table, Value as LuaValue};
 
-use super::handles::{ObjectHandle, methods_key};
+use super::extensions::{Contested, inherit, is_full_name};
+use super::handles::ObjectHandle;
 use super::kinds::{constructor, install_methods};
-use super::mentions::{drawing_kind, extended_kind};
-use crate::declare::Session;
+use super::mentions::drawing_kind;
+use crate::declare::{Session, contested_method};
 use crate::machine::Machine;
 use crate::machine::convert::{to_lua, to_value};
 use burgeon_base::error::{Error, Result};
 use burgeon_kit::{
     Argument, Call, Kind, Method, ScriptField, ScriptType, Table as ValueTable, TableKey, Value,
 };
-use burgeon_language::{CallForm, EXTEND, OBJECT};
+use burgeon_language::{CallForm, OBJECT};
 
 /// The functions that run around the interpretation of a chain, as a script names them.
 const HOOKS: [&str; 4] = ["begin", "finish", "push", "pop"];
@@ -25,6 +26,7 @@ pub(crate) struct ScriptTypeEntry {
     /// As the prelude knows it.
     pub table: Table,
     pub functions: Vec<ScriptFunction>,
+    pub contested: Contested,
 }
 
 /// A function of a type.
@@ -47,7 +49,6 @@ pub(crate) enum Role {
 impl ScriptTypeEntry {
     /// Makes the type that `object(name, declared)` declares.
     fn declare(machine: &Machine, name: &str, declared: &Table) -> Result<Self> {
-        check_name(machine, name)?;
         refuse_unknown(&format!("object {name}"), declared, &OBJECT.part_names())?;
         let mut entry = match declared.raw_get::<LuaValue>("extends").map_err(internal)? {
             LuaValue::Nil => ScriptTypeParts::default(),
@@ -119,19 +120,21 @@ impl ScriptTypeEntry {
                 )));
             }
         };
-        let methods = entry.functions.iter().filter(|it| it.role != Role::Hook);
-        let methods = methods.map(|it| it.method(&machine.session));
-        let kind = entry.declaration.clone().kind(name, &doc, methods.collect())?;
+        let own = entry.functions.iter().filter(|it| it.role != Role::Hook && !is_full_name(&it.name));
+        let mut methods: Vec<Method> = own.map(|it| it.method(&machine.session)).collect();
+        methods.extend(entry.contested.iter().map(|(name, owners)| contested_method(name, owners.keys())));
+        let kind = entry.declaration.clone().kind(name, &doc, methods)?;
         let table = entry.table(machine, &kind).map_err(|error| machine.translate(error))?;
-        Ok(Self { kind, table, functions: entry.functions })
+        Ok(Self { kind, table, functions: entry.functions, contested: entry.contested })
     }
 }
 
 /// What a type is put together of.
 #[derive(Default)]
-struct ScriptTypeParts {
+pub(super) struct ScriptTypeParts {
     declaration: ScriptType,
-    functions: Vec<ScriptFunction>,
+    pub(super) functions: Vec<ScriptFunction>,
+    contested: Contested,
 }
 
 impl ScriptTypeParts {
@@ -145,18 +148,16 @@ impl ScriptTypeParts {
             declaration: declaration
                 .unwrap_or_else(|| ScriptType { base: Some(Arc::clone(&kind)), ..ScriptType::default() }),
             functions: known.map_or_else(Vec::new, |known| known.functions.clone()),
+            contested: known.map_or_else(Contested::new, |known| known.contested.clone()),
         };
         parts.declaration.above.insert(0, (*kind.name).into());
         // What was added to that type holds for those that extend it.
-        let extensions = machine.library.extensions.borrow();
-        parts
-            .functions
-            .extend(extensions.iter().filter(|(of, _)| *of == kind.name).map(|(_, it)| it.clone()));
+        inherit(&machine.library.extensions.borrow(), &kind.name, &mut parts.functions, &mut parts.contested);
         Some(parts)
     }
 
     /// Adds the functions that a table declares as `reads` and `changes`.
-    fn add(&mut self, declared: &Table, what: &dyn Fn(&str) -> String) -> Result<()> {
+    pub(super) fn add(&mut self, declared: &Table, what: &dyn Fn(&str) -> String) -> Result<()> {
         let inherited = self.functions.len();
         for (part, role) in [("reads", Role::Read), ("changes", Role::Change)] {
             for (name, value) in named(declared, part, &what(part))? {
@@ -176,6 +177,7 @@ impl ScriptTypeParts {
                     ))
                     .help("a function either reads or changes the object"));
                 }
+                self.contested.remove(&name);
                 let function = ScriptFunction { name, doc, function, role };
                 replace(&mut self.functions, inherited, function, ScriptFunction::is_same);
             }
@@ -230,6 +232,7 @@ impl ScriptTypeParts {
         }
         of.raw_set("reads", reads)?;
         of.raw_set("changes", changes)?;
+        of.raw_set("contested", self.contested.clone())?;
         machine.prelude().script_type.call(of)
     }
 }
@@ -241,7 +244,7 @@ impl ScriptFunction {
     }
 
     /// The method as people are told of it.
-    fn method(&self, session: &Session) -> Method {
+    pub(super) fn method(&self, session: &Session) -> Method {
         let info = self.function.info();
         let file = info.source.as_deref().and_then(|source| source.strip_prefix('@'));
         let form = file.zip(info.line_defined).and_then(|(file, line)| session.signature(file, line));
@@ -275,7 +278,15 @@ pub(in crate::machine) fn declare_type(
     let LuaValue::Table(declared) = declared else {
         return Err(Error::argument("object takes a table after the name").help(usage));
     };
-    let entry = ScriptTypeEntry::declare(machine, &name.to_string_lossy(), declared)?;
+    let name = name.to_string_lossy();
+    check_name(&name)?;
+    // What a package declares is its own, and so has its name.
+    let full = match Machine::asker(machine.lua(), &machine.session) {
+        Some(package) => format!("{}.{name}", package.manifest.name),
+        None => name,
+    };
+    machine.library.registry.borrow().refuse_taken(&full)?;
+    let entry = ScriptTypeEntry::declare(machine, &full, declared)?;
     let constructor = constructor(machine, &entry.kind).map_err(|error| machine.translate(error))?;
     let constructor = constructor.ok_or_else(|| Error::internal("the type has no constructor"))?;
     machine.library.stateless.borrow_mut().insert(constructor.to_pointer() as usize);
@@ -285,71 +296,19 @@ pub(in crate::machine) fn declare_type(
     Ok(constructor)
 }
 
-/// `extend(constructor, declared)`: adds functions to a type.
-pub(in crate::machine) fn extend_type(
-    machine: &Machine,
-    constructor: &LuaValue,
-    declared: &LuaValue,
-) -> Result<()> {
-    machine.library.at_top_level("extend")?;
-    let usage = {
-        let registry = machine.library.registry.borrow();
-        let named = extended_kind(&registry).unwrap_or("constructor");
-        format!("write extend({named}, {{ reads = {{ ... }}, changes = {{ ... }} }})")
-    };
-    let kind = match constructor {
-        LuaValue::Function(function) => machine.library.kind_of(function),
-        _ => None,
-    };
-    let kind = kind.ok_or_else(|| {
-        Error::argument(format!("extend takes a type of object first, not a {}", constructor.type_name()))
-            .help(&usage)
-    })?;
-    let LuaValue::Table(declared) = declared else {
-        return Err(Error::argument("extend takes a table after the type").help(usage));
-    };
-    refuse_unknown("extend", declared, &EXTEND.part_names())?;
-    let mut parts = ScriptTypeParts::default();
-    parts.add(declared, &|part| format!("{part} of extend({})", kind.name))?;
-    let lua = machine.lua();
-    let types = machine.library.script_types.borrow();
-    let of = types.iter().find(|known| known.kind.name == kind.name).map(|known| known.table.clone());
-    let add = || -> mlua::Result<()> {
-        let methods: Table = lua.named_registry_value(&methods_key(&kind.name))?;
-        let (reads, changes) = (lua.create_table()?, lua.create_table()?);
-        for known in &parts.functions {
-            if methods.raw_get::<LuaValue>(known.name.as_str())? != LuaValue::Nil {
-                let text = format!("{} has a method called {} already", kind.name, known.name);
-                return Err(mlua::Error::external(Error::argument(text).help("give this one another name")));
-            }
-            let into = if known.role == Role::Read { &reads } else { &changes };
-            into.raw_set(known.name.as_str(), &known.function)?;
-        }
-        machine.prelude().extension.call((&*kind.name, methods, of, reads, changes))
-    };
-    add().map_err(|error| machine.translate(error))?;
-    parts
-        .functions
-        .iter()
-        .for_each(|known| machine.session.note_method(&kind.name, known.method(&machine.session)));
-    let added = parts.functions.into_iter().map(|known| (kind.name.to_string(), known));
-    machine.library.extensions.borrow_mut().extend(added);
-    Ok(())
-}
-
 /// Refuses what cannot be the name of a type.
-fn check_name(machine: &Machine, name: &str) -> Result<()> {
+fn check_name(name: &str) -> Result<()> {
     let is_name = name.starts_with(|c: char| c.is_ascii_lowercase())
         && name.chars().all(|c| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '_');
     if !is_name {
         return Err(Error::argument(format!("{name:?} is no name for a type of object"))
             .help("write it with small letters, digits and _, such as \"street_lamp\""));
     }
-    machine.library.registry.borrow().refuse_taken(name)
+    Ok(())
 }
 
 /// Refuses keys of `table` that are not `known`.
-fn refuse_unknown(what: &str, table: &Table, known: &[&'static str]) -> Result<()> {
+pub(super) fn refuse_unknown(what: &str, table: &Table, known: &[&'static str]) -> Result<()> {
     for pair in table.pairs::<LuaValue, LuaValue>() {
         let key = pair.map_err(internal)?.0.to_string().unwrap_or_default();
         if !known.contains(&key.as_str()) {

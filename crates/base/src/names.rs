@@ -1,0 +1,37 @@
+//! Names that people read: those that look alike are one, and none is shown in another order than it is written.
+
+use std::borrow::Cow;
+
+use unicode_normalization::{UnicodeNormalization, is_nfc};
+
+/// The name in Unicode's normal form C, in which names are compared: `é` as one character and as two is the same.
+pub fn normal_form(name: &str) -> Cow<'_, str> {
+    if is_nfc(name) { Cow::Borrowed(name) } else { Cow::Owned(name.nfc().collect()) }
+}
+
+/// Whether `name` has characters that change the direction in which text is shown, so that `a\u{202e}gpj.lua` reads as
+/// `aaul.jpg`.
+pub fn has_bidi_controls(name: &str) -> bool {
+    name.contains(|c| matches!(c, '\u{61c}' | '\u{200e}' | '\u{200f}' | '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}'))
+}
+
+/// The name without differences of capitals, in which systems that ignore capitals compare names.
+pub fn folded(name: &str) -> String {
+    // A capital may become letters that are not in normal form, and the other way round.
+    let lower = normal_form(name).to_lowercase();
+    normal_form(&normal_form(&lower).to_uppercase()).to_lowercase()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_that_look_alike_are_one() {
+        assert_eq!(normal_form("e\u{301}"), "é");
+        assert_eq!(folded("E\u{301}COLE"), folded("\u{e9}cole"));
+        assert_eq!(folded("STRASSE"), folded("straße"));
+        assert_ne!(folded("a"), folded("á"));
+        assert!(has_bidi_controls("a\u{202e}b") && !has_bidi_controls("日本 é"));
+    }
+}

@@ -1,0 +1,166 @@
+//! Functions that scripts and packages add to types of objects with `extend`.
+//!
+//! What a package adds is its own: two packages may add methods of one name to a type. Each is there in full, as
+//! `castle_turret`; the plain name means that of whoever calls it, or of the packages that the caller has required.
+
+use std::collections::BTreeMap;
+
+use mlua::{Lua, Table, Value as LuaValue};
+
+use super::handles::methods_key;
+use super::mentions::extended_kind;
+use super::script_types::{Role, ScriptFunction, ScriptTypeParts, refuse_unknown};
+use crate::declare::qualified_name;
+use crate::machine::Machine;
+use crate::machine::library::Library;
+use burgeon_base::error::{Error, Result};
+use burgeon_language::EXTEND;
+
+/// A function that was added to a type.
+pub(crate) struct Extension {
+    /// The name of the type.
+    pub kind: String,
+    /// The package that adds it; empty for the script.
+    pub owner: String,
+    pub function: ScriptFunction,
+}
+
+/// The names of methods that several have added: of each, the full names by who added it.
+pub(super) type Contested = BTreeMap<String, BTreeMap<String, String>>;
+
+/// The name by which the machine finds what `owner` has added as `name`, in which no script can call anything.
+fn full_name(owner: &str, name: &str) -> String {
+    format!("{owner}.{name}")
+}
+
+/// Whether a name is one of those that only the machine uses.
+pub(super) fn is_full_name(name: &str) -> bool {
+    name.contains('.')
+}
+
+/// Adds to the `functions` of a type that extends `kind` what was added to that.
+pub(super) fn inherit(
+    extensions: &[Extension],
+    kind: &str,
+    functions: &mut Vec<ScriptFunction>,
+    contested: &mut Contested,
+) {
+    let of_kind = || extensions.iter().filter(|known| known.kind == kind);
+    for Extension { owner, function, .. } in of_kind() {
+        let named = |name: String| ScriptFunction { name, ..function.clone() };
+        let same = of_kind().filter(|other| other.function.name == function.name);
+        let owners: BTreeMap<String, String> =
+            same.map(|other| (other.owner.clone(), full_name(&other.owner, &function.name))).collect();
+        functions.push(named(full_name(owner, &function.name)));
+        let qualified = qualified_name(owner, &function.name);
+        if !owner.is_empty() && !functions.iter().any(|known| known.name == qualified) {
+            functions.push(named(qualified));
+        }
+        match owners.len() {
+            1 => functions.push(function.clone()),
+            _ => {
+                contested.insert(function.name.clone(), owners);
+            }
+        }
+    }
+}
+
+/// Which of `owners`, who have all added a method `name` to the type `kind`, the file means that is being run.
+pub(in crate::machine) fn claim(
+    library: &Library,
+    lua: &Lua,
+    kind: &str,
+    name: &str,
+    owners: &[String],
+) -> Result<String> {
+    let scope = library.scope_at(lua);
+    let own = scope.package.as_deref().unwrap_or("");
+    let required: Vec<&String> =
+        owners.iter().filter(|owner| scope.required.contains(owner.as_str())).collect();
+    match required.as_slice() {
+        _ if owners.iter().any(|owner| owner == own) => Ok(own.to_owned()),
+        [one] => Ok((*one).clone()),
+        _ => {
+            let shown =
+                |owner: &String| if owner.is_empty() { "the script" } else { owner.as_str() }.to_owned();
+            let mut all: Vec<String> = owners.iter().map(shown).collect();
+            all.sort();
+            let named = owners.iter().filter(|owner| !owner.is_empty());
+            let mut named: Vec<String> =
+                named.map(|owner| format!("this:{}(...)", qualified_name(owner, name))).collect();
+            named.sort();
+            Err(Error::argument(format!(
+                "{name} is a method that {} have added to {kind}",
+                all.join(" and ")
+            ))
+            .help(format!("say which one: {}", named.join(" or "))))
+        }
+    }
+}
+
+/// `extend(constructor, declared)`: adds functions to a type.
+pub(in crate::machine) fn extend_type(
+    machine: &Machine,
+    constructor: &LuaValue,
+    declared: &LuaValue,
+) -> Result<()> {
+    machine.library.at_top_level("extend")?;
+    let usage = {
+        let registry = machine.library.registry.borrow();
+        let named = extended_kind(&registry).unwrap_or("constructor");
+        format!("write extend({named}, {{ reads = {{ ... }}, changes = {{ ... }} }})")
+    };
+    let kind = match constructor {
+        LuaValue::Function(function) => machine.library.kind_of(function),
+        _ => None,
+    };
+    let kind = kind.ok_or_else(|| {
+        Error::argument(format!("extend takes a type of object first, not a {}", constructor.type_name()))
+            .help(&usage)
+    })?;
+    let LuaValue::Table(declared) = declared else {
+        return Err(Error::argument("extend takes a table after the type").help(usage));
+    };
+    refuse_unknown("extend", declared, &EXTEND.part_names())?;
+    let mut parts = ScriptTypeParts::default();
+    parts.add(declared, &|part| format!("{part} of extend({})", kind.name))?;
+    let lua = machine.lua();
+    let owner = Machine::asker(lua, &machine.session).map_or("", |package| package.manifest.name.as_str());
+    let types = machine.library.script_types.borrow();
+    let of = types.iter().find(|known| known.kind.name == kind.name).map(|known| known.table.clone());
+    let add = || -> mlua::Result<()> {
+        let methods: Table = lua.named_registry_value(&methods_key(&kind.name))?;
+        let (reads, changes) = (lua.create_table()?, lua.create_table()?);
+        for known in &parts.functions {
+            let is_there = methods.raw_get::<LuaValue>(known.name.as_str())? != LuaValue::Nil;
+            if is_there && !is_added_by_others(machine, &kind.name, owner, &known.name) {
+                let text = format!("{} has a method called {} already", kind.name, known.name);
+                return Err(mlua::Error::external(Error::argument(text).help("give this one another name")));
+            }
+            let into = if known.role == Role::Read { &reads } else { &changes };
+            into.raw_set(known.name.as_str(), &known.function)?;
+        }
+        let names = lua.create_table()?;
+        names.raw_set("owner", owner)?;
+        names.raw_set("full", full_name(owner, ""))?;
+        if !owner.is_empty() {
+            names.raw_set("qualified", qualified_name(owner, ""))?;
+        }
+        machine.prelude().extension.call((&*kind.name, methods, of, reads, changes, names))
+    };
+    add().map_err(|error| machine.translate(error))?;
+    for function in parts.functions {
+        machine.session.note_method(&kind.name, owner, function.method(&machine.session));
+        let (kind, owner) = (kind.name.to_string(), owner.to_owned());
+        machine.library.extensions.borrow_mut().push(Extension { kind, owner, function });
+    }
+    Ok(())
+}
+
+/// Whether the method `name` of `kind` is one that others than `owner` have added, and only they.
+fn is_added_by_others(machine: &Machine, kind: &str, owner: &str, name: &str) -> bool {
+    let extensions = machine.library.extensions.borrow();
+    let mut same =
+        extensions.iter().filter(|known| known.kind == kind && known.function.name == name).peekable();
+    same.peek().is_some() && same.all(|known| known.owner != owner)
+}

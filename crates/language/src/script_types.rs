@@ -1,0 +1,73 @@
+//! Types of objects that scripts declare, as editors are told of them.
+
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+use burgeon_kit::{Kind, Registry, Value};
+
+/// The types of `registry` with those that scripts have declared, and with the methods that they have added to others.
+///
+/// Scripts of one folder may each declare a type of one name; what is not the same in all of them is left out.
+pub fn with_types(registry: &Registry, declared: impl IntoIterator<Item = Arc<Kind>>) -> Registry {
+    let mut kinds: Vec<Arc<Kind>> = registry.kinds().cloned().collect();
+    let own = kinds.len();
+    let mut differing: Vec<String> = Vec::new();
+    for kind in declared {
+        match kinds.iter().position(|known| known.name == kind.name) {
+            None => kinds.push(kind),
+            Some(place) if place < own => {
+                let known = Arc::make_mut(&mut kinds[place]);
+                for method in &kind.methods {
+                    if !known.methods.iter().any(|it| it.name == method.name) {
+                        known.methods.push(method.clone());
+                    }
+                }
+            }
+            Some(place) if is_same(&kinds[place], &kind) => {}
+            Some(_) => differing.push(kind.name.to_string()),
+        }
+    }
+    kinds.into_iter().filter(|kind| !differing.iter().any(|name| kind.name == *name)).collect()
+}
+
+/// Whether two types have the same members.
+fn is_same(one: &Kind, other: &Kind) -> bool {
+    let names = |kind: &Kind| -> Vec<String> {
+        let fields = kind.fields.iter().map(|field| format!("{}: {}", field.name, field.luau));
+        let methods = kind.methods.iter().map(|method| format!("{}/{}", method.name, method.arguments.len()));
+        let state = members(kind).into_iter().map(|(name, luau)| format!("{name}: {luau}"));
+        fields.chain(methods).chain(state).collect()
+    };
+    names(one) == names(other)
+}
+
+/// The name of a type as the script that declares it writes it, without its package.
+pub(crate) fn plain_name(kind: &Kind) -> &str {
+    kind.name.rsplit('.').next().unwrap_or(&kind.name)
+}
+
+/// What an object of a type that a script declares has besides methods: its fields and its state, with their types.
+pub(crate) fn members(kind: &Kind) -> BTreeMap<String, String> {
+    let Some(script) = &kind.script else { return BTreeMap::new() };
+    let mut members = BTreeMap::new();
+    for field in &script.fields {
+        members.insert(field.name.to_string(), field.describe().luau.trim_end_matches('?').to_owned());
+    }
+    for (key, value) in &script.state.entries {
+        let luau = match value {
+            Value::Number(_) => "number",
+            Value::Boolean(_) => "boolean",
+            Value::Text(_) => "string",
+            _ => "any",
+        };
+        if let burgeon_kit::TableKey::Name(name) = key {
+            members.insert(name.to_string(), luau.to_owned());
+        }
+    }
+    for (name, object) in &script.held {
+        members.insert(name.to_string(), object.kind().luau());
+    }
+    // What is a method, too, is one or the other by how it is written.
+    members.retain(|name, _| kind.method(name).is_none());
+    members
+}

@@ -1,0 +1,93 @@
+//! The lock of a run: which packages it used, in which versions, and what was in them.
+
+use std::fs::File;
+use std::io::Read as _;
+use std::path::Path;
+
+use burgeon_base::error::{Error, Limit, Result};
+use semver::Version;
+
+use super::find::{Package, Packages};
+use super::install::{LARGEST, MOST};
+
+/// A package as it was when a run used it.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct LockedPackage {
+    /// Its name.
+    pub name: String,
+    /// Its version.
+    pub version: Version,
+    /// The hash of its files: `blake3:` and 64 hexadecimal digits.
+    pub hash: String,
+}
+
+impl Packages {
+    /// Those of the packages called by the names in `used`, in order.
+    ///
+    /// Fails if a file cannot be read, and for more than [`MOST`] files or [`LARGEST`] bytes in one.
+    pub fn lock(&self, used: impl Fn(&str) -> bool) -> Result<Vec<LockedPackage>> {
+        let used = self.order().iter().filter(|package| used(&package.manifest.name));
+        used.map(Package::lock).collect()
+    }
+}
+
+impl Package {
+    /// What it is at present.
+    ///
+    /// The hash is that of all files but those whose names begin with a point, in the order of their names: of each the
+    /// name from the package's folder and the content, each after its length. It does not depend on where the package is,
+    /// nor on times.
+    fn lock(&self) -> Result<LockedPackage> {
+        let mut files = Vec::new();
+        list(&self.folder, String::new(), 0, &mut files);
+        let name = self.manifest.name.clone();
+        let refuse = |what: String| {
+            Error::limit(Limit::Size, format!("the package {name} has more than {what}"))
+                .help("a package may not have more; move what scripts do not need out of its folder")
+        };
+        if files.len() > MOST {
+            return Err(refuse(format!("{MOST} files")));
+        }
+        files.sort();
+        let mut hasher = blake3::Hasher::new();
+        let mut left = LARGEST;
+        for file in files {
+            let path = self.folder.join(&file);
+            let cannot = |error: std::io::Error| {
+                Error::file(&path, format!("cannot read {}: {error}", self.shown.join(&file).display()))
+                    .help("see that you may read all of the package")
+            };
+            let (opened, meta) = burgeon_base::files::open(&path).map_err(cannot)?;
+            let length = meta.len();
+            left = left.checked_sub(length).ok_or_else(|| refuse(format!("{} MB", LARGEST / 1_000_000)))?;
+            hasher.update(&(file.len() as u64).to_le_bytes()).update(file.as_bytes());
+            hasher.update(&length.to_le_bytes());
+            add(&mut hasher, opened, length).map_err(cannot)?;
+        }
+        let version = self.manifest.version.clone();
+        Ok(LockedPackage { name, version, hash: format!("blake3:{}", hasher.finalize().to_hex()) })
+    }
+}
+
+/// Adds the first `length` bytes of a file; what is written to it meanwhile is cut off.
+fn add(hasher: &mut blake3::Hasher, file: File, length: u64) -> std::io::Result<()> {
+    hasher.update_reader(file.take(length)).map(drop)
+}
+
+/// Adds the files in `inner` of the folder to `files`, but no more than are needed to see that there are too many.
+fn list(folder: &Path, inner: String, depth: usize, files: &mut Vec<String>) {
+    let entries = std::fs::read_dir(folder.join(&inner)).into_iter().flatten().flatten();
+    for entry in entries.take(MOST + 1) {
+        let Ok(name) = entry.file_name().into_string() else { continue };
+        let Ok(kind) = entry.file_type() else { continue };
+        if name.starts_with('.') || files.len() > MOST {
+            continue;
+        }
+        let path = if inner.is_empty() { name } else { format!("{inner}/{name}") };
+        if kind.is_dir() && depth < 32 {
+            list(folder, path, depth + 1, files);
+        } else if kind.is_file() {
+            files.push(path);
+        }
+    }
+}
