@@ -207,7 +207,7 @@ fn lead_past_vertices(strands: &mut [Strand]) {
             }
         }
     }
-    added.sort_by(|a, b| (a.0, a.1, a.3).cmp(&(b.0, b.1, b.3)));
+    added.sort_by_key(|(strand, segment, _, place)| (*strand, *segment, *place));
     added.dedup_by(|a, b| (a.0, a.1, a.3) == (b.0, b.1, b.3));
     add_vertices(strands, added);
 }

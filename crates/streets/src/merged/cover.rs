@@ -211,7 +211,7 @@ fn fillet(
     radius: f64,
     room: [f64; 2],
 ) -> Option<Vec<DVec2>> {
-    if angle > PI - MITRED || angle < 0.02 {
+    if !(0.02..=PI - MITRED).contains(&angle) {
         return None;
     }
     let (a, b) = (first.aside(line), second.aside(line));

@@ -67,11 +67,14 @@ pub(crate) struct MergeOptions {
     pub(crate) longest: f64,
 }
 
+/// For each piece, how far (m) from its ends it is not free of other streets.
+pub(crate) type ClearLengths = Arc<[[f64; 2]]>;
+
 /// What was made last, with the version of the network.
 #[derive(Debug, Default)]
 pub(crate) struct MergeCache {
     surfaces: Mutex<Option<(u64, MergeOptions, Arc<MergedStreets>)>>,
-    clear: Mutex<Option<(u64, Arc<[[f64; 2]]>)>>,
+    clear: Mutex<Option<(u64, ClearLengths)>>,
 }
 
 impl Clone for MergeCache {
@@ -104,14 +107,14 @@ impl StreetNetwork {
     }
 
     /// For each piece, how far (m) from its ends it is not free of other streets.
-    pub(crate) fn clear_lengths(&self) -> Arc<[[f64; 2]]> {
+    pub(crate) fn clear_lengths(&self) -> ClearLengths {
         let mut known = self.merge_cache.clear.lock().recover();
         if let Some((version, lengths)) = known.as_ref()
             && *version == self.version()
         {
             return Arc::clone(lengths);
         }
-        let lengths: Arc<[[f64; 2]]> = clear_lengths(self).into();
+        let lengths: ClearLengths = clear_lengths(self).into();
         *known = Some((self.version(), Arc::clone(&lengths)));
         lengths
     }
