@@ -46,7 +46,7 @@ fn layer(path: &Path, name: &str, condition: Option<&str>) -> Layer {
         condition: condition.map(str::to_owned),
         ..SourceOptions::default()
     };
-    let table = Source::open(path, "file").unwrap().read("file", &wanted).unwrap();
+    let table = Source::open_within(path, "file", &wanted).unwrap().read("file", &wanted).unwrap();
     Layer::new(table, &mut None).unwrap()
 }
 
@@ -129,7 +129,7 @@ fn monacos_mountains_are_as_high_as_maps_say_under_the_towns_own_frame() {
         .unwrap();
     let read = |path: &Path, layer: Option<&str>, frame: &mut _| {
         let wanted = SourceOptions { layer: layer.map(str::to_owned), ..SourceOptions::default() };
-        Layer::new(Source::open(path, "file").unwrap().read("file", &wanted).unwrap(), frame).unwrap()
+        Layer::new(Source::open_within(path, "file", &wanted).unwrap().read("file", &wanted).unwrap(), frame).unwrap()
     };
     let raster = Arc::new(
         Raster::open(&heights, "N43E007.hgt.zip", &Default::default(), &Default::default()).unwrap(),
@@ -196,7 +196,7 @@ fn the_same_features_are_read_from_every_format_that_another_program_writes() {
         "gml/good-2.gml",
     ] {
         let table =
-            Source::open(&corpus.join(name), name).unwrap().read(name, &SourceOptions::default()).unwrap();
+            Source::open_within(&corpus.join(name), name, &SourceOptions::default()).unwrap().read(name, &SourceOptions::default()).unwrap();
         let mut found: Vec<String> = table
             .features
             .iter()
@@ -220,7 +220,7 @@ fn the_same_features_are_read_from_every_format_that_another_program_writes() {
     }
     assert_eq!(files, 5);
     let degrees = corpus.join("gml/good-degrees.gml");
-    let table = Source::open(&degrees, "a").unwrap().read("a", &SourceOptions::default()).unwrap();
+    let table = Source::open_within(&degrees, "a", &SourceOptions::default()).unwrap().read("a", &SourceOptions::default()).unwrap();
     assert!(table.features[0].geometry.points().all(|at| at.x < 30.0 && at.y > 60.0));
 }
 

@@ -13,6 +13,7 @@ use crate::connection::{AttachedFile, DatabaseLink, Indexes, MOST_FILES, TableVi
 use crate::errors;
 use crate::rewrite::{self, Catalogue, Dialect, RewrittenQuery, TableInfo};
 use crate::tables::{self, FileLayer};
+use burgeon_base::WorkWithin;
 use burgeon_base::budget::Budget;
 use burgeon_base::error::{Error, Result};
 use burgeon_base::locks::LockRecovery;
