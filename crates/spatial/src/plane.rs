@@ -119,16 +119,6 @@ impl Plane {
         rings.turn();
         rings
     }
-
-    /// The simplest geometry of polygons of `geo`.
-    pub(crate) fn areas(self, polygons: &geo::MultiPolygon) -> Geometry {
-        let mut polygons: Vec<Rings> = polygons.iter().map(|polygon| self.rings(polygon)).collect();
-        match polygons.len() {
-            0 => Geometry::empty(2),
-            1 => polygons.pop().map_or(Geometry::empty(2), Geometry::Polygon),
-            _ => Geometry::MultiPolygon(polygons),
-        }
-    }
 }
 
 /// Calls `each` with the rings of every polygon of a geometry.
