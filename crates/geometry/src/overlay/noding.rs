@@ -182,7 +182,8 @@ impl Noding {
     /// Adds to the edge from one node to another, or to those that it was divided into.
     #[allow(clippy::cast_possible_truncation, reason = "fewer edges than 2^32 fit into memory")]
     fn add(&mut self, from: u32, to: u32, load: EdgeLoad, depth: usize) {
-        if from == to {
+        // Once edges are made of one another, there are more of them than could be added.
+        if from == to || self.is_tangled {
             return;
         }
         let (ends, load) = if from < to { ([from, to], load) } else { ([to, from], load.reversed()) };
