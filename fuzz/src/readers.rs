@@ -236,9 +236,11 @@ pub(crate) fn model(bytes: &[u8], folder: &Path) -> bool {
     let Some(Construct::File(loader)) = registry.get("model").map(|kind| &kind.construct) else {
         return false;
     };
+    let files = [("a.glb".to_owned(), path.clone())];
     let mut loading = LoadRequest {
         name: "a.glb",
         path: &path,
+        files: &files,
         budget: &budget(),
         triangles: 100_000,
         frame: &mut None,

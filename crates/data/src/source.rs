@@ -85,8 +85,7 @@ impl Source {
     /// Opens the file at `path`, which messages call `name`. Its content tells what it is.
     ///
     /// Fails if it cannot be read, or is of no format that is known.
-    #[cfg(test)]
-    pub(crate) fn open(path: &Path, name: &str) -> Result<Self> {
+    pub fn open(path: &Path, name: &str) -> Result<Self> {
         Self::open_within(path, name, &SourceOptions::default())
     }
 
