@@ -232,7 +232,7 @@ proptest! {
             set.insert(full, 100 + index);
         }
         let owners_of = |param: usize| all.iter().copied().filter(|it| packages[*it].params.contains(&param)).collect::<Vec<_>>();
-        let mut wrong = None;
+        let mut wrong = Vec::new();
         for name in set.keys() {
             let is_known = match name.split_once('.') {
                 Some((package, short)) => {
@@ -242,7 +242,7 @@ proptest! {
                 None => owners_of(PARAMS.iter().position(|it| it == name).unwrap()).len() == 1,
             };
             if !is_known {
-                wrong = Some(name.clone());
+                wrong.push(name.clone());
             }
         }
         for package in required {
@@ -258,9 +258,9 @@ proptest! {
         let folder = folder(&packages, &script);
         let given: Vec<(String, String)> = set.iter().map(|(name, value)| (name.clone(), value.to_string())).collect();
         let ran = run(&folder, given);
-        if let Some(name) = wrong {
+        if !wrong.is_empty() {
             let error = ran.expect_err("a parameter that there is not, or that there are several of");
-            prop_assert!(error.contains(&name) && error.contains("help: "), "{}", error);
+            prop_assert!(wrong.iter().any(|name| error.contains(name)) && error.contains("help: "), "{}", error);
             return Ok(());
         }
         let printed = match ran {
@@ -312,15 +312,40 @@ fn what_may_be_one_of_several_is_told_with_what_to_write() {
             "local s = lsystem({{ object = extruder() }})\ns:axiom(castle.Stone(1))\ns:interpret(\"castle.Stone\", function(this) {call} end)\ns:derive()"
         )
     };
-    insta::assert_snapshot!(two(lua, &draw("this:turret(1)")).refuses(&["run", "s.lua"]), @"");
+    insta::assert_snapshot!(two(lua, &draw("this:turret(1)")).refuses(&["run", "s.lua"]), @r#"
+    error: s.lua:4: rule castle.Stone (interpretation): turret is a method that castle and towers have added to extruder
+      | s:interpret("castle.Stone", function(this) this:turret(1) end)
+      module: castle.Stone(1), step 0
+      help: say which one: this:castle_turret(...) or this:towers_turret(...)
+    "#);
     insta::assert_snapshot!(
-        two(lua, "lsystem():rule(\"Stone(w)\", function() end)").refuses(&["run", "s.lua"]), @"");
+        two(lua, "lsystem():rule(\"Stone(w)\", function() end)").refuses(&["run", "s.lua"]), @r#"
+    error: s.lua:2: Stone is a module of castle and of towers in the pattern "Stone(w)"
+      | lsystem():rule("Stone(w)", function() end)
+      help: say which one: castle.Stone or towers.Stone
+    "#);
     insta::assert_snapshot!(
-        two(lua, "lsystem():rule(\"castle.Stole(w)\", function() end)").refuses(&["run", "s.lua"]), @"");
+        two(lua, "lsystem():rule(\"castle.Stole(w)\", function() end)").refuses(&["run", "s.lua"]), @r#"
+    error: s.lua:2: unknown symbol castle.Stole in the pattern "castle.Stole(w)"
+      | lsystem():rule("castle.Stole(w)", function() end)
+      help: did you mean castle.Stone?
+    "#);
     insta::assert_snapshot!(
-        two(lua, "lsystem():rule(\"castle.Stone(w)\", \"return Stone(w)\")").refuses(&["run", "s.lua"]), @"");
-    insta::assert_snapshot!(two(lua, "").refuses(&["run", "s.lua", "--set", "size=9"]), @"");
-    insta::assert_snapshot!(two(lua, "").refuses(&["run", "s.lua", "--set", "castle.sizes=9"]), @"");
+        two(lua, "lsystem():rule(\"castle.Stone(w)\", \"return Stone(w)\")").refuses(&["run", "s.lua"]), @r#"
+    error: s.lua:2: rule castle.Stone(w): Stone is a module of castle and of towers
+      | lsystem():rule("castle.Stone(w)", "return Stone(w)")
+      help: let a function make it, by a constructor that the package gives: function(this) return stone(1) end
+    "#);
+    insta::assert_snapshot!(two(lua, "").refuses(&["run", "s.lua", "--set", "size=9"]), @r#"
+    error: mods/towers/init.lua:2: size is a parameter of castle and of towers
+      | return { Stone = module("Stone", "w"), size = param("size", { default = 2 }) }
+      called at s.lua:1
+      help: say which one: --set castle.size=VALUE or --set towers.size=VALUE
+    "#);
+    insta::assert_snapshot!(two(lua, "").refuses(&["run", "s.lua", "--set", "castle.sizes=9"]), @r"
+    error: s.lua has no parameter called castle.sizes
+      help: did you mean castle.size?
+    ");
     let fine = two(
         lua,
         &format!("{} print(castle.size, towers.size)", draw("this:castle_turret(1):towers_turret(1)")),
@@ -376,10 +401,17 @@ fn the_packages_of_a_run_are_locked_in_its_summary_and_in_its_model() {
 #[test]
 fn a_package_is_switched_off_and_on() {
     let folder = castle("").with("other.lua", "print(1)");
-    insta::assert_snapshot!(folder.burgeon(&["mods", "disable", "castle"]).done().stderr, @"");
-    insta::assert_snapshot!(folder.refuses(&["run", "s.lua"]), @"");
-    insta::assert_snapshot!(folder.burgeon(&["mods"]).done().stdout, @"");
-    insta::assert_snapshot!(folder.refuses(&["mods", "disable", "castel"]), @"");
+    insta::assert_snapshot!(folder.burgeon(&["mods", "disable", "castle"]).done().stderr, @"switched castle off in mods/disabled.txt; switch it on again: burgeon mods enable castle");
+    insta::assert_snapshot!(folder.refuses(&["run", "s.lua"]), @r#"
+    error: s.lua:1: the package castle is switched off in mods/disabled.txt
+      | local towers = require("@castle/towers")
+      help: switch it on: burgeon mods enable castle
+    "#);
+    insta::assert_snapshot!(folder.burgeon(&["mods"]).done().stdout, @"switched off: castle 1.0.0 in mods/castle");
+    insta::assert_snapshot!(folder.refuses(&["mods", "disable", "castel"]), @r"
+    error: there is no package castel
+      help: did you mean castle?
+    ");
     folder.burgeon(&["run", "other.lua"]).done();
     folder.burgeon(&["mods", "enable", "castle"]).done();
     assert_eq!(prints(&folder, &[]), "12\tcastle\n");
@@ -397,10 +429,17 @@ fn links_to_checkouts_are_used_and_never_replaced() {
     symlink("../work", folder.path().join("mods/castle")).unwrap();
     assert_eq!(prints(&folder, &[]), "5\twork\n");
     let other = folder.with("new/mod.toml", about("castle", ""));
-    insta::assert_snapshot!(other.refuses(&["mods", "add", "new", "--replace"]), @"");
+    insta::assert_snapshot!(other.refuses(&["mods", "add", "new", "--replace"]), @r"
+    error: mods/castle is a link, so it is not replaced
+      help: move it away, or remove it yourself; then add the package again
+    ");
     assert!(other.path().join("work/towers.lua").exists());
     std::fs::remove_dir_all(other.path().join("work")).unwrap();
-    insta::assert_snapshot!(other.refuses(&["run", "s.lua"]), @"");
+    insta::assert_snapshot!(other.refuses(&["run", "s.lua"]), @r#"
+    error: s.lua:1: mods/castle is a link that leads to nothing
+      | local towers = require("@castle/towers")
+      help: remove it, or put a package there
+    "#);
 }
 
 #[test]
@@ -408,16 +447,33 @@ fn what_is_no_package_is_never_deleted_and_what_is_missing_is_told() {
     let folder = Folder::new()
         .with("work/mod.toml", about("castle", "[depends]\nmasonry = \"1\""))
         .with("mods/castle/diary.txt", "dear");
-    insta::assert_snapshot!(folder.refuses(&["mods", "add", "work"]), @"");
+    insta::assert_snapshot!(folder.refuses(&["mods", "add", "work"]), @r#"
+    error: work/mod.toml:5: the package castle needs masonry ^1, which is not there
+      | masonry = "1"
+      help: put it beside the other packages: burgeon mods add FOLDER
+    "#);
     let folder = folder.with("mods/masonry/mod.toml", about("masonry", ""));
-    insta::assert_snapshot!(folder.refuses(&["mods", "add", "work", "--replace"]), @"");
+    insta::assert_snapshot!(folder.refuses(&["mods", "add", "work", "--replace"]), @r"
+    error: mods/castle is no package, so it is not replaced
+      help: move it away, or remove it yourself; then add the package again
+    ");
     let folder = folder.with("mods/castle/mod.toml", about("other", ""));
-    insta::assert_snapshot!(folder.refuses(&["mods", "add", "work", "--replace"]), @"");
+    insta::assert_snapshot!(folder.refuses(&["mods", "add", "work", "--replace"]), @r"
+    error: mods/castle is the package other, so it is not replaced
+      help: move it away, or remove it yourself; then add the package again
+    ");
     let folder = folder.with("mods/castle/mod.toml", about("castle", "")).with("mods/castle/.git/HEAD", "x");
-    insta::assert_snapshot!(folder.refuses(&["mods", "add", "work", "--replace"]), @"");
+    insta::assert_snapshot!(folder.refuses(&["mods", "add", "work", "--replace"]), @r"
+    error: mods/castle is a checkout, with a folder .git, so it is not replaced
+      help: move it away, or remove it yourself; then add the package again
+    ");
     assert_eq!(std::fs::read_to_string(folder.path().join("mods/castle/diary.txt")).unwrap(), "dear");
     std::fs::remove_dir_all(folder.path().join("mods/castle/.git")).unwrap();
     folder.burgeon(&["mods", "add", "work", "--replace"]).done();
     let folder = folder.with("work/mod.toml", about("castle", "[depends]\nmasonry = \"2\""));
-    insta::assert_snapshot!(folder.refuses(&["mods", "add", "work", "--replace"]), @"");
+    insta::assert_snapshot!(folder.refuses(&["mods", "add", "work", "--replace"]), @r#"
+    error: work/mod.toml:5: the package castle needs masonry ^2, but 1.0.0 is in mods/masonry
+      | masonry = "2"
+      help: get a masonry of that version
+    "#);
 }

@@ -119,16 +119,16 @@ fn a_check_knows_types_of_required_files_and_of_packages() {
              local t = lsystem({ object = lights.arc({ powr = 3 }) })\nt:axiom(A())\nt:interpret(\"A\", function(this) this:shine(\"far\") end)\n\
              extend(parts.lamp, { changes = { dim = function(self) end } })\ns:interpret(\"A\", function(this) this:dim(1) end)",
         );
-    assert_snapshot!(folder.burgeon(&["check", "s.lua"]).stderr, @r##"
+    assert_snapshot!(folder.burgeon(&["check", "s.lua"]).stderr, @r#"
     error: s.lua:5: rule A (interpretation): lamp has no method or field called lite
       | s:interpret("A", function(this) this:lite(1) end)
       help: did you mean lit?
-    error: s.lua:6: arc has no field called powr
+    error: s.lua:6: lights.arc has no field called powr
       | local t = lsystem({ object = lights.arc({ powr = 3 }) })
       help: did you mean power?
-    error: s.lua:8: rule A (interpretation): arc:shine: n must be a number, not "far"
+    error: s.lua:8: rule A (interpretation): lights.arc:shine: n must be a number, not "far"
       | t:interpret("A", function(this) this:shine("far") end)
-    "##);
+    "#);
 }
 
 #[test]

@@ -228,9 +228,24 @@ fn state_that_cannot_be_kept_is_told_of_where_it_is_assigned() {
         assert!(error.starts_with("error: s.lua:4: "), "{assignment}: {error}");
         assert!(error.contains(what) && error.contains("help: "), "{assignment}: {error}");
     }
-    insta::assert_snapshot!(kept("self.pen = extruder()"), @"");
-    insta::assert_snapshot!(kept("self.n = f"), @"");
-    insta::assert_snapshot!(kept("self.n = extruder() self.n:extrude(1)"), @"");
+    insta::assert_snapshot!(kept("self.pen = extruder()"), @r"
+    error: s.lua:4: rule A (interpretation): lamp has no state called pen
+      | self.pen = extruder()
+      module: A, step 0
+      help: declare what it draws with: state = { pen = extruder() }, and call its methods: self.pen:...
+    ");
+    insta::assert_snapshot!(kept("self.n = f"), @r"
+    error: s.lua:4: rule A (interpretation): n of the state of lamp cannot be a function
+      | self.n = f
+      module: A, step 0
+      help: state is numbers, booleans, strings, tables of these, and objects
+    ");
+    insta::assert_snapshot!(kept("self.n = extruder() self.n:extrude(1)"), @r"
+    error: s.lua:4: rule A (interpretation): extruder:extrude changes an object that was made here, and nothing is drawn with it
+      | self.n = extruder() self.n:extrude(1)
+      module: A, step 0
+      help: let the type hold one from the beginning: state = { pen = extruder() }, and call self.pen:extrude(1)
+    ");
     // What can be kept is kept, and other tables called self are left alone.
     let script = "local lamp = object(\"lamp\", { extends = extruder, state = { n = 0, list = {} }, reads = { all = function(self) return self.n + #self.list end },\n\
         changes = { go = function(self) self.n = math.max(3, 2) self.list = { 1, { 2 } } self.list[3] = vec(1, 2) end } })\n\
