@@ -31,6 +31,7 @@ mod faces;
 mod fit;
 #[cfg(test)]
 mod fit_tests;
+mod forms;
 mod grid;
 mod grow;
 #[cfg(test)]
@@ -54,6 +55,7 @@ mod stretches;
 mod surface;
 #[cfg(test)]
 mod surface_tests;
+mod survey;
 #[cfg(test)]
 mod tests;
 mod verge;
