@@ -1,5 +1,5 @@
 //! Streets: 200 seeds of each pattern, checked and measured beside real cities, and 100,000 pieces grown by a script.
-//! `cargo bench --bench streets [-- SEEDS]`.
+//! `cargo bench --bench streets [-- SEEDS]`; `-- towns` takes only the measures of towns that nobody planned, beside real ones.
 
 #![allow(clippy::print_stdout, reason = "a bench prints its figures")]
 
@@ -7,9 +7,12 @@ use std::time::Instant;
 
 #[path = "../tests/streets/check.rs"]
 mod check;
+#[path = "../tests/streets/looks.rs"]
+mod looks;
 
 use burgeon::script::RunOptions;
 use check::{PATTERNS, check, grown};
+use looks::{NAMES, looks, real};
 
 /// What a pattern is compared by: its name and its value of a network.
 const CITIES: [(&str, [f64; 9]); 4] = [
@@ -39,8 +42,38 @@ end)
 roads:derive(400)
 "#;
 
+/// Towns that nobody planned beside real ones, by all measures.
+fn look_at_towns(seeds: u64) {
+    let row = |name: &str, of: &[f64; 16]| {
+        let values = of.iter().map(|value| match value {
+            value if value.abs() >= 100.0 => format!("{value:10.0}"),
+            value => format!("{value:10.3}"),
+        });
+        println!("{name:12}{}", values.collect::<String>());
+    };
+    println!("{:12}{}", "", NAMES.iter().map(|name| format!("{name:>10}")).collect::<String>());
+    for file in ["helsinki.gpkg", "monaco.gpkg"] {
+        if let Some(network) = real(file) {
+            row(file.trim_end_matches(".gpkg"), &looks(&network));
+        }
+    }
+    let begin = Instant::now();
+    let all: Vec<[f64; 16]> = (1..=seeds)
+        .map(|seed| looks(grown("roads.lua", seed, &[("pattern", "organic"), ("extent", "1000")]).network()))
+        .collect();
+    let of = |index: usize| all.iter().map(move |of| of[index]);
+    let means = std::array::from_fn(|index| of(index).sum::<f64>() / seeds.max(1) as f64);
+    row("organic", &means);
+    row("the least", &std::array::from_fn(|index| of(index).fold(f64::INFINITY, f64::min)));
+    row("the greatest", &std::array::from_fn(|index| of(index).fold(0.0, f64::max)));
+    println!("{seeds} seeds in {:.1} s", begin.elapsed().as_secs_f64());
+}
+
 fn main() {
     let seeds = std::env::args().skip(1).find_map(|word| word.parse().ok()).unwrap_or(200);
+    if std::env::args().any(|word| word == "towns") {
+        return look_at_towns(seeds.min(100));
+    }
     println!("{:12} degree  ends  3-way  4-way  circ.  mesh.  order  block (m²)  spread  pieces", "");
     let row = |name: &str, of: [f64; 9], pieces: f64| {
         let [degree, ends, three, four, circuity, meshedness, order, block, spread] = of;
@@ -67,6 +100,7 @@ fn main() {
         row(pattern, sums.map(|sum| sum / seeds as f64), pieces / seeds as f64);
         println!("{:12} {seeds} seeds kept all in {:.1} s", "", begin.elapsed().as_secs_f64());
     }
+    look_at_towns(seeds.min(100));
     let path = std::env::temp_dir().join(format!("burgeon bench streets {}.lua", std::process::id()));
     std::fs::write(&path, LARGE).expect("the temporary folder can be written to");
     let begin = Instant::now();

@@ -129,7 +129,8 @@ fn monacos_mountains_are_as_high_as_maps_say_under_the_towns_own_frame() {
         .unwrap();
     let read = |path: &Path, layer: Option<&str>, frame: &mut _| {
         let wanted = SourceOptions { layer: layer.map(str::to_owned), ..SourceOptions::default() };
-        Layer::new(Source::open_within(path, "file", &wanted).unwrap().read("file", &wanted).unwrap(), frame).unwrap()
+        Layer::new(Source::open_within(path, "file", &wanted).unwrap().read("file", &wanted).unwrap(), frame)
+            .unwrap()
     };
     let raster = Arc::new(
         Raster::open(&heights, "N43E007.hgt.zip", &Default::default(), &Default::default()).unwrap(),
@@ -195,8 +196,10 @@ fn the_same_features_are_read_from_every_format_that_another_program_writes() {
         "gml/good-31.gml",
         "gml/good-2.gml",
     ] {
-        let table =
-            Source::open_within(&corpus.join(name), name, &SourceOptions::default()).unwrap().read(name, &SourceOptions::default()).unwrap();
+        let table = Source::open_within(&corpus.join(name), name, &SourceOptions::default())
+            .unwrap()
+            .read(name, &SourceOptions::default())
+            .unwrap();
         let mut found: Vec<String> = table
             .features
             .iter()
@@ -220,7 +223,10 @@ fn the_same_features_are_read_from_every_format_that_another_program_writes() {
     }
     assert_eq!(files, 5);
     let degrees = corpus.join("gml/good-degrees.gml");
-    let table = Source::open_within(&degrees, "a", &SourceOptions::default()).unwrap().read("a", &SourceOptions::default()).unwrap();
+    let table = Source::open_within(&degrees, "a", &SourceOptions::default())
+        .unwrap()
+        .read("a", &SourceOptions::default())
+        .unwrap();
     assert!(table.features[0].geometry.points().all(|at| at.x < 30.0 && at.y > 60.0));
 }
 

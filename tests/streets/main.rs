@@ -5,12 +5,14 @@
 mod check;
 mod cities;
 mod ground;
+mod looks;
 mod words;
 
 use std::path::PathBuf;
 
 use check::{PATTERNS, check, grown};
 use cities::{TOWNS, figures};
+use looks::{looks, real};
 
 /// The mean of each measure over some seeds of a pattern: degree, shares of dead ends, of 3 and of 4 streets, circuity,
 /// meshedness, orientation order.
@@ -94,6 +96,22 @@ fn wandering_streets_are_like_those_of_old_cities_and_rasters_like_those_of_new_
         assert!((0.26..0.36).contains(&meshedness), "{pattern}: meshedness {meshedness}");
         assert!(ordered.contains(&order), "{pattern}: orientation order {order}");
         assert!((0.42..0.65).contains(&spread), "{pattern}: spread of blocks {spread}");
+    }
+}
+
+#[test]
+fn measures_of_real_towns_are_those_that_other_programs_take() {
+    // With Shapely: density, largest and median block, and the spread of blocks.
+    let known = [
+        ("helsinki.gpkg", [23.6, 162_146.0, 7000.0, 0.637]),
+        ("monaco.gpkg", [41.7, 163_906.0, 1243.0, 0.738]),
+    ];
+    for (file, known) in known {
+        let Some(network) = real(file) else { continue };
+        let of = looks(&network);
+        for (value, known) in [of[10], of[9], of[7], of[8]].into_iter().zip(known) {
+            assert!((value / known - 1.0).abs() < 0.03, "{file}: {value}, not {known}: {of:.3?}");
+        }
     }
 }
 

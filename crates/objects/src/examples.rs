@@ -99,7 +99,7 @@ pub const PLAIN_EXAMPLES: &[ScriptExample] = examples! {
         "network:places" "network:degree";
     "network/lots" shows "network:measures" "network:size" "network:distance" "network:streets"
         "network:junctions" "network:blocks" "network:lots" "network:height" "network:verge"
-        "network:sites";
+        "network:sites" "network:face";
     "network/walk" shows "network:lead" "network:walk" "network:turn" "network:stand";
     "planet/height" shows "planet:focus" "planet:height" "planet:surface" "planet:symbol"
         "planet:heights";

@@ -163,8 +163,10 @@ fn a_layer_of_another_format_is_a_table() {
     std::fs::write(&path, format!(r#"{{"type":"FeatureCollection","features":[{}]}}"#, features.join(",")))
         .unwrap();
     let wanted = burgeon_data::SourceOptions::default();
-    let table =
-        burgeon_data::Source::open_within(&path, "huts.geojson", &wanted).unwrap().read("huts.geojson", &wanted).unwrap();
+    let table = burgeon_data::Source::open_within(&path, "huts.geojson", &wanted)
+        .unwrap()
+        .read("huts.geojson", &wanted)
+        .unwrap();
     let mut frame = None;
     let layer = burgeon_data::Layer::new(table, &mut frame).unwrap();
     let database = Database::new(frame).unwrap();

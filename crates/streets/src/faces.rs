@@ -57,6 +57,46 @@ impl StreetNetwork {
         ways
     }
 
+    /// Returns the way around the area on the left of the street that leaves a junction nearest to a direction; empty if no
+    /// street leaves it.
+    ///
+    /// The way is counter-clockwise around a face, and clockwise around the network if the area lies outside of it.
+    ///
+    /// ```
+    /// use burgeon_streets::{Constraints, Obstacles, StreetAttributes, StreetNetwork};
+    /// use glam::DVec2;
+    ///
+    /// let mut network = StreetNetwork::new(Constraints::default(), Obstacles::default())?;
+    /// let start = network.begin(DVec2::ZERO)?;
+    /// let mut end = start;
+    /// for to in [(200.0, 0.0), (200.0, 100.0), (0.0, 100.0), (0.0, 0.0)] {
+    ///     end = network.grow(end, DVec2::from(to), StreetAttributes::default())?.end;
+    /// }
+    /// assert_eq!(network.area(&network.way_from(start, DVec2::X)), 20_000.0);
+    /// assert_eq!(network.area(&network.way_from(start, DVec2::Y)), -20_000.0);
+    /// # Ok::<(), burgeon_base::error::Error>(())
+    /// ```
+    pub fn way_from(&self, junction: JunctionId, towards: DVec2) -> Vec<Course> {
+        let arms = self.arms(junction);
+        let off = |way: &DVec2| way.angle_to(towards).abs();
+        let Some(&(piece, _)) = arms.iter().min_by(|a, b| off(&a.1).total_cmp(&off(&b.1))) else {
+            return Vec::new();
+        };
+        let first = Course { piece, from: junction };
+        let (mut course, mut way) = (first, Vec::new());
+        loop {
+            way.push(course);
+            let end = self.across(course.piece, course.from);
+            let arms = self.arms(end);
+            let Some(index) = arms.iter().position(|(piece, _)| *piece == course.piece) else { return way };
+            let before = arms[(index + arms.len() - 1) % arms.len()].0;
+            course = Course { piece: before, from: end };
+            if course == first {
+                return way;
+            }
+        }
+    }
+
     /// The corners (m) of a way.
     pub fn corners(&self, way: &[Course]) -> Vec<DVec2> {
         way.iter().map(|course| self.at(course.from)).collect()

@@ -32,6 +32,7 @@ mod faces;
 mod fit;
 #[cfg(test)]
 mod fit_tests;
+mod forms;
 mod grid;
 mod grow;
 #[cfg(test)]
@@ -55,6 +56,7 @@ mod stretches;
 mod surface;
 #[cfg(test)]
 mod surface_tests;
+mod survey;
 #[cfg(test)]
 mod tests;
 mod verge;

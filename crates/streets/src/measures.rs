@@ -6,6 +6,9 @@ use glam::DVec2;
 
 use crate::network::StreetNetwork;
 
+/// Up to which area (m²) a face is a traffic island, not a block.
+const ISLAND: f64 = 150.0;
+
 /// The measures of a network, as they are taken of real cities.
 ///
 /// After: G. Boeing, "Urban spatial order: street network orientation, configuration, and entropy", 2019.
@@ -23,14 +26,26 @@ pub struct Measures {
     pub meshedness: f64,
     /// How far its streets share directions, from 0 for none to 1 for a grid.
     pub orientation_order: f64,
-    /// The median area (m²) of the faces.
+    /// The median area (m²) of the blocks: the faces, without traffic islands of up to 150 m².
     pub block: f64,
-    /// The standard deviation of the logarithm, to the base of 10, of the areas of the faces.
+    /// The standard deviation of the logarithm, to the base of 10, of the areas of the blocks.
     pub block_spread: f64,
     /// The median of the areas of the faces over those of the smallest circles around them, from 0 to 1.
     pub block_shape: f64,
     /// The median length (m) of the streets between junctions.
     pub segment: f64,
+    /// The length of all streets (km) on each square kilometre of the faces.
+    pub density: f64,
+    /// The area (m²) of the largest face.
+    pub largest: f64,
+    /// How often a street turns by 25° to one side and back to the other, on each kilometre.
+    pub zigzags: f64,
+    /// The share of dead ends that are shorter than 25 m.
+    pub stubs: f64,
+    /// The share of faces that are triangles of less than 1,500 m².
+    pub triangles: f64,
+    /// The share of faces of less than 600 m² that lie beside two others of that size or more.
+    pub knots: f64,
 }
 
 impl StreetNetwork {
@@ -50,11 +65,12 @@ impl StreetNetwork {
     /// assert_eq!((measures.length, measures.degree, measures.circuity), (800.0, 8.0 / 5.0, 1.0));
     /// assert_eq!(measures.shares, [0.8, 0.0, 0.2]);
     /// assert!((measures.orientation_order - 1.0).abs() < 1e-9);
+    /// assert_eq!((measures.density, measures.stubs), (0.0, 0.0));
     /// # Ok::<(), burgeon_base::error::Error>(())
     /// ```
     pub fn measures(&self) -> Measures {
         let StreetRuns { lengths, straight, bins } = self.runs();
-        let length = lengths.iter().sum();
+        let length: f64 = lengths.iter().sum();
         let degrees: Vec<usize> = self
             .junctions
             .iter()
@@ -76,12 +92,16 @@ impl StreetNetwork {
         let turns = self.junctions.iter().filter(|junction| junction.degree() == 2).count() as f64;
         let meshedness = (edges - vertices + parts) / (2.0 * (vertices - turns) - 5.0).max(1.0);
         let (mut areas, mut shapes) = (Vec::new(), Vec::new());
-        for face in self.faces() {
+        let faces = self.faces();
+        for face in &faces {
             let corners = self.corners(&face.around);
             let area = self.area(&face.around);
             areas.push(area);
             shapes.push(area / (PI * circle_around(&corners).1.powi(2)));
         }
+        let land: f64 = areas.iter().sum();
+        let largest = areas.iter().copied().fold(0.0, f64::max);
+        areas.retain(|area| *area > ISLAND);
         #[allow(clippy::cast_precision_loss, reason = "counts far below 2^53")]
         let block_spread = {
             let logs: Vec<f64> = areas.iter().map(|area| area.log10()).collect();
@@ -99,6 +119,13 @@ impl StreetNetwork {
             block_spread,
             block_shape: median(shapes),
             segment: median(lengths),
+            density: if land > 0.0 { 1000.0 * length / land } else { 0.0 },
+            largest,
+            #[allow(clippy::cast_precision_loss, reason = "counts far below 2^53")]
+            zigzags: self.zigzags() as f64 / (length / 1000.0).max(1e-9),
+            stubs: self.stubs(),
+            triangles: self.triangles(&faces),
+            knots: self.knots(&faces),
         }
     }
 

@@ -93,7 +93,7 @@ const FACTORS: [&str; 50] = [
 ];
 
 /// Which one: numbers of things, codes and seeds.
-const NUMBERS: [&str; 29] = [
+const NUMBERS: [&str; 30] = [
     ".seed",
     "Paint number",
     "elevation.crs",
@@ -107,6 +107,7 @@ const NUMBERS: [&str; 29] = [
     "geometry:point_n number",
     "network:arrived junction",
     "network:degree junction",
+    "network:face junction",
     "network:fate junction",
     "network:grow junction",
     "network:lead junction",

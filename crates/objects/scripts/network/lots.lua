@@ -7,5 +7,6 @@ roads:interpret("Ring", function(this)
 end)
 local town = roads:derive().objects[1]
 print(town:size(), #town:streets(), #town:junctions(), #town:blocks(), town:measures().length)
+print(town:face(1, 0).area, town:measures().density)
 print(#town:lots({ depth = 25 }), #town:sites(), #town:verge("tree"))
 print(town:distance(vec(20, 30, 0)), town:height(vec(20, 30, 0)))

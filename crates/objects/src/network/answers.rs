@@ -61,6 +61,12 @@ pub(super) fn measures(measures: &Measures) -> Value {
             ("block_spread", measures.block_spread),
             ("block_shape", measures.block_shape),
             ("segment", measures.segment),
+            ("density", measures.density),
+            ("largest", measures.largest),
+            ("zigzags", measures.zigzags),
+            ("stubs", measures.stubs),
+            ("triangles", measures.triangles),
+            ("knots", measures.knots),
         ]
         .map(|(name, value)| (name, Value::Number(value))),
     )
@@ -110,6 +116,25 @@ pub(super) fn places(network: &StreetNetwork) -> Value {
         ])
     });
     places.collect::<Vec<_>>().into_value()
+}
+
+/// The area on the left of the street that leaves a junction nearest to a direction, and its corners.
+pub(super) fn face(network: &StreetNetwork, junction: JunctionId, towards: DVec2) -> Value {
+    let way = network.way_from(junction, towards);
+    if way.is_empty() {
+        return Value::Nil;
+    }
+    let corners = way.iter().map(|course| {
+        let degree = network.junctions()[course.from as usize].degree();
+        named([
+            ("junction", number(course.from)),
+            ("place", place(network.at(course.from))),
+            ("degree", Value::Number(f64::from(u32::try_from(degree).unwrap_or(u32::MAX)))),
+            ("depth", Value::Number(f64::from(network.attributes(course.piece).depth))),
+        ])
+    });
+    let corners = corners.collect::<Vec<_>>().into_value();
+    named([("area", Value::Number(network.area(&way))), ("corners", corners)])
 }
 
 /// What to tell of a street that was to lead from one place to another and ends elsewhere; the places are where it begins, where

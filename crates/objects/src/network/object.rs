@@ -254,10 +254,9 @@ impl Network {
     }
 
     /// The measures that networks are compared by: a table with `length` (m), the mean `degree` of junctions, the shares
-    /// `dead_ends`, `three_way` and `four_way` (4 or more), `circuity` (1 is straight), `meshedness` (0 is a tree),
-    /// `orientation_order` (1 is a grid, 0 all directions), of blocks the median area `block` (m²), its `block_spread` (the
-    /// standard deviation of log10) and `block_shape` (area over that of the circle around it, median), and the median
-    /// `segment` (m) between junctions.
+    /// `dead_ends`, `three_way` and `four_way`, `circuity`, `meshedness`, `orientation_order`, of blocks the median area `block`
+    /// (m²), `block_spread`, `block_shape` and the `largest` (m²), the median `segment` (m) between junctions, the `density`
+    /// (km/km²), the `zigzags` on each kilometre, and the shares `stubs`, `triangles` and `knots`.
     pub fn measures(&self) -> Value {
         answers::measures(&self.network.measures())
     }
@@ -271,6 +270,14 @@ impl Network {
     /// least `depth` of its streets, and the `headings` (degrees) in which they leave it.
     pub fn places(&self) -> Value {
         answers::places(&self.network)
+    }
+
+    /// The area on the left of the street that leaves a junction nearest to a `heading` (degrees): a table with its `area` (m²),
+    /// negative if it lies outside of all streets, and its `corners` in order, each with `junction`, `place` (m), `degree`, and
+    /// the `depth` of the street to the next one. It is nil if no street leaves the junction.
+    pub fn face(&self, junction: u32, heading: f64) -> Result<Value> {
+        let towards = DVec2::from_angle(heading.to_radians());
+        Ok(answers::face(&self.network, self.known(junction)?, towards))
     }
 
     /// How many streets meet at a junction.

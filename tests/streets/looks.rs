@@ -1,0 +1,86 @@
+//! What towns that nobody planned look like: measures of those that grow, beside real ones taken by the same code.
+
+use std::path::Path;
+
+use burgeon::sources::{Attribute, Source, SourceOptions};
+use burgeon_streets::StreetNetwork;
+use glam::DVec2;
+
+/// How far (m) the towns reach, and how many rings of the same width their density is taken in.
+pub(crate) const REACH: f64 = 1000.0;
+pub(crate) const RINGS: usize = 4;
+
+/// The names of the measures, in the order of [`looks`].
+pub(crate) const NAMES: [&str; 16] = [
+    "degree",
+    "dead ends",
+    "3-way",
+    "4-way",
+    "circuity",
+    "meshedness",
+    "order",
+    "block",
+    "spread",
+    "largest",
+    "density",
+    "decline",
+    "zigzags",
+    "stubs",
+    "triangles",
+    "knots",
+];
+
+/// The measures of a network; its decline, from one ring around the middle to the next, is the greatest quotient.
+pub(crate) fn looks(network: &StreetNetwork) -> [f64; 16] {
+    let of = network.measures();
+    let [ends, three, four] = of.shares;
+    let rings = network.density_by_distance(DVec2::ZERO, REACH, RINGS);
+    let decline = rings.windows(2).map(|pair| pair[1] / pair[0].max(1e-9)).fold(0.0, f64::max);
+    [
+        of.degree,
+        ends,
+        three,
+        four,
+        of.circuity,
+        of.meshedness,
+        of.orientation_order,
+        of.block,
+        of.block_spread,
+        of.largest,
+        of.density,
+        decline,
+        of.zigzags,
+        of.stubs,
+        of.triangles,
+        of.knots,
+    ]
+}
+
+/// The streets of a real town, those for cars without ways to single houses; tells that it is left out where its data is not there.
+pub(crate) fn real(file: &str) -> Option<StreetNetwork> {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../shared/data").join(file);
+    if !path.is_file() {
+        eprintln!("skipped: there is no ../shared/data/{file}");
+        return None;
+    }
+    let wanted = SourceOptions { layer: Some("roads".to_owned()), ..SourceOptions::default() };
+    let table =
+        Source::open(&path, file).and_then(|source| source.read(file, &wanted)).expect("a layer of roads");
+    let kind = table.names.iter().position(|name| name == "highway").expect("the kind of a road");
+    let is_street = |attributes: &[(usize, Attribute)]| {
+        let found = attributes.iter().find(|(name, _)| *name == kind);
+        let Some((_, Attribute::Text(kind))) = found else { return false };
+        let main = ["motorway", "trunk", "primary", "secondary", "tertiary"];
+        main.contains(&kind.trim_end_matches("_link"))
+            || ["residential", "unclassified", "living_street"].contains(&&**kind)
+    };
+    let streets = table.features.iter().filter(|feature| is_street(&feature.attributes));
+    let lines =
+        streets.map(|street| street.geometry.points().map(|at| at.truncate()).collect::<Vec<DVec2>>());
+    let lines: Vec<Vec<DVec2>> = lines.collect();
+    // Measures are the same anywhere, and streets are near the origin.
+    let origin = lines.iter().flatten().next().copied().unwrap_or_default();
+    let lines: Vec<Vec<DVec2>> =
+        lines.iter().map(|line| line.iter().map(|at| *at - origin).collect()).collect();
+    Some(StreetNetwork::survey(&lines).expect("a network"))
+}
