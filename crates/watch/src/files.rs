@@ -74,6 +74,9 @@ impl PartialEq for FileContent {
                 Self::File { place: other, hash: content, empty: _ }
                 | Self::Database { place: other, hash: content },
             ) => (place, hash) == (other, content),
+            (Self::Folder { place, names }, Self::Folder { place: other, names: now }) => {
+                (place, names) == (other, now)
+            }
             (Self::Large { place, stamp }, Self::Large { place: other, stamp: now }) => {
                 // What changes while the log stays is brought home from there.
                 let same = stamp.log.is_some_and(|(length, _)| length > 0) && stamp.log == now.log;
