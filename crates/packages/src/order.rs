@@ -47,28 +47,17 @@ impl DependencyGraph {
 
     /// The places in order, and those that wait for themselves or for such, by name.
     fn order(&self) -> (Vec<usize>, Vec<usize>) {
-        let count = self.needed.len();
+        // Nobody waits for an optional one that has no order itself.
+        let needed = self.needed.iter().map(|needed| needed.iter().copied().collect());
+        let (_, lost) = sorted(&needed.collect::<Vec<_>>());
+        let lost: BTreeSet<usize> = lost.into_iter().collect();
         let group = groups(&self.wanted);
-        let mut waits = vec![0_usize; count];
-        let mut followers: Vec<Vec<usize>> = vec![Vec::new(); count];
-        for place in 0..count {
-            let in_other_group = self.wanted[place].iter().filter(|other| group[**other] != group[place]);
-            let before: BTreeSet<usize> = self.needed[place].iter().chain(in_other_group).copied().collect();
-            waits[place] = before.len();
-            before.into_iter().for_each(|other| followers[other].push(place));
-        }
-        let mut ready: BTreeSet<usize> = (0..count).filter(|place| waits[*place] == 0).collect();
-        let mut order = Vec::with_capacity(count);
-        while let Some(place) = ready.pop_first() {
-            order.push(place);
-            for follower in &followers[place] {
-                waits[*follower] -= 1;
-                if waits[*follower] == 0 {
-                    ready.insert(*follower);
-                }
-            }
-        }
-        (order, (0..count).filter(|place| waits[*place] > 0).collect())
+        let before = (0..self.needed.len()).map(|place| {
+            let counts = |other: &&usize| group[**other] != group[place] && !lost.contains(other);
+            let optional = self.wanted[place].iter().filter(counts);
+            self.needed[place].iter().chain(optional).copied().collect()
+        });
+        sorted(&before.collect::<Vec<_>>())
     }
 
     /// The shortest circle of each group of `waiting` packages that need each other.
@@ -118,6 +107,27 @@ impl DependencyGraph {
         }
         None
     }
+}
+
+/// The places, each after those `before` it and otherwise by number, and those that wait for themselves or for such.
+fn sorted(before: &[BTreeSet<usize>]) -> (Vec<usize>, Vec<usize>) {
+    let mut waits: Vec<usize> = before.iter().map(BTreeSet::len).collect();
+    let mut followers: Vec<Vec<usize>> = vec![Vec::new(); before.len()];
+    for (place, before) in before.iter().enumerate() {
+        before.iter().for_each(|other| followers[*other].push(place));
+    }
+    let mut ready: BTreeSet<usize> = (0..before.len()).filter(|place| waits[*place] == 0).collect();
+    let mut order = Vec::with_capacity(before.len());
+    while let Some(place) = ready.pop_first() {
+        order.push(place);
+        for follower in &followers[place] {
+            waits[*follower] -= 1;
+            if waits[*follower] == 0 {
+                ready.insert(*follower);
+            }
+        }
+    }
+    (order, (0..before.len()).filter(|place| waits[*place] > 0).collect())
 }
 
 /// The group of each place: those that lead back to each other are in one.

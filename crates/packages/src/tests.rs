@@ -131,9 +131,13 @@ fn what_cannot_be_used_together_is_told_with_its_line() {
     insta::assert_snapshot!(told_of(&[("mods/a", "[replaces]\n\"@b/x.png\" = \"x.png\""), ("given/b", "")]), @r#"
     FOLDER/mods/a/mod.toml:5: the package a replaces a file of b, which it does not depend on
       help: write below [depends]: b = "*"
+    FOLDER/mods/a/mod.toml:5: a changes nothing of b: the package a replaces a file of b, which it does not depend on
+      help: write below [depends]: b = "*"
     "#);
     insta::assert_snapshot!(told_of(&[("mods/a", "[params.b]\nx = 1"), ("given/b", "")]), @r#"
     FOLDER/mods/a/mod.toml:5: the package a sets a parameter of b, which it does not depend on
+      help: write below [depends]: b = "*"
+    FOLDER/mods/a/mod.toml:5: a changes nothing of b: the package a sets a parameter of b, which it does not depend on
       help: write below [depends]: b = "*"
     "#);
     insta::assert_snapshot!(told_of(&[("mods/one/castle", "")]), @"");
@@ -154,7 +158,10 @@ fn optional_packages_may_name_one_another() {
     assert!(locate(&packages, "@b/x.lua", "").is_ok());
     let said = locate(&packages, "@b/x.lua", "c").unwrap_err();
     assert!(said.contains("the package c needs b ^2, but 1.0.0 is in"), "{said}");
-    insta::assert_snapshot!(troubles(&folder, &packages), @"");
+    insta::assert_snapshot!(troubles(&folder, &packages), @r"
+    FOLDER/mods/c/mod.toml:5: c does without b, which is there: the package c needs b ^2, but 1.0.0 is in FOLDER/mods/b
+      help: get a b of that version
+    ");
 }
 
 #[cfg(unix)]
@@ -168,8 +175,14 @@ fn switched_off_packages_are_not_there() {
     assert_eq!(switch(script, "castle", false).unwrap().1, false);
     let packages = find(&folder);
     assert_eq!((order(&packages), packages.disabled.len()), (vec!["ruins"], 1));
-    insta::assert_snapshot!(locate(&packages, "@ruins/a.lua", "").unwrap_err().replace(&script.display().to_string(), "FOLDER"), @"");
-    insta::assert_snapshot!(locate(&packages, "@castle/a.lua", "").unwrap_err().replace(&script.display().to_string(), "FOLDER"), @"");
+    insta::assert_snapshot!(locate(&packages, "@ruins/a.lua", "").unwrap_err().replace(&script.display().to_string(), "FOLDER"), @r"
+    FOLDER/mods/ruins/mod.toml:5: the package ruins needs castle, which is switched off in FOLDER/mods/disabled.txt
+      help: switch it on: burgeon mods enable castle
+    ");
+    insta::assert_snapshot!(locate(&packages, "@castle/a.lua", "").unwrap_err().replace(&script.display().to_string(), "FOLDER"), @r"
+    the package castle is switched off in FOLDER/mods/disabled.txt
+      help: switch it on: burgeon mods enable castle
+    ");
     let file = script.join("mods").join(SWITCHES);
     std::fs::write(&file, "# for now\ncastle # until it is done\n\nruins\n").unwrap();
     switch(script, "castle", true).unwrap();
