@@ -49,6 +49,9 @@ pub struct Subdivision {
     spokes: Vec<(u32, u32)>,
 }
 
+/// An edge that the sweep has not reached: its ends, net windings of both layers to its right, lines on it, and its source.
+type WaitingEdge = ([u32; 2], [i32; 2], [bool; 2], u32);
+
 impl Subdivision {
     /// Divides the plane by ways; fails if the work of this thread is to stop.
     pub fn new(ways: &[LayerWay]) -> Result<Self> {
@@ -97,14 +100,10 @@ impl Subdivision {
     }
 
     #[allow(clippy::cast_possible_truncation, reason = "fewer edges than 2^32 fit into memory")]
-    fn sweep(
-        &mut self,
-        edges: impl Iterator<Item = ([u32; 2], [i32; 2], [bool; 2], u32)>,
-        mut nodes: Vec<u32>,
-    ) {
+    fn sweep(&mut self, edges: impl Iterator<Item = WaitingEdge>, mut nodes: Vec<u32>) {
         let before = |one: DVec2, two: DVec2| one.x < two.x || one.x == two.x && one.y < two.y;
         // From left to right: left end, right end, net to the right, lines, source.
-        let mut waiting: Vec<([u32; 2], [i32; 2], [bool; 2], u32)> = edges
+        let mut waiting: Vec<WaitingEdge> = edges
             .map(|([a, b], net, line, source)| {
                 if before(self.places[a as usize], self.places[b as usize]) {
                     ([a, b], net, line, source)

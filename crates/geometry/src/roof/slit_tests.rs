@@ -19,7 +19,7 @@ fn outline(random: &mut Random) -> Vec<DVec2> {
         2 => vec![(0., 0.), (w, 0.), (w, b), (right, b), (right, d), (left, d), (left, b), (0., b)],
         _ => vec![(0., 0.), (w, 0.), (w, d), (right, d), (right, b), (left, b), (left, d), (0., d)],
     };
-    let turn = DVec2::from_angle(between(0.0, 6.28));
+    let turn = DVec2::from_angle(between(0.0, std::f64::consts::TAU));
     ring.into_iter().map(|at| turn.rotate(DVec2::from(at)) + DVec2::new(37.0, -12.0)).collect()
 }
 

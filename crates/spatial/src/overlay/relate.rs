@@ -47,8 +47,9 @@ pub(crate) fn relate(one: &Geometry, two: &Geometry) -> [u8; 9] {
     let mut nodes = vec![NodeState::default(); subdivision.places.len()];
     for edge in &subdivision.edges {
         let sides = sides(edge);
-        for side in 0..2 {
-            note([place(sides[0][side]), place(sides[1][side])], b'2');
+        let [first, second] = sides;
+        for (first, second) in first.into_iter().zip(second) {
+            note([place(first), place(second)], b'2');
         }
         note(
             [0, 1].map(|geometry| match sides[geometry] {
