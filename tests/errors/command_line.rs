@@ -354,7 +354,7 @@ fn help_reads_well() {
 
     Limits:
           --time-limit <SECONDS>      Stops after this time [default: 300]
-          --memory-limit <MEGABYTES>  Memory that each thread's script may use [default: 2048]
+          --memory-limit <MEGABYTES>  Memory that a run may use [default: 4096]
           --module-limit <N>          Modules that a system's chains may have [default: 50000000]
           --triangle-limit <N>        Triangles that a system may draw [default: 50000000]
 
@@ -391,7 +391,7 @@ fn help_reads_well() {
 
     Limits:
           --time-limit <SECONDS>      Stops after this time [default: 300]
-          --memory-limit <MEGABYTES>  Memory that each thread's script may use [default: 2048]
+          --memory-limit <MEGABYTES>  Memory that a run may use [default: 4096]
           --module-limit <N>          Modules that a system's chains may have [default: 50000000]
           --triangle-limit <N>        Triangles that a system may draw [default: 50000000]
     ");

@@ -93,7 +93,24 @@ fn a_rule_with_the_guard_of_an_earlier_one_is_never_applied() {
             s:rule(\"A(y)\", { when = function(this, x)\n  return x > 0 -- again\nend, weight = 2 }, function(this, y) return F(y) end)\ns:derive(1)"),
         &with("local function large(this, x) return x > 0 end\ns:rule(\"A(x)\", { when = large }, function(this, x) return F(x) end)\n\
             s:rule(\"A(x)\", { when = large }, function(this, x) return F(2 * x) end)\ns:derive(1)"),
-    ]), @r#""#);
+    ]), @r#"
+    s:rule("A(x)", { when = function(this, x) return x > 0 end }, function(this, x) return F(x) end)
+    s:rule("A(y)", { when = function(this, x)
+      return x > 0 -- again
+    end, weight = 2 }, function(this, y) return F(y) end)
+    s:derive(1)
+    warning: s.lua:4: rule A(y): this rule is never applied: A(x) in s.lua:3 applies first and has the same guard
+      | s:rule("A(y)", { when = function(this, x)
+      help: join the two rules, or give one of them another guard, or both a weight
+
+    local function large(this, x) return x > 0 end
+    s:rule("A(x)", { when = large }, function(this, x) return F(x) end)
+    s:rule("A(x)", { when = large }, function(this, x) return F(2 * x) end)
+    s:derive(1)
+    warning: s.lua:5: rule A(x): this rule is never applied: A(x) in s.lua:4 applies first and has the same guard
+      | s:rule("A(x)", { when = large }, function(this, x) return F(2 * x) end)
+      help: join the two rules, or give one of them another guard, or both a weight
+    "#);
     silent(&[
         // The guards capture other values, or are given other arguments, or the first rule leaves the choice open.
         &with(
@@ -120,7 +137,19 @@ fn a_rule_with_the_guard_of_an_earlier_one_is_never_applied() {
 
 #[test]
 fn an_axiom_that_replaces_another_is_told() {
-    insta::assert_snapshot!(warned(&[&with("s:axiom(A(2))\ns:axiom(A(3))\ns:derive(0)")]), @r#""#);
+    let script = "local A = module(\"A\", \"x\")\nlocal s = lsystem({ object = turtle() })\n\
+        s:interpret(\"A(x)\", function(this, x) this:forward(x) end)\ns:axiom(A(1))\ns:axiom(A(2))\ns:derive(0)\n";
+    insta::assert_snapshot!(warned(&[script]), @r#"
+    local A = module("A", "x")
+    local s = lsystem({ object = turtle() })
+    s:interpret("A(x)", function(this, x) this:forward(x) end)
+    s:axiom(A(1))
+    s:axiom(A(2))
+    s:derive(0)
+    warning: s.lua:5: this axiom replaces the axiom in s.lua:4, which is never derived
+      | s:axiom(A(2))
+      help: give the system one axiom of all modules, or derive it before the next axiom
+    "#);
     silent(&["local A = module(\"A\", \"x\")\nlocal s = lsystem({ object = turtle() })\n\
         s:interpret(\"A(x)\", function(this, x) this:forward(x) end)\n\
         for x = 1, 2 do\n  s:axiom(A(x))\n  s:derive(0)\nend\n"]);

@@ -210,6 +210,7 @@ impl Machine {
         let exhausted = protected::exhausted();
         let limit = limit / 1_000_000;
         match self.session.stop.check() {
+            Err(reason) if out_of_memory => translated.at(exhausted).because(&reason),
             Err(reason) => translated.because(&reason),
             Ok(()) if out_of_memory => {
                 translated
