@@ -233,8 +233,9 @@ fn joined(value: ValueRef<'_>) -> Result<Option<String>, String> {
 /// Gives a connection all of them.
 pub(super) fn register(connection: &Connection) -> rusqlite::Result<()> {
     let flags = FunctionFlags::SQLITE_UTF8 | FunctionFlags::SQLITE_DETERMINISTIC;
-    let failed =
-        |name: &str, why: String| rusqlite::Error::UserFunctionError(format!("{name}: {why}").into());
+    let failed = |name: &str, why: String| {
+        rusqlite::Error::UserFunctionError(format!("{}: {why}", name.trim_start_matches("burgeon_")).into())
+    };
     for (name, least, most, run) in FUNCTIONS {
         for count in least..=most {
             connection.create_scalar_function(name, count, flags, move |context| {
