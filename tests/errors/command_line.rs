@@ -292,7 +292,7 @@ fn a_wrong_command_line_is_status_2_and_says_what_is_right() {
 
 #[test]
 fn help_reads_well() {
-    assert_snapshot!(Folder::new().burgeon(&["--help"]).done().stdout, @r"
+    assert_snapshot!(Folder::new().burgeon(&["--help"]).done().stdout, @r#"
     Procedural modelling by rewriting: rules in Lua, geometry in Rust.
 
     Usage: burgeon <COMMAND>
@@ -300,13 +300,13 @@ fn help_reads_well() {
     Commands:
       run          Runs a script and writes what it makes
       live         Shows what a script makes in the browser, and shows it anew on every save
-      check        Loads a script and everything it requires, compiles every rule, and reports all problems at once
+      check        Checks a script and its required files as far as a run goes, and reports all problems
       api          Tells what scripts can use: types of objects with their fields and methods, functions and modules
       variations   Runs a script many times, with other seeds or other values of a parameter, and shows them side by side
       fit          Searches for a rule table whose terrain is like a height map
-      mods         Lists the packages that scripts can use, and what they replace; checks, explains, makes and adds them
+      mods         Lists the packages that scripts can use, and what they replace; checks, explains, makes, adds and disables them
       new          Makes a script to start from
-      setup        Writes into a folder what Visual Studio Code with luau-lsp needs to complete and check scripts
+      setup        Writes into a folder what Visual Studio Code with luau-lsp needs to complete and check scripts, with the types of objects that they declare
       sources      Lists the layers of data files and databases, with their attributes, coordinate systems and extents
       completions  Prints a script that completes the command line in a shell
       help         Print this message or the help of the given subcommand(s)
@@ -319,7 +319,7 @@ fn help_reads_well() {
       burgeon new tree
       burgeon live tree.lua
       burgeon run tree.lua -o tree.glb
-    ");
+    "#);
     assert_snapshot!(Folder::new().burgeon(&["run", "-h"]).done().stdout, @r"
     Runs a script and writes what it makes
 

@@ -131,7 +131,7 @@ fn a_data_file_that_is_missing_or_lies_outside_is_told() {
     assert_snapshot!(told(r#"source("folder")"#), @r#"
     error: in/s.lua:2: folder is a folder
       | source("folder")
-      help: name a .geojson, .gpkg, .fgb, .gml or .osm.pbf file in it
+      help: name a .geojson, .gpkg, .fgb, .shp, .csv, .gml, .kml, .gpx, .city.json or .osm.pbf file in it
     "#);
     assert_snapshot!(told(r#"source("../outside.geojson")"#), @r#"
     error: in/s.lua:2: the data file ../outside.geojson lies outside the script's folder
@@ -183,9 +183,9 @@ fn a_file_that_is_no_data_file_is_told() {
       help: points, lines, polygons, multi-geometries and collections of these are read
     "#);
     assert_snapshot!(told(r#"source("binary.geojson")"#), @r#"
-    error: in/s.lua:2: binary.geojson is a binary file of no format that is known
+    error: in/s.lua:2: binary.geojson is not GeoJSON: expected value (line 1, column 1)
       | source("binary.geojson")
-      help: data files are GeoJSON, GeoPackage, FlatGeobuf, Shapefile, CSV, GML, CityGML, CityJSON, KML, GPX, .osm and .osm.pbf; convert it: ogr2ogr out.gpkg FILE
+      help: GeoJSON is described in RFC 7946
     "#);
     assert_snapshot!(told(r#"source("cut.gpkg")"#), @r#"
     error: in/s.lua:2: cannot read cut.gpkg: database disk image is malformed
@@ -221,7 +221,7 @@ fn a_layer_that_is_not_there_is_told() {
 #[test]
 fn coordinates_that_cannot_be_used_are_told() {
     assert_snapshot!(told(r#"source("metres.geojson")"#), @r#"
-    error: in/s.lua:2: feature 1 of metres.geojson lies at 385423, 6671463, which is no longitude and latitude
+    error: in/s.lua:2: feature f8c0fe66c234 of metres.geojson lies at 385423, 6671463, which is no longitude and latitude
       | source("metres.geojson")
       help: name the coordinate system of the file: source(file, { crs = 3067 })
     "#);
@@ -251,7 +251,7 @@ fn coordinates_that_cannot_be_used_are_told() {
       help: name its EPSG code: source(file, { crs = 3067 })
     "#);
     assert_snapshot!(told(r#"source("village.geojson") source("metres.geojson", { crs = 32601 })"#), @r#"
-    error: in/s.lua:2: feature 1 of metres.geojson lies more than 2,000 km from the middle, at 385423, 6671463
+    error: in/s.lua:2: feature f8c0fe66c234 of metres.geojson lies more than 2,000 km from the middle, at 385423, 6671463
       | source("village.geojson") source("metres.geojson", { crs = 32601 })
       help: all sources of a run share one model; check the coordinates and the coordinate system, or read a part
     "#);

@@ -130,9 +130,9 @@ fn a_file_of_heights_that_is_missing_or_lies_outside_is_told() {
       help: write elevation("N43E007.hgt")
     "#);
     assert_snapshot!(told(r#"elevation("cut")"#), @r#"
-    error: in/s.lua:2: cut is a folder
+    error: in/s.lua:2: cut/N43E007.hgt is not square: it has 48 of the 2884802 bytes of 1201 x 1201 heights
       | elevation("cut")
-      help: name a file of heights in it
+      help: it is cut short; get it again
     "#);
 }
 
@@ -277,7 +277,12 @@ elevation("mark.asc", { fill = true })
     let json = said.json();
     let told = |warning: &serde_json::Value| warning["message"].as_str().unwrap().to_owned();
     let warnings: Vec<String> = json["warnings"].as_array().unwrap().iter().map(told).collect();
-    assert_snapshot!(warnings.join("\n"), @"");
+    assert_snapshot!(warnings.join("\n"), @r#"
+    endless.tif: 1 height is inf and counts as missing, though the file does not declare it
+    endless.tif: filled 1 of 4 heights, which are missing, from around them
+    mark.asc: 1 height is 999999 and counts as missing, though the file does not declare it
+    mark.asc: filled 1 of 4 heights, which are missing, from around them
+    "#);
 }
 
 #[test]
@@ -298,7 +303,13 @@ end
         .with("tiles/west.asc", tile(0.0, "1 2\n1 2"))
         .with("tiles/east.asc", tile(2.0, "3 4\n3 4"));
     let said = folder.burgeon(&["run", "s.lua", "--json"]).done();
-    assert_snapshot!(said.stderr, @"");
+    assert_snapshot!(said.stderr, @r#"
+    1	1	1
+    2.3999999999999995	2.3999999999999995	2.3999999999999995
+    2.5	2.5	2.5
+    2.6000000000000005	2.6000000000000005	2.6000000000000005
+    4	4	4
+    "#);
     let refused = |call: &str| {
         let folder = Folder::new()
             .with("s.lua", format!("{call}\n"))
@@ -307,10 +318,26 @@ end
             .with("empty/readme.txt", "");
         folder.refuses(&["run", "s.lua"])
     };
-    assert_snapshot!(refused(r#"elevation({ "a.asc", "b.asc" })"#), @"");
-    assert_snapshot!(refused(r#"elevation("empty")"#), @"");
-    assert_snapshot!(refused(r#"elevation({ "a.asc", 3 })"#), @"");
-    assert_snapshot!(refused(r#"elevation("c*.asc")"#), @"");
+    assert_snapshot!(refused(r#"elevation({ "a.asc", "b.asc" })"#), @r#"
+    error: s.lua:1: the heights of b.asc lie between those of a.asc, not on one grid with them
+      | elevation({ "a.asc", "b.asc" })
+      help: bring all of them into one grid first: gdalwarp -tr X Y -tap IN... OUT.tif
+    "#);
+    assert_snapshot!(refused(r#"elevation("empty")"#), @r#"
+    error: s.lua:1: empty means no files, each a file of heights
+      | elevation("empty")
+      help: name 1 to 1000 files that end in .hgt, .tif, .tiff, .asc, .zip
+    "#);
+    assert_snapshot!(refused(r#"elevation({ "a.asc", 3 })"#), @r#"
+    error: s.lua:1: elevation takes the name of a file, or a list of such names
+      | elevation({ "a.asc", 3 })
+      help: write elevation("N43E007.hgt")
+    "#);
+    assert_snapshot!(refused(r#"elevation("c*.asc")"#), @r#"
+    error: s.lua:1: c*.asc means no files, each a file of heights
+      | elevation("c*.asc")
+      help: name 1 to 1000 files that end in .hgt, .tif, .tiff, .asc, .zip
+    "#);
 }
 
 #[test]

@@ -117,7 +117,13 @@ fn footprints_heights_and_attributes_come_from_citygml_of_each_level_and_version
     ]);
     let table = read("town.gml", &text, None);
     assert_eq!(table.crs.as_ref().unwrap().name(), "EPSG:25832");
-    insta::assert_snapshot!(told(&table), @"");
+    insta::assert_snapshot!(told(&table), @r#"
+    lod0: 80 m2; owner=town, volume=720, function=1000, measuredHeight=9.5, height=9.5
+    lod1: 80 m2; owner=town, volume=720, function=1000, height=9, ground=12
+    lod2: 80 m2; storeysAboveGround=3, height=9, ground=12, levels=3
+    both: 80 m2; height=9, ground=12
+    three: 80 m2; owner=duke, height=9, height.status=measured, ground=12
+    "#);
     assert!(table.refused.is_empty() && table.empty == 0, "{:?}", table.refused);
 }
 
@@ -134,7 +140,10 @@ fn parts_of_a_building_are_features_with_what_the_whole_knows() {
     let text = model(&[format!(
         "<bldg:Building gml:id='b'><bldg:function>31001_1000</bldg:function>{parts}</bldg:Building>"
     )]);
-    insta::assert_snapshot!(told(&read("town.gml", &text, None)), @"");
+    insta::assert_snapshot!(told(&read("town.gml", &text, None)), @r#"
+    p.1: 80 m2; roofType=3100, function=31001_1000, parent=b, height=6, ground=12
+    p.2: 80 m2; roofType=3100, function=31001_1000, parent=b, height=9, ground=12
+    "#);
 }
 
 #[test]
@@ -208,8 +217,8 @@ fn a_building_with_a_footprint_alone_is_high_as_its_parts_are() {
         },
     })
     .to_string();
-    insta::assert_snapshot!(told(&read("a.city.json", &text, Some("Building"))), @"");
-    insta::assert_snapshot!(told(&read("a.city.json", &text, Some("BuildingPart"))), @"");
+    insta::assert_snapshot!(told(&read("a.city.json", &text, Some("Building"))), @"b: 80 m2; name=a, height=9, ground=0");
+    insta::assert_snapshot!(told(&read("a.city.json", &text, Some("BuildingPart"))), @"b-0: 80 m2; parent=b, height=9, ground=0");
 }
 
 #[test]

@@ -278,11 +278,11 @@ fn what_is_wrong_is_said_of_its_feature_or_of_the_file() {
     town.gml is written in shift_jis, which is not read
       help: convert it: iconv -f ENCODING -t UTF-8 IN > OUT.gml, and mend its first line
 
-    town.gml is XML, but has no features of GML
-      help: they stand in elements called featureMember, featureMembers, member or cityObjectMember
+    town.gml is XML (svg), but has no features of GML
+      help: they stand in elements called featureMember, featureMembers, member or cityObjectMember; for another format: ogr2ogr out.gpkg FILE
 
-    town.gml is XML, but has no features of GML
-      help: they stand in elements called featureMember, featureMembers, member or cityObjectMember
+    town.gml is XML (FeatureCollection), but has no features of GML
+      help: they stand in elements called featureMember, featureMembers, member or cityObjectMember; for another format: ogr2ogr out.gpkg FILE
 
     the layer has no coordinate system
       help: name its EPSG code: source(file, { crs = 3067 })

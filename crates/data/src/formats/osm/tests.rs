@@ -262,7 +262,7 @@ fn bombs_and_what_is_not_known_are_refused_with_the_remedy() {
       help: the file is damaged or cut short; get it again
 
     town.osm.pbf is a binary file of no format that is known
-      help: data files are GeoJSON, GeoPackage, FlatGeobuf, GML and .osm.pbf; convert it: ogr2ogr out.gpkg FILE
+      help: data files are GeoJSON, GeoPackage, FlatGeobuf, Shapefile, CSV, GML, CityGML, CityJSON, KML, GPX, .osm and .osm.pbf; convert it: ogr2ogr out.gpkg FILE
     "#);
     let wanted =
         SourceOptions { budget: Budget::within(Duration::from_secs(60), 1 << 20), ..layer("buildings") };

@@ -132,7 +132,10 @@ fn lines_points_and_measures_are_read() {
     assert_eq!(kinds, ["line", "line", "point", "point", "point", "point", "line"]);
     let multipatch = shp(&[(31, &[SQUARE], None), (1, &[&[[5.0, 6.0]]], None)]);
     let table = written(&[("a.shp", &multipatch), ("a.prj", UTM.as_bytes())]).unwrap();
-    insta::assert_snapshot!(table.refused[0].1.to_string(), @"");
+    insta::assert_snapshot!(table.refused[0].1.to_string(), @r#"
+    record 1 of a.shp is a multipatch, a surface in space (31)
+      help: points, lines and polygons are read; repair it: ogr2ogr out.gpkg FILE
+    "#);
 }
 
 #[test]
@@ -162,8 +165,17 @@ fn values_have_the_types_of_their_columns_and_the_letters_of_their_code_page() {
         let of = |(name, value): &(usize, Attribute)| format!("{} = {value:?}", table.names[*name]);
         feature.attributes.iter().map(of).collect::<Vec<_>>().join(", ")
     };
-    insta::assert_snapshot!([values(0), values(1), values(2), values(3)].join("\n"), @"");
-    insta::assert_snapshot!(table.notes.join("\n"), @"");
+    insta::assert_snapshot!([values(0), values(1), values(2), values(3)].join("\n"), @r#"
+    name = Text("Straße"), height = Number(12.5), old = Boolean(true), built = Text("1999-01-31")
+
+    name = Text("b"), old = Boolean(false)
+    "#);
+    insta::assert_snapshot!(table.notes.join("\n"), @r#"
+    a.shp: 1 feature is marked as deleted and was left out
+    a.shp: 1 feature has no attributes, since its .dbf file is cut short
+    a.shp: 2 values are no numbers and no dates and were left out, such as height = "tall"
+    a.shp: the column note was left out, since its values are memos in another file
+    "#);
     let text = |table: &FeatureTable| format!("{:?}", table.features[0].attributes[0].1);
     assert_eq!(text(&told(0, "1250").unwrap()), "Text(\"Straße\")");
     assert_eq!(text(&told(0, "ISO-8859-5").unwrap()), "Text(\"Straпe\")");
