@@ -183,8 +183,8 @@ impl MemoryOwner {
 
     /// Charges this owner for what this thread allocates until the result is dropped.
     #[must_use]
-    pub fn enter(self) -> OwnerEntered {
-        OwnerEntered { before: switch(self) }
+    pub fn enter(self) -> OwnerGuard {
+        OwnerGuard { before: switch(self) }
     }
 
     /// Checks if `bytes` more may be allocated, and otherwise marks the account as exceeded.
@@ -221,11 +221,11 @@ impl MemoryOwner {
 
 /// Charges an owner in this thread until it is dropped.
 #[derive(Debug)]
-pub struct OwnerEntered {
+pub struct OwnerGuard {
     before: MemoryOwner,
 }
 
-impl Drop for OwnerEntered {
+impl Drop for OwnerGuard {
     fn drop(&mut self) {
         switch(self.before);
     }

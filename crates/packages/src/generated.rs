@@ -12,7 +12,7 @@ const NAMES: usize = 8;
 
 /// A package as a test writes it.
 #[derive(Debug, Clone)]
-struct Written {
+struct PackageSketch {
     major: u64,
     needs: Vec<(usize, u64)>,
     may_use: Vec<(usize, u64)>,
@@ -39,7 +39,7 @@ fn name(number: usize) -> String {
     format!("p{number}")
 }
 
-fn written() -> impl Strategy<Value = Written> {
+fn written() -> impl Strategy<Value = PackageSketch> {
     // 0 stands for all versions.
     let others = |most: usize| prop::collection::vec((0..NAMES, 0..3_u64), 0..most);
     let state = prop_oneof![
@@ -52,12 +52,12 @@ fn written() -> impl Strategy<Value = Written> {
             let once =
                 |list: Vec<(usize, u64)>| list.into_iter().collect::<BTreeMap<_, _>>().into_iter().collect();
             let (needs, may_use, conflicts) = (once(needs), once(may_use), once(conflicts));
-            Written { major, needs, may_use, conflicts, api, root, state }
+            PackageSketch { major, needs, may_use, conflicts, api, root, state }
         },
     )
 }
 
-fn text(number: usize, of: &Written) -> String {
+fn text(number: usize, of: &PackageSketch) -> String {
     let list = |what: &str, list: &[(usize, u64)]| {
         let lines = list.iter().map(|(other, major)| match major {
             0 => format!("{} = \"*\"\n", name(*other)),
@@ -76,7 +76,7 @@ fn text(number: usize, of: &Written) -> String {
     )
 }
 
-fn write(packages: &[Written]) -> tempfile::TempDir {
+fn write(packages: &[PackageSketch]) -> tempfile::TempDir {
     let folder = tempfile::tempdir().unwrap();
     let roots = ["work/mods", "given", "user"];
     std::fs::create_dir_all(folder.path().join("work/mods")).unwrap();
@@ -119,16 +119,16 @@ fn find(folder: &Path) -> Packages {
 }
 
 /// Whether the package `number` is there and can be read.
-fn is_there(packages: &[Written], number: usize) -> bool {
+fn is_there(packages: &[PackageSketch], number: usize) -> bool {
     matches!(packages[number].state, State::Sound | State::Link)
 }
 
-fn fits(packages: &[Written], (other, major): (usize, u64)) -> bool {
+fn fits(packages: &[PackageSketch], (other, major): (usize, u64)) -> bool {
     is_there(packages, other) && (major == 0 || packages[other].major == major)
 }
 
 /// The package and all that it needs.
-fn closure(packages: &[Written], number: usize, with_optional: bool) -> BTreeSet<usize> {
+fn closure(packages: &[PackageSketch], number: usize, with_optional: bool) -> BTreeSet<usize> {
     let (mut all, mut next) = (BTreeSet::from([number]), vec![number]);
     while let Some(at) = next.pop() {
         let optional = packages[at].may_use.iter().filter(|_| with_optional);
@@ -142,12 +142,12 @@ fn closure(packages: &[Written], number: usize, with_optional: bool) -> BTreeSet
 }
 
 /// Whether a package needs itself, over others or not.
-fn is_in_circle(packages: &[Written], number: usize) -> bool {
+fn is_in_circle(packages: &[PackageSketch], number: usize) -> bool {
     let mut needs = packages[number].needs.iter();
     needs.any(|(other, _)| is_there(packages, *other) && closure(packages, *other, false).contains(&number))
 }
 
-fn can_be_used(packages: &[Written], number: usize) -> bool {
+fn can_be_used(packages: &[PackageSketch], number: usize) -> bool {
     let all = closure(packages, number, false);
     let sound = |it: &usize| {
         let needs_fit = packages[*it].needs.iter().all(|need| fits(packages, *need));
@@ -217,7 +217,7 @@ proptest! {
     ) {
         // All that the package does not need, not even if it is there, is another.
         let own = closure(&packages, seen, true);
-        let changed: Vec<Written> = (0..NAMES)
+        let changed: Vec<PackageSketch> = (0..NAMES)
             .map(|number| if own.contains(&number) || !is_there(&packages, number) { packages[number].clone() } else { others[number].clone() })
             .collect();
         let (one, other) = (write(&packages), write(&changed));

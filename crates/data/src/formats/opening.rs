@@ -14,14 +14,14 @@ use crate::source::Source;
 use burgeon_base::error::{Error, Result};
 
 /// What a file with layers is, where its format is one of these; or the file, if it is another.
-pub(crate) type Opened = std::result::Result<Source, DataFile>;
+pub(crate) type OpenResult = std::result::Result<Source, DataFile>;
 
-fn layered_source(file: impl LayeredFile + 'static) -> Opened {
+fn layered_source(file: impl LayeredFile + 'static) -> OpenResult {
     Ok(Source::Layered(Box::new(file)))
 }
 
 /// Opens a file that begins with `head`.
-pub(crate) fn layered(file: DataFile, head: &[u8], wanted: &SourceOptions) -> Result<Opened> {
+pub(crate) fn layered(file: DataFile, head: &[u8], wanted: &SourceOptions) -> Result<OpenResult> {
     if Shapefile::is_one(head) {
         return Ok(layered_source(Shapefile::open(file)?));
     }
@@ -55,7 +55,7 @@ pub(crate) fn layered(file: DataFile, head: &[u8], wanted: &SourceOptions) -> Re
 }
 
 /// A file that is packed: what it holds, if that is a shapefile, or the data file in it, unpacked; or the file itself.
-pub(crate) fn unpacked(file: DataFile, head: &[u8], wanted: &SourceOptions) -> Result<Opened> {
+pub(crate) fn unpacked(file: DataFile, head: &[u8], wanted: &SourceOptions) -> Result<OpenResult> {
     if head.starts_with(b"\x1f\x8b") {
         return Ok(Err(gunzip(file, wanted)?));
     }

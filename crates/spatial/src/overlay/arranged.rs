@@ -7,7 +7,7 @@ use rustc_hash::FxHashMap;
 use super::operand::Operand;
 
 /// Two geometries whose edges all end where they meet.
-pub(super) struct Arranged {
+pub(super) struct OperandArrangement {
     pub(super) subdivision: Subdivision,
     /// The lines and rings.
     pub(super) ways: Vec<ArrangedWay>,
@@ -24,7 +24,7 @@ pub(super) struct ArrangedWay {
     pub(super) nodes: Vec<u32>,
 }
 
-impl Arranged {
+impl OperandArrangement {
     /// Fails if the work of this thread is to stop.
     pub(super) fn new(operands: &[Operand; 2]) -> Result<Self> {
         let ways: Vec<_> = operands.iter().enumerate().flat_map(|(layer, it)| it.ways(layer)).collect();

@@ -8,7 +8,7 @@ use burgeon_base::error::Result;
 use burgeon_geometry::overlay::{SubdivisionEdge, overlay};
 use glam::DVec3;
 
-use super::arranged::{Arranged, key, sides};
+use super::arranged::{OperandArrangement, key, sides};
 use super::convert::{area_of, geometry_of};
 use super::operand::Operand;
 use crate::Geometry;
@@ -116,7 +116,7 @@ fn combine(one: &Geometry, two: &Geometry, operation: Operation, dimension: usiz
 
 /// The areas, lines and points of the result.
 fn combine_all(operands: &[Operand; 2], operation: Operation) -> Result<Geometry> {
-    let arranged = Arranged::new(operands)?;
+    let arranged = OperandArrangement::new(operands)?;
     let areas = arranged.subdivision.areas(|around| operation.keeps(around.map(|count| count != 0)));
     let (lines, points) = lines_and_points(&arranged, operation);
     let places = |nodes: Vec<u32>| -> Vec<DVec3> {
@@ -129,7 +129,7 @@ fn combine_all(operands: &[Operand; 2], operation: Operation) -> Result<Geometry
 }
 
 /// The nodes of the lines and points of the result that its areas have not.
-fn lines_and_points(arranged: &Arranged, operation: Operation) -> (Vec<Vec<u32>>, Vec<u32>) {
+fn lines_and_points(arranged: &OperandArrangement, operation: Operation) -> (Vec<Vec<u32>>, Vec<u32>) {
     let subdivision = &arranged.subdivision;
     let labels: Vec<EdgeLabel> =
         subdivision.edges.iter().map(|edge| EdgeLabel::new(edge, operation)).collect();
@@ -189,7 +189,7 @@ impl EdgeLabel {
 }
 
 /// The nodes along the lines of the result: each as far as one way leads along edges that are part of it.
-fn runs(arranged: &Arranged, labels: &[EdgeLabel]) -> Vec<Vec<u32>> {
+fn runs(arranged: &OperandArrangement, labels: &[EdgeLabel]) -> Vec<Vec<u32>> {
     if !labels.iter().any(|label| label.is_line) {
         return Vec::new();
     }

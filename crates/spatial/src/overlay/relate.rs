@@ -3,7 +3,7 @@
 //! Source: E. Clementini and others, "A small set of formal topological relationships suitable for end-user
 //! interaction", 1993; the boundary of lines is made of places where an odd number of them end.
 
-use super::arranged::{Arranged, sides};
+use super::arranged::{OperandArrangement, sides};
 use super::operand::Operand;
 use crate::Geometry;
 
@@ -33,7 +33,7 @@ struct NodeState {
 pub(crate) fn relate(one: &Geometry, two: &Geometry) -> [u8; 9] {
     let mut cells = [b'F'; 9];
     cells[8] = b'2';
-    let Ok(arranged) = Arranged::new(&[one, two].map(Operand::for_overlay)) else { return cells };
+    let Ok(arranged) = OperandArrangement::new(&[one, two].map(Operand::for_overlay)) else { return cells };
     let subdivision = &arranged.subdivision;
     let mut note = |[first, second]: [TopologicalPosition; 2], dimension: u8| {
         let cell = &mut cells[first as usize * 3 + second as usize];

@@ -145,7 +145,8 @@ impl StreetNetwork {
         all.extend(
             strands.into_iter().map(|strand| Strand { street: strand.street + given.len(), ..strand }),
         );
-        let given: Vec<Given> = given.into_iter().chain(streets.iter().map(Given::of)).collect();
+        let given: Vec<StrandSource> =
+            given.into_iter().chain(streets.iter().map(StrandSource::of)).collect();
         snap(&mut all);
         let unresolved = node(&mut all);
         self.add_strands(&given, &all, &unresolved, &mut losses)?;
@@ -155,14 +156,14 @@ impl StreetNetwork {
     }
 
     /// Takes all pieces out of the network, as streets and their strands.
-    fn take_pieces(&mut self) -> (Vec<Given<'static>>, Vec<Strand>) {
+    fn take_pieces(&mut self) -> (Vec<StrandSource<'static>>, Vec<Strand>) {
         let pieces: Vec<PieceId> = self.pieces().map(|(piece, _)| piece).collect();
         let (mut given, mut strands) = (Vec::new(), Vec::new());
         for piece in pieces {
             let StreetPiece { attributes, is_bridge, is_existing, .. } = self.pieces[piece as usize];
             let places = self.grid_line(piece).to_vec();
             let (street, length) = (given.len(), self.length(piece));
-            given.push(Given { attributes, is_bridge, is_existing, name: "" });
+            given.push(StrandSource { attributes, is_bridge, is_existing, name: "" });
             strands.push(Strand { street, level: attributes.level, length, places });
         }
         (0..self.pieces.len()).for_each(|piece| self.take_out(piece));
@@ -172,7 +173,7 @@ impl StreetNetwork {
     /// Adds the pieces of strands that meet only at their vertices.
     fn add_strands(
         &mut self,
-        streets: &[Given<'_>],
+        streets: &[StrandSource<'_>],
         strands: &[Strand],
         unresolved: &[(usize, usize)],
         losses: &mut Vec<(usize, ExistingLoss)>,
@@ -181,7 +182,7 @@ impl StreetNetwork {
             (0..).zip(&self.junctions).filter(|(_, it)| it.pieces.is_empty()).map(|(id, _)| id).collect();
         let mut known: FxHashSet<(i32, [GridPlace; 2])> = FxHashSet::default();
         for (number, strand) in strands.iter().enumerate() {
-            let Given { attributes, is_bridge, is_existing, name } = &streets[strand.street];
+            let StrandSource { attributes, is_bridge, is_existing, name } = &streets[strand.street];
             let mut lost = |place: Option<&GridPlace>, length: f64, why: ExistingLossReason| {
                 let (name, at) = ((*name).to_owned(), place.map(|place| place.metres()));
                 losses.push((strand.street, ExistingLoss { name, at, length, why }));
@@ -242,14 +243,14 @@ impl StreetNetwork {
 }
 
 /// What a strand is a part of.
-struct Given<'a> {
+struct StrandSource<'a> {
     attributes: StreetAttributes,
     is_bridge: bool,
     is_existing: bool,
     name: &'a str,
 }
 
-impl<'a> Given<'a> {
+impl<'a> StrandSource<'a> {
     fn of(street: &'a ExistingStreet) -> Self {
         let ExistingStreet { attributes, is_bridge, name, .. } = street;
         Self { attributes: *attributes, is_bridge: *is_bridge, is_existing: true, name }

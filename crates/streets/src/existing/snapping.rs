@@ -109,9 +109,9 @@ fn simplify(strands: &mut [Strand]) {
 }
 
 /// Vertices to add to strands: the strand, the segment, how far along it from 0 to 1, and where.
-type Added = Vec<(usize, usize, f64, GridPlace)>;
+type NewVertices = Vec<(usize, usize, f64, GridPlace)>;
 
-fn add_vertices(strands: &mut [Strand], mut added: Added) {
+fn add_vertices(strands: &mut [Strand], mut added: NewVertices) {
     added.sort_by(|a, b| (a.0, a.1).cmp(&(b.0, b.1)).then(a.2.total_cmp(&b.2)).then(a.3.cmp(&b.3)));
     for (strand, segment, _, place) in added.into_iter().rev() {
         strands[strand].places.insert(segment + 1, place);
@@ -141,7 +141,7 @@ fn around(at: DVec2, margin: f64) -> AABB<[f64; 2]> {
 fn lead_ends(strands: &mut [Strand]) {
     let uses = uses(strands);
     let index = segments(strands);
-    let mut added = Added::new();
+    let mut added = NewVertices::new();
     let mut moved: Vec<(usize, bool, GridPlace)> = Vec::new();
     for (number, strand) in strands.iter().enumerate() {
         let last = strand.places.len() - 1;
@@ -190,7 +190,7 @@ fn lead_ends(strands: &mut [Strand]) {
 /// Leads lines through the vertices of others that are within [`NEAR`] of them, so that no piece is shorter than that.
 fn lead_past_vertices(strands: &mut [Strand]) {
     let index = segments(strands);
-    let mut added = Added::new();
+    let mut added = NewVertices::new();
     for strand in strands.iter() {
         for place in &strand.places {
             let at = place.metres();

@@ -30,7 +30,7 @@ pub(super) struct CoverPart {
 }
 
 /// The parts of a level, and those of the ground that its ends lie on.
-pub(super) struct Cover {
+pub(super) struct CoverIndex {
     pub(super) parts: Vec<CoverPart>,
     index: RTree<GeomWithData<Rectangle<[f64; 2]>, usize>>,
     /// How many of the parts are of the level itself; the others take what they cover away from it.
@@ -39,7 +39,7 @@ pub(super) struct Cover {
 
 /// What covers a place.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Covered {
+pub(super) enum StreetCover {
     /// No street.
     Free,
     /// A sidewalk.
@@ -48,7 +48,7 @@ pub(super) enum Covered {
     Carriageway(u32),
 }
 
-impl Cover {
+impl CoverIndex {
     pub(super) fn new(network: &StreetNetwork, level: i32, options: MergeOptions) -> Self {
         let mut parts = parts_of(network, options, |of| of == level, |_| true);
         let own = parts.len();
@@ -75,22 +75,22 @@ impl Cover {
     }
 
     /// What covers a place.
-    pub(super) fn at(&self, place: DVec2) -> Covered {
-        let mut covered = Covered::Free;
+    pub(super) fn at(&self, place: DVec2) -> StreetCover {
+        let mut covered = StreetCover::Free;
         for item in self.index.locate_in_envelope_intersecting(&AABB::from_point(place.to_array())) {
             let part = &self.parts[item.data];
             if !contains(&part.ring, place) {
                 continue;
             }
             if item.data >= self.own {
-                return Covered::Free;
+                return StreetCover::Free;
             }
             covered = match (part.line, covered) {
-                (StreetLine::Kerb, Covered::Carriageway(depth)) => {
-                    Covered::Carriageway(depth.min(part.depth))
+                (StreetLine::Kerb, StreetCover::Carriageway(depth)) => {
+                    StreetCover::Carriageway(depth.min(part.depth))
                 }
-                (StreetLine::Kerb, _) => Covered::Carriageway(part.depth),
-                (StreetLine::Edge, Covered::Free) => Covered::Walk,
+                (StreetLine::Kerb, _) => StreetCover::Carriageway(part.depth),
+                (StreetLine::Edge, StreetCover::Free) => StreetCover::Walk,
                 (StreetLine::Edge, known) => known,
             };
         }

@@ -3,17 +3,17 @@
 use glam::DVec2;
 use rustc_hash::{FxHashMap, FxHashSet};
 
-use super::cover::Covered;
+use super::cover::StreetCover;
 use super::mesh::MeshTriangle;
 use burgeon_geometry::Rings;
 use burgeon_geometry::planar::twice_area;
 
 /// The areas that no street covers and streets enclose, as the numbers of their triangles.
-pub(super) fn components(triangles: &[MeshTriangle], covered: &[Covered]) -> Vec<Vec<u32>> {
+pub(super) fn components(triangles: &[MeshTriangle], covered: &[StreetCover]) -> Vec<Vec<u32>> {
     let mut seen = vec![false; triangles.len()];
     let mut found = Vec::new();
     for first in 0..triangles.len() {
-        if seen[first] || covered[first] != Covered::Free {
+        if seen[first] || covered[first] != StreetCover::Free {
             continue;
         }
         seen[first] = true;
@@ -26,7 +26,7 @@ pub(super) fn components(triangles: &[MeshTriangle], covered: &[Covered]) -> Vec
                     is_enclosed = false;
                     continue;
                 };
-                if covered[beyond as usize] == Covered::Free
+                if covered[beyond as usize] == StreetCover::Free
                     && !std::mem::replace(&mut seen[beyond as usize], true)
                 {
                     due.push(beyond);

@@ -9,7 +9,7 @@ use glam::DVec2;
 use rustc_hash::{FxHashMap, FxHashSet};
 use spade::{ConstrainedDelaunayTriangulation, Point2, Triangulation};
 
-use super::cover::{Cover, Covered};
+use super::cover::{CoverIndex, StreetCover};
 use super::loops::{components, loops};
 use super::{MergeOptions, MergedBlock, MergedLevel};
 use crate::corner::StreetLine;
@@ -26,7 +26,7 @@ const LEAST_BLOCK: [f64; 2] = [2.5, 15.0];
 
 /// The surfaces of the streets of a level.
 pub(super) fn level(network: &StreetNetwork, level: i32, options: MergeOptions) -> MergedLevel {
-    let cover = Cover::new(network, level, options);
+    let cover = CoverIndex::new(network, level, options);
     let mut borders: Vec<Strand> = Vec::new();
     for line in [StreetLine::Edge, StreetLine::Kerb] {
         borders.extend(borders_of(&cover, line));
@@ -46,7 +46,7 @@ pub(super) fn level(network: &StreetNetwork, level: i32, options: MergeOptions) 
 }
 
 /// The borders of what has another surface beside it, of the streets or of their carriageways.
-fn borders_of(cover: &Cover, line: StreetLine) -> Vec<Strand> {
+fn borders_of(cover: &CoverIndex, line: StreetLine) -> Vec<Strand> {
     let mut strands: Vec<Strand> = Vec::new();
     for part in cover.parts.iter().filter(|part| part.line == line) {
         let mut places: Vec<GridPlace> = part.ring.iter().filter_map(|at| GridPlace::nearest(*at)).collect();
@@ -59,7 +59,7 @@ fn borders_of(cover: &Cover, line: StreetLine) -> Vec<Strand> {
     node(&mut strands);
     let mut known: FxHashSet<[GridPlace; 2]> = FxHashSet::default();
     let mut kept = Vec::new();
-    let is_covered = |covered: Covered| covered != Covered::Free;
+    let is_covered = |covered: StreetCover| covered != StreetCover::Free;
     for pair in strands.iter().flat_map(|strand| strand.places.windows(2)) {
         let ends = [pair[0].min(pair[1]), pair[0].max(pair[1])];
         if ends[0] == ends[1] || !known.insert(ends) {
@@ -161,11 +161,11 @@ fn triangulated(edges: &[[GridPlace; 2]], points: &mut Vec<DVec2>) -> Vec<MeshTr
 }
 
 /// Puts triangles into the surfaces that they are of, and finds the edges between these.
-fn sort_out(cover: &Cover, triangles: &[MeshTriangle], has_blocks: bool, made: &mut MergedLevel) {
+fn sort_out(cover: &CoverIndex, triangles: &[MeshTriangle], has_blocks: bool, made: &mut MergedLevel) {
     let middle = |triangle: &MeshTriangle| {
         triangle.corners.map(|corner| made.points[corner as usize]).iter().sum::<DVec2>() / 3.0
     };
-    let mut covered: Vec<Covered> = triangles.iter().map(|triangle| cover.at(middle(triangle))).collect();
+    let mut covered: Vec<StreetCover> = triangles.iter().map(|triangle| cover.at(middle(triangle))).collect();
     let free = components(triangles, &covered);
     for component in &free {
         let all = component.iter().map(|number| &triangles[*number as usize]);
@@ -175,7 +175,7 @@ fn sort_out(cover: &Cover, triangles: &[MeshTriangle], has_blocks: bool, made: &
             .sum();
         let sides = all.clone().flat_map(|triangle| (0..3).map(move |side| (triangle, side)));
         let border = sides.filter(|(triangle, side)| {
-            triangle.beyond[*side].is_none_or(|beyond| covered[beyond as usize] != Covered::Free)
+            triangle.beyond[*side].is_none_or(|beyond| covered[beyond as usize] != StreetCover::Free)
         });
         let around: f64 = border
             .map(|(triangle, side)| {
@@ -185,7 +185,7 @@ fn sort_out(cover: &Cover, triangles: &[MeshTriangle], has_blocks: bool, made: &
             })
             .sum();
         if area < LEAST_BLOCK[1] || 2.0 * area < LEAST_BLOCK[0] * around {
-            component.iter().for_each(|number| covered[*number as usize] = Covered::Walk);
+            component.iter().for_each(|number| covered[*number as usize] = StreetCover::Walk);
         } else if has_blocks {
             made.blocks.push(MergedBlock {
                 rings: Rings(Vec::new()),
@@ -196,22 +196,22 @@ fn sort_out(cover: &Cover, triangles: &[MeshTriangle], has_blocks: bool, made: &
     let mut carriageways: BTreeMap<u32, Vec<[u32; 3]>> = BTreeMap::new();
     for (triangle, covered) in triangles.iter().zip(&covered) {
         match covered {
-            Covered::Free => {}
-            Covered::Walk => made.walks.push(triangle.corners),
-            Covered::Carriageway(depth) => carriageways.entry(*depth).or_default().push(triangle.corners),
+            StreetCover::Free => {}
+            StreetCover::Walk => made.walks.push(triangle.corners),
+            StreetCover::Carriageway(depth) => carriageways.entry(*depth).or_default().push(triangle.corners),
         }
     }
     made.carriageways = carriageways.into_iter().collect();
-    let is_carriageway = |covered: Covered| matches!(covered, Covered::Carriageway(_));
+    let is_carriageway = |covered: StreetCover| matches!(covered, StreetCover::Carriageway(_));
     for (triangle, own) in triangles.iter().zip(&covered) {
         for side in 0..3 {
-            let beyond = triangle.beyond[side].map_or(Covered::Free, |beyond| covered[beyond as usize]);
+            let beyond = triangle.beyond[side].map_or(StreetCover::Free, |beyond| covered[beyond as usize]);
             // With its own triangle on the right.
             let edge = [triangle.corners[(side + 1) % 3], triangle.corners[side]];
             if is_carriageway(*own) && !is_carriageway(beyond) {
                 made.kerbs.push(edge);
             }
-            if *own != Covered::Free && beyond == Covered::Free {
+            if *own != StreetCover::Free && beyond == StreetCover::Free {
                 made.edges.push(edge);
             }
         }

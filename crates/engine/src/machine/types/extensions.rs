@@ -26,7 +26,7 @@ pub(crate) struct Extension {
 }
 
 /// The names of methods that several have added: of each, the full names by who added it.
-pub(super) type Contested = BTreeMap<String, BTreeMap<String, String>>;
+pub(super) type NameConflicts = BTreeMap<String, BTreeMap<String, String>>;
 
 /// The name by which the machine finds what `owner` has added as `name`, in which no script can call anything.
 fn full_name(owner: &str, name: &str) -> String {
@@ -43,7 +43,7 @@ pub(super) fn inherit(
     extensions: &[Extension],
     kind: &str,
     functions: &mut Vec<ScriptFunction>,
-    contested: &mut Contested,
+    contested: &mut NameConflicts,
 ) {
     let of_kind = || extensions.iter().filter(|known| known.kind == kind);
     for Extension { owner, function, .. } in of_kind() {

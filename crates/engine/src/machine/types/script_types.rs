@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use mlua::{Function, Table, Value as LuaValue};
 
-use super::extensions::{Contested, inherit, is_full_name};
+use super::extensions::{NameConflicts, inherit, is_full_name};
 use super::handles::ObjectHandle;
 use super::kinds::{constructor, install_methods};
 use super::mentions::drawing_kind;
@@ -26,7 +26,7 @@ pub(crate) struct ScriptTypeEntry {
     /// As the prelude knows it.
     pub table: Table,
     pub functions: Vec<ScriptFunction>,
-    pub contested: Contested,
+    pub contested: NameConflicts,
 }
 
 /// A function of a type.
@@ -134,7 +134,7 @@ impl ScriptTypeEntry {
 pub(super) struct ScriptTypeParts {
     declaration: ScriptType,
     pub(super) functions: Vec<ScriptFunction>,
-    contested: Contested,
+    contested: NameConflicts,
 }
 
 impl ScriptTypeParts {
@@ -148,7 +148,7 @@ impl ScriptTypeParts {
             declaration: declaration
                 .unwrap_or_else(|| ScriptType { base: Some(Arc::clone(&kind)), ..ScriptType::default() }),
             functions: known.map_or_else(Vec::new, |known| known.functions.clone()),
-            contested: known.map_or_else(Contested::new, |known| known.contested.clone()),
+            contested: known.map_or_else(NameConflicts::new, |known| known.contested.clone()),
         };
         parts.declaration.above.insert(0, (*kind.name).into());
         // What was added to that type holds for those that extend it.
