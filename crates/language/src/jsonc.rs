@@ -8,19 +8,19 @@ use serde_json::{Map, Value};
 const DEEPEST: usize = 64;
 
 /// A value and where it stands in the text.
-struct Node {
+struct JsonNode {
     range: Range<usize>,
     content: NodeContent,
 }
 
 enum NodeContent {
     /// The members, by their names.
-    Object(Vec<(String, Node)>),
-    List(Vec<Node>),
+    Object(Vec<(String, JsonNode)>),
+    List(Vec<JsonNode>),
     Other(Value),
 }
 
-impl Node {
+impl JsonNode {
     /// The last member called `name`, which is the one that counts.
     fn member(&self, name: &str) -> Option<&Self> {
         let NodeContent::Object(members) = &self.content else { return None };
@@ -49,7 +49,7 @@ pub(crate) fn add_missing(text: &str, wanted: &Map<String, Value>) -> Result<Opt
     if !matches!(root.content, NodeContent::Object(_)) {
         return Err("it is no object".to_owned());
     }
-    let mut add = |root: &mut Node, path: Option<&str>, name: Option<&str>, value: &Value| {
+    let mut add = |root: &mut JsonNode, path: Option<&str>, name: Option<&str>, value: &Value| {
         let into = path.map_or(Some(&*root), |path| root.member(path));
         let is_there = into.is_none_or(|into| match (name, &into.content) {
             (Some(name), _) => into.member(name).is_some(),
@@ -85,7 +85,7 @@ pub(crate) fn is_comments(text: &str) -> bool {
 }
 
 /// The text with one more entry at the end of the object or the list `of`.
-fn with_entry(text: &str, of: &Node, name: Option<&str>, value: &Value) -> String {
+fn with_entry(text: &str, of: &JsonNode, name: Option<&str>, value: &Value) -> String {
     let newline = if text.contains("\r\n") { "\r\n" } else { "\n" };
     let ranges: Vec<&Range<usize>> = match &of.content {
         NodeContent::Object(members) => members.iter().map(|(_, node)| &node.range).collect(),
@@ -155,7 +155,7 @@ fn end_of_comments(text: &str, from: usize, line_end: usize) -> usize {
 }
 
 /// The whole of `text` as a value.
-fn read(text: &str) -> Result<Node, String> {
+fn read(text: &str) -> Result<JsonNode, String> {
     let mut reader = Reader { text, at: 0 };
     if text.starts_with('\u{feff}') {
         reader.at = '\u{feff}'.len_utf8();
@@ -211,7 +211,7 @@ impl<'a> Reader<'a> {
         found
     }
 
-    fn value(&mut self, depth: usize) -> Option<Node> {
+    fn value(&mut self, depth: usize) -> Option<JsonNode> {
         self.skip();
         let start = self.at;
         if depth > DEEPEST {
@@ -229,7 +229,7 @@ impl<'a> Reader<'a> {
                 NodeContent::Other(value)
             }
         };
-        Some(Node { range: start..self.at, content })
+        Some(JsonNode { range: start..self.at, content })
     }
 
     fn object(&mut self, depth: usize) -> Option<NodeContent> {

@@ -3,7 +3,7 @@
 use rayon::prelude::*;
 
 use super::holes::{self, Hole};
-use super::spline::Patch;
+use super::spline::SplinePatch;
 use burgeon_base::budget::Budget;
 use burgeon_base::error::Result;
 
@@ -42,7 +42,7 @@ pub(super) fn fill(columns: usize, rows: usize, heights: &mut [f32], budget: &Bu
 /// The heights in a hole, run by run.
 fn surface(columns: usize, heights: &[f32], hole: &Hole, budget: &Budget) -> Result<Vec<f32>> {
     let ([left, top], [right, bottom]) = (hole.low, hole.high);
-    let mut patch = Patch::new(right - left, bottom - top, budget, |row| {
+    let mut patch = SplinePatch::new(right - left, bottom - top, budget, |row| {
         &heights[(top + row) * columns + left..][..right - left]
     })?;
     patch.fill(budget)?;

@@ -25,14 +25,14 @@ const ROUNDS: [usize; 2] = [30, 400];
 const ACCURACY: f64 = 1e-9;
 
 /// A part of a raster with holes (NaN).
-pub(super) struct Patch {
+pub(super) struct SplinePatch {
     columns: usize,
     rows: usize,
     pub(super) heights: Vec<f32>,
     tension: f32,
 }
 
-impl Patch {
+impl SplinePatch {
     /// A patch whose rows `line` gives.
     pub(super) fn new<'h>(
         columns: usize,

@@ -38,14 +38,14 @@ fn templates() -> Value {
 
 /// A rectangle with its height, and the number of storeys that its walls are raised in.
 #[derive(Debug, Clone, Copy)]
-struct Block {
+struct BlockSketch {
     low: DVec2,
     size: DVec2,
     height: f64,
     raised: u32,
 }
 
-impl Block {
+impl BlockSketch {
     fn corners(&self) -> [DVec2; 4] {
         let Self { low, size, .. } = *self;
         [low, low + size * DVec2::X, low + size, low + size * DVec2::Y]
@@ -53,8 +53,8 @@ impl Block {
 }
 
 /// The windows of buildings beside one another: by building the middles of their panes.
-fn windows(blocks: &[Block]) -> Vec<Vec<DVec3>> {
-    let make = |block: &Block| {
+fn windows(blocks: &[BlockSketch]) -> Vec<Vec<DVec3>> {
+    let make = |block: &BlockSketch| {
         let ring = block.corners().map(|at| at.extend(0.0)).to_vec();
         let height = Some(Height(block.height));
         let options = FootprintOptions { geometry: Rings(vec![ring]), height, ..FootprintOptions::default() };
@@ -101,8 +101,9 @@ fn on_wall(windows: &[DVec3], x: f64) -> Vec<DVec3> {
 #[test]
 fn a_nave_keeps_its_clerestory_and_a_tower_its_windows() {
     for raised in [1, 4] {
-        let nave = Block { low: DVec2::ZERO, size: DVec2::new(10.0, 30.0), height: 12.0, raised };
-        let aisle = Block { low: DVec2::new(10.0, 0.0), size: DVec2::new(5.0, 30.0), height: 5.0, raised: 1 };
+        let nave = BlockSketch { low: DVec2::ZERO, size: DVec2::new(10.0, 30.0), height: 12.0, raised };
+        let aisle =
+            BlockSketch { low: DVec2::new(10.0, 0.0), size: DVec2::new(5.0, 30.0), height: 5.0, raised: 1 };
         let found = windows(&[nave, aisle]);
         let (free, shared) = (on_wall(&found[0], 0.0), on_wall(&found[0], 10.0));
         let levels = |windows: &[DVec3]| {
@@ -116,9 +117,13 @@ fn a_nave_keeps_its_clerestory_and_a_tower_its_windows() {
         assert_eq!(levels(&free)[4..], levels(&shared), "{raised}");
         assert!(on_wall(&found[1], 10.0).is_empty() && !on_wall(&found[1], 15.0).is_empty());
 
-        let base = Block { low: DVec2::ZERO, size: DVec2::new(24.0, 20.0), height: 8.0, raised: 2 };
-        let tower =
-            Block { low: DVec2::new(24.0, 6.0), size: DVec2::splat(8.0), height: 24.0, raised: 2 * raised };
+        let base = BlockSketch { low: DVec2::ZERO, size: DVec2::new(24.0, 20.0), height: 8.0, raised: 2 };
+        let tower = BlockSketch {
+            low: DVec2::new(24.0, 6.0),
+            size: DVec2::splat(8.0),
+            height: 24.0,
+            raised: 2 * raised,
+        };
         let found = windows(&[base, tower]);
         let (of_base, of_tower) = (on_wall(&found[0], 24.0), on_wall(&found[1], 24.0));
         assert!(of_tower.iter().all(|at| at.z > 8.0) && of_tower.iter().any(|at| at.z < 15.0));
@@ -137,13 +142,22 @@ fn windows_of_random_blocks_are_nowhere_behind_a_neighbour_and_everywhere_else()
     let (mut hidden, mut free) = (0, 0);
     for round in 0..120 {
         let raised = [1, 2, 4][round % 3];
-        let main =
-            Block { low: DVec2::ZERO, size: DVec2::new(10.0, 24.0), height: between(6.0, 20.0), raised };
+        let main = BlockSketch {
+            low: DVec2::ZERO,
+            size: DVec2::new(10.0, 24.0),
+            height: between(6.0, 20.0),
+            raised,
+        };
         let mut blocks = vec![main];
         let mut y = between(-6.0, 8.0);
         for _ in 0..2 {
             let size = DVec2::new(8.0, between(4.0, 12.0));
-            blocks.push(Block { low: DVec2::new(10.0, y), size, height: between(3.0, 22.0), raised: 1 });
+            blocks.push(BlockSketch {
+                low: DVec2::new(10.0, y),
+                size,
+                height: between(3.0, 22.0),
+                raised: 1,
+            });
             y += size.y + [0.0, between(1.5, 6.0)][round % 2];
         }
         let found = on_wall(&windows(&blocks)[0], 10.0);
@@ -175,9 +189,13 @@ fn windows_of_random_blocks_are_nowhere_behind_a_neighbour_and_everywhere_else()
 #[test]
 fn walls_that_rise_above_the_height_of_a_storey_stay_blind() {
     // The height that is given is that of one storey here.
-    let house =
-        |x: f64| Block { low: DVec2::new(x, 0.0), size: DVec2::new(10.0, 12.0), height: 3.0, raised: 1 };
-    let make = |block: Block| {
+    let house = |x: f64| BlockSketch {
+        low: DVec2::new(x, 0.0),
+        size: DVec2::new(10.0, 12.0),
+        height: 3.0,
+        raised: 1,
+    };
+    let make = |block: BlockSketch| {
         let ring = block.corners().map(|at| at.extend(0.0)).to_vec();
         let options = FootprintOptions {
             geometry: Rings(vec![ring]),

@@ -68,13 +68,13 @@ enum LineFacts {
 
 /// The value of an attribute.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) enum Fact {
+pub(super) enum LineFact {
     Boolean(bool),
     Number(f64),
     Text(Arc<str>),
 }
 
-impl Fact {
+impl LineFact {
     /// Its text, if it is one that says something.
     pub(super) fn text(&self) -> Option<String> {
         match self {
@@ -92,7 +92,7 @@ impl Fact {
     }
 }
 
-impl fmt::Display for Fact {
+impl fmt::Display for LineFact {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Boolean(value) => value.fmt(f),
@@ -103,11 +103,11 @@ impl fmt::Display for Fact {
 }
 
 /// The number that an attribute is or begins with, such as 7.5 of "7.5 m"; `None` if there is none.
-pub(super) fn number_of(fact: &Fact) -> Option<f64> {
+pub(super) fn number_of(fact: &LineFact) -> Option<f64> {
     match fact {
-        Fact::Number(number) => Some(*number).filter(|number| number.is_finite()),
-        Fact::Boolean(_) => None,
-        Fact::Text(text) => {
+        LineFact::Number(number) => Some(*number).filter(|number| number.is_finite()),
+        LineFact::Boolean(_) => None,
+        LineFact::Text(text) => {
             let text = text.trim();
             let is_number = |at: char| at.is_ascii_digit() || matches!(at, '.' | '-' | '+');
             let end = text.find(|at| !is_number(at)).unwrap_or(text.len());
@@ -117,11 +117,11 @@ pub(super) fn number_of(fact: &Fact) -> Option<f64> {
 }
 
 /// Tells if an attribute says yes: whatever is not no, false, nothing or 0.
-pub(super) fn is_set(fact: &Fact) -> bool {
+pub(super) fn is_set(fact: &LineFact) -> bool {
     match fact {
-        Fact::Boolean(value) => *value,
-        Fact::Number(value) => *value != 0.0,
-        Fact::Text(text) => {
+        LineFact::Boolean(value) => *value,
+        LineFact::Number(value) => *value != 0.0,
+        LineFact::Text(text) => {
             !matches!(text.trim().to_ascii_lowercase().as_str(), "" | "no" | "false" | "0" | "none")
         }
     }
@@ -129,22 +129,22 @@ pub(super) fn is_set(fact: &Fact) -> bool {
 
 impl StreetLine {
     /// An attribute of the line; `None` if it has none of that name.
-    pub(super) fn fact(&self, name: &str) -> Option<Fact> {
+    pub(super) fn fact(&self, name: &str) -> Option<LineFact> {
         match &self.facts {
             LineFacts::None => None,
             LineFacts::Table(table) => match table.get(name)? {
-                Value::Boolean(value) => Some(Fact::Boolean(*value)),
-                Value::Number(value) => Some(Fact::Number(*value)),
-                Value::Text(value) => Some(Fact::Text(Arc::clone(value))),
+                Value::Boolean(value) => Some(LineFact::Boolean(*value)),
+                Value::Number(value) => Some(LineFact::Number(*value)),
+                Value::Text(value) => Some(LineFact::Text(Arc::clone(value))),
                 _ => None,
             },
             LineFacts::Layer(layer, feature) => {
                 let column = layer.names.iter().position(|known| known == name)?;
                 let attributes = &layer.features.get(*feature)?.attributes;
                 match &attributes.iter().find(|(known, _)| *known == column)?.1 {
-                    Attribute::Boolean(value) => Some(Fact::Boolean(*value)),
-                    Attribute::Number(value) => Some(Fact::Number(*value)),
-                    Attribute::Text(value) => Some(Fact::Text(Arc::clone(value))),
+                    Attribute::Boolean(value) => Some(LineFact::Boolean(*value)),
+                    Attribute::Number(value) => Some(LineFact::Number(*value)),
+                    Attribute::Text(value) => Some(LineFact::Text(Arc::clone(value))),
                     Attribute::Nested(_) => None,
                 }
             }

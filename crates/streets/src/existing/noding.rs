@@ -16,7 +16,7 @@ const ROUNDS: usize = 8;
 
 /// A segment: the number of its strand, that of its first vertex, and its ends.
 #[derive(Clone, Copy)]
-struct Edge {
+struct NodingEdge {
     strand: usize,
     first: usize,
     ends: [GridPlace; 2],
@@ -62,16 +62,16 @@ pub(crate) fn node(strands: &mut [Strand]) -> Vec<(usize, usize)> {
     unresolved
 }
 
-fn edges_of(strands: &[Strand], level: i32) -> Vec<Edge> {
+fn edges_of(strands: &[Strand], level: i32) -> Vec<NodingEdge> {
     let of_level = strands.iter().enumerate().filter(|(_, strand)| strand.level == level);
     let edges = of_level.flat_map(|(number, strand)| {
         let pairs = strand.places.windows(2).enumerate();
-        pairs.map(move |(first, pair)| Edge { strand: number, first, ends: [pair[0], pair[1]] })
+        pairs.map(move |(first, pair)| NodingEdge { strand: number, first, ends: [pair[0], pair[1]] })
     });
     edges.collect()
 }
 
-fn index_of(edges: &[Edge]) -> EdgeIndex {
+fn index_of(edges: &[NodingEdge]) -> EdgeIndex {
     let items = edges.iter().enumerate().map(|(number, edge)| {
         let [a, b] = edge.ends.map(|end| end.metres().to_array());
         GeomWithData::new(IndexLine::new(a, b), number)
@@ -137,14 +137,19 @@ fn touches([a, b]: [GridPlace; 2], pixel: GridPlace) -> bool {
 }
 
 /// Leads segments through the hot pixels that they touch; tells if any was changed.
-fn lead_through(strands: &mut [Strand], level: i32, edges: &[Edge], hot: &FxHashSet<GridPlace>) -> bool {
+fn lead_through(
+    strands: &mut [Strand],
+    level: i32,
+    edges: &[NodingEdge],
+    hot: &FxHashSet<GridPlace>,
+) -> bool {
     let mut places: Vec<GridPlace> = hot.iter().copied().collect();
     places.sort_unstable();
     let items = places.iter().map(|place| GeomWithData::new(place.metres().to_array(), *place));
     let index = RTree::bulk_load(items.collect());
     let mut is_changed = false;
     let mut led: Vec<Vec<GridPlace>> = vec![Vec::new(); strands.len()];
-    for Edge { strand, ends: [a, b], .. } in edges.iter().copied() {
+    for NodingEdge { strand, ends: [a, b], .. } in edges.iter().copied() {
         let [from, to] = [a, b].map(GridPlace::metres);
         let (low, high) = (from.min(to) - 1.0 / PER_METRE, from.max(to) + 1.0 / PER_METRE);
         let around = AABB::from_corners(low.to_array(), high.to_array());

@@ -10,7 +10,7 @@ use serde::de::{Deserializer, MapAccess, Visitor};
 use serde_json::Value;
 use serde_json::value::RawValue;
 
-use super::model::{CityObject, CityValue};
+use super::model::{CityRecord, CityValue};
 use super::shape::{CityShape, CitySurface, SurfaceRole};
 use crate::content::{DataFile, LayeredFile};
 use crate::formats::typing::TextTypes;
@@ -36,7 +36,7 @@ pub(crate) struct CityJson {
 
 /// A document: the model, or an object of a sequence.
 #[derive(Deserialize)]
-struct Document<'a> {
+struct CityJsonDocument<'a> {
     r#type: Option<String>,
     #[serde(default)]
     transform: Option<Transform>,
@@ -86,7 +86,7 @@ struct RawObject<'a> {
     #[serde(default)]
     attributes: Option<serde_json::Map<String, Value>>,
     #[serde(borrow, default)]
-    geometry: Vec<RawGeometry<'a>>,
+    geometry: Vec<CityGeometry<'a>>,
     #[serde(default)]
     parents: Vec<String>,
     #[serde(default)]
@@ -94,7 +94,7 @@ struct RawObject<'a> {
 }
 
 #[derive(Deserialize)]
-struct RawGeometry<'a> {
+struct CityGeometry<'a> {
     r#type: String,
     #[serde(default)]
     lod: Option<Value>,
@@ -176,7 +176,11 @@ impl CityJson {
     }
 
     /// Hands the model to `each`, or the objects of a sequence one by one.
-    fn each(&self, wanted: &SourceOptions, mut each: impl FnMut(Document<'_>) -> Result<()>) -> Result<()> {
+    fn each(
+        &self,
+        wanted: &SourceOptions,
+        mut each: impl FnMut(CityJsonDocument<'_>) -> Result<()>,
+    ) -> Result<()> {
         let bytes = self.file.bytes(LARGEST, &wanted.budget)?;
         let name = &self.file.name;
         let result = self.each_of(&bytes, wanted, &mut each);
@@ -190,7 +194,7 @@ impl CityJson {
         &self,
         bytes: &[u8],
         wanted: &SourceOptions,
-        each: &mut impl FnMut(Document<'_>) -> Result<()>,
+        each: &mut impl FnMut(CityJsonDocument<'_>) -> Result<()>,
     ) -> Result<()> {
         let name = &self.file.name;
         let text = std::str::from_utf8(bytes).map_err(|_| {
@@ -218,7 +222,7 @@ impl CityJson {
             };
             let document = document.map_err(|error| broken(&error))?;
             let _held = wanted.budget.hold(document.get().len().saturating_mul(AROUND))?;
-            let mut read: Document<'_> =
+            let mut read: CityJsonDocument<'_> =
                 serde_json::from_str(document.get()).map_err(|error| broken(&error))?;
             let is_known = matches!(read.r#type.as_deref(), Some("CityJSON" | "CityJSONFeature"));
             if first && !is_known {
@@ -269,7 +273,7 @@ impl LayeredFile for CityJson {
 
 /// Adds the features of a type that a document holds.
 fn read_document(
-    document: Document<'_>,
+    document: CityJsonDocument<'_>,
     layer: &str,
     table: &mut FeatureTable,
     types: &mut TextTypes,
@@ -281,7 +285,7 @@ fn read_document(
     {
         table.crs = named(name);
     }
-    let Document { objects, vertices, transform, .. } = document;
+    let CityJsonDocument { objects, vertices, transform, .. } = document;
     let vertices = Vertices { places: vertices, transform };
     let objects = objects.map(|list| list.0).unwrap_or_default();
     let places: FxHashMap<&str, &RawValue> = objects.iter().map(|(id, text)| (id.as_str(), *text)).collect();
@@ -339,7 +343,7 @@ fn object(
     vertices: &Vertices,
     others: &FxHashMap<&str, &RawValue>,
     budget: &Budget,
-) -> Result<std::result::Result<CityObject, String>> {
+) -> Result<std::result::Result<CityRecord, String>> {
     let mut made = match single(id, text, vertices, budget)? {
         Ok(made) => made,
         Err(why) => return Ok(Err(why)),
@@ -359,7 +363,7 @@ fn object(
 }
 
 /// An object without its parts, and the ids of its children.
-type SingleObject = (CityObject, Vec<String>);
+type SingleObject = (CityRecord, Vec<String>);
 
 fn single(
     id: &str,
@@ -372,7 +376,7 @@ fn single(
         Ok(raw) => raw,
         Err(error) => return Ok(Err(format!("cannot be read: {}", shown(&error.to_string())))),
     };
-    let mut made = CityObject { id: Some(id.to_owned()), ..CityObject::default() };
+    let mut made = CityRecord { id: Some(id.to_owned()), ..CityRecord::default() };
     for (name, value) in raw.attributes.unwrap_or_default() {
         let value = match value {
             Value::Null => continue,
@@ -402,7 +406,7 @@ type Rings = Vec<Vec<usize>>;
 
 /// Adds a geometry to a shape.
 fn add_geometry(
-    geometry: &RawGeometry<'_>,
+    geometry: &CityGeometry<'_>,
     vertices: &Vertices,
     shape: &mut CityShape,
     budget: &Budget,

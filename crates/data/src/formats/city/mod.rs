@@ -12,5 +12,5 @@ mod shape;
 mod tests;
 
 pub(crate) use cityjson::CityJson;
-pub(in crate::formats) use model::CityObject;
+pub(in crate::formats) use model::CityRecord;
 pub(in crate::formats) use shape::{CitySurface, SurfaceRole};

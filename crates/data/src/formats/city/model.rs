@@ -17,16 +17,16 @@ pub(in crate::formats) enum CityValue {
 
 /// An object of a city: a building, a road, a tree.
 #[derive(Debug, Default)]
-pub(in crate::formats) struct CityObject {
+pub(in crate::formats) struct CityRecord {
     /// Its id, if it has one.
     pub(in crate::formats) id: Option<String>,
     pub(in crate::formats) values: Vec<(String, CityValue)>,
     pub(in crate::formats) shape: CityShape,
     /// Its parts, such as those of a building.
-    pub(in crate::formats) parts: Vec<CityObject>,
+    pub(in crate::formats) parts: Vec<CityRecord>,
 }
 
-impl CityObject {
+impl CityRecord {
     /// Adds a text; several of one name are listed.
     pub(in crate::formats) fn add_text(&mut self, name: &str, value: &str) {
         if value.is_empty() {

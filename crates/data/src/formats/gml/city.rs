@@ -6,7 +6,7 @@ use std::sync::Arc;
 use super::geometry::{CityPiece, GeometryProblem, GeometryReader, GmlContext, is_geometry};
 use super::reader::{FeatureBuilder, Surroundings};
 use super::system::NamedSystem;
-use crate::formats::city::{CityObject, CitySurface, SurfaceRole};
+use crate::formats::city::{CityRecord, CitySurface, SurfaceRole};
 use crate::formats::xml::{Element, Xml, XmlPiece};
 use burgeon_base::error::{Error, Result};
 use burgeon_base::text::shown;
@@ -14,7 +14,7 @@ use burgeon_base::text::shown;
 /// An object that is being read.
 #[derive(Default)]
 struct OpenObject {
-    object: CityObject,
+    object: CityRecord,
     system: Option<Rc<Result<NamedSystem>>>,
     /// Why a geometry of it cannot be read.
     wrong: Option<String>,
@@ -92,7 +92,7 @@ impl FeatureBuilder {
     fn object(&mut self, xml: &mut Xml, element: &Element, around: &mut Surroundings) -> Result<OpenObject> {
         let id = element.attribute("id").filter(|id| !id.is_empty()).map(str::to_owned);
         let mut open =
-            OpenObject { object: CityObject { id, ..CityObject::default() }, ..OpenObject::default() };
+            OpenObject { object: CityRecord { id, ..CityRecord::default() }, ..OpenObject::default() };
         let depth = xml.depth;
         loop {
             match xml.next()? {
@@ -278,7 +278,7 @@ fn child(xml: &mut Xml, depth: usize) -> Result<Option<Element>> {
 }
 
 /// Reads a generic attribute, or a set of them: its name is an attribute of its element, or an element in it.
-fn generic(xml: &mut Xml, element: &Element, object: &mut CityObject) -> Result<()> {
+fn generic(xml: &mut Xml, element: &Element, object: &mut CityRecord) -> Result<()> {
     let depth = xml.depth;
     let (mut name, mut value) = (element.attribute("name").map(str::to_owned), None);
     while let Some(inner) = child(xml, depth)? {

@@ -20,7 +20,9 @@ pub(super) fn crs(text: &str, label: &str) -> Result<Crs> {
         ))
         .help("name its EPSG code: source(file, { crs = 3067 })")
     };
-    let Some(node) = Node::read(text) else { return Err(unknown(text.lines().next().unwrap_or_default())) };
+    let Some(node) = PrjNode::read(text) else {
+        return Err(unknown(text.lines().next().unwrap_or_default()));
+    };
     // A compound system has heights besides.
     let is_compound = matches!(&*node.word, "COMPD_CS" | "COMPOUNDCRS");
     let node = if is_compound { node.nodes.into_iter().next() } else { Some(node) };
@@ -40,7 +42,7 @@ pub(super) fn crs(text: &str, label: &str) -> Result<Crs> {
         if !text.starts_with(&node.word) {
             return;
         }
-        let Some(known) = Node::read(text) else { return };
+        let Some(known) = PrjNode::read(text) else { return };
         if !Parameters::of(&known).is_some_and(|known| known.is_same(&wanted)) {
             return;
         }
@@ -54,14 +56,14 @@ pub(super) fn crs(text: &str, label: &str) -> Result<Crs> {
 
 /// A word of well-known text, with what stands in its brackets.
 #[derive(Default)]
-struct Node {
+struct PrjNode {
     word: String,
     texts: Vec<String>,
     numbers: Vec<f64>,
-    nodes: Vec<Node>,
+    nodes: Vec<PrjNode>,
 }
 
-impl Node {
+impl PrjNode {
     fn read(text: &str) -> Option<Self> {
         Self::begin(&mut text.trim(), 0)
     }
@@ -134,7 +136,7 @@ fn plain(name: &str) -> String {
     plain.replace("europeanterrestrialreferencesystem", "etrs").replace("worldgeodeticsystem", "wgs")
 }
 
-fn datum(node: &Node) -> String {
+fn datum(node: &PrjNode) -> String {
     let base = node.child(&["GEOGCS"]).unwrap_or(node);
     let name = base.child(&["DATUM"]).map(|datum| plain(datum.name())).unwrap_or_default();
     name.strip_prefix('d').map(str::to_owned).unwrap_or(name)
@@ -163,7 +165,7 @@ struct Parameters {
 }
 
 impl Parameters {
-    fn of(node: &Node) -> Option<Self> {
+    fn of(node: &PrjNode) -> Option<Self> {
         let is_projected = node.word == "PROJCS";
         let base = if is_projected { node.child(&["GEOGCS"])? } else { node };
         if !is_projected && node.word != "GEOGCS" {
