@@ -1,13 +1,12 @@
 //! Heights that stand for missing ones, though the file does not say so.
 
+use crate::heights::marks::MARKS;
 use burgeon_base::error::{Error, Result};
 
 /// The heights of the earth (m), with some room: the deepest trench lies at -10,935, the highest summit at 8,849.
 const OF_EARTH: [f32; 2] = [-11_500.0, 9_000.0];
 /// No height on a planet is as far (m) from its zero.
 const HIGHEST: f32 = 100_000.0;
-/// Numbers that programs write where a height is missing.
-const MARKS: [f32; 7] = [-9999.0, -32768.0, -32767.0, 32767.0, -99999.0, 65535.0, 99999.0];
 /// A mark is a height after all if another height is as near (m) to it.
 const NEAR: f32 = 500.0;
 /// Numbers from here on are marks of programs that know floats, as -3.4e38 is.
@@ -48,12 +47,6 @@ impl UndeclaredMarks {
         let values: Vec<String> = self.values.iter().map(shown).collect();
         values.join(" or ")
     }
-}
-
-/// Whether a number is written where a height is missing, and is negative: no scale makes a height of it.
-#[cfg(feature = "data")]
-pub(crate) fn is_negative_mark(sample: f64) -> bool {
-    MARKS.iter().any(|mark| *mark < 0.0 && f64::from(*mark).to_bits() == sample.to_bits())
 }
 
 /// Makes heights that mark missing ones missing (NaN), in a file of so many `columns`; `is_of_earth` tells whether it lies in a

@@ -3,7 +3,7 @@
 use tiff::tags::Tag;
 
 use super::geotiff::{Keys, Tiff};
-use crate::elevation::missing::is_negative_mark;
+use crate::heights::marks::is_negative_mark;
 use crate::heights::names::tiff_key as keys;
 use crate::heights::narrow;
 use burgeon_base::error::{Error, Result};
