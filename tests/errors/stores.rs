@@ -60,15 +60,15 @@ const STORES: &[Store] = &[
     ),
     store(
         "surfaces of modules",
-        "s:rule(\"A(x)\", function(this, x) return A(x), A(x), Forward(1) end)\ns:derive()",
+        "s:rule(\"A(x)\", function(this, x) return A(x), A(x), Turn(7), F(1) end)\ns:derive()",
     ),
     store(
         "faces of meshes in buffers",
-        "local points, faces = buffer.create(36), buffer.create(24e6)\ns:interpret(\"A(x)\", function(this, x) while true do this:mesh(points, faces) end end)\ns:derive(1)",
+        "s:interpret(\"A(x)\", function(this, x)\n  local points, faces = buffer.create(36), buffer.create(12e6) buffer.writef32(points, 12, 1) buffer.writef32(points, 28, 1)\n  for i = 0, 12e6 - 12, 12 do buffer.writeu32(faces, i + 4, 1) buffer.writeu32(faces, i + 8, 2) end\n  while true do this:mesh(points, faces) end\nend)\ns:derive(1)",
     ),
     store(
         "faces of meshes in lists",
-        "local points, faces = {}, {} for i = 1, 60000 do points[i] = { i, 0, 0 } faces[i] = { i, i % 60000 + 1, 1 } end\ns:interpret(\"A(x)\", function(this, x) this:mesh(points, faces) end)\ns:derive(1)",
+        "local points, faces = {}, {} for i = 1, 60000 do points[i] = { i, i * i % 7, i * i % 11 } faces[i] = { i, i % 60000 + 1, (i + 1) % 60000 + 1 } end\ns:interpret(\"A(x)\", function(this, x) while true do this:mesh(points, faces) end end)\ns:derive(1)",
     ),
     store(
         "placed models",
@@ -117,7 +117,7 @@ const STORES: &[Store] = &[
     ),
     store(
         "street networks",
-        "local n = lsystem({ object = network() }) n:axiom(A(1))\nn:interpret(\"A(x)\", function(this, x) for i = 1, 1e9 do local at = this:grow(1, i * 7 % 360, 20 + i % 1000, 1) end end)\nn:derive(1)",
+        "local list = {} for i = 1, 30000 do list[i] = { id = i } end\nlocal n = lsystem({ object = network() }) n:axiom(source(list), function() return network(), A(1) end)\nn:interpret(\"A(x)\", function(this, x) for i = 1, 12 do this:grow(1, i * 30, 50, 1) end end)\nn:derive(1)",
     ),
     store(
         "terrain",
