@@ -12,7 +12,27 @@ mod looks;
 
 use burgeon::script::RunOptions;
 use check::{PATTERNS, check, grown};
-use looks::{NAMES, looks, real};
+use looks::{looks, real};
+
+/// The names of the measures, in the order of [`looks`].
+const NAMES: [&str; 16] = [
+    "degree",
+    "dead ends",
+    "3-way",
+    "4-way",
+    "circuity",
+    "meshedness",
+    "order",
+    "block",
+    "spread",
+    "largest",
+    "density",
+    "decline",
+    "zigzags",
+    "stubs",
+    "triangles",
+    "knots",
+];
 
 /// What a pattern is compared by: its name and its value of a network.
 const CITIES: [(&str, [f64; 9]); 4] = [

@@ -180,10 +180,22 @@ for index = 1, shape.rivers or 0 do
   springs[index] = Spring(random(-0.35, 0.35) * size, random(-0.35, 0.35) * size)
 end
 land:axiom(table.unpack(springs))
+-- The bed of a river is cut through whatever stands in its way, so each rises at the first place around its spring from where
+-- no deep cut is needed.
 land:interpret("Spring(x, y)", function(this, x, y)
-  -- None rises in the water or near its shore.
-  if this:height({ x, y }) > shore + size / 200 and this:is_source({ x, y }) then
-    this:river({ x, y }, size / 170)
+  local width = size / 170
+  for turn = 0, 80 do
+    local away, way = size * 0.035 * math.sqrt(turn), math.rad(137.5 * turn)
+    local at = { x + away * math.cos(way), y + away * math.sin(way) }
+    local inside = math.max(math.abs(at[1]), math.abs(at[2])) < 0.45 * size
+    -- None rises in the water or near its shore.
+    if inside and this:height(at) > shore + size / 200 then
+      local cut = this:river_cut(at, width)
+      if cut and cut < math.max(width, 10) then
+        this:river(at, width)
+        return
+      end
+    end
   end
 end)
 land:derive()

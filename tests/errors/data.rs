@@ -183,9 +183,9 @@ fn a_file_that_is_no_data_file_is_told() {
       help: points, lines, polygons, multi-geometries and collections of these are read
     "#);
     assert_snapshot!(told(r#"source("binary.geojson")"#), @r#"
-    error: in/s.lua:2: binary.geojson is a binary file of no format that is known
+    error: in/s.lua:2: binary.geojson is not GeoJSON: expected value (line 1, column 1)
       | source("binary.geojson")
-      help: data files are GeoJSON, GeoPackage, FlatGeobuf, Shapefile, CSV, GML, CityGML, CityJSON, KML, GPX, .osm and .osm.pbf; convert it: ogr2ogr out.gpkg FILE
+      help: GeoJSON is described in RFC 7946
     "#);
     assert_snapshot!(told(r#"source("cut.gpkg")"#), @r#"
     error: in/s.lua:2: cannot read cut.gpkg: database disk image is malformed

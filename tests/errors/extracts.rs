@@ -64,7 +64,7 @@ fn extracts_of_openstreetmap() {
     assert_snapshot!(told(r#"source("village.geojson", { tags = { building = true } })"#), @r#"
     error: in/s.lua:2: village.geojson is GeoJSON, which takes no tags
       | source("village.geojson", { tags = { building = true } })
-      help: tags are for extracts of OpenStreetMap, .osm.pbf; leave them out
+      help: tags are for extracts of OpenStreetMap, .osm.pbf and .osm; leave them out
     "#);
     let script = r#"
 local houses = source("town.osm.pbf", { tags = { { building = { "house", "hut" } }, { building = true, height = "*" } } })

@@ -151,6 +151,6 @@ fn a_run_that_fails_saves_nothing() {
     assert!(said.contains("out of its range"), "{said}");
     assert_snapshot!(refused(PRESETS, &["--save-preset", " "]), @r#"
     error: " " cannot be the name of a preset
-      help: use 1 to 80 characters, without line breaks, and no space at the beginning or the end
+      help: use 1 to 80 characters, without line breaks and bidirectional controls, and no space at the beginning or the end
     "#);
 }

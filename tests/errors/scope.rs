@@ -214,11 +214,12 @@ fn a_rule_cannot_call_a_changing_method() {
       | t:forward(1)
       help: use system:interpret(pattern, function(this, ...) ... end)
     ");
-    assert_snapshot!(refused_rules("local t = turtle()\ns:interpret(\"A(x)\", function(this, x)\n  t:forward(1)\nend)"), @r"
-    error: s.lua:5: rule A(x) (interpretation): turtle:forward must be called on this, with a colon: this:method(...)
+    assert_snapshot!(refused_rules("local t = turtle()\ns:interpret(\"A(x)\", function(this, x)\n  t:forward(1)\nend)"), @r#"
+    error: s.lua:5: rule A(x) (interpretation): turtle:forward changes an object that was made here, and nothing is drawn with it
       | t:forward(1)
       module: A(1), step 0
-    ");
+      help: let the type hold one from the beginning: state = { pen = extruder() }, and call self.pen:extrude(1)
+    "#);
     assert_snapshot!(refused_rules("local t = turtle()\nt.width = 3"), @r"
     error: s.lua:4: width of a turtle cannot be assigned
       | t.width = 3

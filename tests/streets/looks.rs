@@ -10,26 +10,6 @@ use glam::DVec2;
 pub(crate) const REACH: f64 = 1000.0;
 pub(crate) const RINGS: usize = 4;
 
-/// The names of the measures, in the order of [`looks`].
-pub(crate) const NAMES: [&str; 16] = [
-    "degree",
-    "dead ends",
-    "3-way",
-    "4-way",
-    "circuity",
-    "meshedness",
-    "order",
-    "block",
-    "spread",
-    "largest",
-    "density",
-    "decline",
-    "zigzags",
-    "stubs",
-    "triangles",
-    "knots",
-];
-
 /// The measures of a network; its decline, from one ring around the middle to the next, is the greatest quotient.
 pub(crate) fn looks(network: &StreetNetwork) -> [f64; 16] {
     let of = network.measures();

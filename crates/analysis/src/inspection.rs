@@ -22,9 +22,9 @@ pub fn calls_with_text<'a>(text: &'a str, function: &'a str) -> impl Iterator<It
         loop {
             let token = tokens.next()?;
             called = match (called, token) {
-                (0 | 1 | 2, Token::Word(word)) if word == function => 1,
-                (1, Token::Other('(')) => 2,
-                (1 | 2, Token::Text(text)) => {
+                (0 | 1 | 2, ScriptToken::Word(word)) if word == function => 1,
+                (1, ScriptToken::Other('(')) => 2,
+                (1 | 2, ScriptToken::Text(text)) => {
                     called = 0;
                     return Some(text.to_owned());
                 }
@@ -35,7 +35,7 @@ pub fn calls_with_text<'a>(text: &'a str, function: &'a str) -> impl Iterator<It
 }
 
 /// A part of a script, as far as its calls matter.
-enum Token<'a> {
+enum ScriptToken<'a> {
     Word(&'a str),
     Text(&'a str),
     Other(char),
@@ -46,7 +46,7 @@ struct Tokens<'a> {
 }
 
 impl<'a> Tokens<'a> {
-    fn next(&mut self) -> Option<Token<'a>> {
+    fn next(&mut self) -> Option<ScriptToken<'a>> {
         loop {
             self.rest = self.rest.trim_start();
             let Some(comment) = self.rest.strip_prefix("--") else { break };
@@ -57,7 +57,7 @@ impl<'a> Tokens<'a> {
         }
         if let Some((inner, after)) = long_bracket(self.rest) {
             self.rest = after;
-            return Some(Token::Text(inner));
+            return Some(ScriptToken::Text(inner));
         }
         let first = self.rest.chars().next()?;
         let is_word = |c: char| c.is_alphanumeric() || c == '_';
@@ -65,11 +65,11 @@ impl<'a> Tokens<'a> {
             let end = self.rest.find(|c| !is_word(c)).unwrap_or(self.rest.len());
             let (word, after) = self.rest.split_at(end);
             self.rest = after;
-            return Some(Token::Word(word));
+            return Some(ScriptToken::Word(word));
         }
         self.rest = &self.rest[first.len_utf8()..];
         if !matches!(first, '"' | '\'' | '`') {
-            return Some(Token::Other(first));
+            return Some(ScriptToken::Other(first));
         }
         let mut escaped = false;
         let end = self.rest.find(|c| {
@@ -79,7 +79,7 @@ impl<'a> Tokens<'a> {
         });
         let (inner, after) = self.rest.split_at(end.unwrap_or(self.rest.len()));
         self.rest = after.get(1..).unwrap_or("");
-        Some(if first == '`' { Token::Other(first) } else { Token::Text(inner) })
+        Some(if first == '`' { ScriptToken::Other(first) } else { ScriptToken::Text(inner) })
     }
 }
 

@@ -159,7 +159,12 @@ impl Walk<'_> {
             *self.pure.entry(begin.line()).or_insert(true) &= function.pure;
             *self.blind.entry(begin.line()).or_insert(true) &= !function.asks;
             if role == FunctionRole::Guard {
-                let words: Vec<String> = body.tokens().map(|token| token.token().to_string()).collect();
+                // A variable from outside is told apart from an earlier one of its name by its number.
+                let word = |token: String| match self.find(&token) {
+                    Some(variable) => format!("{token}#{}", variable.id),
+                    None => token,
+                };
+                let words: Vec<String> = body.tokens().map(|token| word(token.token().to_string())).collect();
                 let text = Some(words.join(" "));
                 let known = self.guards.entry(begin.line()).or_insert_with(|| text.clone());
                 if *known != text {

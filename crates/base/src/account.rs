@@ -22,7 +22,7 @@ const SLOTS: usize = 512;
 /// Bytes that a thread counts by itself before it charges them, so that threads do not compete for the counter.
 const PENDING: isize = 64 << 10;
 
-static TABLE: [Slot; SLOTS] = [const { Slot::new() }; SLOTS];
+static TABLE: [AccountSlot; SLOTS] = [const { AccountSlot::new() }; SLOTS];
 /// The slot for threads that work for no run.
 static ADOPTED: AtomicU16 = AtomicU16::new(0);
 
@@ -33,7 +33,7 @@ thread_local! {
 
 /// One account. Each has a cache line of its own.
 #[repr(align(64))]
-struct Slot {
+struct AccountSlot {
     used: AtomicIsize,
     limit: AtomicIsize,
     exceeded: AtomicBool,
@@ -48,7 +48,7 @@ struct ThreadCount {
     pending: Cell<isize>,
 }
 
-impl Slot {
+impl AccountSlot {
     const fn new() -> Self {
         Self {
             used: AtomicIsize::new(0),
@@ -206,7 +206,7 @@ impl MemoryOwner {
         Err(too_much(owner.entry().limit.load(Ordering::Relaxed).unsigned_abs()))
     }
 
-    fn entry(self) -> &'static Slot {
+    fn entry(self) -> &'static AccountSlot {
         let slot = if self.slot == 0 { ADOPTED.load(Ordering::Relaxed) } else { self.slot };
         &TABLE[usize::from(slot)]
     }

@@ -45,6 +45,9 @@ pub(super) struct OutlineOptions {
 /// Slits that are not wider (m) are only rounding.
 const ROUNDING: f64 = 1e-6;
 
+/// How far (m) from the line between its neighbours a point may lie that is not needed.
+const STRAIGHT: f64 = 1e-9;
+
 /// The tolerances that are tried in turn, as parts of the one that was asked for, until no edges meet.
 const FINER: [f64; 3] = [1.0, 0.25, 0.05];
 
@@ -205,7 +208,7 @@ fn drop_straight(points: &mut Vec<NumberedPoint>, closed: bool) {
     }
 }
 
-/// Drops the tips of spikes, where one side lies along the other within the tolerance. Spikes into the area are slits,
+/// Drops points on a straight line that is left where others were dropped, and the tips of spikes, where one side lies along the other within the tolerance. Spikes into the area are slits,
 /// which are filled elsewhere, unless they are only rounding.
 fn drop_spikes(points: &mut Vec<NumberedPoint>, is_hole: bool, manner: &OutlineOptions) {
     let outwards = if (twice_area(points.iter().copied()) > 0.0) == is_hole { -1.0 } else { 1.0 };
@@ -215,8 +218,10 @@ fn drop_spikes(points: &mut Vec<NumberedPoint>, is_hole: bool, manner: &OutlineO
         let (a, b) = (here - before, after - here);
         let turn = a.perp_dot(b) * outwards;
         let width = if turn > 0.0 { manner.straight } else { ROUNDING };
-        let is_tip = a.dot(b) < 0.0 && turn.abs() <= width * a.length().max(b.length());
-        if is_tip || a.length().min(b.length()) <= manner.near {
+        let longer = a.length().max(b.length());
+        let is_tip = a.dot(b) < 0.0 && turn.abs() <= width * longer;
+        let is_straight = a.dot(b) > 0.0 && turn.abs() <= STRAIGHT * longer;
+        if is_tip || is_straight || a.length().min(b.length()) <= manner.near {
             points.remove(index);
             // The points beside a tip may be another one now.
             index = index.saturating_sub(2);

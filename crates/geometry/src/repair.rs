@@ -8,7 +8,7 @@ use rstar::primitives::{GeomWithData, Line};
 use rstar::{AABB, PointDistance, RTree};
 
 use super::outline::{OutlineOptions, is_hole, numbered_rings};
-use super::overlay::{self, Area, Fill, unite};
+use super::overlay::{self, Fill, PolygonArea, unite};
 use super::planar::{Polygon, Rings, edges, foot, twice_area};
 use super::ring::MOST;
 use super::section::SectionPoint;
@@ -88,7 +88,7 @@ fn rings_around(given: &Rings, middle: DVec2) -> Rings<DVec2> {
 /// Makes a plan of the greatest part of an area around `middle`: fills its slits, and cuts notches where it touches
 /// itself.
 fn settle(
-    mut area: Area,
+    mut area: PolygonArea,
     mut notes: Vec<&'static str>,
     given: &Rings,
     middle: DVec2,
@@ -192,14 +192,14 @@ fn note(notes: &mut Vec<&'static str>, what: &'static str) {
 
 /// The area that the first ring encloses without the areas that the others enclose. Fails if the work of this thread is to
 /// stop.
-fn enclosed(rings: &Rings<DVec2>, notes: &mut Vec<&'static str>) -> Result<Area> {
+fn enclosed(rings: &Rings<DVec2>, notes: &mut Vec<&'static str>) -> Result<PolygonArea> {
     let whole = |ring: &Vec<DVec2>| overlay::fill(&[Rings(vec![ring.clone()])], Fill::NonZero);
-    let Some((outer, holes)) = rings.split_first() else { return Ok(Area::new()) };
+    let Some((outer, holes)) = rings.split_first() else { return Ok(PolygonArea::new()) };
     let outer = whole(outer)?;
     if outer.len() > 1 {
         note(notes, LOOPS);
     }
-    let mut cut = Area::new();
+    let mut cut = PolygonArea::new();
     for hole in holes {
         let hole = whole(hole)?;
         let size = size(&hole);
@@ -240,7 +240,7 @@ fn size(area: &[Rings<DVec2>]) -> f64 {
 }
 
 /// The greatest of several areas.
-fn greatest(areas: Area, notes: &mut Vec<&'static str>) -> Option<Rings<DVec2>> {
+fn greatest(areas: PolygonArea, notes: &mut Vec<&'static str>) -> Option<Rings<DVec2>> {
     let sized: Vec<(f64, Rings<DVec2>)> = areas
         .into_iter()
         .map(|part| (size(std::slice::from_ref(&part)), part))
@@ -278,7 +278,7 @@ fn edge_tree(rings: &Rings<DVec2>) -> RTree<IndexedEdge> {
 }
 
 /// Squares around the points that lie on an edge which does not begin or end there.
-fn notches(rings: &Rings<DVec2>) -> Area {
+fn notches(rings: &Rings<DVec2>) -> PolygonArea {
     let tree = edge_tree(rings);
     for near in [1e-6, 0.012] {
         let mut found = Vec::new();
@@ -303,7 +303,7 @@ fn notches(rings: &Rings<DVec2>) -> Area {
             return found;
         }
     }
-    Area::new()
+    PolygonArea::new()
 }
 
 /// The polygon with the heights of the ground, and for each edge those that were given; `None` if it is none there.

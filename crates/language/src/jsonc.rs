@@ -156,7 +156,7 @@ fn end_of_comments(text: &str, from: usize, line_end: usize) -> usize {
 
 /// The whole of `text` as a value.
 fn read(text: &str) -> Result<JsonNode, String> {
-    let mut reader = Reader { text, at: 0 };
+    let mut reader = JsoncReader { text, at: 0 };
     if text.starts_with('\u{feff}') {
         reader.at = '\u{feff}'.len_utf8();
     }
@@ -167,17 +167,17 @@ fn read(text: &str) -> Result<JsonNode, String> {
 
 /// The length of the spaces and comments that `text` begins with.
 fn skipped(text: &str) -> usize {
-    let mut reader = Reader { text, at: 0 };
+    let mut reader = JsoncReader { text, at: 0 };
     reader.skip();
     reader.at
 }
 
-struct Reader<'a> {
+struct JsoncReader<'a> {
     text: &'a str,
     at: usize,
 }
 
-impl<'a> Reader<'a> {
+impl<'a> JsoncReader<'a> {
     fn complaint(&self) -> String {
         let line = 1 + self.text[..self.at.min(self.text.len())].matches('\n').count();
         format!("line {line} is not JSON")

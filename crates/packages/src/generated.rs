@@ -19,11 +19,11 @@ struct PackageSketch {
     conflicts: Vec<(usize, u64)>,
     api: u64,
     root: usize,
-    state: State,
+    state: PackageCondition,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq)]
-enum State {
+enum PackageCondition {
     Sound,
     /// Its `mod.toml` is nonsense.
     Broken,
@@ -43,7 +43,7 @@ fn written() -> impl Strategy<Value = PackageSketch> {
     // 0 stands for all versions.
     let others = |most: usize| prop::collection::vec((0..NAMES, 0..3_u64), 0..most);
     let state = prop_oneof![
-        8 => Just(State::Sound), 1 => Just(State::Broken), 1 => Just(State::Off), 1 => Just(State::Link), 1 => Just(State::Missing),
+        8 => Just(PackageCondition::Sound), 1 => Just(PackageCondition::Broken), 1 => Just(PackageCondition::Off), 1 => Just(PackageCondition::Link), 1 => Just(PackageCondition::Missing),
     ];
     let api = prop_oneof![12 => Just(1_u64), 1 => Just(9_u64)];
     let major = prop_oneof![3 => Just(1_u64), 1 => Just(2_u64)];
@@ -85,8 +85,8 @@ fn write(packages: &[PackageSketch]) -> tempfile::TempDir {
     for (number, package) in packages.iter().enumerate() {
         let at = folder.path().join(roots[package.root]).join(name(number));
         let place = match package.state {
-            State::Missing => continue,
-            State::Link if cfg!(unix) => folder.path().join("checkouts").join(name(number)),
+            PackageCondition::Missing => continue,
+            PackageCondition::Link if cfg!(unix) => folder.path().join("checkouts").join(name(number)),
             _ => at.clone(),
         };
         std::fs::create_dir_all(&place).unwrap();
@@ -95,11 +95,11 @@ fn write(packages: &[PackageSketch]) -> tempfile::TempDir {
         if place != at {
             std::os::unix::fs::symlink(&place, &at).unwrap();
         }
-        let nonsense = package.state == State::Broken;
+        let nonsense = package.state == PackageCondition::Broken;
         let text = if nonsense { "name = ".to_owned() } else { text(number, package) };
         std::fs::write(place.join(MANIFEST), text).unwrap();
         std::fs::write(place.join("a.lua"), "return 1").unwrap();
-        if package.state == State::Off {
+        if package.state == PackageCondition::Off {
             off += &format!("{} # for a while\n", name(number));
         }
     }
@@ -120,7 +120,7 @@ fn find(folder: &Path) -> Packages {
 
 /// Whether the package `number` is there and can be read.
 fn is_there(packages: &[PackageSketch], number: usize) -> bool {
-    matches!(packages[number].state, State::Sound | State::Link)
+    matches!(packages[number].state, PackageCondition::Sound | PackageCondition::Link)
 }
 
 fn fits(packages: &[PackageSketch], (other, major): (usize, u64)) -> bool {

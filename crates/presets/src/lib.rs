@@ -182,7 +182,7 @@ pub fn check_name(name: &str) -> Result<()> {
         return Ok(());
     }
     Err(Error::argument(format!("{name:?} cannot be the name of a preset")).help(format!(
-        "use 1 to {LONGEST} characters, without line breaks and characters that turn text round, and no space at the beginning or the end"
+        "use 1 to {LONGEST} characters, without line breaks and bidirectional controls, and no space at the beginning or the end"
     )))
 }
 

@@ -1,7 +1,7 @@
 //! The plane that operations work in: geometries to and from those of `geo`, around an origin of their own.
 
 use burgeon_geometry::Rings;
-use burgeon_geometry::overlay::is_counter_clockwise;
+use burgeon_geometry::planar::is_counter_clockwise;
 use glam::{DVec2, DVec3};
 
 use super::Geometry;

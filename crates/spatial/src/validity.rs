@@ -1,7 +1,8 @@
 //! Validity of geometries by OGC Simple Features, and the repair of those that are not valid.
 
 use burgeon_geometry::Rings;
-use burgeon_geometry::overlay::{Fill, is_flat};
+use burgeon_geometry::overlay::Fill;
+use burgeon_geometry::planar::is_flat;
 use glam::DVec3;
 
 use super::Geometry;

@@ -103,22 +103,28 @@ impl Drainage {
         }
     }
 
-    /// The way (m) of a river from `source` (m) to an outlet or into an earlier river, never rising. Fails where the way
-    /// is shorter than two cells.
+    /// Lets a river run: its [`course`](Self::course), where later rivers end.
     pub fn river(&mut self, source: DVec2) -> Result<Vec<DVec3>, Dry> {
+        let course = self.course(source)?;
+        let cells: Vec<usize> = self.cell(source).into_iter().flat_map(|cell| self.way(cell)).collect();
+        cells.into_iter().for_each(|cell| self.wet[cell] = true);
+        Ok(course)
+    }
+
+    /// Path (m) of a river from `source` (m) to an outlet or into an earlier river, never rising. Fails if it is shorter than
+    /// two cells.
+    pub fn course(&self, source: DVec2) -> Result<Vec<DVec3>, Dry> {
         let cells: Vec<usize> = self.cell(source).into_iter().flat_map(|cell| self.way(cell)).collect();
         if cells.len() <= SHORTEST {
             let is_wet = cells.last().is_some_and(|cell| self.wet[*cell]);
             return Err(if is_wet { Dry::River } else { Dry::Outlet });
         }
         let mut level = f64::INFINITY;
-        let mut way = Vec::with_capacity(cells.len());
-        for cell in cells {
+        let path = cells.into_iter().map(|cell| {
             level = level.min(self.heights[cell]);
-            way.push(self.middle(cell).extend(level));
-            self.wet[cell] = true;
-        }
-        Ok(rounded(rounded(way)))
+            self.middle(cell).extend(level)
+        });
+        Ok(rounded(rounded(path.collect())))
     }
 
     /// Whether a river has a way from `source` (m).

@@ -6,7 +6,7 @@ use super::entry::{Entry, EntryGroup, Member, MemberKind};
 use burgeon::language::CallForm;
 
 /// How many.
-const COUNTS: [&str; 29] = [
+const COUNTS: [&str; 30] = [
     "derived.modules",
     "derived.steps",
     "extruder.along",
@@ -24,6 +24,7 @@ const COUNTS: [&str; 29] = [
     "grid.columns",
     "grid.rows",
     "network.existing.depth",
+    "network.existing.lanes",
     "network.most",
     "network.streets.lanes",
     "network:grow depth",
@@ -93,7 +94,7 @@ const FACTORS: [&str; 50] = [
 ];
 
 /// Which one: numbers of things, codes and seeds.
-const NUMBERS: [&str; 30] = [
+const NUMBERS: [&str; 31] = [
     ".seed",
     "Paint number",
     "elevation.crs",
@@ -105,6 +106,7 @@ const NUMBERS: [&str; 30] = [
     "footprint:shared edge",
     "geometry:geometry_n number",
     "geometry:point_n number",
+    "network.existing.level",
     "network:arrived junction",
     "network:degree junction",
     "network:face junction",

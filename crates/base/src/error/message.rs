@@ -3,7 +3,7 @@
 use std::borrow::Cow;
 use std::fmt;
 
-use super::ErrorKind;
+use super::{ErrorKind, Limit};
 use crate::text::{escaped_lines, without_passwords};
 
 /// The characters of a message or a remedy that are told at most; more are left out in the middle.
@@ -167,10 +167,13 @@ impl Error {
         self.noting(&format!("feature {id}"))
     }
 
-    /// Says that the data is at fault: what a feature holds cannot be built, whatever the script does with it.
+    /// Blames the data: what a feature holds cannot be built, whatever the script does with it. A run that is out of time or
+    /// memory, or cancelled, is never blamed on one feature, since the next one would fail as well.
     #[must_use]
     pub fn of_data(mut self) -> Self {
-        if self.0.fault == Fault::Unknown {
+        let ends_run =
+            matches!(self.0.kind, ErrorKind::Limit(Limit::Memory | Limit::Time) | ErrorKind::Stopped);
+        if self.0.fault == Fault::Unknown && !ends_run {
             self.0.fault = Fault::Data;
         }
         self
@@ -394,6 +397,14 @@ pub fn shortened(text: &str, most: usize) -> Cow<'_, str> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn data_is_not_at_fault_where_the_run_is_out_of_time_or_memory() {
+        assert!(Error::limit(Limit::Size, "a line has too many points").of_data().is_of_data());
+        for limit in [Limit::Memory, Limit::Time] {
+            assert!(!Error::limit(limit, "too much").of_data().is_of_data());
+        }
+    }
 
     #[test]
     fn no_part_of_an_error_holds_the_password_of_an_address() {

@@ -65,24 +65,55 @@ impl SplinePatch {
         if self.heights.len() <= MOST { self.bend(&holes, budget) } else { self.smooth(&holes, budget) }
     }
 
-    /// The means of known heights, two by two; NaN where none of the four is known.
+    /// The means of heights, two by two; NaN where none of the four is known. Those of the four that are missing are
+    /// [continued](Self::continued), so that a slope keeps its place.
     fn halve(&self) -> Self {
         let (columns, rows) = (self.columns.div_ceil(2), self.rows.div_ceil(2));
         let mut heights = Vec::with_capacity(columns * rows);
         for row in (0..self.rows).step_by(2) {
             for column in (0..self.columns).step_by(2) {
+                let places = || {
+                    let down = row..self.rows.min(row + 2);
+                    down.flat_map(|y| (column..self.columns.min(column + 2)).map(move |x| (x, y)))
+                };
+                let is_known = |(x, y): (usize, usize)| !self.heights[y * self.columns + x].is_nan();
                 let (mut sum, mut known) = (0.0, 0.0);
-                for y in row..self.rows.min(row + 2) {
-                    let pair = &self.heights[y * self.columns + column..][..2.min(self.columns - column)];
-                    for height in pair.iter().filter(|height| !height.is_nan()) {
-                        sum += height;
-                        known += 1.0;
+                if places().any(is_known) {
+                    for (x, y) in places() {
+                        let height = self.continued(x, y);
+                        if !height.is_nan() {
+                            sum += height;
+                            known += 1.0;
+                        }
                     }
                 }
                 heights.push(sum / known);
             }
         }
         Self { columns, rows, heights, tension: self.tension * 4.0 }
+    }
+
+    /// The height of a sample; if it is missing, the mean of those that the slopes of its row and its column lead to on each
+    /// side, and NaN if none does.
+    fn continued(&self, x: usize, y: usize) -> f32 {
+        let height = self.heights[y * self.columns + x];
+        if !height.is_nan() {
+            return height;
+        }
+        let at = |right: isize, down: isize| {
+            let (x, y) = (x.checked_add_signed(right)?, y.checked_add_signed(down)?);
+            (x < self.columns && y < self.rows).then(|| self.heights[y * self.columns + x])
+        };
+        let (mut sum, mut count) = (0.0, 0.0);
+        for (right, down) in [(-1, 0), (1, 0), (0, -1), (0, 1)] {
+            if let (Some(near), Some(far)) = (at(right, down), at(2 * right, 2 * down))
+                && !(near + far).is_nan()
+            {
+                sum += 2.0 * near - far;
+                count += 1.0;
+            }
+        }
+        sum / count
     }
 
     /// The height between the four samples around a place in columns and rows, which may lie outside.

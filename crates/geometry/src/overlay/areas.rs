@@ -13,7 +13,7 @@ use crate::planar::Rings;
 const AT_ONCE: usize = 4;
 
 /// An area: polygons, outer rings counter-clockwise and holes clockwise.
-pub type Area = Vec<Rings<DVec2>>;
+pub type PolygonArea = Vec<Rings<DVec2>>;
 
 /// The rule by which rings enclose an area.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -33,7 +33,7 @@ pub fn ring_ways(area: &[Rings<DVec2>], layer: usize) -> impl Iterator<Item = La
 /// Returns the area that rings enclose by a rule, valid: rings that cross or touch are divided.
 ///
 /// Fails if the work of this thread is to stop.
-pub fn fill(area: &[Rings<DVec2>], rule: Fill) -> Result<Area> {
+pub fn fill(area: &[Rings<DVec2>], rule: Fill) -> Result<PolygonArea> {
     let ways: Vec<LayerWay> = ring_ways(area, 0).collect();
     Ok(Subdivision::new(&ways)?.areas(|[around, _]| match rule {
         Fill::NonZero => around != 0,
@@ -47,25 +47,26 @@ pub fn fill(area: &[Rings<DVec2>], rule: Fill) -> Result<Area> {
 /// Fails if the work of this thread is to stop.
 ///
 /// ```
-/// use burgeon_geometry::Rings;
 /// use burgeon_geometry::overlay::overlay;
+/// use burgeon_geometry::{Polygon, Rings};
 /// use glam::DVec2;
 ///
 /// let square = |at: f64| -> Rings<DVec2> {
 ///     Rings(vec![[(at, at), (at + 2.0, at), (at + 2.0, at + 2.0), (at, at + 2.0)].map(DVec2::from).to_vec()])
 /// };
 /// let both = overlay(&[square(0.0)], &[square(1.0)], |[first, second]| first && second)?;
-/// assert_eq!(both[0][0], [(1.0, 1.0), (2.0, 1.0), (2.0, 2.0), (1.0, 2.0)].map(DVec2::from).to_vec());
+/// let both = Polygon::new(both[0].clone())?;
+/// assert_eq!((both.size(), both.area(), both.contains(DVec2::splat(1.5))), (4, 1.0, true));
 /// # Ok::<(), burgeon_base::error::Error>(())
 /// ```
 pub fn overlay(
     first: &[Rings<DVec2>],
     second: &[Rings<DVec2>],
     keep: impl Fn([bool; 2]) -> bool,
-) -> Result<Area> {
+) -> Result<PolygonArea> {
     let parts: Vec<(usize, &Rings<DVec2>)> =
         first.iter().map(|rings| (0, rings)).chain(second.iter().map(|rings| (1, rings))).collect();
-    let mut made = Area::new();
+    let mut made = PolygonArea::new();
     for group in groups(parts.iter().map(|(_, rings)| *rings))? {
         let ways: Vec<LayerWay> = group
             .iter()
@@ -95,7 +96,7 @@ pub fn overlay(
 /// assert_eq!(row[0][0].len(), 4);
 /// # Ok::<(), burgeon_base::error::Error>(())
 /// ```
-pub fn unite(parts: Vec<Rings<DVec2>>) -> Result<Area> {
+pub fn unite(parts: Vec<Rings<DVec2>>) -> Result<PolygonArea> {
     let mut valid = Vec::with_capacity(parts.len());
     for rings in &parts {
         valid.push(fill(std::slice::from_ref(rings), Fill::NonZero)?);
@@ -104,8 +105,8 @@ pub fn unite(parts: Vec<Rings<DVec2>>) -> Result<Area> {
 }
 
 /// Returns the union of areas that are valid, each by itself.
-pub(super) fn unite_valid(areas: Vec<Area>) -> Result<Area> {
-    let mut made = Area::new();
+pub(super) fn unite_valid(areas: Vec<PolygonArea>) -> Result<PolygonArea> {
+    let mut made = PolygonArea::new();
     let all: Vec<Rings<DVec2>> = areas.iter().flatten().cloned().collect();
     let owners = owners(&areas);
     let middles: Vec<DVec2> = all.iter().map(middle).collect();
@@ -118,7 +119,7 @@ pub(super) fn unite_valid(areas: Vec<Area>) -> Result<Area> {
         let high = group.iter().fold(DVec2::NEG_INFINITY, |high, index| high.max(middles[*index]));
         let axis = usize::from((high - low).y > (high - low).x);
         group.sort_by(|a, b| middles[*a][axis].total_cmp(&middles[*b][axis]));
-        let sorted: Vec<Area> = group.into_iter().map(|index| vec![all[index].clone()]).collect();
+        let sorted: Vec<PolygonArea> = group.into_iter().map(|index| vec![all[index].clone()]).collect();
         made.extend(join(sorted)?);
     }
     Ok(made)
@@ -130,7 +131,7 @@ fn middle(rings: &Rings<DVec2>) -> DVec2 {
 }
 
 /// Joins valid areas, some at a time, until there is one.
-fn join(mut areas: Vec<Area>) -> Result<Area> {
+fn join(mut areas: Vec<PolygonArea>) -> Result<PolygonArea> {
     while areas.len() > 1 {
         areas = areas.chunks(AT_ONCE).map(join_few).collect::<Result<_>>()?;
     }
@@ -138,10 +139,10 @@ fn join(mut areas: Vec<Area>) -> Result<Area> {
 }
 
 /// Joins valid areas at once.
-fn join_few(areas: &[Area]) -> Result<Area> {
+fn join_few(areas: &[PolygonArea]) -> Result<PolygonArea> {
     let all: Vec<&Rings<DVec2>> = areas.iter().flatten().collect();
     let owners = owners(areas);
-    let mut made = Area::new();
+    let mut made = PolygonArea::new();
     for group in groups(all.iter().copied())? {
         if is_of_one(&group, &owners) {
             made.extend(group.into_iter().map(|index| all[index].clone()));
@@ -155,7 +156,7 @@ fn join_few(areas: &[Area]) -> Result<Area> {
 }
 
 /// By polygon: the area that it is part of.
-fn owners(areas: &[Area]) -> Vec<usize> {
+fn owners(areas: &[PolygonArea]) -> Vec<usize> {
     areas.iter().enumerate().flat_map(|(index, area)| std::iter::repeat_n(index, area.len())).collect()
 }
 

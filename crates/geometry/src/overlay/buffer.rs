@@ -3,7 +3,7 @@
 use burgeon_base::error::Result;
 use glam::DVec2;
 
-use super::areas::{Area, unite_valid};
+use super::areas::{PolygonArea, unite_valid};
 use super::noding::{LayerWay, WayKind};
 use super::outline::{BufferStyle, ClosedWalk, Outliner};
 use super::subdivision::Subdivision;
@@ -32,16 +32,16 @@ pub struct BufferSource<'a> {
 /// Fails if the work of this thread is to stop.
 ///
 /// Method: the union of what is beside each edge and around each corner. Where that is much, it is computed piece by piece.
-pub fn buffer(source: BufferSource<'_>, distance: f64, style: BufferStyle) -> Result<Area> {
+pub fn buffer(source: BufferSource<'_>, distance: f64, style: BufferStyle) -> Result<PolygonArea> {
     let outliner = Outliner { distance: distance.abs(), style };
     if distance <= 0.0 {
-        let mut made = Area::new();
+        let mut made = PolygonArea::new();
         for rings in source.areas {
             made.extend(inner(rings, &outliner)?);
         }
         return Ok(made);
     }
-    let mut parts: Vec<Area> = Vec::new();
+    let mut parts: Vec<PolygonArea> = Vec::new();
     for rings in source.areas {
         parts.extend(outer(rings, &outliner)?);
     }
@@ -55,7 +55,7 @@ pub fn buffer(source: BufferSource<'_>, distance: f64, style: BufferStyle) -> Re
     unite_valid(parts)
 }
 
-fn polygon(ring: Vec<DVec2>) -> Area {
+fn polygon(ring: Vec<DVec2>) -> PolygonArea {
     vec![Rings(vec![ring])]
 }
 
@@ -71,7 +71,7 @@ fn walks(rings: &Rings<DVec2>, is_inwards: bool) -> Vec<ClosedWalk> {
 }
 
 /// A polygon and what lies within the distance of it, as areas that may overlap.
-fn outer(rings: &Rings<DVec2>, outliner: &Outliner) -> Result<Vec<Area>> {
+fn outer(rings: &Rings<DVec2>, outliner: &Outliner) -> Result<Vec<PolygonArea>> {
     let walks = walks(rings, false);
     let mut made = swept(&walks, outliner, 0)?;
     if are_dense(&walks, outliner) {
@@ -81,7 +81,7 @@ fn outer(rings: &Rings<DVec2>, outliner: &Outliner) -> Result<Vec<Area>> {
 }
 
 /// What of a polygon lies farther than the distance from its border.
-fn inner(rings: &Rings<DVec2>, outliner: &Outliner) -> Result<Area> {
+fn inner(rings: &Rings<DVec2>, outliner: &Outliner) -> Result<PolygonArea> {
     let walks = walks(rings, true);
     if !are_dense(&walks, outliner) {
         return Ok(swept(&walks, outliner, -1)?.pop().unwrap_or_default());
@@ -96,7 +96,7 @@ fn are_dense(walks: &[ClosedWalk], outliner: &Outliner) -> bool {
 
 /// What walks sweep over to their right. With few edges that is one area, with what they go around more than `least` times;
 /// with many it is several, which may overlap, without what they go around.
-fn swept(walks: &[ClosedWalk], outliner: &Outliner, least: i32) -> Result<Vec<Area>> {
+fn swept(walks: &[ClosedWalk], outliner: &Outliner, least: i32) -> Result<Vec<PolygonArea>> {
     let ring = |places| LayerWay { layer: 0, kind: WayKind::Ring, places };
     if !are_dense(walks, outliner) {
         let ways: Vec<LayerWay> = walks.iter().map(|walk| ring(outliner.whole(walk))).collect();

@@ -16,15 +16,15 @@ mod nodes;
 mod noding;
 mod outline;
 mod pairs;
+mod polygons;
 mod predicates;
 mod rings;
 mod subdivision;
 #[cfg(test)]
 mod tests;
 
-pub use areas::{Area, Fill, fill, overlay, ring_ways, unite};
+pub use areas::{Fill, PolygonArea, fill, overlay, ring_ways, unite};
 pub use buffer::{BufferSource, buffer};
 pub use noding::{LayerWay, WayKind};
 pub use outline::{BufferStyle, Cap, Join};
-pub use predicates::{is_counter_clockwise, is_flat};
 pub use subdivision::{Subdivision, SubdivisionEdge};

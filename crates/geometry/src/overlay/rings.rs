@@ -15,7 +15,7 @@ use crate::planar::Rings;
 const NONE: u32 = u32::MAX;
 
 /// Edges of a border, from their right ends to their left ones if the inside is below them.
-struct Border<'a> {
+struct BorderWalks<'a> {
     of: &'a Subdivision,
     /// By edge: whether the inside is above it and not below (1), or below and not above (-1), else 0.
     sides: Vec<i8>,
@@ -27,7 +27,7 @@ struct Border<'a> {
 
 /// A walk along a border: the outer ring, if it has one, and holes.
 #[derive(Default)]
-struct Walk {
+struct RingWalk {
     outer: Option<Vec<u32>>,
     holes: Vec<Vec<u32>>,
     /// Its least edge: one that begins at its leftmost node, and below the others there.
@@ -47,7 +47,7 @@ impl Subdivision {
                 _ => 0,
             })
             .collect();
-        let mut border = Border {
+        let mut border = BorderWalks {
             of: self,
             sides,
             next: vec![NONE; self.edges.len()],
@@ -59,7 +59,7 @@ impl Subdivision {
     }
 }
 
-impl Border<'_> {
+impl BorderWalks<'_> {
     /// Finds the edge behind each.
     fn link(&mut self) {
         let mut star: Vec<(u32, bool)> = Vec::new();
@@ -82,7 +82,7 @@ impl Border<'_> {
     }
 
     /// Walks along the border, from the edges on that are first in the order of the sweep.
-    fn walks(&self) -> Vec<Walk> {
+    fn walks(&self) -> Vec<RingWalk> {
         let mut walks = Vec::new();
         let mut done = vec![false; self.sides.len()];
         // By node: where on the present walk it is.
@@ -92,7 +92,7 @@ impl Border<'_> {
             if self.sides[least as usize] == 0 || done[least as usize] {
                 continue;
             }
-            let mut made = Walk { least, ..Walk::default() };
+            let mut made = RingWalk { least, ..RingWalk::default() };
             let mut edge = least;
             while !done[edge as usize] {
                 done[edge as usize] = true;
@@ -116,7 +116,7 @@ impl Border<'_> {
     }
 
     /// Adds a ring to a walk.
-    fn note(&self, walk: &mut Walk, ring: Vec<u32>) {
+    fn note(&self, walk: &mut RingWalk, ring: Vec<u32>) {
         let place = |edge: u32| self.of.places[self.begin(edge) as usize];
         let before = |one: DVec2, two: DVec2| one.x < two.x || one.x == two.x && one.y < two.y;
         let least = (0..ring.len())
@@ -133,7 +133,7 @@ impl Border<'_> {
     }
 
     /// The polygons of walks: those without an outer ring are holes of the others.
-    fn polygons(&self, walks: Vec<Walk>) -> Vec<Rings<DVec2>> {
+    fn polygons(&self, walks: Vec<RingWalk>) -> Vec<Rings<DVec2>> {
         // By edge: the nearest one of the border below it.
         let mut under: Vec<u32> = Vec::with_capacity(self.sides.len());
         for edge in &self.of.edges {
@@ -146,7 +146,7 @@ impl Border<'_> {
         let mut owners: Vec<u32> = vec![NONE; self.sides.len()];
         let mut polygons: Vec<Vec<Vec<u32>>> = Vec::new();
         // Walks are in the order of their least edges, and what lies below one was begun before.
-        for Walk { outer, holes, least } in walks {
+        for RingWalk { outer, holes, least } in walks {
             let below = under[least as usize];
             let polygon = if outer.is_some() {
                 polygons.push(Vec::new());

@@ -7,13 +7,13 @@ use proptest::prelude::*;
 
 use super::predicates::crossing;
 use super::*;
-use crate::planar::{Rings, twice_area};
+use crate::planar::{Rings, is_counter_clockwise, twice_area};
 
 fn ring(places: &[(f64, f64)]) -> Vec<DVec2> {
     places.iter().copied().map(DVec2::from).collect()
 }
 
-fn area(made: &Area) -> f64 {
+fn area(made: &PolygonArea) -> f64 {
     made.iter().flat_map(|rings| rings.iter()).map(|ring| twice_area(ring.iter().copied()) / 2.0).sum()
 }
 
@@ -62,7 +62,7 @@ fn work_ends_where_its_run_is_stopped() {
 }
 
 /// Whether edges of rings cross.
-fn is_tangled(made: &Area) -> bool {
+fn is_tangled(made: &PolygonArea) -> bool {
     let edges: Vec<[DVec2; 2]> =
         made.iter().flat_map(|rings| rings.iter()).flat_map(|ring| crate::planar::edges(ring)).collect();
     let pairs = edges
@@ -88,7 +88,7 @@ proptest! {
         far in prop::sample::select(vec![0.0, 6.8e6]),
         thin in prop::sample::select(vec![1.0, 1e-7]),
     ) {
-        let moved = |rings: Vec<Vec<DVec2>>| -> Area {
+        let moved = |rings: Vec<Vec<DVec2>>| -> PolygonArea {
             let place = |at: DVec2| DVec2::new(far + at.x, far * 0.07 + at.y * thin);
             rings.into_iter().map(|ring| Rings(vec![ring.into_iter().map(place).collect()])).collect()
         };

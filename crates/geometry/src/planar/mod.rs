@@ -16,6 +16,7 @@
 mod convert;
 mod line;
 mod measure;
+mod orientation;
 mod point;
 mod polygon;
 mod ring;
@@ -25,10 +26,11 @@ mod tests;
 
 pub use line::Line;
 pub use measure::{contains, distance, edges, foot, hull, simplified, twice_area};
+pub use orientation::{is_counter_clockwise, is_flat};
 pub use point::Point;
 pub use polygon::Polygon;
 pub use ring::Ring;
 pub use rings::Rings;
 
 pub(crate) use convert::geo_polygon;
-pub(crate) use measure::{coord, has_area, kept, orientation};
+pub(crate) use measure::{coord, kept, orientation};

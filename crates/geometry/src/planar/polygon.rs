@@ -10,7 +10,6 @@ use super::measure::{bounds, contains, has_area, hull};
 use super::ring::shown;
 use super::{Point, Ring, Rings};
 use crate::cap;
-use crate::overlay::{Area, BufferSource, BufferStyle, Cap, Join, buffer, overlay};
 use burgeon_base::error::{Error, Result};
 
 /// A polygon: an outer ring and holes; empty without any.
@@ -191,52 +190,6 @@ impl Polygon {
         cap::triangulate(self)
     }
 
-    /// The polygons left when every edge moves inwards by `distance` (m), or outwards if that is negative; none if
-    /// nothing is left. Corners are mitred, cut off where they are farther than two distances.
-    ///
-    /// ```
-    /// use burgeon_geometry::{Polygon, Rings};
-    /// use glam::DVec2;
-    ///
-    /// // Two rooms, 4 m by 4 m, and a passage between them that is 1 m wide.
-    /// let rooms = [
-    ///     (0.0, 0.0), (4.0, 0.0), (4.0, 1.5), (7.0, 1.5), (7.0, 0.0), (11.0, 0.0),
-    ///     (11.0, 4.0), (7.0, 4.0), (7.0, 2.5), (4.0, 2.5), (4.0, 4.0), (0.0, 4.0),
-    /// ];
-    /// let rooms = Polygon::new(Rings(vec![rooms.map(DVec2::from).to_vec()]))?;
-    /// assert_eq!(rooms.inset(0.25).len(), 1);
-    /// let parts = rooms.inset(1.0);
-    /// assert_eq!(parts.len(), 2);
-    /// assert!(parts.iter().all(|part| (part.area() - 4.0).abs() < 1e-6));
-    /// # Ok::<(), burgeon_base::error::Error>(())
-    /// ```
-    pub fn inset(&self, distance: f64) -> Vec<Self> {
-        let style = BufferStyle { join: Join::Mitre(MITRE), cap: Cap::Flat, quadrant_segments: 1 };
-        let own = [Rings::from(self)];
-        let source = BufferSource { areas: &own, ..BufferSource::default() };
-        polygons(buffer(source, -distance, style))
-    }
-
-    /// Returns the parts of it that lie outside of `others`; none if they cover it.
-    ///
-    /// ```
-    /// use burgeon_geometry::{Polygon, Rings};
-    /// use glam::DVec2;
-    ///
-    /// let square = |at: f64, side: f64| {
-    ///     let ring = [(at, at), (at + side, at), (at + side, at + side), (at, at + side)].map(DVec2::from);
-    ///     Polygon::new(Rings(vec![ring.to_vec()]))
-    /// };
-    /// let left = square(0.0, 4.0)?.without(&[square(3.0, 4.0)?, square(1.0, 1.0)?]);
-    /// assert_eq!((left.len(), left[0].holes().len()), (1, 1));
-    /// assert!((left[0].area() - 14.0).abs() < 1e-6);
-    /// # Ok::<(), burgeon_base::error::Error>(())
-    /// ```
-    pub fn without(&self, others: &[Self]) -> Vec<Self> {
-        let others: Area = others.iter().map(Rings::from).collect();
-        polygons(overlay(&[Rings::from(self)], &others, |[inside, other]| inside && !other))
-    }
-
     /// Its rings without points that are within `distance` (m) of the line between others; they may meet.
     ///
     /// Method: D. Douglas and T. Peucker, "Algorithms for the reduction of the number of points required to represent
@@ -255,15 +208,6 @@ impl Polygon {
     pub fn simplified(&self, distance: f64) -> Rings<DVec2> {
         self.rings.iter().map(|ring| open(&LineString::from(ring).simplify(distance))).collect()
     }
-}
-
-/// The distances from a corner at which its mitre is cut off.
-const MITRE: f64 = 2.0;
-
-/// The polygons of an area but for those that rounding may have made of nothing; none once the work of this thread is to
-/// stop.
-fn polygons(area: Result<Area>) -> Vec<Polygon> {
-    area.unwrap_or_default().into_iter().filter_map(|rings| Polygon::turned(rings).ok()).collect()
 }
 
 impl<P> Deref for Polygon<P> {

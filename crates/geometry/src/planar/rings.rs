@@ -4,8 +4,7 @@ use std::ops::Deref;
 
 use glam::{DVec2, DVec3};
 
-use super::{Point, Polygon};
-use crate::overlay::is_counter_clockwise;
+use super::{Point, Polygon, is_counter_clockwise};
 
 /// Rings as somebody gave them, the outer one first: nothing is promised of their points.
 ///

@@ -5,7 +5,7 @@ local existing = {
   { lines = { { { -40, 0 }, { 90, 40 } } }, width = 9, lanes = 2, depth = 1 },
   { lines = { { { 50, -60 }, { 50, 90 } } }, level = 1, depth = 2 },
 }
-local roads = lsystem({ object = network({ existing = existing, ground = "#66774e" }) })
+local roads = lsystem({ object = network({ existing = existing }) })
 roads:axiom(Keep())
 local streets = roads:derive(0).objects[1]
 for _, part in streets:omitted() do

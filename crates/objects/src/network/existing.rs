@@ -8,7 +8,7 @@ use burgeon_kit::{Expectation, Field, Parameter, Table, Value, fields};
 use burgeon_streets::{ExistingReport, ExistingStreet, StreetAttributes, StreetKind, StreetNetwork};
 use glam::DVec3;
 
-use super::lines::{ByLine, StreetLine, StreetLines, is_set, number_of};
+use super::lines::{ByLine, ExistingLine, StreetLines, is_set, number_of};
 
 /// How many losses a warning names; `network:omitted()` lists all.
 const NAMED: usize = 5;
@@ -125,7 +125,7 @@ pub(super) fn add(
 /// A street as its line has it.
 fn street(
     lines: &ExistingLines,
-    line: &StreetLine,
+    line: &ExistingLine,
     name: String,
     kinds: &[StreetKind],
     unusable: &mut Unusable,
@@ -186,7 +186,7 @@ fn street(
 }
 
 /// The level of a line by the attributes that OpenStreetMap has for it.
-fn level_of(line: &StreetLine, is_bridge: bool) -> i32 {
+fn level_of(line: &ExistingLine, is_bridge: bool) -> i32 {
     let layer = line.fact("layer").and_then(|layer| number_of(&layer)).filter(|layer| layer.abs() <= 100.0);
     #[allow(clippy::cast_possible_truncation, reason = "tested to be in range")]
     let layer = layer.map(|layer| layer as i32).filter(|layer| *layer != 0);

@@ -44,14 +44,14 @@ impl Parameter for ByLine {
 /// Lines (m) of a source, of features, of geometries or of lists of points.
 #[derive(Debug, Clone, Default)]
 pub struct StreetLines {
-    pub(super) lines: Vec<StreetLine>,
+    pub(super) lines: Vec<ExistingLine>,
     /// How many items of a list are no lines, and the first of them.
     pub(super) refused: Option<(usize, String)>,
 }
 
 /// A line and what is known of it.
 #[derive(Debug, Clone)]
-pub(super) struct StreetLine {
+pub(super) struct ExistingLine {
     pub(super) line: Line<DVec3>,
     pub(super) id: Option<String>,
     facts: LineFacts,
@@ -127,7 +127,7 @@ pub(super) fn is_set(fact: &LineFact) -> bool {
     }
 }
 
-impl StreetLine {
+impl ExistingLine {
     /// An attribute of the line; `None` if it has none of that name.
     pub(super) fn fact(&self, name: &str) -> Option<LineFact> {
         match &self.facts {
@@ -241,6 +241,6 @@ impl StreetLines {
             *count += more;
         }
         let lines = found.lines.into_iter();
-        self.lines.extend(lines.map(|line| StreetLine { line, id: id.clone(), facts: facts.clone() }));
+        self.lines.extend(lines.map(|line| ExistingLine { line, id: id.clone(), facts: facts.clone() }));
     }
 }

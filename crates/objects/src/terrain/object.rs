@@ -213,6 +213,14 @@ impl Terrain {
         self.known(at, found.map(|drainage| drainage.is_source(at)), true)
     }
 
+    /// Depth (m) of the deepest cut that the bed of a river of `width` (m) from a place needs; nil if no river begins there.
+    pub fn river_cut(&self, place: Vector, width: f64) -> Result<Option<f64>> {
+        let at = place.0.truncate();
+        let drainage = self.ground.height(at).map(|_| self.drainage()).transpose()?;
+        let course = self.known(at, drainage.map(|drainage| drainage.course(at)), Err(Dry::Outlet))?;
+        Ok(course.ok().map(|path| Channel::new(&path, width, |at| self.ground.height(at)).deepest.1))
+    }
+
     /// The symbol of the cell at a place.
     pub fn symbol(&self, place: Vector) -> Result<String> {
         let at = place.0.truncate();

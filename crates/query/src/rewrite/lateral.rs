@@ -5,7 +5,7 @@
 //! - Rows of one table are joined by their keys: `b.fid IN (SELECT ... ORDER BY ... LIMIT 3)`.
 
 use sqlparser::ast::{
-    Expr, JoinOperator, Query, Select, SelectItem, SetExpr, TableFactor, TableWithJoins, Value,
+    Expr, JoinOperator, OrderByKind, Query, Select, SelectItem, SetExpr, TableFactor, TableWithJoins, Value,
 };
 
 use super::Catalogue;
@@ -187,6 +187,20 @@ fn flattened(factor: &TableFactor, tables: &Catalogue, known: &[String]) -> Resu
     joined(subquery, select, &owner, tables, columns, starred, substitution).map(Some)
 }
 
+/// The column that an expression behind ORDER BY means by its name or its number.
+fn meant<'c>(key: &Expr, columns: &'c [(String, Expr)]) -> Option<&'c (String, Expr)> {
+    match key {
+        Expr::Identifier(name) => columns.iter().find(|(known, _)| known.eq_ignore_ascii_case(&name.value)),
+        Expr::Value(value) => match &value.value {
+            Value::Number(number, _) => {
+                number.parse::<usize>().ok().and_then(|number| columns.get(number.checked_sub(1)?))
+            }
+            _ => None,
+        },
+        _ => None,
+    }
+}
+
 /// A join with the rows of one table that a subquery gives.
 fn joined(
     subquery: &Query,
@@ -204,6 +218,14 @@ fn joined(
     };
     let Some(key) = &table.key else { return Err(unsupported("with a table without a key")) };
     let mut keys = subquery.clone();
+    if let Some(OrderByKind::Expressions(order)) = keys.order_by.as_mut().map(|order| &mut order.kind) {
+        // Its columns go, so what it orders by is written out.
+        for key in order {
+            if let Some((_, expression)) = meant(&key.expr, &columns) {
+                key.expr = Expr::Nested(Box::new(expression.clone()));
+            }
+        }
+    }
     if let SetExpr::Select(select) = &mut *keys.body {
         let key = parse::expression(&format!("{}.{}", quoted(&alias.value), quoted(key)));
         select.projection = key.into_iter().map(SelectItem::UnnamedExpr).collect();

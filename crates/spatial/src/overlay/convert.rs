@@ -1,19 +1,19 @@
 //! Areas to and from other types.
 
 use burgeon_geometry::Rings;
-use burgeon_geometry::overlay::Area;
+use burgeon_geometry::overlay::PolygonArea;
 use geo::{Coord, LineString, MultiPolygon, Polygon};
 use glam::DVec2;
 
 use crate::Geometry;
 
 /// The polygons of `geo` as an area.
-pub(crate) fn area_of(polygons: &MultiPolygon) -> Area {
+pub(crate) fn area_of(polygons: &MultiPolygon) -> PolygonArea {
     polygons.iter().map(Rings::from).collect()
 }
 
 /// An area as polygons of `geo`.
-pub(super) fn polygons_of(area: &Area) -> MultiPolygon {
+pub(super) fn polygons_of(area: &PolygonArea) -> MultiPolygon {
     let string = |ring: &Vec<DVec2>| {
         let mut line: LineString = ring.iter().map(|at| Coord { x: at.x, y: at.y }).collect();
         line.close();
@@ -28,7 +28,7 @@ pub(super) fn polygons_of(area: &Area) -> MultiPolygon {
 }
 
 /// The simplest geometry of an area.
-pub(crate) fn geometry_of(area: &Area) -> Geometry {
+pub(crate) fn geometry_of(area: &PolygonArea) -> Geometry {
     match &area[..] {
         [] => Geometry::empty(2),
         [only] => Geometry::Polygon(only.at_height(0.0)),

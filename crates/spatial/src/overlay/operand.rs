@@ -1,7 +1,8 @@
 //! A geometry as its areas, lines and points, with nothing of them twice.
 
 use burgeon_base::budget::Budget;
-use burgeon_geometry::overlay::{Fill, LayerWay, WayKind, fill, is_flat, ring_ways, unite};
+use burgeon_geometry::overlay::{Fill, LayerWay, WayKind, fill, ring_ways, unite};
+use burgeon_geometry::planar::is_flat;
 use burgeon_geometry::planar::twice_area;
 use geo::{BoundingRect, MultiPolygon};
 use glam::DVec2;

@@ -8,7 +8,7 @@ use rstar::primitives::{GeomWithData, Line as IndexLine};
 use rstar::{AABB, RTree};
 use rustc_hash::FxHashSet;
 
-use super::Strand;
+use super::insertion::StreetStrand;
 use crate::grid::{GridPlace, PER_METRE, WholePlace, touch};
 
 /// How often lines are led through pixels; once is enough by the method, and the second time proves it.
@@ -26,7 +26,7 @@ type EdgeIndex = RTree<GeomWithData<IndexLine<[f64; 2]>, usize>>;
 
 /// Adds vertices where strands of one level meet. Gives the segments that cross others all the same, as the number of their
 /// strand and of their first vertex; there is none as far as anyone knows.
-pub(crate) fn node(strands: &mut [Strand]) -> Vec<(usize, usize)> {
+pub(crate) fn node(strands: &mut [StreetStrand]) -> Vec<(usize, usize)> {
     let mut levels: Vec<i32> = strands.iter().map(|strand| strand.level).collect();
     levels.sort_unstable();
     levels.dedup();
@@ -62,7 +62,7 @@ pub(crate) fn node(strands: &mut [Strand]) -> Vec<(usize, usize)> {
     unresolved
 }
 
-fn edges_of(strands: &[Strand], level: i32) -> Vec<NodingEdge> {
+fn edges_of(strands: &[StreetStrand], level: i32) -> Vec<NodingEdge> {
     let of_level = strands.iter().enumerate().filter(|(_, strand)| strand.level == level);
     let edges = of_level.flat_map(|(number, strand)| {
         let pairs = strand.places.windows(2).enumerate();
@@ -138,7 +138,7 @@ fn touches([a, b]: [GridPlace; 2], pixel: GridPlace) -> bool {
 
 /// Leads segments through the hot pixels that they touch; tells if any was changed.
 fn lead_through(
-    strands: &mut [Strand],
+    strands: &mut [StreetStrand],
     level: i32,
     edges: &[NodingEdge],
     hot: &FxHashSet<GridPlace>,

@@ -5,7 +5,7 @@ use rstar::{AABB, RTree};
 use rustc_hash::FxHashMap;
 use smallvec::SmallVec;
 
-use super::{Strand, TOLERANCE};
+use super::insertion::{StreetStrand, TOLERANCE};
 use crate::grid::{GridPlace, PER_METRE, WholePlace, foot};
 use burgeon_geometry::planar;
 use glam::DVec2;
@@ -16,7 +16,7 @@ const NEAR: f64 = 0.03;
 pub(super) const END: f64 = 0.5;
 
 /// Makes one place of what is nearly one, and leaves out vertices on which nothing depends.
-pub(super) fn snap(strands: &mut [Strand]) {
+pub(super) fn snap(strands: &mut [StreetStrand]) {
     unite_vertices(strands);
     simplify(strands);
     lead_ends(strands);
@@ -54,12 +54,12 @@ impl KnownVertices {
     }
 }
 
-fn unite_vertices(strands: &mut [Strand]) {
+fn unite_vertices(strands: &mut [StreetStrand]) {
     let mut levels: Vec<i32> = strands.iter().map(|strand| strand.level).collect();
     levels.sort_unstable_by_key(|level| (level.abs(), *level));
     levels.dedup();
     let mut known = KnownVertices::default();
-    for Strand { level, places, .. } in strands {
+    for StreetStrand { level, places, .. } in strands {
         let last = places.len() - 1;
         for (index, place) in places.iter_mut().enumerate() {
             let mut found = known.near(*level, *place);
@@ -77,7 +77,7 @@ fn unite_vertices(strands: &mut [Strand]) {
 }
 
 /// How many strands use each vertex; one that a strand uses twice counts twice.
-fn uses(strands: &[Strand]) -> FxHashMap<GridPlace, u32> {
+fn uses(strands: &[StreetStrand]) -> FxHashMap<GridPlace, u32> {
     let mut uses = FxHashMap::default();
     for place in strands.iter().flat_map(|strand| &strand.places) {
         *uses.entry(*place).or_default() += 1;
@@ -86,7 +86,7 @@ fn uses(strands: &[Strand]) -> FxHashMap<GridPlace, u32> {
 }
 
 /// Leaves out vertices that are within the tolerance of the line between others and belong to one strand alone.
-fn simplify(strands: &mut [Strand]) {
+fn simplify(strands: &mut [StreetStrand]) {
     let uses = uses(strands);
     for strand in strands {
         let mut kept: Vec<GridPlace> = Vec::new();
@@ -111,7 +111,7 @@ fn simplify(strands: &mut [Strand]) {
 /// Vertices to add to strands: the strand, the segment, how far along it from 0 to 1, and where.
 type NewVertices = Vec<(usize, usize, f64, GridPlace)>;
 
-fn add_vertices(strands: &mut [Strand], mut added: NewVertices) {
+fn add_vertices(strands: &mut [StreetStrand], mut added: NewVertices) {
     added.sort_by(|a, b| (a.0, a.1).cmp(&(b.0, b.1)).then(a.2.total_cmp(&b.2)).then(a.3.cmp(&b.3)));
     for (strand, segment, _, place) in added.into_iter().rev() {
         strands[strand].places.insert(segment + 1, place);
@@ -123,7 +123,7 @@ fn add_vertices(strands: &mut [Strand], mut added: NewVertices) {
 
 type SegmentIndex = RTree<GeomWithData<IndexLine<[f64; 2]>, (usize, usize)>>;
 
-fn segments(strands: &[Strand]) -> SegmentIndex {
+fn segments(strands: &[StreetStrand]) -> SegmentIndex {
     let all = strands.iter().enumerate().flat_map(|(number, strand)| {
         strand.places.windows(2).enumerate().map(move |(segment, pair)| {
             let [a, b] = [pair[0], pair[1]].map(|end| end.metres().to_array());
@@ -138,7 +138,7 @@ fn around(at: DVec2, margin: f64) -> AABB<[f64; 2]> {
 }
 
 /// Leads ends that no other strand shares onto the nearest line within [`END`].
-fn lead_ends(strands: &mut [Strand]) {
+fn lead_ends(strands: &mut [StreetStrand]) {
     let uses = uses(strands);
     let index = segments(strands);
     let mut added = NewVertices::new();
@@ -188,7 +188,7 @@ fn lead_ends(strands: &mut [Strand]) {
 }
 
 /// Leads lines through the vertices of others that are within [`NEAR`] of them, so that no piece is shorter than that.
-fn lead_past_vertices(strands: &mut [Strand]) {
+fn lead_past_vertices(strands: &mut [StreetStrand]) {
     let index = segments(strands);
     let mut added = NewVertices::new();
     for strand in strands.iter() {

@@ -4,8 +4,12 @@ use std::f64::consts::TAU;
 
 use proptest::prelude::*;
 
+use glam::DVec2;
+
+use super::snapping::END;
 use super::*;
 use crate::grid::touch;
+use crate::network::{PieceId, StreetAttributes, StreetNetwork};
 use crate::tests::TestNumbers;
 use crate::{Constraints, Obstacles};
 

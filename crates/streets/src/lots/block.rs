@@ -15,7 +15,7 @@ const BEND: f64 = 55.0;
 /// An edge leads away from a street if its ends differ by more than this part of its length in how far they are from it.
 const LEADS_AWAY: f64 = 0.5;
 /// An edge that leads away is on a street all the same if no place of it is farther (m): so are cut corners.
-const BESIDE: f64 = 1.0;
+const BESIDE: f64 = 2.0;
 
 /// A block lies at its streets if one of its edges is nearer (m), and what is then farther (m) is on no street.
 const AT_STREET: f64 = 0.5;

@@ -13,7 +13,7 @@ use super::cover::{CoverIndex, StreetCover};
 use super::loops::{components, loops};
 use super::{MergeOptions, MergedBlock, MergedLevel};
 use crate::corner::StreetLine;
-use crate::existing::{Strand, node};
+use crate::existing::{StreetStrand, node};
 use crate::grid::GridPlace;
 use crate::network::StreetNetwork;
 use burgeon_geometry::Rings;
@@ -27,7 +27,7 @@ const LEAST_BLOCK: [f64; 2] = [2.5, 15.0];
 /// The surfaces of the streets of a level.
 pub(super) fn level(network: &StreetNetwork, level: i32, options: MergeOptions) -> MergedLevel {
     let cover = CoverIndex::new(network, level, options);
-    let mut borders: Vec<Strand> = Vec::new();
+    let mut borders: Vec<StreetStrand> = Vec::new();
     for line in [StreetLine::Edge, StreetLine::Kerb] {
         borders.extend(borders_of(&cover, line));
     }
@@ -46,14 +46,14 @@ pub(super) fn level(network: &StreetNetwork, level: i32, options: MergeOptions) 
 }
 
 /// The borders of what has another surface beside it, of the streets or of their carriageways.
-fn borders_of(cover: &CoverIndex, line: StreetLine) -> Vec<Strand> {
-    let mut strands: Vec<Strand> = Vec::new();
+fn borders_of(cover: &CoverIndex, line: StreetLine) -> Vec<StreetStrand> {
+    let mut strands: Vec<StreetStrand> = Vec::new();
     for part in cover.parts.iter().filter(|part| part.line == line) {
         let mut places: Vec<GridPlace> = part.ring.iter().filter_map(|at| GridPlace::nearest(*at)).collect();
         places.extend(places.first().copied());
         places.dedup();
         if places.len() > 2 {
-            strands.push(Strand { street: 0, level: 0, length: 0.0, places });
+            strands.push(StreetStrand { street: 0, level: 0, length: 0.0, places });
         }
     }
     node(&mut strands);
@@ -73,7 +73,7 @@ fn borders_of(cover: &CoverIndex, line: StreetLine) -> Vec<Strand> {
             StreetLine::Kerb => sides[0] != sides[1],
         };
         if differs {
-            kept.push(Strand { street: 0, level: 0, length: 0.0, places: ends.to_vec() });
+            kept.push(StreetStrand { street: 0, level: 0, length: 0.0, places: ends.to_vec() });
         }
     }
     kept
@@ -93,10 +93,10 @@ fn divided(edges: Vec<[GridPlace; 2]>, longest: f64) -> Vec<[GridPlace; 2]> {
             std::iter::once(a).chain((1..count).filter_map(at)).chain(std::iter::once(b)).collect();
         places.windows(2).map(|pair| [pair[0], pair[1]]).collect::<Vec<_>>()
     };
-    let mut strands: Vec<Strand> = edges
+    let mut strands: Vec<StreetStrand> = edges
         .into_iter()
         .flat_map(divide)
-        .map(|ends| Strand { street: 0, level: 0, length: 0.0, places: ends.to_vec() })
+        .map(|ends| StreetStrand { street: 0, level: 0, length: 0.0, places: ends.to_vec() })
         .collect();
     // Rounding may have moved a place over another edge.
     node(&mut strands);

@@ -119,12 +119,12 @@ struct SemanticSurface {
 }
 
 /// The coordinates of a document.
-struct Vertices {
+struct CityVertices {
     places: Vec<Vec<f64>>,
     transform: Option<Transform>,
 }
 
-impl Vertices {
+impl CityVertices {
     fn ring(&self, numbers: &[usize]) -> std::result::Result<Vec<DVec3>, String> {
         numbers.iter().map(|number| self.place(*number)).collect()
     }
@@ -286,7 +286,7 @@ fn read_document(
         table.crs = named(name);
     }
     let CityJsonDocument { objects, vertices, transform, .. } = document;
-    let vertices = Vertices { places: vertices, transform };
+    let vertices = CityVertices { places: vertices, transform };
     let objects = objects.map(|list| list.0).unwrap_or_default();
     let places: FxHashMap<&str, &RawValue> = objects.iter().map(|(id, text)| (id.as_str(), *text)).collect();
     for (id, text) in &objects {
@@ -340,7 +340,7 @@ fn horizontal(code: u32) -> u32 {
 fn object(
     id: &str,
     text: &RawValue,
-    vertices: &Vertices,
+    vertices: &CityVertices,
     others: &FxHashMap<&str, &RawValue>,
     budget: &Budget,
 ) -> Result<std::result::Result<CityRecord, String>> {
@@ -368,7 +368,7 @@ type SingleObject = (CityRecord, Vec<String>);
 fn single(
     id: &str,
     text: &RawValue,
-    vertices: &Vertices,
+    vertices: &CityVertices,
     budget: &Budget,
 ) -> Result<std::result::Result<SingleObject, String>> {
     budget.tick()?;
@@ -402,12 +402,12 @@ fn single(
 }
 
 /// Rings of a surface, surfaces of a shell, shells of a solid, solids.
-type Rings = Vec<Vec<usize>>;
+type SurfaceRings = Vec<Vec<usize>>;
 
 /// Adds a geometry to a shape.
 fn add_geometry(
     geometry: &CityGeometry<'_>,
-    vertices: &Vertices,
+    vertices: &CityVertices,
     shape: &mut CityShape,
     budget: &Budget,
 ) -> Result<std::result::Result<(), String>> {
@@ -423,22 +423,22 @@ fn add_geometry(
         format!("has boundaries that cannot be read: {}", shown(&error.to_string()))
     };
     let is_solid = geometry.r#type.ends_with("Solid");
-    let read = || -> std::result::Result<(Vec<Rings>, Vec<usize>), String> {
+    let read = || -> std::result::Result<(Vec<SurfaceRings>, Vec<usize>), String> {
         match &*geometry.r#type {
             "MultiSurface" | "CompositeSurface" => {
                 Ok((serde_json::from_str(text).map_err(wrong)?, Vec::new()))
             }
             "Solid" => {
-                let shells: Vec<Vec<Rings>> = serde_json::from_str(text).map_err(wrong)?;
+                let shells: Vec<Vec<SurfaceRings>> = serde_json::from_str(text).map_err(wrong)?;
                 Ok((shells.into_iter().flatten().collect(), Vec::new()))
             }
             "MultiSolid" | "CompositeSolid" => {
-                let solids: Vec<Vec<Vec<Rings>>> = serde_json::from_str(text).map_err(wrong)?;
+                let solids: Vec<Vec<Vec<SurfaceRings>>> = serde_json::from_str(text).map_err(wrong)?;
                 Ok((solids.into_iter().flatten().flatten().collect(), Vec::new()))
             }
             "MultiPoint" | "GeometryInstance" => Ok((Vec::new(), serde_json::from_str(text).map_err(wrong)?)),
             "MultiLineString" => {
-                let lines: Rings = serde_json::from_str(text).map_err(wrong)?;
+                let lines: SurfaceRings = serde_json::from_str(text).map_err(wrong)?;
                 Ok((vec![lines], Vec::new()))
             }
             other => Err(format!("has a geometry of type \"{}\", which is not known", shown(other))),

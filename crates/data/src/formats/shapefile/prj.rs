@@ -191,6 +191,13 @@ impl Parameters {
                 values.retain(|(name, _)| *name != "first");
             }
         }
+        // Either of two parallels may be called the first.
+        let place = |wanted: &str| values.iter().position(|(name, _)| *name == wanted);
+        if let (Some(first), Some(second)) = (place("first"), place("second"))
+            && values[first].1 > values[second].1
+        {
+            (values[first].1, values[second].1) = (values[second].1, values[first].1);
+        }
         // A scale of 1 and offsets of 0 may be left out.
         values.retain(|(name, value)| {
             let usual = if *name == "scale" { 1.0 } else { 0.0 };

@@ -6,9 +6,9 @@ use crate::{Attribute, FeatureTable, Geometry, Source, SourceOptions};
 use burgeon_base::error::Result;
 
 /// A record of a `.shp`: its kind, its parts, and a height for each point if it has some.
-type Shape<'a> = (u32, &'a [&'a [[f64; 2]]], Option<f64>);
+type ShapeSketch<'a> = (u32, &'a [&'a [[f64; 2]]], Option<f64>);
 
-fn record(number: usize, (kind, parts, height): Shape<'_>) -> Vec<u8> {
+fn record(number: usize, (kind, parts, height): ShapeSketch<'_>) -> Vec<u8> {
     let mut content = kind.to_le_bytes().to_vec();
     let points: Vec<[f64; 2]> = parts.concat();
     let numbers =
@@ -42,7 +42,7 @@ fn record(number: usize, (kind, parts, height): Shape<'_>) -> Vec<u8> {
     [head, content].concat()
 }
 
-fn shp(shapes: &[Shape<'_>]) -> Vec<u8> {
+fn shp(shapes: &[ShapeSketch<'_>]) -> Vec<u8> {
     let mut bytes = [0; 100];
     bytes[..4].copy_from_slice(&9994_u32.to_be_bytes());
     bytes[28..32].copy_from_slice(&1000_u32.to_le_bytes());
@@ -148,7 +148,7 @@ fn values_have_the_types_of_their_columns_and_the_letters_of_their_code_page() {
         &[b"", b"********", b"?", b"00000000", b""],
         &[b"b", b"tall", b"n", b"2001", b""],
     ];
-    let point: Shape<'_> = (1, &[&[[5.0, 6.0]]], None);
+    let point: ShapeSketch<'_> = (1, &[&[[5.0, 6.0]]], None);
     let shapes = shp(&[point; 5]);
     let told = |mark: u8, cpg: &str| {
         let table = dbf(mark, &columns, &rows);
