@@ -7,6 +7,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
 use burgeon::script::{Param, Setting};
+use burgeon::sources::WORLD_AXES;
 use burgeon::text::escaped_lines;
 use burgeon::text::grouped;
 use burgeon::{Error, Result, Run, Warning};
@@ -83,6 +84,9 @@ pub(crate) fn summary(run: &Run, writing: Duration, total: Duration, listed: Opt
         time(times.scene),
         time(writing)
     );
+    if let Some(frame) = &run.frame {
+        let _ = writeln!(text, "origin at {}; {WORLD_AXES}", frame.world_place());
+    }
     if let Some(memory) = peak_memory() {
         let _ = writeln!(text, "{memory} MB of memory at the peak");
     }
@@ -113,6 +117,11 @@ pub(crate) fn summary_json(run: &Run, writing: Duration, total: Duration) -> ser
         "instances": run.scene.instances.len(),
         "materials": run.scene.materials.len(),
         "features": run.report().counts_json(),
+        "place": run.frame.as_ref().map(|frame| {
+            let mut place = frame.world_place().to_json();
+            place["axes"] = WORLD_AXES.into();
+            place
+        }),
         "notes": run.notes,
         "warnings": warnings_json(&run.warnings),
         "params": params_json(&run.params),

@@ -115,6 +115,63 @@ trees:derive()
 }
 
 #[test]
+fn metadata_has_the_attributes_that_are_asked_for_and_every_file_its_place() {
+    let data = json!({
+        "type": "FeatureCollection",
+        "features": [{
+            "type": "Feature", "id": "hut",
+            "properties": { "height": 4, "height_source": "guess", "roof:colour": "red", "note": "n" },
+            "geometry": { "type": "Polygon", "coordinates": [[[24.9, 60.1], [24.9002, 60.1], [24.9002, 60.1001], [24.9, 60.1001], [24.9, 60.1]]] }
+        }]
+    });
+    let script = r#"local Walls = module("Walls", "height")
+local huts = lsystem({ object = footprint })
+huts:axiom(source("huts.geojson"), function(hut)
+  return footprint(hut.geometry, { color = hut["roof:colour"] and "red" }), Walls(hut.height)
+end)
+huts:interpret("Walls(height)", function(this, height) this:walls({ height = height }) end)
+huts:derive()
+"#;
+    let folder = Folder::new().with("s.lua", script).with("huts.geojson", data.to_string());
+    let outputs = ["-o", "a.gltf", "-o", "a.obj", "-o", "a.x3d", "-o", "a.city.json", "--strict"];
+    let columns = |metadata: &str| {
+        folder.burgeon(&[&["run", "s.lua", metadata], &outputs[..]].concat()).done();
+        let properties = &read(&folder, "a.gltf")["extensions"]["EXT_structural_metadata"]["schema"]["classes"]
+            ["huts"]["properties"];
+        let properties: Vec<String> = properties.as_object().unwrap().keys().cloned().collect();
+        properties.join(" ")
+    };
+    assert_eq!(columns("--metadata"), "height id roof_colour");
+    assert_eq!(columns("--metadata=note,height_source"), "height_source id note");
+    assert_eq!(columns("--metadata=*"), "height height_source id note roof_colour");
+    // City objects have what is known of them.
+    let hut = &read(&folder, "a.city.json")["CityObjects"]["hut"]["attributes"];
+    assert_eq!(hut.as_object().unwrap().len(), 4, "{hut}");
+    assert_snapshot!(folder.refuses(&["run", "s.lua", "-o", "a.glb", "--metadata=hight"]), @r"
+    error: --metadata: no feature has an attribute called hight
+      help: did you mean height?
+    ");
+
+    let said = folder.burgeon(&["run", "s.lua", "--json"]).done().json();
+    let place = &said["place"];
+    assert_eq!((&place["origin"], &place["axes"]), (&json!([0.0, 0.0]), &json!("x east, y north, z up (m)")));
+    let crs = place["crs"].as_str().unwrap();
+    assert!(crs.starts_with("+proj=tmerc +lat_0=60.1 +lon_0=24.9 "), "{crs}");
+    let near = |key: &str, known: f64| (place[key].as_f64().unwrap() - known).abs() < 1e-6;
+    assert!(near("longitude", 24.9) && near("latitude", 60.1), "{place}");
+    let told = &read(&folder, "a.gltf")["asset"]["extras"]["place"];
+    assert_eq!((&told["crs"], &told["axes"]), (&place["crs"], &json!("x east, y up, z south (m)")));
+    let text = |name: &str| std::fs::read_to_string(folder.path().join(name)).unwrap();
+    let sentence = format!("The origin is at 0, 0 in {crs} (longitude 24.9, latitude 60.1).");
+    assert!(text("a.obj").contains(&format!("# {sentence}")) && text("a.x3d").contains(&sentence), "{crs}");
+    let summary = folder.burgeon(&["run", "s.lua"]).done().stderr;
+    assert!(
+        summary.contains(&format!("origin at 0, 0 in {crs} (longitude 24.9, latitude 60.1)")),
+        "{summary}"
+    );
+}
+
+#[test]
 fn what_goes_out_without_a_meaning_says_so() {
     let told = |script: &str, output: &str| {
         let folder = Folder::new().with("s.lua", script);

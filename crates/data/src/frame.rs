@@ -208,6 +208,11 @@ impl ReferenceFrame {
         Ok(frame)
     }
 
+    /// PROJ text of the projection.
+    pub fn definition(&self) -> &str {
+        &self.definition
+    }
+
     /// The way from `crs` into this frame, and back.
     pub fn passage(&self, crs: &Crs) -> Result<Passage<'_>> {
         let stays = normal(&crs.definition) == normal(&self.definition);

@@ -26,6 +26,7 @@ mod source;
 mod table;
 mod tags;
 mod taken_ids;
+mod world_place;
 
 use std::path::Path;
 
@@ -45,6 +46,7 @@ pub use listing::{AttributeListing, LayerListing, Listing};
 pub use source::{Source, SourceOptions};
 pub use table::{Attribute, Feature, FeatureTable};
 pub use tags::{TagFilter, TagTest};
+pub use world_place::{WORLD_AXES, WorldPlace};
 
 /// The extensions of data files.
 pub const EXTENSIONS: [&str; 23] = [

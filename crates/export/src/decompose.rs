@@ -2,6 +2,9 @@
 
 use glam::{DAffine3, DMat3, DQuat, DVec3};
 
+/// The axes of files in which y is up.
+pub(crate) const Y_UP_AXES: &str = "x east, y up, z south (m)";
+
 /// A transform that scales, then turns, then moves.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Trs {

@@ -27,8 +27,8 @@ pub struct SceneFacts<'a> {
     pub systems: &'a [SystemFacts],
     /// What rules made that has a geometry: a table for each symbol.
     pub layers: &'a [RecordTable],
-    /// Whether models in glTF tell their features' ids and attributes (`EXT_structural_metadata`).
-    pub metadata: bool,
+    /// The attributes of features that models in glTF have, beside ids (`EXT_structural_metadata`); `None` for neither.
+    pub metadata: Option<&'a [String]>,
 }
 
 /// What is known of a system's chains.
@@ -45,6 +45,6 @@ pub struct SystemFacts {
 impl Default for SceneFacts<'_> {
     /// Nothing is known of a scene in full detail.
     fn default() -> Self {
-        Self { frame: None, detail: 3, systems: &[], layers: &[], metadata: false }
+        Self { frame: None, detail: 3, systems: &[], layers: &[], metadata: None }
     }
 }

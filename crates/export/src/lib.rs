@@ -77,8 +77,8 @@ impl Files {
         match format {
             Format::Glb => gltf::write_glb(scene, facts, path, self),
             Format::Gltf => gltf::write_gltf(scene, facts, path, self),
-            Format::Obj => obj::write(scene, path, self),
-            Format::X3d => x3d::write(scene, path, self),
+            Format::Obj => obj::write(scene, facts, path, self),
+            Format::X3d => x3d::write(scene, facts, path, self),
             Format::CityJson => city::write(export, path, self),
             Format::Png => {
                 let png = png(scene, picture, &self.stop())?;

@@ -4,19 +4,21 @@
 //! has no axes either: y is up here, as in glTF. Materials have the classic lighting and, for programs that
 //! know them, the physically based `Pr` and `Pm`.
 
+use super::SceneFacts;
 use super::check::{SceneCheck, check, shown_parts, triangles};
 use super::color::{fraction, srgb};
 use super::files::Files;
 use super::stem;
 use super::texture::Images;
 use burgeon_base::error::Result;
+use burgeon_data::ReferenceFrame;
 use burgeon_scene::{Instance, Material, Part, Scene};
 use glam::{DMat3, DVec3};
 use std::io::{self, Write};
 use std::path::Path;
 
 /// Writes an `.obj` file to `path`, and its `.mtl` file and copies of the textures beside it.
-pub(super) fn write(scene: &Scene, path: &Path, files: &mut Files) -> Result<()> {
+pub(super) fn write(scene: &Scene, facts: &SceneFacts<'_>, path: &Path, files: &mut Files) -> Result<()> {
     let checked = check(scene)?;
     let images = Images::load(&checked)?;
     let copies: Vec<String> =
@@ -34,7 +36,7 @@ pub(super) fn write(scene: &Scene, path: &Path, files: &mut Files) -> Result<()>
         }
         Ok(())
     })?;
-    files.write(path, |out| write_objects(&checked, &names, &library, out))
+    files.write(path, |out| write_objects(&checked, facts.frame, &names, &library, out))
 }
 
 fn heading() -> String {
@@ -44,6 +46,7 @@ fn heading() -> String {
 /// Writes everything but the materials, whose `names` are in the file `library`.
 fn write_objects(
     checked: &SceneCheck<'_>,
+    frame: Option<&ReferenceFrame>,
     names: &[String],
     library: &str,
     out: &mut impl Write,
@@ -52,6 +55,9 @@ fn write_objects(
     let DVec3 { x, y, z } = y_up(checked.origin) + 0.0;
     if checked.origin != DVec3::ZERO {
         writeln!(out, "# Counted from ({x}, {y}, {z}): add this to each point for its place in the world.")?;
+    }
+    if let Some(frame) = frame {
+        writeln!(out, "# The origin is at {}.", frame.world_place())?;
     }
     for package in &checked.scene.packages {
         writeln!(out, "# package {} {} {}", package.name, package.version, package.hash)?;

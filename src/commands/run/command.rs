@@ -25,9 +25,11 @@ pub(crate) struct RunCommand {
     #[arg(short, long, value_name = "FILE", value_parser = output, help = output_help())]
     pub(super) output: Vec<PathBuf>,
 
-    /// Tells the ids and the attributes of features in .glb and .gltf files
-    #[arg(long)]
-    pub(super) metadata: bool,
+    /// Writes the ids of features into .glb and .gltf files, and their attributes: those that the script names, or =NAMES,
+    /// or all with ='*'
+    #[arg(long, value_name = "NAMES", num_args = 0..=1, require_equals = true, value_delimiter = ',')]
+    #[arg(default_missing_value = "")]
+    pub(super) metadata: Option<Vec<String>>,
 
     /// Writes the final chains as text, a line for each; - is standard output, in the JSON document if there is one
     #[arg(long, value_name = "FILE")]
@@ -99,7 +101,7 @@ impl RunCommand {
 
     /// The script as it was named, and how it is run.
     pub(super) fn session(&self) -> Result<Arc<Session>> {
-        let records = self.metadata || self.writes(|format| format == Format::CityJson);
+        let records = self.metadata.is_some() || self.writes(|format| format == Format::CityJson);
         let mut options = self.script.options()?;
         options.reports.records = records;
         options.limits.whole_program = true;

@@ -105,12 +105,14 @@ impl RunCommand {
             systems(run),
             if self.writes(Format::has_layers) { layers(session, &run.systems) } else { Vec::new() },
         );
+        let metadata =
+            self.metadata.as_ref().map(|names| attributes(session, names, &systems)).transpose()?;
         let facts = SceneFacts {
             frame: run.frame.as_ref(),
             detail: session.options.lod,
             systems: &systems,
             layers: &layers,
-            metadata: self.metadata,
+            metadata: metadata.as_deref(),
         };
         // Copies of textures find names that nothing else has if they come last.
         let has_copies = |output: &&std::path::PathBuf| {
@@ -147,6 +149,26 @@ fn systems(run: &burgeon::Run) -> Vec<SystemFacts> {
         is_known.then_some(SystemFacts { system: system.system, records, class })
     });
     known.collect()
+}
+
+/// The attributes that `--metadata` asks for: those of its `names`, all of `*`, and those that the script names if there are
+/// none. Fails if no feature has one of the names.
+fn attributes(session: &Session, names: &[String], systems: &[SystemFacts]) -> Result<Vec<String>> {
+    let known = || systems.iter().flat_map(|system| &system.records.columns);
+    let names: Vec<&String> = names.iter().filter(|name| !name.is_empty()).collect();
+    for name in names.iter().filter(|name| **name != "*") {
+        if !known().any(|column| column == *name) {
+            let message = format!("--metadata: no feature has an attribute called {name}");
+            let known: Vec<&str> = known().map(String::as_str).collect();
+            return Err(Error::not_found("attribute", name, known, message)
+                .help("burgeon sources FILE lists the attributes of a file"));
+        }
+    }
+    let is_wanted = |column: &&String| match names.as_slice() {
+        [] => session.names_attribute(column),
+        names => names.iter().any(|name| name == column || *name == "*"),
+    };
+    Ok(known().filter(is_wanted).cloned().collect())
 }
 
 /// Writes each tile of the terrain as a file of its own, called by level, column and row.

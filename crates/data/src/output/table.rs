@@ -25,6 +25,25 @@ pub struct Record {
     pub values: Vec<(usize, Attribute)>,
 }
 
+impl RecordTable {
+    /// A copy with those columns alone whose names are among `names`.
+    #[must_use]
+    pub fn with_columns(&self, names: &[String]) -> Self {
+        let is_kept = |name: &&String| names.contains(name);
+        let columns: Vec<String> = self.columns.iter().filter(is_kept).cloned().collect();
+        let numbers: Vec<Option<usize>> =
+            self.columns.iter().map(|name| columns.iter().position(|kept| kept == name)).collect();
+        let kept =
+            |(column, value): &(usize, Attribute)| Some((numbers.get(*column).copied()??, value.clone()));
+        let records = self.records.iter().map(|Record { id, geometry, values }| Record {
+            id: id.clone(),
+            geometry: geometry.clone(),
+            values: values.iter().filter_map(kept).collect(),
+        });
+        Self { name: self.name.clone(), columns, records: records.collect() }
+    }
+}
+
 impl Record {
     /// Its value in column number `column`; numbers that are not finite are none.
     pub fn value(&self, column: usize) -> Option<&Attribute> {

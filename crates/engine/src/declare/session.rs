@@ -365,6 +365,19 @@ impl Session {
         scripts.read.values().find(|source| source.name == file).cloned()
     }
 
+    /// Checks if a file of the script has `name` as a word, so that it may use an attribute of that name.
+    pub fn names_attribute(&self, name: &str) -> bool {
+        let scripts = self.script_files();
+        let is_letter = |letter: char| letter.is_alphanumeric() || letter == '_';
+        let mut texts = scripts.read.values().map(|source| &*source.analysis.text);
+        !name.is_empty()
+            && texts.any(|text| {
+                text.match_indices(name).any(|(at, _)| {
+                    !text[..at].ends_with(is_letter) && !text[at + name.len()..].starts_with(is_letter)
+                })
+            })
+    }
+
     /// Takes notice of what a piece of the script may do.
     pub(crate) fn note(&self, analysis: &Analysis) {
         self.facts.randoms.fetch_or(analysis.random, Ordering::AcqRel);

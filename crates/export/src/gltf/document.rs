@@ -8,7 +8,7 @@ use super::mesh::Arrays;
 use super::metadata::Metadata;
 use super::{InstancePlace, body, material, mesh, place};
 use crate::check::{SceneCheck, check};
-use crate::decompose::y_up;
+use crate::decompose::{Y_UP_AXES, y_up};
 use crate::files::Files;
 use crate::texture::Images;
 use crate::{SceneFacts, stem, uri};
@@ -114,17 +114,20 @@ pub(crate) fn write_gltf(
     files.write(path, |out| document.description.write_pretty(out))
 }
 
-/// The packages that a scene was made with, as extras of the asset; nothing if there are none.
-fn packages_extras(packages: &[ScenePackage]) -> json::extras::Extras {
-    if packages.is_empty() {
-        return None;
+/// Extras of the asset: the packages that a scene was made with, and its place on the earth; nothing without any.
+fn asset_extras(packages: &[ScenePackage], facts: &SceneFacts<'_>) -> json::extras::Extras {
+    let mut extras = serde_json::Map::new();
+    if !packages.is_empty() {
+        let package = |it: &ScenePackage| serde_json::json!({ "name": it.name, "version": it.version, "hash": it.hash });
+        extras.insert("packages".into(), packages.iter().map(package).collect());
     }
-    let list: Vec<_> = packages
-        .iter()
-        .map(|it| serde_json::json!({ "name": it.name, "version": it.version, "hash": it.hash }))
-        .collect();
-    let text = serde_json::json!({ "packages": list }).to_string();
-    RawValue::from_string(text).ok()
+    if let Some(frame) = facts.frame {
+        let mut place = frame.world_place().to_json();
+        place["axes"] = Y_UP_AXES.into();
+        extras.insert("place".into(), place);
+    }
+    let text = serde_json::Value::Object(extras).to_string();
+    RawValue::from_string(text).ok().filter(|text| text.get() != "{}")
 }
 
 impl<'a> Document<'a> {
@@ -141,7 +144,7 @@ impl<'a> Document<'a> {
         description.root.asset = json::Asset {
             generator: Some(format!("Burgeon {}", env!("CARGO_PKG_VERSION"))),
             version: "2.0".into(),
-            extras: packages_extras(&checked.scene.packages),
+            extras: asset_extras(&checked.scene.packages, facts),
             ..json::Asset::default()
         };
         let mut body = Body::default();

@@ -19,7 +19,7 @@ use std::sync::Arc;
 /// Texture coordinates are left out where no texture needs them, unless `arrays` says that they are metres there.
 pub(super) fn write<'a>(
     checked: &SceneCheck<'a>,
-    metadata: Option<&Metadata<'_>>,
+    metadata: Option<&Metadata>,
     arrays: Arrays,
     materials: &[Option<json::Index<json::Material>>],
     description: &mut Description<'a>,

@@ -41,18 +41,19 @@ enum MeshFeatures {
 }
 
 /// Whose the things of a scene are.
-pub(super) struct Metadata<'a> {
+pub(super) struct Metadata {
     /// The tables, and the systems that they are of.
-    tables: Vec<(usize, &'a RecordTable)>,
+    tables: Vec<(usize, RecordTable)>,
     meshes: Vec<MeshFeatures>,
 }
 
-impl<'a> Metadata<'a> {
+impl Metadata {
     /// What is to be told of `scene`; none if that is not asked for or there are no features.
-    pub(super) fn of(scene: &Scene, facts: &SceneFacts<'a>) -> Option<Self> {
-        let systems =
-            facts.systems.iter().filter(|system| facts.metadata && !system.records.records.is_empty());
-        let tables: Vec<_> = systems.map(|system| (system.system, &system.records)).collect();
+    pub(super) fn of(scene: &Scene, facts: &SceneFacts<'_>) -> Option<Self> {
+        let attributes = facts.metadata?;
+        let systems = facts.systems.iter().filter(|system| !system.records.records.is_empty());
+        let tables: Vec<_> =
+            systems.map(|system| (system.system, system.records.with_columns(attributes))).collect();
         if tables.is_empty() {
             return None;
         }

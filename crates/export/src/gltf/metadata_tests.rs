@@ -24,7 +24,10 @@ fn written(scene: &Scene, systems: &[SystemFacts], metadata: bool) -> Binary {
     let temporary = tempfile::tempdir().unwrap();
     let path = folder.map_or(temporary.path().to_path_buf(), Into::into).join("features.glb");
     let mut files = Files::new(&std::sync::Arc::new(Stop::default()));
-    let facts = SceneFacts { systems, metadata, ..SceneFacts::default() };
+    let columns = systems.iter().flat_map(|system| system.records.columns.clone());
+    let columns: Vec<String> = columns.collect();
+    let facts =
+        SceneFacts { systems, metadata: metadata.then_some(columns.as_slice()), ..SceneFacts::default() };
     files.export(&Export { scene, picture: &Picture::default(), facts }, &path).unwrap();
     files.publish().unwrap();
     let bytes = std::fs::read(path).unwrap();

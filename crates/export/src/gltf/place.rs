@@ -85,7 +85,7 @@ pub(super) struct InstanceNodes<'a> {
 /// Adds the instances.
 pub(super) fn write<'a>(
     checked: &SceneCheck<'a>,
-    metadata: Option<&Metadata<'_>>,
+    metadata: Option<&Metadata>,
     meshes: &[Option<usize>],
     arrays: Arrays,
     description: &mut Description<'a>,
@@ -161,7 +161,7 @@ pub(super) fn write<'a>(
 
 impl<'a> InstanceKind<'a> {
     /// The kind of an instance that may share its node: what is drawn for a feature has its own, which bears its id.
-    fn of(instance: &'a Instance, metadata: Option<&Metadata<'_>>) -> Option<Self> {
+    fn of(instance: &'a Instance, metadata: Option<&Metadata>) -> Option<Self> {
         let shared = metadata.is_some_and(|metadata| metadata.is_shared(instance.mesh));
         (instance.feature.is_none() || instance.placement.is_some() || shared).then(|| Self {
             mesh: instance.mesh,
@@ -172,7 +172,7 @@ impl<'a> InstanceKind<'a> {
     }
 
     /// Whether its instances have to tell whose they are, since their mesh cannot.
-    fn has_features(&self, metadata: Option<&Metadata<'_>>) -> bool {
+    fn has_features(&self, metadata: Option<&Metadata>) -> bool {
         self.table.is_some() && metadata.is_some_and(|metadata| metadata.is_shared(self.mesh))
     }
 

@@ -8,10 +8,11 @@ use super::super::check::{SceneCheck, check, shown_parts};
 use super::super::decompose::{Steps, decompose, y_up};
 use super::super::files::Files;
 use super::super::texture::Images;
-use super::super::{stem, uri};
+use super::super::{SceneFacts, stem, uri};
 use super::shape::{self, LookReference, Looks, numbers, title, write_feature};
 use super::xml::{identifier, listed};
 use burgeon_base::error::Result;
+use burgeon_data::ReferenceFrame;
 use burgeon_scene::{Instance, Scene, ScenePackage};
 use glam::{DAffine3, DQuat, DVec3};
 use rayon::prelude::*;
@@ -63,7 +64,7 @@ struct DocumentPlan<'a> {
 }
 
 /// Writes an `.x3d` file to `path`, and copies of the textures beside it.
-pub(crate) fn write(scene: &Scene, path: &Path, files: &mut Files) -> Result<()> {
+pub(crate) fn write(scene: &Scene, facts: &SceneFacts<'_>, path: &Path, files: &mut Files) -> Result<()> {
     let checked = check(scene)?;
     let images = Images::load(&checked)?;
     let names = images.copy_names(path, files);
@@ -73,7 +74,7 @@ pub(crate) fn write(scene: &Scene, path: &Path, files: &mut Files) -> Result<()>
     let image = |file: &Option<usize>| file.map(|file| uri(&names[file]));
     let looks = Looks { materials: &scene.materials, images: images.of_material.iter().map(image).collect() };
     let plan = DocumentPlan::new(&checked);
-    let head = head(&stem(path), checked.origin, &scene.packages);
+    let head = head(&stem(path), checked.origin, &scene.packages, facts.frame);
     files.write(path, |out| {
         out.write_all(head.as_bytes())?;
         for (number, chunk) in plan.items.chunks(CHUNK).enumerate() {
@@ -87,13 +88,16 @@ pub(crate) fn write(scene: &Scene, path: &Path, files: &mut Files) -> Result<()>
 }
 
 /// All that stands before the items.
-fn head(name: &str, origin: DVec3, packages: &[ScenePackage]) -> String {
+fn head(name: &str, origin: DVec3, packages: &[ScenePackage], frame: Option<&ReferenceFrame>) -> String {
     let version = env!("CARGO_PKG_VERSION");
     // Their names, versions and hashes have no letter that XML takes for something else.
     let packages: String = packages
         .iter()
         .map(|it| format!("<meta name='package' content='{} {} {}'/>\n", it.name, it.version, it.hash))
         .collect();
+    let place = frame.map_or_else(String::new, |frame| {
+        format!("<meta name='place' content='The origin is at {}.'/>\n", frame.world_place())
+    });
     let mut head = format!(
         "<?xml version='1.0' encoding='UTF-8'?>\n\
          <!DOCTYPE X3D PUBLIC 'ISO//Web3D//DTD X3D 3.3//EN' 'http://www.web3d.org/specifications/x3d-3.3.dtd'>\n\
@@ -103,7 +107,7 @@ fn head(name: &str, origin: DVec3, packages: &[ScenePackage]) -> String {
          <meta name='title' content='{}'/>\n\
          <meta name='generator' content='Burgeon {version}'/>\n\
          <meta name='description' content='Metres, y up: east is x, north is -z.'/>\n\
-{packages}\
+{packages}{place}\
          </head>\n\
          <Scene>\n",
         title(name)
