@@ -320,7 +320,7 @@ fn help_reads_well() {
       burgeon live tree.lua
       burgeon run tree.lua -o tree.glb
     "#);
-    assert_snapshot!(Folder::new().burgeon(&["run", "-h"]).done().stdout, @r"
+    assert_snapshot!(Folder::new().burgeon(&["run", "-h"]).done().stdout, @r#"
     Runs a script and writes what it makes
 
     Usage: burgeon run [OPTIONS] <SCRIPT>
@@ -342,7 +342,7 @@ fn help_reads_well() {
           --stdlib <FILE>       Reads this file in the place of the built-in standard library
           --json                Prints one JSON document, for machines, in place of text for people
       -o, --output <FILE>       Writes the model; the extension picks the format: .glb, .gltf, .obj, .png, .svg, .x3d, .city.json, .geojson or .gpkg. May be repeated
-          --metadata            Tells the ids and the attributes of features in .glb and .gltf files
+          --metadata[=<NAMES>]  Writes the ids of features into .glb and .gltf files, and their attributes: those that the script names, or =NAMES, or all with ='*'
           --chain <FILE>        Writes the final chains as text, a line for each; - is standard output, in the JSON document if there is one
           --heights <FILE>      Writes the heights of the terrain as a map; the extension picks the format: .png, .asc, .tif, .r32 or .r64
           --edits <FILE>        Writes the changes of the ground of the terrain, for edits(FILE) in a script
@@ -364,7 +364,7 @@ fn help_reads_well() {
           --elevation <DEGREES>      How high the camera stands above the horizon (degrees) [default: by the model]
           --look <X,Y,Z,M>           Looks at a place (m) and at what is within a distance (m) of it [default: the whole model]
           --background <BACKGROUND>  What is behind the model [default: light] [possible values: light, dark, clear]
-    ");
+    "#);
     assert_snapshot!(Folder::new().burgeon(&["check", "-h"]).done().stdout, @r"
     Checks a script and its required files as far as a run goes, and reports all problems
 

@@ -141,9 +141,9 @@ huts:derive()
         let properties: Vec<String> = properties.as_object().unwrap().keys().cloned().collect();
         properties.join(" ")
     };
-    assert_eq!(columns("--metadata"), "height id roof_colour");
-    assert_eq!(columns("--metadata=note,height_source"), "height_source id note");
-    assert_eq!(columns("--metadata=*"), "height height_source id note roof_colour");
+    assert_eq!(columns("--metadata"), "id height roof_colour");
+    assert_eq!(columns("--metadata=note,height_source"), "id height_source note");
+    assert_eq!(columns("--metadata=*"), "id height height_source roof_colour note");
     // City objects have what is known of them.
     let hut = &read(&folder, "a.city.json")["CityObjects"]["hut"]["attributes"];
     assert_eq!(hut.as_object().unwrap().len(), 4, "{hut}");
@@ -169,6 +169,74 @@ huts:derive()
         summary.contains(&format!("origin at 0, 0 in {crs} (longitude 24.9, latitude 60.1)")),
         "{summary}"
     );
+}
+
+#[test]
+fn modules_of_a_query_are_things_of_their_own_with_their_ids_and_attributes() {
+    let hut = |id: &str, x: f64, levels: i32| {
+        json!({ "type": "Feature", "id": id, "properties": { "levels": levels, "note": id },
+            "geometry": { "type": "Polygon", "coordinates": [[[x, 60.1], [x + 0.0002, 60.1], [x + 0.0002, 60.1001], [x, 60.1001], [x, 60.1]]] } })
+    };
+    let features = [hut("north", 24.9, 2), hut("south", 24.901, 5), hut("east", 24.902, 3)];
+    let data = json!({ "type": "FeatureCollection", "features": features });
+    let script = |axiom: &str| {
+        format!(
+            r#"source("huts.geojson")
+local Town, Hut, Storey = module("Town"), module("Hut", "geom", "levels"), module("Storey", "geom", "number")
+local post = lsystem({{ object = extruder() }})
+post:axiom(Town())
+post:interpret("Town", function(this) this:scale(0.1):extrude(4) end)
+local model = post:derive()
+local town = lsystem({{ object = extruder, city = "Building" }})
+town:axiom({axiom})
+town:rule("Town", function() return query("select id, geom, levels, note from huts where levels > 2", Hut) end)
+town:rule("Hut(geom, levels)", function(this, geom, levels)
+  if levels == 0 then
+    return nil
+  end
+  return Storey(geom, levels), Hut(geom, levels - 1)
+end)
+town:interpret("Storey(geom, number)", function(this, geom, number)
+  this:polygon(geom):jump({{ 0, 0, number * 3 }}):extrude(2.9)
+  if number == 1 then
+    this:jump(geom:centroid():place()):place(model)
+  end
+end)
+town:derive(8)
+"#
+        )
+    };
+    for (axiom, expected) in [
+        ("Town()", ["east", "south"].as_slice()),
+        (r#"query("select id, geom, levels, note from huts", Hut)"#, &["east", "north", "south"]),
+    ] {
+        let folder = Folder::new().with("s.lua", script(axiom)).with("huts.geojson", data.to_string());
+        let outputs = ["-o", "a.city.json", "-o", "a.gltf", "--metadata=*", "--strict"];
+        folder.burgeon(&[&["run", "s.lua"], &outputs[..]].concat()).done();
+        let city = read(&folder, "a.city.json");
+        let objects = city["CityObjects"].as_object().unwrap();
+        let buildings: Vec<&str> =
+            objects.keys().map(String::as_str).filter(|id| !id.contains(' ')).collect();
+        let buildings: Vec<&str> =
+            buildings.into_iter().filter(|id| objects[*id]["type"] == "Building").collect();
+        assert_eq!(buildings, expected, "{axiom}");
+        for id in expected {
+            let object = &objects[*id];
+            assert_eq!(object["attributes"]["note"], **id);
+            assert!(!object["geometry"].as_array().unwrap().is_empty(), "{id} has no geometry");
+        }
+        let model = read(&folder, "a.gltf");
+        let nodes = model["nodes"].as_array().unwrap();
+        let mut ids: Vec<&str> = nodes.iter().filter_map(|node| node["extras"]["feature"].as_str()).collect();
+        ids.sort_unstable();
+        ids.dedup();
+        assert_eq!(ids, expected, "{axiom}");
+        let table = &model["extensions"]["EXT_structural_metadata"]["propertyTables"][0];
+        assert_eq!(
+            (&table["count"], &table["properties"]["levels"]["values"].is_u64()),
+            (&json!(expected.len()), &true)
+        );
+    }
 }
 
 #[test]

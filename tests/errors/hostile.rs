@@ -147,7 +147,7 @@ fn nothing_that_remembers_gets_into_the_state_or_the_fields() {
         (
             "this:go()",
             "changes = { go = function(self) self.n = self.held end }",
-            "n of the state of own cannot be ",
+            "n of the state cannot be kept: a table with a metatable cannot be passed on",
         ),
         (
             "this:go()",

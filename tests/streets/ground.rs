@@ -55,7 +55,8 @@ impl ShownGround {
             let [u, v, w] = [b - a, c - a, at.extend(0.0) - a].map(DVec3::truncate);
             let area = u.perp_dot(v);
             let (s, t) = (w.perp_dot(v) / area, u.perp_dot(w) / area);
-            (s >= -1e-6 && t >= -1e-6 && s + t <= 1.0 + 1e-6).then(|| a.z + s * (b.z - a.z) + t * (c.z - a.z))
+            (s >= -1e-6 && t >= -1e-6 && s + t <= 1.0 + 1e-6)
+                .then_some(a.z + s * (b.z - a.z) + t * (c.z - a.z))
         })
     }
 }
@@ -83,7 +84,8 @@ fn measured(script: &str, seed: u64, set: &[(&str, &str)], floats: &mut Floats) 
     };
     let grown = objects().find_map(|object| object.downcast_ref::<Network>()).expect("a network");
     // The first terrain is the one without streets.
-    let land = objects().filter_map(|object| object.downcast_ref::<Terrain>()).last().expect("a terrain");
+    let land =
+        objects().filter_map(|object| object.downcast_ref::<Terrain>()).next_back().expect("a terrain");
     let shown = ShownGround::new(&run.scene);
     let network = grown.network();
     for (piece, known) in network.pieces().filter(|(_, known)| !known.is_bridge) {

@@ -22,7 +22,7 @@ pub fn calls_with_text<'a>(text: &'a str, function: &'a str) -> impl Iterator<It
         loop {
             let token = tokens.next()?;
             called = match (called, token) {
-                (0 | 1 | 2, ScriptToken::Word(word)) if word == function => 1,
+                (0..=2, ScriptToken::Word(word)) if word == function => 1,
                 (1, ScriptToken::Other('(')) => 2,
                 (1 | 2, ScriptToken::Text(text)) => {
                     called = 0;

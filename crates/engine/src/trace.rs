@@ -129,7 +129,7 @@ pub fn highlight(
         for (chain, makers) in trace.makers().iter().enumerate() {
             let (Some(makers), true) = (makers, chain + 1 < starts.len()) else { continue };
             let wanted = |index: usize| made.get(index).copied().unwrap_or(false);
-            let origin = Some(Origin { system, chain });
+            let origin = Some(Origin { system, chain, record: Some(chain) });
             for (mesh, _) in scene.meshes.iter().enumerate().filter(|(_, mesh)| mesh.origin == origin) {
                 let runs = makers.runs(wanted).into_iter();
                 found.runs.extend(runs.map(|(part, from, count)| TriangleRun { mesh, part, from, count }));

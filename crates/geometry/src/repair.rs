@@ -20,6 +20,9 @@ use burgeon_base::error::Result;
 const NOTCH: f64 = 0.05;
 /// The least area (m²) that matters.
 const LEAST: f64 = 0.01;
+/// Points this near (m) to an edge touch it; if none does, so do those this near.
+const TOUCHING: f64 = 1e-6;
+const NEAR: f64 = 0.012;
 /// How often notches are cut.
 const ROUNDS: usize = 6;
 /// How far (m) from an edge that was given what stands for it lies.
@@ -31,6 +34,8 @@ const FEW_MEETINGS: usize = 10_000;
 
 /// The note of a plan without its slits.
 const SLITS: &str = "slits of at most 1 cm filled";
+/// The note of a plan with notches.
+const NOTCHED: &str = "a notch cut where it touches itself";
 /// What is said of a ring that crosses itself.
 const LOOPS: &str = "loops of the outer ring left out";
 
@@ -113,6 +118,13 @@ fn settle(
                 note(&mut notes, SLITS);
                 continue;
             }
+            // Rings that are apart by rounding alone are one where a roof is made of them.
+            let touching = notches(&Rings::from(&clean), TOUCHING);
+            if !touching.is_empty() {
+                area = overlay::overlay(&[whole], &touching, |[inside, notch]| inside && !notch).ok()?;
+                note(&mut notes, NOTCHED);
+                continue;
+            }
             let done = finish(&clean, &local, given, middle);
             // What touches itself but for rounding may do so again where it was given.
             if let Some((polygon, given)) = done
@@ -124,12 +136,10 @@ fn settle(
                 return Some(PlanRepair { polygon, given, notes, slit });
             }
         }
-        let notches = notches(&rings);
-        if notches.is_empty() {
-            return None;
-        }
+        let notches = [TOUCHING, NEAR].map(|near| notches(&rings, near));
+        let notches = notches.into_iter().find(|notches| !notches.is_empty())?;
         area = overlay::overlay(&[whole], &notches, |[inside, notch]| inside && !notch).ok()?;
-        note(&mut notes, "a notch cut where it touches itself");
+        note(&mut notes, NOTCHED);
     }
     None
 }
@@ -277,33 +287,28 @@ fn edge_tree(rings: &Rings<DVec2>) -> RTree<IndexedEdge> {
     )
 }
 
-/// Squares around the points that lie on an edge which does not begin or end there.
-fn notches(rings: &Rings<DVec2>) -> PolygonArea {
+/// Squares around the points that lie within `near` (m) of an edge which does not begin or end there.
+fn notches(rings: &Rings<DVec2>, near: f64) -> PolygonArea {
     let tree = edge_tree(rings);
-    for near in [1e-6, 0.012] {
-        let mut found = Vec::new();
-        let mut number = 0;
-        for ring in &**rings {
-            for index in 0..ring.len() {
-                let own = [number + index, number + (index + ring.len() - 1) % ring.len()];
-                let at = ring[index];
-                let around = AABB::from_corners((at - near).to_array(), (at + near).to_array());
-                let touches = tree.locate_in_envelope_intersecting(&around).any(|edge| {
-                    !own.contains(&edge.data) && edge.geom().distance_2(&at.to_array()) <= near * near
-                });
-                if touches {
-                    let corners = [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)];
-                    let corners = corners.map(|(x, y)| at + DVec2::new(x, y) * NOTCH);
-                    found.push(Rings(vec![corners.to_vec()]));
-                }
+    let mut found = PolygonArea::new();
+    let mut number = 0;
+    for ring in &**rings {
+        for index in 0..ring.len() {
+            let own = [number + index, number + (index + ring.len() - 1) % ring.len()];
+            let at = ring[index];
+            let around = AABB::from_corners((at - near).to_array(), (at + near).to_array());
+            let touches = tree.locate_in_envelope_intersecting(&around).any(|edge| {
+                !own.contains(&edge.data) && edge.geom().distance_2(&at.to_array()) <= near * near
+            });
+            if touches {
+                let corners = [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)];
+                let corners = corners.map(|(x, y)| at + DVec2::new(x, y) * NOTCH);
+                found.push(Rings(vec![corners.to_vec()]));
             }
-            number += ring.len();
         }
-        if !found.is_empty() {
-            return found;
-        }
+        number += ring.len();
     }
-    PolygonArea::new()
+    found
 }
 
 /// The polygon with the heights of the ground, and for each edge those that were given; `None` if it is none there.

@@ -88,6 +88,23 @@ impl Makers {
         found
     }
 
+    /// All runs of triangles: part, triangles and maker.
+    pub fn all_runs(&self) -> impl Iterator<Item = (usize, std::ops::Range<usize>, usize)> + '_ {
+        self.parts.iter().enumerate().flat_map(|(part, runs)| {
+            let mut start = 0;
+            runs.iter().map(move |(end, maker)| {
+                let range = start..*end;
+                start = *end;
+                (part, range, *maker as usize)
+            })
+        })
+    }
+
+    /// The makers of all placed models, in the order of their numbers.
+    pub fn all_placements(&self) -> impl Iterator<Item = usize> + '_ {
+        self.placed.iter().flatten().map(|maker| *maker as usize)
+    }
+
     /// The placed models, counted over all, whose makers `wanted` names.
     pub fn placements(&self, wanted: impl Fn(usize) -> bool) -> Vec<usize> {
         let all = self.placed.iter().flatten().enumerate();

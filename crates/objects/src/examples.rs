@@ -105,7 +105,8 @@ pub const PLAIN_EXAMPLES: &[ScriptExample] = examples! {
         "planet:heights";
     "streets/distance" shows "streets:distance";
     "terrain/height" shows "terrain:focus" "terrain:height" "terrain:normal" "terrain:slope"
-        "terrain:symbol" "terrain:heights" "terrain:is_source";
+        "terrain:symbol" "terrain:heights" "terrain:is_source"
+        "terrain:river_cut";
     "turtle/material" shows "turtle:material";
     "turtle/position" shows "turtle:position" "turtle:heading" "turtle:left" "turtle:up"
         "turtle:distance";

@@ -110,7 +110,7 @@ pub(crate) fn rows(
     frame: Option<&ReferenceFrame>,
     budget: &Arc<Budget>,
 ) -> Result<Arc<QueryAnswer>, QueryFailure> {
-    let made = prepared.rewritten.iter().flat_map(|rewritten| &rewritten.made);
+    let mut made = prepared.rewritten.iter().flat_map(|rewritten| &rewritten.made);
     for table in made.clone() {
         link.make(table, |statement| -> Result<(), QueryFailure> {
             for index in 1..=statement.parameter_count() {
@@ -122,7 +122,7 @@ pub(crate) fn rows(
         })?;
     }
     let answer = all_rows(link, prepared, parameters, frame, budget);
-    made.map(|table| link.forget(table)).collect::<rusqlite::Result<()>>()?;
+    made.try_for_each(|table| link.forget(table))?;
     answer
 }
 

@@ -75,12 +75,14 @@ pub struct Instance {
 }
 
 /// A chain, among all that a run has derived.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub struct Origin {
     /// The system's place in the script, from 0.
     pub system: usize,
     /// The chain's number in the system, from 0.
     pub chain: usize,
+    /// The number of its feature among those that the system's chains or modules came from, from 0.
+    pub record: Option<usize>,
 }
 
 impl Scene {
@@ -114,6 +116,38 @@ impl Scene {
             scene.instances.push(Instance { mesh, ..instance.clone() });
         }
         scene
+    }
+
+    /// Divides instance number `instance`, whose mesh no other shows: for each of the `stretches`, ranges of triangles of a part and
+    /// what `change` is to know of them, all triangles of the same become one instance. The first takes the place of the old one.
+    pub fn divide<K: Ord + Copy>(
+        &mut self,
+        instance: usize,
+        stretches: &[(usize, std::ops::Range<usize>, K)],
+        mut change: impl FnMut(&mut Instance, K),
+    ) {
+        let mesh = self.instances[instance].mesh;
+        let whole = std::mem::take(&mut self.meshes[mesh]);
+        let mut kinds: Vec<K> = stretches.iter().map(|(_, _, kind)| *kind).collect();
+        kinds.sort_unstable();
+        kinds.dedup();
+        for (number, kind) in kinds.into_iter().enumerate() {
+            let parts = whole.parts.iter().enumerate().filter_map(|(index, part)| {
+                let own = stretches.iter().filter(|(part, _, of)| *part == index && *of == kind);
+                let piece = part.piece(own.map(|(_, range, _)| range.clone()));
+                (!piece.triangles.is_empty()).then_some(piece)
+            });
+            let piece = Mesh { name: whole.name.clone(), origin: whole.origin, parts: parts.collect() };
+            if number == 0 {
+                self.meshes[mesh] = piece;
+                change(&mut self.instances[instance], kind);
+            } else {
+                self.meshes.push(piece);
+                let mut made = Instance { mesh: self.meshes.len() - 1, ..self.instances[instance].clone() };
+                change(&mut made, kind);
+                self.instances.push(made);
+            }
+        }
     }
 
     /// The number of triangles that are seen, instances counted each.

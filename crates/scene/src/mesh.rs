@@ -58,6 +58,33 @@ impl Part {
     }
 }
 
+impl Part {
+    /// The triangles in these ranges, which follow one another, with the vertices that they use.
+    #[must_use]
+    pub fn piece(&self, ranges: impl IntoIterator<Item = std::ops::Range<usize>>) -> Self {
+        let mut piece = Self { material: self.material, ..Self::default() };
+        let mut numbers = rustc_hash::FxHashMap::<u32, u32>::default();
+        for range in ranges {
+            for index in range {
+                let Some(corners) = self.triangles.get(index) else { continue };
+                let meaning = self.surfaces.of(index);
+                piece.surfaces.mark(piece.triangles.len(), meaning);
+                let corners = corners.map(|corner| {
+                    *numbers.entry(corner).or_insert_with(|| {
+                        let from = corner as usize;
+                        piece.positions.push(self.positions[from]);
+                        piece.normals.push(self.normals[from]);
+                        piece.uvs.push(self.uvs[from]);
+                        u32::try_from(piece.positions.len() - 1).unwrap_or(u32::MAX)
+                    })
+                });
+                piece.triangles.push(corners);
+            }
+        }
+        piece
+    }
+}
+
 impl Mesh {
     /// The number of triangles of all parts.
     pub fn triangles(&self) -> usize {

@@ -179,7 +179,9 @@ struct StreetRuns {
 /// The middle one of some numbers; 0 of none.
 fn median(mut numbers: Vec<f64>) -> f64 {
     numbers.sort_by(f64::total_cmp);
-    numbers.get(numbers.len() / 2).copied().unwrap_or(0.0)
+    let upper = numbers.len() / 2;
+    let lower = if numbers.len().is_multiple_of(2) { upper.saturating_sub(1) } else { upper };
+    numbers.get(lower).zip(numbers.get(upper)).map_or(0.0, |(lower, upper)| lower.midpoint(*upper))
 }
 
 /// The middle and the radius (m) of the smallest circle around some places.

@@ -19,10 +19,10 @@ const SWEEPS: usize = 6;
 
 /// How many heights are computed in all rounds of a level, about, and the least and the most rounds.
 const WORK: usize = 40_000_000;
-const ROUNDS: [usize; 2] = [30, 400];
+const ROUNDS: [usize; 2] = [30, 4000];
 
 /// What is left of the residual's square when a level ends.
-const ACCURACY: f64 = 1e-9;
+const ACCURACY: f64 = 1e-11;
 
 /// A part of a raster with holes (NaN).
 pub(super) struct SplinePatch {

@@ -196,7 +196,7 @@ fn shape(
         return crate::geojson::geometry_of(text, wanted);
     }
     let is_binary =
-        text.len() % 2 == 0 && text.len() >= 10 && text.bytes().all(|byte| byte.is_ascii_hexdigit());
+        text.len().is_multiple_of(2) && text.len() >= 10 && text.bytes().all(|byte| byte.is_ascii_hexdigit());
     if is_binary {
         let digits = text.as_bytes().chunks_exact(2).filter_map(|pair| {
             let pair = std::str::from_utf8(pair).ok()?;

@@ -1,6 +1,7 @@
 //! A whole derivation, in the machine whose result counts: it is planned, its steps are made, and what came of it is
 //! settled.
 
+use std::cell::RefCell;
 use std::sync::Arc;
 use std::time::Instant;
 
@@ -12,18 +13,20 @@ use super::step::Stepper;
 use super::threads::{LeadingMachine, ThreadPool};
 use crate::declare::TraceRequest;
 use crate::machine::{Axiom, Machine, Objects};
-use crate::results::{DerivedSystem, Remark, RuleName, RuleReport, Step, SystemUses, Times, Trace, Use};
+use crate::results::{
+    DerivedSystem, Remark, RowFeatures, RuleName, RuleReport, Step, SystemUses, Times, Trace, Use,
+};
 use burgeon_base::error::{Error, Result, SourcePlace};
 use burgeon_base::warning::Warning;
-use burgeon_kit::Object;
 use burgeon_kit::rules::Chain;
+use burgeon_kit::{Drawing, Object};
 
 /// How a derivation has ended.
 pub(super) enum Ending {
     /// With a system as the script asked for it.
-    Derived(DerivedSystem),
+    Derived(Box<DerivedSystem>),
     /// With the lineage that the options of the run ask for.
-    Traced(Trace),
+    Traced(Box<Trace>),
 }
 
 /// Derives system `index` of the machine's script by at most `steps` steps, or to the end.
@@ -51,6 +54,8 @@ struct Growth<'a> {
     first: Vec<Warning>,
     later: Vec<Warning>,
     steps: Vec<Step>,
+    /// The features that modules came from, where they are told.
+    features: Option<RefCell<RowFeatures>>,
 }
 
 /// What the steps of a derivation gave.
@@ -61,6 +66,7 @@ struct StepResults {
     rules: Vec<RuleReport>,
     warnings: Vec<Warning>,
     steps: Vec<Step>,
+    features: Option<RowFeatures>,
 }
 
 impl<'a> Growth<'a> {
@@ -75,6 +81,7 @@ impl<'a> Growth<'a> {
             first: Vec::new(),
             later: Vec::new(),
             steps: Vec::new(),
+            features: None,
         }
     }
 
@@ -83,6 +90,9 @@ impl<'a> Growth<'a> {
         let (derivation, session) = (self.derivation, &self.leader.machine.session);
         let plan = &derivation.plan;
         chain.mark(plan.batch, plan.grammar.arities());
+        if session.options.reports.records && self.derivation.traced.is_none() {
+            self.features = Some(RefCell::new(RowFeatures::new(chain.symbols.len())));
+        }
         if !session.options.check {
             chain = self.resolve(chain, 0)?;
         }
@@ -125,6 +135,7 @@ impl<'a> Growth<'a> {
             rules: reports(plan, self.stepper.uses(), &self.interpretations),
             warnings: self.first.into_iter().chain(later).collect(),
             steps: self.steps,
+            features: self.features.map(RefCell::into_inner),
         })
     }
 
@@ -135,6 +146,9 @@ impl<'a> Growth<'a> {
         let before = self.noted(&chain);
         let outcome = self.stepper.step(self.leader, &self.derivation.declared, chain, step)?;
         self.times.rewriting += begin.elapsed();
+        if let Some(features) = &self.features {
+            features.borrow_mut().step(&outcome.applied);
+        }
         if self.derivation.traced.is_some() {
             let (applied, asked) = (outcome.applied, self.leader.machine.session.rows.take_noted());
             self.steps.push(Step { number: step, chain: before, applied, answers: Vec::new(), asked });
@@ -153,8 +167,8 @@ impl<'a> Growth<'a> {
     /// Puts in what modules of the chain stand for, as it is after `step` steps.
     fn resolve(&mut self, chain: Chain, step: usize) -> Result<Chain> {
         let begin = Instant::now();
-        let resolved = resolve(self.leader, &self.derivation.plan, &chain, step)?;
-        let Some(Resolution { chain: made, applied, answers }) = resolved else { return Ok(chain) };
+        let resolved = resolve(self.leader, &self.derivation.plan, &chain, step, self.features.as_ref())?;
+        let Some(Resolution { chain: made, applied, answers, .. }) = resolved else { return Ok(chain) };
         if self.derivation.traced.is_some() {
             let before = self.noted(&chain);
             self.steps.push(Step { number: step, chain: before, applied, answers, asked: Vec::new() });
@@ -219,19 +233,20 @@ fn settle(machine: &Machine, derivation: Derivation, grown: StepResults) -> Resu
         let drawn = objects.into_owned().into_iter();
         trace.makers = drawn.map(|(mut object, _)| object.drawing_mut()?.take_makers()).collect();
         (trace.steps, trace.chain) = (grown.steps, grown.chain);
-        return Ok(Ending::Traced(trace));
+        return Ok(Ending::Traced(Box::new(trace)));
     }
+    let mut rows = grown.features.filter(|features| !features.is_empty());
     let objects = match objects {
         Some(objects) => {
             let mut remarks = Vec::new();
-            let objects = shared(objects, &axiom, &mut remarks)?;
+            let objects = shared(objects, &axiom, rows.as_mut(), &mut remarks)?;
             // What was left out before comes first, and the chains follow in their order.
             axiom.remarks.append(&mut remarks);
             objects
         }
         None => Vec::new(),
     };
-    Ok(Ending::Derived(DerivedSystem {
+    Ok(Ending::Derived(Box::new(DerivedSystem {
         system,
         modules: grown.chain.modules(),
         chain: grown.chain,
@@ -248,14 +263,21 @@ fn settle(machine: &Machine, derivation: Derivation, grown: StepResults) -> Resu
         remarks: axiom.remarks,
         city,
         source: axiom.known,
+        rows,
         draws,
         undrawn,
         uses: SystemUses::default(),
-    }))
+    })))
 }
 
 /// The objects as they are after the last pass, and what is to be remarked on them. Fails if all of them have failed.
-fn shared(objects: Objects, axiom: &Axiom, remarks: &mut Vec<Remark>) -> Result<Vec<Arc<dyn Object>>> {
+fn shared(
+    objects: Objects,
+    axiom: &Axiom,
+    rows: Option<&mut RowFeatures>,
+    remarks: &mut Vec<Remark>,
+) -> Result<Vec<Arc<dyn Object>>> {
+    let mut makers = Vec::new();
     let mut settled: Vec<Arc<dyn Object>> = Vec::new();
     let (mut failed, mut first) = (0, None);
     for (index, (mut object, failure)) in objects.into_owned().into_iter().enumerate() {
@@ -269,7 +291,13 @@ fn shared(objects: Objects, axiom: &Axiom, remarks: &mut Vec<Remark>) -> Result<
             let notes = object.notes().iter();
             remarks.extend(notes.map(|note| Remark::simplified(&axiom.source, feature, note)));
         }
+        if rows.is_some() {
+            makers.push(object.drawing_mut().and_then(Drawing::take_makers));
+        }
         settled.push(Arc::from(object));
+    }
+    if let Some(rows) = rows {
+        rows.set_makers(makers);
     }
     match first {
         Some(error) if failed == settled.len() => Err(error),

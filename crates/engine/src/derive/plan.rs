@@ -110,7 +110,7 @@ impl Derivation {
             objects,
             chains: axiom.features.len(),
             batch: options.batch.max(1),
-            traced: traced.is_some(),
+            traced: traced.is_some() || options.reports.records,
             notes_questions: traced.is_some_and(|traced| traced.chain.is_some()),
             profiled: options.reports.profile,
         });

@@ -94,7 +94,7 @@ impl Rewriter for SystemRewriter<'_> {
             random,
         )?;
         let plan = Arc::clone(&self.ready(index)?.plan);
-        let chain = match resolve(self.leader, &plan, &axiom.chain, 0)? {
+        let chain = match resolve(self.leader, &plan, &axiom.chain, 0, None)? {
             Some(resolution) => resolution.chain,
             None => axiom.chain,
         };
@@ -106,7 +106,7 @@ impl Rewriter for SystemRewriter<'_> {
         let ready = &mut *self.ready(index)?;
         let StepOutcome { chain, applied, .. } =
             ready.stepper.step(self.leader, &ready.declared, chain, step)?;
-        Ok(match resolve(self.leader, &ready.plan, &chain, step)? {
+        Ok(match resolve(self.leader, &ready.plan, &chain, step, None)? {
             Some(resolution) => {
                 ready.stepper.reuse(chain);
                 let applied = together(applied, &resolution);

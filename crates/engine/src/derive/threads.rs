@@ -168,9 +168,9 @@ impl Driver for ThreadPool {
             return Ok(derived);
         }
         let derived = lead(machine, self, index, steps).and_then(|ended| match ended {
-            Ending::Derived(derived) => Ok(Arc::new(derived)),
+            Ending::Derived(derived) => Ok(Arc::from(derived)),
             Ending::Traced(trace) => {
-                self.trace.replace(Some(trace));
+                self.trace.replace(Some(*trace));
                 // Nobody wants to know what else the script does.
                 Err(Error::stopped("the traced system is derived"))
             }

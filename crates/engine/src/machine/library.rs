@@ -39,6 +39,9 @@ pub(crate) struct StandardInterpretation {
     pub method: usize,
 }
 
+/// By package, and `None` for the script: the names of packages.
+type RequiredPackages = BTreeMap<Option<Arc<str>>, BTreeSet<Arc<str>>>;
+
 /// What a machine knows of its script.
 #[derive(Default)]
 pub(crate) struct Library {
@@ -72,7 +75,7 @@ pub(crate) struct Library {
     /// The parameters as they were declared first, and where.
     params: RefCell<Vec<(Param, Option<SourcePlace>)>>,
     /// By package, and none for the script: the packages that its files have required.
-    pub(super) required: RefCell<BTreeMap<Option<Arc<str>>, BTreeSet<Arc<str>>>>,
+    pub(super) required: RefCell<RequiredPackages>,
     machine: RefCell<Option<std::rc::Weak<Machine>>>,
 }
 

@@ -6,6 +6,7 @@ use std::time::Duration;
 
 use super::records::SourceFeatures;
 use super::remark::Remark;
+use super::row_features::RowFeatures;
 use super::trace::RuleName;
 use super::uses::Use;
 use burgeon_base::error::{Result, SourcePlace};
@@ -70,6 +71,8 @@ pub struct DerivedSystem {
     /// What its chains are in a city, if the script says.
     pub city: Option<CityClass>,
     pub(crate) source: SourceFeatures,
+    /// The features that its modules came from, if rows of queries were put into its chains.
+    pub(crate) rows: Option<RowFeatures>,
     /// Whether it has an object that draws.
     pub(crate) draws: bool,
     /// What its chains hold that nothing draws; it counts unless the script reads the chains.
@@ -104,7 +107,10 @@ impl DerivedSystem {
     /// What is known of the features that its chains came from, in the order of the chains; nothing without features.
     /// What a list of the script knows is kept if [`RunReports::records`](crate::script::RunReports::records) says so.
     pub fn records(&self) -> Option<RecordTable> {
-        self.source.table(&self.features, self.system + 1)
+        match &self.rows {
+            Some(rows) => Some(rows.table(self.system + 1)),
+            None => self.source.table(&self.features, self.system + 1),
+        }
     }
 
     /// The chains as text, a line for each.
@@ -173,7 +179,10 @@ impl DerivedSystem {
                 Some(object) => object.hand_over(scene, &name, feature.as_deref())?,
                 None => object.show(scene, &name, feature.as_deref())?,
             }
-            sign(scene, known, Origin { system: self.system, chain });
+            sign(scene, known, Origin { system: self.system, chain, record: Some(chain) });
+            if let Some(rows) = &self.rows {
+                rows.divide(scene, known.1, chain);
+            }
         }
         Ok(())
     }
@@ -188,7 +197,10 @@ impl DerivedSystem {
         for (chain, (object, feature)) in self.objects.iter().zip(&self.features).enumerate() {
             let known = (scene.meshes.len(), scene.instances.len());
             object.show(scene, &name, feature.as_deref())?;
-            sign(scene, known, Origin { system: self.system, chain });
+            sign(scene, known, Origin { system: self.system, chain, record: Some(chain) });
+            if let Some(rows) = &self.rows {
+                rows.divide(scene, known.1, chain);
+            }
         }
         Ok(())
     }

@@ -8,6 +8,7 @@ mod emptiness;
 mod layers;
 mod records;
 mod remark;
+mod row_features;
 mod trace;
 mod uses;
 
@@ -17,6 +18,7 @@ pub(crate) use emptiness::{emptiness, idleness, is_whole, left_out, tells_of_emp
 pub use layers::layers;
 pub(crate) use records::SourceFeatures;
 pub use remark::{FeatureReport, Remark};
+pub(crate) use row_features::RowFeatures;
 pub use trace::{Ancestor, Module, RuleName, RuleProducts, Trace};
 pub(crate) use trace::{PendingAnswer, RESOLVED};
 pub(crate) use trace::{Step, around};

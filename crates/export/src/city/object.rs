@@ -69,19 +69,21 @@ fn nowhere(at: DVec3) -> Error {
 /// The city objects of a scene, in the order of their first instances.
 pub(super) fn objects<'a>(checked: &SceneCheck<'a>, facts: &SceneFacts<'a>) -> Vec<CityObject<'a>> {
     let scene = checked.scene;
-    let mut known: FxHashMap<Option<(usize, usize)>, usize> = FxHashMap::default();
+    let mut known: FxHashMap<Option<Origin>, usize> = FxHashMap::default();
     let mut objects: Vec<CityObject<'a>> = Vec::new();
     let mut ids = Identifiers::default();
     for instance in scene.instances.iter().filter(|instance| checked.meshes[instance.mesh]) {
-        let key = instance.origin.map(|Origin { system, chain }| (system, chain));
+        let key = instance.origin;
         let index = *known.entry(key).or_insert_with(|| {
-            let system = key.and_then(|(system, _)| facts.systems.iter().find(|it| it.system == system));
-            let record = system.zip(key).and_then(|(system, (_, chain))| {
-                Some((system.records.columns.as_slice(), system.records.records.get(chain)?))
+            let system = key.and_then(|key| facts.systems.iter().find(|it| it.system == key.system));
+            let record = system.zip(key.and_then(|key| key.record)).and_then(|(system, record)| {
+                Some((system.records.columns.as_slice(), system.records.records.get(record)?))
             });
             let id = match (&instance.feature, key) {
                 (Some(feature), _) => feature.clone(),
-                (None, Some((system, chain))) => format!("system {} chain {}", system + 1, chain + 1),
+                (None, Some(Origin { system, chain, .. })) => {
+                    format!("system {} chain {}", system + 1, chain + 1)
+                }
                 (None, None) => "model".to_owned(),
             };
             objects.push(CityObject {

@@ -29,7 +29,7 @@ fn buildings(count: usize) -> Scene {
         part.surfaces.mark(2 * side, Some(meaning[if side < 4 { 0 } else { side - 3 }]));
     }
     for (chain, instance) in scene.instances.iter_mut().enumerate() {
-        instance.origin = Some(Origin { system: 1, chain });
+        instance.origin = Some(Origin { system: 1, chain, record: Some(chain) });
         instance.feature = Some(if chain == 0 { "a \"b\"\n".into() } else { "same".into() });
     }
     scene

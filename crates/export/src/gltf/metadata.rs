@@ -75,8 +75,8 @@ impl Metadata {
     pub(super) fn of_instance(&self, instance: &Instance) -> Option<FeaturePlace> {
         let origin = instance.origin?;
         let table = self.tables.iter().position(|(system, _)| *system == origin.system)?;
-        (origin.chain < self.tables[table].1.records.len())
-            .then_some(FeaturePlace { table, row: origin.chain })
+        let row = origin.record.filter(|row| *row < self.tables[table].1.records.len())?;
+        Some(FeaturePlace { table, row })
     }
 
     /// The number of that feature in its table; -1 for none.

@@ -119,7 +119,7 @@ fn facts(system: usize, columns: &[&str], rows: Vec<Vec<Option<Attribute>>>) -> 
 /// `scene` with a chain of system 0 for each instance, of which the models that are placed share a mesh.
 fn with_features(mut scene: Scene) -> Scene {
     for (chain, instance) in scene.instances.iter_mut().enumerate() {
-        instance.origin = Some(Origin { system: 0, chain });
+        instance.origin = Some(Origin { system: 0, chain, record: Some(chain) });
         instance.feature = Some(format!("way/{chain}"));
     }
     scene

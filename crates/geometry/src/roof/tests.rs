@@ -333,7 +333,8 @@ fn gables_along_neighbours_end_with_their_walls_and_close_random_plans() {
         let party: Vec<usize> = (0..ends.len()).filter(|_| random.next() < 0.25).collect();
         let kind = [Ends::Hips, Ends::Gables][round / 2 % 2];
         let roof = shape(RoofSurface::Sloped(kind, &[]), Eaves::Closed, 0.0, 0.0);
-        let cover = roof.cover_on(&in_row(&walls, &party)).unwrap_or_else(|error| panic!("{round}: {error}"));
+        let cover = roof.cover_on(&in_row(&walls, &party));
+        let cover = cover.unwrap_or_else(|error| panic!("{round}: {error}: {party:?} {walls:?}"));
         let part = building(&walls, &cover);
         let check = solid::check([&part]);
         assert!(check.is_solid(), "{round}: {party:?} {check:?} {walls:?}");

@@ -106,7 +106,7 @@ pub(super) fn add(
         for (index, line) in (1..).zip(&lines.lines.lines) {
             let given = line.fact(&lines.name).and_then(|name| name.text());
             let given =
-                given.or_else(|| line.fact("ref")?.text()).or_else(|| Some(format!("{}", line.id.as_ref()?)));
+                given.or_else(|| line.fact("ref")?.text()).or_else(|| Some(line.id.as_ref()?.to_string()));
             let name = given.unwrap_or_else(|| format!("line {index} of entry {number}"));
             streets.push(street(lines, line, name, kinds, &mut unusable));
         }

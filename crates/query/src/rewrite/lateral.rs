@@ -238,10 +238,10 @@ fn joined(
     let renamed = |expression: &Expr| {
         let mut holder = parse::holder(expression.clone());
         let mut change = |part: &mut Expr| match part {
-            Expr::CompoundIdentifier(names) if names.len() == 2 => {
-                if names[0].value.eq_ignore_ascii_case(&alias.value) {
-                    names[0] = sqlparser::ast::Ident::with_quote('"', owner);
-                }
+            Expr::CompoundIdentifier(names)
+                if names.len() == 2 && names[0].value.eq_ignore_ascii_case(&alias.value) =>
+            {
+                names[0] = sqlparser::ast::Ident::with_quote('"', owner);
             }
             Expr::Identifier(name) if table.has(&name.value) => {
                 *part = Expr::CompoundIdentifier(vec![

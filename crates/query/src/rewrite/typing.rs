@@ -331,7 +331,7 @@ fn limit(query: &mut Query) {
 pub(super) fn column_name(expression: &Expr) -> String {
     let last = |name: &ObjectName| {
         let part = name.0.last().and_then(|part| part.as_ident());
-        part.map_or_else(String::new, |name| shown_name(name))
+        part.map_or_else(String::new, shown_name)
     };
     match expression {
         Expr::Identifier(name) => shown_name(name),

@@ -2,6 +2,8 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use glam::DVec2;
+
 use super::*;
 use crate::existing::tests::{network, town};
 use crate::{StreetProfiles, SurfaceOptions};

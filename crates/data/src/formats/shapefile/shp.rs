@@ -27,6 +27,9 @@ pub(super) struct ShapeReader {
     record: Vec<u8>,
 }
 
+/// The geometry of a record, and the box that it says it has.
+type ShapeRecord = (ShapeResult, Option<[f64; 4]>);
+
 /// A geometry of a record, or why it cannot be read.
 pub(super) type ShapeResult = std::result::Result<Vec<Geometry>, String>;
 
@@ -54,7 +57,7 @@ impl ShapeReader {
     pub(super) fn next(
         &mut self,
         budget: &Budget,
-    ) -> Result<std::result::Result<Option<(ShapeResult, Option<[f64; 4]>)>, ShapeDamage>> {
+    ) -> Result<std::result::Result<Option<ShapeRecord>, ShapeDamage>> {
         budget.tick()?;
         let mut header = [0; 8];
         let mut filled = 0;

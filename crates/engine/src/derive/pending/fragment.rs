@@ -25,16 +25,16 @@ pub(super) struct Fragmentation {
 }
 
 impl Fragmentation {
-    /// In place of each module of `group`: a module with `symbol` for each part of its geometry, with its parameters.
-    /// `at` is the fragmentation's place.
+    /// In place of each module of `group`: a module with `symbol` for each part of its geometry, with its parameters, and with
+    /// the feature among `owners` that it has. `at` is the fragmentation's place.
     pub(super) fn apply(
         &mut self,
-        group: &Chain,
+        (group, owners): (&Chain, &[u32]),
         symbol: Symbol,
         symbols: &Symbols,
         (at, values): (Mark, &Values),
-    ) -> Result<Chain> {
-        let mut made = Chain::default();
+    ) -> Result<(Chain, Vec<u32>)> {
+        let (mut made, mut made_owners) = (Chain::default(), Vec::new());
         let mut param = 0;
         for (index, left) in group.symbols.iter().enumerate() {
             let params = &group.params[param..param + symbols.signature(*left).arity()];
@@ -53,9 +53,10 @@ impl Fragmentation {
                     None => ColumnValue::Nil.pack(),
                 }));
                 made.keys.extend(group.keys.get(index).map(|key| key.child(ordinal)));
+                made_owners.extend(owners.get(index));
             }
         }
-        Ok(made)
+        Ok((made, made_owners))
     }
 
     /// The place of the first geometry among `params`, and its parts.

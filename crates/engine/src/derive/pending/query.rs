@@ -77,13 +77,16 @@ pub(super) struct RowModules {
     params: Vec<f64>,
     /// By row: what tells it from others, and how many rows before it have the same.
     ids: Vec<(String, usize)>,
+    /// By row: its feature, where features are told.
+    pub(super) owners: Vec<u32>,
     count: usize,
 }
 
 impl RowModules {
     /// A module with `symbol`, which `target` declares, for each of the `rows`.
     pub(super) fn new(rows: &Rows, symbol: Symbol, target: &Signature, values: &Values) -> Result<Self> {
-        let mut made = Self { symbol, params: Vec::new(), ids: Vec::new(), count: rows.len() };
+        let mut made =
+            Self { symbol, params: Vec::new(), ids: Vec::new(), owners: Vec::new(), count: rows.len() };
         if rows.is_empty() {
             return Ok(made);
         }

@@ -1,5 +1,6 @@
 //! Puts the modules that others stand for in their places.
 
+use std::cell::RefCell;
 use std::sync::Arc;
 
 use rustc_hash::FxHashMap;
@@ -11,7 +12,7 @@ use crate::derive::plan::DerivationPlan;
 use crate::derive::threads::{LeadingMachine, ThreadPool};
 use crate::machine::Machine;
 use crate::questions::{Question, Rows};
-use crate::results::{PendingAnswer, RESOLVED};
+use crate::results::{PendingAnswer, RESOLVED, RowFeatures};
 use burgeon_base::error::{Error, Limit, Result, SourcePlace};
 use burgeon_base::text::grouped;
 use burgeon_base::warning::{Warning, WarningKind};
@@ -29,6 +30,8 @@ pub(in crate::derive) struct Resolution {
     pub applied: Vec<(u16, u32)>,
     /// What came of which symbol of the chain before, where that is traced.
     pub answers: Vec<PendingAnswer>,
+    /// The features of its symbols, where they are told.
+    owners: Vec<u32>,
 }
 
 /// Puts in what modules of `chain` stand for, as it is after `step` steps.
@@ -37,18 +40,22 @@ pub(in crate::derive) fn resolve(
     plan: &DerivationPlan,
     chain: &Chain,
     step: usize,
+    features: Option<&RefCell<RowFeatures>>,
 ) -> Result<Option<Resolution>> {
     // Most scripts never make one, and pay for no look at their chains.
     let is_pending = |symbol: &Symbol| *symbol == QUERY || *symbol == FRAGMENT;
     if !machine.session.has_pending() || !chain.symbols.iter().any(is_pending) {
         return Ok(None);
     }
-    let resolver = Resolver { machine, plan, chain, step };
+    let resolver = Resolver { machine, plan, chain, step, features };
     let sites = sites(chain, plan.grammar.arities()).map_err(|(at, error)| resolver.blame(at, error))?;
     let (answers, asked) = resolver.ask(threads, &sites)?;
     let mut resolution = resolver.put_in(&sites, &answers, &asked)?;
     machine.session.rows.forget_many();
     resolution.chain.mark(plan.batch, plan.grammar.arities());
+    if let Some(features) = features {
+        features.borrow_mut().replace(std::mem::take(&mut resolution.owners));
+    }
     Ok(Some(resolution))
 }
 
@@ -61,6 +68,17 @@ struct Resolver<'a> {
     plan: &'a DerivationPlan,
     chain: &'a Chain,
     step: usize,
+    /// The features of the chain's symbols, where they are told.
+    features: Option<&'a RefCell<RowFeatures>>,
+}
+
+/// The modules that come at a site.
+struct SiteModules {
+    chain: Chain,
+    /// Their features, where they are told.
+    owners: Vec<u32>,
+    /// The number of rows of a query.
+    rows: Option<usize>,
 }
 
 /// What a site has become, for whoever asks how.
@@ -181,14 +199,15 @@ impl Resolver<'_> {
                 session.stop.check()?;
             }
             while let Some(at) = gone.next_if(|at| at.module < site.at.module) {
-                self.keep(&mut made.chain, &mut done, at);
+                self.keep(&mut made, &mut done, at);
             }
-            self.keep(&mut made.chain, &mut done, site.at);
+            self.keep(&mut made, &mut done, site.at);
             let before = made.chain.symbols.len();
             let group =
                 self.group(site, asked.map(|asked| (asked, &answers[asked])), &mut rows, &mut fragmentation);
             let report = match group {
-                Ok((group, rows)) => {
+                Ok(SiteModules { chain: group, owners, rows }) => {
+                    made.owners.extend(owners);
                     made.chain.symbols.extend_from_slice(&group.symbols);
                     made.chain.params.extend_from_slice(&group.params);
                     made.chain.keys.extend_from_slice(&group.keys);
@@ -217,10 +236,10 @@ impl Resolver<'_> {
             }
         }
         for at in gone {
-            self.keep(&mut made.chain, &mut done, at);
+            self.keep(&mut made, &mut done, at);
         }
         let end = Mark { module: self.chain.symbols.len(), param: self.chain.params.len(), chain: 0 };
-        self.keep(&mut made.chain, &mut done, end);
+        self.keep(&mut made, &mut done, end);
         for (at, warning) in fragmentation.warnings() {
             session.warn(self.told(at, warning));
         }
@@ -238,7 +257,12 @@ impl Resolver<'_> {
     }
 
     /// Copies the symbols from `done` up to the one at `at`, and passes that over.
-    fn keep(&self, to: &mut Chain, done: &mut Mark, at: Mark) {
+    fn keep(&self, made: &mut Resolution, done: &mut Mark, at: Mark) {
+        if let Some(features) = self.features {
+            let features = features.borrow();
+            made.owners.extend((done.module..at.module).map(|symbol| features.owner(symbol)));
+        }
+        let to = &mut made.chain;
         to.symbols.extend_from_slice(&self.chain.symbols[done.module..at.module]);
         to.params.extend_from_slice(&self.chain.params[done.param..at.param]);
         if !self.chain.keys.is_empty() {
@@ -263,9 +287,9 @@ impl Resolver<'_> {
         asked: Option<(usize, &Result<Arc<Rows>>)>,
         known: &mut FxHashMap<(usize, Symbol), RowModules>,
         fragmentation: &mut Fragmentation,
-    ) -> Result<(Chain, Option<usize>), (Mark, Error)> {
+    ) -> Result<SiteModules, (Mark, Error)> {
         let mut group = Chain::default();
-        let mut rows = None;
+        let (mut rows, mut owners) = (None, Vec::new());
         let at = |error| (site.at, error);
         let key = self.chain.keys.get(site.at.module).copied();
         match (asked, self.chain.symbols[site.at.module]) {
@@ -276,10 +300,16 @@ impl Resolver<'_> {
                     std::collections::hash_map::Entry::Vacant(entry) => {
                         let answer = answer.as_ref().map_err(|error| at(error.clone()))?;
                         let target = self.plan.grammar.symbols().signature(symbol);
-                        entry.insert(RowModules::new(answer, symbol, target, self.values()).map_err(at)?)
+                        let mut modules =
+                            RowModules::new(answer, symbol, target, self.values()).map_err(at)?;
+                        if let Some(features) = self.features {
+                            modules.owners = features.borrow_mut().of_rows(answer, &target.name);
+                        }
+                        entry.insert(modules)
                     }
                 };
                 modules.add_to(&mut group, key);
+                owners.extend_from_slice(&modules.owners);
                 rows = Some(modules.len());
             }
             // It belongs to a chain that is left out.
@@ -289,15 +319,18 @@ impl Resolver<'_> {
                 group.symbols.push(symbol);
                 group.params.extend_from_slice(&self.chain.params[site.at.param..][..arity]);
                 group.keys.extend(key);
+                owners.extend(self.features.map(|features| features.borrow().owner(site.at.module)));
             }
         }
         for fragment in &site.fragments {
             let at = |error| (*fragment, error);
             let symbol = self.target(*fragment, 0).map_err(at)?;
             let symbols = self.plan.grammar.symbols();
-            group = fragmentation.apply(&group, symbol, symbols, (*fragment, self.values())).map_err(at)?;
+            (group, owners) = fragmentation
+                .apply((&group, &owners), symbol, symbols, (*fragment, self.values()))
+                .map_err(at)?;
         }
-        Ok((group, rows))
+        Ok(SiteModules { chain: group, owners, rows })
     }
 
     /// What came of `site`, in words.

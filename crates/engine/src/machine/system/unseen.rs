@@ -165,8 +165,11 @@ type GuardClass = Option<usize>;
 #[derive(Default)]
 struct GuardClasses {
     /// The numbers of rules and what their guards capture, by their predecessors and the guards' texts.
-    first: FxHashMap<(Symbol, String), Vec<(usize, Vec<Value>)>>,
+    first: FxHashMap<(Symbol, String), Vec<CapturingGuard>>,
 }
+
+/// The number of a rule and the values that its guard captures.
+type CapturingGuard = (usize, Vec<Value>);
 
 /// Guards of one text that are compared: loops may declare thousands, which capture different values.
 const MOST_COMPARED: usize = 64;

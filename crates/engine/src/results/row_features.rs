@@ -1,0 +1,134 @@
+//! The features that modules came from, where a query put rows of data into a chain.
+//!
+//! A chain that an axiom or a rule fills by `query(...)` has modules of many features. For files that tell whose everything is,
+//! each symbol of the chain is followed from the row that it came from to the final chain, and what it drew is that feature's.
+//! Nothing of this is kept unless [`RunReports::records`](crate::script::RunReports::records) asks for it.
+
+use burgeon_data::output::{Record, RecordTable};
+use burgeon_kit::Makers;
+use burgeon_scene::{Origin, Scene};
+use rustc_hash::FxHashMap;
+
+use super::records::{Columns, attribute};
+use crate::questions::Rows;
+
+/// The features that the symbols of a chain came from.
+#[derive(Default)]
+pub(crate) struct RowFeatures {
+    columns: Columns,
+    records: Vec<Record>,
+    /// The numbers of features, by the name of the module that a query made of them, and their ids.
+    known: FxHashMap<(String, String), u32>,
+    /// For each symbol of the present chain: the number of its feature, from 1; 0 for none.
+    owners: Vec<u32>,
+    /// Who made what of each object's drawing.
+    makers: Vec<Option<Makers>>,
+}
+
+impl RowFeatures {
+    /// Begins with a chain of so many symbols, which are nobody's.
+    pub(crate) fn new(symbols: usize) -> Self {
+        Self { owners: vec![0; symbols], ..Self::default() }
+    }
+
+    /// True if no row has been put into the chain.
+    pub(crate) fn is_empty(&self) -> bool {
+        self.records.is_empty()
+    }
+
+    /// The feature of the symbol at a place.
+    pub(crate) fn owner(&self, symbol: usize) -> u32 {
+        self.owners.get(symbol).copied().unwrap_or(0)
+    }
+
+    /// The features of `rows`, of which a query makes modules called `module`. Rows with an id are those of the same feature as others
+    /// with it.
+    pub(crate) fn of_rows(&mut self, rows: &Rows, module: &str) -> Vec<u32> {
+        let id_column = rows.id();
+        let each = rows.iter().map(|row| {
+            let number = u32::try_from(self.records.len() + 1).unwrap_or(u32::MAX);
+            let id = match id_column {
+                Some(column) => row[column].to_string(),
+                None => format!("{module} {number}"),
+            };
+            let of = *self.known.entry((module.to_owned(), id.clone())).or_insert(number);
+            if of == number {
+                let named = rows.names.iter().zip(row).enumerate();
+                let named = named.filter(|(column, _)| Some(*column) != id_column);
+                let mut values: Vec<_> = named
+                    .filter_map(|(_, (name, value))| Some((self.columns.number(name), attribute(value)?)))
+                    .collect();
+                values.sort_by_key(|(column, _)| *column);
+                self.records.push(Record { id, geometry: None, values });
+            }
+            of
+        });
+        each.collect()
+    }
+
+    /// Takes the next chain: `applied` tells for each symbol of the present one how many came of it.
+    pub(crate) fn step(&mut self, applied: &[(u16, u32)]) {
+        if self.is_empty() {
+            let count = applied.iter().map(|(_, count)| *count as usize).sum();
+            self.owners = vec![0; count];
+            return;
+        }
+        let before = std::mem::take(&mut self.owners);
+        for (owner, (_, count)) in before.into_iter().zip(applied) {
+            self.owners.extend(std::iter::repeat_n(owner, *count as usize));
+        }
+    }
+
+    /// Takes the owners of the symbols of the next chain.
+    pub(crate) fn replace(&mut self, owners: Vec<u32>) {
+        self.owners = owners;
+    }
+
+    /// Takes who made what of each object's drawing.
+    pub(crate) fn set_makers(&mut self, makers: Vec<Option<Makers>>) {
+        self.makers = makers;
+    }
+
+    /// The features as a table.
+    pub(crate) fn table(&self, number: usize) -> RecordTable {
+        RecordTable {
+            name: format!("system {number}"),
+            columns: self.columns.0.clone(),
+            records: self.records.clone(),
+        }
+    }
+
+    /// Divides what object number `chain` has added to `scene`, since it had so many instances, among the features that its modules
+    /// came from.
+    pub(crate) fn divide(&self, scene: &mut Scene, known: usize, chain: usize) {
+        let Some(Some(makers)) = self.makers.get(chain) else { return };
+        let placements: Vec<usize> = makers.all_placements().collect();
+        for number in known..scene.instances.len() {
+            let instance = &mut scene.instances[number];
+            match instance.placement {
+                Some(placement) => {
+                    let owner = placements.get(placement).map_or(0, |maker| self.owner(*maker));
+                    self.sign(&mut instance.origin, &mut instance.feature, owner);
+                }
+                None => {
+                    let runs = makers.all_runs();
+                    let stretches: Vec<_> =
+                        runs.map(|(part, range, maker)| (part, range, self.owner(maker))).collect();
+                    scene.divide(number, &stretches, |instance, owner| {
+                        self.sign(&mut instance.origin, &mut instance.feature, owner);
+                    });
+                }
+            }
+        }
+    }
+
+    fn sign(&self, origin: &mut Option<Origin>, feature: &mut Option<String>, owner: u32) {
+        let record = (owner as usize).checked_sub(1);
+        if let Some(origin) = origin {
+            origin.record = record;
+        }
+        if let Some(record) = record.and_then(|record| self.records.get(record)) {
+            *feature = Some(record.id.clone());
+        }
+    }
+}
