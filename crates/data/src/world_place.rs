@@ -28,7 +28,7 @@ impl ReferenceFrame {
     ///
     /// let place = ReferenceFrame::around(&Crs::epsg(3067)?, [385_423.0, 6_671_463.0], "a town")?.world_place();
     /// assert_eq!((&*place.crs, place.origin), ("EPSG:3067", [385_400.0, 6_671_500.0]));
-    /// assert_eq!(place.to_string(), "385400, 6671500 in EPSG:3067 (longitude 24.9368784, latitude 60.1661929)");
+    /// assert_eq!(place.to_string(), "385400, 6671500 in EPSG:3067 (longitude 24.9349427, latitude 60.1642919)");
     /// # Ok::<(), burgeon_base::error::Error>(())
     /// ```
     pub fn world_place(&self) -> WorldPlace {

@@ -5,7 +5,7 @@
 //! Nothing of this is kept unless [`RunReports::records`](crate::script::RunReports::records) asks for it.
 
 use burgeon_data::output::{Record, RecordTable};
-use burgeon_kit::Makers;
+use burgeon_kit::{Makers, Value};
 use burgeon_scene::{Origin, Scene};
 use rustc_hash::FxHashMap;
 
@@ -48,7 +48,10 @@ impl RowFeatures {
         let each = rows.iter().map(|row| {
             let number = u32::try_from(self.records.len() + 1).unwrap_or(u32::MAX);
             let id = match id_column {
-                Some(column) => row[column].to_string(),
+                Some(column) => match &row[column] {
+                    Value::Text(text) => text.to_string(),
+                    other => other.to_string(),
+                },
                 None => format!("{module} {number}"),
             };
             let of = *self.known.entry((module.to_owned(), id.clone())).or_insert(number);
@@ -56,7 +59,10 @@ impl RowFeatures {
                 let named = rows.names.iter().zip(row).enumerate();
                 let named = named.filter(|(column, _)| Some(*column) != id_column);
                 let mut values: Vec<_> = named
-                    .filter_map(|(_, (name, value))| Some((self.columns.number(name), attribute(value)?)))
+                    .filter_map(|(_, (name, value))| {
+                        let value = attribute(value)?;
+                        Some((self.columns.number(name), value))
+                    })
                     .collect();
                 values.sort_by_key(|(column, _)| *column);
                 self.records.push(Record { id, geometry: None, values });

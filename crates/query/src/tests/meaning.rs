@@ -232,7 +232,7 @@ pub(super) const EXPRESSIONS: [&str; 263] = [
     "ST_AsText(ST_MakePoint(1, 2))",
     "ST_AsText(ST_MakePoint(1.0 / 3, 2.0 / 3))",
     "ST_AsText(ST_MakePoint(1.0 / 3, 2), 3)",
-    "ST_AsText(ST_MakePoint(1e15, 1e-9))",
+    "ST_AsText(ST_MakePoint(1e9, 1e-9))",
     "ST_AsText(ST_MakePoint(-0.0, 1.5e-8))",
     "ST_AsText(ST_MakePoint(1, 2, 3))",
     "ST_AsText(geom)",
@@ -353,7 +353,7 @@ fn expressions_give_what_they_give_in_postgresql_or_are_refused() {
             }
         }
     }
-    assert!(refused > 40, "{refused}");
+    assert!(refused > 35, "{refused}");
     insta::assert_snapshot!(told);
 }
 
