@@ -5,10 +5,13 @@ use std::sync::Arc;
 use glam::{DAffine3, DVec3};
 
 use super::{ObjectParameter, Show};
-use burgeon_base::Stop;
 use burgeon_base::error::Result;
+use burgeon_base::{MemoryOwner, Stop};
 use burgeon_macros::{methods, object};
 use burgeon_scene::{Instance, Material, Part, Scene, SurfaceMeaning};
+
+/// From so many instances on, the memory for them is asked for at once.
+const MANY: usize = 4096;
 
 /// What a derived system has drawn, or a glTF file holds, for placing elsewhere.
 ///
@@ -71,7 +74,7 @@ impl Model {
     /// Adds an instance of everything to `scene` at each of `frames`; its meshes are added once.
     ///
     /// The frames are numbered from `first` on, as [`Instance::placement`] tells; `meaning` is what all of it is. Fails if the
-    /// run is stopped.
+    /// run is stopped, or has no memory left for them.
     pub fn place(
         &self,
         scene: &mut Scene,
@@ -82,6 +85,12 @@ impl Model {
         meaning: Option<SurfaceMeaning>,
     ) -> Result<()> {
         let stop = Stop::current();
+        let more = frames.len().saturating_mul(self.scene.instances.len());
+        if more > MANY {
+            // Models that place each other double; so much more is refused before it is made.
+            MemoryOwner::ensure_room(more.saturating_mul(size_of::<Instance>() + name.len()))?;
+            scene.instances.reserve_exact(more);
+        }
         for (number, frame) in (first..).zip(frames) {
             for (index, instance) in self.scene.instances.iter().enumerate() {
                 // Models that place each other multiply.
