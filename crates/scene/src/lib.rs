@@ -118,34 +118,44 @@ impl Scene {
         scene
     }
 
-    /// Divides instance number `instance`, whose mesh no other shows: for each of the `stretches`, ranges of triangles of a part and
-    /// what `change` is to know of them, all triangles of the same become one instance. The first takes the place of the old one.
+    /// Divides instance number `instance`, whose mesh no other instance shows, into one instance for each owner.
+    ///
+    /// `stretches` are parts, ranges of their triangles and owners. `set` gives an instance its owner. The first instance takes
+    /// the place of the old one. Does nothing unless the stretches hold each triangle once.
     pub fn divide<K: Ord + Copy>(
         &mut self,
         instance: usize,
-        stretches: &[(usize, std::ops::Range<usize>, K)],
-        mut change: impl FnMut(&mut Instance, K),
+        mut stretches: Vec<(usize, std::ops::Range<usize>, K)>,
+        mut set: impl FnMut(&mut Instance, K),
     ) {
         let mesh = self.instances[instance].mesh;
+        let mut counts = vec![0; self.meshes[mesh].parts.len()];
+        for (part, range, _) in &stretches {
+            if let Some(count) = counts.get_mut(*part) {
+                *count += range.len();
+            }
+        }
+        let is_whole = |(count, part): (&usize, &Part)| *count == part.triangles.len();
+        if stretches.is_empty() || !counts.iter().zip(&self.meshes[mesh].parts).all(is_whole) {
+            return;
+        }
         let whole = std::mem::take(&mut self.meshes[mesh]);
-        let mut kinds: Vec<K> = stretches.iter().map(|(_, _, kind)| *kind).collect();
-        kinds.sort_unstable();
-        kinds.dedup();
-        for (number, kind) in kinds.into_iter().enumerate() {
-            let parts = whole.parts.iter().enumerate().filter_map(|(index, part)| {
-                let own = stretches.iter().filter(|(part, _, of)| *part == index && *of == kind);
-                let piece = part.piece(own.map(|(_, range, _)| range.clone()));
+        stretches.sort_by_key(|(part, range, owner)| (*owner, *part, range.start));
+        for (number, of_owner) in stretches.chunk_by(|a, b| a.2 == b.2).enumerate() {
+            let parts = of_owner.chunk_by(|a, b| a.0 == b.0).filter_map(|of_part| {
+                let piece =
+                    whole.parts[of_part[0].0].piece(of_part.iter().map(|(_, range, _)| range.clone()));
                 (!piece.triangles.is_empty()).then_some(piece)
             });
             let piece = Mesh { name: whole.name.clone(), origin: whole.origin, parts: parts.collect() };
             if number == 0 {
                 self.meshes[mesh] = piece;
-                change(&mut self.instances[instance], kind);
+                set(&mut self.instances[instance], of_owner[0].2);
             } else {
                 self.meshes.push(piece);
-                let mut made = Instance { mesh: self.meshes.len() - 1, ..self.instances[instance].clone() };
-                change(&mut made, kind);
-                self.instances.push(made);
+                let mut added = Instance { mesh: self.meshes.len() - 1, ..self.instances[instance].clone() };
+                set(&mut added, of_owner[0].2);
+                self.instances.push(added);
             }
         }
     }

@@ -120,7 +120,7 @@ impl RowFeatures {
                     let runs = makers.all_runs();
                     let stretches: Vec<_> =
                         runs.map(|(part, range, maker)| (part, range, self.owner(maker))).collect();
-                    scene.divide(number, &stretches, |instance, owner| {
+                    scene.divide(number, stretches, |instance, owner| {
                         self.sign(&mut instance.origin, &mut instance.feature, owner);
                     });
                 }
