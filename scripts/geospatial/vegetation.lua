@@ -1,6 +1,6 @@
 --!strict
--- Lawns, flower beds, the trees that the data knows, and others that stand anywhere on the grass between the flowers:
--- one for every 60 m2.
+-- Lawns, flower beds, the trees of the data, and others on the grass between the flowers, one for every 60 m2. Rules query the
+-- chain itself: the grass is what the beds leave, and no tree grows into the crown of another.
 -- burgeon run scripts/geospatial/vegetation.lua --data examples/data -o vegetation.glb
 local layers = require("layers")
 local models = require("models")
@@ -9,11 +9,13 @@ require("pavements")
 
 local Tree = module("Tree", "place", "species", "height", "radius")
 local Garden = module("Garden", "geom")
-local Lawn, Planting = module("Lawn", "geom"), module("Planting", "geom", "count")
+local Lawn, Copse = module("Lawn", "geom"), module("Copse", "geom", "count", "tries")
 local Grove, Bed = module("Grove", "geom"), module("Bed", "geom", "flowers")
 local Planted = module("Planted", "place", "species", "height", "radius")
 
 local LEVEL = 0.15
+-- Places that are tried for a tree before no more are planted on a lawn.
+local TRIES = 20
 
 local green = lsystem({ object = extruder({ smooth = false, roughness = 1 }) })
 green:axiom(query(layers.grass, Garden), query(layers.flowerbeds, Bed), query(layers.trees, Tree))
@@ -25,26 +27,29 @@ green:rule("Tree(place, species, height, radius)", {
 }, function(_, place, species, height, radius)
   return Planted(place, species, height, radius)
 end)
--- The grass is what the flowers leave.
 green:rule("Garden(geom)", function(_, geom)
-  local beds =
-    `select ST_Union(geom) as geom from ({layers.flowerbeds}) as beds where ST_Intersects(geom, $geom)`
-  local flowers = query(beds)[1]
+  local flowers = query("select ST_Union(geom) as geom from Bed where ST_Intersects(geom, $geom)")[1]
   local free = if flowers and flowers.geom then geom:difference(flowers.geom) else geom
   return Lawn(geom), Grove(free)
 end)
 green:rule("Grove(geom)", function(_, geom)
-  return Planting(geom, math.round(geom:area() / 60))
+  return Copse(geom, math.round(geom:area() / 60), 0)
 end)
-green:rule("Planting(geom, count)", {
-  when = function(_, _, count)
-    return count > 0
+green:rule("Copse(geom, count, tries)", {
+  when = function(_, _, count, tries)
+    return count > 0 and tries < TRIES
   end,
-}, function(_, geom, count)
-  local place = geom:random_point(random(), random())
-  return Planting(geom, count - 1), Tree(place, math.floor(random(1, 6)), random(5, 15), random(2, 6))
+}, function(_, geom, count, tries)
+  local place, radius = geom:random_point(random(), random()), random(2, 6)
+  local near =
+    "select 1 as near from Planted where ST_DWithin(place, $place, 0.7 * (radius + $radius)) limit 1"
+  if #query(near, { place = place, radius = radius }) > 0 then
+    return Copse(geom, count, tries + 1)
+  end
+  local tree = Tree(place, math.floor(random(1, 6)), random(2.2, 2.8) * radius, radius)
+  return Copse(geom, count - 1, 0), tree
 end)
-green:rule("Planting", function()
+green:rule("Copse", function()
   return nil
 end)
 
@@ -60,7 +65,7 @@ green:interpret("Bed(geom, flowers)", function(this, geom, flowers)
     this:polygon(part):jump({ 0, 0, LEVEL }):extrude(0.3)
   end
 end)
-green:interpret("Planted(place, species, height, radius)", function(this, place, species, height)
-  this:jump(place:place() + vec(0, 0, LEVEL)):place(models.trees[species], height)
+green:interpret("Planted(place, species, height, radius)", function(this, place, species, height, radius)
+  this:jump(place:place() + vec(0, 0, LEVEL)):place(models.trees[species], 2 * radius, 2 * radius, height)
 end)
 green:derive()

@@ -55,6 +55,10 @@ const STORES: &[Store] = &[
         "local all = {} while true do local list = {} for i = 1, 1000 do list[i] = { id = i, name = \"n\" .. i } end table.insert(all, source(list)) end",
     ),
     store(
+        "tables of modules",
+        "local text = string.rep(\"x\", 2000)\ns:rule(\"A(x)\", function(this, x)\n  query(\"select count(*) as n from A\")\n  return A(x), A(text)\nend)\ns:derive()",
+    ),
+    store(
         "surfaces",
         "s:interpret(\"A(x)\", function(this, x) while true do this:forward(1):turn(7) end end)\ns:derive(1)",
     ),

@@ -10,6 +10,7 @@ mod interpretation;
 mod lineage;
 mod literature;
 mod meaning;
+mod modules_as_tables;
 mod naive;
 mod parameters;
 mod passes;

@@ -13,6 +13,8 @@ use super::walk::Walk;
 pub struct QueryCall {
     /// Its line.
     pub line: usize,
+    /// Its text of SQL, or the name of a table.
+    pub sql: String,
     /// The parameters of its text to which the call itself gives no value.
     pub open: Vec<String>,
 }
@@ -49,7 +51,8 @@ impl Walk<'_> {
             (given, sql_parameters(&sql), self.functions.last_mut())
         {
             let open = names.into_iter().filter(|name| !given.iter().any(|given| given == name));
-            function.queries.push(QueryCall { line: begin.line(), open: open.map(str::to_owned).collect() });
+            let open = open.map(str::to_owned).collect();
+            function.queries.push(QueryCall { line: begin.line(), open, sql: sql.clone() });
         }
     }
 }

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use glam::{DAffine3, DQuat, DVec3};
+use glam::{DQuat, DVec3};
 
 use super::MaterialOptions;
 use super::mesh::{MeshFaces, MeshOptions, MeshPoints, draw_mesh};
@@ -265,10 +265,10 @@ impl Turtle {
         sphere(self.drawing.part(self.state.part), self.state.frame.position, radius, sides)
     }
 
-    /// Places what another system has drawn at the turtle's frame, with this `scale` (1 unless given).
-    pub fn place(&mut self, model: Arc<Model>, scale: Option<f64>) {
-        let scale = DAffine3::from_scale(DVec3::splat(scale.unwrap_or(1.0)));
-        self.drawing.place(&model, self.state.frame.transform() * scale);
+    /// Places what another system has drawn at the turtle's frame, with this `scale` (1 unless given) along its x axis, and
+    /// along its y and z axes (`scale` unless given).
+    pub fn place(&mut self, model: Arc<Model>, scale: Option<f64>, y: Option<f64>, z: Option<f64>) {
+        self.drawing.place_scaled(&model, self.state.frame.transform(), [scale, y, z]);
     }
 
     /// Draws `faces` in the turtle's frame, each the numbers of its corners among `points` (m), such as { 1, 2, 3 }.

@@ -34,8 +34,9 @@ pub(crate) const LONGEST_STATEMENT: usize = 200_000;
 /// How many files are read as they are; others are copied.
 pub(crate) const MOST_FILES: usize = 8;
 
-/// How many kibibytes of pages a connection keeps.
+/// The most kibibytes of pages that a connection keeps, and the share of the memory that may be used.
 const PAGES: i64 = 32_768;
+const PAGES_SHARE: usize = 32;
 
 /// How many tables that were made of subqueries a connection keeps.
 const MOST_KEPT: usize = 16;
@@ -204,10 +205,12 @@ impl DatabaseLink {
         indexes: &Arc<Indexes>,
         frame: Option<&ReferenceFrame>,
         generation: usize,
+        memory: usize,
     ) -> rusqlite::Result<Self> {
         let mut connection = open_memory(address, false)?;
         connection.pragma_update(None, "temp_store", "MEMORY")?;
-        connection.pragma_update(None, "cache_size", -PAGES)?;
+        let pages = i64::try_from(memory / 1024 / PAGES_SHARE).unwrap_or(PAGES).clamp(256, PAGES);
+        connection.pragma_update(None, "cache_size", -pages)?;
         connection.pragma_update(None, "case_sensitive_like", true)?;
         for AttachedFile { schema, state } in files {
             connection.execute(&format!("ATTACH ?1 AS {schema}"), [state.address()])?;

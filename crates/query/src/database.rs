@@ -9,9 +9,10 @@ use rustc_hash::FxHashMap;
 
 use crate::ask;
 use crate::cell::{Cell, QueryAnswer};
-use crate::connection::{AttachedFile, DatabaseLink, Indexes, MOST_FILES, TableView, open_memory};
+use crate::connection::{AttachedFile, DatabaseLink, Indexes, MOST_FILES, TableView, open_memory, quoted};
 use crate::errors;
 use crate::rewrite::{self, Catalogue, Dialect, RewrittenQuery, TableInfo};
+use crate::row_table::RowTable;
 use crate::tables::{self, FileLayer};
 use burgeon_base::WorkWithin;
 use burgeon_base::budget::Budget;
@@ -65,9 +66,14 @@ struct TableSet {
     views: Vec<TableView>,
     /// What each table was made of, to tell what is added twice from what has the same name.
     origins: FxHashMap<String, String>,
+    /// The memory (bytes) of each table of rows.
+    memory: FxHashMap<String, usize>,
     /// Counts changes.
     generation: usize,
 }
+
+/// The origin of tables of rows.
+const ROWS: &str = "rows";
 
 /// A statement as it is asked.
 pub(crate) struct PreparedStatement {
@@ -103,6 +109,11 @@ pub(crate) struct StatementShape {
 /// Whether a statement names a table.
 pub fn names_table(sql: &str, table: &str) -> bool {
     rewrite::find_word(sql, table).is_some()
+}
+
+/// Lists the words of a statement that may be names of tables, as they are written.
+pub fn table_words(sql: &str) -> Vec<String> {
+    rewrite::table_words(sql)
 }
 
 impl std::fmt::Debug for Database {
@@ -196,6 +207,22 @@ impl Database {
         Ok(())
     }
 
+    /// Adds a table of rows, in the place of the one of that name that was added so before. No statement may be running.
+    ///
+    /// Fails if a source is called so, or if there is no memory for it.
+    pub fn set_rows(&self, table: &RowTable, budget: &Arc<Budget>) -> Result<()> {
+        let mut tables = self.tables.write().recover();
+        tables.remove_rows(&table.name, &self.writer.lock().recover(), budget)?;
+        tables.is_there(&table.name, ROWS)?;
+        let before = budget.taken();
+        let info = table.write(&self.writer.lock().recover(), self.frame.as_ref(), budget)?;
+        tables.memory.insert(info.name.to_ascii_lowercase(), budget.taken().saturating_sub(before));
+        let prefix = format!("{}.", info.name);
+        self.indexes.write().recover().retain(|index, _| !index.starts_with(&prefix));
+        tables.add(info, ROWS.to_owned());
+        Ok(())
+    }
+
     /// The rows that a statement asks for, with `parameters` in place of the names behind `$`.
     ///
     /// Where it says nothing of their order, they are ordered by `fid`, `id` or `ogc_fid` if there is such a column, and
@@ -238,7 +265,7 @@ impl Database {
         work: impl FnOnce(&DatabaseLink, &PreparedStatement) -> std::result::Result<T, ask::QueryFailure>,
     ) -> Result<T> {
         budget.check()?;
-        let link = self.link()?;
+        let link = self.link(budget.memory())?;
         link.state.give(budget);
         link.pin()?;
         let prepared = self.prepared(sql, &link, budget)?;
@@ -275,8 +302,8 @@ impl Database {
         }
     }
 
-    /// A connection that sees all tables.
-    fn link(&self) -> Result<DatabaseLink> {
+    /// A connection that sees all tables, and keeps pages in a share of the memory (bytes).
+    fn link(&self, memory: usize) -> Result<DatabaseLink> {
         let tables = self.tables.read().recover();
         let mut idle = self.idle.lock().recover();
         while let Some(link) = idle.pop() {
@@ -286,7 +313,8 @@ impl Database {
         }
         drop(idle);
         let TableSet { files, views, generation, .. } = &*tables;
-        DatabaseLink::open(&self.address, files, views, &self.indexes, self.frame.as_ref(), *generation)
+        let frame = self.frame.as_ref();
+        DatabaseLink::open(&self.address, files, views, &self.indexes, frame, *generation, memory)
             .map_err(|error| errors::internal(&error))
     }
 
@@ -363,6 +391,21 @@ impl TableSet {
             Some(_) => Err(Error::argument(format!("there are two tables called {}", shown(name)))
                 .help("name one of them otherwise: source(file, { table = \"houses\" })")),
         }
+    }
+
+    /// Removes a table of rows, if it is there.
+    fn remove_rows(&mut self, name: &str, writer: &Connection, budget: &Budget) -> Result<()> {
+        let key = name.to_ascii_lowercase();
+        if self.origins.get(&key).is_none_or(|origin| origin != ROWS) {
+            return Ok(());
+        }
+        let known = self.catalogue.remove(&key).map_or_else(|| name.to_owned(), |table| table.name);
+        self.origins.remove(&key);
+        self.generation += 1;
+        budget.give(self.memory.remove(&key).unwrap_or_default());
+        writer
+            .execute_batch(&format!("DROP TABLE IF EXISTS {}", quoted(&known)))
+            .map_err(|error| errors::internal(&error))
     }
 
     fn add(&mut self, info: TableInfo, origin: String) {

@@ -107,9 +107,12 @@ pub(crate) fn statement_error(error: &rusqlite::Error, sql: &str, catalogue: &Ca
         let what = format!("{}no table called {}", place(sql, offset, &name), shown(&name));
         let names: Vec<&str> = known().collect();
         let help = match names.is_empty() {
-            true => "there are none: a table is what source(file) has read".to_owned(),
+            true => "there are none: a table is what source(file) has read, or a module".to_owned(),
             false => {
-                format!("there are {}; a table is what source(file) has read", listed(names.iter().copied()))
+                format!(
+                    "there are {}; a table is what source(file) has read, or a module",
+                    listed(names.iter().copied())
+                )
             }
         };
         return Error::not_found("table", &name, known(), what).help(help);

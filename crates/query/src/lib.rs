@@ -21,10 +21,12 @@ mod plane;
 #[cfg(feature = "postgis")]
 pub mod postgis;
 mod rewrite;
+mod row_table;
 mod tables;
 #[cfg(test)]
 mod tests;
 
 pub use cell::{Cell, QueryAnswer};
-pub use database::{Database, names_table};
+pub use database::{Database, names_table, table_words};
 pub use functions::{FUNCTIONS, SpatialFunction};
+pub use row_table::RowTable;

@@ -197,7 +197,7 @@ fn kind_of(column: &str) -> SqlType {
 }
 
 /// A name that none of `taken` is, in whatever letters.
-fn free(name: &str, taken: &[String]) -> String {
+pub(crate) fn free(name: &str, taken: &[String]) -> String {
     let is_free = |name: &str| !taken.iter().any(|known| known.eq_ignore_ascii_case(name));
     if is_free(name) {
         return name.to_owned();
@@ -303,7 +303,7 @@ fn kinds(layer: &Layer) -> Vec<&'static str> {
 }
 
 /// Makes a table of the rows that `next` gives, and counts them.
-fn write(
+pub(crate) fn write(
     writer: &Connection,
     name: &str,
     columns: &[String],

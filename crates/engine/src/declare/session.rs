@@ -13,17 +13,20 @@ use super::options::RunOptions;
 use super::param::Param;
 use super::positions::RandomPositions;
 use super::scripts::{ScriptFiles, SourceFile, own_params, read_stdlib, unreadable};
+#[cfg(feature = "data")]
+use super::tables::ModuleRows;
 use super::types::DeclaredTypes;
-use crate::questions::{AskedRows, Question, RowCache, RowSource, Rows};
+use crate::questions::{AskedRows, ChainView, Question, RowCache, RowSource, Rows};
 use burgeon_analysis::{Analysis, CheckedFile, QueryCall, call_problems, has_metatables, inspects_tables};
 use burgeon_base::error::{Error, Result};
 use burgeon_base::locks::LockRecovery;
 use burgeon_base::stop::Stop;
 use burgeon_base::text::grouped;
 use burgeon_base::warning::{Warning, Warnings};
-use burgeon_kit::rules::Values;
+use burgeon_kit::rules::{Symbol, Values};
 use burgeon_language::CallForm;
 use burgeon_packages::{PackageSearch, Packages};
+use rustc_hash::FxHashSet;
 
 /// How far a run has come, for those who wait.
 #[derive(Debug, Default)]
@@ -105,6 +108,10 @@ pub struct Session {
     pub(crate) data: Data,
     /// What was asked of them.
     pub(crate) rows: RowCache,
+    /// The chains that rules and interpretations see.
+    chains: Mutex<Arc<ChainView>>,
+    /// The modules that questions have named.
+    asked: Mutex<FxHashSet<Symbol>>,
     /// How far its random numbers have got.
     pub(crate) drawn: RandomPositions,
     /// The types of objects that scripts have declared, and the methods that they have added to others.
@@ -162,6 +169,8 @@ impl Session {
             used: Mutex::default(),
             data: Data::default(),
             rows: RowCache::default(),
+            chains: Mutex::default(),
+            asked: Mutex::default(),
             drawn: RandomPositions::default(),
             declared: Mutex::default(),
             stdlib,
@@ -395,20 +404,66 @@ impl Session {
         self.pending.load(Ordering::Acquire)
     }
 
-    /// The rows that answer `question`, the same for as long as they are kept, which is to the end if the answer
-    /// `stays`.
-    pub(crate) fn ask(&self, question: &Question, stays: bool) -> Result<Arc<Rows>> {
-        let source: &dyn RowSource = match &self.options.inputs.rows {
-            Some(own) => &**own,
-            #[cfg(feature = "data")]
-            None => self,
-            #[cfg(not(feature = "data"))]
-            None => {
-                return Err(Error::unavailable("this program was built without databases")
-                    .help("build it with the feature data"));
-            }
+    /// Shows questions of rules and interpretations another state of the chains. Nobody is asking.
+    pub(crate) fn show_chains(&self, view: ChainView) {
+        *self.chains.lock().recover() = Arc::new(view);
+        self.rows.forget_views();
+    }
+
+    /// The rows that answer `question` of a rule or an interpretation, the same for as long as they are kept.
+    pub(crate) fn ask(&self, question: &Question) -> Result<Arc<Rows>> {
+        let view = Arc::clone(&self.chains.lock().recover());
+        self.ask_about(question, &view, false)
+    }
+
+    /// The rows that answer `question` about a state of the chains, the same for as long as they are kept, which is to the end
+    /// if the answer `stays`.
+    #[cfg(feature = "data")]
+    pub(crate) fn ask_about(&self, question: &Question, view: &ChainView, stays: bool) -> Result<Arc<Rows>> {
+        let words = self.rows.words(&question.statement(), burgeon_query::table_words);
+        let modules = view.named(&words);
+        if !modules.is_empty() {
+            self.asked.lock().recover().extend(&modules);
+        }
+        let own = ModuleRows { session: self, view, modules: &modules };
+        let source: &dyn RowSource = self.options.inputs.rows.as_deref().unwrap_or(&own);
+        let asked = AskedRows {
+            source,
+            most: self.options.limits.modules,
+            view: if modules.is_empty() { 0 } else { view.number() },
+            stays,
         };
-        let rows = self.rows.ask(question, &AskedRows { source, most: self.options.limits.modules, stays });
+        let rows = self.rows.ask(question, &asked);
+        self.stop.check()?;
+        rows
+    }
+
+    /// Reports whether a question has named modules with a symbol.
+    pub(crate) fn has_asked(&self, symbol: Symbol) -> bool {
+        self.asked.lock().recover().contains(&symbol)
+    }
+
+    /// The words that may name tables in the queries of all rules, as far as their texts are known.
+    pub(crate) fn queried_words(&self) -> BTreeSet<String> {
+        #[cfg(feature = "data")]
+        {
+            let scripts = self.script_files();
+            let queries = scripts.read.values().flat_map(|source| source.analysis.queries.values().flatten());
+            queries.flat_map(|query| burgeon_query::table_words(&query.sql)).collect()
+        }
+        #[cfg(not(feature = "data"))]
+        BTreeSet::new()
+    }
+
+    /// The rows that answer `question`, the same for as long as they are kept, which is to the end if the answer `stays`.
+    #[cfg(not(feature = "data"))]
+    pub(crate) fn ask_about(&self, question: &Question, _: &ChainView, stays: bool) -> Result<Arc<Rows>> {
+        let Some(source) = self.options.inputs.rows.as_deref() else {
+            return Err(Error::unavailable("this program was built without databases")
+                .help("build it with the feature data"));
+        };
+        let asked = AskedRows { source, most: self.options.limits.modules, view: 0, stays };
+        let rows = self.rows.ask(question, &asked);
         self.stop.check()?;
         rows
     }

@@ -60,7 +60,7 @@ struct Growth<'a> {
 
 /// What the steps of a derivation gave.
 struct StepResults {
-    chain: Chain,
+    chain: Arc<Chain>,
     done: usize,
     times: Times,
     rules: Vec<RuleReport>,
@@ -93,9 +93,12 @@ impl<'a> Growth<'a> {
         if session.options.reports.records && self.derivation.traced.is_none() {
             self.features = Some(RefCell::new(RowFeatures::new(chain.symbols.len())));
         }
+        self.show(None);
         if !session.options.check {
             chain = self.resolve(chain, 0)?;
         }
+        let mut chain = Arc::new(chain);
+        self.show(Some((&chain, 0)));
         let interprets = plan.objects.is_some() && !session.options.check;
         if session.options.check {
             plan.sketch()?;
@@ -104,14 +107,15 @@ impl<'a> Growth<'a> {
             plan.expand(&self.rewriter, &mut self.first)?;
         }
         if interprets && !derivation.last_only {
-            chain = self.interpret(chain, 0)?;
+            self.interpret(&chain, 0)?;
         }
         let mut done = 0;
         while done < derivation.limit {
             session.stop.check()?;
-            let outcome;
-            (chain, outcome) = self.step(chain, done + 1)?;
-            chain = self.resolve(chain, done + 1)?;
+            let (made, outcome) = self.step(&chain, done + 1)?;
+            let made = Arc::new(self.resolve(made, done + 1)?);
+            self.show(Some((&made, done + 1)));
+            self.stepper.reuse(std::mem::replace(&mut chain, made));
             let still = !outcome.changed && derivation.draws_afresh && !plan.grammar.draws_random();
             if !outcome.ran || still {
                 break;
@@ -120,11 +124,11 @@ impl<'a> Growth<'a> {
             session.progress.note(done, derivation.limit, chain.symbols.len());
             session.forget_unused(&chain.params);
             if interprets && !derivation.last_only {
-                chain = self.interpret(chain, done)?;
+                self.interpret(&chain, done)?;
             }
         }
         if interprets && derivation.last_only {
-            chain = self.interpret(chain, done)?;
+            self.interpret(&chain, done)?;
         }
         let later = self.later;
         self.first.retain(|warning| later.iter().all(|other| !other.says_the_same(warning)));
@@ -140,10 +144,10 @@ impl<'a> Growth<'a> {
     }
 
     /// Makes step number `step`, and notes it where the lineage is asked for.
-    fn step(&mut self, chain: Chain, step: usize) -> Result<(Chain, StepChange)> {
+    fn step(&mut self, chain: &Arc<Chain>, step: usize) -> Result<(Chain, StepChange)> {
         let begin = Instant::now();
         self.times.read += chain.symbols.len();
-        let before = self.noted(&chain);
+        let before = self.noted(chain);
         let outcome = self.stepper.step(self.leader, &self.derivation.declared, chain, step)?;
         self.times.rewriting += begin.elapsed();
         if let Some(features) = &self.features {
@@ -173,13 +177,20 @@ impl<'a> Growth<'a> {
             let before = self.noted(&chain);
             self.steps.push(Step { number: step, chain: before, applied, answers, asked: Vec::new() });
         }
-        self.stepper.reuse(chain);
+        self.stepper.reuse(Arc::new(chain));
         self.times.rewriting += begin.elapsed();
         Ok(made)
     }
 
-    /// Has the chain interpreted as it stands after `step` steps, and gives it back.
-    fn interpret(&mut self, chain: Chain, step: usize) -> Result<Chain> {
+    /// Shows questions the chain as it stands after some steps; before the axiom is made there is none.
+    fn show(&self, chain: Option<(&Arc<Chain>, usize)>) {
+        let (machine, plan) = (self.leader.machine, &self.derivation.plan);
+        let view = machine.current.chains_derived.borrow();
+        machine.session.show_chains(view.with_current(plan.system, plan.grammar.symbols(), chain));
+    }
+
+    /// Has the chain interpreted as it stands after `step` steps.
+    fn interpret(&mut self, chain: &Arc<Chain>, step: usize) -> Result<()> {
         let begin = Instant::now();
         let plan = &self.derivation.plan;
         if self.derivation.draws_afresh {
@@ -188,10 +199,10 @@ impl<'a> Growth<'a> {
         }
         self.later.retain(|warning| !warning.is_of_pass());
         let (leader, uses) = (self.leader, &mut self.interpretations);
-        let chain = InterpretationPass::pass(leader, plan, chain, step, uses, &mut self.later)?;
+        InterpretationPass::pass(leader, plan, chain, step, uses, &mut self.later)?;
         plan.expand(&self.rewriter, &mut self.later)?;
         self.times.interpretation += begin.elapsed();
-        Ok(chain)
+        Ok(())
     }
 }
 
@@ -232,7 +243,7 @@ fn settle(machine: &Machine, derivation: Derivation, grown: StepResults) -> Resu
         let mut trace = Trace::new(shared, rules.collect(), interpreters.collect(), by_symbol, axiom_place);
         let drawn = objects.into_owned().into_iter();
         trace.makers = drawn.map(|(mut object, _)| object.drawing_mut()?.take_makers()).collect();
-        (trace.steps, trace.chain) = (grown.steps, grown.chain);
+        (trace.steps, trace.chain) = (grown.steps, Arc::unwrap_or_clone(grown.chain));
         return Ok(Ending::Traced(Box::new(trace)));
     }
     let mut rows = grown.features.filter(|features| !features.is_empty());

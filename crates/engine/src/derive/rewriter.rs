@@ -104,11 +104,13 @@ impl Rewriter for SystemRewriter<'_> {
 
     fn rewrite(&self, index: usize, chain: Chain, step: usize) -> Result<RewriteOutcome> {
         let ready = &mut *self.ready(index)?;
+        let before = Arc::new(chain);
         let StepOutcome { chain, applied, .. } =
-            ready.stepper.step(self.leader, &ready.declared, chain, step)?;
+            ready.stepper.step(self.leader, &ready.declared, &before, step)?;
+        ready.stepper.reuse(before);
         Ok(match resolve(self.leader, &ready.plan, &chain, step, None)? {
             Some(resolution) => {
-                ready.stepper.reuse(chain);
+                ready.stepper.reuse(Arc::new(chain));
                 let applied = together(applied, &resolution);
                 RewriteOutcome { chain: resolution.chain, applied }
             }
@@ -118,7 +120,7 @@ impl Rewriter for SystemRewriter<'_> {
 
     fn reuse(&self, index: usize, chain: Chain) {
         if let Some(ready) = self.ready.borrow_mut().get_mut(&index) {
-            ready.stepper.reuse(chain);
+            ready.stepper.reuse(Arc::new(chain));
         }
     }
 

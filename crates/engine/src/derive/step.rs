@@ -21,7 +21,7 @@ const MANY: usize = 16;
 /// The work of one step, shared by the threads.
 pub(crate) struct RewritingStep {
     pub plan: Arc<DerivationPlan>,
-    pub chain: Chain,
+    pub chain: Arc<Chain>,
     pub links: Links,
     pub step: usize,
     pieces: Vec<ChainPiece>,
@@ -125,18 +125,18 @@ impl Stepper {
         &mut self,
         LeadingMachine { machine, threads }: LeadingMachine<'_>,
         declared: &SystemFunctions,
-        chain: Chain,
+        chain: &Arc<Chain>,
         step: usize,
     ) -> Result<StepOutcome> {
-        self.links.build(&chain, &self.plan.grammar);
-        let pieces = pieces(&chain, self.plan.batch);
+        self.links.build(chain, &self.plan.grammar);
+        let pieces = pieces(chain, self.plan.batch);
         let count = pieces.len();
         machine.enter(self.plan.system)?;
         machine.refresh();
         machine.current.objects.replace(self.plan.objects.clone());
         let rewriting = Arc::new(RewritingStep {
             plan: Arc::clone(&self.plan),
-            chain,
+            chain: Arc::clone(chain),
             links: std::mem::take(&mut self.links),
             step,
             pieces,
@@ -155,13 +155,14 @@ impl Stepper {
         let StepTotals { ran, changed, applied } = result?;
         self.links = rewriting.links;
         self.outputs = rewriting.spare.into_inner().recover();
-        let made = std::mem::replace(&mut self.spare, rewriting.chain);
-        Ok(StepOutcome { chain: made, ran, changed, applied })
+        Ok(StepOutcome { chain: std::mem::take(&mut self.spare), ran, changed, applied })
     }
 
     /// Takes back a chain that nobody needs any more, for its memory.
-    pub(crate) fn reuse(&mut self, chain: Chain) {
-        if chain.symbols.capacity() > self.spare.symbols.capacity() {
+    pub(crate) fn reuse(&mut self, chain: Arc<Chain>) {
+        if let Ok(chain) = Arc::try_unwrap(chain)
+            && chain.symbols.capacity() > self.spare.symbols.capacity()
+        {
             self.spare = chain;
         }
     }

@@ -100,19 +100,28 @@ impl ThreadPool {
             None => serve(machine, &inbox, index)?,
         };
         machine.library.systems.borrow()[index].catch_up(machine);
-        self.done.borrow_mut().push(derived.clone());
+        self.note_derived(machine, &derived);
         derived.map(Some)
     }
 
+    /// Notes what a system became, and shows it to the questions of the script's top level.
+    fn note_derived(&self, machine: &Machine, derived: &Result<Arc<DerivedSystem>>) {
+        if let Ok(derived) = derived {
+            let mut view = machine.current.chains_derived.borrow_mut();
+            *view = view.with_derived(derived.system, &derived.symbols, &derived.chain);
+        }
+        self.done.borrow_mut().push(derived.clone());
+    }
+
     /// In the leading machine: tells the others what a system became, or why it did not.
-    fn finished(&self, derived: &Result<Arc<DerivedSystem>>) {
+    fn finished(&self, machine: &Machine, derived: &Result<Arc<DerivedSystem>>) {
         if let ThreadRole::Lead { helpers, .. } = &*self.role.borrow() {
             for helper in helpers {
                 // A helper that has ended needs no news.
                 let _ = helper.outbox.send(Message::Derived(derived.clone()));
             }
         }
-        self.done.borrow_mut().push(derived.clone());
+        self.note_derived(machine, derived);
     }
 
     /// Gives a job of `pieces` pieces to as many helpers as can be of use.
@@ -180,7 +189,7 @@ impl Driver for ThreadPool {
             error.rather_called_at(machine.library.systems.borrow()[index].caller.clone())
         });
         machine.current.objects.replace(None);
-        self.finished(&derived);
+        self.finished(machine, &derived);
         derived
     }
 

@@ -5,6 +5,7 @@ use std::sync::Arc;
 
 use crate::declare::Session;
 use crate::machine::types::Objects;
+use crate::questions::ChainView;
 use burgeon_base::error::{Error, Result, SourcePlace};
 use burgeon_base::warning::{Warning, take_deferred};
 use burgeon_kit::declare::{downcast_mut, downcast_ref};
@@ -63,6 +64,8 @@ pub(crate) struct WorkState {
     pub flusher: RefCell<Option<Box<dyn Flusher>>>,
     /// The stream of the top level of the script.
     pub top: RefCell<Stream>,
+    /// The chains of the systems that are derived, as the top level of the script sees them.
+    pub chains_derived: RefCell<ChainView>,
 }
 
 impl WorkState {
@@ -81,6 +84,7 @@ impl WorkState {
             shapes: RefCell::default(),
             flusher: RefCell::default(),
             top: RefCell::new(top),
+            chains_derived: RefCell::default(),
         }
     }
 

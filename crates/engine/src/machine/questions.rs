@@ -55,7 +55,11 @@ pub(super) fn add_questions(lua: &Lua, host: &Table, current: &Rc<WorkState>) ->
                     _ => None,
                 };
                 let question = Question::new(sql.to_string_lossy().into(), values);
-                let rows = state.session.ask(&question, at_top).map_err(mlua::Error::external)?;
+                let rows = match at_top {
+                    true => state.session.ask_about(&question, &state.chains_derived.borrow(), true),
+                    false => state.session.ask(&question),
+                };
+                let rows = rows.map_err(mlua::Error::external)?;
                 if let Some(place) = asker.and_then(|asker| state.places.borrow().get(asker).copied()) {
                     state.session.rows.note(place as usize, &question, rows.len());
                 }

@@ -1,6 +1,6 @@
 //! Answers that are kept, so that the same question is asked once.
 
-use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex, OnceLock};
 
 use rustc_hash::FxHashMap;
@@ -12,6 +12,9 @@ use burgeon_base::locks::LockRecovery;
 /// The values of answers that are kept from step to step.
 const MOST: usize = 2_000_000;
 
+/// The texts of SQL whose words are kept.
+const MOST_TEXTS: usize = 10_000;
+
 /// The rows of a question, once they are known. Whoever asks meanwhile waits for them.
 type Slot = Arc<OnceLock<Result<Arc<Rows>>>>;
 
@@ -19,7 +22,11 @@ type Slot = Arc<OnceLock<Result<Arc<Rows>>>>;
 /// machine is to see the same.
 #[derive(Default)]
 pub(crate) struct RowCache {
-    known: Mutex<FxHashMap<Question, CacheEntry>>,
+    known: Mutex<FxHashMap<(Question, u64), CacheEntry>>,
+    /// The words of texts of SQL that may name modules.
+    words: Mutex<FxHashMap<Arc<str>, Arc<[String]>>>,
+    /// Whether any question was about a state of the chains.
+    views: AtomicBool,
     /// The places of modules whose rules have asked data or geometries in the step at hand, and what; in words.
     noted: Mutex<Vec<(usize, String)>>,
     values: AtomicUsize,
@@ -36,6 +43,8 @@ pub(crate) struct AskedRows<'a> {
     pub source: &'a dyn RowSource,
     /// The most rows of an answer.
     pub most: usize,
+    /// The state of the chains that the question is about, if it names modules; otherwise 0.
+    pub view: u64,
     /// Whether the answer is kept to the end of the run.
     pub stays: bool,
 }
@@ -46,11 +55,14 @@ impl RowCache {
         let slot = {
             let mut known = self.known.lock().recover();
             let kept = known
-                .entry(question.clone())
+                .entry((question.clone(), asked.view))
                 .or_insert_with(|| CacheEntry { slot: Slot::default(), stays: false });
             kept.stays |= asked.stays;
             Arc::clone(&kept.slot)
         };
+        if asked.view != 0 {
+            self.views.store(true, Ordering::Relaxed);
+        }
         let rows = slot.get_or_init(|| {
             let rows = asked.source.rows(question, asked.most)?;
             self.values.fetch_add(rows.values.len() + 16, Ordering::Relaxed);
@@ -76,6 +88,27 @@ impl RowCache {
         // Several guards often ask the same.
         noted.dedup();
         noted
+    }
+
+    /// Returns the words of a text of SQL that may name modules, which `find` finds once.
+    pub(crate) fn words(&self, sql: &str, find: impl FnOnce(&str) -> Vec<String>) -> Arc<[String]> {
+        let mut words = self.words.lock().recover();
+        if let Some(known) = words.get(sql) {
+            return Arc::clone(known);
+        }
+        if words.len() >= MOST_TEXTS {
+            words.clear();
+        }
+        let found: Arc<[String]> = find(sql).into();
+        words.insert(sql.into(), Arc::clone(&found));
+        found
+    }
+
+    /// Forgets what was answered about states of the chains that are over. Nobody is asking.
+    pub(crate) fn forget_views(&self) {
+        if self.views.swap(false, Ordering::Relaxed) {
+            self.known.lock().recover().retain(|(_, view), kept| *view == 0 || kept.stays);
+        }
     }
 
     /// Forgets answers once they are many. Nobody is asking.
@@ -109,7 +142,7 @@ mod tests {
     fn the_same_question_is_asked_once_whatever_the_answer_and_by_any_number_of_threads() {
         let (kept, source) = (RowCache::default(), CountedSource::default());
         let ask = |sql: &str| {
-            let asked = AskedRows { source: &source, most: 10, stays: false };
+            let asked = AskedRows { source: &source, most: 10, view: 0, stays: false };
             kept.ask(&Question::new(sql.into(), None), &asked)
         };
         std::thread::scope(|scope| {

@@ -1,5 +1,6 @@
 //! A question, its answer, and who answers.
 
+use std::borrow::Cow;
 use std::fmt;
 use std::hash::{BuildHasher as _, Hash, Hasher};
 use std::sync::Arc;
@@ -30,6 +31,14 @@ impl Question {
     pub fn new(sql: Arc<str>, values: Option<Arc<Table>>) -> Self {
         let values = values.filter(|values| !values.entries.is_empty());
         Self { hash: FxBuildHasher.hash_one((&sql, &values)), sql, values }
+    }
+
+    /// Returns the text as a statement: the name of a table alone asks for all of its rows.
+    pub fn statement(&self) -> Cow<'_, str> {
+        let name = self.sql.trim();
+        let is_name = name.starts_with(|letter: char| letter.is_alphabetic() || letter == '_')
+            && name.chars().all(|letter| letter.is_alphanumeric() || letter == '_');
+        if is_name { format!("SELECT * FROM \"{name}\"").into() } else { (&*self.sql).into() }
     }
 
     /// The text.

@@ -12,7 +12,7 @@ use super::uses::Use;
 use burgeon_base::error::{Result, SourcePlace};
 use burgeon_base::warning::Warning;
 use burgeon_data::output::RecordTable;
-use burgeon_kit::rules::{Chain, Symbols, Values, chain_text, write_chains};
+use burgeon_kit::rules::{Chain, Symbol, Symbols, Values, chain_text, write_chains};
 use burgeon_kit::{Model, Object};
 use burgeon_scene::{CityClass, Origin, Scene};
 
@@ -44,7 +44,7 @@ pub struct DerivedSystem {
     /// The system's place in the script, from 0.
     pub system: usize,
     /// The chains.
-    pub chain: Chain,
+    pub chain: Arc<Chain>,
     /// The declared modules.
     pub symbols: Arc<Symbols>,
     /// The parameters that are not numbers.
@@ -76,7 +76,7 @@ pub struct DerivedSystem {
     /// Whether it has an object that draws.
     pub(crate) draws: bool,
     /// What its chains hold that nothing draws; it counts unless the script reads the chains.
-    pub(crate) undrawn: Vec<Warning>,
+    pub(crate) undrawn: Vec<(Symbol, Warning)>,
     /// The number of modules in all chains, without brackets.
     pub(crate) modules: usize,
     /// What the script has done with it since.

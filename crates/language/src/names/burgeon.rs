@@ -370,7 +370,8 @@ static QUERY: LazyLock<Name> = LazyLock::new(|| {
     let values = || argument("values", "{ [string]: any }?");
     Name::global(
         "query",
-        "Asks the sources that the script has loaded, as tables called as their layers are, in SQL. With what makes a \
+        "Queries the sources that the script has loaded, as tables named as their layers, and the modules of chains, as tables \
+         named as they are, in SQL; the name of a table alone asks for all its rows. With what makes a \
          module it stands for a module for each row, with the columns as parameters, which take its place before the next \
          step begins; without, it gives the rows. $name in the text is a value of that name, or else the parameter of the \
          rule that is called so.",

@@ -9,7 +9,7 @@ use burgeon_base::error::{Error, Result};
 use burgeon_base::warning::{Warning, WarningKind};
 use burgeon_geometry::{Rings, Section, Segment, SweepOptions, sweep};
 use burgeon_kit::{Color, Drawing, Model, Path, Vector, Warn, fields, methods, object};
-use glam::{DAffine3, DVec2, DVec3};
+use glam::{DVec2, DVec3};
 use smallvec::{SmallVec, smallvec};
 
 /// What `extruder { ... }` takes.
@@ -235,10 +235,10 @@ impl Extruder {
         draw_mesh(to, &self.state.frame, &points, &faces, &options.unwrap_or_default())
     }
 
-    /// Places what another system has drawn at the extruder's frame, with this `scale` (1 unless given).
-    pub fn place(&mut self, model: Arc<Model>, scale: Option<f64>) {
-        let scale = DAffine3::from_scale(DVec3::splat(scale.unwrap_or(1.0)));
-        self.drawing.place(&model, self.state.frame.transform() * scale);
+    /// Places what another system has drawn at the extruder's frame, with this `scale` (1 unless given) along its x axis, and
+    /// along its y and z axes (`scale` unless given).
+    pub fn place(&mut self, model: Arc<Model>, scale: Option<f64>, y: Option<f64>, z: Option<f64>) {
+        self.drawing.place_scaled(&model, self.state.frame.transform(), [scale, y, z]);
     }
 
     /// Its place (m).

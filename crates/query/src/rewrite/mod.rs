@@ -34,6 +34,6 @@ pub(crate) use guard::check;
 pub(crate) use made::MadeTable;
 #[cfg(feature = "postgis")]
 pub(crate) use parse::placeholder_ranges;
-pub(crate) use parse::{find_word, second_statement};
+pub(crate) use parse::{find_word, second_statement, table_words};
 pub(crate) use statement::{Catalogue, Dialect, RewrittenQuery, TableInfo, rewrite};
 pub(crate) use types::SqlType;

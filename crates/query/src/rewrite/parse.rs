@@ -227,6 +227,27 @@ pub(crate) fn find_word(sql: &str, word: &str) -> Option<usize> {
     found.map(|token| offset(sql, token.span.start))
 }
 
+/// Lists the words of a statement that may be names of tables: those behind FROM, JOIN, a comma or a parenthesis.
+pub(crate) fn table_words(sql: &str) -> Vec<String> {
+    let Ok(tokens) = tokens(sql) else { return Vec::new() };
+    let tokens: Vec<Token> = tokens.into_iter().map(|token| token.token).collect();
+    let tokens: Vec<&Token> = tokens.iter().filter(|token| !matches!(token, Token::Whitespace(_))).collect();
+    let leads = |token: &Token| match token {
+        Token::Comma | Token::LParen => true,
+        Token::Word(word) => matches!(word.keyword, Keyword::FROM | Keyword::JOIN | Keyword::ONLY),
+        _ => false,
+    };
+    let mut words = Vec::new();
+    for (place, token) in tokens.iter().enumerate().skip(1) {
+        let Token::Word(word) = token else { continue };
+        let is_part = matches!(tokens.get(place + 1), Some(Token::LParen | Token::Period));
+        if leads(tokens[place - 1]) && !is_part && !words.contains(&word.value) {
+            words.push(word.value.clone());
+        }
+    }
+    words
+}
+
 /// The byte at a line and column, which are counted from 1, columns in characters.
 fn offset(sql: &str, at: Location) -> usize {
     let line = usize::try_from(at.line.saturating_sub(1)).unwrap_or(0);

@@ -218,7 +218,7 @@ fn errors_tell_the_place_and_what_there_is() {
 
     SELECT name FROM dbstat
     -> SQL, line 1, column 18: the table dbstat may not be read
-      help: a table is what source(file) has read
+      help: a table is what source(file) has read, or a module
 
     SELECT random()
     -> SQL, line 1, column 8: the function random may not be called

@@ -2,15 +2,19 @@
 
 use std::sync::Arc;
 
+use rustc_hash::FxHashMap;
+
 use super::{SourceTables, TableContent};
 use crate::declare::Session;
-use crate::questions::{Question, RowSource, Rows};
+use crate::questions::{ChainView, Question, RowSource, Rows};
 use burgeon_base::budget::Budget;
-use burgeon_base::error::{Error, Limit, Result};
+use burgeon_base::error::{Error, ErrorKind, Limit, Result, nearest};
 use burgeon_base::text::grouped;
+use burgeon_base::warning::{Warning, WarningKind};
 use burgeon_data::{Layer, ReferenceFrame};
+use burgeon_kit::rules::Symbol;
 use burgeon_kit::{GeometryObject, Table, TableKey, Value};
-use burgeon_query::{Cell, Database};
+use burgeon_query::{Cell, Database, RowTable};
 
 /// The database with the tables that are in it.
 pub(super) struct SourceDatabase {
@@ -19,6 +23,8 @@ pub(super) struct SourceDatabase {
     added: usize,
     /// Whether it knows the run's projection.
     is_framed: bool,
+    /// The modules that it has tables of, and the state of the chains that these are of.
+    modules: FxHashMap<Symbol, u64>,
 }
 
 impl SourceTables {
@@ -32,6 +38,7 @@ impl SourceTables {
                 database: Arc::new(Database::new(frame.cloned())?),
                 added: 0,
                 is_framed: frame.is_some(),
+                modules: FxHashMap::default(),
             },
         };
         for table in &self.loaded[known.added..] {
@@ -66,27 +73,104 @@ impl SourceTables {
         self.database = Some(known);
         Ok(database)
     }
+
+    /// The database with all that is loaded, and with the modules that a question may name. A source hides modules of its name.
+    fn database_with(
+        &mut self,
+        rows: &ModuleRows<'_>,
+        frame: Option<&ReferenceFrame>,
+        budget: &Arc<Budget>,
+    ) -> Result<Arc<Database>> {
+        let database = self.database(frame, budget)?;
+        let Some(known) = &mut self.database else { return Ok(database) };
+        for symbol in rows.modules {
+            let name = &rows.view.symbols().signature(*symbol).name;
+            if let Some(source) = self.loaded.iter().find(|table| table.name.eq_ignore_ascii_case(name)) {
+                rows.warn_hidden(name, &source.name);
+            } else if known.modules.get(symbol) != Some(&rows.view.number()) {
+                database.set_rows(&rows.table(*symbol), budget)?;
+                known.modules.insert(*symbol, rows.view.number());
+            }
+        }
+        Ok(database)
+    }
 }
 
-impl RowSource for Session {
+impl ModuleRows<'_> {
+    /// Returns the modules with a symbol as a table: their parameters are its columns. Lists and objects other than geometries
+    /// are NULL.
+    fn table(&self, symbol: Symbol) -> RowTable {
+        let signature = self.view.symbols().signature(symbol);
+        let values = &self.session.values;
+        let cell = |stored: &f64| cell(&signature.name, &values.unpack(*stored)).unwrap_or(Cell::Null);
+        let cells = match signature.parameters.len() {
+            0 => self.view.modules(symbol).map(|_| Cell::Boolean(true)).collect(),
+            _ => self.view.modules(symbol).flatten().map(cell).collect(),
+        };
+        RowTable { name: signature.name.clone(), columns: signature.parameters.clone(), cells }
+    }
+
+    /// Adds the module of a similar name to the error for a table that is not there.
+    fn suggest(&self, error: Error) -> Error {
+        match error.kind() {
+            ErrorKind::NotFound { what: "table", name, suggestion: None } => {
+                let names = self.view.symbols().names();
+                match nearest(name, names) {
+                    Some(near) => Error::not_found("table", name, [near], error.message()),
+                    None => error,
+                }
+            }
+            _ => error,
+        }
+    }
+
+    /// The error for a question about modules and tables of a server.
+    #[cfg(feature = "postgis")]
+    fn mixed(&self) -> Error {
+        let names = self.modules.iter().map(|symbol| self.view.symbols().signature(*symbol).name.as_str());
+        let names = names.collect::<Vec<_>>().join(" and ");
+        Error::argument(format!("a query cannot join the modules {names} with a table of a server")).help(
+            "query the server first, and give the modules its rows: query(\"select ... from houses\", House)",
+        )
+    }
+
+    /// Warns that a question about modules is answered by a source, whose name differs in nothing or in capital letters.
+    fn warn_hidden(&self, module: &str, source: &str) {
+        let text = format!("{module} in a query is the source {source}, not the modules {module}");
+        let help = format!("give one of them another name: source(file, {{ table = \"{source}_data\" }})");
+        self.session.warn(Warning::new(WarningKind::Doubtful, text).help(help));
+    }
+}
+
+/// The sources of a run and the modules of its chains, as tables.
+pub(in crate::declare) struct ModuleRows<'a> {
+    pub session: &'a Session,
+    pub view: &'a ChainView,
+    /// The modules that the question may name.
+    pub modules: &'a [Symbol],
+}
+
+impl RowSource for ModuleRows<'_> {
     fn rows(&self, question: &Question, most: usize) -> Result<Rows> {
-        let (database, budget) = self.data.with_tables(self, |tables, frame, budget| {
-            Ok((tables.database(frame, budget)?, Arc::clone(budget)))
+        let (database, budget) = self.session.data.with_tables(self.session, |tables, frame, budget| {
+            Ok((tables.database_with(self, frame, budget)?, Arc::clone(budget)))
         })?;
+        let statement = question.statement();
         let values = question.values()?;
         let cells: Vec<(&str, Cell)> =
             values.iter().map(|(name, value)| Ok((*name, cell(name, value)?))).collect::<Result<_>>()?;
         #[cfg(feature = "postgis")]
-        let (server, frame) = self.data.with_tables(self, |tables, frame, _| {
-            Ok((tables.asked_server(question.sql()), frame.cloned()))
+        let (server, frame) = self.session.data.with_tables(self.session, |tables, frame, _| {
+            Ok((tables.asked_server(&statement), frame.cloned()))
         })?;
         #[cfg(feature = "postgis")]
         let answer = match server {
-            Some(server) => server.query(question.sql(), &cells, frame.as_ref(), &budget)?,
-            None => database.query(question.sql(), &cells, &budget)?,
+            Some(_) if !self.modules.is_empty() => return Err(self.mixed()),
+            Some(server) => server.query(&statement, &cells, frame.as_ref(), &budget)?,
+            None => database.query(&statement, &cells, &budget).map_err(|error| self.suggest(error))?,
         };
         #[cfg(not(feature = "postgis"))]
-        let answer = database.query(question.sql(), &cells, &budget)?;
+        let answer = database.query(&statement, &cells, &budget).map_err(|error| self.suggest(error))?;
         if answer.rows.len() > most {
             let text =
                 format!("the query gives {} rows, of at most {}", grouped(answer.rows.len()), grouped(most));

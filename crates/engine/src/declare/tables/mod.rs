@@ -6,5 +6,7 @@
 mod database;
 mod sources;
 
+#[cfg(feature = "data")]
+pub(super) use database::ModuleRows;
 pub(crate) use sources::ListTable;
 pub(super) use sources::{SourceTable, SourceTables, TableContent};

@@ -59,7 +59,7 @@ impl EntryBatch {
 /// One pass over all chains, shared by the threads.
 pub(crate) struct InterpretationPass {
     pub plan: Arc<DerivationPlan>,
-    pub chain: Chain,
+    pub chain: Arc<Chain>,
     pub step: usize,
     /// Where each piece of whole chains begins; one more for the end.
     pieces: Vec<Mark>,
@@ -71,16 +71,16 @@ pub(crate) struct InterpretationPass {
 }
 
 impl InterpretationPass {
-    /// Interprets `chain` as it stands after `step` steps, and gives it back; adds to `uses` what each rule did, and to
-    /// `said` what the objects warned of.
+    /// Interprets `chain` as it stands after `step` steps; adds to `uses` what each rule did, and to `said` what the objects
+    /// warned of.
     pub(crate) fn pass(
         LeadingMachine { machine, threads }: LeadingMachine<'_>,
         plan: &Arc<DerivationPlan>,
-        chain: Chain,
+        chain: &Arc<Chain>,
         step: usize,
         uses: &mut [Use],
         said: &mut Vec<Warning>,
-    ) -> Result<Chain> {
+    ) -> Result<()> {
         let starts = chain.starts(plan.grammar.arities());
         let many = plan.chains >= 4 * DEALT;
         let size = if many { plan.batch.min(chain.symbols.len() / DEALT) } else { plan.batch };
@@ -97,7 +97,7 @@ impl InterpretationPass {
         machine.current.objects.replace(plan.objects.clone());
         let interpreting = Arc::new(Self {
             plan: Arc::clone(plan),
-            chain,
+            chain: Arc::clone(chain),
             step,
             pieces,
             next: AtomicUsize::new(0),
@@ -115,7 +115,7 @@ impl InterpretationPass {
         said.extend(done.notices.into_list(of_symbol));
         match done.failure.into_inner().recover() {
             Some((_, error)) => Err(error),
-            None => Ok(done.chain),
+            None => Ok(()),
         }
     }
 
@@ -297,7 +297,7 @@ impl InterpretationPass {
     ///
     /// A chain's end has the chain's own key. Brackets have none, and take that of the module nearest within them.
     fn key(&self, module: usize, id: u16) -> ModuleKey {
-        let Chain { symbols, keys, .. } = &self.chain;
+        let Chain { symbols, keys, .. } = &*self.chain;
         let end =
             || symbols[module..].iter().position(|symbol| *symbol == END).map_or(module, |at| module + at);
         if id == self.plan.interpretations.begin {

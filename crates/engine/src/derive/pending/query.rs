@@ -45,7 +45,7 @@ impl QuestionSet {
         threads.hand_out(machine, count, MANY, || ThreadJob::Prefetch(job.clone()))?;
         batch.work();
         // What a helper is still at is waited for here.
-        Ok(batch.questions.iter().map(|question| session.ask(question, false)).collect())
+        Ok(batch.questions.iter().map(|question| session.ask(question)).collect())
     }
 }
 
@@ -62,7 +62,7 @@ impl Prefetch for QuestionBatch {
             && let Some(question) = self.questions.get(self.next.fetch_add(1, Ordering::Relaxed))
         {
             // The answer is kept, whatever it is.
-            let _ = self.session.ask(question, false);
+            let _ = self.session.ask(question);
         }
     }
 

@@ -83,7 +83,7 @@ impl SystemDeclaration {
     }
 
     /// Tells of the modules among `symbols`, those of the final chains, that this system neither draws nor looks at.
-    pub(crate) fn undrawn(&self, library: &Library, symbols: &[Symbol]) -> Vec<Warning> {
+    pub(crate) fn undrawn(&self, library: &Library, symbols: &[Symbol]) -> Vec<(Symbol, Warning)> {
         let mut open: Vec<(Symbol, Warning)> = (FIRST_SYMBOL..)
             .take(library.symbols.borrow().names().count())
             .filter_map(|symbol| Some((symbol, self.warning_of(library, symbol)?)))
@@ -98,7 +98,7 @@ impl SystemDeclaration {
             }
         }
         found.sort_by_key(|(symbol, _)| *symbol);
-        found.into_iter().map(|(_, warning)| warning).collect()
+        found
     }
 
     /// What to tell of a module with this symbol in a chain of this system, if nothing draws it or looks at it.
@@ -293,7 +293,8 @@ pub(crate) fn tell_unseen(machine: &Machine, returns: bool) {
         tell_undrawn(machine, &systems);
     } else {
         for derived in done.iter().flatten().filter(|derived| !derived.is_read()) {
-            derived.undrawn.iter().for_each(|warning| machine.warn(warning.clone()));
+            let unseen = derived.undrawn.iter().filter(|(symbol, _)| !machine.session.has_asked(*symbol));
+            unseen.for_each(|(_, warning)| machine.warn(warning.clone()));
         }
     }
     let first = systems.iter().find(|system| system.axiom.is_some() && !system.given.get());
@@ -340,7 +341,13 @@ fn tell_undrawn(machine: &Machine, systems: &[SystemDeclaration]) {
     made.extend(machine.current.shapes.borrow().iter().flat_map(|shape| shape.symbols.iter().copied()));
     made.sort_unstable();
     made.dedup();
-    for symbol in made.into_iter().filter(|symbol| *symbol >= FIRST_SYMBOL) {
+    let asked = machine.session.queried_words();
+    made.retain(|symbol| {
+        *symbol >= FIRST_SYMBOL
+            && !machine.session.has_asked(*symbol)
+            && !asked.contains(&library.symbols.borrow().signature(*symbol).name)
+    });
+    for symbol in made {
         let mut of_systems = systems.iter().map(|system| system.warning_of(library, symbol));
         // Where some system draws it or means it for something else, nobody knows whose it is.
         if let Some(Some(first)) = of_systems.next()

@@ -1,0 +1,84 @@
+//! The chains that questions see, in which the modules of a symbol are the rows of a table.
+//!
+//! A rule sees its chain as it stood when the step began, an interpretation as it stands, and both see what the systems
+//! derived before have become.
+
+use std::sync::Arc;
+
+use burgeon_kit::rules::{Chain, Symbol, Symbols};
+
+/// The chain of a system.
+#[derive(Debug, Clone)]
+struct SystemChain {
+    system: usize,
+    symbols: Arc<Symbols>,
+    chain: Arc<Chain>,
+}
+
+/// A state of all chains of a run.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct ChainView {
+    /// Systems derived so far, and the states of the one that is being derived.
+    number: [u32; 2],
+    symbols: Arc<Symbols>,
+    chains: Vec<SystemChain>,
+}
+
+impl ChainView {
+    /// Returns the view once `system` is derived; its earlier chains are gone.
+    pub(crate) fn with_derived(&self, system: usize, symbols: &Arc<Symbols>, chain: &Arc<Chain>) -> Self {
+        let mut view = self.without(system, symbols);
+        view.number = [self.number[0] + 1, 0];
+        view.chains.push(SystemChain { system, symbols: Arc::clone(symbols), chain: Arc::clone(chain) });
+        view
+    }
+
+    /// Returns the view while `system` is derived, whose chain is `chain` once its axiom is made.
+    pub(crate) fn with_current(
+        &self,
+        system: usize,
+        symbols: &Arc<Symbols>,
+        chain: Option<(&Arc<Chain>, usize)>,
+    ) -> Self {
+        let mut view = self.without(system, symbols);
+        if let Some((chain, step)) = chain {
+            view.number[1] = u32::try_from(step + 1).unwrap_or(u32::MAX);
+            view.chains.push(SystemChain { system, symbols: Arc::clone(symbols), chain: Arc::clone(chain) });
+        }
+        view
+    }
+
+    fn without(&self, system: usize, symbols: &Arc<Symbols>) -> Self {
+        let mut chains = self.chains.clone();
+        chains.retain(|known| known.system != system);
+        Self { number: self.number, symbols: Arc::clone(symbols), chains }
+    }
+
+    /// Number of this state in the run, from 1; the same in every virtual machine.
+    pub(crate) fn number(&self) -> u64 {
+        (u64::from(self.number[0]) << 32 | u64::from(self.number[1])) + 1
+    }
+
+    /// Returns the modules that `words` name.
+    pub(crate) fn named(&self, words: &[String]) -> Vec<Symbol> {
+        words.iter().filter_map(|word| self.symbols.find(word).ok()).collect()
+    }
+
+    /// The declared modules.
+    pub(crate) fn symbols(&self) -> &Symbols {
+        &self.symbols
+    }
+
+    /// Returns the parameters of each module with a symbol, in the order of systems and chains.
+    pub(crate) fn modules(&self, wanted: Symbol) -> impl Iterator<Item = &[f64]> {
+        self.chains.iter().flat_map(move |SystemChain { symbols, chain, .. }| {
+            let arities = symbols.arities();
+            let mut param = 0;
+            chain.symbols.iter().filter_map(move |symbol| {
+                let begin = param;
+                param += usize::from(arities[usize::from(*symbol)]);
+                (*symbol == wanted).then(|| &chain.params[begin..param])
+            })
+        })
+    }
+}

@@ -1,0 +1,112 @@
+//! Tables whose rows a program has in memory, and changes from one question to the next.
+
+use std::sync::Arc;
+
+use rusqlite::Connection;
+use rusqlite::types::Value;
+
+use crate::ask::whole;
+use crate::blob;
+use crate::cell::Cell;
+use crate::connection::quoted;
+use crate::errors;
+use crate::place;
+use crate::rewrite::{SqlType, TableInfo};
+use crate::tables::{free, write};
+use burgeon_base::budget::Budget;
+use burgeon_base::error::Result;
+use burgeon_data::ReferenceFrame;
+
+/// Rows that become a table of a [`Database`](crate::Database).
+#[derive(Debug, Clone, Default)]
+pub struct RowTable {
+    /// Name in statements.
+    pub name: String,
+    /// Names of the columns.
+    pub columns: Vec<String>,
+    /// Cells row by row, one for each column; geometries are in the run's metres.
+    pub cells: Vec<Cell>,
+}
+
+impl RowTable {
+    /// Writes the rows as a table, which has no column besides those of the rows.
+    pub(crate) fn write(
+        &self,
+        writer: &Connection,
+        frame: Option<&ReferenceFrame>,
+        budget: &Arc<Budget>,
+    ) -> Result<TableInfo> {
+        let width = self.columns.len().max(1);
+        let mut names: Vec<String> = Vec::new();
+        for column in &self.columns {
+            names.push(free(column, &names));
+        }
+        let kinds: Vec<&'static str> = (0..self.columns.len()).map(|column| self.kind(column)).collect();
+        let mut declared: Vec<String> =
+            names.iter().zip(&kinds).map(|(name, kind)| format!("{} {kind}", quoted(name))).collect();
+        if declared.is_empty() {
+            // SQLite has no table without columns.
+            declared.push("\"present\" BOOLEAN".to_owned());
+            names.push("present".to_owned());
+        }
+        let mut rows = self.cells.chunks_exact(width);
+        let next = || {
+            let Some(row) = rows.next() else { return Ok(None) };
+            let values = row.iter().map(|cell| value(cell, frame)).collect::<Vec<_>>();
+            Ok(Some(values))
+        };
+        let count = write(writer, &self.name, &declared, budget, next)
+            .map_err(|error| errors::or_sqlite(error, |error| errors::internal(error).about(&self.name)))?;
+        // The number of a row is not a column of its own, so that `SELECT *` gives the rows and nothing else.
+        let key = ["rowid", "oid", "_rowid_"]
+            .into_iter()
+            .find(|key| !names.iter().any(|name| name.eq_ignore_ascii_case(key)));
+        let geometries = names.iter().zip(&kinds).filter(|(_, kind)| **kind == GEOMETRY);
+        Ok(TableInfo {
+            name: self.name.clone(),
+            key: key.map(str::to_owned),
+            geometries: geometries.map(|(name, _)| name.clone()).collect(),
+            kinds: kinds.iter().map(|kind| SqlType::declared(kind)).collect(),
+            columns: names,
+            rows: count,
+            ..TableInfo::default()
+        })
+    }
+
+    /// Returns the declared type of a column: that of all its values.
+    fn kind(&self, column: usize) -> &'static str {
+        let mut known = None;
+        for cell in self.cells.iter().skip(column).step_by(self.columns.len().max(1)) {
+            let kind = match cell {
+                Cell::Null | Cell::List(_) => continue,
+                Cell::Boolean(_) => "BOOLEAN",
+                Cell::Number(number) if whole(*number).is_some() => "INTEGER",
+                Cell::Number(_) => "REAL",
+                Cell::Text(_) => "TEXT",
+                Cell::Geometry(_) => GEOMETRY,
+            };
+            known = Some(match known {
+                None => kind,
+                Some(known) if known == kind => kind,
+                Some("INTEGER" | "REAL") if matches!(kind, "INTEGER" | "REAL") => "REAL",
+                // Each value stays as it is.
+                Some(_) => return "BLOB",
+            });
+        }
+        known.unwrap_or("BLOB")
+    }
+}
+
+/// Declared type of a column with geometries.
+const GEOMETRY: &str = "GEOMETRY";
+
+/// Returns a cell as SQLite stores it.
+fn value(cell: &Cell, frame: Option<&ReferenceFrame>) -> Value {
+    match cell {
+        Cell::Null | Cell::List(_) => Value::Null,
+        Cell::Boolean(value) => Value::Integer(i64::from(*value)),
+        Cell::Number(number) => whole(*number).map_or(Value::Real(*number), Value::Integer),
+        Cell::Text(text) => Value::Text(text.to_string()),
+        Cell::Geometry(geometry) => Value::Blob(blob::write(&place::leave(geometry, frame))),
+    }
+}
