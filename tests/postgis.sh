@@ -32,7 +32,7 @@ cd "$folder"
 # A certificate for localhost, signed by itself.
 if command -v openssl >/dev/null; then
   openssl req -x509 -newkey ec -pkeyopt ec_paramgen_curve:prime256v1 -nodes -days 30 -subj /CN=localhost \
-    -addext subjectAltName=DNS:localhost -addext basicConstraints=critical,CA:FALSE -keyout "$folder/server.key" -out "$folder/server.crt" 2>/dev/null
+    -addext subjectAltName=DNS:localhost -keyout "$folder/server.key" -out "$folder/server.crt" 2>/dev/null
   "${as[@]}" install -m 600 /dev/null "$data/server.key"
   cat "$folder/server.key" > "$data/server.key"
   cp "$folder/server.crt" "$data/server.crt"

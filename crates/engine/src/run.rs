@@ -126,6 +126,9 @@ pub fn run_session(session: &Arc<Session>) -> Result<Run> {
         idle.extend((!meshes.any(|mesh| mesh.triangles() > 0)).then(|| Arc::clone(system)));
     }
     session.stop.check()?;
+    if let Some(note) = unplaced(&systems) {
+        session.add_note(note);
+    }
     systems.iter().filter_map(|system| left_out(system)).for_each(|warning| session.warn(warning));
     find_textures(&mut scene, session)?;
     times.scene = begin.elapsed();
@@ -139,6 +142,31 @@ pub fn run_session(session: &Arc<Session>) -> Result<Run> {
         return Err(Error::several(warnings.into_iter().map(Warning::into_error).collect()));
     }
     Ok(Run { scene, systems, params, frame: session.data.frame(), warnings, notes: session.notes(), times })
+}
+
+/// The most lines that a note names.
+const MOST_LINES: usize = 3;
+
+/// The note about systems that nobody sees: rules hold them only to place them, and have placed none.
+fn unplaced(systems: &[Arc<DerivedSystem>]) -> Option<String> {
+    let unseen = systems.iter().filter(|system| system.is_placed() && !system.has_been_placed());
+    let mut lines: Vec<String> = unseen
+        .filter(|system| system.objects.iter().any(|object| object.triangles() > 0))
+        .filter_map(|system| system.caller.as_ref().or(system.place.as_ref()).map(ToString::to_string))
+        .collect();
+    let count = lines.len();
+    lines.dedup();
+    let more = lines.len().saturating_sub(MOST_LINES);
+    lines.truncate(MOST_LINES);
+    let more = if more > 0 { format!(" and {more} more") } else { String::new() };
+    let lines = lines.join(", ");
+    match count {
+        0 => None,
+        1 => Some(format!("the system in {lines} is not shown: a rule can place it, and has not")),
+        count => {
+            Some(format!("{count} systems are not shown: rules can place them, and have not ({lines}{more})"))
+        }
+    }
 }
 
 /// A machine for a session's script, which is read in the meantime.

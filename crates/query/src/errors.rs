@@ -190,7 +190,7 @@ fn refused(text: &str, sql: &str) -> Error {
             place(sql, None, table),
             shown(table)
         ))
-        .help("a table is what source(file) has read");
+        .help("a table is what source(file) has read, or a module");
     }
     if let Some(name) = text.strip_prefix(NOT_ALLOWED) {
         return Error::scope(format!("{}the function {} may not be called", place(sql, None, name), shown(name)))

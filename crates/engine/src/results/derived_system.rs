@@ -160,6 +160,11 @@ impl DerivedSystem {
         is(&self.uses.placed) || is(&self.uses.captured) && !is(&self.uses.inspected)
     }
 
+    /// Reports whether another system has placed it.
+    pub(crate) fn has_been_placed(&self) -> bool {
+        self.uses.placed.load(Ordering::Relaxed)
+    }
+
     /// Notes that a function of a rule can reach it.
     pub(crate) fn note_captured(&self) {
         self.uses.captured.store(true, Ordering::Relaxed);

@@ -21,8 +21,11 @@ use burgeon_base::budget::Budget;
 use burgeon_base::locks::LockRecovery;
 
 /// The names of those that statements may call, and of those that they are rewritten to.
-pub(super) const NAMES: [&str; 6] =
-    ["array_agg", "bool_and", "bool_or", "ST_Extent", "burgeon_clusters", "burgeon_cluster"];
+pub(super) const NAMES: [&str; 7] =
+    ["array_agg", BOOLEAN_LIST, "bool_and", "bool_or", "ST_Extent", "burgeon_clusters", "burgeon_cluster"];
+
+/// The name of `array_agg` where it gathers booleans.
+pub(crate) const BOOLEAN_LIST: &str = "burgeon_booleans";
 
 fn failed(message: impl Into<String>) -> rusqlite::Error {
     rusqlite::Error::UserFunctionError(message.into().into())
@@ -56,6 +59,7 @@ impl Aggregate<Option<bool>, Option<bool>> for Truth {
 
 /// A list of values, as JSON.
 struct List {
+    booleans: bool,
     state: Arc<ConnectionState>,
 }
 
@@ -67,6 +71,7 @@ impl Aggregate<String, Option<String>> for List {
     fn step(&self, context: &mut Context<'_>, list: &mut String) -> rusqlite::Result<()> {
         let item = match context.get_raw(0) {
             ValueRef::Null => "null".to_owned(),
+            ValueRef::Integer(number) if self.booleans => (number != 0).to_string(),
             ValueRef::Integer(number) => number.to_string(),
             ValueRef::Real(number) if number.is_finite() => format!("{number:?}"),
             ValueRef::Real(_) => "null".to_owned(),
@@ -336,7 +341,9 @@ pub(super) fn register(connection: &Connection, state: &Arc<ConnectionState>) ->
     let flags = FunctionFlags::SQLITE_UTF8 | FunctionFlags::SQLITE_DETERMINISTIC;
     connection.create_aggregate_function("bool_and", 1, flags, Truth { all: true })?;
     connection.create_aggregate_function("bool_or", 1, flags, Truth { all: false })?;
-    connection.create_aggregate_function("array_agg", 1, flags, List { state: Arc::clone(state) })?;
+    for (name, booleans) in [("array_agg", false), (BOOLEAN_LIST, true)] {
+        connection.create_aggregate_function(name, 1, flags, List { booleans, state: Arc::clone(state) })?;
+    }
     connection.create_aggregate_function("ST_Extent", 1, flags, ExtentOfAll { state: Arc::clone(state) })?;
     connection.create_window_function("burgeon_clusters", 3, flags, Clusters { state: Arc::clone(state) })?;
     let own = Arc::clone(state);

@@ -24,6 +24,7 @@ mod texts;
 
 pub(crate) use argument::GeometryArgument;
 pub(crate) use call::{FunctionCall, FunctionResult};
+pub(crate) use groups::BOOLEAN_LIST;
 pub(crate) use lists::NAMES as ROW_FUNCTIONS;
 pub(crate) use registry::{find, is_allowed, names, register};
 pub use table::{FUNCTIONS, SpatialFunction};

@@ -9,13 +9,15 @@ use std::pin::Pin;
 use std::sync::Arc;
 use std::task::{Context, Poll};
 
-use rustls::client::WebPkiServerVerifier;
 use rustls::client::danger::{HandshakeSignatureValid, ServerCertVerified, ServerCertVerifier};
+use rustls::client::{WebPkiServerVerifier, verify_server_name};
 use rustls::crypto::{CryptoProvider, ring, verify_tls12_signature, verify_tls13_signature};
 use rustls::pki_types::pem::PemObject;
 use rustls::pki_types::{CertificateDer, ServerName, UnixTime};
+use rustls::server::ParsedCertificate;
 use rustls::{
-    CertificateError, ClientConfig, DigitallySignedStruct, Error as TlsError, RootCertStore, SignatureScheme,
+    CertificateError, ClientConfig, DigitallySignedStruct, Error as TlsError, OtherError, RootCertStore,
+    SignatureScheme,
 };
 use tokio::io::{AsyncRead, AsyncWrite, ReadBuf};
 use tokio_postgres::config::SslMode;
@@ -46,19 +48,20 @@ impl Encryption {
         let provider = Arc::new(ring::default_provider());
         let verifier: Arc<dyn ServerCertVerifier> = match address.encryption {
             EncryptionMode::Disable | EncryptionMode::Prefer | EncryptionMode::Require => {
-                Arc::new(LaxVerifier { provider: Arc::clone(&provider), chain: None })
+                Arc::new(ServerVerifier { provider: Arc::clone(&provider), chain: None })
             }
             EncryptionMode::VerifyCa | EncryptionMode::VerifyFull => {
-                let roots = Arc::new(authorities(address.authorities.as_deref())?);
-                let chain = WebPkiServerVerifier::builder_with_provider(roots, Arc::clone(&provider)).build();
+                let (roots, known) = authorities(address.authorities.as_deref())?;
+                let provider = Arc::clone(&provider);
+                let chain =
+                    WebPkiServerVerifier::builder_with_provider(Arc::new(roots), Arc::clone(&provider))
+                        .build();
                 let chain = chain.map_err(|error| {
                     Error::data(format!("the certificates of authorities cannot be used: {error}"))
                         .help("name a file of certificates in PEM: sslrootcert=FILE")
                 })?;
-                match address.encryption {
-                    EncryptionMode::VerifyFull => chain,
-                    _ => Arc::new(LaxVerifier { provider: Arc::clone(&provider), chain: Some(chain) }),
-                }
+                let names = address.encryption == EncryptionMode::VerifyFull;
+                Arc::new(ServerVerifier { provider, chain: Some(ChainVerifier { chain, known, names }) })
             }
         };
         let versions = ClientConfig::builder_with_provider(provider).with_safe_default_protocol_versions();
@@ -81,7 +84,7 @@ pub(super) fn mode(encryption: EncryptionMode) -> SslMode {
 }
 
 /// The certificates of authorities in a file, or those of the system.
-fn authorities(file: Option<&Path>) -> Result<RootCertStore> {
+fn authorities(file: Option<&Path>) -> Result<(RootCertStore, Vec<CertificateDer<'static>>)> {
     let named = std::env::var_os("SSL_CERT_FILE").map(std::path::PathBuf::from);
     let known = BUNDLES.iter().map(Path::new).find(|path| path.is_file());
     let Some(path) = file.or(named.as_deref()).or(known) else {
@@ -93,26 +96,42 @@ fn authorities(file: Option<&Path>) -> Result<RootCertStore> {
             .help("name a file of certificates in PEM: sslrootcert=FILE")
     };
     let text = burgeon_base::files::read(path, 20_000_000).map_err(|error| unread(&error.to_string()))?;
-    let mut roots = RootCertStore::empty();
+    let (mut roots, mut known) = (RootCertStore::empty(), Vec::new());
     for certificate in CertificateDer::pem_slice_iter(&text) {
         let certificate = certificate.map_err(|error| unread(&error.to_string()))?;
         // A system may have certificates that are of no use here.
-        let added = roots.add(certificate);
+        let added = roots.add(certificate.clone());
         if file.is_some() {
             added.map_err(|error| unread(&error.to_string()))?;
         }
+        known.push(certificate);
     }
-    if roots.is_empty() { Err(unread("it holds none")) } else { Ok(roots) }
+    if roots.is_empty() { Err(unread("it holds none")) } else { Ok((roots, known)) }
 }
 
-/// Verifies no more of a server's certificate than its chain, if that.
+/// Reports whether a certificate was refused since it is that of an authority.
+fn is_authority(error: &OtherError) -> bool {
+    matches!(error.0.downcast_ref(), Some(webpki::Error::CaUsedAsEndEntity))
+}
+
+/// Verifies the certificate of a server as far as an address asks.
 #[derive(Debug)]
-struct LaxVerifier {
+struct ServerVerifier {
     provider: Arc<CryptoProvider>,
-    chain: Option<Arc<WebPkiServerVerifier>>,
+    chain: Option<ChainVerifier>,
 }
 
-impl ServerCertVerifier for LaxVerifier {
+/// Verifies that a certificate comes from an authority, or is one itself.
+#[derive(Debug)]
+struct ChainVerifier {
+    chain: Arc<WebPkiServerVerifier>,
+    /// Certificates of the authorities.
+    known: Vec<CertificateDer<'static>>,
+    /// Whether the name of the server is verified too.
+    names: bool,
+}
+
+impl ServerCertVerifier for ServerVerifier {
     fn verify_server_cert(
         &self,
         end_entity: &CertificateDer<'_>,
@@ -121,12 +140,23 @@ impl ServerCertVerifier for LaxVerifier {
         ocsp_response: &[u8],
         now: UnixTime,
     ) -> Result<ServerCertVerified, TlsError> {
-        let Some(chain) = &self.chain else { return Ok(ServerCertVerified::assertion()) };
+        let Some(ChainVerifier { chain, known, names }) = &self.chain else {
+            return Ok(ServerCertVerified::assertion());
+        };
         match chain.verify_server_cert(end_entity, intermediates, server_name, ocsp_response, now) {
             // The name is looked at last.
             Err(TlsError::InvalidCertificate(
                 CertificateError::NotValidForName | CertificateError::NotValidForNameContext { .. },
-            )) => Ok(ServerCertVerified::assertion()),
+            )) if !names => Ok(ServerCertVerified::assertion()),
+            // A server whose own certificate is that of the authority is known as well; its time is looked at before this.
+            Err(TlsError::InvalidCertificate(CertificateError::Other(error)))
+                if is_authority(&error) && known.contains(end_entity) =>
+            {
+                if *names {
+                    verify_server_name(&ParsedCertificate::try_from(end_entity)?, server_name)?;
+                }
+                Ok(ServerCertVerified::assertion())
+            }
             verified => verified,
         }
     }

@@ -1,7 +1,8 @@
 //! Calls of functions: what they take, and what SQLite calls them.
 
 use sqlparser::ast::{
-    Expr, Function, FunctionArg, FunctionArgExpr, FunctionArgumentClause, FunctionArguments, WindowType,
+    Expr, Function, FunctionArg, FunctionArgExpr, FunctionArgumentClause, FunctionArguments, Ident,
+    ObjectName, WindowType,
 };
 
 use super::casts::as_text;
@@ -9,6 +10,7 @@ use super::expressions::{Expressions, made};
 use super::signatures::{self, FunctionSignature};
 use super::types::SqlType;
 use super::typing::{TypeScope, error_at};
+use crate::functions::BOOLEAN_LIST;
 use burgeon_base::error::Result;
 
 impl Expressions<'_, '_> {
@@ -64,6 +66,13 @@ impl Expressions<'_, '_> {
             }));
         }
         let given = gives(&kinds);
+        // A list keeps what is true or false apart from numbers.
+        if name == "array_agg"
+            && kinds.first() == Some(&SqlType::Boolean)
+            && let Expr::Function(function) = expression
+        {
+            function.name = ObjectName::from(vec![Ident::new(BOOLEAN_LIST)]);
+        }
         rewritten_call(expression, &name, &kinds)?;
         Ok(given)
     }

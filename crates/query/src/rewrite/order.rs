@@ -11,12 +11,13 @@ use super::operators::call;
 use super::scope::{quoted, relations};
 use super::walk::{StatementPart, walk};
 use super::{Catalogue, Dialect, parse};
+use crate::functions::BOOLEAN_LIST;
 
 /// The most columns that rows are ordered by.
 const MOST_COLUMNS: usize = 64;
 
 /// Functions of many rows.
-const AGGREGATES: [&str; 17] = [
+const AGGREGATES: [&str; 18] = [
     "avg",
     "count",
     "group_concat",
@@ -33,6 +34,7 @@ const AGGREGATES: [&str; 17] = [
     "every",
     "json_group_array",
     "array_agg",
+    BOOLEAN_LIST,
     "st_memunion",
 ];
 

@@ -23,11 +23,31 @@ pub(super) fn expand(query: &mut Query, tables: &Catalogue) -> Result<()> {
             let mut found = in_from(select, tables);
             found.extend(in_projection(query, tables)?);
             if !found.is_empty() {
-                substitute(query, &found);
+                substitute_named(query, &found);
             }
         }
         Ok(())
     })
+}
+
+/// Substitutes columns, and has those of the projection keep their names.
+fn substitute_named(query: &mut Query, found: &[Substitution]) {
+    let plain = |item: &SelectItem| match item {
+        SelectItem::UnnamedExpr(expression) => Some((column_name(expression), expression.to_string())),
+        _ => None,
+    };
+    let names: Vec<Option<(String, String)>> =
+        select_of(query).map(|select| select.projection.iter().map(plain).collect()).unwrap_or_default();
+    substitute(query, found);
+    let Some(select) = select_of(query) else { return };
+    for (item, named) in select.projection.iter_mut().zip(names) {
+        if let (SelectItem::UnnamedExpr(expression), Some((name, text))) = (&*item, named)
+            && expression.to_string() != text
+        {
+            let alias = sqlparser::ast::Ident::with_quote('"', name);
+            *item = SelectItem::ExprWithAlias { expr: expression.clone(), alias };
+        }
+    }
 }
 
 /// The function that SQLite has in place of one that gives rows.
