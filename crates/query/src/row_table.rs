@@ -52,6 +52,8 @@ impl RowTable {
         let mut rows = self.cells.chunks_exact(width);
         let next = || {
             let Some(row) = rows.next() else { return Ok(None) };
+            // SQLite doubles the memory of the database when it grows, so rows are counted twice.
+            budget.take(row.iter().map(Cell::weight).sum())?;
             let values = row.iter().map(|cell| value(cell, frame)).collect::<Vec<_>>();
             Ok(Some(values))
         };

@@ -40,7 +40,7 @@ const COUNTS: [&str; 30] = [
 ];
 
 /// Parts of something, chances, weights, and what sizes are multiplied by.
-const FACTORS: [&str; 50] = [
+const FACTORS: [&str; 54] = [
     ".amount",
     ".metallic",
     ".noise",
@@ -55,6 +55,8 @@ const FACTORS: [&str; 50] = [
     "ease.sine t",
     "ease.smooth t",
     "extruder:place scale",
+    "extruder:place y",
+    "extruder:place z",
     "extruder:scale scale",
     "extruder:scale y",
     "extruder:star inner",
@@ -89,6 +91,8 @@ const FACTORS: [&str; 50] = [
     "turtle.elasticity",
     "turtle:elasticity elasticity",
     "turtle:place scale",
+    "turtle:place y",
+    "turtle:place z",
     "turtle:tropism elasticity",
     "vector:lerp t",
 ];
