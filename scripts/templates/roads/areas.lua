@@ -151,4 +151,18 @@ function areas.ahead(area: Area, x: number, y: number, heading: number): number
   return least
 end
 
+-- The distance (m) of a place from the outline.
+function areas.distance(area: Area, x: number, y: number): number
+  local least = math.huge
+  for index = 1, area.count do
+    local after = index % area.count + 1
+    local ax, ay = area.x[index] - x, area.y[index] - y
+    local dx, dy = area.x[after] - x - ax, area.y[after] - y - ay
+    local part = math.clamp(-(ax * dx + ay * dy) / math.max(dx * dx + dy * dy, 1e-9), 0, 1)
+    local px, py = ax + part * dx, ay + part * dy
+    least = math.min(least, px * px + py * py)
+  end
+  return math.sqrt(least)
+end
+
 return areas

@@ -2,43 +2,59 @@
 -- Division: the land between main streets is divided by finer streets, until no block is larger than the blocks of its place.
 local areas = require("areas")
 local checks = require("checks")
+local ways = require("ways")
 
 local division = {}
 
 type Pattern = any
 type Area = areas.Area
 
--- The area on the left of the street that leaves a junction towards a heading (degrees), and how often it could not be divided.
-local Quarter = module("Quarter", "junction", "heading", "tries")
+-- The area on the left of the street that leaves a junction towards a heading (degrees): how often it could not be divided, and how
+-- much larger its blocks are than those of other quarters in its place.
+local Quarter = module("Quarter", "junction", "heading", "tries", "kind")
 -- A street through an area of a size (m²), from a junction by places (m), x and y in turn.
-local Cut = module("Cut", "junction", "way", "depth", "area", "tries")
--- A lane that ends within a block, or beyond the last street of the town.
-local Lane = module("Lane", "junction", "way", "depth", "tries")
+local Cut = module("Cut", "junction", "way", "depth", "area", "tries", "kind")
+-- A lane that ends within a block.
+local Lane = module("Lane", "junction", "way", "depth", "tries", "kind")
 -- Divides what main streets enclose.
 local Land = module("Land")
 
--- How many ways to divide an area are tried before it stays as it is, and how many if it is larger (m²) than any block may be.
-local TRIES, MORE_TRIES = 8, 16
-local LARGE = 60000
+division.GROWING = {
+  "Land",
+  "Quarter(junction, heading, tries, kind)",
+  "Cut(junction, way, depth, area, tries, kind)",
+  "Lane(junction, way, depth, tries, kind)",
+}
+
+-- How many ways to divide an area are tried before it stays as it is.
+local TRIES = 30
+-- The area (m²) from which land is several quarters, and that no block exceeds.
+local SEVERAL, MOST = 90000, 70000
 -- From how many junctions of an area streets are tried, and how far (degrees) they turn from the middle of the angle there.
 local STARTS = 12
 local TURNS = { 0, 14, -14, 28, -28 }
 -- The least angle (degrees) between two streets, and what is left for one that leaves between two others.
 local LEAST = 52
 local WIDE = 2 * LEAST + 8
+-- How many of the streets that divide an area best are looked at, how far (m) each keeps from other streets, and how far as a share of
+-- the width of blocks.
+local BEST = 6
+local ASIDE, WIDTH = 24, 0.28
 -- How long (m) the straight pieces of a street are about, and how near its end may lie to where another turns, or meets
 -- others.
 local PIECE, SHORT_PIECE, WIDER = 24, 19, 8
 local LANE_PIECES = { 28, 26, 24 }
 local NEAR, FAR = 18, 26
 -- How far (m) the end of a lane is from other streets at least, how long it is until it turns, and how much land has one.
-local APART = 31
-local LANE = { 30, 120 }
-local LANE_LAND = 3500
+local APART = 38
+local LANE = { 34, 130 }
+local LANE_LAND = 7000
+-- How far (m) from other junctions a lane leaves.
+local BESIDE = 52
 -- The largest area (m²) that is left as it is for a park or an estate.
-local ESTATE = 40000
+local ESTATE = 30000
 -- The least area (m²) that a street divides, not a lane.
-local STREET = 16000
+local STREET = 24000
 
 -- The places of a street from one place to another that leaves and arrives towards headings, bowed by a share of the way, in pieces
 -- of a length (m) or more; the first and the last have more where they meet a wide street.
@@ -115,11 +131,25 @@ local function arrival(
   return nil, 0, 0, 0
 end
 
+-- Whether a street that leaves a place (m) keeps its distance (m) from the outline of an area between its ends.
+local function is_clear(area: Area, from: { number }, way: { number }, apart: number): boolean
+  local last = #way
+  for index = 1, last - 2, 2 do
+    local x, y = way[index], way[index + 1]
+    local begun = math.sqrt((x - from[1]) ^ 2 + (y - from[2]) ^ 2)
+    local rest = math.sqrt((x - way[last - 1]) ^ 2 + (y - way[last]) ^ 2)
+    if areas.distance(area, x, y) < math.min(apart, 0.7 * begun, 0.7 * rest) then
+      return false
+    end
+  end
+  return true
+end
+
 -- The best of some streets that divide an area, as the corner that it leaves and its places; nil if there is none.
 local function cut(area: Area, pattern: Pattern, limit: number, tries: number): (number?, { number }?)
   local size = math.sqrt(area.size)
   local least = math.max(pattern.least * pattern.least, 0.08 * math.min(limit, area.size))
-  local best, start, way = math.huge, nil, nil
+  local found: { any } = {}
   local first, stride = math.floor(random() * area.count), math.max(1, area.count / STARTS)
   local crossing = random() < pattern.cross
   -- Parts differ, so that blocks do.
@@ -127,7 +157,11 @@ local function cut(area: Area, pattern: Pattern, limit: number, tries: number): 
   -- What is not divided any more is the more crooked.
   local is_last = area.size < 3 * limit
   local piece = (if is_last then SHORT_PIECE else PIECE) + 3 * math.min(tries, 4)
-  local bow = (if random() < 0.5 then 1 else -1) * random(0.3, 1) * pattern.bow * (if is_last then 1 else 0.4)
+  local bow = (if random() < 0.5 then 1 else -1)
+    * random(0.3, 1)
+    * pattern.bow
+    * (if is_last then 1 else 0.6)
+    * math.max(0, 1 - tries / 8)
   for number = 0, math.min(STARTS, area.count) - 1 do
     local corner = 1 + math.floor(first + number * stride) % area.count
     local open, middle = areas.angle(area, corner)
@@ -135,7 +169,7 @@ local function cut(area: Area, pattern: Pattern, limit: number, tries: number): 
     if open < WIDE or degree > 3 then
       continue
     end
-    local cost = if degree == 3 then (if crossing then -0.3 else 3.5) elseif degree == 1 then -1 else 0
+    local cost = if degree == 3 then (if crossing then -0.3 else 9) elseif degree == 1 then -1 else 0
     for _, turn in TURNS do
       if math.abs(turn) > open / 2 - LEAST then
         continue
@@ -161,27 +195,41 @@ local function cut(area: Area, pattern: Pattern, limit: number, tries: number): 
         + (turned / 30) ^ 2
         + along / 60
         + 0.35 * random()
-      if total < best then
-        best, start = total, corner
-        local from = { area.x[corner], area.y[corner] }
-        -- The corners of a wide street take more of what leaves it.
-        local function ends(depth: number): number
-          return if depth < 2 then piece + WIDER else piece
-        end
-        local pieces = { ends(area.depth[corner]), piece, ends(area.depth[edge]) }
-        way = curve(from, { x, y }, heading - 0.5 * turned, heading + 0.7 * off, pieces, bow)
+      table.insert(found, {
+        cost = total,
+        corner = corner,
+        edge = edge,
+        x = x,
+        y = y,
+        leaves = heading - 0.5 * turned,
+        arrives = heading + 0.7 * off,
+      })
+    end
+  end
+  table.sort(found, function(one, other)
+    return one.cost < other.cost
+  end)
+  local apart = math.max(ASIDE, WIDTH * math.sqrt(math.min(limit, area.size)))
+  for index = 1, math.min(#found, BEST) do
+    local one = found[index]
+    local from = { area.x[one.corner], area.y[one.corner] }
+    -- The corners of a wide street take more of what leaves it.
+    local function ends(depth: number): number
+      return if depth < 2 then piece + WIDER else piece
+    end
+    local pieces = { ends(area.depth[one.corner]), piece, ends(area.depth[one.edge]) }
+    for _, swing in { bow, -bow, 0 } do
+      local way = curve(from, { one.x, one.y }, one.leaves, one.arrives, pieces, swing)
+      if is_clear(area, from, way, apart) then
+        return one.corner, way
       end
     end
   end
-  return start, way
+  return nil, nil
 end
 
-local function join(way: { number }, rest: { number }): { number }
-  return table.move(rest, 1, #rest, #way + 1, way)
-end
-
--- A lane that ends within an area, most of them around a corner, as `cut` gives it.
-local function lane(area: Area): (number?, { number }?)
+-- A lane that ends within an area, as `cut` gives it; it keeps away from others.
+local function lane(area: Area, pattern: Pattern): (number?, { number }?)
   for _ = 1, 6 do
     local corner = 1 + math.floor(random() * area.count)
     local open, middle = areas.angle(area, corner)
@@ -189,42 +237,24 @@ local function lane(area: Area): (number?, { number }?)
       continue
     end
     local x, y = area.x[corner], area.y[corner]
-    local heading = middle + random(-10, 10)
+    local is_apart = true
+    for other = 1, area.count do
+      local near = (area.x[other] - x) ^ 2 + (area.y[other] - y) ^ 2
+      is_apart = is_apart and (area.degree[other] ~= 3 or near > BESIDE * BESIDE)
+    end
+    local heading = middle + random(-12, 12)
     local long = math.min(areas.hit_from(area, x, y, heading) - APART, random(LANE[1], LANE[2]))
-    if long < LANE[1] then
+    if not is_apart or long < LANE[1] then
       continue
     end
-    local to = { x + long * math.cos(math.rad(heading)), y + long * math.sin(math.rad(heading)) }
-    if areas.ahead(area, to[1], to[2], heading) <= APART then
-      continue
+    local turn = (if random() < 0.5 then 1 else -1) * random(0, 55)
+    local aim = heading + 0.4 * turn
+    local to = { x + long * math.cos(math.rad(aim)), y + long * math.sin(math.rad(aim)) }
+    if areas.ahead(area, to[1], to[2], heading + turn) > APART then
+      return corner, curve({ x, y }, to, heading, heading + turn, LANE_PIECES, random(-1, 1) * pattern.bow)
     end
-    local way = curve({ x, y }, to, middle, heading, LANE_PIECES, 0)
-    local side = if random() < 0.5 then 1 else -1
-    for _, hand in { side, -side } do
-      local turned = heading + hand * random(65, 95)
-      local rest = random(0.6, 1.3) * long
-      while rest > 26 do
-        local east, north = math.cos(math.rad(turned)), math.sin(math.rad(turned))
-        local ends = { to[1] + rest * east, to[2] + rest * north }
-        if
-          areas.ahead(area, ends[1], ends[2], turned) > APART
-          and areas.hit_from(area, to[1], to[2], turned) > rest + APART
-        then
-          return corner, join(way, curve(to, ends, turned, turned, LANE_PIECES, 0))
-        end
-        rest -= 9
-      end
-    end
-    return corner, way
   end
   return nil, nil
-end
-
--- The heading (degrees) and the length (m) of the way to a place from a junction.
-local function aim(this: Network, junction: number, x: number, y: number): (number, number)
-  local from = this:place(junction)
-  local dx, dy = x - from.x, y - from.y
-  return math.deg(math.atan2(dy, dx)), math.sqrt(dx * dx + dy * dy)
 end
 
 -- The rules of division. `pattern_at` gives the pattern of a place, `room` the largest block (m²) there, or nil where land is not
@@ -234,15 +264,14 @@ function division.rules(
   pattern_at: (x: number, y: number) -> Pattern,
   room: (pattern: Pattern, x: number, y: number) -> number?,
   deepest: number,
-  propose: (
-    network: Network,
-    junction: number,
-    heading: number,
-    length: number,
-    depth: number
-  ) -> (),
+  propose: ways.Propose,
   keeps: boolean
 )
+  -- How much larger blocks are than those of other quarters.
+  local function kind_at(x: number, y: number): number
+    return math.exp((pattern_at(x, y).quarters or 0) * random(-1, 1))
+  end
+
   system:rule("Land", function(this: Network)
     local modules, seen = {}, {}
     for junction, corner in this:places() do
@@ -257,7 +286,7 @@ function division.rules(
           seen[each.junction * 2 ^ 26 + corners[index % #corners + 1].junction] = true
         end
         if face.area > 0 then
-          table.insert(modules, Quarter(junction, heading, 0))
+          table.insert(modules, Quarter(junction, heading, 0, kind_at(corner.place.x, corner.place.y)))
         end
       end
     end
@@ -268,34 +297,38 @@ function division.rules(
   end)
 
   system:rule(
-    "Quarter(junction, heading, tries)",
-    function(this: Network, junction: number, heading: number, tries: number)
+    "Quarter(junction, heading, tries, kind)",
+    function(this: Network, junction: number, heading: number, tries: number, kind: number)
       local area = areas.read(this:face(junction, heading))
-      if not area or tries >= (if area.size > LARGE then MORE_TRIES else TRIES) then
+      if not area or tries >= TRIES then
         return nil
       end
-      local pattern = pattern_at(area.middle[1], area.middle[2])
-      local limit = room(pattern, area.middle[1], area.middle[2])
-      if not limit then
+      local x, y = area.middle[1], area.middle[2]
+      local pattern = pattern_at(x, y)
+      local usual = room(pattern, x, y)
+      if not usual then
         return nil
       end
+      -- What is still several quarters has no kind of its own.
+      local own = if tries == 0 and area.size > SEVERAL then kind_at(x, y) else kind
+      local limit = math.min(usual * own, MOST)
       local is_estate = tries == 0
         and area.size > 2500
-        and area.size < 6 * limit
+        and area.size < 5 * limit
         and area.size < ESTATE
         and random() < pattern.gap
       if area.size > limit and not is_estate then
         local start, way = cut(area, pattern, limit, tries)
         if start and way then
           local depth = math.min(if area.size > math.max(6 * limit, STREET) then 1 else 2, deepest)
-          return Cut(area.junction[start], way, depth, area.size, tries)
+          return Cut(area.junction[start], way, depth, area.size, tries, own)
         end
-        return Quarter(junction, heading, tries + 1)
+        return Quarter(junction, heading, tries + 1, own)
       end
       if keeps and tries <= area.size / LANE_LAND and random() < pattern.stop then
-        local start, way = lane(area)
+        local start, way = lane(area, pattern)
         if start and way then
-          return Lane(area.junction[start], way, math.min(2, deepest), tries)
+          return Lane(area.junction[start], way, math.min(2, deepest), tries, own)
         end
       end
       return nil
@@ -303,53 +336,42 @@ function division.rules(
   )
 
   system:rule(
-    "Cut(junction, way, depth, area, tries)",
-    function(this: Network, junction: number, way: { number }, _: number, size: number, tries: number)
-      local heading = aim(this, junction, way[1], way[2])
+    "Cut(junction, way, depth, area, tries, kind)",
+    function(
+      this: Network,
+      junction: number,
+      way: { number },
+      _: number,
+      size: number,
+      tries: number,
+      kind: number
+    )
+      local heading = ways.aim(this, junction, way[1], way[2])
       local first = this:arrived(junction, heading)
       if not first then
-        return Quarter(junction, heading, tries + 1)
+        return Quarter(junction, heading, tries + 1, kind)
       end
       local face = this:face(junction, heading)
       if math.abs(face.area - size) < 1 then
         -- It was refused on the way, so that there is one area still.
-        return Quarter(junction, heading, tries + 1)
+        return Quarter(junction, heading, tries + 1, kind)
       end
-      return Quarter(junction, heading, 0), Quarter(first, heading + 180, 0)
+      return Quarter(junction, heading, 0, kind), Quarter(first, heading + 180, 0, kind)
     end
   )
 
   system:rule(
-    "Lane(junction, way, depth, tries)",
-    function(this: Network, junction: number, way: { number }, _: number, tries: number)
-      return Quarter(junction, aim(this, junction, way[1], way[2]), tries + 1)
+    "Lane(junction, way, depth, tries, kind)",
+    function(this: Network, junction: number, way: { number }, _: number, tries: number, kind: number)
+      return Quarter(junction, ways.aim(this, junction, way[1], way[2]), tries + 1, kind)
     end
   )
 
-  -- Leads a street by places, as far as it is not refused and joins nothing.
   local function lead(this: Network, junction: number, way: { number }, depth: number)
-    local at: number? = junction
-    for index = 1, #way, 2 do
-      local heading, length = aim(this, at :: number, way[index], way[index + 1])
-      propose(this, at :: number, heading, length, depth)
-      at = this:reached(at :: number, heading)
-      if not at then
-        return
-      end
-    end
+    ways.lead(this, junction, way, depth, propose)
   end
-  system:interpret(
-    "Cut(junction, way, depth, area, tries)",
-    function(this: Network, junction: number, way: { number }, depth: number)
-      lead(this, junction, way, depth)
-    end
-  )
-  system:interpret(
-    "Lane(junction, way, depth, tries)",
-    function(this: Network, junction: number, way: { number }, depth: number)
-      lead(this, junction, way, depth)
-    end
-  )
+  system:interpret("Cut(junction, way, depth, area, tries, kind)", lead)
+  system:interpret("Lane(junction, way, depth, tries, kind)", lead)
 end
 
 -- The module that begins it.

@@ -5,6 +5,7 @@ local division = require("division")
 local exits = require("exits")
 local greens = require("greens")
 local highways = require("highways")
+local mains = require("mains")
 local options = require("options")
 
 local growth = {}
@@ -25,8 +26,9 @@ local Town = module("Town", "junction", "wait", "left")
 local Outskirts = module("Outskirts")
 -- Counts the steps, and tidies up after the last.
 local Clock = module("Clock", "left")
--- Waits until all that grows before it has ended: first main streets, and then the division of the land between them.
-local Watch = module("Watch", "divides")
+-- Waits until all that grows before it has ended, and begins the next of its stages: main streets, the outline of the town, removal
+-- of streets that lead nowhere, and the division of the land between them.
+local Watch = module("Watch", "stage")
 -- What it waits for.
 local GROWING = {
   "Town(junction, wait, left)",
@@ -35,11 +37,10 @@ local GROWING = {
   "Arrival(junction, heading, length, goal, tries)",
   "Tip(junction, heading, length, depth, run, tries, left)",
   "Bud(junction, heading, depth, wait, left)",
-  "Land",
-  "Quarter(junction, heading, tries)",
-  "Cut(junction, way, depth, area, tries)",
-  "Lane(junction, way, depth, tries)",
 }
+for _, rooms in { mains.GROWING, division.GROWING } do
+  table.move(rooms, 1, #rooms, #GROWING + 1, GROWING)
+end
 
 -- How far (degrees) a main street turns when it is refused, one try after the other.
 local ASIDE = highways.ASIDE
@@ -315,6 +316,12 @@ function growth.system(asked: options.RoadOptions, ...: number): (System<Network
     looks[math.floor(growing * share)] = growing >= 8
   end
 
+  -- A town around one centre has an outline.
+  local has_outline = of.is_one and of.divides and not of.onto and #centres == 1
+  local lead_out = if has_outline
+    then mains.rules(system, pattern_at(centres[1][1], centres[1][2]), inside, centres[1], propose)
+    else nil
+
   local axiom: { any } = if #centres > 1 then highways.axiom(centres, growing, caller, level) else {}
   local wait = if #axiom > 0 then TOWN_WAIT else 0
   if of.onto then
@@ -324,7 +331,7 @@ function growth.system(asked: options.RoadOptions, ...: number): (System<Network
       table.insert(axiom, Town(index, wait, growing))
     end
   end
-  table.insert(axiom, if of.is_one and of.divides then Watch(false) else Clock(growing))
+  table.insert(axiom, if of.is_one and of.divides then Watch(1) else Clock(growing))
   system:axiom(table.unpack(axiom))
 
   system:rule(
@@ -336,6 +343,9 @@ function growth.system(asked: options.RoadOptions, ...: number): (System<Network
       local place = this:place(junction)
       local pattern = pattern_at(place.x, place.y)
       local modules = {}
+      if lead_out then
+        return table.unpack(lead_out(this, junction, headings))
+      end
       for _, heading in headings do
         table.insert(modules, start(pattern, junction, place.x, place.y, heading, 0, 0, left - 1))
       end
@@ -428,7 +438,7 @@ function growth.system(asked: options.RoadOptions, ...: number): (System<Network
       end
       return table.unpack(modules)
     elseif left == 1 and of.divides then
-      return division.Land(), Watch(true)
+      return division.Land(), Watch(4)
     end
     local modules: { any } = if looks[left] then belated(this, left - 1) else {}
     -- It tidies up when all others have grown.
@@ -437,13 +447,17 @@ function growth.system(asked: options.RoadOptions, ...: number): (System<Network
   end)
 
   for _, before in GROWING do
-    system:rule(`{before} < Watch(divides)`, function() end)
+    system:rule(`{before} < Watch(stage)`, function() end)
   end
-  system:rule("Watch(divides)", function(_, divides: boolean)
-    if divides then
-      return Clock(0)
+  system:rule("Watch(stage)", function(_, stage: number)
+    if stage == 1 and has_outline then
+      return mains.Outline(), Watch(2)
+    elseif stage <= 2 and not of.onto then
+      return mains.Trim(), Watch(3)
+    elseif stage <= 3 then
+      return division.Land(), Watch(4)
     end
-    return division.Land(), Watch(true)
+    return Clock(0)
   end)
 
   greens.rules(system, function(this: Network, at: number, heading: number, depth: number, left: number)

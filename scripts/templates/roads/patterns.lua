@@ -46,13 +46,13 @@ function patterns.organic(options: { [string]: any }?): Pattern
     length = function(): number
       return 0.6 * block
     end,
-    room = function(x: number, y: number, far: number): number
-      local along = math.clamp((far - 0.08) / 0.52, 0, 1)
+    -- Blocks are small in the middle and grow outwards.
+    room = function(_: number, _: number, far: number): number
+      local along = math.clamp((far - 0.16) / 0.5, 0, 1)
       local rise = along * along * (3 - 2 * along)
-      local quarter = noise(x / (block * 4), y / (block * 4), 7.5, field)
-      local wide = math.exp(variety * (5.2 * rise - 2.6 + 6 * quarter * (0.3 + 0.7 * rise)))
-      return math.clamp(0.9 * block * block * wide, 0.12 * block * block, 70000)
+      return 1.05 * block * block * math.exp(variety * (3.6 * rise - 1.8))
     end,
+    quarters = 0.7 * variety,
   })
 end
 

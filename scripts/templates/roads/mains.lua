@@ -1,0 +1,253 @@
+--!strict
+-- Main streets of a town around one centre: they lead from there to the outline of the town, and a street along the outline
+-- joins their ends, so that all land within lies between streets.
+local checks = require("checks")
+local ways = require("ways")
+
+local mains = {}
+
+type Pattern = any
+
+-- A main street on its way out: the bearing (degrees) from the centre that it keeps to, and the angle (degrees) that it has to
+-- itself.
+local Spoke = module("Spoke", "junction", "heading", "length", "bearing", "room", "tries")
+-- Joins the ends of main streets along the outline.
+local Outline = module("Outline")
+-- A street along the outline, by places (m) to a junction.
+local Rim = module("Rim", "junction", "way", "goal", "tries")
+-- Removes streets that lead nowhere.
+local Trim = module("Trim")
+
+mains.Outline, mains.Trim = Outline, Trim
+mains.GROWING = {
+  "Spoke(junction, heading, length, bearing, room, tries)",
+  "Outline",
+  "Rim(junction, way, goal, tries)",
+  "Trim",
+}
+
+-- How far (degrees) a main street turns when it is refused, one try after the other.
+local ASIDE = { 20, -40, 60, -80 }
+-- How far (degrees) it turns from one piece to the next.
+local MOST = 18
+-- How often the outline is tried between two main streets.
+local TRIES = 6
+-- How long (m) a piece of the outline is about, and how far it swings, as a share of its length between two main streets.
+local PIECE, SWING = 52, 0.055
+-- For how many bearings the outline is computed.
+local BEARINGS = 120
+-- How far the outline lies from the border of the land, as shares of the distance of the border from the centre.
+local NEAREST, FARTHEST = 0.62, 0.97
+-- From which share of the way out a main street forks, and how wide (m) the land beside it is then at least, in blocks.
+local FORK, WIDE = 0.3, 10
+
+-- The distance (m) of the outline from a centre by the bearing (degrees), for land that `inside` describes.
+local function outline(
+  inside: (x: number, y: number) -> boolean,
+  centre: { number }
+): (bearing: number) -> number
+  local field = math.floor(random() * 1000000)
+  local long, turned = random(0, 0.14), random(0, 180)
+  local distances = {}
+  for index = 0, BEARINGS - 1 do
+    local bearing = math.rad(index * 360 / BEARINGS)
+    local east, north = math.cos(bearing), math.sin(bearing)
+    local far, step: number = 0, 64
+    while step >= 2 and far < 20000 do
+      if inside(centre[1] + (far + step) * east, centre[2] + (far + step) * north) then
+        far += step
+      else
+        step /= 2
+      end
+    end
+    local share = 0.83
+      - long * math.cos(2 * (bearing - math.rad(turned)))
+      + 0.3 * noise(0.9 * east, 0.9 * north, 0.5, field)
+      + 0.08 * noise(3 * east, 3 * north, 4.5, field)
+    distances[index] = far * math.clamp(share, NEAREST, FARTHEST)
+  end
+  return function(bearing: number): number
+    local at = bearing % 360 / 360 * BEARINGS
+    local index = math.floor(at)
+    local low, high = distances[index % BEARINGS], distances[(index + 1) % BEARINGS]
+    return low + (at - index) * (high - low)
+  end
+end
+
+-- The rules of main streets around a centre; `propose` proposes a street.
+function mains.rules(
+  system: System<Network>,
+  pattern: Pattern,
+  inside: (x: number, y: number) -> boolean,
+  centre: { number },
+  propose: ways.Propose
+)
+  local rim = outline(inside, centre)
+  local field = math.floor(random() * 1000000)
+  local piece = pattern.length(centre[1], centre[2], 0, 0)
+
+  local function polar(place: Vector): (number, number)
+    local dx, dy = place.x - centre[1], place.y - centre[2]
+    return math.sqrt(dx * dx + dy * dy), math.deg(math.atan2(dy, dx))
+  end
+  local function place_at(far: number, bearing: number): (number, number)
+    return centre[1] + far * math.cos(math.rad(bearing)), centre[2] + far * math.sin(math.rad(bearing))
+  end
+
+  -- The next piece of a main street; nil at the outline.
+  local function onward(place: Vector, at: number, heading: number, bearing: number, room: number): any
+    local far, now = polar(place)
+    local rest = rim(if far < 1 then bearing else now) - far
+    if rest < 0.5 * piece then
+      return nil
+    end
+    local length = if rest < 1.5 * piece then rest else piece
+    -- It swings between the centre and the outline, which it meets about square.
+    local swing = (pattern.bow or 0) * 60 * noise(far / (4.5 * piece), bearing / 40, 2.5, field)
+    swing *= math.min(1, far / (5 * piece), rest / (6 * piece))
+    local x, y = place_at(far + 1.4 * length, (if far < 1 then bearing else bearing + swing))
+    local aim = math.deg(math.atan2(y - place.y, x - place.x))
+    if far >= 1 then
+      aim = heading + math.clamp(checks.between(heading, aim), -MOST, MOST)
+    end
+    return Spoke(at, aim, length, bearing, room, 0)
+  end
+
+  system:rule(
+    "Spoke(junction, heading, length, bearing, room, tries)",
+    function(
+      this: Network,
+      junction: number,
+      heading: number,
+      length: number,
+      bearing: number,
+      room: number,
+      tries: number
+    )
+      local at = this:reached(junction, heading)
+      if at then
+        local place = this:place(at)
+        local far = polar(place)
+        local beside = far * math.rad(room)
+        if far > FORK * rim(bearing) and beside > WIDE * piece and rim(bearing) - far > 6 * piece then
+          -- It forks: one goes on nearly straight, and the other leaves.
+          local share = random(0.3, 0.7)
+          local left, right = bearing + room * share / 2, bearing - room * (1 - share) / 2
+          return onward(place, at, heading + 28, left, room * (1 - share)),
+            onward(place, at, heading - 28, right, room * share)
+        end
+        return onward(place, at, heading, bearing, room)
+      elseif not this:arrived(junction, heading) and tries < #ASIDE then
+        return Spoke(junction, heading + ASIDE[tries + 1], length, bearing, room, tries + 1)
+      end
+      return nil
+    end
+  )
+
+  -- The way along the outline from one place to another, counter-clockwise; it swings to both sides.
+  local function along(from: Vector, to: Vector, tries: number): { number }
+    local far, first = polar(from)
+    local rest, last = polar(to)
+    local gap = (last - first) % 360
+    local mean = (far + rest) / 2 * math.rad(gap)
+    local count = math.max(1, math.floor(mean / PIECE + 0.5))
+    local before, behind = far / rim(first), rest / rim(last)
+    local swing = SWING * (1 - tries / TRIES) * mean
+    local way = {}
+    for number = 1, count - 1 do
+      local t = number / count
+      local bearing = first + t * gap
+      local share = before + t * (behind - before)
+      local ends = math.min(1, 6 * t * (1 - t))
+      local x, y = place_at(1, bearing)
+      local off = 2.2 * swing * ends * noise(x * 2.5 + centre[1], y * 2.5, 7.5 + tries, field)
+      x, y = place_at(share * rim(bearing) + off, bearing)
+      table.insert(way, x)
+      table.insert(way, y)
+    end
+    table.insert(way, to.x)
+    table.insert(way, to.y)
+    return way
+  end
+
+  system:rule("Outline", function(this: Network)
+    local ends: { any } = {}
+    for _, open in this:open_ends() do
+      if open.depth == 0 then
+        local _, bearing = polar(open.place)
+        table.insert(ends, { junction = open.junction, place = open.place, bearing = bearing })
+      end
+    end
+    table.sort(ends, function(one, other)
+      return one.bearing < other.bearing
+    end)
+    local modules = {}
+    for index, one in ends do
+      local other = ends[index % #ends + 1]
+      if (other.bearing - one.bearing) % 360 > 0 then
+        table.insert(modules, Rim(one.junction, along(one.place, other.place, 0), other.junction, 0))
+      end
+    end
+    if #modules == 0 then
+      return nil
+    end
+    return table.unpack(modules)
+  end)
+
+  system:rule(
+    "Rim(junction, way, goal, tries)",
+    function(this: Network, junction: number, way: { number }, goal: number, tries: number)
+      local at, is_done = ways.follow(this, junction, way)
+      if is_done or tries >= TRIES then
+        return nil
+      end
+      return Rim(at, along(this:place(at), this:place(goal), tries + 1), goal, tries + 1)
+    end
+  )
+
+  -- Where no land lies between streets, all of them would be removed.
+  system:rule("Trim", function()
+    return nil
+  end)
+  system:interpret("Trim", function(this: Network)
+    local count = 0
+    for _, corner in this:places() do
+      count += if #corner.headings > 0 then 1 else 0
+    end
+    if this:size() >= count then
+      this:remove_dead_ends()
+    end
+  end)
+
+  system:interpret(
+    "Spoke(junction, heading, length, bearing, room, tries)",
+    function(this: Network, junction: number, heading: number, length: number)
+      propose(this, junction, heading, length, 0)
+    end
+  )
+  system:interpret(
+    "Rim(junction, way, goal, tries)",
+    function(this: Network, junction: number, way: { number })
+      ways.lead(this, junction, way, 1, propose)
+    end
+  )
+
+  -- The main streets that leave the centre towards headings.
+  return function(this: Network, junction: number, headings: { number }): { any }
+    local place = this:place(junction)
+    local sorted = table.clone(headings)
+    table.sort(sorted, function(one, other)
+      return one % 360 < other % 360
+    end)
+    local modules = {}
+    for index, heading in sorted do
+      local before = sorted[(index - 2) % #sorted + 1]
+      local after = sorted[index % #sorted + 1]
+      local room = if #sorted == 1 then 180 else ((heading - before) % 360 + (after - heading) % 360) / 2
+      table.insert(modules, onward(place, junction, heading, heading, room))
+    end
+    return modules
+  end
+end
+
+return mains
