@@ -12,18 +12,19 @@ type Area = areas.Area
 -- The area on the left of the street that leaves a junction towards a heading (degrees): how often it could not be divided, and how
 -- much larger its blocks are than those of other quarters in its place.
 local Quarter = module("Quarter", "junction", "heading", "tries", "kind")
--- A street through an area of a size (m²), from a junction by places (m), x and y in turn.
-local Cut = module("Cut", "junction", "way", "depth", "area", "tries", "kind")
+-- A street through an area of a size (m²), from a junction by places (m), x and y in turn; the outline of the area leads along
+-- a heading (degrees) there.
+local Cut = module("Cut", "junction", "way", "depth", "area", "along", "tries", "kind")
 -- A lane that ends within a block.
-local Lane = module("Lane", "junction", "way", "depth", "tries", "kind")
+local Lane = module("Lane", "junction", "way", "depth", "along", "tries", "kind")
 -- Divides what main streets enclose.
 local Land = module("Land")
 
 division.GROWING = {
   "Land",
   "Quarter(junction, heading, tries, kind)",
-  "Cut(junction, way, depth, area, tries, kind)",
-  "Lane(junction, way, depth, tries, kind)",
+  "Cut(junction, way, depth, area, along, tries, kind)",
+  "Lane(junction, way, depth, along, tries, kind)",
 }
 
 -- How many ways to divide an area are tried before it stays as it is.
@@ -321,14 +322,14 @@ function division.rules(
         local start, way = cut(area, pattern, limit, tries)
         if start and way then
           local depth = math.min(if area.size > math.max(6 * limit, STREET) then 1 else 2, deepest)
-          return Cut(area.junction[start], way, depth, area.size, tries, own)
+          return Cut(area.junction[start], way, depth, area.size, areas.heading(area, start), tries, own)
         end
         return Quarter(junction, heading, tries + 1, own)
       end
       if keeps and tries <= area.size / LANE_LAND and random() < pattern.stop then
         local start, way = lane(area, pattern)
         if start and way then
-          return Lane(area.junction[start], way, math.min(2, deepest), tries, own)
+          return Lane(area.junction[start], way, math.min(2, deepest), areas.heading(area, start), tries, own)
         end
       end
       return nil
@@ -336,42 +337,51 @@ function division.rules(
   )
 
   system:rule(
-    "Cut(junction, way, depth, area, tries, kind)",
+    "Cut(junction, way, depth, area, along, tries, kind)",
     function(
       this: Network,
       junction: number,
       way: { number },
       _: number,
       size: number,
+      along: number,
       tries: number,
       kind: number
     )
       local heading = ways.aim(this, junction, way[1], way[2])
       local first = this:arrived(junction, heading)
       if not first then
-        return Quarter(junction, heading, tries + 1, kind)
+        return Quarter(junction, along, tries + 1, kind)
       end
       local face = this:face(junction, heading)
       if math.abs(face.area - size) < 1 then
         -- It was refused on the way, so that there is one area still.
-        return Quarter(junction, heading, tries + 1, kind)
+        return Quarter(junction, along, tries + 1, kind)
       end
       return Quarter(junction, heading, 0, kind), Quarter(first, heading + 180, 0, kind)
     end
   )
 
   system:rule(
-    "Lane(junction, way, depth, tries, kind)",
-    function(this: Network, junction: number, way: { number }, _: number, tries: number, kind: number)
-      return Quarter(junction, ways.aim(this, junction, way[1], way[2]), tries + 1, kind)
+    "Lane(junction, way, depth, along, tries, kind)",
+    function(
+      _: Network,
+      junction: number,
+      _: { number },
+      _: number,
+      along: number,
+      tries: number,
+      kind: number
+    )
+      return Quarter(junction, along, tries + 1, kind)
     end
   )
 
   local function lead(this: Network, junction: number, way: { number }, depth: number)
     ways.lead(this, junction, way, depth, propose)
   end
-  system:interpret("Cut(junction, way, depth, area, tries, kind)", lead)
-  system:interpret("Lane(junction, way, depth, tries, kind)", lead)
+  system:interpret("Cut(junction, way, depth, area, along, tries, kind)", lead)
+  system:interpret("Lane(junction, way, depth, along, tries, kind)", lead)
 end
 
 -- The module that begins it.
