@@ -30,7 +30,7 @@ division.GROWING = {
 -- How many ways to divide an area are tried before it stays as it is.
 local TRIES = 30
 -- The area (m²) from which land is several quarters, and that no block exceeds.
-local SEVERAL, MOST = 90000, 70000
+local SEVERAL, MOST = 80000, 75000
 -- From how many junctions of an area streets are tried, and how far (degrees) they turn from the middle of the angle there.
 local STARTS = 12
 local TURNS = { 0, 14, -14, 28, -28 }
@@ -40,7 +40,9 @@ local WIDE = 2 * LEAST + 8
 -- How many of the streets that divide an area best are looked at, how far (m) each keeps from other streets, and how far as a share of
 -- the width of blocks.
 local BEST = 6
-local ASIDE, WIDTH = 24, 0.28
+local ASIDE, WIDTH = 24, 0.22
+-- How far streets lead on towards the headings in which they leave.
+local TENSION = 1.35
 -- How long (m) the straight pieces of a street are about, and how near its end may lie to where another turns, or meets
 -- others.
 local PIECE, SHORT_PIECE, WIDER = 24, 19, 8
@@ -57,20 +59,21 @@ local ESTATE = 30000
 -- The least area (m²) that a street divides, not a lane.
 local STREET = 24000
 
--- The places of a street from one place to another that leaves and arrives towards headings, bowed by a share of the way, in pieces
--- of a length (m) or more; the first and the last have more where they meet a wide street.
+-- The places of a street from one place to another that leaves and arrives towards headings, and the more so the greater its
+-- tension, in pieces of a length (m) or more; the first and the last have more where they meet a wide street.
 local function curve(
   from: { number },
   to: { number },
   leaves: number,
   arrives: number,
   pieces: { number },
-  bow: number
+  tension: number
 ): { number }
   local dx, dy = to[1] - from[1], to[2] - from[2]
   local far = math.sqrt(dx * dx + dy * dy)
-  local ax, ay = far * math.cos(math.rad(leaves)), far * math.sin(math.rad(leaves))
-  local bx, by = far * math.cos(math.rad(arrives)), far * math.sin(math.rad(arrives))
+  local pull = tension * far
+  local ax, ay = pull * math.cos(math.rad(leaves)), pull * math.sin(math.rad(leaves))
+  local bx, by = pull * math.cos(math.rad(arrives)), pull * math.sin(math.rad(arrives))
   local first, usual, last = pieces[1], pieces[2], pieces[3]
   local parts = { 1 }
   if far >= first + last then
@@ -87,9 +90,8 @@ local function curve(
     local u = 1 - t
     -- A cubic curve by its ends and what it is tangent to there.
     local p, q, r, s = u * u * (1 + 2 * t), t * t * (3 - 2 * t), u * u * t, -t * t * u
-    local out = 4 * bow * t * u
-    table.insert(way, p * from[1] + q * to[1] + r * ax + s * bx - out * dy)
-    table.insert(way, p * from[2] + q * to[2] + r * ay + s * by + out * dx)
+    table.insert(way, p * from[1] + q * to[1] + r * ax + s * bx)
+    table.insert(way, p * from[2] + q * to[2] + r * ay + s * by)
   end
   return way
 end
@@ -146,6 +148,14 @@ local function is_clear(area: Area, from: { number }, way: { number }, apart: nu
   return true
 end
 
+-- The headings where a street leaves and arrives that swings to the left (above 0) or to the right, as far as it may turn there.
+local function bent(street: any, swing: number): (number, number)
+  local out = math.deg(4 * swing)
+  local leaves = math.clamp(out, street.leaves[2], street.leaves[1])
+  local arrives = math.clamp(-out, street.arrives[2], street.arrives[1])
+  return street.heading + leaves, street.heading + arrives
+end
+
 -- The best of some streets that divide an area, as the corner that it leaves and its places; nil if there is none.
 local function cut(area: Area, pattern: Pattern, limit: number, tries: number): (number?, { number }?)
   local size = math.sqrt(area.size)
@@ -158,19 +168,15 @@ local function cut(area: Area, pattern: Pattern, limit: number, tries: number): 
   -- What is not divided any more is the more crooked.
   local is_last = area.size < 3 * limit
   local piece = (if is_last then SHORT_PIECE else PIECE) + 3 * math.min(tries, 4)
-  local bow = (if random() < 0.5 then 1 else -1)
-    * random(0.3, 1)
-    * pattern.bow
-    * (if is_last then 1 else 0.6)
-    * math.max(0, 1 - tries / 8)
+  local bow = pattern.bow * (if is_last then random(0.6, 1.2) else random(0.2, 0.8)) * math.max(0, 1 - tries / 12)
   for number = 0, math.min(STARTS, area.count) - 1 do
     local corner = 1 + math.floor(first + number * stride) % area.count
     local open, middle = areas.angle(area, corner)
     local degree = area.degree[corner]
-    if open < WIDE or degree > 3 then
+    if open < WIDE or degree > 3 or degree == 3 and not crossing then
       continue
     end
-    local cost = if degree == 3 then (if crossing then -0.3 else 9) elseif degree == 1 then -1 else 0
+    local cost = if degree == 3 then -0.3 elseif degree == 1 then -1 else 0
     for _, turn in TURNS do
       if math.abs(turn) > open / 2 - LEAST then
         continue
@@ -202,8 +208,10 @@ local function cut(area: Area, pattern: Pattern, limit: number, tries: number): 
         edge = edge,
         x = x,
         y = y,
-        leaves = heading - 0.5 * turned,
-        arrives = heading + 0.7 * off,
+        heading = heading,
+        -- How far it may turn to one side and to the other where it leaves and where it arrives.
+        leaves = { turned + open / 2 - LEAST, turned - open / 2 + LEAST },
+        arrives = { off + 90 - LEAST, off - 90 + LEAST },
       })
     end
   end
@@ -219,8 +227,11 @@ local function cut(area: Area, pattern: Pattern, limit: number, tries: number): 
       return if depth < 2 then piece + WIDER else piece
     end
     local pieces = { ends(area.depth[one.corner]), piece, ends(area.depth[one.edge]) }
-    for _, swing in { bow, -bow, 0 } do
-      local way = curve(from, { one.x, one.y }, one.leaves, one.arrives, pieces, swing)
+    -- To the side where it has more room, the other one, and nearly straight.
+    local side = if one.leaves[1] - one.arrives[2] > one.arrives[1] - one.leaves[2] then 1 else -1
+    for _, swing in { side * bow, -side * bow, 0 } do
+      local leaves, arrives = bent(one, swing)
+      local way = curve(from, { one.x, one.y }, leaves, arrives, pieces, TENSION)
       if is_clear(area, from, way, apart) then
         return one.corner, way
       end
@@ -230,7 +241,7 @@ local function cut(area: Area, pattern: Pattern, limit: number, tries: number): 
 end
 
 -- A lane that ends within an area, as `cut` gives it; it keeps away from others.
-local function lane(area: Area, pattern: Pattern): (number?, { number }?)
+local function lane(area: Area): (number?, { number }?)
   for _ = 1, 6 do
     local corner = 1 + math.floor(random() * area.count)
     local open, middle = areas.angle(area, corner)
@@ -248,11 +259,11 @@ local function lane(area: Area, pattern: Pattern): (number?, { number }?)
     if not is_apart or long < LANE[1] then
       continue
     end
-    local turn = (if random() < 0.5 then 1 else -1) * random(0, 55)
-    local aim = heading + 0.4 * turn
+    local turn = (if random() < 0.5 then 1 else -1) * random(10, 110)
+    local aim = heading + 0.5 * turn
     local to = { x + long * math.cos(math.rad(aim)), y + long * math.sin(math.rad(aim)) }
     if areas.ahead(area, to[1], to[2], heading + turn) > APART then
-      return corner, curve({ x, y }, to, heading, heading + turn, LANE_PIECES, random(-1, 1) * pattern.bow)
+      return corner, curve({ x, y }, to, heading, heading + turn, LANE_PIECES, 1.2)
     end
   end
   return nil, nil
@@ -327,7 +338,7 @@ function division.rules(
         return Quarter(junction, heading, tries + 1, own)
       end
       if keeps and tries <= area.size / LANE_LAND and random() < pattern.stop then
-        local start, way = lane(area, pattern)
+        local start, way = lane(area)
         if start and way then
           return Lane(area.junction[start], way, math.min(2, deepest), areas.heading(area, start), tries, own)
         end

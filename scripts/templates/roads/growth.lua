@@ -344,7 +344,7 @@ function growth.system(asked: options.RoadOptions, ...: number): (System<Network
       local pattern = pattern_at(place.x, place.y)
       local modules = {}
       if lead_out then
-        return table.unpack(lead_out(this, junction, headings))
+        return table.unpack(lead_out(this, junction, asked.headings or mains.headings()))
       end
       for _, heading in headings do
         table.insert(modules, start(pattern, junction, place.x, place.y, heading, 0, 0, left - 1))

@@ -33,13 +33,17 @@ local MOST = 18
 -- How often the outline is tried between two main streets.
 local TRIES = 6
 -- How long (m) a piece of the outline is about, and how far it swings, as a share of its length between two main streets.
-local PIECE, SWING = 52, 0.055
+local PIECE, SWING = 52, 0.12
+-- How far (degrees) the outline turns at most from a main street that would lead on.
+local STEEP = 112
 -- For how many bearings the outline is computed.
 local BEARINGS = 120
 -- How far the outline lies from the border of the land, as shares of the distance of the border from the centre.
 local NEAREST, FARTHEST = 0.62, 0.97
--- From which share of the way out a main street forks, and how wide (m) the land beside it is then at least, in blocks.
-local FORK, WIDE = 0.3, 10
+-- How wide the land beside a main street is about when it forks, in pieces.
+local WIDE = 9
+-- How many main streets leave the centre, and how far (degrees) they turn from even bearings.
+local COUNT, UNEVEN = { 3, 6 }, 14
 
 -- The distance (m) of the outline from a centre by the bearing (degrees), for land that `inside` describes.
 local function outline(
@@ -62,8 +66,8 @@ local function outline(
     end
     local share = 0.83
       - long * math.cos(2 * (bearing - math.rad(turned)))
-      + 0.3 * noise(0.9 * east, 0.9 * north, 0.5, field)
-      + 0.08 * noise(3 * east, 3 * north, 4.5, field)
+      + 0.22 * noise(0.9 * east, 0.9 * north, 0.5, field)
+      + 0.07 * noise(3 * east, 3 * north, 4.5, field)
     distances[index] = far * math.clamp(share, NEAREST, FARTHEST)
   end
   return function(bearing: number): number
@@ -72,6 +76,16 @@ local function outline(
     local low, high = distances[index % BEARINGS], distances[(index + 1) % BEARINGS]
     return low + (at - index) * (high - low)
   end
+end
+
+-- The headings (degrees) of main streets that leave a centre where none are given.
+function mains.headings(): { number }
+  local count, turned = math.floor(random(COUNT[1], COUNT[2] + 1)), random(0, 360)
+  local headings = {}
+  for index = 1, count do
+    table.insert(headings, turned + index * 360 / count + random(-UNEVEN, UNEVEN))
+  end
+  return headings
 end
 
 -- The rules of main streets around a centre; `propose` proposes a street.
@@ -129,12 +143,12 @@ function mains.rules(
         local place = this:place(at)
         local far = polar(place)
         local beside = far * math.rad(room)
-        if far > FORK * rim(bearing) and beside > WIDE * piece and rim(bearing) - far > 6 * piece then
-          -- It forks: one goes on nearly straight, and the other leaves.
-          local share = random(0.3, 0.7)
+        if beside > WIDE * piece * random(0.75, 1.6) and rim(bearing) - far > 6 * piece then
+          -- It forks: one goes on more or less straight, and the other leaves.
+          local share, turn = random(0.3, 0.7), random(6, 52)
           local left, right = bearing + room * share / 2, bearing - room * (1 - share) / 2
-          return onward(place, at, heading + 28, left, room * (1 - share)),
-            onward(place, at, heading - 28, right, room * share)
+          return onward(place, at, heading + turn, left, room * (1 - share)),
+            onward(place, at, heading + turn - 58, right, room * share)
         end
         return onward(place, at, heading, bearing, room)
       elseif not this:arrived(junction, heading) and tries < #ASIDE then
@@ -144,8 +158,9 @@ function mains.rules(
     end
   )
 
-  -- The way along the outline from one place to another, counter-clockwise; it swings to both sides.
-  local function along(from: Vector, to: Vector, tries: number): { number }
+  -- The way along the outline from one place to another, counter-clockwise; it swings to both sides, and keeps aside of streets
+  -- that lead out at its ends with the headings `leads` and `meets`.
+  local function along(from: Vector, to: Vector, leads: number?, meets: number?, tries: number): { number }
     local far, first = polar(from)
     local rest, last = polar(to)
     local gap = (last - first) % 360
@@ -157,13 +172,24 @@ function mains.rules(
     for number = 1, count - 1 do
       local t = number / count
       local bearing = first + t * gap
-      local share = before + t * (behind - before)
-      local ends = math.min(1, 6 * t * (1 - t))
       local x, y = place_at(1, bearing)
-      local off = 2.2 * swing * ends * noise(x * 2.5 + centre[1], y * 2.5, 7.5 + tries, field)
-      x, y = place_at(share * rim(bearing) + off, bearing)
+      local off = swing * math.min(1, 6 * t * (1 - t)) * noise(x * 2.5, y * 2.5, 7.5 + tries, field)
+      x, y = place_at((before + t * (behind - before)) * rim(bearing) + off, bearing)
       table.insert(way, x)
       table.insert(way, y)
+    end
+    local function aside(at: Vector, out: number?, index: number)
+      local dx, dy = way[index] - at.x, way[index + 1] - at.y
+      local turn = if out then checks.between(out, math.deg(math.atan2(dy, dx))) else 0
+      if out and math.abs(turn) > STEEP then
+        local aim = math.rad(out + math.sign(turn) * STEEP)
+        local long = math.sqrt(dx * dx + dy * dy)
+        way[index], way[index + 1] = at.x + long * math.cos(aim), at.y + long * math.sin(aim)
+      end
+    end
+    if count > 2 then
+      aside(from, leads, 1)
+      aside(to, meets, #way - 1)
     end
     table.insert(way, to.x)
     table.insert(way, to.y)
@@ -175,7 +201,10 @@ function mains.rules(
     for _, open in this:open_ends() do
       if open.depth == 0 then
         local _, bearing = polar(open.place)
-        table.insert(ends, { junction = open.junction, place = open.place, bearing = bearing })
+        table.insert(
+          ends,
+          { junction = open.junction, place = open.place, heading = open.heading, bearing = bearing }
+        )
       end
     end
     table.sort(ends, function(one, other)
@@ -185,7 +214,8 @@ function mains.rules(
     for index, one in ends do
       local other = ends[index % #ends + 1]
       if (other.bearing - one.bearing) % 360 > 0 then
-        table.insert(modules, Rim(one.junction, along(one.place, other.place, 0), other.junction, 0))
+        local way = along(one.place, other.place, one.heading, other.heading, 0)
+        table.insert(modules, Rim(one.junction, way, other.junction, 0))
       end
     end
     if #modules == 0 then
@@ -201,7 +231,7 @@ function mains.rules(
       if is_done or tries >= TRIES then
         return nil
       end
-      return Rim(at, along(this:place(at), this:place(goal), tries + 1), goal, tries + 1)
+      return Rim(at, along(this:place(at), this:place(goal), nil, nil, tries + 1), goal, tries + 1)
     end
   )
 

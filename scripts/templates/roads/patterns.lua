@@ -48,11 +48,11 @@ function patterns.organic(options: { [string]: any }?): Pattern
     end,
     -- Blocks are small in the middle and grow outwards.
     room = function(_: number, _: number, far: number): number
-      local along = math.clamp((far - 0.16) / 0.5, 0, 1)
+      local along = math.clamp((far - 0.2) / 0.45, 0, 1)
       local rise = along * along * (3 - 2 * along)
-      return 1.05 * block * block * math.exp(variety * (3.6 * rise - 1.8))
+      return 1.4 * block * block * math.exp(variety * (3.9 * rise - 1.95))
     end,
-    quarters = 0.7 * variety,
+    quarters = variety,
   })
 end
 
