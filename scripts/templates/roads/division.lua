@@ -40,14 +40,14 @@ local WIDE = 2 * LEAST + 8
 -- How many of the streets that divide an area best are looked at, how far (m) each keeps from other streets, and how far as a share of
 -- the width of blocks.
 local BEST = 6
-local ASIDE, WIDTH = 24, 0.22
+local ASIDE, WIDTH = 18, 0.2
 -- How far streets lead on towards the headings in which they leave.
 local TENSION = 1.35
 -- How long (m) the straight pieces of a street are about, and how near its end may lie to where another turns, or meets
 -- others.
-local PIECE, SHORT_PIECE, WIDER = 24, 19, 8
+local PIECE, SHORT_PIECE, WIDER = 22, 22, 5
 local LANE_PIECES = { 28, 26, 24 }
-local NEAR, FAR = 18, 26
+local NEAR, FAR = 14, 21
 -- How far (m) the end of a lane is from other streets at least, how long it is until it turns, and how much land has one.
 local APART = 38
 local LANE = { 34, 130 }
@@ -167,7 +167,7 @@ local function cut(area: Area, pattern: Pattern, limit: number, tries: number): 
   local share = random(0.12, 0.5)
   -- What is not divided any more is the more crooked.
   local is_last = area.size < 3 * limit
-  local piece = (if is_last then SHORT_PIECE else PIECE) + 3 * math.min(tries, 4)
+  local piece = (if is_last then SHORT_PIECE else PIECE) + 2 * math.min(tries, 4)
   local bow = pattern.bow * (if is_last then random(0.6, 1.2) else random(0.2, 0.8)) * math.max(0, 1 - tries / 12)
   for number = 0, math.min(STARTS, area.count) - 1 do
     local corner = 1 + math.floor(first + number * stride) % area.count

@@ -13,8 +13,8 @@ type Pattern = any
 local Spoke = module("Spoke", "junction", "heading", "length", "bearing", "room", "tries")
 -- Joins the ends of main streets along the outline.
 local Outline = module("Outline")
--- A street along the outline, by places (m) to a junction.
-local Rim = module("Rim", "junction", "way", "goal", "tries")
+-- A street along the outline by places (m), from one main street to another; both would lead on with headings (degrees).
+local Rim = module("Rim", "junction", "way", "leads", "is_end", "goal", "meets", "tries")
 -- Removes streets that lead nowhere.
 local Trim = module("Trim")
 
@@ -22,7 +22,7 @@ mains.Outline, mains.Trim = Outline, Trim
 mains.GROWING = {
   "Spoke(junction, heading, length, bearing, room, tries)",
   "Outline",
-  "Rim(junction, way, goal, tries)",
+  "Rim(junction, way, leads, is_end, goal, meets, tries)",
   "Trim",
 }
 
@@ -34,16 +34,18 @@ local MOST = 18
 local TRIES = 6
 -- How long (m) a piece of the outline is about, and how far it swings, as a share of its length between two main streets.
 local PIECE, SWING = 52, 0.12
+-- How much nearer (m) to the centre each further try ends.
+local BEFORE = 22
 -- How far (degrees) the outline turns at most from a main street that would lead on.
 local STEEP = 112
 -- For how many bearings the outline is computed.
 local BEARINGS = 120
 -- How far the outline lies from the border of the land, as shares of the distance of the border from the centre.
 local NEAREST, FARTHEST = 0.62, 0.97
--- How wide the land beside a main street is about when it forks, in pieces.
-local WIDE = 9
--- How many main streets leave the centre, and how far (degrees) they turn from even bearings.
-local COUNT, UNEVEN = { 3, 6 }, 14
+-- How wide the land beside a main street is about when it forks, (m).
+local WIDE = 460
+-- How many main streets leave the centre, and the least angle (degrees) between two.
+local COUNT, APART = { 3, 6 }, 54
 
 -- The distance (m) of the outline from a centre by the bearing (degrees), for land that `inside` describes.
 local function outline(
@@ -81,9 +83,10 @@ end
 -- The headings (degrees) of main streets that leave a centre where none are given.
 function mains.headings(): { number }
   local count, turned = math.floor(random(COUNT[1], COUNT[2] + 1)), random(0, 360)
+  local uneven = math.min(0.5 * (360 / count - APART), 20)
   local headings = {}
   for index = 1, count do
-    table.insert(headings, turned + index * 360 / count + random(-UNEVEN, UNEVEN))
+    table.insert(headings, turned + index * 360 / count + random(-uneven, uneven))
   end
   return headings
 end
@@ -143,7 +146,7 @@ function mains.rules(
         local place = this:place(at)
         local far = polar(place)
         local beside = far * math.rad(room)
-        if beside > WIDE * piece * random(0.75, 1.6) and rim(bearing) - far > 6 * piece then
+        if beside > WIDE * random(0.75, 1.6) and rim(bearing) - far > 6 * piece then
           -- It forks: one goes on more or less straight, and the other leaves.
           local share, turn = random(0.3, 0.7), random(6, 52)
           local left, right = bearing + room * share / 2, bearing - room * (1 - share) / 2
@@ -215,7 +218,7 @@ function mains.rules(
       local other = ends[index % #ends + 1]
       if (other.bearing - one.bearing) % 360 > 0 then
         local way = along(one.place, other.place, one.heading, other.heading, 0)
-        table.insert(modules, Rim(one.junction, way, other.junction, 0))
+        table.insert(modules, Rim(one.junction, way, one.heading, true, other.junction, other.heading, 0))
       end
     end
     if #modules == 0 then
@@ -225,13 +228,34 @@ function mains.rules(
   end)
 
   system:rule(
-    "Rim(junction, way, goal, tries)",
-    function(this: Network, junction: number, way: { number }, goal: number, tries: number)
+    "Rim(junction, way, leads, is_end, goal, meets, tries)",
+    function(
+      this: Network,
+      junction: number,
+      way: { number },
+      leads: number,
+      is_end: boolean,
+      goal: number,
+      meets: number,
+      tries: number
+    )
       local at, is_done = ways.follow(this, junction, way)
       if is_done or tries >= TRIES then
         return nil
       end
-      return Rim(at, along(this:place(at), this:place(goal), nil, nil, tries + 1), goal, tries + 1)
+      local start: number = at
+      is_end = is_end and at == junction
+      if is_end and tries >= 2 then
+        -- It leaves one piece before the end of the main street.
+        local corners = this:face(at, leads + 180).corners
+        start = corners[2 % #corners + (if #corners == 1 then 1 else 0)].junction
+      end
+      -- It ends on the main street, before its end.
+      local back = BEFORE * tries * vec(math.cos(math.rad(meets)), math.sin(math.rad(meets)), 0)
+      local ends = this:place(goal) - back
+      local leaves = if is_end then leads else nil
+      local onward = along(this:place(start), ends, leaves, meets, tries + 1)
+      return Rim(start, onward, leads, is_end, goal, meets, tries + 1)
     end
   )
 
@@ -256,7 +280,7 @@ function mains.rules(
     end
   )
   system:interpret(
-    "Rim(junction, way, goal, tries)",
+    "Rim(junction, way, leads, is_end, goal, meets, tries)",
     function(this: Network, junction: number, way: { number })
       ways.lead(this, junction, way, 1, propose)
     end

@@ -44,7 +44,7 @@ function patterns.organic(options: { [string]: any }?): Pattern
       return heading + 0.35 * between(heading, aim) + bends * 0.6 * own
     end,
     length = function(): number
-      return 0.6 * block
+      return math.max(0.55 * block, 33)
     end,
     -- Blocks are small in the middle and grow outwards.
     room = function(_: number, _: number, far: number): number
