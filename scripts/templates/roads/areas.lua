@@ -72,6 +72,23 @@ function areas.angle(area: Area, corner: number): (number, number)
   return open, out + open / 2
 end
 
+-- Whether no street leaves the outline within a distance (m) of a corner, to both sides, except at the corner itself.
+function areas.is_apart(area: Area, corner: number, apart: number): boolean
+  local count = area.count
+  for step = -1, 1, 2 do
+    local at, far = corner, 0
+    repeat
+      local after = (at + step - 1) % count + 1
+      far += math.sqrt((area.x[after] - area.x[at]) ^ 2 + (area.y[after] - area.y[at]) ^ 2)
+      at = after
+      if far < apart and area.degree[at] > 2 then
+        return false
+      end
+    until far >= apart or at == corner
+  end
+  return true
+end
+
 -- How far (m) the outline is from a corner towards a heading, and the corner that the piece begins at which is there.
 function areas.hit(area: Area, corner: number, heading: number): (number?, number)
   local east, north = math.cos(math.rad(heading)), math.sin(math.rad(heading))

@@ -42,12 +42,14 @@ local WIDE = 2 * LEAST + 8
 local BEST = 6
 local ASIDE, WIDTH = 18, 0.2
 -- How far streets lead on towards the headings in which they leave.
-local TENSION = 1.35
--- How long (m) the straight pieces of a street are about, and how near its end may lie to where another turns, or meets
--- others.
-local PIECE, SHORT_PIECE, WIDER = 22, 22, 5
-local LANE_PIECES = { 28, 26, 24 }
-local NEAR, FAR = 14, 21
+local TENSION = 1.25
+-- In how many parts the length of a street is computed.
+local SAMPLES = 16
+-- How long (m) the straight pieces of streets and lanes are at least, and the first and the last by the depth of the street that
+-- they meet: wide ones take more. How near its end may lie to where another turns, or meets others.
+local PIECES = { { piece = 24, ends = { [0] = 33, [1] = 29, [2] = 26 } }, { piece = 18, ends = { [0] = 30, [1] = 25, [2] = 21 } } }
+local NEAR, FAR = 14, 20
+local LANE_PIECES = { 28, 20, 20 }
 -- How far (m) the end of a lane is from other streets at least, how long it is until it turns, and how much land has one.
 local APART = 38
 local LANE = { 34, 130 }
@@ -59,40 +61,51 @@ local ESTATE = 30000
 -- The least area (m²) that a street divides, not a lane.
 local STREET = 24000
 
--- The places of a street from one place to another that leaves and arrives towards headings, and the more so the greater its
--- tension, in pieces of a length (m) or more; the first and the last have more where they meet a wide street.
+-- The places of a street from one place to another that leaves and arrives towards headings, in pieces of a length (m) or more: the
+-- first, those between, and the last.
 local function curve(
   from: { number },
   to: { number },
   leaves: number,
   arrives: number,
-  pieces: { number },
-  tension: number
+  pieces: { number }
 ): { number }
   local dx, dy = to[1] - from[1], to[2] - from[2]
-  local far = math.sqrt(dx * dx + dy * dy)
-  local pull = tension * far
+  local pull = TENSION * math.sqrt(dx * dx + dy * dy)
   local ax, ay = pull * math.cos(math.rad(leaves)), pull * math.sin(math.rad(leaves))
   local bx, by = pull * math.cos(math.rad(arrives)), pull * math.sin(math.rad(arrives))
+  -- A cubic curve by its ends and what it is tangent to there.
+  local function at(t: number): (number, number)
+    local u = 1 - t
+    local p, q, r, s = u * u * (1 + 2 * t), t * t * (3 - 2 * t), u * u * t, -t * t * u
+    return p * from[1] + q * to[1] + r * ax + s * bx, p * from[2] + q * to[2] + r * ay + s * by
+  end
+  local lengths, x, y = { 0 }, from[1], from[2]
+  for sample = 1, SAMPLES do
+    local next_x, next_y = at(sample / SAMPLES)
+    lengths[sample + 1] = lengths[sample] + math.sqrt((next_x - x) ^ 2 + (next_y - y) ^ 2)
+    x, y = next_x, next_y
+  end
+  local far = lengths[SAMPLES + 1]
   local first, usual, last = pieces[1], pieces[2], pieces[3]
-  local parts = { 1 }
+  local way = {}
   if far >= first + last then
     local between = math.floor((far - first - last) / usual)
     local stretch = far / (first + last + between * usual)
-    parts = {}
+    local sample = 1
     for index = 0, between do
-      table.insert(parts, stretch * (first + index * usual) / far)
+      local along = stretch * (first + index * usual)
+      while sample < SAMPLES and lengths[sample + 1] < along do
+        sample += 1
+      end
+      local part = (along - lengths[sample]) / (lengths[sample + 1] - lengths[sample])
+      local east, north = at((sample - 1 + part) / SAMPLES)
+      table.insert(way, east)
+      table.insert(way, north)
     end
-    table.insert(parts, 1)
   end
-  local way = {}
-  for _, t in parts do
-    local u = 1 - t
-    -- A cubic curve by its ends and what it is tangent to there.
-    local p, q, r, s = u * u * (1 + 2 * t), t * t * (3 - 2 * t), u * u * t, -t * t * u
-    table.insert(way, p * from[1] + q * to[1] + r * ax + s * bx)
-    table.insert(way, p * from[2] + q * to[2] + r * ay + s * by)
-  end
+  table.insert(way, to[1])
+  table.insert(way, to[2])
   return way
 end
 
@@ -124,7 +137,7 @@ local function arrival(
     local open, middle = areas.angle(area, at)
     local apart = math.min((at - corner) % area.count, (corner - at) % area.count)
     local is_free = area.degree[at] == 2 or crossing and area.degree[at] == 3
-    if apart > 1 and open >= WIDE and open < 250 and is_free then
+    if apart > 1 and open >= WIDE and open < 250 and is_free and areas.is_apart(area, at, FAR) then
       local way = math.deg(math.atan2(area.y[at] - area.y[corner], area.x[at] - area.x[corner]))
       if math.abs(checks.between(way, middle + 180)) <= open / 2 - LEAST then
         return area.x[at], area.y[at], at, middle + 180
@@ -157,7 +170,7 @@ local function bent(street: any, swing: number): (number, number)
 end
 
 -- The best of some streets that divide an area, as the corner that it leaves and its places; nil if there is none.
-local function cut(area: Area, pattern: Pattern, limit: number, tries: number): (number?, { number }?)
+local function cut(area: Area, pattern: Pattern, limit: number, depth: number, tries: number): (number?, { number }?)
   local size = math.sqrt(area.size)
   local least = math.max(pattern.least * pattern.least, 0.08 * math.min(limit, area.size))
   local found: { any } = {}
@@ -167,13 +180,13 @@ local function cut(area: Area, pattern: Pattern, limit: number, tries: number): 
   local share = random(0.12, 0.5)
   -- What is not divided any more is the more crooked.
   local is_last = area.size < 3 * limit
-  local piece = (if is_last then SHORT_PIECE else PIECE) + 2 * math.min(tries, 4)
   local bow = pattern.bow * (if is_last then random(0.6, 1.2) else random(0.2, 0.8)) * math.max(0, 1 - tries / 12)
   for number = 0, math.min(STARTS, area.count) - 1 do
     local corner = 1 + math.floor(first + number * stride) % area.count
     local open, middle = areas.angle(area, corner)
     local degree = area.degree[corner]
-    if open < WIDE or degree > 3 or degree == 3 and not crossing then
+    local is_free = degree < 3 or degree == 3 and crossing
+    if open < WIDE or not is_free or not areas.is_apart(area, corner, FAR) then
       continue
     end
     local cost = if degree == 3 then -0.3 elseif degree == 1 then -1 else 0
@@ -222,16 +235,17 @@ local function cut(area: Area, pattern: Pattern, limit: number, tries: number): 
   for index = 1, math.min(#found, BEST) do
     local one = found[index]
     local from = { area.x[one.corner], area.y[one.corner] }
-    -- The corners of a wide street take more of what leaves it.
-    local function ends(depth: number): number
-      return if depth < 2 then piece + WIDER else piece
-    end
-    local pieces = { ends(area.depth[one.corner]), piece, ends(area.depth[one.edge]) }
+    local ends = PIECES[depth].ends
+    local pieces = {
+      ends[math.min(area.depth[one.corner], 2)],
+      PIECES[depth].piece,
+      ends[math.min(area.depth[one.edge], 2)],
+    }
     -- To the side where it has more room, the other one, and nearly straight.
     local side = if one.leaves[1] - one.arrives[2] > one.arrives[1] - one.leaves[2] then 1 else -1
     for _, swing in { side * bow, -side * bow, 0 } do
       local leaves, arrives = bent(one, swing)
-      local way = curve(from, { one.x, one.y }, leaves, arrives, pieces, TENSION)
+      local way = curve(from, { one.x, one.y }, leaves, arrives, pieces)
       if is_clear(area, from, way, apart) then
         return one.corner, way
       end
@@ -263,7 +277,7 @@ local function lane(area: Area): (number?, { number }?)
     local aim = heading + 0.5 * turn
     local to = { x + long * math.cos(math.rad(aim)), y + long * math.sin(math.rad(aim)) }
     if areas.ahead(area, to[1], to[2], heading + turn) > APART then
-      return corner, curve({ x, y }, to, heading, heading + turn, LANE_PIECES, 1.2)
+      return corner, curve({ x, y }, to, heading, heading + turn, LANE_PIECES)
     end
   end
   return nil, nil
@@ -330,9 +344,10 @@ function division.rules(
         and area.size < ESTATE
         and random() < pattern.gap
       if area.size > limit and not is_estate then
-        local start, way = cut(area, pattern, limit, tries)
+        local depth = if area.size > math.max(6 * limit, STREET) then 1 else 2
+        local start, way = cut(area, pattern, limit, depth, tries)
         if start and way then
-          local depth = math.min(if area.size > math.max(6 * limit, STREET) then 1 else 2, deepest)
+          depth = math.min(depth, deepest)
           return Cut(area.junction[start], way, depth, area.size, areas.heading(area, start), tries, own)
         end
         return Quarter(junction, heading, tries + 1, own)
