@@ -28,18 +28,18 @@ division.GROWING = {
 }
 
 -- How many ways to divide an area are tried before it stays as it is.
-local TRIES = 30
+local TRIES = 8
 -- The area (m²) from which land is several quarters, and that no block exceeds.
 local SEVERAL, MOST = 80000, 75000
 -- From how many junctions of an area streets are tried, and how far (degrees) they turn from the middle of the angle there.
 local STARTS = 12
-local TURNS = { 0, 14, -14, 28, -28 }
+local TURNS = { 0, 9, -9, 18, -18, 27, -27, 36, -36 }
 -- The least angle (degrees) between two streets, and what is left for one that leaves between two others.
 local LEAST = 52
 local WIDE = 2 * LEAST + 8
 -- How many of the streets that divide an area best are looked at, how far (m) each keeps from other streets, and how far as a share of
 -- the width of blocks.
-local BEST = 6
+local BEST = 12
 local ASIDE, WIDTH = 18, 0.2
 -- How far streets lead on towards the headings in which they leave.
 local TENSION = 1.25
@@ -169,8 +169,16 @@ local function bent(street: any, swing: number): (number, number)
   return street.heading + leaves, street.heading + arrives
 end
 
--- The best of some streets that divide an area, as the corner that it leaves and its places; nil if there is none.
-local function cut(area: Area, pattern: Pattern, limit: number, depth: number, tries: number): (number?, { number }?)
+-- The best of some streets that divide an area, as the corner that it leaves and its places; nil if there is none. `may_begin` says
+-- whether one may.
+local function cut(
+  area: Area,
+  pattern: Pattern,
+  limit: number,
+  depth: number,
+  tries: number,
+  may_begin: (corner: number, way: { number }, depth: number) -> boolean
+): (number?, { number }?)
   local size = math.sqrt(area.size)
   local least = math.max(pattern.least * pattern.least, 0.08 * math.min(limit, area.size))
   local found: { any } = {}
@@ -246,7 +254,7 @@ local function cut(area: Area, pattern: Pattern, limit: number, depth: number, t
     for _, swing in { side * bow, -side * bow, 0 } do
       local leaves, arrives = bent(one, swing)
       local way = curve(from, { one.x, one.y }, leaves, arrives, pieces)
-      if is_clear(area, from, way, apart) then
+      if is_clear(area, from, way, apart) and may_begin(one.corner, way, depth) then
         return one.corner, way
       end
     end
@@ -345,7 +353,11 @@ function division.rules(
         and random() < pattern.gap
       if area.size > limit and not is_estate then
         local depth = if area.size > math.max(6 * limit, STREET) then 1 else 2
-        local start, way = cut(area, pattern, limit, depth, tries)
+        local start, way = cut(area, pattern, limit, depth, tries, function(corner, way, deep)
+          local from = area.junction[corner]
+          local heading, length = ways.aim(this, from, way[1], way[2])
+          return this:probe(from, heading, length, math.min(deep, deepest)).built
+        end)
         if start and way then
           depth = math.min(depth, deepest)
           return Cut(area.junction[start], way, depth, area.size, areas.heading(area, start), tries, own)
