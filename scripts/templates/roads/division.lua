@@ -9,8 +9,8 @@ local division = {}
 type Pattern = any
 type Area = areas.Area
 
--- The area on the left of the street that leaves a junction towards a heading (degrees): how often it could not be divided, and how
--- much larger its blocks are than those of other quarters in its place.
+-- The area on the left of the street that leaves a junction towards a heading (degrees): how often it could not be divided, and its
+-- kind, from -1 for small blocks to 1 for large ones.
 local Quarter = module("Quarter", "junction", "heading", "tries", "kind")
 -- A street through an area of a size (m²), from a junction by places (m), x and y in turn; the outline of the area leads along
 -- a heading (degrees) there.
@@ -29,11 +29,12 @@ division.GROWING = {
 
 -- How many ways to divide an area are tried before it stays as it is.
 local TRIES = 8
--- The area (m²) from which land is several quarters, and that no block exceeds.
-local SEVERAL, MOST = 80000, 75000
+-- The area (m²) from which land is several quarters.
+local SEVERAL = 80000
 -- From how many junctions of an area streets are tried, and how far (degrees) they turn from the middle of the angle there.
 local STARTS = 12
 local TURNS = { 0, 9, -9, 18, -18, 27, -27, 36, -36 }
+local END_TURNS = { 0, 15, -15, 30, -30, 50, -50, 75, -75 }
 -- The least angle (degrees) between two streets, and what is left for one that leaves between two others.
 local LEAST = 52
 local WIDE = 2 * LEAST + 8
@@ -53,7 +54,7 @@ local LANE_PIECES = { 28, 20, 20 }
 -- How far (m) the end of a lane is from other streets at least, how long it is until it turns, and how much land has one.
 local APART = 38
 local LANE = { 34, 130 }
-local LANE_LAND = 7000
+local LANE_LAND = 4000
 -- How far (m) from other junctions a lane leaves.
 local BESIDE = 52
 -- The largest area (m²) that is left as it is for a park or an estate.
@@ -198,7 +199,7 @@ local function cut(
       continue
     end
     local cost = if degree == 3 then -0.3 elseif degree == 1 then -1 else 0
-    for _, turn in TURNS do
+    for _, turn in if degree == 1 then END_TURNS else TURNS do
       if math.abs(turn) > open / 2 - LEAST then
         continue
       end
@@ -211,7 +212,7 @@ local function cut(
       local off, turned = checks.between(heading, out), checks.between(middle, heading)
       local part = areas.part(area, corner, edge, x, y)
       part = math.min(part, area.size - part)
-      if part < least or math.abs(off) > 42 or math.abs(turned) > open / 2 - LEAST then
+      if part < least or math.abs(off) > 42 or math.abs(turned) > math.min(open / 2 - LEAST, 80) then
         continue
       end
       local uneven = 2 * (share - part / area.size)
@@ -220,7 +221,7 @@ local function cut(
         + 1.1 * uneven * uneven
         + 0.55 * math.sqrt(dx * dx + dy * dy) / size
         + (off / 26) ^ 2
-        + (turned / 30) ^ 2
+        + (if degree == 1 then 0 else (turned / 30) ^ 2)
         + along / 60
         + 0.35 * random()
       table.insert(found, {
@@ -264,7 +265,7 @@ end
 
 -- A lane that ends within an area, as `cut` gives it; it keeps away from others.
 local function lane(area: Area): (number?, { number }?)
-  for _ = 1, 6 do
+  for _ = 1, 12 do
     local corner = 1 + math.floor(random() * area.count)
     local open, middle = areas.angle(area, corner)
     if open < WIDE or area.degree[corner] ~= 2 then
@@ -291,21 +292,16 @@ local function lane(area: Area): (number?, { number }?)
   return nil, nil
 end
 
--- The rules of division. `pattern_at` gives the pattern of a place, `room` the largest block (m²) there, or nil where land is not
--- divided, and `propose` proposes a street.
+-- The rules of division. `pattern_at` gives the pattern of a place, `room` the largest block (m²) of a kind of quarter there, or nil
+-- where land is not divided, and `propose` proposes a street.
 function division.rules(
   system: System<Network>,
   pattern_at: (x: number, y: number) -> Pattern,
-  room: (pattern: Pattern, x: number, y: number) -> number?,
+  room: (pattern: Pattern, x: number, y: number, kind: number) -> number?,
   deepest: number,
   propose: ways.Propose,
   keeps: boolean
 )
-  -- How much larger blocks are than those of other quarters.
-  local function kind_at(x: number, y: number): number
-    return math.exp((pattern_at(x, y).quarters or 0) * random(-1, 1))
-  end
-
   system:rule("Land", function(this: Network)
     local modules, seen = {}, {}
     for junction, corner in this:places() do
@@ -320,7 +316,7 @@ function division.rules(
           seen[each.junction * 2 ^ 26 + corners[index % #corners + 1].junction] = true
         end
         if face.area > 0 then
-          table.insert(modules, Quarter(junction, heading, 0, kind_at(corner.place.x, corner.place.y)))
+          table.insert(modules, Quarter(junction, heading, 0, random(-1, 1)))
         end
       end
     end
@@ -339,13 +335,12 @@ function division.rules(
       end
       local x, y = area.middle[1], area.middle[2]
       local pattern = pattern_at(x, y)
-      local usual = room(pattern, x, y)
-      if not usual then
+      -- What is still several quarters has no kind of its own.
+      local own = if tries == 0 and area.size > SEVERAL then random(-1, 1) else kind
+      local limit = room(pattern, x, y, own)
+      if not limit then
         return nil
       end
-      -- What is still several quarters has no kind of its own.
-      local own = if tries == 0 and area.size > SEVERAL then kind_at(x, y) else kind
-      local limit = math.min(usual * own, MOST)
       local is_estate = tries == 0
         and area.size > 2500
         and area.size < 5 * limit

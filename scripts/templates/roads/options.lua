@@ -139,7 +139,7 @@ function options.read(asked: RoadOptions, caller: string, level: number): any
   -- Streets that lead out take the last steps.
   local growing = if leads_out then math.max(steps - exits.STEPS, 1) else steps
   local system = lsystem({ object = checks.construct(network, fields, level) :: Network })
-  local function room(pattern: Pattern, x: number, y: number): number?
+  local function room(pattern: Pattern, x: number, y: number, own: number): number?
     if not pattern.room then
       return nil
     end
@@ -149,7 +149,7 @@ function options.read(asked: RoadOptions, caller: string, level: number): any
       far = math.min(far, math.sqrt((x - centre[1]) ^ 2 + (y - centre[2]) ^ 2))
     end
     local reach = if type(extent) == "number" then extent else 2 * far
-    local most = pattern.room(x, y, far / reach)
+    local most = pattern.room(x, y, far / reach, own)
     return if most and much > 0.02 then most / math.min(much, 1) else nil
   end
   return {

@@ -46,13 +46,13 @@ function patterns.organic(options: { [string]: any }?): Pattern
     length = function(): number
       return math.max(0.55 * block, 33)
     end,
-    -- Blocks are small in the middle and grow outwards.
-    room = function(_: number, _: number, far: number): number
-      local along = math.clamp((far - 0.2) / 0.45, 0, 1)
+    -- Blocks are small in the middle and grow outwards, where quarters differ more.
+    room = function(_: number, _: number, far: number, own: number): number
+      local along = math.clamp((far - 0.17) / 0.4, 0, 1)
       local rise = along * along * (3 - 2 * along)
-      return 1.4 * block * block * math.exp(variety * (3.9 * rise - 1.95))
+      local wide = 3.6 * rise - 1.9 + own * (0.3 + 1.2 * rise)
+      return math.clamp(1.4 * block * block * math.exp(variety * wide), 0.13 * block * block, 75000)
     end,
-    quarters = variety,
   })
 end
 
