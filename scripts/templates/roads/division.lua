@@ -53,8 +53,8 @@ local NEAR, FAR = 14, 20
 local LANE_PIECES = { 28, 20, 20 }
 -- How far (m) the end of a lane is from other streets at least, how long it is until it turns, and how much land has one.
 local APART = 38
-local LANE = { 34, 130 }
-local LANE_LAND = 4000
+local LANE = { 40, 170 }
+local LANE_LAND = 6000
 -- How far (m) from other junctions a lane leaves.
 local BESIDE = 52
 -- The largest area (m²) that is left as it is for a park or an estate.
@@ -265,7 +265,7 @@ end
 
 -- A lane that ends within an area, as `cut` gives it; it keeps away from others.
 local function lane(area: Area): (number?, { number }?)
-  for _ = 1, 12 do
+  for _ = 1, 24 do
     local corner = 1 + math.floor(random() * area.count)
     local open, middle = areas.angle(area, corner)
     if open < WIDE or area.degree[corner] ~= 2 then

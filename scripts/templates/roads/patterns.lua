@@ -48,10 +48,10 @@ function patterns.organic(options: { [string]: any }?): Pattern
     end,
     -- Blocks are small in the middle and grow outwards, where quarters differ more.
     room = function(_: number, _: number, far: number, own: number): number
-      local along = math.clamp((far - 0.17) / 0.4, 0, 1)
+      local along = math.clamp((far - 0.3) / 0.25, 0, 1)
       local rise = along * along * (3 - 2 * along)
-      local wide = 3.6 * rise - 1.9 + own * (0.3 + 1.2 * rise)
-      return math.clamp(1.4 * block * block * math.exp(variety * wide), 0.13 * block * block, 75000)
+      local wide = 4.6 * rise - 2.3 + own * (0.3 + 0.6 * rise)
+      return math.clamp(1.4 * block * block * math.exp(variety * wide), 0.1 * block * block, 90000)
     end,
   })
 end
