@@ -13,8 +13,8 @@ type Pattern = any
 local Spoke = module("Spoke", "junction", "heading", "length", "bearing", "room", "tries")
 -- Joins the ends of main streets along the outline.
 local Outline = module("Outline")
--- A street along the outline by places (m), from one main street to another; both would lead on with headings (degrees).
-local Rim = module("Rim", "junction", "way", "leads", "is_end", "goal", "meets", "tries")
+-- A street along the outline, on its way to the end of a main street that would lead on with a heading (degrees).
+local Rim = module("Rim", "junction", "heading", "length", "goal", "meets", "tries")
 -- Removes streets that lead nowhere.
 local Trim = module("Trim")
 
@@ -22,7 +22,7 @@ mains.Outline, mains.Trim = Outline, Trim
 mains.GROWING = {
   "Spoke(junction, heading, length, bearing, room, tries)",
   "Outline",
-  "Rim(junction, way, leads, is_end, goal, meets, tries)",
+  "Rim(junction, heading, length, goal, meets, tries)",
   "Trim",
 }
 
@@ -30,16 +30,13 @@ mains.GROWING = {
 local ASIDE = { 20, -40, 60, -80 }
 -- How far (degrees) it turns from one piece to the next.
 local MOST = 18
--- How often the outline is tried between two main streets.
-local TRIES = 6
--- How long (m) a piece of the outline is about, and how far it swings, as a share of its length between two main streets.
-local PIECE, SWING = 52, 0.12
+-- How often the outline is tried where it is refused, how long (m) its pieces are about, and how far (degrees) they turn to find a way.
+local TRIES, PIECE = 4, 52
+local TURNS = { 0, 8, -8, 16, -16, 26, -26, 38, -38, 52, -52, 66, -66, 80, -80 }
 -- How much nearer (m) to the centre each further try ends.
 local BEFORE = 22
--- How far (degrees) the outline turns at most from a main street that would lead on.
-local STEEP = 112
 -- For how many bearings the outline is computed.
-local BEARINGS = 120
+local BEARINGS = 180
 -- How far the outline lies from the border of the land, as shares of the distance of the border from the centre.
 local NEAREST, FARTHEST = 0.62, 0.97
 -- How wide the land beside a main street is about when it forks, (m).
@@ -70,6 +67,7 @@ local function outline(
       - long * math.cos(2 * (bearing - math.rad(turned)))
       + 0.22 * noise(0.9 * east, 0.9 * north, 0.5, field)
       + 0.07 * noise(3 * east, 3 * north, 4.5, field)
+      + 0.03 * noise(8 * east, 8 * north, 8.5, field)
     distances[index] = far * math.clamp(share, NEAREST, FARTHEST)
   end
   return function(bearing: number): number
@@ -161,42 +159,45 @@ function mains.rules(
     end
   )
 
-  -- The way along the outline from one place to another, counter-clockwise; it swings to both sides, and keeps aside of streets
-  -- that lead out at its ends with the headings `leads` and `meets`.
-  local function along(from: Vector, to: Vector, leads: number?, meets: number?, tries: number): { number }
-    local far, first = polar(from)
-    local rest, last = polar(to)
-    local gap = (last - first) % 360
-    local mean = (far + rest) / 2 * math.rad(gap)
-    local count = math.max(1, math.floor(mean / PIECE + 0.5))
-    local before, behind = far / rim(first), rest / rim(last)
-    local swing = SWING * (1 - tries / TRIES) * mean
-    local way = {}
-    for number = 1, count - 1 do
-      local t = number / count
-      local bearing = first + t * gap
-      local x, y = place_at(1, bearing)
-      local off = swing * math.min(1, 6 * t * (1 - t)) * noise(x * 2.5, y * 2.5, 7.5 + tries, field)
-      x, y = place_at((before + t * (behind - before)) * rim(bearing) + off, bearing)
-      table.insert(way, x)
-      table.insert(way, y)
+  -- The next piece of the outline on its way to the end of a main street, counter-clockwise: the first of some that can be
+  -- built.
+  local function along(this: Network, at: number, goal: number, meets: number, tries: number): any
+    local place, ends = this:place(at), this:place(goal)
+    local far, bearing = polar(place)
+    local rest, last = polar(ends)
+    local gap = (last - bearing) % 360
+    local function may_lead(x: number, y: number, turn: number, joins: boolean): any
+      local heading = math.deg(math.atan2(y - place.y, x - place.x)) + turn
+      local length = math.sqrt((x - place.x) ^ 2 + (y - place.y) ^ 2)
+      local found = this:probe(at, heading, length, 1)
+      local is_fit = found.built and (not joins or found.fate == "snapped" or found.fate == "joined")
+      return if is_fit then Rim(at, heading, length, goal, meets, tries) else nil
     end
-    local function aside(at: Vector, out: number?, index: number)
-      local dx, dy = way[index] - at.x, way[index + 1] - at.y
-      local turn = if out then checks.between(out, math.deg(math.atan2(dy, dx))) else 0
-      if out and math.abs(turn) > STEEP then
-        local aim = math.rad(out + math.sign(turn) * STEEP)
-        local long = math.sqrt(dx * dx + dy * dy)
-        way[index], way[index + 1] = at.x + long * math.cos(aim), at.y + long * math.sin(aim)
+    if place:distance(ends) < 1.7 * PIECE or gap > 300 then
+      -- It ends at the main street, or before the end of that.
+      for back = 0, 4 do
+        local off = back * BEFORE * vec(math.cos(math.rad(meets)), math.sin(math.rad(meets)), 0)
+        for _, turn in TURNS do
+          local x, y = ends.x - off.x, ends.y - off.y
+          local found = may_lead(x, y, turn, true)
+          if found then
+            return found
+          end
+        end
       end
     end
-    if count > 2 then
-      aside(from, leads, 1)
-      aside(to, meets, #way - 1)
+    local ahead = math.min(bearing + math.deg(PIECE / far), bearing + gap)
+    -- It comes back to the outline where it is off.
+    local share = far / rim(bearing)
+    local next_share = share + (rest / rim(last) - share) * math.min(1, 1.2 * (ahead - bearing) / math.max(gap, 1))
+    local x, y = place_at(next_share * rim(ahead), ahead)
+    for _, turn in TURNS do
+      local found = may_lead(x, y, turn, false)
+      if found then
+        return found
+      end
     end
-    table.insert(way, to.x)
-    table.insert(way, to.y)
-    return way
+    return nil
   end
 
   system:rule("Outline", function(this: Network)
@@ -204,10 +205,7 @@ function mains.rules(
     for _, open in this:open_ends() do
       if open.depth == 0 then
         local _, bearing = polar(open.place)
-        table.insert(
-          ends,
-          { junction = open.junction, place = open.place, heading = open.heading, bearing = bearing }
-        )
+        table.insert(ends, { junction = open.junction, heading = open.heading, bearing = bearing })
       end
     end
     table.sort(ends, function(one, other)
@@ -216,9 +214,18 @@ function mains.rules(
     local modules = {}
     for index, one in ends do
       local other = ends[index % #ends + 1]
-      if (other.bearing - one.bearing) % 360 > 0 then
-        local way = along(one.place, other.place, one.heading, other.heading, 0)
-        table.insert(modules, Rim(one.junction, way, one.heading, true, other.junction, other.heading, 0))
+      local from, heading = one.junction, one.heading
+      -- It leaves some pieces before the end of a main street where it cannot leave there.
+      for _ = 1, TRIES do
+        local found = if #ends > 1 then along(this, from, other.junction, other.heading, 0) else nil
+        if found then
+          table.insert(modules, found)
+          break
+        end
+        local corners = this:face(from, heading + 180).corners
+        from = corners[2 % #corners + (if #corners == 1 then 1 else 0)].junction
+        local back = this:place(from) - this:place(one.junction)
+        heading = math.deg(math.atan2(-back.y, -back.x))
       end
     end
     if #modules == 0 then
@@ -228,34 +235,23 @@ function mains.rules(
   end)
 
   system:rule(
-    "Rim(junction, way, leads, is_end, goal, meets, tries)",
+    "Rim(junction, heading, length, goal, meets, tries)",
     function(
       this: Network,
       junction: number,
-      way: { number },
-      leads: number,
-      is_end: boolean,
+      heading: number,
+      _: number,
       goal: number,
       meets: number,
       tries: number
     )
-      local at, is_done = ways.follow(this, junction, way)
-      if is_done or tries >= TRIES then
-        return nil
+      local at = this:reached(junction, heading)
+      if at then
+        return along(this, at, goal, meets, tries)
+      elseif not this:arrived(junction, heading) and tries < TRIES then
+        return along(this, junction, goal, meets, tries + 1)
       end
-      local start: number = at
-      is_end = is_end and at == junction
-      if is_end and tries >= 2 then
-        -- It leaves one piece before the end of the main street.
-        local corners = this:face(at, leads + 180).corners
-        start = corners[2 % #corners + (if #corners == 1 then 1 else 0)].junction
-      end
-      -- It ends on the main street, before its end.
-      local back = BEFORE * tries * vec(math.cos(math.rad(meets)), math.sin(math.rad(meets)), 0)
-      local ends = this:place(goal) - back
-      local leaves = if is_end then leads else nil
-      local onward = along(this:place(start), ends, leaves, meets, tries + 1)
-      return Rim(start, onward, leads, is_end, goal, meets, tries + 1)
+      return nil
     end
   )
 
@@ -280,9 +276,9 @@ function mains.rules(
     end
   )
   system:interpret(
-    "Rim(junction, way, leads, is_end, goal, meets, tries)",
-    function(this: Network, junction: number, way: { number })
-      ways.lead(this, junction, way, 1, propose)
+    "Rim(junction, heading, length, goal, meets, tries)",
+    function(this: Network, junction: number, heading: number, length: number)
+      propose(this, junction, heading, length, 1)
     end
   )
 
