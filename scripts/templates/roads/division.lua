@@ -62,17 +62,18 @@ local ESTATE = 30000
 -- The least area (m²) that a street divides, not a lane.
 local STREET = 24000
 
--- The places of a street from one place to another that leaves and arrives towards headings, in pieces of a length (m) or more: the
--- first, those between, and the last.
+-- The places of a street from one place to another that leaves and arrives towards headings, and leads on towards them the farther
+-- the greater its tension, in pieces of a length (m) or more: the first, those between, and the last.
 local function curve(
   from: { number },
   to: { number },
   leaves: number,
   arrives: number,
-  pieces: { number }
+  pieces: { number },
+  tension: number
 ): { number }
   local dx, dy = to[1] - from[1], to[2] - from[2]
-  local pull = TENSION * math.sqrt(dx * dx + dy * dy)
+  local pull = tension * math.sqrt(dx * dx + dy * dy)
   local ax, ay = pull * math.cos(math.rad(leaves)), pull * math.sin(math.rad(leaves))
   local bx, by = pull * math.cos(math.rad(arrives)), pull * math.sin(math.rad(arrives))
   -- A cubic curve by its ends and what it is tangent to there.
@@ -146,6 +147,11 @@ local function arrival(
     end
   end
   return nil, 0, 0, 0
+end
+
+local function pieces_of(area: Area, corner: number, edge: number, depth: number): { number }
+  local ends = PIECES[depth].ends
+  return { ends[math.min(area.depth[corner], 2)], PIECES[depth].piece, ends[math.min(area.depth[edge], 2)] }
 end
 
 -- Whether a street that leaves a place (m) keeps its distance (m) from the outline of an area between its ends.
@@ -244,19 +250,69 @@ local function cut(
   for index = 1, math.min(#found, BEST) do
     local one = found[index]
     local from = { area.x[one.corner], area.y[one.corner] }
-    local ends = PIECES[depth].ends
-    local pieces = {
-      ends[math.min(area.depth[one.corner], 2)],
-      PIECES[depth].piece,
-      ends[math.min(area.depth[one.edge], 2)],
-    }
+    local pieces = pieces_of(area, one.corner, one.edge, depth)
     -- To the side where it has more room, the other one, and nearly straight.
     local side = if one.leaves[1] - one.arrives[2] > one.arrives[1] - one.leaves[2] then 1 else -1
     for _, swing in { side * bow, -side * bow, 0 } do
       local leaves, arrives = bent(one, swing)
-      local way = curve(from, { one.x, one.y }, leaves, arrives, pieces)
+      local way = curve(from, { one.x, one.y }, leaves, arrives, pieces, TENSION)
       if is_clear(area, from, way, apart) and may_begin(one.corner, way, depth) then
         return one.corner, way
+      end
+    end
+  end
+  return nil, nil
+end
+
+-- A crescent, which leaves a street and comes back to it about so far (m) on, as `cut` gives it.
+local function crescent(
+  area: Area,
+  wide: number,
+  may_begin: (corner: number, way: { number }, depth: number) -> boolean
+): (number?, { number }?)
+  for _ = 1, 8 do
+    local corner = 1 + math.floor(random() * area.count)
+    local open, middle = areas.angle(area, corner)
+    if open < WIDE or open > 230 or area.degree[corner] ~= 2 or not areas.is_apart(area, corner, FAR) then
+      continue
+    end
+    local from = { area.x[corner], area.y[corner] }
+    local edge = corner
+    for _ = 1, area.count - 2 do
+      edge = edge % area.count + 1
+      local after = edge % area.count + 1
+      local dx, dy = area.x[after] - area.x[edge], area.y[after] - area.y[edge]
+      local long = math.sqrt(dx * dx + dy * dy)
+      local to, out = { area.x[edge], area.y[edge] }, 0
+      if long > 2 * FAR then
+        to = { to[1] + dx / 2, to[2] + dy / 2 }
+        out = areas.heading(area, edge) - 90
+      elseif area.degree[edge] == 2 and areas.is_apart(area, edge, FAR) then
+        local angle, inward = areas.angle(area, edge)
+        out = inward + 180
+        if angle < WIDE or angle > 230 then
+          continue
+        end
+      else
+        continue
+      end
+      local far = math.sqrt((to[1] - from[1]) ^ 2 + (to[2] - from[2]) ^ 2)
+      if far > 1.5 * wide then
+        break
+      elseif far < wide then
+        continue
+      end
+      local along = math.deg(math.atan2(to[2] - from[2], to[1] - from[1]))
+      if
+        math.abs(checks.between(middle, out)) < 130
+        or math.abs(checks.between(middle, along)) < LEAST
+        or math.abs(checks.between(out, along)) < LEAST
+      then
+        continue
+      end
+      local way = curve(from, to, middle, out, pieces_of(area, corner, edge, 2), random(2.8, 4.2))
+      if #way > 4 and is_clear(area, from, way, ASIDE) and may_begin(corner, way, 2) then
+        return corner, way
       end
     end
   end
@@ -286,7 +342,7 @@ local function lane(area: Area): (number?, { number }?)
     local aim = heading + 0.5 * turn
     local to = { x + long * math.cos(math.rad(aim)), y + long * math.sin(math.rad(aim)) }
     if areas.ahead(area, to[1], to[2], heading + turn) > APART then
-      return corner, curve({ x, y }, to, heading, heading + turn, LANE_PIECES)
+      return corner, curve({ x, y }, to, heading, heading + turn, LANE_PIECES, TENSION)
     end
   end
   return nil, nil
@@ -347,12 +403,19 @@ function division.rules(
         and area.size < ESTATE
         and random() < pattern.gap
       if area.size > limit and not is_estate then
-        local depth = if area.size > math.max(6 * limit, STREET) then 1 else 2
-        local start, way = cut(area, pattern, limit, depth, tries, function(corner, way, deep)
+        local function may_begin(corner: number, way: { number }, deep: number): boolean
           local from = area.junction[corner]
           local heading, length = ways.aim(this, from, way[1], way[2])
           return this:probe(from, heading, length, math.min(deep, deepest)).built
-        end)
+        end
+        local depth = if area.size > math.max(6 * limit, STREET) then 1 else 2
+        local start, way
+        if depth == 2 and tries == 0 and random() < (pattern.crescents or 0) then
+          start, way = crescent(area, math.max(34, random(0.4, 1) * math.sqrt(limit)), may_begin)
+        end
+        if not start then
+          start, way = cut(area, pattern, limit, depth, tries, may_begin)
+        end
         if start and way then
           depth = math.min(depth, deepest)
           return Cut(area.junction[start], way, depth, area.size, areas.heading(area, start), tries, own)
