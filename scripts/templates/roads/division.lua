@@ -43,7 +43,7 @@ local WIDE = 2 * LEAST + 8
 local BEST = 12
 local ASIDE, WIDTH = 18, 0.2
 -- How far streets lead on towards the headings in which they leave.
-local TENSION = 1.25
+local TENSION = 1.45
 -- In how many parts the length of a street is computed.
 local SAMPLES = 16
 -- How long (m) the straight pieces of streets and lanes are at least, and the first and the last by the depth of the street that
@@ -195,7 +195,7 @@ local function cut(
   local share = random(0.12, 0.5)
   -- What is not divided any more is the more crooked.
   local is_last = area.size < 3 * limit
-  local bow = pattern.bow * (if is_last then random(0.6, 1.2) else random(0.2, 0.8)) * math.max(0, 1 - tries / 12)
+  local bow = pattern.bow * (if is_last then random(0.9, 1.5) else random(0.4, 1.1)) * math.max(0, 1 - tries / 12)
   for number = 0, math.min(STARTS, area.count) - 1 do
     local corner = 1 + math.floor(first + number * stride) % area.count
     local open, middle = areas.angle(area, corner)
@@ -338,7 +338,7 @@ local function lane(area: Area): (number?, { number }?)
     if not is_apart or long < LANE[1] then
       continue
     end
-    local turn = (if random() < 0.5 then 1 else -1) * random(10, 110)
+    local turn = (if random() < 0.5 then 1 else -1) * random(30, 150)
     local aim = heading + 0.5 * turn
     local to = { x + long * math.cos(math.rad(aim)), y + long * math.sin(math.rad(aim)) }
     if areas.ahead(area, to[1], to[2], heading + turn) > APART then
@@ -410,7 +410,7 @@ function division.rules(
         end
         local depth = if area.size > math.max(6 * limit, STREET) then 1 else 2
         local start, way
-        if depth == 2 and tries == 0 and random() < (pattern.crescents or 0) then
+        if depth == 2 and tries < 2 and random() < (pattern.crescents or 0) then
           start, way = crescent(area, math.max(34, random(0.4, 1) * math.sqrt(limit)), may_begin)
         end
         if not start then

@@ -29,7 +29,7 @@ function patterns.organic(options: { [string]: any }?): Pattern
   return pattern.make("roads.organic", of, usual, {
     least = math.max(0.22 * block, 16),
     bow = bends / 150,
-    crescents = bends / 150,
+    crescents = bends / 60,
     -- Nobody moves a street for a junction nearby, or joins what ends.
     snap = 7,
     join = 30,
