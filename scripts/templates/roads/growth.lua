@@ -471,7 +471,7 @@ function growth.system(asked: options.RoadOptions, ...: number): (System<Network
     exits.rules(system, of.leads_out)
   end
   if of.divides then
-    division.rules(system, pattern_at, of.room, deepest, propose, keeps)
+    division.rules(system, pattern_at, of.room, deepest, propose, keeps, of.sizes)
   end
 
   system:interpret(

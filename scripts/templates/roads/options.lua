@@ -1,6 +1,7 @@
 --!strict
 -- What is asked of a town's streets: the options of `roads.system`, checked, with what is usual in place of those left out.
 local checks = require("checks")
+local cuts = require("cuts")
 local exits = require("exits")
 local patterns = require("patterns")
 
@@ -47,6 +48,8 @@ local KNOWN: { [string]: string } = {
 
 -- How near (m) a junction draws a street's end, and how far dead ends are joined, where neither pattern nor script says it.
 local SNAP, JOIN = 14, 40
+-- The width (m) of streets, their clearance (m) and the radius (m) of corners where the network says none.
+local WIDTH, CLEARANCE, CORNER = 14, 6, 4
 -- What streets are made of, by depth.
 options.STREETS = {
   { width = 24, lanes = 4, sidewalk = 4 },
@@ -139,6 +142,11 @@ function options.read(asked: RoadOptions, caller: string, level: number): any
   -- Streets that lead out take the last steps.
   local growing = if leads_out then math.max(steps - exits.STEPS, 1) else steps
   local system = lsystem({ object = checks.construct(network, fields, level) :: Network })
+  local widths = {}
+  for index, street in fields.streets do
+    widths[index] = street.width or WIDTH
+  end
+  local sizes = cuts.sizes(widths, fields.clearance or CLEARANCE, fields.corner or CORNER)
   local function room(pattern: Pattern, x: number, y: number, own: number): number?
     if not pattern.room then
       return nil
@@ -158,6 +166,7 @@ function options.read(asked: RoadOptions, caller: string, level: number): any
     divides = divides,
     inside = inside,
     room = room,
+    sizes = sizes,
     people = people,
     deepest = deepest,
     growing = growing,
