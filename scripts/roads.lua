@@ -93,4 +93,8 @@ options.network = {
   ground = "#a9b58c",
 }
 options.steps = math.ceil(extent / 25) + 8
+if pattern == "organic" then
+  local alley = { name = "alley", width = 7, lanes = 1, sidewalk = 0.9, asphalt = "#8a8f95" }
+  table.insert(options.network.streets, alley)
+end
 roads.grow(options)

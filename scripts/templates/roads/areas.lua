@@ -72,19 +72,26 @@ function areas.angle(area: Area, corner: number): (number, number)
   return open, out + open / 2
 end
 
--- Whether no street leaves the outline within a distance (m) of a corner, to both sides, except at the corner itself.
-function areas.is_apart(area: Area, corner: number, apart: number): boolean
+-- The distance (m) of a corner from the next one.
+function areas.length(area: Area, corner: number): number
+  local after = corner % area.count + 1
+  return math.sqrt((area.x[after] - area.x[corner]) ^ 2 + (area.y[after] - area.y[corner]) ^ 2)
+end
+
+-- Whether a street may leave at a corner: other corners are so far (m) at least, and other streets that leave the outline to either
+-- side.
+function areas.is_apart(area: Area, corner: number, bends: number, streets: number): boolean
   local count = area.count
   for step = -1, 1, 2 do
     local at, far = corner, 0
     repeat
       local after = (at + step - 1) % count + 1
-      far += math.sqrt((area.x[after] - area.x[at]) ^ 2 + (area.y[after] - area.y[at]) ^ 2)
+      far += areas.length(area, if step > 0 then at else after)
       at = after
-      if far < apart and area.degree[at] > 2 then
+      if far < bends or far < streets and area.degree[at] > 2 then
         return false
       end
-    until far >= apart or at == corner
+    until far >= streets or at == corner
   end
   return true
 end

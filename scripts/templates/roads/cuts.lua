@@ -16,16 +16,14 @@ export type Sizes = {
   first: { [number]: { [number]: number } },
   -- How near streets may leave the same side of another.
   near: { [number]: number },
-  -- How near a street may run beside a lane.
-  aside: { [number]: number },
+  -- How near streets may lie to one another, by the depth of both.
+  apart: { [number]: { [number]: number } },
   deepest: number,
 }
 
 -- How many of the streets that divide an area best are looked at, and how far each keeps from others, as a share of the width of blocks.
 local BEST = 12
 local WIDTH = 0.2
--- How near (m) a street may end to where another turns.
-local NEAR = 14
 -- From how many junctions of an area streets are tried, and how far (degrees) they turn from the middle of the angle there.
 local STARTS = 12
 local TURNS = { 0, 9, -9, 18, -18, 27, -27, 36, -36 }
@@ -44,16 +42,17 @@ local LANE = { 40, 170 }
 local BESIDE = 52
 -- The lengths that follow from the widths (m) of streets by depth, their clearance (m) and the radius (m) of corners.
 function cuts.sizes(widths: { number }, clearance: number, corner: number): Sizes
-  local sizes: any = { piece = {}, first = {}, near = {}, aside = {}, deepest = #widths - 1 }
+  local sizes: any = { piece = {}, first = {}, near = {}, apart = {}, deepest = #widths - 1 }
   for depth = 0, sizes.deepest do
     local wide = widths[depth + 1]
-    sizes.piece[depth] = math.max(wide + clearance + 1, 13)
+    sizes.piece[depth] = math.max(wide + clearance + 1.5, 13)
     sizes.near[depth] = math.max(wide + 2 * corner + 1, 14)
-    sizes.aside[depth] = (wide + widths[#widths]) / 2 + clearance + 1
-    sizes.first[depth] = {}
+    sizes.apart[depth], sizes.first[depth] = {}, {}
     for other = 0, sizes.deepest do
+      local apart = (wide + widths[other + 1]) / 2 + clearance
+      sizes.apart[depth][other] = apart + 0.5
       -- It may leave at a slant.
-      sizes.first[depth][other] = math.max(1.22 * ((wide + widths[other + 1]) / 2 + clearance), 14)
+      sizes.first[depth][other] = math.max(1.22 * apart, 14)
     end
   end
   return sizes
@@ -108,14 +107,21 @@ local function curve(
   return way
 end
 
+-- Whether a street of a depth may leave or arrive at a corner.
+local function is_apart(sizes: Sizes, area: Area, corner: number, depth: number): boolean
+  local other = math.min(area.depth[corner], area.depth[(corner - 2) % area.count + 1], sizes.deepest)
+  return areas.is_apart(area, corner, sizes.apart[depth][other], sizes.near[depth])
+end
+
 -- Where a street from a corner of an area towards a heading ends on the other side: the place, the corner before it, and the
 -- heading (degrees) that leads out there. Where a piece is short it ends at a corner, which leaves room to those of others.
 local function arrival(
+  sizes: Sizes,
   area: Area,
   corner: number,
   heading: number,
   crossing: boolean,
-  near: number
+  depth: number
 ): (number?, number, number, number)
   local far, edge = areas.hit(area, corner, heading)
   if not far then
@@ -126,8 +132,9 @@ local function arrival(
   local after = edge % area.count + 1
   local before_it = math.sqrt((x - area.x[edge]) ^ 2 + (y - area.y[edge]) ^ 2)
   local behind_it = math.sqrt((x - area.x[after]) ^ 2 + (y - area.y[after]) ^ 2)
+  local bends = sizes.apart[depth][math.min(area.depth[edge], sizes.deepest)]
   local function is_clear(at: number, apart: number): boolean
-    return apart >= (if area.degree[at] == 2 then math.min(NEAR, near) else near)
+    return apart >= (if area.degree[at] == 2 then bends else math.max(bends, sizes.near[depth]))
   end
   if is_clear(edge, before_it) and is_clear(after, behind_it) then
     return x, y, edge, areas.heading(area, edge) - 90
@@ -137,7 +144,7 @@ local function arrival(
     local open, middle = areas.angle(area, at)
     local apart = math.min((at - corner) % area.count, (corner - at) % area.count)
     local is_free = area.degree[at] == 2 or crossing and area.degree[at] == 3
-    if apart > 1 and open >= WIDE and open < 250 and is_free and areas.is_apart(area, at, near) then
+    if apart > 1 and open >= WIDE and open < 250 and is_free and is_apart(sizes, area, at, depth) then
       local way = math.deg(math.atan2(area.y[at] - area.y[corner], area.x[at] - area.x[corner]))
       if math.abs(checks.between(way, middle + 180)) <= open / 2 - LEAST then
         return area.x[at], area.y[at], at, middle + 180
@@ -176,7 +183,7 @@ local function bent(street: any, swing: number): (number, number)
 end
 
 -- The best of some streets that divide an area, as the corner that it leaves and its places; nil if there is none. `may_begin` says
--- whether one may.
+-- whether one may, and `crossing` whether it may leave opposite another street.
 function cuts.cut(
   sizes: Sizes,
   area: Area,
@@ -184,14 +191,13 @@ function cuts.cut(
   limit: number,
   depth: number,
   tries: number,
+  crossing: boolean,
   may_begin: (corner: number, way: { number }, depth: number) -> boolean
 ): (number?, { number }?)
   local size = math.sqrt(area.size)
   local least = math.max(pattern.least * pattern.least, 0.08 * math.min(limit, area.size))
   local found: { any } = {}
   local first, stride = math.floor(random() * area.count), math.max(1, area.count / STARTS)
-  local crossing = random() < pattern.cross
-  local near = sizes.near[depth]
   -- Parts differ, so that blocks do.
   local share = random(0.12, 0.5)
   -- What is not divided any more is the more crooked.
@@ -202,7 +208,7 @@ function cuts.cut(
     local open, middle = areas.angle(area, corner)
     local degree = area.degree[corner]
     local is_free = degree < 3 or degree == 3 and crossing
-    if open < WIDE or not is_free or not areas.is_apart(area, corner, near) then
+    if open < WIDE or not is_free or not is_apart(sizes, area, corner, depth) then
       continue
     end
     local cost = if degree == 3 then -0.3 elseif degree == 1 then -1 else 0
@@ -210,7 +216,7 @@ function cuts.cut(
       if math.abs(turn) > open / 2 - LEAST then
         continue
       end
-      local x, y, edge, out = arrival(area, corner, middle + turn, crossing, near)
+      local x, y, edge, out = arrival(sizes, area, corner, middle + turn, crossing, depth)
       if not x then
         continue
       end
@@ -247,7 +253,7 @@ function cuts.cut(
   table.sort(found, function(one, other)
     return one.cost < other.cost
   end)
-  local apart = math.max(sizes.aside[depth], WIDTH * math.sqrt(math.min(limit, area.size)))
+  local apart = math.max(sizes.apart[depth][sizes.deepest], WIDTH * math.sqrt(math.min(limit, area.size)))
   for index = 1, math.min(#found, BEST) do
     local one = found[index]
     local from = { area.x[one.corner], area.y[one.corner] }
@@ -273,11 +279,10 @@ function cuts.crescent(
   depth: number,
   may_begin: (corner: number, way: { number }, depth: number) -> boolean
 ): (number?, { number }?)
-  local near = sizes.near[depth]
   for _ = 1, 8 do
     local corner = 1 + math.floor(random() * area.count)
     local open, middle = areas.angle(area, corner)
-    if open < WIDE or open > 230 or area.degree[corner] ~= 2 or not areas.is_apart(area, corner, near) then
+    if open < WIDE or open > 230 or area.degree[corner] ~= 2 or not is_apart(sizes, area, corner, depth) then
       continue
     end
     local from = { area.x[corner], area.y[corner] }
@@ -288,10 +293,10 @@ function cuts.crescent(
       local dx, dy = area.x[after] - area.x[edge], area.y[after] - area.y[edge]
       local long = math.sqrt(dx * dx + dy * dy)
       local to, out = { area.x[edge], area.y[edge] }, 0
-      if long > 2 * near then
+      if long > 2 * math.max(sizes.near[depth], sizes.apart[depth][math.min(area.depth[edge], sizes.deepest)]) then
         to = { to[1] + dx / 2, to[2] + dy / 2 }
         out = areas.heading(area, edge) - 90
-      elseif area.degree[edge] == 2 and areas.is_apart(area, edge, near) then
+      elseif area.degree[edge] == 2 and is_apart(sizes, area, edge, depth) then
         local angle, inward = areas.angle(area, edge)
         out = inward + 180
         if angle < WIDE or angle > 230 then
@@ -315,7 +320,7 @@ function cuts.crescent(
         continue
       end
       local way = curve(from, to, middle, out, pieces_of(sizes, area, corner, edge, depth), random(2.8, 4.2))
-      if #way > 4 and is_clear(area, from, way, sizes.aside[depth]) and may_begin(corner, way, depth) then
+      if #way > 4 and is_clear(area, from, way, sizes.apart[depth][sizes.deepest]) and may_begin(corner, way, depth) then
         return corner, way
       end
     end

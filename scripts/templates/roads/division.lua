@@ -16,29 +16,34 @@ local Quarter = module("Quarter", "junction", "heading", "tries", "kind")
 -- a heading (degrees) there.
 local Cut = module("Cut", "junction", "way", "depth", "area", "along", "tries", "kind")
 -- A lane that ends within a block.
-local Lane = module("Lane", "junction", "way", "depth", "along", "tries", "kind")
--- Divides what main streets enclose.
-local Land = module("Land")
+local Lane = module("Lane", "junction", "way", "depth", "along", "lanes")
+-- Land between streets, where lanes end when it is divided.
+local Yard = module("Yard", "junction", "heading", "lanes")
+-- Divides what main streets enclose, or leads lanes into what is divided.
+local Land = module("Land", "is_divided")
 
 division.GROWING = {
-  "Land",
+  "Land(is_divided)",
+  "Yard(junction, heading, lanes)",
   "Quarter(junction, heading, tries, kind)",
   "Cut(junction, way, depth, area, along, tries, kind)",
-  "Lane(junction, way, depth, along, tries, kind)",
+  "Lane(junction, way, depth, along, lanes)",
 }
 
 -- How many ways to divide an area are tried before it stays as it is.
-local TRIES = 8
+local TRIES = 16
 -- The area (m²) from which land is several quarters.
 local SEVERAL = 80000
+-- After how many tries a street may leave opposite another one.
+local LATE = 99
 -- The largest area (m²) that is left as it is for a park or an estate.
 local ESTATE = 30000
 -- The least area (m²) that a street divides, not a lane.
 local STREET = 24000
 -- The area (m²) below which alleys divide it.
-local ALLEY = 2600
--- How much land (m²) has one lane that ends.
-local LANE_LAND = 6000
+local ALLEY = 6000
+-- How much land (m²) has one lane that ends, and how many lanes a block has at most.
+local LANE_LAND, LANES = 6000, 8
 
 -- The rules of division. `pattern_at` gives the pattern of a place, `room` the largest block (m²) of a kind of quarter there, or nil
 -- where land is not divided, and `propose` proposes a street.
@@ -48,10 +53,9 @@ function division.rules(
   room: (pattern: Pattern, x: number, y: number, kind: number) -> number?,
   deepest: number,
   propose: ways.Propose,
-  keeps: boolean,
   sizes: cuts.Sizes
 )
-  system:rule("Land", function(this: Network)
+  system:rule("Land(is_divided)", function(this: Network, is_divided: boolean)
     local modules, seen = {}, {}
     for junction, corner in this:places() do
       for _, heading in corner.headings do
@@ -64,8 +68,10 @@ function division.rules(
         for index, each in corners do
           seen[each.junction * 2 ^ 26 + corners[index % #corners + 1].junction] = true
         end
-        if face.area > 0 then
+        if face.area > 0 and not is_divided then
           table.insert(modules, Quarter(junction, heading, 0, random(-1, 1)))
+        elseif face.area > LANE_LAND then
+          table.insert(modules, Yard(junction, heading, 0))
         end
       end
     end
@@ -109,18 +115,33 @@ function division.rules(
           start, way = cuts.crescent(sizes, area, wide, depth, may_begin)
         end
         if not start then
-          start, way = cuts.cut(sizes, area, pattern, limit, depth, tries, may_begin)
+          local crosses = random() < pattern.cross or tries >= LATE and area.size > 6 * limit
+          start, way = cuts.cut(sizes, area, pattern, limit, depth, tries, crosses, may_begin)
         end
         if start and way then
           return Cut(area.junction[start], way, depth, area.size, areas.heading(area, start), tries, own)
         end
         return Quarter(junction, heading, tries + 1, own)
       end
-      if keeps and tries <= area.size / LANE_LAND and random() < pattern.stop then
-        local start, way = cuts.lane(sizes, area)
-        if start and way then
-          return Lane(area.junction[start], way, math.min(2, deepest, sizes.deepest), areas.heading(area, start), tries, own)
-        end
+      return nil
+    end
+  )
+
+  system:rule(
+    "Yard(junction, heading, lanes)",
+    function(this: Network, junction: number, heading: number, lanes: number)
+      local area = areas.read(this:face(junction, heading))
+      if not area or lanes >= math.min(area.size / LANE_LAND, LANES) then
+        return nil
+      end
+      local pattern = pattern_at(area.middle[1], area.middle[2])
+      if not pattern.room or random() >= pattern.stop then
+        return nil
+      end
+      local start, way = cuts.lane(sizes, area)
+      if start and way then
+        local depth = math.min(2, deepest, sizes.deepest)
+        return Lane(area.junction[start], way, depth, areas.heading(area, start), lanes)
       end
       return nil
     end
@@ -153,17 +174,9 @@ function division.rules(
   )
 
   system:rule(
-    "Lane(junction, way, depth, along, tries, kind)",
-    function(
-      _: Network,
-      junction: number,
-      _: { number },
-      _: number,
-      along: number,
-      tries: number,
-      kind: number
-    )
-      return Quarter(junction, along, tries + 1, kind)
+    "Lane(junction, way, depth, along, lanes)",
+    function(_: Network, junction: number, _: { number }, _: number, along: number, lanes: number)
+      return Yard(junction, along, lanes + 1)
     end
   )
 
@@ -171,7 +184,7 @@ function division.rules(
     ways.lead(this, junction, way, depth, propose)
   end
   system:interpret("Cut(junction, way, depth, area, along, tries, kind)", lead)
-  system:interpret("Lane(junction, way, depth, along, tries, kind)", lead)
+  system:interpret("Lane(junction, way, depth, along, lanes)", lead)
 end
 
 -- The module that begins it.

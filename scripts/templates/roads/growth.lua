@@ -27,7 +27,7 @@ local Outskirts = module("Outskirts")
 -- Counts the steps, and tidies up after the last.
 local Clock = module("Clock", "left")
 -- Waits until all that grows before it has ended, and begins the next of its stages: main streets, the outline of the town, removal
--- of streets that lead nowhere, and the division of the land between them.
+-- of streets that lead nowhere, the division of the land between them, and lanes that end.
 local Watch = module("Watch", "stage")
 -- What it waits for.
 local GROWING = {
@@ -438,7 +438,7 @@ function growth.system(asked: options.RoadOptions, ...: number): (System<Network
       end
       return table.unpack(modules)
     elseif left == 1 and of.divides then
-      return division.Land(), Watch(4)
+      return division.Land(false), Watch(4)
     end
     local modules: { any } = if looks[left] then belated(this, left - 1) else {}
     -- It tidies up when all others have grown.
@@ -455,7 +455,9 @@ function growth.system(asked: options.RoadOptions, ...: number): (System<Network
     elseif stage <= 2 and not of.onto then
       return mains.Trim(), Watch(3)
     elseif stage <= 3 then
-      return division.Land(), Watch(4)
+      return division.Land(false), Watch(4)
+    elseif stage == 4 and keeps then
+      return division.Land(true), Watch(5)
     end
     return Clock(0)
   end)
@@ -471,7 +473,7 @@ function growth.system(asked: options.RoadOptions, ...: number): (System<Network
     exits.rules(system, of.leads_out)
   end
   if of.divides then
-    division.rules(system, pattern_at, of.room, deepest, propose, keeps, of.sizes)
+    division.rules(system, pattern_at, of.room, deepest, propose, of.sizes)
   end
 
   system:interpret(

@@ -51,7 +51,7 @@ function patterns.organic(options: { [string]: any }?): Pattern
     room = function(_: number, _: number, far: number, own: number): number
       local along = math.clamp((far - 0.3) / 0.25, 0, 1)
       local rise = along * along * (3 - 2 * along)
-      local wide = 4.6 * rise - 2.3 + own * (0.3 + 0.6 * rise)
+      local wide = 4.8 * rise - 2.5 + own * (0.3 + 0.6 * rise)
       return math.clamp(1.4 * block * block * math.exp(variety * wide), 0.1 * block * block, 90000)
     end,
   })
