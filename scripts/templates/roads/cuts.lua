@@ -279,7 +279,7 @@ function cuts.crescent(
   depth: number,
   may_begin: (corner: number, way: { number }, depth: number) -> boolean
 ): (number?, { number }?)
-  for _ = 1, 8 do
+  for _ = 1, 20 do
     local corner = 1 + math.floor(random() * area.count)
     local open, middle = areas.angle(area, corner)
     if open < WIDE or open > 230 or area.degree[corner] ~= 2 or not is_apart(sizes, area, corner, depth) then

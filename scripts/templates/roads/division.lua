@@ -31,11 +31,11 @@ division.GROWING = {
 }
 
 -- How many ways to divide an area are tried before it stays as it is.
-local TRIES = 16
+local TRIES = 12
 -- The area (m²) from which land is several quarters.
 local SEVERAL = 80000
 -- After how many tries a street may leave opposite another one.
-local LATE = 99
+local LATE = 8
 -- The largest area (m²) that is left as it is for a park or an estate.
 local ESTATE = 30000
 -- The least area (m²) that a street divides, not a lane.
@@ -43,7 +43,7 @@ local STREET = 24000
 -- The area (m²) below which alleys divide it.
 local ALLEY = 6000
 -- How much land (m²) has one lane that ends, and how many lanes a block has at most.
-local LANE_LAND, LANES = 6000, 8
+local LANE_LAND, LANES = 5000, 8
 
 -- The rules of division. `pattern_at` gives the pattern of a place, `room` the largest block (m²) of a kind of quarter there, or nil
 -- where land is not divided, and `propose` proposes a street.
@@ -115,7 +115,7 @@ function division.rules(
           start, way = cuts.crescent(sizes, area, wide, depth, may_begin)
         end
         if not start then
-          local crosses = random() < pattern.cross or tries >= LATE and area.size > 6 * limit
+          local crosses = random() < pattern.cross or tries >= LATE and area.size > math.max(12 * limit, STREET)
           start, way = cuts.cut(sizes, area, pattern, limit, depth, tries, crosses, may_begin)
         end
         if start and way then

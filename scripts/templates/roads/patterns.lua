@@ -49,10 +49,10 @@ function patterns.organic(options: { [string]: any }?): Pattern
     end,
     -- Blocks are small in the middle and grow outwards, where quarters differ more.
     room = function(_: number, _: number, far: number, own: number): number
-      local along = math.clamp((far - 0.3) / 0.25, 0, 1)
+      local along = math.clamp((far - 0.25) / 0.24, 0, 1)
       local rise = along * along * (3 - 2 * along)
-      local wide = 4.8 * rise - 2.5 + own * (0.3 + 0.6 * rise)
-      return math.clamp(1.4 * block * block * math.exp(variety * wide), 0.1 * block * block, 90000)
+      local wide = 5 * rise - 2.5 + own * (0.3 + 1.1 * rise)
+      return math.clamp(1.4 * block * block * math.exp(variety * wide), 0.1 * block * block, 110000)
     end,
   })
 end
