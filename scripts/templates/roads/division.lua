@@ -42,6 +42,8 @@ local ESTATE = 30000
 local STREET = 24000
 -- The area (m²) below which alleys divide it.
 local ALLEY = 6000
+-- The least area (m²) that has a green at its side.
+local GREEN_LAND = 2500
 -- How much land (m²) has one lane that ends, and how many lanes a block has at most.
 local LANE_LAND, LANES = 5000, 8
 
@@ -55,6 +57,14 @@ function division.rules(
   propose: ways.Propose,
   sizes: cuts.Sizes
 )
+  -- Whether a street may leave an area at a corner.
+  local function tester(this: Network, area: areas.Area): (number, { number }, number) -> boolean
+    return function(corner, way, depth)
+      local heading, length = ways.aim(this, area.junction[corner], way[1], way[2])
+      return this:probe(area.junction[corner], heading, length, depth).built
+    end
+  end
+
   system:rule("Land(is_divided)", function(this: Network, is_divided: boolean)
     local modules, seen = {}, {}
     for junction, corner in this:places() do
@@ -70,7 +80,7 @@ function division.rules(
         end
         if face.area > 0 and not is_divided then
           table.insert(modules, Quarter(junction, heading, 0, random(-1, 1)))
-        elseif face.area > LANE_LAND then
+        elseif face.area > GREEN_LAND then
           table.insert(modules, Yard(junction, heading, 0))
         end
       end
@@ -102,11 +112,7 @@ function division.rules(
         and area.size < ESTATE
         and random() < pattern.gap
       if area.size > limit and not is_estate then
-        local function may_begin(corner: number, way: { number }, deep: number): boolean
-          local from = area.junction[corner]
-          local heading, length = ways.aim(this, from, way[1], way[2])
-          return this:probe(from, heading, length, deep).built
-        end
+        local may_begin = tester(this, area)
         local depth = if area.size > math.max(6 * limit, STREET) then 1 elseif area.size < ALLEY then 3 else 2
         depth = math.min(depth, deepest, sizes.deepest)
         local start, way
@@ -131,16 +137,21 @@ function division.rules(
     "Yard(junction, heading, lanes)",
     function(this: Network, junction: number, heading: number, lanes: number)
       local area = areas.read(this:face(junction, heading))
-      if not area or lanes >= math.min(area.size / LANE_LAND, LANES) then
+      if not area then
         return nil
       end
       local pattern = pattern_at(area.middle[1], area.middle[2])
-      if not pattern.room or random() >= pattern.stop then
+      local depth = math.min(2, deepest, sizes.deepest)
+      local start, way
+      if not pattern.room then
         return nil
+      elseif lanes == 0 and random() < (pattern.greens or 0) then
+        start, way = cuts.crescent(sizes, area, 1.15 * sizes.near[depth], depth, tester(this, area))
       end
-      local start, way = cuts.lane(sizes, area)
+      if not start and lanes < math.min(area.size / LANE_LAND, LANES) and random() < pattern.stop then
+        start, way = cuts.lane(sizes, area)
+      end
       if start and way then
-        local depth = math.min(2, deepest, sizes.deepest)
         return Lane(area.junction[start], way, depth, areas.heading(area, start), lanes)
       end
       return nil

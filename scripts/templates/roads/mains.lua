@@ -63,7 +63,7 @@ local function outline(
         step /= 2
       end
     end
-    local share = 0.78
+    local share = 0.76
       - long * math.cos(2 * (bearing - math.rad(turned)))
       + 0.22 * noise(0.9 * east, 0.9 * north, 0.5, field)
       + 0.07 * noise(3 * east, 3 * north, 4.5, field)
