@@ -32,16 +32,17 @@ division.GROWING = {
 
 -- How many ways to divide an area are tried before it stays as it is.
 local TRIES = 12
--- The area (m²) from which land is several quarters.
-local SEVERAL = 80000
+-- From how many blocks land is several quarters, and the least and the largest area (m²) of one.
+local SEVERAL = 15
+local LEAST, MOST = 16000, 80000
 -- After how many tries a street may leave opposite another one.
 local LATE = 8
 -- The largest area (m²) that is left as it is for a park or an estate.
 local ESTATE = 30000
 -- The least area (m²) that a street divides, not a lane.
 local STREET = 24000
--- The area (m²) below which alleys divide it.
-local ALLEY = 6000
+-- The largest area, in blocks, that an alley divides, and the size (m²) of blocks up to which there are alleys.
+local ALLEY, OLD = 10, 2500
 -- The least area (m²) that has a green at its side.
 local GREEN_LAND = 2500
 -- How much land (m²) has one lane that ends, and how many lanes a block has at most.
@@ -101,7 +102,11 @@ function division.rules(
       local x, y = area.middle[1], area.middle[2]
       local pattern = pattern_at(x, y)
       -- What is still several quarters has no kind of its own.
-      local own = if tries == 0 and area.size > SEVERAL then random(-1, 1) else kind
+      local own = kind
+      local usual = room(pattern, x, y, 0)
+      if usual and tries == 0 and area.size > math.clamp(SEVERAL * usual, LEAST, MOST) then
+        own = random(-1, 1)
+      end
       local limit = room(pattern, x, y, own)
       if not limit then
         return nil
@@ -113,7 +118,7 @@ function division.rules(
         and random() < pattern.gap
       if area.size > limit and not is_estate then
         local may_begin = tester(this, area)
-        local depth = if area.size > math.max(6 * limit, STREET) then 1 elseif area.size < ALLEY then 3 else 2
+        local depth = if area.size > math.max(6 * limit, STREET) then 1 elseif area.size < ALLEY * limit and limit < OLD then 3 else 2
         depth = math.min(depth, deepest, sizes.deepest)
         local start, way
         if depth >= 2 and tries < 2 and random() < (pattern.crescents or 0) then

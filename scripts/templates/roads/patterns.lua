@@ -51,8 +51,8 @@ function patterns.organic(options: { [string]: any }?): Pattern
     room = function(_: number, _: number, far: number, own: number): number
       local along = math.clamp((far - 0.25) / 0.24, 0, 1)
       local rise = along * along * (3 - 2 * along)
-      local wide = 5 * rise - 2.5 + own * (0.3 + 1.1 * rise)
-      return math.clamp(1.4 * block * block * math.exp(variety * wide), 0.1 * block * block, 110000)
+      local wide = 4.6 * rise - 2.4 + own * (0.8 + 0.5 * rise)
+      return math.clamp(1.4 * block * block * math.exp(variety * wide), 0.09 * block * block, 75000)
     end,
   })
 end
