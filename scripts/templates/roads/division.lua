@@ -121,7 +121,7 @@ function division.rules(
         local depth = if area.size > math.max(6 * limit, STREET) then 1 elseif area.size < ALLEY * limit and limit < OLD then 3 else 2
         depth = math.min(depth, deepest, sizes.deepest)
         local start, way
-        if depth >= 2 and tries < 2 and random() < (pattern.crescents or 0) then
+        if depth == 2 and limit > OLD and tries < 2 and random() < (pattern.crescents or 0) then
           local wide = math.max(1.6 * sizes.near[depth], random(0.4, 1) * math.sqrt(limit))
           start, way = cuts.crescent(sizes, area, wide, depth, may_begin)
         end

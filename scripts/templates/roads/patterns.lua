@@ -49,9 +49,9 @@ function patterns.organic(options: { [string]: any }?): Pattern
     end,
     -- Blocks are small in the middle and grow outwards, where quarters differ more.
     room = function(_: number, _: number, far: number, own: number): number
-      local along = math.clamp((far - 0.25) / 0.24, 0, 1)
+      local along = math.clamp((far - 0.27) / 0.22, 0, 1)
       local rise = along * along * (3 - 2 * along)
-      local wide = 4.6 * rise - 2.4 + own * (0.8 + 0.5 * rise)
+      local wide = 4.7 * rise - 2.5 + own * (0.45 + 0.85 * rise)
       return math.clamp(1.4 * block * block * math.exp(variety * wide), 0.09 * block * block, 75000)
     end,
   })
