@@ -24,6 +24,8 @@ export type Sizes = {
 -- How many of the streets that divide an area best are looked at, and how far each keeps from others, as a share of the width of blocks.
 local BEST = 12
 local WIDTH = 0.2
+-- How wide (m) an area is at least that is divided further.
+local STRIP = 28
 -- From how many junctions of an area streets are tried, and how far (degrees) they turn from the middle of the angle there.
 local STARTS = 12
 local TURNS = { 0, 9, -9, 18, -18, 27, -27, 36, -36 }
@@ -253,7 +255,9 @@ function cuts.cut(
   table.sort(found, function(one, other)
     return one.cost < other.cost
   end)
-  local apart = math.max(sizes.apart[depth][sizes.deepest], WIDTH * math.sqrt(math.min(limit, area.size)))
+  -- What is divided further is no strip, across which no street has room.
+  local strip = if area.size > 2.5 * limit then STRIP else 0
+  local apart = math.max(sizes.apart[depth][sizes.deepest], strip, WIDTH * math.sqrt(math.min(limit, area.size)))
   for index = 1, math.min(#found, BEST) do
     local one = found[index]
     local from = { area.x[one.corner], area.y[one.corner] }
