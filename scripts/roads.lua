@@ -33,7 +33,7 @@ local variety = math.min(1, extent / 600)
 
 local ways: { [string]: () -> any } = {
   organic = function()
-    return { pattern = roads.organic({ block = small * random(60, 80), variety = variety }) }
+    return { pattern = roads.organic({ block = small * random(62, 74), variety = variety }) }
   end,
   raster = function()
     local angle = random(0, 90)

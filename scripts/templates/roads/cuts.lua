@@ -323,7 +323,10 @@ function cuts.crescent(
       then
         continue
       end
-      local way = curve(from, to, middle, out, pieces_of(sizes, area, corner, edge, depth), random(2.8, 4.2))
+      -- It swings out by a quarter of its tension.
+      local other = math.min(area.depth[corner], area.depth[edge], sizes.deepest)
+      local tension = math.max(random(2.8, 4.2), 4 * (sizes.apart[depth][other] + 2) / far)
+      local way = curve(from, to, middle, out, pieces_of(sizes, area, corner, edge, depth), tension)
       if #way > 4 and is_clear(area, from, way, sizes.apart[depth][sizes.deepest]) and may_begin(corner, way, depth) then
         return corner, way
       end

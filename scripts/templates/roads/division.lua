@@ -111,6 +111,12 @@ function division.rules(
       if not limit then
         return nil
       end
+      -- Land that reaches to where blocks are small has smaller ones.
+      local least: number = limit
+      for corner = 1, area.count, math.max(1, area.count // 6) do
+        least = math.min(least, room(pattern, area.x[corner], area.y[corner], own) or least)
+      end
+      limit = math.sqrt(limit * least)
       local is_estate = tries == 0
         and area.size > 2500
         and area.size < 5 * limit
@@ -151,7 +157,9 @@ function division.rules(
       if not pattern.room then
         return nil
       elseif lanes == 0 and random() < (pattern.greens or 0) then
-        start, way = cuts.crescent(sizes, area, 1.15 * sizes.near[depth], depth, tester(this, area))
+        local least = math.min(3, deepest, sizes.deepest)
+        start, way = cuts.crescent(sizes, area, 1.15 * sizes.near[least], least, tester(this, area))
+        depth = if start then least else depth
       end
       if not start and lanes < math.min(area.size / LANE_LAND, LANES) and random() < pattern.stop then
         start, way = cuts.lane(sizes, area)

@@ -42,7 +42,9 @@ local NEAREST, FARTHEST = 0.62, 0.97
 -- How wide the land beside a main street is about when it forks, (m).
 local WIDE = 460
 -- How many main streets leave the centre, and the least angle (degrees) between two.
-local COUNT, APART = { 3, 6 }, 54
+local COUNT, APART = { 3, 5 }, 56
+-- How long (m) their first pieces are at least.
+local FIRST = 52
 
 -- The distance (m) of the outline from a centre by the bearing (degrees), for land that `inside` describes.
 local function outline(
@@ -116,7 +118,8 @@ function mains.rules(
     if rest < 0.5 * piece then
       return nil
     end
-    local length = if rest < 1.5 * piece then rest else piece
+    local usual = if far < 1 then math.max(piece, math.min(FIRST, 0.3 * rest)) else piece
+    local length = if rest < 1.5 * usual then rest else usual
     -- It swings between the centre and the outline, which it meets about square.
     local swing = (pattern.bow or 0) * 60 * noise(far / (4.5 * piece), bearing / 40, 2.5, field)
     swing *= math.min(1, far / (5 * piece), rest / (6 * piece))

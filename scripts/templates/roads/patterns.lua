@@ -25,11 +25,11 @@ function patterns.organic(options: { [string]: any }?): Pattern
   local variety = number("roads.organic: variety", of.variety, 1, 0, 1)
   local middle = checks.place("roads.organic: middle", of.middle or { 0, 0 })
   local field = math.floor(random() * 1000000)
-  local usual = { branching = 0, both = 0.1, cross = 0.03, stop = 1, gap = 0.15, greens = 0.35, every = 8 }
+  local usual = { branching = 0, both = 0.1, cross = 0.03, stop = 1, gap = 0.15, greens = 0.4, every = 8 }
   return pattern.make("roads.organic", of, usual, {
     least = math.max(0.22 * block, 16),
     bow = bends / 150,
-    crescents = bends / 60,
+    crescents = bends / 42,
     -- Nobody moves a street for a junction nearby, or joins what ends.
     snap = 7,
     join = 30,
@@ -45,14 +45,14 @@ function patterns.organic(options: { [string]: any }?): Pattern
       return heading + 0.35 * between(heading, aim) + bends * 0.6 * own
     end,
     length = function(): number
-      return math.max(0.55 * block, 33)
+      return math.max(0.55 * block, 36)
     end,
     -- Blocks are small in the middle and grow outwards, where quarters differ more.
     room = function(_: number, _: number, far: number, own: number): number
-      local along = math.clamp((far - 0.27) / 0.22, 0, 1)
+      local along = math.clamp((far - 0.23) / 0.22, 0, 1)
       local rise = along * along * (3 - 2 * along)
-      local wide = 4.7 * rise - 2.5 + own * (0.45 + 0.85 * rise)
-      return math.clamp(1.4 * block * block * math.exp(variety * wide), 0.09 * block * block, 75000)
+      local wide = 4.9 * rise - 2.5 + own * (0.45 + 0.95 * rise)
+      return math.clamp(1.4 * block * block * math.exp(variety * wide), 0.09 * block * block, 80000)
     end,
   })
 end
