@@ -115,11 +115,11 @@ function mains.rules(
   local function onward(place: Vector, at: number, heading: number, bearing: number, room: number): any
     local far, now = polar(place)
     local rest = rim(if far < 1 then bearing else now) - far
-    if rest < 0.5 * piece then
+    if rest < 0.9 * piece then
       return nil
     end
     local usual = if far < 1 then math.max(piece, math.min(FIRST, 0.3 * rest)) else piece
-    local length = if rest < 1.5 * usual then rest else usual
+    local length = if rest < 1.9 * usual then rest else usual
     -- It swings between the centre and the outline, which it meets about square.
     local swing = (pattern.bow or 0) * 60 * noise(far / (4.5 * piece), bearing / 40, 2.5, field)
     swing *= math.min(1, far / (5 * piece), rest / (6 * piece))
