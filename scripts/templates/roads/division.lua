@@ -36,7 +36,7 @@ local TRIES = 12
 local SEVERAL = 15
 local LEAST, MOST = 16000, 80000
 -- After how many tries a street may leave opposite another one.
-local LATE = 8
+local LATE = 9
 -- The largest area (m²) that is left as it is for a park or an estate.
 local ESTATE = 30000
 -- The least area (m²) that a street divides, not a lane.

@@ -25,7 +25,7 @@ function patterns.organic(options: { [string]: any }?): Pattern
   local variety = number("roads.organic: variety", of.variety, 1, 0, 1)
   local middle = checks.place("roads.organic: middle", of.middle or { 0, 0 })
   local field = math.floor(random() * 1000000)
-  local usual = { branching = 0, both = 0.1, cross = 0.03, stop = 1, gap = 0.25, greens = 0.4, every = 8 }
+  local usual = { branching = 0, both = 0.1, cross = 0.01, stop = 1, gap = 0.25, greens = 0.4, every = 8 }
   return pattern.make("roads.organic", of, usual, {
     least = math.max(0.22 * block, 16),
     bow = bends / 150,
@@ -49,7 +49,7 @@ function patterns.organic(options: { [string]: any }?): Pattern
     end,
     -- Blocks are small in the middle and grow outwards, where quarters differ more.
     room = function(_: number, _: number, far: number, own: number): number
-      local along = math.clamp((far - 0.23) / 0.22, 0, 1)
+      local along = math.clamp((far - 0.21) / 0.22, 0, 1)
       local rise = along * along * (3 - 2 * along)
       local wide = 5.3 * rise - 2.5 + own * (0.45 + 1.15 * rise)
       return math.clamp(1.4 * block * block * math.exp(variety * wide), 0.09 * block * block, 100000)
