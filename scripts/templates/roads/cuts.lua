@@ -159,7 +159,11 @@ end
 local function pieces_of(sizes: Sizes, area: Area, corner: number, edge: number, depth: number): { number }
   local first = sizes.first[depth]
   local last = sizes.deepest
-  return { first[math.min(area.depth[corner], last)], sizes.piece[depth], first[math.min(area.depth[edge], last)] }
+  return {
+    first[math.min(area.depth[corner], last)],
+    sizes.piece[depth],
+    first[math.min(area.depth[edge], last)],
+  }
 end
 
 -- Whether a street that leaves a place (m) keeps its distance (m) from the outline of an area between its ends.
@@ -204,7 +208,9 @@ function cuts.cut(
   local share = random(0.12, 0.5)
   -- What is not divided any more is the more crooked.
   local is_last = area.size < 3 * limit
-  local bow = pattern.bow * (if is_last then random(0.9, 1.5) else random(0.4, 1.1)) * math.max(0, 1 - tries / 12)
+  local bow = pattern.bow
+    * (if is_last then random(0.9, 1.5) else random(0.4, 1.1))
+    * math.max(0, 1 - tries / 12)
   for number = 0, math.min(STARTS, area.count) - 1 do
     local corner = 1 + math.floor(first + number * stride) % area.count
     local open, middle = areas.angle(area, corner)
@@ -257,7 +263,8 @@ function cuts.cut(
   end)
   -- What is divided further is no strip, across which no street has room.
   local strip = if area.size > 2.5 * limit then STRIP else 0
-  local apart = math.max(sizes.apart[depth][sizes.deepest], strip, WIDTH * math.sqrt(math.min(limit, area.size)))
+  local apart =
+    math.max(sizes.apart[depth][sizes.deepest], strip, WIDTH * math.sqrt(math.min(limit, area.size)))
   for index = 1, math.min(#found, BEST) do
     local one = found[index]
     local from = { area.x[one.corner], area.y[one.corner] }
@@ -297,7 +304,10 @@ function cuts.crescent(
       local dx, dy = area.x[after] - area.x[edge], area.y[after] - area.y[edge]
       local long = math.sqrt(dx * dx + dy * dy)
       local to, out = { area.x[edge], area.y[edge] }, 0
-      if long > 2 * math.max(sizes.near[depth], sizes.apart[depth][math.min(area.depth[edge], sizes.deepest)]) then
+      if
+        long
+        > 2 * math.max(sizes.near[depth], sizes.apart[depth][math.min(area.depth[edge], sizes.deepest)])
+      then
         to = { to[1] + dx / 2, to[2] + dy / 2 }
         out = areas.heading(area, edge) - 90
       elseif area.degree[edge] == 2 and is_apart(sizes, area, edge, depth) then
@@ -327,7 +337,11 @@ function cuts.crescent(
       local other = math.min(area.depth[corner], area.depth[edge], sizes.deepest)
       local tension = math.max(random(2.8, 4.2), 4 * (sizes.apart[depth][other] + 2) / far)
       local way = curve(from, to, middle, out, pieces_of(sizes, area, corner, edge, depth), tension)
-      if #way > 4 and is_clear(area, from, way, sizes.apart[depth][sizes.deepest]) and may_begin(corner, way, depth) then
+      if
+        #way > 4
+        and is_clear(area, from, way, sizes.apart[depth][sizes.deepest])
+        and may_begin(corner, way, depth)
+      then
         return corner, way
       end
     end
@@ -358,7 +372,8 @@ function cuts.lane(sizes: Sizes, area: Area): (number?, { number }?)
     local aim = heading + 0.5 * turn
     local to = { x + long * math.cos(math.rad(aim)), y + long * math.sin(math.rad(aim)) }
     if areas.ahead(area, to[1], to[2], heading + turn) > APART then
-      return corner, curve({ x, y }, to, heading, heading + turn, pieces_of(sizes, area, corner, corner, 2), TENSION)
+      return corner,
+        curve({ x, y }, to, heading, heading + turn, pieces_of(sizes, area, corner, corner, 2), TENSION)
     end
   end
   return nil, nil

@@ -124,7 +124,10 @@ function division.rules(
         and random() < pattern.gap
       if area.size > limit and not is_estate then
         local may_begin = tester(this, area)
-        local depth = if area.size > math.max(6 * limit, STREET) then 1 elseif area.size < ALLEY * limit and limit < OLD then 3 else 2
+        local depth = if area.size > math.max(6 * limit, STREET)
+          then 1
+          elseif area.size < ALLEY * limit and limit < OLD then 3
+          else 2
         depth = math.min(depth, deepest, sizes.deepest)
         local start, way
         if depth == 2 and limit > OLD and tries < 2 and random() < (pattern.crescents or 0) then
@@ -132,7 +135,8 @@ function division.rules(
           start, way = cuts.crescent(sizes, area, wide, depth, may_begin)
         end
         if not start then
-          local crosses = random() < pattern.cross or tries >= LATE and area.size > math.max(12 * limit, STREET)
+          local crosses = random() < pattern.cross
+            or tries >= LATE and area.size > math.max(12 * limit, STREET)
           start, way = cuts.cut(sizes, area, pattern, limit, depth, tries, crosses, may_begin)
         end
         if start and way then

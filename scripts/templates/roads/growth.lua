@@ -26,8 +26,7 @@ local Town = module("Town", "junction", "wait", "left")
 local Outskirts = module("Outskirts")
 -- Counts the steps, and tidies up after the last.
 local Clock = module("Clock", "left")
--- Waits until all that grows before it has ended, and begins the next of its stages: main streets, the outline of the town, removal
--- of streets that lead nowhere, the division of the land between them, and lanes that end.
+-- Waits until all modules before it have ended, and begins the next stage: outline, removal of open ends, division, lanes.
 local Watch = module("Watch", "stage")
 -- What it waits for.
 local GROWING = {
@@ -38,9 +37,8 @@ local GROWING = {
   "Tip(junction, heading, length, depth, run, tries, left)",
   "Bud(junction, heading, depth, wait, left)",
 }
-for _, rooms in { mains.GROWING, division.GROWING } do
-  table.move(rooms, 1, #rooms, #GROWING + 1, GROWING)
-end
+table.move(mains.GROWING, 1, #mains.GROWING, #GROWING + 1, GROWING)
+table.move(division.GROWING, 1, #division.GROWING, #GROWING + 1, GROWING)
 
 -- How far (degrees) a main street turns when it is refused, one try after the other.
 local ASIDE = highways.ASIDE
@@ -342,11 +340,8 @@ function growth.system(asked: options.RoadOptions, ...: number): (System<Network
       end
       local place = this:place(junction)
       local pattern = pattern_at(place.x, place.y)
-      local modules = {}
-      if lead_out then
-        return table.unpack(lead_out(this, junction, asked.headings or mains.headings()))
-      end
-      for _, heading in headings do
+      local modules = if lead_out then lead_out(this, junction, asked.headings or mains.headings()) else {}
+      for _, heading in if lead_out then {} else headings do
         table.insert(modules, start(pattern, junction, place.x, place.y, heading, 0, 0, left - 1))
       end
       return table.unpack(modules)
@@ -394,8 +389,8 @@ function growth.system(asked: options.RoadOptions, ...: number): (System<Network
       if crossed then
         local place = this:place(crossed)
         local pattern = pattern_at(place.x, place.y)
-        local cross = pattern.cross
-        if inside(place.x, place.y) and random() < (if depth == 0 then math.max(cross, 0.2) else cross) then
+        local cross = if depth == 0 then math.max(pattern.cross, 0.2) else pattern.cross
+        if inside(place.x, place.y) and random() < cross then
           return start(pattern, crossed, place.x, place.y, heading, depth, run, left - 1, #ASIDE)
         end
       elseif depth == 0 and tries < #ASIDE then
@@ -430,9 +425,8 @@ function growth.system(asked: options.RoadOptions, ...: number): (System<Network
 
   system:rule("Clock(left)", function(this: Network, left: number)
     if left == 0 then
-      local modules = if of.leads_out
-        then exits.modules(this, of.leads_out, of.joint, of.detour, of.allowed)
-        else {}
+      local leads = of.leads_out
+      local modules = if leads then exits.modules(this, leads, of.joint, of.detour, of.allowed) else {}
       if #modules == 0 then
         return nil
       end
@@ -473,6 +467,7 @@ function growth.system(asked: options.RoadOptions, ...: number): (System<Network
     exits.rules(system, of.leads_out)
   end
   if of.divides then
+    mains.trims(system)
     division.rules(system, pattern_at, of.room, deepest, propose, of.sizes)
   end
 

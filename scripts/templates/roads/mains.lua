@@ -80,6 +80,23 @@ local function outline(
   end
 end
 
+-- The rules of what removes streets that lead nowhere.
+function mains.trims(system: System<Network>)
+  -- Where no land lies between streets, all of them would be removed.
+  system:rule("Trim", function()
+    return nil
+  end)
+  system:interpret("Trim", function(this: Network)
+    local count = 0
+    for _, corner in this:places() do
+      count += if #corner.headings > 0 then 1 else 0
+    end
+    if this:size() >= count then
+      this:remove_dead_ends()
+    end
+  end)
+end
+
 -- The headings (degrees) of main streets that leave a centre where none are given.
 function mains.headings(): { number }
   local count, turned = math.floor(random(COUNT[1], COUNT[2] + 1)), random(0, 360)
@@ -192,7 +209,8 @@ function mains.rules(
     local ahead = math.min(bearing + math.deg(PIECE / far), bearing + gap)
     -- It comes back to the outline where it is off.
     local share = far / rim(bearing)
-    local next_share = share + (rest / rim(last) - share) * math.min(1, 1.2 * (ahead - bearing) / math.max(gap, 1))
+    local next_share = share
+      + (rest / rim(last) - share) * math.min(1, 1.2 * (ahead - bearing) / math.max(gap, 1))
     local x, y = place_at(next_share * rim(ahead), ahead)
     for _, turn in TURNS do
       local found = may_lead(x, y, turn, false)
@@ -257,20 +275,6 @@ function mains.rules(
       return nil
     end
   )
-
-  -- Where no land lies between streets, all of them would be removed.
-  system:rule("Trim", function()
-    return nil
-  end)
-  system:interpret("Trim", function(this: Network)
-    local count = 0
-    for _, corner in this:places() do
-      count += if #corner.headings > 0 then 1 else 0
-    end
-    if this:size() >= count then
-      this:remove_dead_ends()
-    end
-  end)
 
   system:interpret(
     "Spoke(junction, heading, length, bearing, room, tries)",
