@@ -31,7 +31,7 @@ local ASIDE = { 20, -40, 60, -80 }
 -- How far (degrees) it turns from one piece to the next.
 local MOST = 18
 -- How often the outline is tried where it is refused, how long (m) its pieces are about, and how far (degrees) they turn to find a way.
-local TRIES, PIECE = 4, 52
+local TRIES, PIECE = 4, 46
 local TURNS = { 0, 8, -8, 16, -16, 26, -26, 38, -38, 52, -52, 66, -66, 80, -80 }
 -- How much nearer (m) to the centre each further try ends.
 local BEFORE = 22
