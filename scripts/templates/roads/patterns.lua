@@ -12,11 +12,12 @@ local between, nearest, number = checks.between, checks.nearest, checks.number
 local KNOWN, drawn = pattern.KNOWN, pattern.drawn
 patterns.check = pattern.check
 
--- A town that nobody planned: main streets lead out of a `middle` (m) and around it, and what they enclose is divided by ever
--- finer streets and lanes. `block` (m) is how wide blocks are about, `bends` how far (degrees) main streets turn from one junction to
--- the next, `cross` the share of streets that leave where another ends on the other side, `stop` how many blocks that have room for
--- it have a lane that ends there, `gap` the share of land that is left to parks and large estates. `variety` from 0 to 1 is how much
--- blocks differ: they are small in the middle and large at the border, and quarters have their own.
+-- A town that nobody planned: main streets lead out of the centre, or out of a `middle` (m) and around it where there are several
+-- centres, and the land between them is divided by ever finer streets and lanes. `block` (m) is the width of blocks, `bends` the angle
+-- (degrees) by which main streets turn, `cross` the share of streets that leave opposite another one, `stop` the share of lanes that
+-- end, of those that have room, `greens` the share of small greens, and `gap` the share of blocks that stay parks or estates.
+-- `variety` from 0 to 1 scales the differences between blocks: they are small in the middle and large at the border, and quarters
+-- have their own.
 function patterns.organic(options: { [string]: any }?): Pattern
   local of: { [string]: any } = options or {}
   checks.options("roads.organic", of, KNOWN)
