@@ -46,7 +46,7 @@ local ALLEY, OLD = 10, 2500
 -- The least area (m²) that has a green at its side.
 local GREEN_LAND = 2500
 -- How much land (m²) has one lane that ends, and how many lanes a block has at most.
-local LANE_LAND, LANES = 5000, 8
+local LANE_LAND, LANES = 4500, 9
 
 -- The rules of division. `pattern_at` gives the pattern of a place, `room` the largest block (m²) of a kind of quarter there, or nil
 -- where land is not divided, and `propose` proposes a street.
