@@ -26,7 +26,7 @@ function patterns.organic(options: { [string]: any }?): Pattern
   local variety = number("roads.organic: variety", of.variety, 1, 0, 1)
   local middle = checks.place("roads.organic: middle", of.middle or { 0, 0 })
   local field = math.floor(random() * 1000000)
-  local usual = { branching = 0, both = 0.1, cross = 0.01, stop = 1, gap = 0.25, greens = 0.4, every = 8 }
+  local usual = { branching = 0, both = 0.1, cross = 0.01, stop = 1, gap = 0.25, greens = 0.9, every = 8 }
   return pattern.make("roads.organic", of, usual, {
     least = math.max(0.22 * block, 16),
     bow = bends / 150,
