@@ -12,27 +12,7 @@ mod looks;
 
 use burgeon::script::RunOptions;
 use check::{PATTERNS, check, grown};
-use looks::{looks, real};
-
-/// The names of the measures, in the order of [`looks`].
-const NAMES: [&str; 16] = [
-    "degree",
-    "dead ends",
-    "3-way",
-    "4-way",
-    "circuity",
-    "meshedness",
-    "order",
-    "block",
-    "spread",
-    "largest",
-    "density",
-    "decline",
-    "zigzags",
-    "stubs",
-    "triangles",
-    "knots",
-];
+use looks::{EACH, MEANS, NAMES, faults, looks, real};
 
 /// What a pattern is compared by: its name and its value of a network.
 const CITIES: [(&str, [f64; 9]); 4] = [
@@ -86,6 +66,13 @@ fn look_at_towns(seeds: u64) {
     row("organic", &means);
     row("the least", &std::array::from_fn(|index| of(index).fold(f64::INFINITY, f64::min)));
     row("the greatest", &std::array::from_fn(|index| of(index).fold(0.0, f64::max)));
+    println!("means out of bounds: {:?}", faults(&means, &MEANS));
+    for (seed, of) in (1..).zip(&all) {
+        let wrong = faults(of, &EACH);
+        if !wrong.is_empty() {
+            println!("seed {seed}: {}", wrong.join("; "));
+        }
+    }
     println!("{seeds} seeds in {:.1} s", begin.elapsed().as_secs_f64());
 }
 

@@ -33,7 +33,7 @@ local variety = math.min(1, extent / 600)
 
 local ways: { [string]: () -> any } = {
   organic = function()
-    return { pattern = roads.organic({ block = small * random(65, 95), variety = variety }) }
+    return { pattern = roads.organic({ block = small * random(62, 74), variety = variety }) }
   end,
   raster = function()
     local angle = random(0, 90)
@@ -93,4 +93,8 @@ options.network = {
   ground = "#a9b58c",
 }
 options.steps = math.ceil(extent / 25) + 8
+if pattern == "organic" then
+  local alley = { name = "alley", width = 7, lanes = 1, sidewalk = 0.9, asphalt = "#8a8f95" }
+  table.insert(options.network.streets, alley)
+end
 roads.grow(options)

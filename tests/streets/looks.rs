@@ -10,6 +10,67 @@ use glam::DVec2;
 pub(crate) const REACH: f64 = 1000.0;
 pub(crate) const RINGS: usize = 4;
 
+/// The names of the measures, in the order of [`looks`].
+pub(crate) const NAMES: [&str; 16] = [
+    "degree",
+    "dead ends",
+    "3-way",
+    "4-way",
+    "circuity",
+    "meshedness",
+    "order",
+    "block",
+    "spread",
+    "largest",
+    "density",
+    "decline",
+    "zigzags",
+    "stubs",
+    "triangles",
+    "knots",
+];
+
+/// What the mean of each measure over many seeds is to lie in: as in London, Monaco and Helsinki. Areas are in m², density is in
+/// km/km², and zigzags are on each kilometre.
+pub(crate) const MEANS: [[f64; 2]; 16] = [
+    [2.55, 2.9],
+    [0.12, 0.25],
+    [0.66, 0.82],
+    [0.04, 0.1],
+    [1.05, 1.21],
+    [0.14, 0.24],
+    [0.0, 0.2],
+    [1200.0, 7000.0],
+    [0.64, 0.7],
+    [0.0, 160_000.0],
+    [22.0, 42.0],
+    [0.0, 1.0],
+    [0.0, 2.2],
+    [0.0, 0.37],
+    [0.0, 0.06],
+    [0.0, 0.07],
+];
+
+/// As much for each single town, where few streets change much.
+pub(crate) const EACH: [[f64; 2]; 16] = [
+    [2.4, 3.05],
+    [0.06, 0.34],
+    [0.55, 0.88],
+    [0.02, 0.16],
+    [1.02, 1.25],
+    [0.1, 0.28],
+    [0.0, 0.35],
+    [1000.0, 7000.0],
+    [0.5, 0.82],
+    [0.0, 160_000.0],
+    [22.0, 42.0],
+    [0.0, 1.0],
+    [0.0, 2.2],
+    [0.0, 0.37],
+    [0.0, 0.06],
+    [0.0, 0.07],
+];
+
 /// The measures of a network; its decline, from one ring around the middle to the next, is the greatest quotient.
 pub(crate) fn looks(network: &StreetNetwork) -> [f64; 16] {
     let of = network.measures();
@@ -34,6 +95,13 @@ pub(crate) fn looks(network: &StreetNetwork) -> [f64; 16] {
         of.triangles,
         of.knots,
     ]
+}
+
+/// Which measures lie outside of their bounds.
+pub(crate) fn faults(of: &[f64; 16], bounds: &[[f64; 2]; 16]) -> Vec<String> {
+    let all = NAMES.iter().zip(of).zip(bounds);
+    let wrong = all.filter(|((_, value), [least, most])| !(least..=most).contains(value));
+    wrong.map(|((name, value), [least, most])| format!("{name} {value:.3}, not {least} to {most}")).collect()
 }
 
 /// The streets of a real town, those for cars without ways to single houses; tells that it is left out where its data is not there.

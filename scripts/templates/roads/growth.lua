@@ -1,10 +1,12 @@
 --!strict
 -- Growth: the rules by which streets follow a pattern, from junction to junction.
 local checks = require("checks")
+local division = require("division")
 local exits = require("exits")
 local greens = require("greens")
 local highways = require("highways")
-local patterns = require("patterns")
+local mains = require("mains")
+local options = require("options")
 
 local growth = {}
 
@@ -12,40 +14,6 @@ local growth = {}
 type Pattern = any
 
 local number = checks.number
-
-export type RoadOptions = {
-  pattern: (Pattern | (x: number, y: number) -> Pattern)?,
-  network: NetworkOptions?,
-  extent: (number | (x: number, y: number) -> boolean)?,
-  population: ((x: number, y: number) -> number)?,
-  centres: { { number } }?,
-  headings: { number }?,
-  onto: boolean?,
-  deepest: number?,
-  steps: number?,
-  join: number?,
-  detour: number?,
-  dead_ends: string?,
-  exits: { count: number?, length: number?, rim: (number | Geometry)? }?,
-  allowed: ((network: Network, from: Vector, to: Vector, depth: number) -> boolean)?,
-}
-
-local KNOWN: { [string]: string } = {
-  pattern = "table or function",
-  network = "table",
-  extent = "number or function",
-  population = "function",
-  centres = "table",
-  headings = "table",
-  onto = "boolean",
-  deepest = "number",
-  steps = "number",
-  join = "number",
-  detour = "number",
-  dead_ends = "string",
-  exits = "table",
-  allowed = "function",
-}
 
 -- A street grows at a tip: from a junction, towards a heading, with a length (m) and how often its way has branched off.
 -- It counts its junctions since it divided, how often it was refused, and the steps that are left.
@@ -58,15 +26,22 @@ local Town = module("Town", "junction", "wait", "left")
 local Outskirts = module("Outskirts")
 -- Counts the steps, and tidies up after the last.
 local Clock = module("Clock", "left")
+-- Waits until all modules before it have ended, and begins the next stage: outline, removal of open ends, division, lanes.
+local Watch = module("Watch", "stage")
+-- What it waits for.
+local GROWING = {
+  "Town(junction, wait, left)",
+  "Outskirts",
+  "Highway(junction, heading, length, goal, tries, left)",
+  "Arrival(junction, heading, length, goal, tries)",
+  "Tip(junction, heading, length, depth, run, tries, left)",
+  "Bud(junction, heading, depth, wait, left)",
+}
+table.move(mains.GROWING, 1, #mains.GROWING, #GROWING + 1, GROWING)
+table.move(division.GROWING, 1, #division.GROWING, #GROWING + 1, GROWING)
 
 -- How far (degrees) a main street turns when it is refused, one try after the other.
 local ASIDE = highways.ASIDE
--- What streets are made of, by depth.
-growth.STREETS = {
-  { width = 24, lanes = 4, sidewalk = 4 },
-  { width = 16, lanes = 2, parking = 2.2, sidewalk = 3 },
-  { width = 11, lanes = 2, sidewalk = 2 },
-}
 -- How far (degrees) a side street turns to end beside a junction, one try after the other.
 local BESIDE = { 10, -10, 20, -20, 30, -30 }
 -- How likely a main street leads out of town; side streets never do.
@@ -77,8 +52,8 @@ local WAIT = 2
 local TOWN_WAIT = 4
 -- Which shares of the steps are left when it is looked for land that growth has not come to.
 local LATER = { 0.75, 0.6, 0.45, 0.3, 0.15 }
--- How near (m) a junction draws a street's end, and how far dead ends are joined, where neither pattern nor script says it.
-local SNAP, JOIN = 14, 40
+-- How far (degrees) a main street turns to stay within a town, and up to where it is the same street.
+local BORDER, SAME = 105, 50
 
 -- A number from 0 to 1 that looks drawn, and is the same for a place (m) within some metres.
 local function drawn(x: number, y: number, seed: number): number
@@ -88,104 +63,30 @@ local function drawn(x: number, y: number, seed: number): number
   return mixed * 40503 % 65536 / 65536
 end
 
--- A system whose network grows by a pattern; derive it by `steps`. Options: `pattern` (or a function of a place that
+-- A system whose network grows by a pattern; derive it to its end. Options: `pattern` (or a function of a place that
 -- gives one), fields of the `network`, the `extent` (m) from the middle or a function that says whether a place is
 -- within, the `population` of a place from 0 to 1, `centres` that highways join, `headings` of the first streets,
 -- `onto` true to grow from the open ends of streets that are there, the `deepest` side streets, `join` (m) and `detour`
 -- for dead ends, and `dead_ends`, which are what is left of them to "keep" or to "remove". `exits` are streets that lead out
 -- of the town when all is done, which takes the last four of the steps; `allowed` says which streets may be proposed.
-function growth.system(options: RoadOptions, ...: number)
+function growth.system(asked: options.RoadOptions, ...: number): (System<Network>, number?)
   -- How many functions are called between this and the script, for errors.
   local level = 3 + ((...) or 0)
   -- What the script has called, for errors.
   local caller = if level > 3 then "roads.grow" else "roads.system"
-  checks.options(caller, options :: any, KNOWN, level)
-  local given: any = options.pattern or patterns.organic()
-  local is_by_place = type(given) == "function"
-  local pattern_at: (x: number, y: number) -> Pattern = if is_by_place
-    then function(x, y)
-      return patterns.check(`the pattern at {x}, {y}`, given(x, y), 3)
-    end
-    else function()
-      return given
-    end
-  if not is_by_place then
-    patterns.check(`{caller}: pattern`, given, level)
-  end
-  local extent: any = options.extent
-  if type(extent) ~= "function" then
-    extent = number(`{caller}: extent`, extent, 500, 1, 500000, level)
-  end
-  local inside: (x: number, y: number) -> boolean = if type(extent) == "function"
-    then function(x, y)
-      local is_inside = extent(x, y)
-      if type(is_inside) ~= "boolean" then
-        error(`the extent at {x}, {y} must be true or false, not {is_inside}`, 2)
-      end
-      return is_inside
-    end
-    else function(x, y)
-      return x * x + y * y < extent * extent
-    end
-  local people = options.population
-  local deepest = number(`{caller}: deepest`, options.deepest, 4, 0, 20, level)
-  local steps = number(`{caller}: steps`, options.steps, 24, 1, 10000, level)
-  if steps % 1 ~= 0 then
-    error(`{caller}: steps must be a whole number, not {steps}`, level - 1)
-  end
-  local detour = number(`{caller}: detour`, options.detour, 2.5, 1, 100, level)
-  local dead_ends = options.dead_ends or "keep"
-  if dead_ends ~= "keep" and dead_ends ~= "remove" then
-    error(`{caller}: dead_ends is "keep" or "remove", not "{dead_ends}"`, level - 1)
-  end
-  -- What is removed should rather have been joined, or not have stopped.
-  local keeps = dead_ends == "keep"
-  local usual_join = if is_by_place then JOIN else given.join or JOIN
-  local join = number(`{caller}: join`, options.join, if keeps then usual_join else 130, 0, 2000, level)
-  local centres = options.centres or { { 0, 0 } }
-  local headings = options.headings or { 8, 98, 188, 278 }
-  if options.onto then
-    if not (options.network and options.network.existing) then
-      error(`{caller}: onto = true takes streets that are there: network = \{ existing = ... }`, level - 1)
-    end
-  elseif #centres == 0 or #headings == 0 then
-    error(
-      `{caller}: centres and headings say where streets begin; leave them out, or give one or more`,
-      level - 1
-    )
-  end
-  for index, heading in headings do
-    number(`{caller}: heading {index}`, heading, 0, -360000, 360000, level)
-  end
-  for index, centre in centres do
-    checks.place(`{caller}: centre {index}`, centre, level)
-  end
-
-  local fields: any =
-    { streets = growth.STREETS, min_angle = 50, snap = if is_by_place then SNAP else given.snap or SNAP }
-  for name, value in (options.network or {}) :: any do
-    fields[name] = value
-  end
-  if options.onto then
-    fields.starts = fields.starts or {}
-  elseif fields.starts then
-    error(
-      `{caller}: network has starts, but streets begin at centres: give centres = \{ \{ x, y } }`,
-      level - 1
-    )
-  else
-    fields.starts = centres
-  end
-  local leads_out = if options.exits then exits.check(`{caller}: exits`, options.exits, level) else nil
-  local growing = if leads_out then math.max(steps - exits.STEPS, 1) else steps
-  local allowed = options.allowed
-  local system = lsystem({ object = checks.construct(network, fields, level) :: Network })
+  local of = options.read(asked, caller, level + 1)
+  local pattern_at: (x: number, y: number) -> Pattern = of.pattern_at
+  local inside: (x: number, y: number) -> boolean = of.inside
+  local people: ((x: number, y: number) -> number)?, deepest: number = of.people, of.deepest
+  local centres: { { number } }, headings: { number } = of.centres, of.headings
+  local growing: number, keeps: boolean = of.growing, not of.removes
+  local system: System<Network> = of.system
 
   -- Proposes a street if it may be.
   local function propose(this: Network, junction: number, heading: number, length: number, depth: number)
     local from = this:place(junction)
     local way = length * vec(math.cos(math.rad(heading)), math.sin(math.rad(heading)), 0)
-    if not allowed or allowed(this, from, from + way, depth) then
+    if not of.allowed or of.allowed(this, from, from + way, depth) then
       this:grow(junction, heading, length, depth)
     end
   end
@@ -270,6 +171,58 @@ function growth.system(options: RoadOptions, ...: number)
     return Tip(at, aim, length, depth, run, tries or 0, left)
   end
 
+  -- The main streets that go on from a junction where land is divided: along the border of the town where they come to it.
+  local function main(
+    this: Network,
+    pattern: Pattern,
+    at: number,
+    x: number,
+    y: number,
+    heading: number,
+    run: number,
+    left: number
+  ): { any }
+    local modules = {}
+    local function lead(way: number, count: number)
+      local length = pattern.length(x, y, way, 0)
+      local aim = pattern.toward(x, y, way, length, 0)
+      local function is_free(turn: number): boolean
+        local east, north = math.cos(math.rad(aim + turn)), math.sin(math.rad(aim + turn))
+        return inside(x + 1.3 * length * east, y + 1.3 * length * north)
+      end
+      -- What leaves a street keeps away from others, so that none runs beside another.
+      local function has_room(turn: number): boolean
+        local way = math.rad(aim + turn)
+        local ahead = vec(x + 2.2 * length * math.cos(way), y + 2.2 * length * math.sin(way), 0)
+        return this:distance(ahead) > 1.1 * length
+      end
+      if is_free(0) and (way == heading or has_room(0)) then
+        table.insert(modules, Tip(at, aim, length, 0, count, 0, left))
+        return
+      end
+      for turn = 15, BORDER, 15 do
+        for _, side in { turn, -turn } do
+          if is_free(side) and has_room(side) then
+            table.insert(modules, Tip(at, aim + side, length, 0, 0, 0, left))
+          end
+        end
+        if #modules > 0 and turn <= SAME then
+          return
+        end
+      end
+    end
+    local divides = run >= pattern.every
+    lead(heading, if divides then 0 else run + 1)
+    if divides then
+      local first = if random() < 0.5 then 90 else -90
+      lead(heading + first, 0)
+      if random() < pattern.both then
+        lead(heading - first, 0)
+      end
+    end
+    return modules
+  end
+
   -- The modules that go on from a junction that a street has come to.
   local function onward(
     this: Network,
@@ -293,6 +246,9 @@ function growth.system(options: RoadOptions, ...: number)
     end
     local function tip(aim: number, deep: number, count: number)
       return start(pattern, at, x, y, aim, deep, count, left)
+    end
+    if pattern.room then
+      return if depth == 0 then main(this, pattern, at, x, y, heading, run, left) else {}
     end
     local divides = depth == 0 and pattern.every > 0 and run >= pattern.every
     local modules = { tip(heading, depth, if divides then 0 else run + 1) }
@@ -331,6 +287,9 @@ function growth.system(options: RoadOptions, ...: number)
       local place, degree = corner.place, #corner.headings
       local depth = math.min(corner.depth + 1, deepest)
       local pattern = pattern_at(place.x, place.y)
+      if pattern.room then
+        continue
+      end
       -- How many lengths around a place nothing is to be: few for a dead end, more for a turn, so that gaps stay; a fourth
       -- street leaves a junction for much land alone, and for very much where streets leave one at a time.
       local free = if degree < 2 then 1.1 elseif degree == 2 then 2 elseif pattern.both > 0 then 2.2 else 6
@@ -355,16 +314,22 @@ function growth.system(options: RoadOptions, ...: number)
     looks[math.floor(growing * share)] = growing >= 8
   end
 
+  -- A town around one centre has an outline.
+  local has_outline = of.is_one and of.divides and not of.onto and #centres == 1
+  local lead_out = if has_outline
+    then mains.rules(system, pattern_at(centres[1][1], centres[1][2]), inside, centres[1], propose)
+    else nil
+
   local axiom: { any } = if #centres > 1 then highways.axiom(centres, growing, caller, level) else {}
   local wait = if #axiom > 0 then TOWN_WAIT else 0
-  if options.onto then
+  if of.onto then
     table.insert(axiom, Outskirts())
   else
     for index in centres do
       table.insert(axiom, Town(index, wait, growing))
     end
   end
-  table.insert(axiom, Clock(growing))
+  table.insert(axiom, if of.is_one and of.divides then Watch(1) else Clock(growing))
   system:axiom(table.unpack(axiom))
 
   system:rule(
@@ -375,8 +340,8 @@ function growth.system(options: RoadOptions, ...: number)
       end
       local place = this:place(junction)
       local pattern = pattern_at(place.x, place.y)
-      local modules = {}
-      for _, heading in headings do
+      local modules = if lead_out then lead_out(this, junction, asked.headings or mains.headings()) else {}
+      for _, heading in if lead_out then {} else headings do
         table.insert(modules, start(pattern, junction, place.x, place.y, heading, 0, 0, left - 1))
       end
       return table.unpack(modules)
@@ -388,8 +353,9 @@ function growth.system(options: RoadOptions, ...: number)
     for _, open in this:open_ends() do
       if inside(open.place.x, open.place.y) then
         local pattern = pattern_at(open.place.x, open.place.y)
-        local tip =
-          start(pattern, open.junction, open.place.x, open.place.y, open.heading, open.depth, 0, growing)
+        -- Streets go on as main streets where these alone grow.
+        local depth = if pattern.room then 0 else open.depth
+        local tip = start(pattern, open.junction, open.place.x, open.place.y, open.heading, depth, 0, growing)
         table.insert(modules, tip)
       end
     end
@@ -413,14 +379,18 @@ function growth.system(options: RoadOptions, ...: number)
       end
       local at = this:reached(junction, heading)
       if at then
-        return table.unpack(onward(this, at, heading, depth, run, left - 1))
+        local modules = onward(this, at, heading, depth, run, left - 1)
+        if #modules == 0 and of.divides then
+          return nil
+        end
+        return table.unpack(modules)
       end
       local crossed = this:arrived(junction, heading)
       if crossed then
         local place = this:place(crossed)
         local pattern = pattern_at(place.x, place.y)
-        local cross = pattern.cross
-        if inside(place.x, place.y) and random() < (if depth == 0 then math.max(cross, 0.2) else cross) then
+        local cross = if depth == 0 then math.max(pattern.cross, 0.2) else pattern.cross
+        if inside(place.x, place.y) and random() < cross then
           return start(pattern, crossed, place.x, place.y, heading, depth, run, left - 1, #ASIDE)
         end
       elseif depth == 0 and tries < #ASIDE then
@@ -455,15 +425,35 @@ function growth.system(options: RoadOptions, ...: number)
 
   system:rule("Clock(left)", function(this: Network, left: number)
     if left == 0 then
-      local modules = if leads_out
-        then exits.modules(this, leads_out, options.join or JOIN, detour, allowed)
-        else {}
+      local leads = of.leads_out
+      local modules = if leads then exits.modules(this, leads, of.joint, of.detour, of.allowed) else {}
+      if #modules == 0 then
+        return nil
+      end
       return table.unpack(modules)
+    elseif left == 1 and of.divides then
+      return division.Land(false), Watch(4)
     end
     local modules: { any } = if looks[left] then belated(this, left - 1) else {}
     -- It tidies up when all others have grown.
     table.insert(modules, Clock(left - 1))
     return table.unpack(modules)
+  end)
+
+  for _, before in GROWING do
+    system:rule(`{before} < Watch(stage)`, function() end)
+  end
+  system:rule("Watch(stage)", function(_, stage: number)
+    if stage == 1 and has_outline then
+      return mains.Outline(), Watch(2)
+    elseif stage <= 2 and not of.onto then
+      return mains.Trim(), Watch(3)
+    elseif stage <= 3 then
+      return division.Land(false), Watch(4)
+    elseif stage == 4 and keeps then
+      return division.Land(true), Watch(5)
+    end
+    return Clock(0)
   end)
 
   greens.rules(system, function(this: Network, at: number, heading: number, depth: number, left: number)
@@ -473,8 +463,12 @@ function growth.system(options: RoadOptions, ...: number)
   highways.rules(system, function(at: number, heading: number, wait: number, left: number)
     return Bud(at, heading, 1, wait, left)
   end, inside)
-  if leads_out then
-    exits.rules(system, leads_out)
+  if of.leads_out then
+    exits.rules(system, of.leads_out)
+  end
+  if of.divides then
+    mains.trims(system)
+    division.rules(system, pattern_at, of.room, deepest, propose, of.sizes)
   end
 
   system:interpret(
@@ -486,18 +480,19 @@ function growth.system(options: RoadOptions, ...: number)
   )
   system:interpret("Clock(left)", function(this: Network, left: number)
     if left == 0 then
-      this:join_dead_ends(join, detour)
-      if dead_ends == "remove" then
+      this:join_dead_ends(of.join, of.detour)
+      if not keeps then
         this:remove_dead_ends()
       end
     end
   end)
-  return system
+  return system, if of.divides then nil else of.steps
 end
 
 -- Grows a network by a pattern: `roads.system`, derived.
-function growth.grow(options: RoadOptions)
-  return growth.system(options, 1):derive(options.steps or 24)
+function growth.grow(asked: options.RoadOptions)
+  local system, steps = growth.system(asked, 1)
+  return system:derive(steps)
 end
 
 return growth

@@ -37,6 +37,12 @@ export type Pattern = {
   every: number,
   -- Whether main streets turn aside for obstacles alone.
   straight: boolean?,
+  -- The largest block (m²) of a place, by its distance from the centre as a share of the extent and by the kind of its quarter from
+  -- -1 to 1. Only main streets grow then, and the land between them is divided.
+  room: ((x: number, y: number, far: number, kind: number) -> number)?,
+  -- The swing of streets that divide land, as a share of their length, and the share of crescents among them.
+  bow: number?,
+  crescents: number?,
 }
 
 -- What no pattern does without.

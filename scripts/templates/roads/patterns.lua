@@ -12,56 +12,48 @@ local between, nearest, number = checks.between, checks.nearest, checks.number
 local KNOWN, drawn = pattern.KNOWN, pattern.drawn
 patterns.check = pattern.check
 
--- Streets that wander, side streets that leave one at a time: a town that nobody planned. `block` (m) is how far
--- junctions are apart, `bends` how far (degrees) a street turns from one to the next, `branching` how many junctions
--- have side streets, `greens` how many of those that may have one have a small green, `gap` how many of the lanes, which leave
--- side streets, are left out. `variety` from 0 to 1 is how much quarters differ: some are knots of lanes, as old villages are that
--- a town has come to, others wide, and some have parks; without any, no lane is left out.
+-- A town that nobody planned: main streets lead out of the centre, or out of a `middle` (m) and around it where there are several
+-- centres, and the land between them is divided by ever finer streets and lanes. `block` (m) is the width of blocks, `bends` the angle
+-- (degrees) by which main streets turn, `cross` the share of streets that leave opposite another one, `stop` the share of lanes that
+-- end, of those that have room, `greens` the share of small greens, and `gap` the share of blocks that stay parks or estates.
+-- `variety` from 0 to 1 scales the differences between blocks: they are small in the middle and large at the border, and quarters
+-- have their own.
 function patterns.organic(options: { [string]: any }?): Pattern
   local of: { [string]: any } = options or {}
   checks.options("roads.organic", of, KNOWN)
   local block = number("roads.organic: block", of.block, 80, 20, 500)
   local bends = number("roads.organic: bends", of.bends, 38, 0, 60)
   local variety = number("roads.organic: variety", of.variety, 1, 0, 1)
-  local gap = number("roads.organic: gap", of.gap, 0.6, 0, 0.6)
+  local middle = checks.place("roads.organic: middle", of.middle or { 0, 0 })
   local field = math.floor(random() * 1000000)
-  -- From 0 to 1 how far a place lies in a knot of lanes.
-  local function knot(x: number, y: number): number
-    return math.clamp((noise(x / (block * 3), y / (block * 3), 7.5, field) - 0.38) / 0.04, 0, 1)
-  end
-  local usual =
-    { branching = 0.9, both = 0, cross = 0.05, skew = 16, stop = 0, gap = 0, greens = 0.45, every = 3 }
+  local usual = { branching = 0, both = 0.1, cross = 0.01, stop = 1, gap = 0.25, greens = 0.9, every = 8 }
   return pattern.make("roads.organic", of, usual, {
-    gap = 0,
-    least = 0.42 * block,
+    least = math.max(0.22 * block, 16),
+    bow = bends / 150,
+    crescents = bends / 42,
     -- Nobody moves a street for a junction nearby, or joins what ends.
     snap = 7,
     join = 30,
-    sight = 0.4 * block,
-    toward = function(x: number, y: number, heading: number, _: number, depth: number): number
-      -- Streets near one another lead along the same two directions, which turn slowly, and turn alike; the smaller ones have a mind
-      -- of their own, those in a knot the least, for they have no room.
-      local turned = 200 * noise(x / (block * 10), y / (block * 10), 2.5, field)
+    toward = function(x: number, y: number, heading: number, length: number): number
+      local dx, dy = x - middle[1], y - middle[2]
+      if dx * dx + dy * dy < length * length then
+        return heading
+      end
+      -- Out of the middle or around it, as far as hills and fields of old let it.
+      local turned = math.deg(math.atan2(dy, dx)) + 70 * noise(x / (block * 6), y / (block * 6), 2.5, field)
       local aim = nearest(heading, { turned, turned + 90, turned + 180, turned + 270 })
-      local common = 0.3 * noise(x / (block * 5), y / (block * 5), 0.5, field)
-      local own = if depth == 0 then 0.15 else 0.6 * (1 - 0.55 * knot(x, y))
-      return heading
-        + math.min(0.5, bends / 60) * between(heading, aim)
-        + bends * (common + random(-own, own))
+      local own = noise(x / (block * 2.5), y / (block * 2.5), 0.5, field)
+      return heading + 0.35 * between(heading, aim) + bends * 0.6 * own
     end,
-    length = function(x: number, y: number, _: number, depth: number): number
-      -- Quarters are closer here and wider there; main streets less so.
-      local wide = math.exp(variety * (0.9 * variety - 0.4 - 1.6 * knot(x, y)))
-      return if depth == 0
-        then block * math.clamp(wide, 0.8, 1.27)
-        else block * wide * math.exp(variety * random(-0.1, 0.1))
+    length = function(): number
+      return math.max(0.55 * block, 36)
     end,
-    closed = function(x: number, y: number, _: number, _: number, depth: number): boolean
-      -- Parks and large estates, which side streets keep away from, and lanes elsewhere than in a knot.
-      local estate = noise(x / (block * 6), y / (block * 6), 3.5, field)
-      local out = 1.6 * gap * variety * (1 - knot(x, y))
-      return estate > 0.22 + 3 * (1 - variety)
-        or depth > 1 and drawn(math.floor(x / 8 + 0.5), math.floor(y / 8 + 0.5), field) < out
+    -- Blocks are small in the middle and grow outwards, where quarters differ more.
+    room = function(_: number, _: number, far: number, own: number): number
+      local along = math.clamp((far - 0.21) / 0.22, 0, 1)
+      local rise = along * along * (3 - 2 * along)
+      local wide = 5.3 * rise - 2.5 + own * (0.45 + 1.15 * rise)
+      return math.clamp(1.4 * block * block * math.exp(variety * wide), 0.09 * block * block, 100000)
     end,
   })
 end

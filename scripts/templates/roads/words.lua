@@ -1,7 +1,7 @@
 --!strict
 -- Roads that are written as a word of characters.
 local checks = require("checks")
-local growth = require("growth")
+local usual = require("options")
 
 local words = {}
 
@@ -158,7 +158,7 @@ function words.word(options: { [string]: any })
   local leaves = if split == "plain" then bend else branch
   local sharpest = math.min(leaves % 180, 180 - leaves % 180)
   local sharp = math.clamp(sharpest, 10, 50)
-  local fields: any = { streets = growth.STREETS, min_angle = sharp, snap = 25 }
+  local fields: any = { streets = usual.STREETS, min_angle = sharp, snap = 25 }
   for name, value in options.network or {} do
     fields[name] = value
   end

@@ -1,0 +1,192 @@
+--!strict
+-- Areas: what is asked of the outline of the land between streets.
+local checks = require("checks")
+
+local areas = {}
+
+-- The outline of an area, counter-clockwise: its corners (m) with their junctions and how many streets meet there.
+export type Area = {
+  count: number,
+  x: { number },
+  y: { number },
+  junction: { number },
+  degree: { number },
+  -- The depth of the street from each corner to the next.
+  depth: { number },
+  -- Twice the area on the left of the way from the first corner to each.
+  swept: { number },
+  size: number,
+  middle: { number },
+  -- The heading (degrees, up to a quarter turn) that most of the outline leads along.
+  turned: number,
+}
+
+-- The area of a face that a network tells of; nil for what lies outside of all streets.
+function areas.read(face: any): Area?
+  if not face or face.area <= 0 then
+    return nil
+  end
+  local count = #face.corners
+  local area: any = { count = count, x = {}, y = {}, junction = {}, degree = {}, depth = {}, swept = { 0 } }
+  for index, corner in face.corners do
+    area.x[index], area.y[index] = corner.place.x, corner.place.y
+    area.junction[index], area.degree[index], area.depth[index] = corner.junction, corner.degree, corner.depth
+  end
+  local x, y, swept, cosines, sines = 0, 0, 0, 0, 0
+  local ox, oy = area.x[1], area.y[1]
+  for index = 1, count do
+    local after = index % count + 1
+    local ax, ay = area.x[index] - ox, area.y[index] - oy
+    local bx, by = area.x[after] - ox, area.y[after] - oy
+    local cross = ax * by - ay * bx
+    swept += cross
+    area.swept[index + 1] = swept
+    x += (ax + bx) * cross
+    y += (ay + by) * cross
+    -- The fourth power of a direction is the same a quarter turn on.
+    local dx, dy = bx - ax, by - ay
+    local length = math.sqrt(dx * dx + dy * dy)
+    local fourfold = 4 * math.atan2(dy, dx)
+    cosines += length * math.cos(fourfold)
+    sines += length * math.sin(fourfold)
+  end
+  area.size = swept / 2
+  area.middle = { ox + x / (3 * swept), oy + y / (3 * swept) }
+  area.turned = math.deg(math.atan2(sines, cosines)) / 4
+  return area
+end
+
+-- The heading (degrees) of the outline from a corner to the next.
+function areas.heading(area: Area, corner: number): number
+  local after = corner % area.count + 1
+  return math.deg(math.atan2(area.y[after] - area.y[corner], area.x[after] - area.x[corner]))
+end
+
+-- The angle (degrees) of an area at a corner, and the heading of its middle.
+function areas.angle(area: Area, corner: number): (number, number)
+  local out = areas.heading(area, corner)
+  if area.degree[corner] == 1 then
+    return 360, out + 180
+  end
+  local open = 180 - checks.between(areas.heading(area, (corner - 2) % area.count + 1), out)
+  return open, out + open / 2
+end
+
+-- The distance (m) of a corner from the next one.
+function areas.length(area: Area, corner: number): number
+  local after = corner % area.count + 1
+  return math.sqrt((area.x[after] - area.x[corner]) ^ 2 + (area.y[after] - area.y[corner]) ^ 2)
+end
+
+-- Whether a street may leave at a corner: other corners are so far (m) at least, and other streets that leave the outline to either
+-- side.
+function areas.is_apart(area: Area, corner: number, bends: number, streets: number): boolean
+  local count = area.count
+  for step = -1, 1, 2 do
+    local at, far = corner, 0
+    repeat
+      local after = (at + step - 1) % count + 1
+      far += areas.length(area, if step > 0 then at else after)
+      at = after
+      if far < bends or far < streets and area.degree[at] > 2 then
+        return false
+      end
+    until far >= streets or at == corner
+  end
+  return true
+end
+
+-- How far (m) the outline is from a corner towards a heading, and the corner that the piece begins at which is there.
+function areas.hit(area: Area, corner: number, heading: number): (number?, number)
+  local east, north = math.cos(math.rad(heading)), math.sin(math.rad(heading))
+  local x, y, count = area.x[corner], area.y[corner], area.count
+  local xs, ys = area.x, area.y
+  local before = (corner - 2) % count + 1
+  local best, edge = math.huge, 0
+  local ax, ay = xs[1] - x, ys[1] - y
+  local a_side = east * ay - north * ax
+  for index = 1, count do
+    local after = index % count + 1
+    local bx, by = xs[after] - x, ys[after] - y
+    local b_side = east * by - north * bx
+    -- From inside, the outline is crossed from the right to the left.
+    if a_side < 0 and b_side >= 0 and index ~= corner and index ~= before then
+      local part = a_side / (a_side - b_side)
+      local far = (ax + part * (bx - ax)) * east + (ay + part * (by - ay)) * north
+      if far > 1 and far < best then
+        best, edge = far, index
+      end
+    end
+    ax, ay, a_side = bx, by, b_side
+  end
+  if edge == 0 then
+    return nil, 0
+  end
+  return best, edge
+end
+
+-- The part (m²) of an area on the right of a straight way from a corner to a place on its outline.
+function areas.part(area: Area, corner: number, edge: number, x: number, y: number): number
+  local swept = area.swept[edge] - area.swept[corner]
+  if edge < corner then
+    swept += 2 * area.size
+  end
+  local ox, oy = area.x[1], area.y[1]
+  local ex, ey = area.x[edge] - ox, area.y[edge] - oy
+  local cx, cy = area.x[corner] - ox, area.y[corner] - oy
+  local px, py = x - ox, y - oy
+  return (swept + ex * py - ey * px + px * cy - py * cx) / 2
+end
+
+-- How far (m) the outline is from a place towards a heading; what is nearer than a metre is not looked at.
+function areas.hit_from(area: Area, x: number, y: number, heading: number): number
+  local east, north = math.cos(math.rad(heading)), math.sin(math.rad(heading))
+  local best = math.huge
+  for index = 1, area.count do
+    local after = index % area.count + 1
+    local ax, ay, bx, by = area.x[index] - x, area.y[index] - y, area.x[after] - x, area.y[after] - y
+    local a_side, b_side = east * ay - north * ax, east * by - north * bx
+    if (a_side < 0) ~= (b_side < 0) then
+      local part = a_side / (a_side - b_side)
+      local far = (ax + part * (bx - ax)) * east + (ay + part * (by - ay)) * north
+      if far > 1 and far < best then
+        best = far
+      end
+    end
+  end
+  return best
+end
+
+-- How far (m) the outline is from a place, but for what lies behind one who looks towards a heading.
+function areas.ahead(area: Area, x: number, y: number, heading: number): number
+  local east, north = math.cos(math.rad(heading)), math.sin(math.rad(heading))
+  local least = math.huge
+  for index = 1, area.count do
+    local after = index % area.count + 1
+    local ax, ay = area.x[index] - x, area.y[index] - y
+    local dx, dy = area.x[after] - x - ax, area.y[after] - y - ay
+    local part = math.clamp(-(ax * dx + ay * dy) / math.max(dx * dx + dy * dy, 1e-9), 0, 1)
+    local px, py = ax + part * dx, ay + part * dy
+    local far = math.sqrt(px * px + py * py)
+    if far < least and px * east + py * north > -0.71 * far then
+      least = far
+    end
+  end
+  return least
+end
+
+-- The distance (m) of a place from the outline.
+function areas.distance(area: Area, x: number, y: number): number
+  local least = math.huge
+  for index = 1, area.count do
+    local after = index % area.count + 1
+    local ax, ay = area.x[index] - x, area.y[index] - y
+    local dx, dy = area.x[after] - x - ax, area.y[after] - y - ay
+    local part = math.clamp(-(ax * dx + ay * dy) / math.max(dx * dx + dy * dy, 1e-9), 0, 1)
+    local px, py = ax + part * dx, ay + part * dy
+    least = math.min(least, px * px + py * py)
+  end
+  return math.sqrt(least)
+end
+
+return areas

@@ -1,0 +1,221 @@
+--!strict
+-- Division: the land between main streets is divided by finer streets, until no block is larger than the blocks of its place.
+local areas = require("areas")
+local cuts = require("cuts")
+local ways = require("ways")
+
+local division = {}
+
+type Pattern = any
+type Area = areas.Area
+
+-- The area on the left of the street that leaves a junction towards a heading (degrees): how often it could not be divided, and its
+-- kind, from -1 for small blocks to 1 for large ones.
+local Quarter = module("Quarter", "junction", "heading", "tries", "kind")
+-- A street through an area of a size (m²), from a junction by places (m), x and y in turn; the outline of the area leads along
+-- a heading (degrees) there.
+local Cut = module("Cut", "junction", "way", "depth", "area", "along", "tries", "kind")
+-- A lane that ends within a block.
+local Lane = module("Lane", "junction", "way", "depth", "along", "lanes")
+-- Land between streets, where lanes end when it is divided.
+local Yard = module("Yard", "junction", "heading", "lanes")
+-- Divides what main streets enclose, or leads lanes into what is divided.
+local Land = module("Land", "is_divided")
+
+division.GROWING = {
+  "Land(is_divided)",
+  "Yard(junction, heading, lanes)",
+  "Quarter(junction, heading, tries, kind)",
+  "Cut(junction, way, depth, area, along, tries, kind)",
+  "Lane(junction, way, depth, along, lanes)",
+}
+
+-- How many ways to divide an area are tried before it stays as it is.
+local TRIES = 12
+-- From how many blocks land is several quarters, and the least and the largest area (m²) of one.
+local SEVERAL = 15
+local LEAST, MOST = 16000, 80000
+-- After how many tries a street may leave opposite another one.
+local LATE = 9
+-- The largest area (m²) that is left as it is for a park or an estate.
+local ESTATE = 30000
+-- The least area (m²) that a street divides, not a lane.
+local STREET = 24000
+-- The largest area, in blocks, that an alley divides, and the size (m²) of blocks up to which there are alleys.
+local ALLEY, OLD = 10, 2500
+-- The least area (m²) that has a green at its side.
+local GREEN_LAND = 2500
+-- How much land (m²) has one lane that ends, and how many lanes a block has at most.
+local LANE_LAND, LANES = 4500, 9
+
+-- The rules of division. `pattern_at` gives the pattern of a place, `room` the largest block (m²) of a kind of quarter there, or nil
+-- where land is not divided, and `propose` proposes a street.
+function division.rules(
+  system: System<Network>,
+  pattern_at: (x: number, y: number) -> Pattern,
+  room: (pattern: Pattern, x: number, y: number, kind: number) -> number?,
+  deepest: number,
+  propose: ways.Propose,
+  sizes: cuts.Sizes
+)
+  -- Whether a street may leave an area at a corner.
+  local function tester(this: Network, area: areas.Area): (number, { number }, number) -> boolean
+    return function(corner, way, depth)
+      local heading, length = ways.aim(this, area.junction[corner], way[1], way[2])
+      return this:probe(area.junction[corner], heading, length, depth).built
+    end
+  end
+
+  system:rule("Land(is_divided)", function(this: Network, is_divided: boolean)
+    local modules, seen = {}, {}
+    for junction, corner in this:places() do
+      for _, heading in corner.headings do
+        local face = this:face(junction, heading)
+        local corners = face.corners
+        local key = junction * 2 ^ 26 + corners[2 % #corners + (if #corners == 1 then 1 else 0)].junction
+        if seen[key] then
+          continue
+        end
+        for index, each in corners do
+          seen[each.junction * 2 ^ 26 + corners[index % #corners + 1].junction] = true
+        end
+        if face.area > 0 and not is_divided then
+          table.insert(modules, Quarter(junction, heading, 0, random(-1, 1)))
+        elseif face.area > GREEN_LAND then
+          table.insert(modules, Yard(junction, heading, 0))
+        end
+      end
+    end
+    if #modules == 0 then
+      return nil
+    end
+    return table.unpack(modules)
+  end)
+
+  system:rule(
+    "Quarter(junction, heading, tries, kind)",
+    function(this: Network, junction: number, heading: number, tries: number, kind: number)
+      local area = areas.read(this:face(junction, heading))
+      if not area or tries >= TRIES then
+        return nil
+      end
+      local x, y = area.middle[1], area.middle[2]
+      local pattern = pattern_at(x, y)
+      -- What is still several quarters has no kind of its own.
+      local own = kind
+      local usual = room(pattern, x, y, 0)
+      if usual and tries == 0 and area.size > math.clamp(SEVERAL * usual, LEAST, MOST) then
+        own = random(-1, 1)
+      end
+      local limit = room(pattern, x, y, own)
+      if not limit then
+        return nil
+      end
+      -- Land that reaches to where blocks are small has smaller ones.
+      local least: number = limit
+      for corner = 1, area.count, math.max(1, area.count // 6) do
+        least = math.min(least, room(pattern, area.x[corner], area.y[corner], own) or least)
+      end
+      limit = math.sqrt(limit * least)
+      local is_estate = tries == 0
+        and area.size > 2500
+        and area.size < 5 * limit
+        and area.size < ESTATE
+        and random() < pattern.gap
+      if area.size > limit and not is_estate then
+        local may_begin = tester(this, area)
+        local depth = if area.size > math.max(6 * limit, STREET)
+          then 1
+          elseif area.size < ALLEY * limit and limit < OLD then 3
+          else 2
+        depth = math.min(depth, deepest, sizes.deepest)
+        local start, way
+        if depth == 2 and limit > OLD and tries < 2 and random() < (pattern.crescents or 0) then
+          local wide = math.max(1.6 * sizes.near[depth], random(0.4, 1) * math.sqrt(limit))
+          start, way = cuts.crescent(sizes, area, wide, depth, may_begin)
+        end
+        if not start then
+          local crosses = random() < pattern.cross
+            or tries >= LATE and area.size > math.max(12 * limit, STREET)
+          start, way = cuts.cut(sizes, area, pattern, limit, depth, tries, crosses, may_begin)
+        end
+        if start and way then
+          return Cut(area.junction[start], way, depth, area.size, areas.heading(area, start), tries, own)
+        end
+        return Quarter(junction, heading, tries + 1, own)
+      end
+      return nil
+    end
+  )
+
+  system:rule(
+    "Yard(junction, heading, lanes)",
+    function(this: Network, junction: number, heading: number, lanes: number)
+      local area = areas.read(this:face(junction, heading))
+      if not area then
+        return nil
+      end
+      local pattern = pattern_at(area.middle[1], area.middle[2])
+      local depth = math.min(2, deepest, sizes.deepest)
+      local start, way
+      if not pattern.room then
+        return nil
+      elseif lanes == 0 and random() < (pattern.greens or 0) then
+        local least = math.min(3, deepest, sizes.deepest)
+        start, way = cuts.crescent(sizes, area, 1.15 * sizes.near[least], least, tester(this, area))
+        depth = if start then least else depth
+      end
+      if not start and lanes < math.min(area.size / LANE_LAND, LANES) and random() < pattern.stop then
+        start, way = cuts.lane(sizes, area)
+      end
+      if start and way then
+        return Lane(area.junction[start], way, depth, areas.heading(area, start), lanes)
+      end
+      return nil
+    end
+  )
+
+  system:rule(
+    "Cut(junction, way, depth, area, along, tries, kind)",
+    function(
+      this: Network,
+      junction: number,
+      way: { number },
+      _: number,
+      size: number,
+      along: number,
+      tries: number,
+      kind: number
+    )
+      local heading = ways.aim(this, junction, way[1], way[2])
+      local first = this:arrived(junction, heading)
+      if not first then
+        return Quarter(junction, along, tries + 1, kind)
+      end
+      local face = this:face(junction, heading)
+      if math.abs(face.area - size) < 1 then
+        -- It was refused on the way, so that there is one area still.
+        return Quarter(junction, along, tries + 1, kind)
+      end
+      return Quarter(junction, heading, 0, kind), Quarter(first, heading + 180, 0, kind)
+    end
+  )
+
+  system:rule(
+    "Lane(junction, way, depth, along, lanes)",
+    function(_: Network, junction: number, _: { number }, _: number, along: number, lanes: number)
+      return Yard(junction, along, lanes + 1)
+    end
+  )
+
+  local function lead(this: Network, junction: number, way: { number }, depth: number)
+    ways.lead(this, junction, way, depth, propose)
+  end
+  system:interpret("Cut(junction, way, depth, area, along, tries, kind)", lead)
+  system:interpret("Lane(junction, way, depth, along, lanes)", lead)
+end
+
+-- The module that begins it.
+division.Land = Land
+
+return division
