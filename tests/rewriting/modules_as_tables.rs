@@ -211,5 +211,5 @@ fn a_table_that_is_not_there_is_refused_with_the_nearest_module() {
     "#;
     let Err(error) = try_run(script, burgeon::options()) else { panic!("this should fail") };
     assert!(error.message().contains("no table called Bilding"), "{error}");
-    assert_eq!(error.remedy().as_deref(), Some("did you mean Building?"));
+    assert_eq!(error.remedy(), Some("did you mean Building?"));
 }

@@ -16,7 +16,9 @@ use super::scripts::{ScriptFiles, SourceFile, own_params, read_stdlib, unreadabl
 #[cfg(feature = "data")]
 use super::tables::ModuleRows;
 use super::types::DeclaredTypes;
-use crate::questions::{AskedRows, ChainView, Question, RowCache, RowSource, Rows};
+#[cfg(feature = "data")]
+use crate::questions::RowSource;
+use crate::questions::{AskedRows, ChainView, Question, RowCache, Rows};
 use burgeon_analysis::{Analysis, CheckedFile, QueryCall, call_problems, has_metatables, inspects_tables};
 use burgeon_base::error::{Error, Result};
 use burgeon_base::locks::LockRecovery;

@@ -13,6 +13,7 @@ use burgeon_base::locks::LockRecovery;
 const MOST: usize = 2_000_000;
 
 /// The texts of SQL whose words are kept.
+#[cfg(feature = "data")]
 const MOST_TEXTS: usize = 10_000;
 
 /// The rows of a question, once they are known. Whoever asks meanwhile waits for them.
@@ -24,6 +25,7 @@ type Slot = Arc<OnceLock<Result<Arc<Rows>>>>;
 pub(crate) struct RowCache {
     known: Mutex<FxHashMap<(Question, u64), CacheEntry>>,
     /// The words of texts of SQL that may name modules.
+    #[cfg(feature = "data")]
     words: Mutex<FxHashMap<Arc<str>, Arc<[String]>>>,
     /// Whether any question was about a state of the chains.
     views: AtomicBool,
@@ -91,6 +93,7 @@ impl RowCache {
     }
 
     /// Returns the words of a text of SQL that may name modules, which `find` finds once.
+    #[cfg(feature = "data")]
     pub(crate) fn words(&self, sql: &str, find: impl FnOnce(&str) -> Vec<String>) -> Arc<[String]> {
         let mut words = self.words.lock().recover();
         if let Some(known) = words.get(sql) {

@@ -6,6 +6,7 @@
 //! chains, a [`ChainView`].
 
 mod cache;
+#[cfg_attr(not(feature = "data"), allow(dead_code, reason = "nobody can ask"))]
 mod chains;
 mod fit;
 mod question;

@@ -9,7 +9,7 @@ use super::InterpretationPass;
 use super::notices::ObjectNotice;
 use crate::machine::{Flusher, Machine, Objects, read_column, returns_modules, returns_value};
 use burgeon_base::Stop;
-use burgeon_base::error::{Error, Limit, Result};
+use burgeon_base::error::{Error, ErrorKind, Limit, Result};
 use burgeon_base::warning::Warning;
 use burgeon_kit::rules::{CLOSE, END, Mark, OPEN, Values, module_brief};
 use burgeon_kit::{Call, Kind, Object, Value};
@@ -52,6 +52,8 @@ pub(crate) struct Applier {
     flushed: (usize, usize),
     /// What the objects have warned of during the batch.
     notices: Vec<ObjectNotice>,
+    /// Whether a call of the script waits for the calls before it, so that its line is where the run ends at a limit.
+    waits: bool,
 }
 
 /// Symbols that are applied between two looks at the stop of the run.
@@ -101,6 +103,7 @@ impl Applier {
             number_at: 0,
             flushed: (0, 0),
             notices: Vec::new(),
+            waits: false,
         })
     }
 
@@ -363,6 +366,9 @@ impl Applier {
         let text = module_brief(plan.grammar.symbols(), &self.values, symbol, params);
         let interpretations = &plan.interpretations;
         match interpretations.list.get(usize::from(interpretations.by_symbol[usize::from(symbol)])) {
+            Some(known) if self.waits && matches!(error.kind(), ErrorKind::Limit(Limit::Time)) => {
+                error.rule(format!("{} (interpretation)", known.name))
+            }
             Some(known) => error.at(known.place.clone()).rule(format!("{} (interpretation)", known.name)),
             None => error,
         }
@@ -389,7 +395,10 @@ impl Flusher for Applier {
                 .help("look for a loop that never ends, or let more modules draw the parts"));
         }
         self.read(entry, called)?;
-        self.apply(entry, self.position)?;
+        self.waits = true;
+        let applied = self.apply(entry, self.position);
+        self.waits = false;
+        applied?;
         self.count()
     }
 
