@@ -66,6 +66,8 @@ green:interpret("Bed(geom, flowers)", function(this, geom, flowers)
   end
 end)
 green:interpret("Planted(place, species, height, radius)", function(this, place, species, height, radius)
-  this:jump(place:place() + vec(0, 0, LEVEL)):place(models.trees[species], 2 * radius, 2 * radius, height)
+  this
+    :jump(place:place() + vec(0, 0, LEVEL))
+    :place(models.trees[species], vec(2 * radius, 2 * radius, height))
 end)
 green:derive()

@@ -110,12 +110,6 @@ impl Drawing {
         self.nearest.get_or_init(|| Arc::new(Nearest::new(&self.parts))).distance(place)
     }
 
-    /// Places a model in `frame`, with scales along its own axes: 1 along x, and along y and z as along x, unless given.
-    pub fn place_scaled(&mut self, model: &Arc<Model>, frame: DAffine3, [x, y, z]: [Option<f64>; 3]) {
-        let x = x.unwrap_or(1.0);
-        self.place(model, frame * DAffine3::from_scale(DVec3::new(x, y.unwrap_or(x), z.unwrap_or(x))));
-    }
-
     /// Places `model` at `frame`; the same model many times is one mesh with many instances.
     pub fn place(&mut self, model: &Arc<Model>, frame: DAffine3) {
         self.place_as(model, frame, None);

@@ -55,7 +55,7 @@ pub use makers::Makers;
 pub use model::Model;
 pub use note::Note;
 pub use object::Object;
-pub use parameter::{Answer, Expectation, ObjectParameter, Parameter, Vector, object};
+pub use parameter::{Answer, AxisScale, Expectation, ObjectParameter, Parameter, Vector, object};
 pub use planar::{Lines, rings};
 pub use prefetch::{BeginPrefetch, Prefetch};
 pub use registry::Registry;

@@ -401,6 +401,38 @@ fn list(values: impl Iterator<Item = Value>) -> Value {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Vector(pub DVec3);
 
+/// A scale for each axis, or one for all of them.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct AxisScale(pub DVec3);
+
+impl Default for AxisScale {
+    fn default() -> Self {
+        Self(DVec3::ONE)
+    }
+}
+
+impl Parameter for AxisScale {
+    fn luau() -> String {
+        "number | Vector".into()
+    }
+
+    fn from_value(value: Value) -> Result<Self, Expectation> {
+        match value {
+            Value::Number(_) => f64::from_value(value).map(|scale| Self(DVec3::splat(scale))),
+            value => {
+                let found = Vector::from_value(value.clone());
+                found.map(|Vector(scale)| Self(scale)).map_err(|_| {
+                    Expectation::new("a number, or a vector with a scale for each axis").found(&value)
+                })
+            }
+        }
+    }
+
+    fn into_value(self) -> Value {
+        Vector(self.0).into_value()
+    }
+}
+
 impl Parameter for Vector {
     fn luau() -> String {
         "Vector".into()

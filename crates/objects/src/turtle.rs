@@ -2,14 +2,14 @@
 
 use std::sync::Arc;
 
-use glam::{DQuat, DVec3};
+use glam::{DAffine3, DQuat, DVec3};
 
 use super::MaterialOptions;
 use super::mesh::{MeshFaces, MeshOptions, MeshPoints, draw_mesh};
 use super::surface::plain_material;
 use burgeon_base::error::{Error, Result};
 use burgeon_geometry::{Frame, Strand, face, sphere};
-use burgeon_kit::{Color, Drawing, Model, Vector, fields, methods, object};
+use burgeon_kit::{AxisScale, Color, Drawing, Model, Vector, fields, methods, object};
 use burgeon_scene::Material;
 
 /// What `turtle { ... }` takes.
@@ -265,10 +265,11 @@ impl Turtle {
         sphere(self.drawing.part(self.state.part), self.state.frame.position, radius, sides)
     }
 
-    /// Places what another system has drawn at the turtle's frame, with this `scale` (1 unless given) along its x axis, and
-    /// along its y and z axes (`scale` unless given).
-    pub fn place(&mut self, model: Arc<Model>, scale: Option<f64>, y: Option<f64>, z: Option<f64>) {
-        self.drawing.place_scaled(&model, self.state.frame.transform(), [scale, y, z]);
+    /// Places what another system has drawn at the turtle's frame, with this `scale` (1 unless given), which may be a vector
+    /// with a scale for each axis of the model.
+    pub fn place(&mut self, model: Arc<Model>, scale: Option<AxisScale>) {
+        let scale = DAffine3::from_scale(scale.unwrap_or_default().0);
+        self.drawing.place(&model, self.state.frame.transform() * scale);
     }
 
     /// Draws `faces` in the turtle's frame, each the numbers of its corners among `points` (m), such as { 1, 2, 3 }.

@@ -6,7 +6,7 @@ local checks = require("checks")
 local cuts = {}
 
 type Pattern = any
-type Area = areas.Area
+type Area = any
 
 -- Lengths (m) that follow from the widths of streets, by their depth.
 export type Sizes = {
@@ -258,7 +258,7 @@ function cuts.cut(
       })
     end
   end
-  table.sort(found, function(one, other)
+  table.sort(found, function(one: any, other: any): boolean
     return one.cost < other.cost
   end)
   -- What is divided further is no strip, across which no street has room.

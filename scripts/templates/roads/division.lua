@@ -7,7 +7,6 @@ local ways = require("ways")
 local division = {}
 
 type Pattern = any
-type Area = areas.Area
 
 -- The area on the left of the street that leaves a junction towards a heading (degrees): how often it could not be divided, and its
 -- kind, from -1 for small blocks to 1 for large ones.
@@ -55,11 +54,11 @@ function division.rules(
   pattern_at: (x: number, y: number) -> Pattern,
   room: (pattern: Pattern, x: number, y: number, kind: number) -> number?,
   deepest: number,
-  propose: ways.Propose,
-  sizes: cuts.Sizes
+  propose: any,
+  sizes: any
 )
   -- Whether a street may leave an area at a corner.
-  local function tester(this: Network, area: areas.Area): (number, { number }, number) -> boolean
+  local function tester(this: Network, area: any): (number, { number }, number) -> boolean
     return function(corner, way, depth)
       local heading, length = ways.aim(this, area.junction[corner], way[1], way[2])
       return this:probe(area.junction[corner], heading, length, depth).built
@@ -67,7 +66,7 @@ function division.rules(
   end
 
   system:rule("Land(is_divided)", function(this: Network, is_divided: boolean)
-    local modules, seen = {}, {}
+    local modules: { any }, seen: { [any]: boolean } = {}, {}
     for junction, corner in this:places() do
       for _, heading in corner.headings do
         local face = this:face(junction, heading)

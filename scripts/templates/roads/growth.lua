@@ -69,24 +69,25 @@ end
 -- `onto` true to grow from the open ends of streets that are there, the `deepest` side streets, `join` (m) and `detour`
 -- for dead ends, and `dead_ends`, which are what is left of them to "keep" or to "remove". `exits` are streets that lead out
 -- of the town when all is done, which takes the last four of the steps; `allowed` says which streets may be proposed.
-function growth.system(asked: options.RoadOptions, ...: number): (System<Network>, number?)
+function growth.system(asked: any, ...: number): (System<Network>, number?)
   -- How many functions are called between this and the script, for errors.
   local level = 3 + ((...) or 0)
   -- What the script has called, for errors.
   local caller = if level > 3 then "roads.grow" else "roads.system"
-  local of = options.read(asked, caller, level + 1)
+  local of: any = options.read(asked, caller, level + 1)
   local pattern_at: (x: number, y: number) -> Pattern = of.pattern_at
   local inside: (x: number, y: number) -> boolean = of.inside
   local people: ((x: number, y: number) -> number)?, deepest: number = of.people, of.deepest
   local centres: { { number } }, headings: { number } = of.centres, of.headings
   local growing: number, keeps: boolean = of.growing, not of.removes
   local system: System<Network> = of.system
+  local allowed: ((Network, Vector, Vector, number) -> boolean)? = of.allowed
 
   -- Proposes a street if it may be.
   local function propose(this: Network, junction: number, heading: number, length: number, depth: number)
     local from = this:place(junction)
     local way = length * vec(math.cos(math.rad(heading)), math.sin(math.rad(heading)), 0)
-    if not of.allowed or of.allowed(this, from, from + way, depth) then
+    if not allowed or allowed(this, from, from + way, depth) then
       this:grow(junction, heading, length, depth)
     end
   end
@@ -316,7 +317,7 @@ function growth.system(asked: options.RoadOptions, ...: number): (System<Network
 
   -- A town around one centre has an outline.
   local has_outline = of.is_one and of.divides and not of.onto and #centres == 1
-  local lead_out = if has_outline
+  local lead_out: ((Network, number, { number }) -> { any })? = if has_outline
     then mains.rules(system, pattern_at(centres[1][1], centres[1][2]), inside, centres[1], propose)
     else nil
 
@@ -340,7 +341,9 @@ function growth.system(asked: options.RoadOptions, ...: number): (System<Network
       end
       local place = this:place(junction)
       local pattern = pattern_at(place.x, place.y)
-      local modules = if lead_out then lead_out(this, junction, asked.headings or mains.headings()) else {}
+      local modules: { any } = if lead_out
+        then lead_out(this, junction, asked.headings or mains.headings())
+        else {}
       for _, heading in if lead_out then {} else headings do
         table.insert(modules, start(pattern, junction, place.x, place.y, heading, 0, 0, left - 1))
       end
@@ -426,7 +429,9 @@ function growth.system(asked: options.RoadOptions, ...: number): (System<Network
   system:rule("Clock(left)", function(this: Network, left: number)
     if left == 0 then
       local leads = of.leads_out
-      local modules = if leads then exits.modules(this, leads, of.joint, of.detour, of.allowed) else {}
+      local modules: { any } = if leads
+        then exits.modules(this, leads, of.joint, of.detour, of.allowed)
+        else {}
       if #modules == 0 then
         return nil
       end
@@ -490,7 +495,7 @@ function growth.system(asked: options.RoadOptions, ...: number): (System<Network
 end
 
 -- Grows a network by a pattern: `roads.system`, derived.
-function growth.grow(asked: options.RoadOptions)
+function growth.grow(asked: any)
   local system, steps = growth.system(asked, 1)
   return system:derive(steps)
 end

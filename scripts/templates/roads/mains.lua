@@ -114,7 +114,7 @@ function mains.rules(
   pattern: Pattern,
   inside: (x: number, y: number) -> boolean,
   centre: { number },
-  propose: ways.Propose
+  propose: any
 )
   local rim = outline(inside, centre)
   local field = math.floor(random() * 1000000)
@@ -229,10 +229,10 @@ function mains.rules(
         table.insert(ends, { junction = open.junction, heading = open.heading, bearing = bearing })
       end
     end
-    table.sort(ends, function(one, other)
+    table.sort(ends, function(one: any, other: any): boolean
       return one.bearing < other.bearing
     end)
-    local modules = {}
+    local modules: { any } = {}
     for index, one in ends do
       local other = ends[index % #ends + 1]
       local from, heading = one.junction, one.heading
@@ -293,10 +293,10 @@ function mains.rules(
   return function(this: Network, junction: number, headings: { number }): { any }
     local place = this:place(junction)
     local sorted = table.clone(headings)
-    table.sort(sorted, function(one, other)
+    table.sort(sorted, function(one: number, other: number): boolean
       return one % 360 < other % 360
     end)
-    local modules = {}
+    local modules: { any } = {}
     for index, heading in sorted do
       local before = sorted[(index - 2) % #sorted + 1]
       local after = sorted[index % #sorted + 1]

@@ -148,7 +148,8 @@ function options.read(asked: RoadOptions, caller: string, level: number): any
   end
   local sizes = cuts.sizes(widths, fields.clearance or CLEARANCE, fields.corner or CORNER)
   local function room(pattern: Pattern, x: number, y: number, own: number): number?
-    if not pattern.room then
+    local of_pattern: ((number, number, number, number) -> number?)? = pattern.room
+    if not of_pattern then
       return nil
     end
     local much = if people then number("population of a place", people(x, y), 0, -math.huge, math.huge) else 1
@@ -157,7 +158,7 @@ function options.read(asked: RoadOptions, caller: string, level: number): any
       far = math.min(far, math.sqrt((x - centre[1]) ^ 2 + (y - centre[2]) ^ 2))
     end
     local reach = if type(extent) == "number" then extent else 2 * far
-    local most = pattern.room(x, y, far / reach, own)
+    local most: number? = of_pattern(x, y, far / reach, own)
     return if most and much > 0.02 then most / math.min(much, 1) else nil
   end
   return {

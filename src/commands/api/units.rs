@@ -55,8 +55,6 @@ const FACTORS: [&str; 54] = [
     "ease.sine t",
     "ease.smooth t",
     "extruder:place scale",
-    "extruder:place y",
-    "extruder:place z",
     "extruder:scale scale",
     "extruder:scale y",
     "extruder:star inner",
@@ -91,8 +89,6 @@ const FACTORS: [&str; 54] = [
     "turtle.elasticity",
     "turtle:elasticity elasticity",
     "turtle:place scale",
-    "turtle:place y",
-    "turtle:place z",
     "turtle:tropism elasticity",
     "vector:lerp t",
 ];

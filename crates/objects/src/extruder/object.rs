@@ -8,8 +8,8 @@ use crate::mesh::{MeshFaces, MeshOptions, MeshPoints, draw_mesh};
 use burgeon_base::error::{Error, Result};
 use burgeon_base::warning::{Warning, WarningKind};
 use burgeon_geometry::{Rings, Section, Segment, SweepOptions, sweep};
-use burgeon_kit::{Color, Drawing, Model, Path, Vector, Warn, fields, methods, object};
-use glam::{DVec2, DVec3};
+use burgeon_kit::{AxisScale, Color, Drawing, Model, Path, Vector, Warn, fields, methods, object};
+use glam::{DAffine3, DVec2, DVec3};
 use smallvec::{SmallVec, smallvec};
 
 /// What `extruder { ... }` takes.
@@ -235,10 +235,11 @@ impl Extruder {
         draw_mesh(to, &self.state.frame, &points, &faces, &options.unwrap_or_default())
     }
 
-    /// Places what another system has drawn at the extruder's frame, with this `scale` (1 unless given) along its x axis, and
-    /// along its y and z axes (`scale` unless given).
-    pub fn place(&mut self, model: Arc<Model>, scale: Option<f64>, y: Option<f64>, z: Option<f64>) {
-        self.drawing.place_scaled(&model, self.state.frame.transform(), [scale, y, z]);
+    /// Places what another system has drawn at the extruder's frame, with this `scale` (1 unless given), which may be a vector
+    /// with a scale for each axis of the model.
+    pub fn place(&mut self, model: Arc<Model>, scale: Option<AxisScale>) {
+        let scale = DAffine3::from_scale(scale.unwrap_or_default().0);
+        self.drawing.place(&model, self.state.frame.transform() * scale);
     }
 
     /// Its place (m).
