@@ -492,6 +492,15 @@ mod tests {
     use super::*;
 
     #[test]
+    fn a_scale_is_one_number_or_one_for_each_axis() {
+        let axes = Vector(DVec3::new(2.0, 3.0, 4.0)).into_value();
+        assert_eq!(AxisScale::from_value(Value::Number(2.0)).ok(), Some(AxisScale(DVec3::splat(2.0))));
+        assert_eq!(AxisScale::from_value(axes).ok(), Some(AxisScale(DVec3::new(2.0, 3.0, 4.0))));
+        assert!(AxisScale::from_value(Value::Text("large".into())).is_err());
+        assert_eq!(AxisScale::default(), AxisScale(DVec3::ONE));
+    }
+
+    #[test]
     fn an_optional_number_may_be_left_out_of_a_column() {
         assert_eq!(Option::<f64>::from_number(ColumnValue::Nil.pack()), Some(None));
         assert_eq!(Option::<f64>::from_number(2.0), Some(Some(2.0)));

@@ -40,7 +40,7 @@ const COUNTS: [&str; 30] = [
 ];
 
 /// Parts of something, chances, weights, and what sizes are multiplied by.
-const FACTORS: [&str; 54] = [
+const FACTORS: [&str; 50] = [
     ".amount",
     ".metallic",
     ".noise",
