@@ -126,7 +126,7 @@ pub fn run_session(session: &Arc<Session>) -> Result<Run> {
         idle.extend((!meshes.any(|mesh| mesh.triangles() > 0)).then(|| Arc::clone(system)));
     }
     session.stop.check()?;
-    if let Some(note) = unplaced(&systems) {
+    if let Some(note) = note_unplaced(&systems) {
         session.add_note(note);
     }
     systems.iter().filter_map(|system| left_out(system)).for_each(|warning| session.warn(warning));
@@ -147,8 +147,8 @@ pub fn run_session(session: &Arc<Session>) -> Result<Run> {
 /// The most lines that a note names.
 const MOST_LINES: usize = 3;
 
-/// The note about systems that nobody sees: rules hold them only to place them, and have placed none.
-fn unplaced(systems: &[Arc<DerivedSystem>]) -> Option<String> {
+/// Returns a note about systems that are not shown: rules can place them, and have not.
+fn note_unplaced(systems: &[Arc<DerivedSystem>]) -> Option<String> {
     let unseen = systems.iter().filter(|system| system.is_placed() && !system.has_been_placed());
     let mut lines: Vec<String> = unseen
         .filter(|system| system.objects.iter().any(|object| object.triangles() > 0))

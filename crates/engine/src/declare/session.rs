@@ -423,7 +423,7 @@ impl Session {
     #[cfg(feature = "data")]
     pub(crate) fn ask_about(&self, question: &Question, view: &ChainView, stays: bool) -> Result<Arc<Rows>> {
         let words = self.rows.words(&question.statement(), burgeon_query::table_words);
-        let modules = view.named(&words);
+        let modules = view.find_modules(&words);
         if !modules.is_empty() {
             self.asked.lock().recover().extend(&modules);
         }

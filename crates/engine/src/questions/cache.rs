@@ -27,7 +27,7 @@ pub(crate) struct RowCache {
     /// The words of texts of SQL that may name modules.
     #[cfg(feature = "data")]
     words: Mutex<FxHashMap<Arc<str>, Arc<[String]>>>,
-    /// Whether any question was about a state of the chains.
+    /// Set once a question was about a state of the chains.
     views: AtomicBool,
     /// The places of modules whose rules have asked data or geometries in the step at hand, and what; in words.
     noted: Mutex<Vec<(usize, String)>>,

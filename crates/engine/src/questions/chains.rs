@@ -60,7 +60,7 @@ impl ChainView {
     }
 
     /// Returns the modules that `words` name.
-    pub(crate) fn named(&self, words: &[String]) -> Vec<Symbol> {
+    pub(crate) fn find_modules(&self, words: &[String]) -> Vec<Symbol> {
         words.iter().filter_map(|word| self.symbols.find(word).ok()).collect()
     }
 

@@ -127,7 +127,7 @@ struct ChainVerifier {
     chain: Arc<WebPkiServerVerifier>,
     /// Certificates of the authorities.
     known: Vec<CertificateDer<'static>>,
-    /// Whether the name of the server is verified too.
+    /// Set if the name of the server is verified too.
     names: bool,
 }
 

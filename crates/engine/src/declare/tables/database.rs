@@ -124,9 +124,9 @@ impl ModuleRows<'_> {
         }
     }
 
-    /// The error for a question about modules and tables of a server.
+    /// Returns the error for a query that joins modules with a table of a server.
     #[cfg(feature = "postgis")]
-    fn mixed(&self) -> Error {
+    fn server_join_error(&self) -> Error {
         let names = self.modules.iter().map(|symbol| self.view.symbols().signature(*symbol).name.as_str());
         let names = names.collect::<Vec<_>>().join(" and ");
         Error::argument(format!("a query cannot join the modules {names} with a table of a server")).help(
@@ -134,7 +134,7 @@ impl ModuleRows<'_> {
         )
     }
 
-    /// Warns that a question about modules is answered by a source, whose name differs in nothing or in capital letters.
+    /// Warns that a query reads the source `source` and not the modules, since both have the same name.
     fn warn_hidden(&self, module: &str, source: &str) {
         let text = format!("{module} in a query is the source {source}, not the modules {module}");
         let help = format!("give one of them another name: source(file, {{ table = \"{source}_data\" }})");
@@ -165,7 +165,7 @@ impl RowSource for ModuleRows<'_> {
         })?;
         #[cfg(feature = "postgis")]
         let answer = match server {
-            Some(_) if !self.modules.is_empty() => return Err(self.mixed()),
+            Some(_) if !self.modules.is_empty() => return Err(self.server_join_error()),
             Some(server) => server.query(&statement, &cells, frame.as_ref(), &budget)?,
             None => database.query(&statement, &cells, &budget).map_err(|error| self.suggest(error))?,
         };

@@ -52,7 +52,7 @@ pub(crate) struct Applier {
     flushed: (usize, usize),
     /// What the objects have warned of during the batch.
     notices: Vec<ObjectNotice>,
-    /// Whether a call of the script waits for the calls before it, so that its line is where the run ends at a limit.
+    /// Set while a call of the script waits for the calls before it: a run that reaches its time limit ends at that line.
     waits: bool,
 }
 
