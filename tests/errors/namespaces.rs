@@ -91,7 +91,12 @@ fn init(number: usize, of: &Declared) -> String {
             "do local s = lsystem({{ object = extruder() }})\n s:axiom(M.{name}({ones}))\n\
              s:rule(\"{name}({})\", [[ if w < 3 then return {name}({}) end ]])\n\
              s:interpret(\"{name}\", function(this){methods} this:extrude(1) end)\n\
-             print(\"own module\", {number}, #s:derive().chains[1]) end",
+             print(\"own module\", {number}, #s:derive().chains[1])\n\
+             local copies = lsystem({{ object = extruder() }})\n\
+             copies:axiom(query(\"select * from {name}\", M.{name}))\n\
+             copies:derive(0)\n\
+             local rows = query(\"select a.w as w from {name} a, {name} where a.w = {name}.w order by 1\")\n\
+             print(\"rows\", {number} * 10 + {module}, #rows, rows[1].w, #query(\"{name}\")) end",
             parameters(*count),
             ["w + 1", "w + 1, h"][count - 1],
         );
@@ -207,8 +212,28 @@ proptest! {
                     parameters(count), ["w + 1", "w + 1, 1"][count - 1],
                 );
             }
+            for owner in &all {
+                if packages[*owner].modules.contains_key(&module) {
+                    // One of its own, whose first parameter has grown to 3, and a copy of it.
+                    expected.push(format!("rows\t{}\t4\t3\t2", owner * 10 + module));
+                }
+            }
+            for owner in owners.iter().filter(|it| required.contains(it)) {
+                // What the script has made of it, too.
+                let full = PACKAGES[*owner];
+                let _ = writeln!(script, "print(\"seen\", {owner}, #query([[select w from \"{full}\".{name}]]), #query(\"{full}.{name}\"))");
+                expected.push(format!("seen\t{owner}\t3\t3"));
+            }
             if *name == "F" {
                 continue;
+            }
+            match meant(&owners, required) {
+                Some(owner) => {
+                    let _ = writeln!(script, "print(\"plain\", {owner}, #query(\"{name}\"))");
+                    expected.push(format!("plain\t{owner}\t{}", if required.contains(&owner) { 3 } else { 2 }));
+                }
+                None if owners.len() > 1 => errors.push((format!("query(\"{name}\")"), format!("{name} is a module of"), owners.clone())),
+                None => {}
             }
             match meant(&owners, required) {
                 Some(owner) => {

@@ -1,5 +1,6 @@
 //! The database within the program: the tables of a run, and what is asked of them.
 
+use std::borrow::Cow;
 use std::path::Path;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex, OnceLock, RwLock};
@@ -114,6 +115,12 @@ pub fn names_table(sql: &str, table: &str) -> bool {
 /// Lists the words of a statement that may be names of tables, as they are written.
 pub fn table_words(sql: &str) -> Vec<String> {
     rewrite::table_words(sql)
+}
+
+/// Returns a statement that reads other tables: each pair is a name as it is written, with its schema if it has one, and the
+/// name of the table that it means. Fails if the statement cannot be read.
+pub fn rename_tables(sql: &str, names: &[(&str, Cow<'_, str>)]) -> Result<String> {
+    rewrite::rename_tables(sql, names)
 }
 
 impl std::fmt::Debug for Database {

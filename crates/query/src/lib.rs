@@ -27,6 +27,6 @@ mod tables;
 mod tests;
 
 pub use cell::{Cell, QueryAnswer};
-pub use database::{Database, names_table, table_words};
+pub use database::{Database, names_table, rename_tables, table_words};
 pub use functions::{FUNCTIONS, SpatialFunction};
 pub use row_table::RowTable;

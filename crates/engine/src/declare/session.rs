@@ -423,9 +423,9 @@ impl Session {
     #[cfg(feature = "data")]
     pub(crate) fn ask_about(&self, question: &Question, view: &ChainView, stays: bool) -> Result<Arc<Rows>> {
         let words = self.rows.words(&question.statement(), burgeon_query::table_words);
-        let modules = view.find_modules(&words);
+        let modules = view.find_modules(&words, question.scope());
         if !modules.is_empty() {
-            self.asked.lock().recover().extend(&modules);
+            self.asked.lock().recover().extend(modules.iter().map(|module| module.symbol));
         }
         let own = ModuleRows { session: self, view, modules: &modules };
         let source: &dyn RowSource = self.options.inputs.rows.as_deref().unwrap_or(&own);
@@ -451,7 +451,9 @@ impl Session {
         {
             let scripts = self.script_files();
             let queries = scripts.read.values().flat_map(|source| source.analysis.queries.values().flatten());
-            queries.flat_map(|query| burgeon_query::table_words(&query.sql)).collect()
+            let words = queries.flat_map(|query| burgeon_query::table_words(&query.sql));
+            // The last part names the module.
+            words.filter_map(|word| Some(word.rsplit('.').next()?.to_owned())).collect()
         }
         #[cfg(not(feature = "data"))]
         BTreeSet::new()

@@ -17,7 +17,7 @@ use super::types::{
     no_table,
 };
 use super::{Machine, compile, native};
-use crate::declare::{API_VERSION, Param, Print, Setting, has_name};
+use crate::declare::{API_VERSION, Param, Print, Session, Setting, has_name};
 use burgeon_analysis::Globals;
 use burgeon_base::MemoryOwner;
 use burgeon_base::error::{Error, Result, SourcePlace};
@@ -123,6 +123,16 @@ impl Library {
             Ok(machine) => self.scope_of(Machine::asker(lua, &machine.session)),
             Err(_) => NameScope::default(),
         }
+    }
+
+    /// Returns who asks a question, if there are packages whose modules may have one name.
+    pub(crate) fn question_scope<'a>(
+        &self,
+        session: &'a Session,
+        asker: impl FnOnce(&'a Session) -> Option<&'a Package>,
+    ) -> Option<Arc<NameScope>> {
+        let has_packages = !session.packages().order().is_empty();
+        has_packages.then(|| Arc::new(self.scope_of(asker(session))))
     }
 
     /// A package, or the script, as one that asks for names.

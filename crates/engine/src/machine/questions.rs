@@ -7,8 +7,9 @@ use std::sync::Arc;
 use mlua::{Lua, LuaString, Table, Value as LuaValue};
 use rustc_hash::FxHashMap;
 
-use super::WorkState;
 use super::convert::{to_lua, to_value};
+use super::library::Library;
+use super::{Machine, WorkState};
 use crate::questions::{Question, Rows};
 use burgeon_analysis::sql_parameters;
 use burgeon_kit::Value;
@@ -25,7 +26,12 @@ struct RowTables {
 }
 
 /// Adds those that [`prelude/questions.luau`](self) calls.
-pub(super) fn add_questions(lua: &Lua, host: &Table, current: &Rc<WorkState>) -> mlua::Result<()> {
+pub(super) fn add_questions(
+    lua: &Lua,
+    host: &Table,
+    current: &Rc<WorkState>,
+    library: &Rc<Library>,
+) -> mlua::Result<()> {
     host.set(
         "sql_parameters",
         lua.create_function(|lua, sql: LuaString| {
@@ -43,7 +49,7 @@ pub(super) fn add_questions(lua: &Lua, host: &Table, current: &Rc<WorkState>) ->
             Ok(())
         })?,
     )?;
-    let (state, tables) = (Rc::clone(current), RefCell::<RowTables>::default());
+    let (state, library, tables) = (Rc::clone(current), Rc::clone(library), RefCell::<RowTables>::default());
     let none = lua.create_table()?;
     none.set_readonly(true);
     host.set(
@@ -54,7 +60,8 @@ pub(super) fn add_questions(lua: &Lua, host: &Table, current: &Rc<WorkState>) ->
                     Value::Table(values) => Some(values),
                     _ => None,
                 };
-                let question = Question::new(sql.to_string_lossy().into(), values);
+                let scope = library.question_scope(&state.session, |session| Machine::asker(lua, session));
+                let question = Question::new(sql.to_string_lossy().into(), values).asked_in(scope);
                 let rows = match at_top {
                     true => state.session.ask_about(&question, &state.chains_derived.borrow(), true),
                     false => state.session.ask(&question),

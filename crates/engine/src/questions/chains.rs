@@ -5,7 +5,8 @@
 
 use std::sync::Arc;
 
-use burgeon_kit::rules::{Chain, Symbol, Symbols};
+use burgeon_base::error::Result;
+use burgeon_kit::rules::{Chain, NameScope, Symbol, Symbols};
 
 /// The chain of a system.
 #[derive(Debug, Clone)]
@@ -13,6 +14,14 @@ struct SystemChain {
     system: usize,
     symbols: Arc<Symbols>,
     chain: Arc<Chain>,
+}
+
+/// A module that a query names.
+#[derive(Debug)]
+pub(crate) struct NamedModule {
+    /// Its name in the query.
+    pub word: String,
+    pub symbol: Symbol,
 }
 
 /// A state of all chains of a run.
@@ -59,9 +68,19 @@ impl ChainView {
         (u64::from(self.number[0]) << 32 | u64::from(self.number[1])) + 1
     }
 
-    /// Returns the modules that `words` name.
-    pub(crate) fn find_modules(&self, words: &[String]) -> Vec<Symbol> {
-        words.iter().filter_map(|word| self.symbols.find(word).ok()).collect()
+    /// Returns the modules that `words` name where `scope` asks.
+    pub(crate) fn find_modules(&self, words: &[String], scope: Option<&NameScope>) -> Vec<NamedModule> {
+        let named =
+            |word: &String| Some(NamedModule { word: word.clone(), symbol: self.find(word, scope).ok()? });
+        words.iter().filter_map(named).collect()
+    }
+
+    /// Returns the module that a word of a query means where `scope` asks.
+    pub(crate) fn find(&self, word: &str, scope: Option<&NameScope>) -> Result<Symbol> {
+        match scope {
+            Some(scope) => self.symbols.find_in(word, scope),
+            None => self.symbols.find(word),
+        }
     }
 
     /// The declared modules.

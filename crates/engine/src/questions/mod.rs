@@ -13,5 +13,7 @@ mod question;
 
 pub(crate) use cache::{AskedRows, RowCache};
 pub(crate) use chains::ChainView;
+#[cfg(feature = "data")]
+pub(crate) use chains::NamedModule;
 pub(crate) use fit::{fit, listed};
 pub use question::{Question, RowSource, Rows};

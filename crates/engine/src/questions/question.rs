@@ -6,6 +6,7 @@ use std::hash::{BuildHasher as _, Hash, Hasher};
 use std::sync::Arc;
 
 use burgeon_base::error::Result;
+use burgeon_kit::rules::NameScope;
 use burgeon_kit::{Table, TableKey, Value};
 use rustc_hash::FxBuildHasher;
 
@@ -18,6 +19,8 @@ pub struct Question {
     hash: u64,
     sql: Arc<str>,
     values: Option<Arc<Table>>,
+    /// Who asks, where packages may have modules of one name.
+    scope: Option<Arc<NameScope>>,
 }
 
 impl Hash for Question {
@@ -30,15 +33,36 @@ impl Question {
     /// Asks `sql`, whose parameters have these `values`, by name; those that are not there are NULL.
     pub fn new(sql: Arc<str>, values: Option<Arc<Table>>) -> Self {
         let values = values.filter(|values| !values.entries.is_empty());
-        Self { hash: FxBuildHasher.hash_one((&sql, &values)), sql, values }
+        Self { hash: FxBuildHasher.hash_one((&sql, &values)), sql, values, scope: None }
+    }
+
+    /// Returns the question as a package or the script asks it, whose modules its names mean.
+    pub(crate) fn asked_in(mut self, scope: Option<Arc<NameScope>>) -> Self {
+        self.scope = scope;
+        self
+    }
+
+    /// Returns who asks, where packages may have modules of one name.
+    pub(crate) fn scope(&self) -> Option<&NameScope> {
+        self.scope.as_deref()
     }
 
     /// Returns the text as a statement: the name of a table alone asks for all of its rows.
     pub fn statement(&self) -> Cow<'_, str> {
         let name = self.sql.trim();
-        let is_name = name.starts_with(|letter: char| letter.is_alphabetic() || letter == '_')
-            && name.chars().all(|letter| letter.is_alphanumeric() || letter == '_');
-        if is_name { format!("SELECT * FROM \"{name}\"").into() } else { (&*self.sql).into() }
+        let is_name = |part: &str| {
+            part.starts_with(|letter: char| letter.is_alphabetic() || letter == '_')
+                && part.chars().all(|letter| letter.is_alphanumeric() || letter == '_')
+        };
+        // Names of packages may have hyphens.
+        let is_table = match name.split_once('.') {
+            Some((schema, table)) => is_name(&schema.replace('-', "_")) && is_name(table),
+            None => is_name(name),
+        };
+        match is_table {
+            true => format!("SELECT * FROM \"{}\"", name.replacen('.', "\".\"", 1)).into(),
+            false => (&*self.sql).into(),
+        }
     }
 
     /// The text.

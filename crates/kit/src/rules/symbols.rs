@@ -1,5 +1,6 @@
 //! The declared modules: their names and parameters.
 
+use std::borrow::Cow;
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
@@ -216,6 +217,15 @@ impl Symbols {
     /// The name of `symbol` for people: with its package, `castle.Stone`, where several modules have one name.
     pub fn shown(&self, symbol: Symbol) -> &str {
         &self.shown[usize::from(symbol - QUERY)]
+    }
+
+    /// Returns the name that means `symbol` wherever the script asks: with its package if one declares it.
+    pub fn qualified(&self, symbol: Symbol) -> Cow<'_, str> {
+        let name = self.signature(symbol).name.as_str();
+        match self.owner(symbol) {
+            Some(owner) => format!("{owner}.{name}").into(),
+            None => name.into(),
+        }
     }
 
     /// The symbol that `name` means in the script; see [`find_in`](Self::find_in).

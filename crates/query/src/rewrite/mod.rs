@@ -18,6 +18,7 @@ mod nearest;
 mod operators;
 mod order;
 mod parse;
+mod rename;
 mod rows;
 mod scope;
 mod signatures;
@@ -35,5 +36,6 @@ pub(crate) use made::MadeTable;
 #[cfg(feature = "postgis")]
 pub(crate) use parse::placeholder_ranges;
 pub(crate) use parse::{find_word, second_statement, table_words};
+pub(crate) use rename::rename_tables;
 pub(crate) use statement::{Catalogue, Dialect, RewrittenQuery, TableInfo, rewrite};
 pub(crate) use types::SqlType;

@@ -227,7 +227,8 @@ pub(crate) fn find_word(sql: &str, word: &str) -> Option<usize> {
     found.map(|token| offset(sql, token.span.start))
 }
 
-/// Lists the words of a statement that may be names of tables: those behind FROM, JOIN, a comma or a parenthesis.
+/// Lists the words of a statement that may be names of tables, with their schema if they have one: those behind FROM, JOIN,
+/// a comma or a parenthesis.
 pub(crate) fn table_words(sql: &str) -> Vec<String> {
     let Ok(tokens) = tokens(sql) else { return Vec::new() };
     let tokens: Vec<Token> = tokens.into_iter().map(|token| token.token).collect();
@@ -240,9 +241,16 @@ pub(crate) fn table_words(sql: &str) -> Vec<String> {
     let mut words = Vec::new();
     for (place, token) in tokens.iter().enumerate().skip(1) {
         let Token::Word(word) = token else { continue };
-        let is_part = matches!(tokens.get(place + 1), Some(Token::LParen | Token::Period));
-        if leads(tokens[place - 1]) && !is_part && !words.contains(&word.value) {
-            words.push(word.value.clone());
+        if !leads(tokens[place - 1]) {
+            continue;
+        }
+        let name = match tokens[place + 1..] {
+            [Token::LParen, ..] => continue,
+            [Token::Period, Token::Word(table), ..] => format!("{}.{}", word.value, table.value),
+            _ => word.value.clone(),
+        };
+        if !words.contains(&name) {
+            words.push(name);
         }
     }
     words

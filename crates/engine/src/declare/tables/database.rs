@@ -1,14 +1,15 @@
 //! The database of a run, and what is asked of it.
 
+use std::borrow::Cow;
 use std::sync::Arc;
 
 use rustc_hash::FxHashMap;
 
 use super::{SourceTables, TableContent};
 use crate::declare::Session;
-use crate::questions::{ChainView, Question, RowSource, Rows};
+use crate::questions::{ChainView, NamedModule, Question, RowSource, Rows};
 use burgeon_base::budget::Budget;
-use burgeon_base::error::{Error, ErrorKind, Limit, Result, nearest};
+use burgeon_base::error::{Error, ErrorKind, Limit, Result};
 use burgeon_base::text::grouped;
 use burgeon_base::warning::{Warning, WarningKind};
 use burgeon_data::{Layer, ReferenceFrame};
@@ -75,24 +76,32 @@ impl SourceTables {
     }
 
     /// The database with all that is loaded, and with the modules that a question may name. A source hides modules of its name.
-    fn database_with(
+    /// Returns the words of the question that mean a table of another name, with that name.
+    fn database_with<'a>(
         &mut self,
-        rows: &ModuleRows<'_>,
+        rows: &'a ModuleRows<'_>,
         frame: Option<&ReferenceFrame>,
         budget: &Arc<Budget>,
-    ) -> Result<Arc<Database>> {
+    ) -> Result<(Arc<Database>, Vec<(&'a str, Cow<'a, str>)>)> {
         let database = self.database(frame, budget)?;
-        let Some(known) = &mut self.database else { return Ok(database) };
-        for symbol in rows.modules {
-            let name = &rows.view.symbols().signature(*symbol).name;
-            if let Some(source) = self.loaded.iter().find(|table| table.name.eq_ignore_ascii_case(name)) {
-                rows.warn_hidden(name, &source.name);
-            } else if known.modules.get(symbol) != Some(&rows.view.number()) {
+        let mut renamed = Vec::new();
+        let Some(known) = &mut self.database else { return Ok((database, renamed)) };
+        for NamedModule { word, symbol } in rows.modules {
+            if let Some(source) = self.loaded.iter().find(|table| table.name.eq_ignore_ascii_case(word)) {
+                rows.warn_hidden(word, &source.name);
+                continue;
+            }
+            let name = rows.view.symbols().qualified(*symbol);
+            if known.modules.get(symbol) != Some(&rows.view.number()) {
                 database.set_rows(&rows.table(*symbol), budget)?;
                 known.modules.insert(*symbol, rows.view.number());
             }
+            // The database takes a name before a point for a schema.
+            if *word != name || word.contains('.') {
+                renamed.push((word.as_str(), name));
+            }
         }
-        Ok(database)
+        Ok((database, renamed))
     }
 }
 
@@ -107,27 +116,32 @@ impl ModuleRows<'_> {
             0 => self.view.modules(symbol).map(|_| Cell::Boolean(true)).collect(),
             _ => self.view.modules(symbol).flatten().map(cell).collect(),
         };
-        RowTable { name: signature.name.clone(), columns: signature.parameters.clone(), cells }
+        let name = self.view.symbols().qualified(symbol).into_owned();
+        RowTable { name, columns: signature.parameters.clone(), cells }
     }
 
-    /// Adds the module of a similar name to the error for a table that is not there.
-    fn suggest(&self, error: Error) -> Error {
-        match error.kind() {
-            ErrorKind::NotFound { what: "table", name, suggestion: None } => {
-                let names = self.view.symbols().names();
-                match nearest(name, names) {
-                    Some(near) => Error::not_found("table", name, [near], error.message()),
-                    None => error,
+    /// Adds what is known of modules to the error for a table that is not there: those of several packages that have its
+    /// name, or one of a similar name.
+    fn explain(&self, error: Error, question: &Question) -> Error {
+        let ErrorKind::NotFound { what: "table", name, suggestion: None } = error.kind() else {
+            return error;
+        };
+        match self.view.find(name, question.scope()) {
+            Err(found) => match found.kind() {
+                ErrorKind::NotFound { suggestion: Some(near), .. } => {
+                    Error::not_found("table", name, [near.as_str()], error.message())
                 }
-            }
-            _ => error,
+                ErrorKind::NotFound { .. } => error,
+                _ => found,
+            },
+            Ok(_) => error,
         }
     }
 
     /// Returns the error for a query that joins modules with a table of a server.
     #[cfg(feature = "postgis")]
     fn server_join_error(&self) -> Error {
-        let names = self.modules.iter().map(|symbol| self.view.symbols().signature(*symbol).name.as_str());
+        let names = self.modules.iter().map(|module| module.word.as_str());
         let names = names.collect::<Vec<_>>().join(" and ");
         Error::argument(format!("a query cannot join the modules {names} with a table of a server")).help(
             "query the server first, and give the modules its rows: query(\"select ... from houses\", House)",
@@ -147,15 +161,20 @@ pub(in crate::declare) struct ModuleRows<'a> {
     pub session: &'a Session,
     pub view: &'a ChainView,
     /// The modules that the question may name.
-    pub modules: &'a [Symbol],
+    pub modules: &'a [NamedModule],
 }
 
 impl RowSource for ModuleRows<'_> {
     fn rows(&self, question: &Question, most: usize) -> Result<Rows> {
-        let (database, budget) = self.session.data.with_tables(self.session, |tables, frame, budget| {
-            Ok((tables.database_with(self, frame, budget)?, Arc::clone(budget)))
-        })?;
-        let statement = question.statement();
+        let (database, renamed, budget) =
+            self.session.data.with_tables(self.session, |tables, frame, budget| {
+                let (database, renamed) = tables.database_with(self, frame, budget)?;
+                Ok((database, renamed, Arc::clone(budget)))
+            })?;
+        let mut statement = question.statement();
+        if !renamed.is_empty() {
+            statement = burgeon_query::rename_tables(&statement, &renamed)?.into();
+        }
         let values = question.values()?;
         let cells: Vec<(&str, Cell)> =
             values.iter().map(|(name, value)| Ok((*name, cell(name, value)?))).collect::<Result<_>>()?;
@@ -167,10 +186,13 @@ impl RowSource for ModuleRows<'_> {
         let answer = match server {
             Some(_) if !self.modules.is_empty() => return Err(self.server_join_error()),
             Some(server) => server.query(&statement, &cells, frame.as_ref(), &budget)?,
-            None => database.query(&statement, &cells, &budget).map_err(|error| self.suggest(error))?,
+            None => {
+                database.query(&statement, &cells, &budget).map_err(|error| self.explain(error, question))?
+            }
         };
         #[cfg(not(feature = "postgis"))]
-        let answer = database.query(&statement, &cells, &budget).map_err(|error| self.suggest(error))?;
+        let answer =
+            database.query(&statement, &cells, &budget).map_err(|error| self.explain(error, question))?;
         if answer.rows.len() > most {
             let text =
                 format!("the query gives {} rows, of at most {}", grouped(answer.rows.len()), grouped(most));

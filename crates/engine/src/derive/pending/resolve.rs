@@ -111,15 +111,16 @@ impl Resolver<'_> {
 
     /// An error of the module at `at`, with the line that made it.
     fn blame(&self, at: Mark, error: Error) -> Error {
+        error.at(self.place(at)).module(self.shown(at), self.step)
+    }
+
+    /// Returns the line of the script that made the pending module at `at`.
+    fn place(&self, at: Mark) -> Option<SourcePlace> {
         let symbol = self.chain.symbols[at.module];
         let arity = usize::from(self.plan.grammar.arities()[usize::from(symbol)]);
-        let place = match self.value(at, arity - 1) {
-            Value::Text(line) => line.rsplit_once(':').and_then(|(file, line)| {
-                Some(SourcePlace { file: file.to_owned(), line: line.parse().ok()? })
-            }),
-            _ => None,
-        };
-        error.at(place).module(self.shown(at), self.step)
+        let Value::Text(line) = self.value(at, arity - 1) else { return None };
+        let (file, line) = line.rsplit_once(':')?;
+        Some(SourcePlace { file: file.to_owned(), line: line.parse().ok()? })
     }
 
     /// The module at `at` as a script writes it, with the values of its parameters.
@@ -155,7 +156,11 @@ impl Resolver<'_> {
             Value::Table(values) => Some(values),
             _ => None,
         };
-        Ok(Question::new(self.text(at, 0)?, values))
+        let scope = self
+            .machine
+            .library
+            .question_scope(&self.machine.session, |session| session.package_of(&self.place(at)?.file));
+        Ok(Question::new(self.text(at, 0)?, values).asked_in(scope))
     }
 
     /// The module that the pending one at `at` names in its parameter number `index`.
