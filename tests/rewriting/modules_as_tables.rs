@@ -213,3 +213,32 @@ fn a_table_that_is_not_there_is_refused_with_the_nearest_module() {
     assert!(error.message().contains("no table called Bilding"), "{error}");
     assert_eq!(error.remedy(), Some("did you mean Building?"));
 }
+
+#[test]
+fn chains_that_are_left_out_for_their_data_are_no_longer_seen() {
+    // The interpretation of the second one fails: rules see it before, and neither rules nor systems after it.
+    let script = r#"
+        local A, Count = module("A", "height", "seen"), module("Count", "n")
+        local function square(x, height)
+          return { geometry = polygon({ x, 0 }, { x + 9, 0 }, { x + 9, 9 }, { x, 9 }), height = height }
+        end
+        local s = lsystem({})
+        s:axiom(source({ square(0, 3), square(20, -1), square(40, 5) }), function(feature)
+          return footprint(feature), A(feature.height, 0)
+        end)
+        s:rule("A(height, seen)", function(this, height, seen)
+          return A(height, #query("select * from A"))
+        end)
+        s:interpret("A(height, seen)", function(this, height, seen)
+          if seen == 3 then
+            this:walls({ height = height })
+          end
+        end)
+        s:derive(3)
+        local later = lsystem({})
+        later:axiom(Count(#query("A")))
+        later:derive(0)
+    "#;
+    let run = run_with(script, burgeon::options());
+    assert_eq!(all_chains(&run), "A(3,2)\nA(5,2)\nCount(2)\n");
+}

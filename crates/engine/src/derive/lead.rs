@@ -1,7 +1,7 @@
 //! A whole derivation, in the machine whose result counts: it is planned, its steps are made, and what came of it is
 //! settled.
 
-use std::cell::RefCell;
+use std::cell::{Cell, RefCell};
 use std::sync::Arc;
 use std::time::Instant;
 
@@ -56,6 +56,8 @@ struct Growth<'a> {
     steps: Vec<Step>,
     /// The features that modules came from, where they are told.
     features: Option<RefCell<RowFeatures>>,
+    /// How many states of the chain questions have been shown.
+    shown: Cell<u32>,
 }
 
 /// What the steps of a derivation gave.
@@ -82,6 +84,7 @@ impl<'a> Growth<'a> {
             later: Vec::new(),
             steps: Vec::new(),
             features: None,
+            shown: Cell::new(0),
         }
     }
 
@@ -93,12 +96,19 @@ impl<'a> Growth<'a> {
         if session.options.reports.records && self.derivation.traced.is_none() {
             self.features = Some(RefCell::new(RowFeatures::new(chain.symbols.len())));
         }
-        self.show(None);
+        let view = self
+            .leader
+            .machine
+            .current
+            .chains_derived
+            .borrow()
+            .with_begun(plan.system, plan.grammar.symbols());
+        session.show_chains(view);
         if !session.options.check {
             chain = self.resolve(chain, 0)?;
         }
         let mut chain = Arc::new(chain);
-        self.show(Some((&chain, 0)));
+        self.show(&chain);
         let interprets = plan.objects.is_some() && !session.options.check;
         if session.options.check {
             plan.sketch()?;
@@ -114,7 +124,7 @@ impl<'a> Growth<'a> {
             session.stop.check()?;
             let (made, outcome) = self.step(&chain, done + 1)?;
             let made = Arc::new(self.resolve(made, done + 1)?);
-            self.show(Some((&made, done + 1)));
+            self.show(&made);
             self.stepper.reuse(std::mem::replace(&mut chain, made));
             let still = !outcome.changed && derivation.draws_afresh && !plan.grammar.draws_random();
             if !outcome.ran || still {
@@ -182,11 +192,19 @@ impl<'a> Growth<'a> {
         Ok(made)
     }
 
-    /// Shows questions the chain as it stands after some steps; before the axiom is made there is none.
-    fn show(&self, chain: Option<(&Arc<Chain>, usize)>) {
+    /// Shows questions the chain as it stands.
+    fn show(&self, chain: &Arc<Chain>) {
         let (machine, plan) = (self.leader.machine, &self.derivation.plan);
+        self.shown.set(self.shown.get() + 1);
         let view = machine.current.chains_derived.borrow();
-        machine.session.show_chains(view.with_current(plan.system, plan.grammar.symbols(), chain));
+        let view =
+            view.with_current(plan.system, plan.grammar.symbols(), chain, self.failed(), self.shown.get());
+        machine.session.show_chains(view);
+    }
+
+    /// Returns the chains whose data was at fault.
+    fn failed(&self) -> Vec<usize> {
+        self.derivation.plan.objects.as_ref().map(|objects| objects.failed()).unwrap_or_default()
     }
 
     /// Has the chain interpreted as it stands after `step` steps.
@@ -198,9 +216,13 @@ impl<'a> Growth<'a> {
             self.later.clear();
         }
         self.later.retain(|warning| !warning.is_of_pass());
+        let failed = self.failed().len();
         let (leader, uses) = (self.leader, &mut self.interpretations);
         InterpretationPass::pass(leader, plan, chain, step, uses, &mut self.later)?;
         plan.expand(&self.rewriter, &mut self.later)?;
+        if self.failed().len() > failed {
+            self.show(chain);
+        }
         self.times.interpretation += begin.elapsed();
         Ok(())
     }
@@ -247,6 +269,7 @@ fn settle(machine: &Machine, derivation: Derivation, grown: StepResults) -> Resu
         return Ok(Ending::Traced(Box::new(trace)));
     }
     let mut rows = grown.features.filter(|features| !features.is_empty());
+    let left_out = objects.as_ref().map(Objects::failed).unwrap_or_default();
     let objects = match objects {
         Some(objects) => {
             let mut remarks = Vec::new();
@@ -261,6 +284,7 @@ fn settle(machine: &Machine, derivation: Derivation, grown: StepResults) -> Resu
         system,
         modules: grown.chain.modules(),
         chain: grown.chain,
+        left_out: left_out.into(),
         symbols: Arc::clone(grammar.symbols()),
         values: Arc::clone(&session.values),
         objects,

@@ -108,7 +108,7 @@ impl ThreadPool {
     fn note_derived(&self, machine: &Machine, derived: &Result<Arc<DerivedSystem>>) {
         if let Ok(derived) = derived {
             let mut view = machine.current.chains_derived.borrow_mut();
-            *view = view.with_derived(derived.system, &derived.symbols, &derived.chain);
+            *view = view.with_derived(derived);
         }
         self.done.borrow_mut().push(derived.clone());
     }

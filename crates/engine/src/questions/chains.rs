@@ -6,7 +6,9 @@
 use std::sync::Arc;
 
 use burgeon_base::error::Result;
-use burgeon_kit::rules::{Chain, NameScope, Symbol, Symbols};
+use burgeon_kit::rules::{Chain, END, NameScope, Symbol, Symbols};
+
+use crate::results::DerivedSystem;
 
 /// The chain of a system.
 #[derive(Debug, Clone)]
@@ -14,6 +16,8 @@ struct SystemChain {
     system: usize,
     symbols: Arc<Symbols>,
     chain: Arc<Chain>,
+    /// The chains that are left out, since their data is at fault, in order.
+    left_out: Arc<[usize]>,
 }
 
 /// A module that a query names.
@@ -27,7 +31,7 @@ pub(crate) struct NamedModule {
 /// A state of all chains of a run.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct ChainView {
-    /// Systems derived so far, and the states of the one that is being derived.
+    /// Systems derived so far, and states of the one that is being derived.
     number: [u32; 2],
     symbols: Arc<Symbols>,
     chains: Vec<SystemChain>,
@@ -35,25 +39,41 @@ pub(crate) struct ChainView {
 
 impl ChainView {
     /// Returns the view once `system` is derived; its earlier chains are gone.
-    pub(crate) fn with_derived(&self, system: usize, symbols: &Arc<Symbols>, chain: &Arc<Chain>) -> Self {
-        let mut view = self.without(system, symbols);
+    pub(crate) fn with_derived(&self, derived: &DerivedSystem) -> Self {
+        let mut view = self.without(derived.system, &derived.symbols);
         view.number = [self.number[0] + 1, 0];
-        view.chains.push(SystemChain { system, symbols: Arc::clone(symbols), chain: Arc::clone(chain) });
+        view.chains.push(SystemChain {
+            system: derived.system,
+            symbols: Arc::clone(&derived.symbols),
+            chain: Arc::clone(&derived.chain),
+            left_out: Arc::clone(&derived.left_out),
+        });
         view
     }
 
-    /// Returns the view while `system` is derived, whose chain is `chain` once its axiom is made.
+    /// Returns the view while `system` is derived, before its axiom is made.
+    pub(crate) fn with_begun(&self, system: usize, symbols: &Arc<Symbols>) -> Self {
+        self.without(system, symbols)
+    }
+
+    /// Returns the view while `system` is derived, in a state that `number` counts from 1; `left_out` are the chains that are
+    /// not seen.
     pub(crate) fn with_current(
         &self,
         system: usize,
         symbols: &Arc<Symbols>,
-        chain: Option<(&Arc<Chain>, usize)>,
+        chain: &Arc<Chain>,
+        left_out: Vec<usize>,
+        number: u32,
     ) -> Self {
         let mut view = self.without(system, symbols);
-        if let Some((chain, step)) = chain {
-            view.number[1] = u32::try_from(step + 1).unwrap_or(u32::MAX);
-            view.chains.push(SystemChain { system, symbols: Arc::clone(symbols), chain: Arc::clone(chain) });
-        }
+        view.number[1] = number;
+        view.chains.push(SystemChain {
+            system,
+            symbols: Arc::clone(symbols),
+            chain: Arc::clone(chain),
+            left_out: left_out.into(),
+        });
         view
     }
 
@@ -88,15 +108,18 @@ impl ChainView {
         &self.symbols
     }
 
-    /// Returns the parameters of each module with a symbol, in the order of systems and chains.
+    /// Returns the parameters of each module with a symbol, in the order of systems and chains, without chains that are left
+    /// out.
     pub(crate) fn modules(&self, wanted: Symbol) -> impl Iterator<Item = &[f64]> {
-        self.chains.iter().flat_map(move |SystemChain { symbols, chain, .. }| {
+        self.chains.iter().flat_map(move |SystemChain { symbols, chain, left_out, .. }| {
             let arities = symbols.arities();
-            let mut param = 0;
+            let (mut param, mut number) = (0, 0);
             chain.symbols.iter().filter_map(move |symbol| {
                 let begin = param;
                 param += usize::from(arities[usize::from(*symbol)]);
-                (*symbol == wanted).then(|| &chain.params[begin..param])
+                number += usize::from(*symbol == END);
+                let is_seen = *symbol == wanted && left_out.binary_search(&number).is_err();
+                is_seen.then(|| &chain.params[begin..param])
             })
         })
     }

@@ -45,6 +45,8 @@ pub struct DerivedSystem {
     pub system: usize,
     /// The chains.
     pub chain: Arc<Chain>,
+    /// The chains that are left out, since their data is at fault, in order.
+    pub(crate) left_out: Arc<[usize]>,
     /// The declared modules.
     pub symbols: Arc<Symbols>,
     /// The parameters that are not numbers.

@@ -48,6 +48,14 @@ impl Objects {
         self.failures.get(chain).is_some_and(|failure| failure.get().is_some())
     }
 
+    /// Returns the chains whose data was at fault, in order.
+    pub(crate) fn failed(&self) -> Vec<usize> {
+        match self.any_failed() {
+            true => (0..self.failures.len()).filter(|chain| self.has_failed(*chain)).collect(),
+            false => Vec::new(),
+        }
+    }
+
     /// Leaves a chain out whose data is at fault; passes every other error on.
     pub(crate) fn forgive(&self, chain: usize, error: Error) -> Result<()> {
         match self.failures.get(chain) {
