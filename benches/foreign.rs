@@ -9,8 +9,8 @@ use std::time::{Duration, Instant};
 
 use burgeon::Budget;
 use burgeon::geometry::{Plan, Rings};
-use burgeon::kit::random::Stream;
 use burgeon::picture::Picture;
+use burgeon::random::Stream;
 use burgeon::script::{Limits, RunOptions};
 use burgeon::sources::{Layer, Source, SourceOptions};
 use glam::DVec3;

@@ -200,7 +200,7 @@ fn comb_of(edges: u32) -> Polygon {
 
 /// A star whose corners are anywhere.
 fn star(edges: u32) -> Polygon {
-    let mut stream = burgeon::kit::random::Stream::new(7);
+    let mut stream = burgeon::random::Stream::new(7);
     let mut corner = |index: u32| {
         let random = stream.uniform();
         let angle = std::f64::consts::TAU * f64::from(index) / f64::from(edges);

@@ -15,8 +15,8 @@
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-use burgeon::kit::random::Stream;
-use burgeon::kit::rules::ModuleKey;
+use burgeon::random::Stream;
+use burgeon::rewriting::ModuleKey;
 use burgeon::terrain::{
     Area, Ground, GroundCuts, GroundMesh, LevelRules, NumberRange, Quadrants, RuleTable, Rules, Tables,
     TileRing, View, World,

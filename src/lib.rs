@@ -50,8 +50,8 @@
 //! - [`query`]: SQL over layers, in a database within the program: a [`Database`](query::Database) gives a
 //!   [`QueryAnswer`](query::QueryAnswer).
 //! - [`kit`]: the contract of objects. A [`Kind`](kit::Kind) in a [`Registry`](kit::Registry) says what an
-//!   [`Object`](kit::Object) can do; a [`Grammar`](kit::rules::Grammar) of [`Pattern`](kit::rules::Pattern)s matches
-//!   along a [`Chain`](kit::rules::Chain), without Lua.
+//!   [`Object`](kit::Object) can do; a [`Grammar`](rewriting::Grammar) of [`Pattern`](rewriting::Pattern)s matches
+//!   along a [`Chain`](rewriting::Chain), without Lua.
 //! - [`language`]: what scripts can use, told once: [`names`](language::names), and the definition file for editors.
 //! - [`terrain`]: a [`World`](terrain::World) that is divided by rules, the [`Ground`](terrain::Ground) that is expanded
 //!   of it, a [`Globe`](terrain::globe::Globe), and the search for rules that [`fit`](terrain::fit) a height map.
@@ -103,7 +103,7 @@
 #![recursion_limit = "256"]
 
 pub use burgeon_base::{
-    Budget, Error, MemoryReservation, Result, Stop, Warning, WarningKind, error, locks, text, warning,
+    Budget, Error, MemoryReservation, Result, Stop, Warning, WarningKind, error, locks, random, text, warning,
 };
 pub use burgeon_data as sources;
 pub use burgeon_engine::run::{Run, RunTimes, run, run_session};
@@ -120,6 +120,7 @@ pub use burgeon_packages as packages;
 pub use burgeon_picture as picture;
 pub use burgeon_presets as presets;
 pub use burgeon_query as query;
+pub use burgeon_rewriting as rewriting;
 pub use burgeon_scene as scene;
 pub use burgeon_spatial as spatial;
 pub use burgeon_terrain as terrain;

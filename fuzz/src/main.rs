@@ -15,7 +15,7 @@ use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::sync::{Arc, Mutex};
 use std::time::{Duration, Instant};
 
-use burgeon::kit::random::Stream;
+use burgeon::random::Stream;
 use targets::TARGETS;
 
 /// The longest that a reader may take.

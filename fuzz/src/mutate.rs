@@ -1,6 +1,6 @@
 //! Damages bytes: flips, cuts, repeats and joins pieces, and writes numbers and words that readers stumble over.
 
-use burgeon::kit::random::Stream;
+use burgeon::random::Stream;
 
 /// Numbers at the edges of their types.
 const NUMBERS: [u64; 14] = [

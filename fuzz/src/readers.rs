@@ -6,12 +6,12 @@ use std::path::{Path, PathBuf};
 use std::sync::{Arc, OnceLock};
 use std::time::{Duration, SystemTime};
 
-use burgeon::kit::rules::{Pattern, Signature, Symbols};
 use burgeon::kit::{Construct, LoadRequest, Resources, Table};
 use burgeon::packages::{Manifest, install, is_name};
 use burgeon::presets::Presets;
 use burgeon::query::postgis::ServerAddress;
 use burgeon::query::{Cell, Database};
+use burgeon::rewriting::{Pattern, Signature, Symbols};
 use burgeon::script::{Limits, Print, RunOptions, RunReports};
 use burgeon::sources::elevation::{HeightOptions as WantedHeights, Raster, Relief};
 use burgeon::sources::{Cache, Layer, Listing, Source, SourceOptions};

@@ -1,7 +1,7 @@
 //! Random chains, patterns and rules of the kinds that are hard on an engine, for tests and benches alike.
 
-use burgeon::kit::rules::{Bindings, CLOSE, ContextMatcher};
-use burgeon::kit::rules::{
+use burgeon::rewriting::{Bindings, CLOSE, ContextMatcher};
+use burgeon::rewriting::{
     Chain, END, FIRST_SYMBOL, Grammar, Links, ModuleKey, OPEN, Pattern, Rule, Signature, Symbols,
 };
 

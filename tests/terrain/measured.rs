@@ -4,9 +4,9 @@
 use std::collections::HashMap;
 use std::sync::Arc;
 
-use burgeon::kit::random::Stream;
-use burgeon::kit::rules::ModuleKey;
 use burgeon::objects::Elevation;
+use burgeon::random::Stream;
+use burgeon::rewriting::ModuleKey;
 use burgeon::scene::Part;
 use burgeon::sources::elevation::{Raster, Relief, SampleGrid};
 use burgeon::sources::{Crs, ReferenceFrame};

@@ -11,7 +11,7 @@ use full_moon::tokenizer::TokenReference;
 use super::syntax::{end_of, instead_of, string_of, text_of};
 use super::walk::{FunctionRole, Walk};
 use burgeon_base::error::Error;
-use burgeon_kit::rules::Signature;
+use burgeon_rewriting::Signature;
 
 impl Walk<'_> {
     pub(super) fn expressions(&mut self, expressions: &Punctuated<Expression>) {

@@ -12,12 +12,13 @@ use super::syntax::{end_of, first_position, is_open, string_of, text_of};
 use super::walk::{Fact, Function, FunctionRole, Variable, Walk};
 use burgeon_kit::Argument;
 use burgeon_language::CallForm;
+use burgeon_rewriting::Successors;
 
 /// The most parameters that a prepared return can have.
 const MOST_EMITTED: usize = 64;
 
-/// Added to the number of a shape, so that it cannot be taken for a count of modules.
-const SHAPE: usize = 1 << 30;
+/// Mark of the numbers of shapes.
+const SHAPE: usize = Successors::SHAPE as usize;
 
 /// What a return makes, as far as its text tells: symbols and brackets, and where the parameters stand.
 #[derive(Default)]

@@ -4,7 +4,7 @@ use full_moon::ast::{Block, Call, Expression, FunctionArgs, Prefix, Suffix};
 use full_moon::node::Node;
 use full_moon::tokenizer::TokenReference;
 
-use burgeon_kit::rules::Signature;
+use burgeon_rewriting::Signature;
 use full_moon::tokenizer::{Position, TokenType};
 
 /// What to write in place of a name of Lua that scripts do not have.

@@ -12,8 +12,8 @@ use super::blocks::ScopeWalk;
 use super::queries::QueryCall;
 use super::syntax::{declared_module, end_of, first_position, instead_of, text_of};
 use burgeon_base::error::{Error, SourcePlace};
-use burgeon_kit::rules::Signature;
 use burgeon_language::CallForm;
+use burgeon_rewriting::Signature;
 
 /// What the first walk learned about the variables, in the order of their declaration.
 #[derive(Default)]

@@ -13,6 +13,7 @@ pub mod files;
 pub mod locks;
 pub mod memory;
 pub mod names;
+pub mod random;
 pub mod stop;
 pub mod text;
 pub mod warning;

@@ -7,6 +7,7 @@ mod check;
 mod declare;
 mod derive;
 mod machine;
+mod placeholders;
 mod questions;
 pub mod results;
 pub mod run;

@@ -3,8 +3,9 @@
 use std::any::Any;
 
 pub use super::argument::unit;
-use super::{ColumnValue, Object, Parameter, Table, TableKey, Value};
+use super::{Object, Parameter, Table, TableKey, Value};
 use burgeon_base::error::{Error, Result};
+use burgeon_rewriting::ColumnValue;
 
 /// Refuses entries of `table` that `fields` does not name.
 pub fn refuse_unknown(kind: &str, fields: &[&str], table: &Table) -> Result<()> {

@@ -1,8 +1,7 @@
 //! The contract of objects: values, types of objects and what rules need of them.
 //!
-//! Comes in: values from scripts. Goes out: [`Kind`]s in a [`Registry`], [`Object`]s with their drawings, and a
-//! [`Grammar`](rules::Grammar) with the chains that it matches. It never knows a virtual machine, nor a type of
-//! object but the [`Model`], which is what a system has drawn, and the [`GeometryObject`], which is a value.
+//! Comes in: values from scripts. Goes out: [`Kind`]s in a [`Registry`], [`Object`]s with their drawings, and the [`Values`]
+//! that modules of chains carry. It never knows a virtual machine, nor a type of object but the [`Model`], which is what a system has drawn, and the [`GeometryObject`], which is a value.
 
 extern crate self as burgeon_kit;
 
@@ -13,7 +12,6 @@ mod buffer_bytes;
 mod capability;
 mod color;
 mod colors;
-mod column_value;
 mod distance;
 mod drawing;
 mod example;
@@ -29,21 +27,19 @@ mod object;
 mod parameter;
 mod planar;
 mod prefetch;
-pub mod random;
 mod registry;
 mod rewriter;
-pub mod rules;
 mod script_field;
 mod script_object;
 mod script_type;
 mod seed;
 mod value;
+mod values;
 
 pub use argument::Argument;
 pub use buffer_bytes::BufferBytes;
 pub use capability::{Capability, Draw, Expand, Gather, HasLayers, LevelOfDetail, Report, Show, Warn};
 pub use color::Color;
-pub use column_value::ColumnValue;
 pub use drawing::Drawing;
 pub use example::ScriptExample;
 pub use features::Features;
@@ -65,6 +61,7 @@ pub use script_object::ScriptObject;
 pub use script_type::ScriptType;
 pub use seed::Seed;
 pub use value::{Table, TableKey, Value, is_keyword};
+pub use values::Values;
 
 #[doc(hidden)]
 pub use burgeon_base::Result;

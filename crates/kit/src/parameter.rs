@@ -5,9 +5,10 @@ use std::sync::Arc;
 
 use glam::DVec3;
 
-use super::{ColumnValue, Field, Object, Table, TableKey, Value, geometry};
+use super::{Field, Object, Table, TableKey, Value, geometry};
 use burgeon_base::Stop;
 use burgeon_base::error::{Error, Result};
+use burgeon_rewriting::ColumnValue;
 
 /// Items of a list that are read between two looks at the stop of the run.
 const STRETCH: usize = 4096;

@@ -184,8 +184,8 @@ fn around(mut ring: Vec<DVec3>) -> Option<Line<DVec3>> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::random::Stream;
     use crate::{Table, TableKey};
+    use burgeon_base::random::Stream;
 
     fn point(random: &mut Stream) -> DVec3 {
         // Few places, so that some are repeated, and heights that a pair of numbers has not.

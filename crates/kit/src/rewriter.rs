@@ -2,9 +2,10 @@
 
 use std::sync::Arc;
 
-use super::rules::{Chain, Grammar, Values};
+use crate::Values;
 use burgeon_base::error::{Result, SourcePlace};
 use burgeon_macros::{methods, object};
+use burgeon_rewriting::{Chain, Grammar};
 
 /// A system whose rules an object applies.
 ///
@@ -37,14 +38,9 @@ pub struct RuleSet {
 pub struct RewriteOutcome {
     /// The chain.
     pub chain: Chain,
-    /// For each symbol of the chain before: the number of the rule that ran, or [`RewriteOutcome::NONE`], and how many
+    /// For each symbol of the chain before: the number of the rule that ran, or [`NO_RULE`](burgeon_rewriting::NO_RULE), and how many
     /// symbols came of it.
     pub applied: Vec<(u16, u32)>,
-}
-
-impl RewriteOutcome {
-    /// In place of a rule's number: no rule ran.
-    pub const NONE: u16 = u16::MAX;
 }
 
 /// Applies the rules of a script's systems.

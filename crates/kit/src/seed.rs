@@ -1,7 +1,7 @@
 //! Seeds as scripts give them.
 
 use super::{Expectation, Parameter, Value};
-use crate::rules::ModuleKey;
+use burgeon_rewriting::ModuleKey;
 
 /// What random numbers come from: 64 bits, as a number or a string.
 ///

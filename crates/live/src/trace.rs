@@ -18,7 +18,7 @@ use burgeon_engine::results::{DerivedSystem, RuleName};
 use burgeon_engine::run::Run;
 use burgeon_engine::script::RunOptions;
 use burgeon_engine::trace as engine;
-use burgeon_kit::rules::END;
+use burgeon_rewriting::END;
 
 /// How long it may take to find out what made something.
 const PATIENCE: Duration = Duration::from_secs(30);

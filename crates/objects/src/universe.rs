@@ -6,9 +6,9 @@ use std::sync::Arc;
 use glam::DVec3;
 
 use burgeon_base::error::{Error, Result};
-use burgeon_kit::random::Stream;
-use burgeon_kit::rules::ModuleKey;
+use burgeon_base::random::Stream;
 use burgeon_kit::{Expectation, Parameter, Seed, Table, TableKey, Value, fields, methods, object};
+use burgeon_rewriting::ModuleKey;
 
 /// What `universe { ... }` takes.
 #[fields("universe")]

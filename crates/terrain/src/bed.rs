@@ -46,7 +46,7 @@ impl GroundBed {
 
 #[cfg(test)]
 mod tests {
-    use burgeon_kit::random::Stream;
+    use burgeon_base::random::Stream;
 
     use super::super::edits::Edit;
     use super::super::local_edits::LocalEdits;

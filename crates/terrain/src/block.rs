@@ -1,6 +1,6 @@
 //! A rectangle of cells of one level, in columns.
 
-use burgeon_kit::rules::{ModuleKey, Symbol};
+use burgeon_rewriting::{ModuleKey, Symbol};
 
 /// A rectangle of cells, by column from the west and row from the north.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

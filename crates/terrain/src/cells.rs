@@ -10,8 +10,8 @@ use super::block::{Area, Block};
 use super::world::{Begin, Divide};
 use burgeon_base::error::{Error, Result};
 use burgeon_base::memory::zeroed;
-use burgeon_kit::rules::{Chain, ColumnValue, END, FIRST_SYMBOL, Mark, ModuleKey, module_brief};
 use burgeon_kit::{RewriteOutcome, Rewriter, RuleSet};
+use burgeon_rewriting::{Chain, ColumnValue, END, FIRST_SYMBOL, Mark, ModuleKey, NO_RULE, module_brief};
 
 /// The parameter of a module that is its cell's height.
 const HEIGHT: &str = "height";
@@ -170,8 +170,8 @@ impl CellSystem {
         let mut here = Mark::default();
         for ((x, y), (rule, count)) in area.cells().zip(&applied) {
             let from = cells.area.index(x, y);
-            let whole = *rule == RewriteOutcome::NONE
-                || (*count == 1 && chain.symbols[here.module] == cells.symbols[from]);
+            let whole =
+                *rule == NO_RULE || (*count == 1 && chain.symbols[here.module] == cells.symbols[from]);
             if !whole && *count != 4 {
                 return Err(self.not_four(cells, from, (*rule, *count), step));
             }

@@ -4,8 +4,8 @@ use rayon::prelude::*;
 
 use super::block::{Area, Block};
 use burgeon_base::memory::zeroed;
-use burgeon_kit::random::Stream;
-use burgeon_kit::rules::{ModuleKey, Symbol};
+use burgeon_base::random::Stream;
+use burgeon_rewriting::{ModuleKey, Symbol};
 
 /// A number, or the range that it is drawn from.
 #[derive(Debug, Clone, Copy, PartialEq)]

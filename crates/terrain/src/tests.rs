@@ -6,8 +6,8 @@ use std::sync::Arc;
 use glam::{DVec2, DVec3};
 
 use super::*;
-use burgeon_kit::random::Stream;
-use burgeon_kit::rules::{ModuleKey, Symbol};
+use burgeon_base::random::Stream;
+use burgeon_rewriting::{ModuleKey, Symbol};
 use burgeon_scene::Part;
 
 /// A rule table of four symbols.

@@ -7,7 +7,7 @@ use super::block::{Area, Block};
 use super::local_edits::LocalEdits;
 use super::world::World;
 use burgeon_base::MemoryOwner;
-use burgeon_kit::rules::Symbol;
+use burgeon_rewriting::Symbol;
 
 /// Which cell of the world a tile is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]

@@ -11,7 +11,7 @@ use super::table::RuleTable;
 use burgeon_base::MemoryOwner;
 use burgeon_base::error::{Error, Result};
 use burgeon_base::memory::zeroed;
-use burgeon_kit::rules::{ModuleKey, Symbol};
+use burgeon_rewriting::{ModuleKey, Symbol};
 
 /// Memory (bytes) of the quadrants of a cell: symbols, heights and a parameter.
 const DIVIDED: usize = 4 * 18;

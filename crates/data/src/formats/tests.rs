@@ -5,7 +5,7 @@ use std::time::Duration;
 
 use crate::{Layer, Listing, Source, SourceOptions};
 use burgeon_base::budget::Budget;
-use burgeon_kit::random::Stream;
+use burgeon_base::random::Stream;
 
 /// Reads a file in every way there is; returns whether a layer of it was read.
 fn read(path: &Path) -> bool {

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::sync::Mutex;
 
 use burgeon_base::locks::LockRecovery;
-use burgeon_kit::random::Stream;
+use burgeon_base::random::Stream;
 
 /// The stream of the top level after the axiom of each derivation, in their order: a machine that does not run an
 /// axiom's function itself goes on from there.

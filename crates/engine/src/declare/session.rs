@@ -25,9 +25,10 @@ use burgeon_base::locks::LockRecovery;
 use burgeon_base::stop::Stop;
 use burgeon_base::text::grouped;
 use burgeon_base::warning::{Warning, Warnings};
-use burgeon_kit::rules::{Symbol, Values};
+use burgeon_kit::Values;
 use burgeon_language::CallForm;
 use burgeon_packages::{PackageSearch, Packages};
+use burgeon_rewriting::Symbol;
 use rustc_hash::FxHashSet;
 
 /// How far a run has come, for those who wait.

@@ -1,66 +1,16 @@
-//! How the functions of rules are run over batches of modules.
-//!
-//! Matching, drawing and splicing know them by the trait [`RuleFunctions`] alone, so that there can be another way to run
-//! them than in a virtual machine.
+//! Functions of rules that run in a virtual machine.
 
-use std::cell::Ref;
+use crate::machine::{Machine, SystemFunctions, read_column, write_column};
+use burgeon_base::error::Result;
+use burgeon_rewriting::{Applications, RuleFailure, Rules, ShowParameters, Successors};
 
-use super::group::RuleGroup;
-use crate::machine::{Machine, ReturnShape, SystemFunctions, read_column, write_column};
-use burgeon_base::error::{Error, Result};
-use burgeon_kit::rules::ModuleKey;
-
-/// The applications of one rule that its function is run for at once.
-pub(super) struct Applications<'a> {
-    /// The rule's number.
-    pub rule: u16,
-    /// How many there are.
-    pub count: usize,
-    /// The arguments of all of them, one application after the other.
-    pub arguments: &'a [f64],
-    /// The chain of each; empty where there is only one chain.
-    pub chains: &'a [u32],
-    /// The random key of each; empty where nothing draws.
-    pub keys: &'a [ModuleKey],
-    /// The place of each in the chain of the step; empty where it is not noted what they ask.
-    pub places: &'a [u32],
-    /// Whether the choice among weighted rules has taken the first number of each stream.
-    pub weighted: bool,
-}
-
-/// A function that has failed.
-pub(super) struct Failure {
-    /// The application that it failed in.
-    pub at: usize,
-    /// Why.
-    pub error: Error,
-}
-
-impl From<Error> for Failure {
-    fn from(error: Error) -> Self {
-        Self { at: 0, error }
-    }
-}
-
-/// Runs the functions of a system's rules, in one thread.
-pub(super) trait RuleFunctions {
-    /// Runs the successor of a rule; `made` takes the modules.
-    fn apply(&self, applications: &Applications<'_>, made: &mut RuleGroup) -> Result<(), Failure>;
-
-    /// Asks the guard of a rule; `holds` takes a number for each application, 0 where it does not hold.
-    fn ask(&self, applications: &Applications<'_>, holds: &mut Vec<u32>) -> Result<(), Failure>;
-
-    /// The modules of returns that are always the same, by number.
-    fn shapes(&self) -> Ref<'_, [ReturnShape]>;
-}
-
-/// The functions of a script in a virtual machine.
-pub(super) struct LuaFunctions<'a> {
+/// Functions of a script in a virtual machine.
+pub(super) struct LuaRules<'a> {
     pub machine: &'a Machine,
     pub declared: &'a SystemFunctions,
 }
 
-impl LuaFunctions<'_> {
+impl LuaRules<'_> {
     /// Hands the machine what its functions are to be run for.
     fn prepare(&self, applications: &Applications<'_>) -> Result<()> {
         let current = &self.machine.current;
@@ -101,17 +51,17 @@ impl LuaFunctions<'_> {
     }
 
     /// Where a function failed, and why.
-    fn failure(&self, error: mlua::Error) -> Failure {
+    fn failure(&self, error: mlua::Error) -> RuleFailure {
         let prelude = self.machine.prelude();
         let at = self.machine.failed_at().map_or(0, |(at, ..)| at);
         // A machine that cannot even end the batch is thrown away with the run.
         let _ = prelude.finish.call::<()>(());
-        Failure { at, error: self.machine.translate(error) }
+        RuleFailure { at, error: self.machine.translate(error) }
     }
 }
 
-impl RuleFunctions for LuaFunctions<'_> {
-    fn apply(&self, applications: &Applications<'_>, made: &mut RuleGroup) -> Result<(), Failure> {
+impl Rules for LuaRules<'_> {
+    fn apply(&self, applications: &Applications<'_>, made: &mut Successors) -> Result<(), RuleFailure> {
         let lua = |error: mlua::Error| self.machine.translate(error);
         let (prelude, current) = (self.machine.prelude(), &self.machine.current);
         self.prepare(applications)?;
@@ -129,11 +79,11 @@ impl RuleFunctions for LuaFunctions<'_> {
         read_column(params, bytes / 8, &mut made.params)?;
         read_column(counts, applications.count, &mut made.ends)?;
         read_column(order, items, &mut made.order)?;
-        made.rewind();
+        made.shapes.clone_from(&current.shapes.borrow());
         Ok(())
     }
 
-    fn ask(&self, applications: &Applications<'_>, holds: &mut Vec<u32>) -> Result<(), Failure> {
+    fn guard(&self, applications: &Applications<'_>, holds: &mut Vec<u32>) -> Result<(), RuleFailure> {
         self.prepare(applications)?;
         let counts = self.machine.prelude().counts(applications.count * 4);
         let counts = counts.map_err(|error| self.machine.translate(error))?;
@@ -144,7 +94,7 @@ impl RuleFunctions for LuaFunctions<'_> {
         asked
     }
 
-    fn shapes(&self) -> Ref<'_, [ReturnShape]> {
-        Ref::map(self.machine.current.shapes.borrow(), Vec::as_slice)
+    fn parameters(&self) -> &dyn ShowParameters {
+        &*self.machine.session.values
     }
 }

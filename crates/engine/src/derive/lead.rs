@@ -9,7 +9,7 @@ use super::interpret::InterpretationPass;
 use super::pending::{Resolution, resolve};
 use super::plan::{Derivation, DerivationPlan};
 use super::rewriter::SystemRewriter;
-use super::step::Stepper;
+use super::step::step;
 use super::threads::{LeadingMachine, ThreadPool};
 use crate::declare::TraceRequest;
 use crate::machine::{Axiom, Machine, Objects};
@@ -18,8 +18,8 @@ use crate::results::{
 };
 use burgeon_base::error::{Error, Result, SourcePlace};
 use burgeon_base::warning::Warning;
-use burgeon_kit::rules::Chain;
 use burgeon_kit::{Drawing, Object};
+use burgeon_rewriting::{Chain, Stepper};
 
 /// How a derivation has ended.
 pub(super) enum Ending {
@@ -77,7 +77,7 @@ impl<'a> Growth<'a> {
             leader,
             derivation,
             rewriter: SystemRewriter::new(leader),
-            stepper: Stepper::new(Arc::clone(&derivation.plan)),
+            stepper: Stepper::new(Arc::clone(&derivation.plan.steps)),
             times: Times::default(),
             interpretations: vec![Use::default(); derivation.plan.interpretations.list.len()],
             first: Vec::new(),
@@ -92,7 +92,7 @@ impl<'a> Growth<'a> {
     fn grow(mut self, mut chain: Chain) -> Result<StepResults> {
         let (derivation, session) = (self.derivation, &self.leader.machine.session);
         let plan = &derivation.plan;
-        chain.mark(plan.batch, plan.grammar.arities());
+        chain.mark(plan.steps.batch, plan.steps.grammar.arities());
         if session.options.reports.records && self.derivation.traced.is_none() {
             self.features = Some(RefCell::new(RowFeatures::new(chain.symbols.len())));
         }
@@ -102,7 +102,7 @@ impl<'a> Growth<'a> {
             .current
             .chains_derived
             .borrow()
-            .with_begun(plan.system, plan.grammar.symbols());
+            .with_begun(plan.system, plan.steps.grammar.symbols());
         session.show_chains(view);
         if !session.options.check {
             chain = self.resolve(chain, 0)?;
@@ -126,7 +126,7 @@ impl<'a> Growth<'a> {
             let made = Arc::new(self.resolve(made, done + 1)?);
             self.show(&made);
             self.stepper.reuse(std::mem::replace(&mut chain, made));
-            let still = !outcome.changed && derivation.draws_afresh && !plan.grammar.draws_random();
+            let still = !outcome.changed && derivation.draws_afresh && !plan.steps.grammar.draws_random();
             if !outcome.ran || still {
                 break;
             }
@@ -154,18 +154,21 @@ impl<'a> Growth<'a> {
     }
 
     /// Makes step number `step`, and notes it where the lineage is asked for.
-    fn step(&mut self, chain: &Arc<Chain>, step: usize) -> Result<(Chain, StepChange)> {
+    fn step(&mut self, chain: &Arc<Chain>, number: usize) -> Result<(Chain, StepChange)> {
         let begin = Instant::now();
         self.times.read += chain.symbols.len();
         let before = self.noted(chain);
-        let outcome = self.stepper.step(self.leader, &self.derivation.declared, chain, step)?;
+        let outcome = {
+            let Derivation { plan, declared, .. } = self.derivation;
+            step(self.leader, plan, &mut self.stepper, declared, chain, number)?
+        };
         self.times.rewriting += begin.elapsed();
         if let Some(features) = &self.features {
             features.borrow_mut().step(&outcome.applied);
         }
         if self.derivation.traced.is_some() {
             let (applied, asked) = (outcome.applied, self.leader.machine.session.rows.take_noted());
-            self.steps.push(Step { number: step, chain: before, applied, answers: Vec::new(), asked });
+            self.steps.push(Step { number, chain: before, applied, answers: Vec::new(), asked });
         }
         Ok((outcome.chain, StepChange { ran: outcome.ran, changed: outcome.changed }))
     }
@@ -197,14 +200,19 @@ impl<'a> Growth<'a> {
         let (machine, plan) = (self.leader.machine, &self.derivation.plan);
         self.shown.set(self.shown.get() + 1);
         let view = machine.current.chains_derived.borrow();
-        let view =
-            view.with_current(plan.system, plan.grammar.symbols(), chain, self.failed(), self.shown.get());
+        let view = view.with_current(
+            plan.system,
+            plan.steps.grammar.symbols(),
+            chain,
+            self.failed(),
+            self.shown.get(),
+        );
         machine.session.show_chains(view);
     }
 
     /// Returns the chains whose data was at fault.
     fn failed(&self) -> Vec<usize> {
-        self.derivation.plan.objects.as_ref().map(|objects| objects.failed()).unwrap_or_default()
+        self.derivation.plan.objects.as_ref().map(|objects| objects.failed().list()).unwrap_or_default()
     }
 
     /// Has the chain interpreted as it stands after `step` steps.
@@ -250,7 +258,8 @@ fn settle(machine: &Machine, derivation: Derivation, grown: StepResults) -> Resu
     machine.current.objects.replace(None);
     session.keep(&grown.chain.params);
     let plan = Arc::try_unwrap(plan).map_err(|_| Error::internal("a worker still holds the plan"))?;
-    let DerivationPlan { system, grammar, interpretations, objects, .. } = plan;
+    let DerivationPlan { system, steps, interpretations, objects, .. } = plan;
+    let grammar = &steps.grammar;
     let objects = objects.map(Arc::try_unwrap).transpose();
     let objects = objects.map_err(|_| Error::internal("a worker still holds the objects"))?;
     if traced.is_some()
@@ -269,7 +278,7 @@ fn settle(machine: &Machine, derivation: Derivation, grown: StepResults) -> Resu
         return Ok(Ending::Traced(Box::new(trace)));
     }
     let mut rows = grown.features.filter(|features| !features.is_empty());
-    let left_out = objects.as_ref().map(Objects::failed).unwrap_or_default();
+    let left_out = objects.as_ref().map(|objects| objects.failed().list()).unwrap_or_default();
     let objects = match objects {
         Some(objects) => {
             let mut remarks = Vec::new();
@@ -342,7 +351,7 @@ fn shared(
 
 /// What the rules and interpretation rules have done, in the order of their declaration.
 fn reports(plan: &DerivationPlan, rules: &[Use], interpretations: &[Use]) -> Vec<RuleReport> {
-    let rules = plan.grammar.rules().iter().zip(rules).map(|(rule, done)| RuleReport {
+    let rules = plan.steps.grammar.rules().iter().zip(rules).map(|(rule, done)| RuleReport {
         name: RuleName { text: rule.pattern.text.clone(), place: rule.place.clone() },
         interprets: false,
         done: *done,

@@ -4,21 +4,16 @@
 //! step is read-only while the next one is made, so a batch never sees what another batch does. It never knows what type
 //! an object is.
 //!
-//! Functions of rules are run by a [`RuleFunctions`](functions::RuleFunctions), of which virtual machines are one.
-//! [`lead()`] plans a derivation, makes its steps, and settles what came of it; [`ThreadPool`] has other machines take
-//! pieces of the work.
+//! Steps are made by `burgeon_rewriting`, which calls the functions of rules through [`LuaRules`](functions::LuaRules).
+//! [`lead()`] plans a derivation, runs its phases, and settles its result; [`ThreadPool`] has other machines take pieces of the
+//! work.
 
-mod batch;
-mod choose;
 mod functions;
-mod group;
 mod interpret;
 mod lead;
-mod output;
 mod pending;
 mod plan;
 mod rewriter;
-mod splice;
 mod step;
 mod threads;
 

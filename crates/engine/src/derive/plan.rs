@@ -7,23 +7,16 @@ use crate::declare::TraceRequest;
 use crate::machine::{Axiom, Interpretations, Machine, Objects, SystemFunctions};
 use burgeon_base::error::{Result, SourcePlace};
 use burgeon_base::warning::Warning;
-use burgeon_kit::rules::{Grammar, ModuleKey};
+use burgeon_rewriting::{ModuleKey, StepPlan};
 
 /// What does not change while a system derives; shared by all threads.
 pub(crate) struct DerivationPlan {
     /// The system's place among those of the script.
     pub system: usize,
-    pub grammar: Grammar,
+    /// Rules, and how they are applied.
+    pub steps: Arc<StepPlan>,
     pub interpretations: Interpretations,
     pub objects: Option<Arc<Objects>>,
-    /// The number of chains.
-    pub chains: usize,
-    /// Symbols that a worker takes at a time.
-    pub batch: usize,
-    /// Whether it is noted which rules and modules make what.
-    pub traced: bool,
-    /// Whether it is noted what rules have asked of data, and for which module.
-    pub notes_questions: bool,
     /// Whether the time of each interpretation rule is measured.
     pub profiled: bool,
 }
@@ -32,7 +25,7 @@ impl DerivationPlan {
     /// Tells objects that expand by themselves that the script is only checked.
     pub(super) fn sketch(&self) -> Result<()> {
         let Some(objects) = &self.objects else { return Ok(()) };
-        (0..self.chains).try_for_each(|chain| {
+        (0..self.steps.chains).try_for_each(|chain| {
             objects.write(chain, |object| {
                 object.sketch();
                 Ok(())
@@ -46,7 +39,7 @@ impl DerivationPlan {
         if !objects.read(0, |object| Ok(object.expands()))? {
             return Ok(());
         }
-        for chain in (0..self.chains).filter(|chain| !objects.has_failed(*chain)) {
+        for chain in (0..self.steps.chains).filter(|chain| !objects.failed().contains(*chain)) {
             objects.write(chain, |object| {
                 object.expand(rules)?;
                 said.extend(object.take_warnings());
@@ -105,17 +98,21 @@ impl Derivation {
         let objects = (!objects.is_empty()).then(|| Arc::new(Objects::new(objects, forgiving)));
         let plan = Arc::new(DerivationPlan {
             system: index,
-            grammar,
+            steps: Arc::new(StepPlan {
+                grammar,
+                failed: objects.as_ref().map(|objects| Arc::clone(objects.failed())),
+                chains: axiom.features.len(),
+                batch: options.batch.max(1),
+                limit: options.limits.modules,
+                traced: traced.is_some() || options.reports.records,
+                notes_places: traced.is_some_and(|traced| traced.chain.is_some()),
+            }),
             interpretations: system.interpretations(&machine.library),
             objects,
-            chains: axiom.features.len(),
-            batch: options.batch.max(1),
-            traced: traced.is_some() || options.reports.records,
-            notes_questions: traced.is_some_and(|traced| traced.chain.is_some()),
             profiled: options.reports.profile,
         });
         let declared = system.prepare(machine)?;
-        system.tell_forestalled(machine, &plan.grammar);
+        system.tell_forestalled(machine, &plan.steps.grammar);
         let limit = [steps, options.steps].into_iter().flatten().min().unwrap_or(usize::MAX);
         let draws_afresh = system.draws_afresh();
         Ok(Self {

@@ -7,12 +7,12 @@ use rustc_hash::FxHashMap;
 
 use super::pending::{Resolution, resolve};
 use super::plan::DerivationPlan;
-use super::step::{StepOutcome, Stepper};
+use super::step::step;
 use super::threads::LeadingMachine;
 use crate::machine::{Interpretations, SystemFunctions};
 use burgeon_base::error::{Error, Result};
-use burgeon_kit::rules::{Chain, ModuleKey};
 use burgeon_kit::{RewriteOutcome, Rewriter, RuleSet};
+use burgeon_rewriting::{Chain, ModuleKey, StepOutcome, StepPlan, Stepper};
 
 /// The systems of a machine's script whose rules objects apply.
 pub(super) struct SystemRewriter<'a> {
@@ -39,18 +39,22 @@ impl<'a> SystemRewriter<'a> {
         let rules = self.rules(index)?;
         let plan = Arc::new(DerivationPlan {
             system: index,
-            grammar: rules.grammar.clone(),
+            steps: Arc::new(StepPlan {
+                grammar: rules.grammar.clone(),
+                failed: None,
+                chains: 1,
+                batch: rules.batch,
+                limit: self.leader.machine.session.options.limits.modules,
+                // The number of successors of each module has to be known.
+                traced: true,
+                notes_places: false,
+            }),
             interpretations: Interpretations::default(),
             objects: None,
-            chains: 1,
-            batch: rules.batch,
-            // How many modules each became has to be known.
-            traced: true,
-            notes_questions: false,
             profiled: false,
         });
         let declared = self.leader.machine.library.systems.borrow()[index].prepare(self.leader.machine)?;
-        Ok(Ready { declared, stepper: Stepper::new(Arc::clone(&plan)), plan })
+        Ok(Ready { declared, stepper: Stepper::new(Arc::clone(&plan.steps)), plan })
     }
 
     /// System `index`, ready to be derived.
@@ -102,13 +106,13 @@ impl Rewriter for SystemRewriter<'_> {
         Ok(chain)
     }
 
-    fn rewrite(&self, index: usize, chain: Chain, step: usize) -> Result<RewriteOutcome> {
+    fn rewrite(&self, index: usize, chain: Chain, number: usize) -> Result<RewriteOutcome> {
         let ready = &mut *self.ready(index)?;
         let before = Arc::new(chain);
         let StepOutcome { chain, applied, .. } =
-            ready.stepper.step(self.leader, &ready.declared, &before, step)?;
+            step(self.leader, &ready.plan, &mut ready.stepper, &ready.declared, &before, number)?;
         ready.stepper.reuse(before);
-        Ok(match resolve(self.leader, &ready.plan, &chain, step, None)? {
+        Ok(match resolve(self.leader, &ready.plan, &chain, number, None)? {
             Some(resolution) => {
                 ready.stepper.reuse(Arc::new(chain));
                 let applied = together(applied, &resolution);

@@ -10,20 +10,21 @@ use std::time::{Duration, Instant};
 
 use rustc_hash::FxHashMap;
 
-use super::batch::Scratch;
+use super::functions::LuaRules;
 use super::interpret::InterpretationPass;
 use super::lead::{Ending, lead};
-use super::step::RewritingStep;
+use super::plan::DerivationPlan;
 use crate::declare::Session;
 use crate::machine::{Driver, Machine, SystemFunctions, Watchdog};
 use crate::results::{DerivedSystem, Trace};
 use burgeon_base::error::{Error, Result};
 use burgeon_kit::Prefetch;
+use burgeon_rewriting::{Scratch, StepWork};
 
 /// Work for all threads, unless it is done before they come to it: a helper that is still starting keeps nobody waiting.
 #[derive(Clone)]
 pub(crate) enum ThreadJob {
-    Rewrite(Weak<RewritingStep>),
+    Rewrite { work: Weak<StepWork>, plan: Weak<DerivationPlan> },
     Interpret(Weak<InterpretationPass>),
     Prefetch(Weak<dyn Prefetch>),
 }
@@ -260,14 +261,16 @@ fn serve(machine: &Machine, inbox: &Receiver<Message>, index: usize) -> Result<R
         };
         // Everything that belongs to a job is let go of before the job itself, for which the leader waits.
         match job {
-            ThreadJob::Rewrite(rewriting) => {
-                let Some(rewriting) = rewriting.upgrade() else { continue };
-                let system = rewriting.plan.system;
-                let declared = prepared(machine, &mut known, system)?;
-                machine.enter(system)?;
-                machine.current.objects.replace(rewriting.plan.objects.clone());
+            ThreadJob::Rewrite { work, plan } => {
+                // The leader waits for the work, so it has to be the last that is dropped.
+                let Some(work) = work.upgrade() else { continue };
+                let Some(plan) = plan.upgrade() else { continue };
+                let declared = prepared(machine, &mut known, plan.system)?;
+                machine.enter(plan.system)?;
+                machine.current.objects.replace(plan.objects.clone());
                 machine.refresh();
-                while rewriting.work(machine, declared, &mut scratch) {}
+                let rules = LuaRules { machine, declared };
+                while work.work(&rules, &machine.session.stop, &mut scratch) {}
                 machine.current.objects.replace(None);
             }
             ThreadJob::Prefetch(prefetch) => {

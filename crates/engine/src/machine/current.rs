@@ -7,11 +7,11 @@ use crate::declare::Session;
 use crate::machine::types::Objects;
 use crate::questions::ChainView;
 use burgeon_base::error::{Error, Result, SourcePlace};
+use burgeon_base::random::Stream;
 use burgeon_base::warning::{Warning, take_deferred};
 use burgeon_kit::declare::{downcast_mut, downcast_ref};
-use burgeon_kit::random::Stream;
-use burgeon_kit::rules::{ModuleKey, Symbol};
 use burgeon_kit::{Call, Kind, Object, Registry, ScriptObject, Table, Value};
+use burgeon_rewriting::{ModuleKey, ReturnShape, Successors, Symbol};
 
 /// Applies recorded method calls to objects while a batch is interpreted.
 pub(crate) trait Flusher: std::any::Any {
@@ -27,17 +27,6 @@ pub(crate) trait Flusher: std::any::Any {
     /// Notes that the interpretation rule of `entry` has returned a `value`, in words, or modules where there is none.
     fn lost(&mut self, entry: usize, value: Option<&str>);
 }
-
-/// What a prepared return makes: the symbols of its modules and brackets.
-#[derive(Default)]
-pub(crate) struct ReturnShape {
-    pub symbols: Vec<Symbol>,
-    /// The number of all parameters.
-    pub params: usize,
-}
-
-/// Lua adds this to the number of a shape.
-const SHAPE: usize = 1 << 30;
 
 /// What is being rewritten or interpreted.
 pub(crate) struct WorkState {
@@ -59,7 +48,7 @@ pub(crate) struct WorkState {
     /// The type of `this`, whose methods Lua knows by their numbers.
     pub kind: RefCell<Option<Arc<Kind>>>,
     /// The shapes of prepared returns, by number.
-    pub shapes: RefCell<Vec<ReturnShape>>,
+    pub shapes: RefCell<Arc<Vec<ReturnShape>>>,
     /// Applies recorded calls while interpreting.
     pub flusher: RefCell<Option<Box<dyn Flusher>>>,
     /// The stream of the top level of the script.
@@ -89,9 +78,10 @@ impl WorkState {
     }
 
     pub(crate) fn add_shape(&self, number: usize, symbols: Vec<Symbol>, arities: &[u8]) {
-        let Some(number) = number.checked_sub(SHAPE) else { return };
+        let Some(number) = number.checked_sub(Successors::SHAPE as usize) else { return };
         let params = symbols.iter().map(|symbol| usize::from(arities[usize::from(*symbol)])).sum();
         let mut shapes = self.shapes.borrow_mut();
+        let shapes = Arc::make_mut(&mut shapes);
         if shapes.len() <= number {
             shapes.resize_with(number + 1, ReturnShape::default);
         }
@@ -197,7 +187,7 @@ impl WorkState {
                 answer.map_err(Error::of_data)
             }
             Call::Script { .. } => Err(Error::internal("the script itself runs this method")),
-            Call::Write { .. } if objects.has_failed(chain) => Ok(Value::Nil),
+            Call::Write { .. } if objects.failed().contains(chain) => Ok(Value::Nil),
             Call::Write { values, .. } => {
                 let mut said = Vec::new();
                 let done = objects.write(chain, |object| {
@@ -215,7 +205,7 @@ impl WorkState {
                     let place = place();
                     flusher.warn(said.into_iter().map(|warning| warning.at(place.clone())).collect());
                 }
-                done.or_else(|error| objects.forgive(chain, error.of_data()).map(|()| Value::Nil))
+                done.or_else(|error| objects.failed().forgive(chain, error.of_data()).map(|()| Value::Nil))
             }
         }
     }

@@ -13,8 +13,8 @@ use crate::machine::types::{ObjectHandle, claim};
 use burgeon_base::error::{Error, Limit, SourcePlace};
 use burgeon_base::warning::take_deferred;
 use burgeon_kit::declare::as_ref;
-use burgeon_kit::rules::{ColumnValue, DEEPEST, module_text};
 use burgeon_kit::{Call, GeometryObject, ScriptObject, Value};
+use burgeon_rewriting::{ColumnValue, DEEPEST, module_text};
 
 /// An answer of more entries is made without a collection of garbage meanwhile.
 const LONG: usize = 256;

@@ -18,14 +18,15 @@ use super::types::{
 };
 use super::{Machine, compile, native};
 use crate::declare::{API_VERSION, Param, Print, Session, Setting, has_name};
+use crate::placeholders::{self, FRAGMENT, QUERY};
 use burgeon_analysis::Globals;
 use burgeon_base::MemoryOwner;
 use burgeon_base::error::{Error, Result, SourcePlace};
 use burgeon_base::warning::{Warning, WarningKind};
-use burgeon_kit::rules::{FRAGMENT, NameScope, QUERY, Signature, Symbol, Symbols};
 use burgeon_kit::{Construct, Kind, Registry};
 use burgeon_language::LOCKED;
 use burgeon_packages::{FileName, Package};
+use burgeon_rewriting::{NameScope, Signature, Symbol, Symbols};
 
 /// The standard library, which every script has, compiled once for all machines.
 static STANDARD_COMPILED: LazyLock<Vec<u8>> =
@@ -95,6 +96,11 @@ impl Library {
             deprecated,
             shapes,
         }
+    }
+
+    /// Creates the names of a script of which nothing has run.
+    pub(crate) fn new() -> Self {
+        Self { symbols: RefCell::new(placeholders::symbols()), ..Self::default() }
     }
 
     /// The machine that this library belongs to, once it is complete.

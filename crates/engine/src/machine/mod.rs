@@ -24,7 +24,7 @@ mod virtual_machine;
 mod watchdog;
 
 pub use blank::make_ready;
-pub(crate) use current::{Flusher, ReturnShape, WorkState};
+pub(crate) use current::{Flusher, WorkState};
 pub(crate) use driver::Driver;
 pub(crate) use native::native;
 pub(crate) use system::{Axiom, Interpretations, SystemFunctions, returns_modules, returns_value};

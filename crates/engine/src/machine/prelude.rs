@@ -8,6 +8,7 @@ use mlua::{Buffer, Function, Lua, Table};
 use super::native::as_bytecode;
 use crate::machine::system::UNREAD;
 use crate::machine::types::POINTS;
+use burgeon_rewriting::Successors;
 
 /// Its parts: one chunk of Luau, whose locals each part has from those before it.
 const PARTS: [&str; 12] = [
@@ -26,7 +27,7 @@ const PARTS: [&str; 12] = [
 ];
 
 /// The parts written out and compiled, once for all machines.
-static COMPILED: LazyLock<Vec<u8>> = LazyLock::new(|| super::compile(&expand(&PARTS.concat())));
+static COMPILED: LazyLock<Vec<u8>> = LazyLock::new(|| super::compile(&expand(&with_words(&PARTS.concat()))));
 
 /// The functions of the prelude that Rust calls.
 pub(crate) struct Prelude {
@@ -155,6 +156,18 @@ impl Prelude {
     pub(crate) fn recorded(&self) -> mlua::Result<(Buffer, Buffer, Buffer)> {
         self.recorded.call(())
     }
+}
+
+/// Puts the words of successors that Rust reads in the places of their names, such as `@KEEP`.
+fn with_words(template: &str) -> String {
+    [
+        ("@KEEP", Successors::KEEP),
+        ("@ORDERED", Successors::ORDERED),
+        ("@OPEN_ITEM", Successors::OPEN_ITEM),
+        ("@CLOSE_ITEM", Successors::CLOSE_ITEM),
+    ]
+    .into_iter()
+    .fold(template.to_owned(), |text, (name, word)| text.replace(name, &word.to_string()))
 }
 
 /// Repeats the marked parts of the template for each number of parameters.

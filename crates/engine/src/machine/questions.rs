@@ -13,7 +13,7 @@ use super::{Machine, WorkState};
 use crate::questions::{Question, Rows};
 use burgeon_analysis::sql_parameters;
 use burgeon_kit::Value;
-use burgeon_kit::rules::{Pattern, Symbols};
+use burgeon_rewriting::{Pattern, Symbols};
 
 /// The values of answers that a machine keeps as tables.
 const MOST: usize = 200_000;

@@ -15,8 +15,8 @@ use crate::declare::{Session, SourceFile, bytecode};
 use burgeon_base::error::{Error, ErrorKind, Limit, Result, SourcePlace};
 use burgeon_base::stop::StopAtWork;
 use burgeon_base::warning::Warning;
-use burgeon_kit::rules::{Symbol, Symbols};
 use burgeon_packages::Package;
+use burgeon_rewriting::{Symbol, Symbols};
 use mlua::chunk::ChunkMode;
 use mlua::{Buffer, Function, Lua, Value};
 
@@ -62,7 +62,7 @@ impl Machine {
             let BlankMachine { lua, prelude } = BlankMachine::take()?;
             let guard = watchdog.register(&lua);
             let current = Rc::new(WorkState::new(Arc::clone(session)));
-            let library = Rc::new(Library::default());
+            let library = Rc::new(Library::new());
             let host = host::functions(&lua, &current, &library)?;
             let prelude = Prelude::new(&prelude.call(host)?)?;
             let (session, work) = (Arc::clone(session), session.stop.at_work());

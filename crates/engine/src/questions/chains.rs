@@ -6,7 +6,7 @@
 use std::sync::Arc;
 
 use burgeon_base::error::Result;
-use burgeon_kit::rules::{Chain, END, NameScope, Symbol, Symbols};
+use burgeon_rewriting::{Chain, END, NameScope, Symbol, Symbols};
 
 use crate::results::DerivedSystem;
 

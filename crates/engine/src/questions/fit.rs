@@ -1,6 +1,6 @@
 //! Which column, or parameter of another module, becomes which parameter of a module.
 
-use burgeon_kit::rules::Signature;
+use burgeon_rewriting::Signature;
 
 /// Names that a geometry often has.
 const GEOMETRY: [&str; 5] = ["geometry", "geom", "shape", "the_geom", "wkb_geometry"];

@@ -6,8 +6,8 @@ use std::hash::{BuildHasher as _, Hash, Hasher};
 use std::sync::Arc;
 
 use burgeon_base::error::Result;
-use burgeon_kit::rules::NameScope;
 use burgeon_kit::{Table, TableKey, Value};
+use burgeon_rewriting::NameScope;
 use rustc_hash::FxBuildHasher;
 
 use burgeon_analysis::sql_parameters;

@@ -8,12 +8,12 @@ use super::records::SourceFeatures;
 use super::remark::Remark;
 use super::row_features::RowFeatures;
 use super::trace::RuleName;
-use super::uses::Use;
 use burgeon_base::error::{Result, SourcePlace};
 use burgeon_base::warning::Warning;
 use burgeon_data::output::RecordTable;
-use burgeon_kit::rules::{Chain, Symbol, Symbols, Values, chain_text, write_chains};
+use burgeon_kit::Values;
 use burgeon_kit::{Model, Object};
+use burgeon_rewriting::{Chain, Symbol, Symbols, Use, chain_text, write_chains};
 use burgeon_scene::{CityClass, Origin, Scene};
 
 /// Where the time of a derivation went.

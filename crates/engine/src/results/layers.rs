@@ -5,8 +5,8 @@ use std::sync::Arc;
 use burgeon_data::Attribute;
 use burgeon_data::Geometry;
 use burgeon_data::output::{Record, RecordTable};
-use burgeon_kit::rules::{END, FIRST_SYMBOL, Symbol};
 use burgeon_kit::{GeometryObject, Object, Value};
+use burgeon_rewriting::{END, FIRST_SYMBOL, Symbol};
 use rustc_hash::{FxHashMap, FxHashSet};
 
 use super::DerivedSystem;

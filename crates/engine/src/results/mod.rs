@@ -10,8 +10,8 @@ mod records;
 mod remark;
 mod row_features;
 mod trace;
-mod uses;
 
+pub use burgeon_rewriting::Use;
 pub(crate) use derived_system::SystemUses;
 pub use derived_system::{DerivedSystem, RuleReport, Times};
 pub(crate) use emptiness::{emptiness, idleness, is_whole, left_out, tells_of_emptiness};
@@ -22,4 +22,3 @@ pub(crate) use row_features::RowFeatures;
 pub use trace::{Ancestor, Module, RuleName, RuleProducts, Trace};
 pub(crate) use trace::{PendingAnswer, RESOLVED};
 pub(crate) use trace::{Step, around};
-pub use uses::Use;

@@ -5,15 +5,17 @@
 
 use std::sync::Arc;
 
+use crate::placeholders::QUERY;
 use burgeon_base::error::{SourcePlace, shortened};
-use burgeon_kit::rules::{Chain, END, QUERY, Symbol, Symbols, Values, module_brief};
-use burgeon_kit::{Makers, RewriteOutcome};
+use burgeon_kit::Makers;
+use burgeon_kit::Values;
+use burgeon_rewriting::{Chain, END, NO_RULE, Symbol, Symbols, module_brief};
 
 /// Characters of a parameter that people are shown.
 const SHOWN: usize = 2000;
 
 /// In place of a rule's number: what a module stood for took its place.
-pub(crate) const RESOLVED: u16 = RewriteOutcome::NONE - 1;
+pub(crate) const RESOLVED: u16 = NO_RULE - 1;
 
 /// What took the place of a module that stood for others, in words.
 pub(crate) struct PendingAnswer {
@@ -98,7 +100,7 @@ pub struct Trace {
     values: Arc<Values>,
     rules: Vec<RuleName>,
     interpretations: Vec<RuleName>,
-    /// By symbol: the number of its interpretation rule, or [`RewriteOutcome::NONE`].
+    /// By symbol: the number of its interpretation rule, or [`NO_RULE`].
     interpreted: Vec<u16>,
     axiom: Option<SourcePlace>,
 }
@@ -187,7 +189,7 @@ impl Trace {
         for (place, step) in self.steps.iter().enumerate().rev() {
             let Some((parent, begin)) = parent(&step.applied, here) else { return path };
             let rule = step.applied[parent].0;
-            if rule != RewriteOutcome::NONE {
+            if rule != NO_RULE {
                 let after = self.steps.get(place + 1).map_or(&self.chain, |next| &next.chain);
                 let before = after.symbols[begin..here].iter().filter(|symbol| **symbol > END);
                 let rule = self.rules.get(usize::from(rule)).cloned();

@@ -12,8 +12,8 @@ use crate::facade::lay::MOST;
 use crate::facade::template::BLIND;
 use crate::facade::{FacadeFace, FacadeLayout, FaceMesh, Joiner, Rectangle, Template, Templates};
 use burgeon_base::error::{Error, Limit, Result};
+use burgeon_base::random::Stream;
 use burgeon_geometry::{Ring, SAME, fill};
-use burgeon_kit::random::Stream;
 use burgeon_kit::{Color, Note, fields};
 use burgeon_scene::{Material, Part, SurfaceMeaning};
 

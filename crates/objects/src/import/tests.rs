@@ -6,7 +6,7 @@ use super::gltf_file::{ImportOptions, read};
 use burgeon_base::budget::Budget;
 use burgeon_base::error::Error;
 use burgeon_base::error::Result;
-use burgeon_kit::random::Stream;
+use burgeon_base::random::Stream;
 use burgeon_picture::Picture;
 use burgeon_scene::{Instance, Mesh, Scene};
 use burgeon_scene::{Material, Part, Texture, image};

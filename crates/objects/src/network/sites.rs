@@ -4,8 +4,8 @@ use burgeon_base::error::{Error, Result};
 use burgeon_base::warning::{Warning, WarningKind, defer_warning};
 use burgeon_data::Geometry;
 use burgeon_geometry::Rings;
-use burgeon_kit::rules::ModuleKey;
 use burgeon_kit::{Answer, Parameter, Seed, Value, Vector, fields};
+use burgeon_rewriting::ModuleKey;
 use burgeon_streets::{SiteOptions, StreetSite};
 use glam::DVec3;
 

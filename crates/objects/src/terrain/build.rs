@@ -8,7 +8,7 @@ use super::{TerrainOptions, rules};
 use crate::Elevation;
 use burgeon_base::error::{Error, Result};
 use burgeon_base::text::number;
-use burgeon_kit::rules::ModuleKey;
+use burgeon_rewriting::ModuleKey;
 use burgeon_terrain::{HeightSource, LevelRules, Rules, World};
 
 /// The world that `options` describe. Fails for what cannot be.

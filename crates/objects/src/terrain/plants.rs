@@ -8,10 +8,10 @@ use rayon::prelude::*;
 use super::beds::RiverBeds;
 use super::mask::{GroundPoint, Mask};
 use burgeon_base::error::{Error, Limit, Result};
+use burgeon_base::random::Stream;
 use burgeon_base::{MemoryOwner, Stop};
-use burgeon_kit::random::Stream;
-use burgeon_kit::rules::ModuleKey;
 use burgeon_kit::{Drawing, Expectation, Field, Model, Parameter, Table, Value, fields};
+use burgeon_rewriting::ModuleKey;
 use burgeon_terrain::Ground;
 
 /// A kind of model that is scattered over the ground.

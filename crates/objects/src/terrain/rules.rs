@@ -4,8 +4,8 @@ use std::sync::Arc;
 
 use burgeon_base::error::{did_you_mean, nearest};
 use burgeon_base::warning::{Warning, WarningKind};
-use burgeon_kit::rules::Symbol;
 use burgeon_kit::{Expectation, Parameter, System, Table, TableKey, Value};
+use burgeon_rewriting::Symbol;
 use burgeon_terrain::{LevelRules, NumberRange, Quadrants, RuleTable, Rules};
 
 /// The rules of a terrain, by level; the first are from level 0.

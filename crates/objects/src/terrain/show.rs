@@ -7,7 +7,7 @@ use super::{Terrain, looks, sides};
 use burgeon_base::Stop;
 use burgeon_base::error::{Error, Result};
 use burgeon_kit::Drawing;
-use burgeon_kit::rules::ModuleKey;
+use burgeon_rewriting::ModuleKey;
 use burgeon_scene::{Instance, Material, Mesh, Part, Scene};
 use burgeon_terrain::{GroundCuts, GroundMesh};
 

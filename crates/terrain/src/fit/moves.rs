@@ -3,7 +3,7 @@
 use super::code::{CellLevel, Code};
 use super::solve::{MOST, dot, improve, misfit};
 use super::targets::{self, number};
-use burgeon_kit::random::Stream;
+use burgeon_base::random::Stream;
 
 /// What is to be fitted, scaled to 0..1, along the Z curve.
 pub(super) struct Problem {

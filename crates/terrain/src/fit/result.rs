@@ -9,7 +9,7 @@ use super::code::Code;
 use super::targets::Target;
 use crate::{Area, LevelRules, NumberRange, Quadrants, RuleTable, Rules, Tables, World};
 use burgeon_base::error::Result;
-use burgeon_kit::rules::Symbol;
+use burgeon_rewriting::Symbol;
 
 /// A rule table whose map is like a target.
 #[derive(Debug, Clone, PartialEq)]

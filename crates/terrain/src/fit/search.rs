@@ -11,7 +11,7 @@ use super::code::{Code, SymbolRule, along};
 use super::moves::Problem;
 use super::result::FitResult;
 use super::targets::{Target, number};
-use burgeon_kit::random::Stream;
+use burgeon_base::random::Stream;
 
 /// How many cells across the search looks at, at most; what it finds is improved and measured on the whole target.
 const COARSE: usize = 64;

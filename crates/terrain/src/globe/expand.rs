@@ -8,7 +8,7 @@ use super::faces::{CubeCell, cell};
 use crate::block::{Area, Block};
 use crate::world::{Divide, World, smooth};
 use burgeon_base::error::Result;
-use burgeon_kit::rules::ModuleKey;
+use burgeon_rewriting::ModuleKey;
 
 /// An area of each face.
 pub(super) type Areas = [Area; 6];

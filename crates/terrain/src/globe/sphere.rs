@@ -96,7 +96,7 @@ pub fn latitude(direction: DVec3, axis: DVec3) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use burgeon_kit::random::Stream;
+    use burgeon_base::random::Stream;
 
     #[test]
     fn a_place_has_the_direction_that_has_the_place() {

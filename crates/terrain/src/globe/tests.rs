@@ -8,8 +8,8 @@ use glam::{DVec2, DVec3};
 use super::leaves::DETAIL;
 use super::*;
 use crate::{LevelRules, NumberRange, Quadrants, RuleTable, Rules, Tables, Tile, World};
-use burgeon_kit::random::Stream;
-use burgeon_kit::rules::{ModuleKey, Symbol};
+use burgeon_base::random::Stream;
+use burgeon_rewriting::{ModuleKey, Symbol};
 
 const RADIUS: f64 = 50_000.0;
 

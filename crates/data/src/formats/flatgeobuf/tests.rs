@@ -9,7 +9,7 @@ use geozero::{ColumnValue, PropertyProcessor};
 use crate::{FeatureTable, Geometry, Layer, Listing, Source, SourceOptions};
 use burgeon_base::budget::Budget;
 use burgeon_base::error::Result;
-use burgeon_kit::random::Stream;
+use burgeon_base::random::Stream;
 use std::sync::Arc;
 use std::time::Duration;
 

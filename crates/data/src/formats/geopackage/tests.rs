@@ -4,7 +4,7 @@ use rusqlite::Connection;
 
 use crate::{Geometry, Layer, Source, SourceOptions};
 use burgeon_base::budget::Budget;
-use burgeon_kit::random::Stream;
+use burgeon_base::random::Stream;
 use std::path::Path;
 use std::sync::Arc;
 use std::time::Duration;

@@ -11,7 +11,7 @@ use crate::tags::{TagFilter, TagTest};
 use crate::{Attribute, FeatureTable, Geometry, GeometryKind, Layer, Source, SourceOptions};
 use burgeon_base::budget::Budget;
 use burgeon_base::error::Result;
-use burgeon_kit::random::Stream;
+use burgeon_base::random::Stream;
 
 thread_local! {
     /// Where a test writes its files.

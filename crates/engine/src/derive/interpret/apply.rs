@@ -11,8 +11,9 @@ use crate::machine::{Flusher, Machine, Objects, read_column, returns_modules, re
 use burgeon_base::Stop;
 use burgeon_base::error::{Error, ErrorKind, Limit, Result};
 use burgeon_base::warning::Warning;
-use burgeon_kit::rules::{CLOSE, END, Mark, OPEN, Values, module_brief};
+use burgeon_kit::Values;
 use burgeon_kit::{Call, Kind, Object, Value};
+use burgeon_rewriting::{CLOSE, END, Mark, OPEN, module_brief};
 
 /// Where a piece of the chain has been applied up to.
 pub(crate) struct Applier {
@@ -154,7 +155,7 @@ impl Applier {
 
     /// Leaves out the chain at hand, whose data is at fault; passes every other error on.
     pub(crate) fn forgive(&mut self, error: Error) -> Result<()> {
-        self.objects.forgive(self.chain, error)
+        self.objects.failed().forgive(self.chain, error)
     }
 
     /// Applies the rest of a batch, of whose calls `called` were recorded last, and all symbols before `until`.
@@ -180,7 +181,7 @@ impl Applier {
     fn apply(&mut self, last: usize, until: usize) -> Result<()> {
         let objects = Arc::clone(&self.objects);
         while self.position < until || self.next < self.entries.len().min(last + 1) {
-            let failed = objects.has_failed(self.chain);
+            let failed = objects.failed().contains(self.chain);
             // One lock for all that is done to an object.
             match objects.write(self.chain, |object| self.apply_to(object, failed, last, until)) {
                 Ok(ApplyEnd::Last) => break,
@@ -192,7 +193,7 @@ impl Applier {
                 }
                 Err(error) => {
                     let error = self.blame(error, self.position, self.param).of_data();
-                    objects.forgive(self.chain, error)?;
+                    objects.failed().forgive(self.chain, error)?;
                     self.failed = None;
                 }
             }
@@ -245,12 +246,12 @@ impl Applier {
         failed: bool,
         until: usize,
     ) -> Result<ApplyEnd> {
-        let arities = pass.plan.grammar.arities();
+        let arities = pass.plan.steps.grammar.arities();
         let methods = &pass.plan.interpretations.methods;
         while self.position < until {
             let symbol = pass.chain.symbols[self.position];
             let params = self.param..self.param + usize::from(arities[usize::from(symbol)]);
-            if pass.plan.traced {
+            if pass.plan.steps.traced {
                 follow(object, self.position);
             }
             if self.position.is_multiple_of(STRETCH) {
@@ -294,7 +295,7 @@ impl Applier {
             self.call_at = end;
             return Ok(());
         }
-        if pass.plan.traced {
+        if pass.plan.steps.traced {
             follow(object, self.position);
         }
         while self.call_at < end {
@@ -361,9 +362,9 @@ impl Applier {
         if symbol <= END {
             return error;
         }
-        let arity = usize::from(plan.grammar.arities()[usize::from(symbol)]);
+        let arity = usize::from(plan.steps.grammar.arities()[usize::from(symbol)]);
         let params = &self.pass.chain.params[param..param + arity];
-        let text = module_brief(plan.grammar.symbols(), &self.values, symbol, params);
+        let text = module_brief(plan.steps.grammar.symbols(), &self.values, symbol, params);
         let interpretations = &plan.interpretations;
         match interpretations.list.get(usize::from(interpretations.by_symbol[usize::from(symbol)])) {
             Some(known) if self.waits && matches!(error.kind(), ErrorKind::Limit(Limit::Time)) => {

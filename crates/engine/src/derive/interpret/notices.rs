@@ -9,7 +9,7 @@ use std::sync::Mutex;
 
 use burgeon_base::locks::LockRecovery;
 use burgeon_base::warning::Warning;
-use burgeon_kit::rules::Symbol;
+use burgeon_rewriting::Symbol;
 
 /// A warning of an object, and what gave rise to it.
 pub(crate) struct ObjectNotice {

@@ -14,7 +14,7 @@ use crate::results::Use;
 use burgeon_base::error::{Error, Limit, Result, SourcePlace};
 use burgeon_base::locks::LockRecovery;
 use burgeon_base::warning::Warning;
-use burgeon_kit::rules::{CLOSE, Chain, END, Mark, ModuleKey, OPEN, Symbol, module_brief};
+use burgeon_rewriting::{CLOSE, Chain, END, Mark, ModuleKey, OPEN, Symbol, module_brief};
 
 /// Entries that one call into Lua interprets.
 const ENTRIES: usize = 4096;
@@ -81,9 +81,9 @@ impl InterpretationPass {
         uses: &mut [Use],
         said: &mut Vec<Warning>,
     ) -> Result<()> {
-        let starts = chain.starts(plan.grammar.arities());
-        let many = plan.chains >= 4 * DEALT;
-        let size = if many { plan.batch.min(chain.symbols.len() / DEALT) } else { plan.batch };
+        let starts = chain.starts(plan.steps.grammar.arities());
+        let many = plan.steps.chains >= 4 * DEALT;
+        let size = if many { plan.steps.batch.min(chain.symbols.len() / DEALT) } else { plan.steps.batch };
         let mut pieces = vec![Mark::default()];
         for start in &starts[1..] {
             let begin = pieces.last().copied().unwrap_or_default();
@@ -183,7 +183,7 @@ impl InterpretationPass {
     #[inline(never)]
     fn gather(&self, next: &mut NextEntry, end: usize, batch: &mut EntryBatch) {
         let interpretations = &self.plan.interpretations;
-        let (by_symbol, arities) = (interpretations.by_symbol.as_slice(), self.plan.grammar.arities());
+        let (by_symbol, arities) = (interpretations.by_symbol.as_slice(), self.plan.steps.grammar.arities());
         let (symbols, params) = (&self.chain.symbols[..end], self.chain.params.as_slice());
         let NextEntry { at: Mark { mut module, mut param, mut chain }, mut is_begin } = *next;
         batch.clear();
@@ -227,7 +227,7 @@ impl InterpretationPass {
         write_column(prelude.entries(ids.len() * 2).map_err(lua)?, ids)?;
         write_column(prelude.input(arguments.len() * 8).map_err(lua)?, arguments)?;
         prelude.counts(ids.len() * 4).map_err(lua)?;
-        if self.plan.grammar.draws_random() {
+        if self.plan.steps.grammar.draws_random() {
             let mut keys = machine.current.keys.borrow_mut();
             keys.clear();
             keys.extend(entries.iter().zip(ids).map(|((module, _), id)| self.key(*module, *id)));
@@ -405,7 +405,7 @@ impl InterpretationPass {
 
     /// A module of the chain with its parameters, which begin at `param`.
     fn module_brief(&self, machine: &Machine, module: usize, param: usize) -> String {
-        let (grammar, symbol) = (&self.plan.grammar, self.chain.symbols[module]);
+        let (grammar, symbol) = (&self.plan.steps.grammar, self.chain.symbols[module]);
         let arity = usize::from(grammar.arities()[usize::from(symbol)]);
         let params = &self.chain.params[param..param + arity];
         module_brief(grammar.symbols(), &machine.session.values, symbol, params)

@@ -7,8 +7,9 @@ use rustc_hash::{FxHashMap, FxHashSet};
 
 use crate::questions::{fit, listed};
 use burgeon_base::error::{Error, Result};
-use burgeon_kit::rules::{Chain, ColumnValue, Mark, Symbol, Symbols, Values, module_brief};
+use burgeon_kit::Values;
 use burgeon_kit::{GeometryObject, Value};
+use burgeon_rewriting::{Chain, ColumnValue, Mark, Symbol, Symbols, module_brief};
 
 /// Where each parameter of a module comes from, among those of another.
 type ParameterPlaces = Rc<[Option<usize>]>;

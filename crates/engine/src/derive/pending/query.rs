@@ -10,8 +10,9 @@ use crate::derive::threads::{ThreadJob, ThreadPool};
 use crate::machine::Machine;
 use crate::questions::{Question, Rows, fit, listed};
 use burgeon_base::error::{Error, Result};
-use burgeon_kit::rules::{Chain, ModuleKey, Signature, Symbol, Values};
+use burgeon_kit::Values;
 use burgeon_kit::{Prefetch, Value};
+use burgeon_rewriting::{Chain, ModuleKey, Signature, Symbol};
 
 /// Questions from which asking them takes longer than starting a helper.
 const MANY: usize = 64;

@@ -11,13 +11,15 @@ use super::sites::{PendingSite, sites};
 use crate::derive::plan::DerivationPlan;
 use crate::derive::threads::{LeadingMachine, ThreadPool};
 use crate::machine::Machine;
+use crate::placeholders::{FRAGMENT, QUERY};
 use crate::questions::{Question, Rows};
 use crate::results::{PendingAnswer, RESOLVED, RowFeatures};
 use burgeon_base::error::{Error, Limit, Result, SourcePlace};
 use burgeon_base::text::grouped;
 use burgeon_base::warning::{Warning, WarningKind};
-use burgeon_kit::rules::{Chain, FRAGMENT, Mark, QUERY, Symbol, Values, module_brief};
-use burgeon_kit::{RewriteOutcome, Value};
+use burgeon_kit::Value;
+use burgeon_kit::Values;
+use burgeon_rewriting::{Chain, Mark, NO_RULE, Symbol, module_brief};
 
 /// How often the time is looked at: after so many places.
 const OFTEN: usize = 1024;
@@ -48,11 +50,12 @@ pub(in crate::derive) fn resolve(
         return Ok(None);
     }
     let resolver = Resolver { machine, plan, chain, step, features };
-    let sites = sites(chain, plan.grammar.arities()).map_err(|(at, error)| resolver.blame(at, error))?;
+    let sites =
+        sites(chain, plan.steps.grammar.arities()).map_err(|(at, error)| resolver.blame(at, error))?;
     let (answers, asked) = resolver.ask(threads, &sites)?;
     let mut resolution = resolver.put_in(&sites, &answers, &asked)?;
     machine.session.rows.forget_many();
-    resolution.chain.mark(plan.batch, plan.grammar.arities());
+    resolution.chain.mark(plan.steps.batch, plan.steps.grammar.arities());
     if let Some(features) = features {
         features.borrow_mut().replace(std::mem::take(&mut resolution.owners));
     }
@@ -106,7 +109,7 @@ impl Resolver<'_> {
 
     /// Whether the chain at `at` is left out, since its data is at fault.
     fn is_left_out(&self, at: Mark) -> bool {
-        self.plan.objects.as_ref().is_some_and(|objects| objects.has_failed(at.chain))
+        self.plan.objects.as_ref().is_some_and(|objects| objects.failed().contains(at.chain))
     }
 
     /// An error of the module at `at`, with the line that made it.
@@ -117,7 +120,7 @@ impl Resolver<'_> {
     /// Returns the line of the script that made the pending module at `at`.
     fn place(&self, at: Mark) -> Option<SourcePlace> {
         let symbol = self.chain.symbols[at.module];
-        let arity = usize::from(self.plan.grammar.arities()[usize::from(symbol)]);
+        let arity = usize::from(self.plan.steps.grammar.arities()[usize::from(symbol)]);
         let Value::Text(line) = self.value(at, arity - 1) else { return None };
         let (file, line) = line.rsplit_once(':')?;
         Some(SourcePlace { file: file.to_owned(), line: line.parse().ok()? })
@@ -134,7 +137,7 @@ impl Resolver<'_> {
                 format!("query(\"{}\", {}){values}", text(0), text(1))
             }
             symbol => {
-                let grammar = &self.plan.grammar;
+                let grammar = &self.plan.steps.grammar;
                 let arity = usize::from(grammar.arities()[usize::from(symbol)]);
                 let params = &self.chain.params[at.param..][..arity];
                 module_brief(grammar.symbols(), self.values(), symbol, params)
@@ -146,7 +149,7 @@ impl Resolver<'_> {
     fn forgive(&self, at: Mark, error: Error) -> Result<()> {
         let error = self.blame(at, error);
         match &self.plan.objects {
-            Some(objects) => objects.forgive(at.chain, error),
+            Some(objects) => objects.failed().forgive(at.chain, error),
             None => Err(error),
         }
     }
@@ -165,7 +168,7 @@ impl Resolver<'_> {
 
     /// The module that the pending one at `at` names in its parameter number `index`.
     fn target(&self, at: Mark, index: usize) -> Result<Symbol> {
-        self.plan.grammar.symbols().find(&self.text(at, index)?)
+        self.plan.steps.grammar.symbols().find(&self.text(at, index)?)
     }
 
     /// Asks what the queries among `sites` ask; gives the answers, and by site the number of its own.
@@ -186,11 +189,11 @@ impl Resolver<'_> {
         answers: &[Result<Arc<Rows>>],
         asked: &[Option<usize>],
     ) -> Result<Resolution> {
-        let (arities, session) = (self.plan.grammar.arities(), &self.machine.session);
+        let (arities, session) = (self.plan.steps.grammar.arities(), &self.machine.session);
         let limit = session.options.limits.modules;
         let mut made = Resolution::default();
-        if self.plan.traced {
-            made.applied = vec![(RewriteOutcome::NONE, 1); self.chain.symbols.len()];
+        if self.plan.steps.traced {
+            made.applied = vec![(NO_RULE, 1); self.chain.symbols.len()];
         }
         let mut rows: FxHashMap<(usize, Symbol), RowModules> = FxHashMap::default();
         let mut fragmentation = Fragmentation::default();
@@ -223,7 +226,7 @@ impl Resolver<'_> {
                     SiteReport { modules: 0, rows: None }
                 }
             };
-            if self.plan.traced {
+            if self.plan.steps.traced {
                 let count = made.chain.symbols.len() - before;
                 made.applied[site.at.module] = (RESOLVED, u32::try_from(count).unwrap_or(u32::MAX));
                 site.fragments.iter().for_each(|at| made.applied[at.module] = (RESOLVED, 0));
@@ -277,7 +280,7 @@ impl Resolver<'_> {
             .chain
             .symbols
             .get(at.module)
-            .map_or(0, |symbol| self.plan.grammar.arities()[usize::from(*symbol)]);
+            .map_or(0, |symbol| self.plan.steps.grammar.arities()[usize::from(*symbol)]);
         *done = Mark {
             module: (at.module + 1).min(self.chain.symbols.len()),
             param: at.param + usize::from(arity),
@@ -304,7 +307,7 @@ impl Resolver<'_> {
                     std::collections::hash_map::Entry::Occupied(entry) => entry.into_mut(),
                     std::collections::hash_map::Entry::Vacant(entry) => {
                         let answer = answer.as_ref().map_err(|error| at(error.clone()))?;
-                        let target = self.plan.grammar.symbols().signature(symbol);
+                        let target = self.plan.steps.grammar.symbols().signature(symbol);
                         let mut modules =
                             RowModules::new(answer, symbol, target, self.values()).map_err(at)?;
                         if let Some(features) = self.features {
@@ -320,7 +323,7 @@ impl Resolver<'_> {
             // It belongs to a chain that is left out.
             (None, QUERY) => {}
             (None, symbol) => {
-                let arity = usize::from(self.plan.grammar.arities()[usize::from(symbol)]);
+                let arity = usize::from(self.plan.steps.grammar.arities()[usize::from(symbol)]);
                 group.symbols.push(symbol);
                 group.params.extend_from_slice(&self.chain.params[site.at.param..][..arity]);
                 group.keys.extend(key);
@@ -330,7 +333,7 @@ impl Resolver<'_> {
         for fragment in &site.fragments {
             let at = |error| (*fragment, error);
             let symbol = self.target(*fragment, 0).map_err(at)?;
-            let symbols = self.plan.grammar.symbols();
+            let symbols = self.plan.steps.grammar.symbols();
             (group, owners) = fragmentation
                 .apply((&group, &owners), symbol, symbols, (*fragment, self.values()))
                 .map_err(at)?;

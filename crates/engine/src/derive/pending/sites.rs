@@ -1,7 +1,8 @@
 //! Where in a chain modules stand that stand for others.
 
+use crate::placeholders::{FRAGMENT, QUERY};
 use burgeon_base::error::{Error, Result};
-use burgeon_kit::rules::{CLOSE, Chain, END, FRAGMENT, Mark, OPEN, QUERY};
+use burgeon_rewriting::{CLOSE, Chain, END, Mark, OPEN};
 
 /// A place in a chain where other modules come.
 #[derive(Debug)]
@@ -58,7 +59,7 @@ pub(super) fn sites(chain: &Chain, arities: &[u8]) -> Result<Vec<PendingSite>, (
 #[cfg(test)]
 mod tests {
     use super::*;
-    use burgeon_kit::rules::{FIRST_SYMBOL, Symbols};
+    use burgeon_rewriting::{FIRST_SYMBOL, Symbols};
 
     /// The sites of a chain as text: `a` to `z` modules, `?` a query, `%` a fragmentation, `;` an end.
     fn found(text: &str) -> Result<String, usize> {
@@ -70,7 +71,7 @@ mod tests {
             '%' => FRAGMENT,
             _ => FIRST_SYMBOL,
         };
-        let mut arities = Symbols::default().arities();
+        let mut arities = crate::placeholders::symbols().arities();
         arities.push(1);
         let chain = Chain { symbols: text.chars().map(symbol).collect(), ..Chain::default() };
         let sites = sites(&chain, &arities).map_err(|(at, _)| at.module)?;

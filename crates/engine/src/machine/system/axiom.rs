@@ -9,8 +9,8 @@ use crate::machine::convert::to_value;
 use crate::machine::types::ObjectHandle;
 use crate::results::{Remark, SourceFeatures};
 use burgeon_base::error::{Error, Limit, Result};
-use burgeon_kit::rules::{CLOSE, Chain, DEEPEST, END, ModuleKey, OPEN, Symbol};
 use burgeon_kit::{Object, Prefetch, Value};
+use burgeon_rewriting::{CLOSE, Chain, DEEPEST, END, ModuleKey, OPEN, Symbol};
 
 use super::lazy::is_feature;
 use super::source::{each_feature, layer_of, refused_of, shown};

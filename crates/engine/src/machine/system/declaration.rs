@@ -10,7 +10,7 @@ use crate::machine::questions::argument_places;
 use crate::machine::types::methods_key;
 use burgeon_base::error::{Result, SourcePlace};
 use burgeon_kit::Object;
-use burgeon_kit::rules::{CLOSE, END, FIRST_SYMBOL, Grammar, OPEN, Pattern, Rule, Symbol};
+use burgeon_rewriting::{CLOSE, END, FIRST_SYMBOL, Grammar, OPEN, Pattern, Rule, Symbol};
 use burgeon_scene::CityClass;
 use mlua::{Function, Table, Value as LuaValue};
 

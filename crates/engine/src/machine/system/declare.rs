@@ -14,8 +14,8 @@ use burgeon_base::error::{Error, Limit, Result, SourcePlace};
 use burgeon_base::text::grouped;
 use burgeon_base::warning::{Warning, WarningKind};
 use burgeon_kit::Value;
-use burgeon_kit::rules::{MOST_RULES, NameScope, Pattern, Rule, Symbols};
 use burgeon_language::RULE;
+use burgeon_rewriting::{MOST_RULES, NameScope, Pattern, Rule, Symbols};
 
 use super::{DeclaredAxiom, DeclaredInterpretation, DeclaredRule, SourceHandle, SystemDeclaration};
 

@@ -12,9 +12,9 @@ use crate::machine::library::Library;
 use crate::machine::types::{DerivedHandle, ObjectHandle, object_of_system};
 use burgeon_base::error::{Error, Result, SourcePlace};
 use burgeon_base::warning::{Warning, WarningKind};
-use burgeon_kit::rules::Symbol;
 use burgeon_kit::{Object, Value};
 use burgeon_language::{LSYSTEM, SYSTEM};
+use burgeon_rewriting::Symbol;
 use burgeon_scene::CityClass;
 
 use super::SystemDeclaration;

@@ -13,7 +13,7 @@ use crate::machine::types::object_of_system;
 use crate::results::DerivedSystem;
 use burgeon_base::error::SourcePlace;
 use burgeon_base::warning::{Warning, WarningKind};
-use burgeon_kit::rules::{Context, FIRST_SYMBOL, Grammar, Pattern, Rule, Symbol};
+use burgeon_rewriting::{Context, FIRST_SYMBOL, Grammar, Pattern, Rule, Symbol};
 
 use super::{DeclaredRule, DerivationRecord, SystemDeclaration};
 

@@ -1,7 +1,6 @@
 //! Objects and derived systems as scripts hold them.
 
-use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::{Arc, OnceLock, RwLock};
+use std::sync::{Arc, RwLock};
 
 use mlua::{AnyUserData, Lua, LuaString, MetaMethod, Table, UserData, UserDataMethods, Value as LuaValue};
 
@@ -16,57 +15,25 @@ use burgeon_base::text::panic_message;
 use burgeon_kit::declare::as_ref;
 use burgeon_kit::{Kind, Object, ScriptObject, Value};
 use burgeon_language::DERIVED;
+use burgeon_rewriting::FailedChains;
 
 /// The objects of a system, one for each chain: read while rewriting, changed while interpreting.
 pub(crate) struct Objects {
     list: Vec<RwLock<Box<dyn Object>>>,
-    /// By object: what its data is at fault for. Nothing more is drawn with such an object.
-    failures: Vec<OnceLock<Error>>,
-    any_failed: AtomicBool,
-    forgiving: bool,
+    /// Chains whose data is wrong. Nothing more is drawn with their objects.
+    failed: Arc<FailedChains>,
 }
 
 impl Objects {
-    /// The objects of chains. With `forgiving`, bad data leaves a chain out and does not end the run.
+    /// Creates the objects of chains. If `forgiving`, wrong data leaves a chain out and does not end the run.
     pub(crate) fn new(objects: Vec<Box<dyn Object>>, forgiving: bool) -> Self {
-        let failures = objects.iter().map(|_| OnceLock::new()).collect();
-        Self {
-            list: objects.into_iter().map(RwLock::new).collect(),
-            failures,
-            any_failed: AtomicBool::new(false),
-            forgiving,
-        }
+        let failed = Arc::new(FailedChains::new(objects.len(), forgiving));
+        Self { list: objects.into_iter().map(RwLock::new).collect(), failed }
     }
 
-    /// Whether the data of any chain was at fault.
-    pub(crate) fn any_failed(&self) -> bool {
-        self.any_failed.load(Ordering::Relaxed)
-    }
-
-    /// Whether the data of a chain was at fault, so that nothing more is done with its object.
-    pub(crate) fn has_failed(&self, chain: usize) -> bool {
-        self.failures.get(chain).is_some_and(|failure| failure.get().is_some())
-    }
-
-    /// Returns the chains whose data was at fault, in order.
-    pub(crate) fn failed(&self) -> Vec<usize> {
-        match self.any_failed() {
-            true => (0..self.failures.len()).filter(|chain| self.has_failed(*chain)).collect(),
-            false => Vec::new(),
-        }
-    }
-
-    /// Leaves a chain out whose data is at fault; passes every other error on.
-    pub(crate) fn forgive(&self, chain: usize, error: Error) -> Result<()> {
-        match self.failures.get(chain) {
-            Some(failure) if self.forgiving && error.is_of_data() => {
-                // The first one counts.
-                let _ = failure.set(error);
-                self.any_failed.store(true, Ordering::Relaxed);
-                Ok(())
-            }
-            _ => Err(error),
-        }
+    /// Returns the chains whose data is wrong.
+    pub(crate) fn failed(&self) -> &Arc<FailedChains> {
+        &self.failed
     }
 
     pub(crate) fn read<T>(&self, chain: usize, ask: impl FnOnce(&dyn Object) -> Result<T>) -> Result<T> {
@@ -83,10 +50,13 @@ impl Objects {
         guarded(|| change(&mut **object.write().recover()))
     }
 
-    /// The objects, each with what its data is at fault for.
+    /// Returns the objects, each with the failure of its chain.
     pub(crate) fn into_owned(self) -> Vec<(Box<dyn Object>, Option<Error>)> {
-        let objects = self.list.into_iter().zip(self.failures);
-        objects.map(|(object, failure)| (object.into_inner().recover(), failure.into_inner())).collect()
+        let failed = self.failed;
+        let objects = self.list.into_iter().enumerate();
+        objects
+            .map(|(chain, object)| (object.into_inner().recover(), failed.failure(chain).cloned()))
+            .collect()
     }
 }
 

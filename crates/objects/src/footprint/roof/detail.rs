@@ -5,9 +5,9 @@ use std::sync::Arc;
 use glam::{DAffine3, DMat3, DVec3};
 
 use burgeon_base::error::{Error, Result};
+use burgeon_base::random::Stream;
 use burgeon_geometry::Ring;
 use burgeon_geometry::roof::{Patch, PatchKind, RoofLineKind, lines, normal};
-use burgeon_kit::random::Stream;
 use burgeon_kit::{Expectation, Field, fields};
 use burgeon_kit::{Model, Parameter, Table, Value};
 

@@ -6,10 +6,10 @@ use glam::{DAffine3, DVec2, DVec3};
 
 use super::*;
 use burgeon_base::error::Error;
+use burgeon_base::random::Stream;
 use burgeon_geometry::roof::{Eaves, Patch, PatchKind, Support};
 use burgeon_geometry::roof::{Ends, Rise, RoofCover, RoofShape, RoofSurface, fill, floor};
 use burgeon_geometry::{Polygon, Ring, solid};
-use burgeon_kit::random::Stream;
 use burgeon_kit::{Model, Parameter, Value};
 use burgeon_scene::{Instance, Material, Mesh, Part, Scene};
 

@@ -11,7 +11,7 @@ pub enum ColumnValue {
     Nil,
     /// `true` or `false`.
     Boolean(bool),
-    /// The place of the value in [`Values`](crate::rules::Values).
+    /// Place of the value in a table of values.
     Handle(u32),
 }
 

@@ -1,16 +1,16 @@
-//! How much a rule has done.
+//! Work of a rule.
 
 use std::ops::AddAssign;
 use std::time::Duration;
 
-/// How much a rule has done.
+/// Work of a rule.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub struct Use {
-    /// How many times it was applied.
+    /// Number of applications.
     pub applied: usize,
-    /// How many modules and brackets it made.
+    /// Number of modules and brackets that it made.
     pub made: usize,
-    /// The time that it took, of all threads together.
+    /// Time of all threads together.
     pub time: Duration,
 }
 

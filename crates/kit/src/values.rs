@@ -6,8 +6,9 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use rustc_hash::{FxBuildHasher, FxHashMap};
 
-use crate::{ColumnValue, Value};
+use crate::Value;
 use burgeon_base::locks::LockRecovery;
+use burgeon_rewriting::{ColumnValue, ShowParameters};
 
 /// The strings, tables and objects that the modules of one derivation carry, each kept once.
 #[derive(Default)]
@@ -150,6 +151,12 @@ impl Values {
 
     fn read(&self) -> std::sync::RwLockReadGuard<'_, Slots> {
         self.slots.read().recover()
+    }
+}
+
+impl ShowParameters for Values {
+    fn show(&self, stored: f64) -> String {
+        self.unpack(stored).to_string()
     }
 }
 

@@ -4,25 +4,51 @@ use std::io::{self, Write};
 
 use super::chain::{CLOSE, Chain, END, OPEN, Symbol};
 use super::symbols::Symbols;
-use super::values::Values;
 use burgeon_base::error::shortened;
+
+/// Text of parameters, which may stand for values that are not numbers.
+pub trait ShowParameters {
+    /// Returns a stored parameter as text; `nil` for an optional one that was left out.
+    fn show(&self, stored: f64) -> String;
+}
+
+impl<T: ShowParameters + ?Sized> ShowParameters for std::sync::Arc<T> {
+    fn show(&self, stored: f64) -> String {
+        (**self).show(stored)
+    }
+}
+
+/// Parameters that are numbers.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct PlainNumbers;
+
+impl ShowParameters for PlainNumbers {
+    fn show(&self, stored: f64) -> String {
+        stored.to_string()
+    }
+}
 
 /// Characters of a parameter that people are shown.
 const SHOWN: usize = 200;
 
 /// A module as `Name(p1,p2)`, or `Name` without parameters; optional ones left out at the end are not shown.
-pub fn module_text(symbols: &Symbols, values: &Values, symbol: Symbol, params: &[f64]) -> String {
+pub fn module_text(symbols: &Symbols, values: &dyn ShowParameters, symbol: Symbol, params: &[f64]) -> String {
     write_module(symbols, values, symbol, params, |text| text)
 }
 
 /// The same for people: of a long parameter the middle is left out.
-pub fn module_brief(symbols: &Symbols, values: &Values, symbol: Symbol, params: &[f64]) -> String {
+pub fn module_brief(
+    symbols: &Symbols,
+    values: &dyn ShowParameters,
+    symbol: Symbol,
+    params: &[f64],
+) -> String {
     write_module(symbols, values, symbol, params, |text| shortened(&text, SHOWN).into_owned())
 }
 
 fn write_module(
     symbols: &Symbols,
-    values: &Values,
+    values: &dyn ShowParameters,
     symbol: Symbol,
     params: &[f64],
     write: impl Fn(String) -> String,
@@ -34,8 +60,7 @@ fn write_module(
         _ => {}
     }
     let signature = symbols.signature(symbol);
-    let mut shown: Vec<String> =
-        params.iter().map(|stored| write(values.unpack(*stored).to_string())).collect();
+    let mut shown: Vec<String> = params.iter().map(|stored| write(values.show(*stored))).collect();
     while shown.len() > signature.required && shown.last().is_some_and(|last| last == "nil") {
         shown.pop();
     }
@@ -48,7 +73,7 @@ pub fn write_chains(
     out: &mut impl Write,
     chain: &Chain,
     symbols: &Symbols,
-    values: &Values,
+    values: &dyn ShowParameters,
 ) -> io::Result<()> {
     let arities = symbols.arities();
     let mut param = 0;
@@ -71,7 +96,7 @@ pub fn write_chains(
 }
 
 /// The chains as one string; see [`write_chains`].
-pub fn chain_text(chain: &Chain, symbols: &Symbols, values: &Values) -> String {
+pub fn chain_text(chain: &Chain, symbols: &Symbols, values: &dyn ShowParameters) -> String {
     let mut bytes = Vec::new();
     // Writing into memory cannot fail.
     let _ = write_chains(&mut bytes, chain, symbols, values);

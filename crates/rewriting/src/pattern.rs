@@ -44,7 +44,7 @@ impl Pattern {
     /// Reads a pattern; its symbols must be declared in `symbols`.
     ///
     /// ```
-    /// use burgeon_kit::rules::{Context, Pattern, Signature, Symbols};
+    /// use burgeon_rewriting::{Context, Pattern, Signature, Symbols};
     ///
     /// let mut symbols = Symbols::default();
     /// let apex = symbols.declare(Signature::new("Apex", &["length".into()])?)?;

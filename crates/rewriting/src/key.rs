@@ -1,6 +1,6 @@
 //! Keys of random numbers: they depend on the seed and on where a module comes from, and on nothing else.
 
-use crate::random::Stream;
+use burgeon_base::random::Stream;
 
 /// The seed and a module's lineage, mixed into one number.
 ///

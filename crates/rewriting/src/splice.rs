@@ -1,17 +1,17 @@
-//! Splices what the rules made of a piece into the next chain.
+//! Splices the successors of the modules of a piece into the next chain.
 
-use super::batch::{Batch, ChainPiece, NONE, Scratch, narrow, narrow_rule};
-use super::group::Product;
-use super::output::Output;
-use crate::results::Use;
-use burgeon_kit::rules::{Chain, END, ModuleKey, Symbol};
+use crate::batch::{Batch, ChainPiece, NO_RULE, Scratch, narrow, narrow_rule};
+use crate::chain::{Chain, END, Symbol};
+use crate::key::ModuleKey;
+use crate::output::Output;
+use crate::successors::Successor;
+use crate::uses::Use;
 
 impl Batch<'_> {
-    /// The next chain where `piece` was.
-    pub(super) fn splice(&self, piece: ChainPiece, scratch: &mut Scratch, mut output: Output) -> Output {
+    /// Returns the next chain where `piece` was.
+    pub(crate) fn splice(&self, piece: ChainPiece, scratch: &mut Scratch, mut output: Output) -> Output {
         let grammar = &self.plan.grammar;
         let random = grammar.draws_random();
-        let shapes = self.functions.shapes();
         let out = &mut output.chain;
         out.symbols.reserve(2 * (piece.end - piece.begin.module));
         out.params.reserve(2 * (piece.end - piece.begin.module));
@@ -24,13 +24,13 @@ impl Batch<'_> {
             }
         };
         for active in &scratch.active {
-            if active.rule == NONE {
+            if active.rule == NO_RULE {
                 continue;
             }
             let group = &mut scratch.groups[usize::from(active.rule)];
-            let made = Product::read(group.ends[group.next]);
+            let made = Successor::read(group.ends[group.next]);
             group.next += 1;
-            if matches!(made, Product::Nothing) {
+            if matches!(made, Successor::Keep) {
                 if random {
                     let here = active.module as usize;
                     let params = active.param as usize;
@@ -48,13 +48,15 @@ impl Batch<'_> {
             let here = active.module as usize;
             keep(out, module..here, param..active.param as usize);
             let (symbols, params) = match made {
-                Product::Nothing => continue,
-                Product::Shape(number) => (shapes[number].symbols.as_slice(), shapes[number].params),
-                Product::Ordered(end) => {
+                Successor::Keep => continue,
+                Successor::Shape(number) => {
+                    (group.shapes[number].symbols.as_slice(), group.shapes[number].params)
+                }
+                Successor::Ordered(end) => {
                     group.arrange(end, grammar.arities(), &mut scratch.arranged, &mut out.params);
                     (scratch.arranged.symbols.as_slice(), 0)
                 }
-                Product::UpTo(end) => {
+                Successor::UpTo(end) => {
                     let symbols = &group.symbols[group.symbol_at..end];
                     group.symbol_at = end;
                     let arity = |symbol: &Symbol| usize::from(grammar.arities()[usize::from(*symbol)]);
@@ -95,26 +97,25 @@ impl Batch<'_> {
         output
     }
 
-    /// For each symbol of `piece`, the rule that ran and how many symbols come of it.
-    pub(super) fn applied(&self, piece: ChainPiece, scratch: &Scratch) -> Vec<(u16, u32)> {
-        let shapes = self.functions.shapes();
-        let mut applied = vec![(NONE, 1); piece.end - piece.begin.module];
+    /// Returns for each symbol of `piece` the rule that ran and the number of its successors.
+    pub(crate) fn applied(&self, piece: ChainPiece, scratch: &Scratch) -> Vec<(u16, u32)> {
+        let mut applied = vec![(NO_RULE, 1); piece.end - piece.begin.module];
         let mut read = vec![(0, 0, 0); scratch.groups.len()];
-        for active in scratch.active.iter().filter(|active| active.rule != NONE) {
+        for active in scratch.active.iter().filter(|active| active.rule != NO_RULE) {
             let (next, from, item) = &mut read[usize::from(active.rule)];
             let group = &scratch.groups[usize::from(active.rule)];
-            let made = Product::read(group.ends[*next]);
+            let made = Successor::read(group.ends[*next]);
             *next += 1;
             let count = match made {
-                Product::Nothing => 1,
-                Product::Shape(number) => shapes[number].symbols.len(),
-                Product::Ordered(end) => {
+                Successor::Keep => 1,
+                Successor::Shape(number) => group.shapes[number].symbols.len(),
+                Successor::Ordered(end) => {
                     *from = end;
                     let count = group.order[*item] as usize;
                     *item += 1 + count;
                     count
                 }
-                Product::UpTo(end) => end - std::mem::replace(from, end),
+                Successor::UpTo(end) => end - std::mem::replace(from, end),
             };
             applied[active.module as usize - piece.begin.module] = (active.rule, narrow(count));
         }

@@ -1,77 +1,79 @@
-//! Rewrites one piece of a chain: runs the chosen rules in batches, one call into Lua for each.
+//! Rewrites one piece of a chain: runs the chosen rules in batches, one call of their functions for each.
 
-use std::sync::Arc;
 use std::time::Instant;
 
-use super::functions::{Applications, Failure, RuleFunctions};
-use super::group::{ModuleOrder, RuleGroup};
-use super::output::Output;
-use super::plan::DerivationPlan;
+use crate::chain::{Chain, Mark};
+use crate::key::ModuleKey;
+use crate::links::Links;
+use crate::matching::{Bindings, ContextMatcher};
+use crate::output::Output;
+use crate::rules::{Applications, RuleFailure, Rules};
+use crate::step::StepPlan;
+use crate::successors::{ModuleOrder, Successors};
+use crate::text::module_brief;
 use burgeon_base::error::{Error, Result};
-use burgeon_kit::rules::{Bindings, Chain, ContextMatcher, Links, Mark, ModuleKey, Values, module_brief};
 
-/// No rule.
-pub(super) const NONE: u16 = burgeon_kit::RewriteOutcome::NONE;
-/// A piece of the chain: from a mark up to another symbol.
+/// In place of the number of a rule: no rule was applied.
+pub const NO_RULE: u16 = u16::MAX;
+
+/// Piece of a chain: from a mark up to another symbol.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct ChainPiece {
     pub begin: Mark,
     pub end: usize,
 }
 
-/// What a thread keeps from batch to batch.
-#[derive(Default)]
-pub(crate) struct Scratch {
-    pub(super) active: Vec<Active>,
-    /// One for each rule.
-    pub(super) groups: Vec<RuleGroup>,
+/// Memory that a thread uses again from batch to batch.
+#[derive(Debug, Default)]
+pub struct Scratch {
+    pub(crate) active: Vec<Active>,
+    /// Successors of each rule.
+    pub(crate) groups: Vec<Successors>,
     arguments: Vec<f64>,
-    pub(super) bindings: Bindings,
+    pub(crate) bindings: Bindings,
     chains: Vec<u32>,
     keys: Vec<ModuleKey>,
     places: Vec<u32>,
-    pub(super) arranged: ModuleOrder,
+    pub(crate) arranged: ModuleOrder,
 }
 
-/// A module that has rules.
-#[derive(Clone, Copy)]
-pub(super) struct Active {
+/// Module that has rules.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Active {
     pub module: u32,
     pub param: u32,
     pub chain: u32,
     pub rule: u16,
 }
 
-/// The step at hand, for one thread.
+/// Step at hand, for one thread.
 pub(crate) struct Batch<'a> {
-    pub functions: &'a dyn RuleFunctions,
-    pub plan: &'a Arc<DerivationPlan>,
-    /// The parameters that are not numbers.
-    pub values: &'a Values,
+    pub rules: &'a dyn Rules,
+    pub plan: &'a StepPlan,
     pub chain: &'a Chain,
     pub links: &'a Links,
     pub step: usize,
 }
 
 impl Batch<'_> {
-    /// Rewrites `piece`; `spare` is an emptied output whose memory is used again.
+    /// Rewrites `piece`. The memory of `spare`, an emptied output, is used again.
     pub(crate) fn rewrite(&self, piece: ChainPiece, scratch: &mut Scratch, spare: Output) -> Result<Output> {
         let rules = self.plan.grammar.rules().len();
-        scratch.groups.resize_with(rules, RuleGroup::default);
+        scratch.groups.resize_with(rules, Successors::default);
         self.choose(piece, scratch)?;
         self.apply(scratch)?;
         let applied = if self.plan.traced { self.applied(piece, scratch) } else { Vec::new() };
         Ok(Output { applied, ..self.splice(piece, scratch, spare) })
     }
 
-    /// The contexts of the chain's modules.
+    /// Returns the matcher of contexts.
     #[inline]
-    pub(super) fn around(&self) -> ContextMatcher<'_> {
+    pub(crate) fn contexts(&self) -> ContextMatcher<'_> {
         ContextMatcher { chain: self.chain, links: self.links, grammar: &self.plan.grammar }
     }
 
-    /// Gathers what the functions of `rule` are run for: the applications `members`.
-    pub(super) fn gather<'s>(
+    /// Gathers the arguments, chains and keys of the applications `members` of `rule`.
+    pub(crate) fn gather<'s>(
         &self,
         rule: u16,
         members: &[u32],
@@ -90,7 +92,7 @@ impl Batch<'_> {
             scratch.keys.extend(members.iter().map(key));
         }
         scratch.places.clear();
-        if self.plan.notes_questions {
+        if self.plan.notes_places {
             scratch.places.extend(members.iter().map(|index| scratch.active[*index as usize].module));
         }
         scratch.arguments.clear();
@@ -122,7 +124,7 @@ impl Batch<'_> {
             let left = declared.pattern.left.len();
             for index in members {
                 let active = scratch.active[*index as usize];
-                self.around().bind(rule, active.module as usize, &mut scratch.bindings);
+                self.contexts().bind(rule, active.module as usize, &mut scratch.bindings);
                 let at = active.param as usize;
                 for (place, item) in declared.contexts().iter().enumerate() {
                     if place == left {
@@ -140,7 +142,7 @@ impl Batch<'_> {
         }
     }
 
-    /// Runs every chosen rule over its modules. Of several errors the one that comes first in the chain is told.
+    /// Runs every chosen rule over its modules. Returns the error that comes first in the chain.
     fn apply(&self, scratch: &mut Scratch) -> Result<()> {
         let mut first: Option<(u32, Error)> = None;
         for rule in 0..scratch.groups.len() {
@@ -165,37 +167,38 @@ impl Batch<'_> {
 
     fn run(&self, rule: u16, members: &[u32], scratch: &mut Scratch) -> Result<(), (u32, Error)> {
         let mut group = std::mem::take(&mut scratch.groups[usize::from(rule)]);
-        let applied = self.functions.apply(&self.gather(rule, members, scratch), &mut group);
+        let applied = self.rules.apply(&self.gather(rule, members, scratch), &mut group);
+        group.rewind();
         scratch.groups[usize::from(rule)] = group;
         applied.map_err(|failure| self.blame(failure, rule, members, scratch))
     }
 
-    /// Leaves the chain of application `index` out, whose data is at fault: its modules stay as they are, and it is no
-    /// more among `members`. Gives every other error back.
-    pub(super) fn forgive(
+    /// Leaves the chain of application `index` out if its data is wrong: its modules stay as they are, and its applications
+    /// are removed from `members`. Returns every other error.
+    pub(crate) fn forgive(
         &self,
         index: u32,
         error: Error,
         members: &mut Vec<u32>,
         scratch: &mut Scratch,
     ) -> Result<()> {
-        let Some(objects) = &self.plan.objects else { return Err(error) };
+        let Some(failed) = &self.plan.failed else { return Err(error) };
         let chain = scratch.active[index as usize].chain;
-        objects.forgive(chain as usize, error)?;
+        failed.forgive(chain as usize, error)?;
         members.retain(|member| {
             let active = &mut scratch.active[*member as usize];
             if active.chain == chain {
-                active.rule = NONE;
+                active.rule = NO_RULE;
             }
             active.chain != chain
         });
         Ok(())
     }
 
-    /// An error of a rule, with all that is known of where it happened.
-    pub(super) fn blame(
+    /// Returns the error of a rule with its place, rule, module and step.
+    pub(crate) fn blame(
         &self,
-        failure: Failure,
+        failure: RuleFailure,
         rule: u16,
         members: &[u32],
         scratch: &Scratch,
@@ -207,19 +210,19 @@ impl Batch<'_> {
         let symbol = self.chain.symbols[active.module as usize];
         let arity = usize::from(grammar.arities()[usize::from(symbol)]);
         let params = &self.chain.params[active.param as usize..][..arity];
-        let module = module_brief(grammar.symbols(), self.values, symbol, params);
+        let module = module_brief(grammar.symbols(), self.rules.parameters(), symbol, params);
         let error = failure.error.at(declared.place.clone()).rule(&declared.pattern.text);
         (index, error.module(module, self.step))
     }
 }
 
-/// Chains have fewer than 2^32 symbols and parameters; the limit on modules sees to that.
+/// Converts a place in a chain; chains have fewer than 2^32 symbols and parameters, below the limit on modules.
 #[allow(clippy::cast_possible_truncation, reason = "below the limit on modules")]
-pub(super) fn narrow(index: usize) -> u32 {
+pub(crate) fn narrow(index: usize) -> u32 {
     index as u32
 }
 
 #[allow(clippy::cast_possible_truncation, reason = "rules are numbered in 16 bits")]
-pub(super) fn narrow_rule(rule: usize) -> u16 {
+pub(crate) fn narrow_rule(rule: usize) -> u16 {
     rule as u16
 }

@@ -3,12 +3,12 @@
 use smallvec::SmallVec;
 
 use super::grammar::Rule;
-use crate::random::Stream;
+use burgeon_base::random::Stream;
 
 /// The candidates for one module, of its symbol's rules in the order of their declaration.
 ///
 /// ```
-/// use burgeon_kit::rules::{Candidates, ModuleKey, Pattern, Rule, Signature, Symbols};
+/// use burgeon_rewriting::{Candidates, ModuleKey, Pattern, Rule, Signature, Symbols};
 ///
 /// let mut symbols = Symbols::default();
 /// symbols.declare(Signature::new("Bud", &[])?)?;

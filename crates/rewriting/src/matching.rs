@@ -56,7 +56,7 @@ impl Branches {
 /// ```
 /// use std::sync::Arc;
 ///
-/// use burgeon_kit::rules::{
+/// use burgeon_rewriting::{
 ///     CLOSE, Chain, ContextMatcher, END, Grammar, Links, OPEN, Pattern, Rule, Signature, Symbols,
 /// };
 ///

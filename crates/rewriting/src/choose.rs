@@ -1,31 +1,37 @@
-//! Chooses the rule of each module: by its contexts, its guard and its weight.
+//! Chooses the rule of each module by its contexts, its guard and its weight.
 
-use super::batch::{Active, Batch, ChainPiece, NONE, Scratch, narrow};
+use crate::batch::{Active, Batch, ChainPiece, NO_RULE, Scratch, narrow};
+use crate::chain::{END, Symbol};
+use crate::choice::Candidates;
+use crate::grammar::Choice;
 use burgeon_base::error::{Error, Result};
-use burgeon_kit::rules::{Candidates, Choice, END, Symbol};
 
 impl Batch<'_> {
     /// Chooses the rules of all modules of `piece`.
-    pub(super) fn choose(&self, piece: ChainPiece, scratch: &mut Scratch) -> Result<()> {
+    pub(crate) fn choose(&self, piece: ChainPiece, scratch: &mut Scratch) -> Result<()> {
         let grammar = &self.plan.grammar;
         let arities = grammar.arities();
         scratch.active.clear();
         let mut guarded: Vec<u32> = Vec::new();
-        // Nothing more becomes of a chain that is left out.
-        let failing = self.plan.objects.as_ref().filter(|objects| objects.any_failed());
+        // Chains that are left out stay as they are.
+        let failed = self.plan.failed.as_ref().filter(|failed| failed.any());
         let (mut param, mut chain) = (piece.begin.param, piece.begin.chain);
         for module in piece.begin.module..piece.end {
             let symbol = self.chain.symbols[module];
             let rules = grammar.rules_of(symbol);
-            if !rules.is_empty() && !failing.is_some_and(|objects| objects.has_failed(chain)) {
-                let mut active =
-                    Active { module: narrow(module), param: narrow(param), chain: narrow(chain), rule: NONE };
+            if !rules.is_empty() && !failed.is_some_and(|failed| failed.contains(chain)) {
+                let mut active = Active {
+                    module: narrow(module),
+                    param: narrow(param),
+                    chain: narrow(chain),
+                    rule: NO_RULE,
+                };
                 match grammar.choice(symbol) {
                     Choice::Sole(rule) => active.rule = rule,
                     Choice::Contexts => active.rule = self.choose_unguarded(rules, module),
                     Choice::Guards => guarded.push(narrow(scratch.active.len())),
                 }
-                if active.rule != NONE || grammar.choice(symbol) == Choice::Guards {
+                if active.rule != NO_RULE || grammar.choice(symbol) == Choice::Guards {
                     scratch.active.push(active);
                 }
             }
@@ -39,7 +45,7 @@ impl Batch<'_> {
             group.members.clear();
         }
         for (index, active) in scratch.active.iter().enumerate() {
-            if active.rule != NONE {
+            if active.rule != NO_RULE {
                 scratch.groups[usize::from(active.rule)].members.push(narrow(index));
             }
         }
@@ -50,7 +56,7 @@ impl Batch<'_> {
         let mut candidates = Candidates::default();
         for number in rules {
             let rule = &self.plan.grammar.rules()[usize::from(*number)];
-            if candidates.admit(rule) && self.around().matches(*number, module) {
+            if candidates.admit(rule) && self.contexts().matches(*number, module) {
                 candidates.add(*number, rule);
                 if candidates.is_settled() {
                     break;
@@ -60,15 +66,15 @@ impl Batch<'_> {
         self.chosen(&candidates, module)
     }
 
-    /// The rule that is applied to `module`, or none.
+    /// Returns the rule that is applied to `module`, or [`NO_RULE`].
     #[inline]
     fn chosen(&self, candidates: &Candidates, module: usize) -> u16 {
-        candidates.choose(|| self.chain.keys[module].stream()).unwrap_or(NONE)
+        candidates.choose(|| self.chain.keys[module].stream()).unwrap_or(NO_RULE)
     }
 
-    /// Asks the guards of each symbol's rules, rule by rule, each about all modules that it may still decide.
+    /// Runs the guards of each symbol's rules, rule by rule, each for all modules that it may still decide.
     ///
-    /// Of several errors the one that comes first in the chain is told.
+    /// Returns the error that comes first in the chain.
     fn choose_guarded(&self, mut open: Vec<u32>, scratch: &mut Scratch) -> Result<()> {
         let grammar = &self.plan.grammar;
         let symbol_of = |scratch: &Scratch, index: u32| -> Symbol {
@@ -88,11 +94,11 @@ impl Batch<'_> {
                 let end = first.as_ref().map_or(u32::MAX, |(index, _)| *index);
                 let asked = members.iter().zip(&candidates).filter(|(index, candidates)| {
                     let module = scratch.active[**index as usize].module as usize;
-                    **index < end && candidates.admit(rule) && self.around().matches(*number, module)
+                    **index < end && candidates.admit(rule) && self.contexts().matches(*number, module)
                 });
                 let mut holds: Vec<u32> = asked.map(|(index, _)| *index).collect();
                 if rule.guarded
-                    && let Some(failed) = self.ask(*number, &mut holds, scratch)?
+                    && let Some(failed) = self.guard(*number, &mut holds, scratch)?
                 {
                     first = Some(failed);
                 }
@@ -111,28 +117,33 @@ impl Batch<'_> {
         first.map_or(Ok(()), |(_, error)| Err(error))
     }
 
-    /// Leaves those among `asked` for which the guard of `rule` holds. Where it fails, only those before that module,
-    /// which is returned with the error.
-    fn ask(&self, rule: u16, asked: &mut Vec<u32>, scratch: &mut Scratch) -> Result<Option<(u32, Error)>> {
-        if asked.is_empty() {
+    /// Retains the applications of `members` for which the guard of `rule` holds. If it fails, retains only those before the
+    /// failure, which is returned with its application.
+    fn guard(
+        &self,
+        rule: u16,
+        members: &mut Vec<u32>,
+        scratch: &mut Scratch,
+    ) -> Result<Option<(u32, Error)>> {
+        if members.is_empty() {
             return Ok(None);
         }
         let mut holds: Vec<u32> = Vec::new();
         let failed = loop {
-            let told = self.functions.ask(&self.gather(rule, asked, scratch), &mut holds);
-            let Err(failure) = told else { break None };
-            let (index, error) = self.blame(failure, rule, asked, scratch);
-            match self.forgive(index, error, asked, scratch) {
+            let result = self.rules.guard(&self.gather(rule, members, scratch), &mut holds);
+            let Err(failure) = result else { break None };
+            let (index, error) = self.blame(failure, rule, members, scratch);
+            match self.forgive(index, error, members, scratch) {
                 Err(error) => break Some((index, error)),
-                Ok(()) if asked.is_empty() => return Ok(None),
+                Ok(()) if members.is_empty() => return Ok(None),
                 Ok(()) => {}
             }
         };
         if let Some((index, _)) = &failed {
-            asked.retain(|asked| asked < index);
+            members.retain(|member| member < index);
         }
         let mut holds = holds.into_iter();
-        asked.retain(|_| holds.next().is_some_and(|holds| holds != 0));
+        members.retain(|_| holds.next().is_some_and(|holds| holds != 0));
         Ok(failed)
     }
 }

@@ -9,15 +9,21 @@ use rustc_hash::FxHashMap;
 use super::chain::{END, Symbol};
 use burgeon_base::error::{Error, Limit, Result};
 
-/// A module that stands for those that the rows of a query give: the text of SQL, the name of the modules, the values
-/// of the text's parameters, and the line of the script.
-pub const QUERY: Symbol = END + 1;
-/// A module that stands for the parts of what is to its left: the name of the modules, and the line of the script.
-pub const FRAGMENT: Symbol = END + 2;
+/// Number of symbols that are reserved for placeholders: modules that stand for others until a phase resolves them.
+pub const PLACEHOLDERS: Symbol = 8;
 
-/// The first number that a declared symbol may have; those below are the brackets, the end of a chain, and the modules
-/// that stand for others. No rule ever sees these, so no pattern can name them.
-pub const FIRST_SYMBOL: Symbol = FRAGMENT + 1;
+/// First number of a declared symbol. Those below are the brackets, the end of a chain, and placeholders; no pattern can name
+/// them, so no rule sees them.
+pub const FIRST_SYMBOL: Symbol = END + 1 + PLACEHOLDERS;
+
+/// Returns the symbol of placeholder number `number`, which is below [`PLACEHOLDERS`].
+pub const fn placeholder(number: Symbol) -> Symbol {
+    assert!(number < PLACEHOLDERS, "there are fewer placeholders");
+    END + 1 + number
+}
+
+/// Symbol of the first placeholder.
+const FIRST_PLACEHOLDER: Symbol = END + 1;
 
 /// The largest number of modules that a script may declare, those of the standard library among them.
 const MOST_MODULES: usize = 65_000;
@@ -124,7 +130,7 @@ pub struct NameScope {
 /// What a package declares is its own: modules of two packages, or of a package and the script, may have one name.
 #[derive(Debug, Clone)]
 pub struct Symbols {
-    /// Those of [`QUERY`] and [`FRAGMENT`], then the declared ones.
+    /// Those of placeholders, then the declared ones.
     signatures: Vec<Signature>,
     /// By symbol: the package that declares it.
     owners: Vec<Option<Arc<str>>>,
@@ -138,24 +144,24 @@ pub struct Symbols {
 
 impl Default for Symbols {
     fn default() -> Self {
-        let signature = |name: &str, parameters: &[&str], required| Signature {
-            name: name.to_owned(),
-            parameters: parameters.iter().map(|&parameter| parameter.to_owned()).collect(),
-            required,
-        };
-        let query = signature("query", &["sql", "module", "values", "line"], 2);
-        let fragment = signature("fragment", &["module", "line"], 1);
-        Self {
-            shown: vec![query.name.clone(), fragment.name.clone()],
-            signatures: vec![query, fragment],
-            owners: vec![None, None],
-            by_name: FxHashMap::default(),
-            standard: 0,
-        }
+        Self::with_placeholders(Vec::new())
     }
 }
 
 impl Symbols {
+    /// Creates symbols of which only placeholders are declared: those of `signatures`, in order, at most [`PLACEHOLDERS`].
+    pub fn with_placeholders(mut signatures: Vec<Signature>) -> Self {
+        let unused = Signature { name: String::new(), parameters: Vec::new(), required: 0 };
+        signatures.resize(usize::from(PLACEHOLDERS), unused);
+        Self {
+            shown: signatures.iter().map(|signature| signature.name.clone()).collect(),
+            owners: vec![None; signatures.len()],
+            signatures,
+            by_name: FxHashMap::default(),
+            standard: 0,
+        }
+    }
+
     /// Declares a module of the script and gives its symbol; the same declaration again gives the same symbol.
     ///
     /// A script may declare a module of the standard library again, with other parameters; then the name means
@@ -179,7 +185,7 @@ impl Symbols {
                     .help("declare it once, or give the other module another name"));
             }
         }
-        let symbol = u16::try_from(self.signatures.len() + usize::from(QUERY)).ok();
+        let symbol = u16::try_from(self.signatures.len() + usize::from(FIRST_PLACEHOLDER)).ok();
         let symbol = symbol.filter(|_| self.signatures.len() < MOST_MODULES).ok_or_else(|| {
             Error::limit(Limit::Size, "more than 65,000 modules are declared")
                 .help("declare fewer, and tell them apart by a parameter")
@@ -192,8 +198,9 @@ impl Symbols {
         let same: Vec<Symbol> = if of_name.len() > 1 { of_name.clone() } else { Vec::new() };
         self.signatures.push(signature);
         for other in same {
-            if let Some(owner) = &self.owners[usize::from(other - QUERY)] {
-                self.shown[usize::from(other - QUERY)] = format!("{owner}.{}", self.signature(other).name);
+            if let Some(owner) = &self.owners[usize::from(other - FIRST_PLACEHOLDER)] {
+                self.shown[usize::from(other - FIRST_PLACEHOLDER)] =
+                    format!("{owner}.{}", self.signature(other).name);
             }
         }
         Ok(symbol)
@@ -211,12 +218,12 @@ impl Symbols {
 
     /// The package that declares `symbol`; none if the script or the standard library does.
     pub fn owner(&self, symbol: Symbol) -> Option<&str> {
-        self.owners[usize::from(symbol - QUERY)].as_deref()
+        self.owners[usize::from(symbol - FIRST_PLACEHOLDER)].as_deref()
     }
 
     /// The name of `symbol` for people: with its package, `castle.Stone`, where several modules have one name.
     pub fn shown(&self, symbol: Symbol) -> &str {
-        &self.shown[usize::from(symbol - QUERY)]
+        &self.shown[usize::from(symbol - FIRST_PLACEHOLDER)]
     }
 
     /// Returns the name that means `symbol` wherever the script asks: with its package if one declares it.
@@ -270,7 +277,7 @@ impl Symbols {
 
     fn find_of_package(&self, name: &str, package: &str, inner: &str) -> Result<Symbol> {
         let of_package =
-            || (QUERY..).zip(&self.owners).filter(|(_, owner)| owner.as_deref() == Some(package));
+            || (FIRST_PLACEHOLDER..).zip(&self.owners).filter(|(_, owner)| owner.as_deref() == Some(package));
         let mut named = of_package().map(|(symbol, _)| symbol);
         named.find(|symbol| self.signature(*symbol).name == inner).ok_or_else(|| {
             let known: Vec<String> =
@@ -290,19 +297,19 @@ impl Symbols {
     }
 
     fn declared(&self) -> &[Signature] {
-        self.signatures.get(usize::from(FIRST_SYMBOL - QUERY)..).unwrap_or_default()
+        self.signatures.get(usize::from(FIRST_SYMBOL - FIRST_PLACEHOLDER)..).unwrap_or_default()
     }
 
     /// How `symbol` was declared; `symbol` is one that [`Symbols::declare`] gave, or one that stands for others.
     pub fn signature(&self, symbol: Symbol) -> &Signature {
-        &self.signatures[usize::from(symbol - QUERY)]
+        &self.signatures[usize::from(symbol - FIRST_PLACEHOLDER)]
     }
 
     /// The number of parameters by symbol, brackets included.
     pub fn arities(&self) -> Vec<u8> {
         let declared =
             self.signatures.iter().map(|signature| u8::try_from(signature.arity()).unwrap_or(u8::MAX));
-        [0; QUERY as usize].into_iter().chain(declared).collect()
+        [0; FIRST_PLACEHOLDER as usize].into_iter().chain(declared).collect()
     }
 }
 

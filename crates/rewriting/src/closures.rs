@@ -1,0 +1,303 @@
+//! Systems whose rules are closures.
+
+use std::cell::Cell;
+use std::sync::Arc;
+
+use crate::chain::{CLOSE, Chain, DEEPEST, END, OPEN, Symbol};
+use crate::grammar::{Grammar, MOST_RULES, Rule};
+use crate::key::ModuleKey;
+use crate::pattern::Pattern;
+use crate::phases::{Phase, PhaseOutcome, Phases, derive};
+use crate::rules::{Applications, RuleFailure, Rules};
+use crate::step::{NoHelpers, StepPlan, Stepper};
+use crate::successors::Successors;
+use crate::symbols::{Signature, Symbols};
+use crate::text::{PlainNumbers, chain_text};
+use burgeon_base::Stop;
+use burgeon_base::error::{Error, Limit, Result};
+
+type Successor = Box<dyn Fn(&Module<'_>, &mut Successors)>;
+type Guard = Box<dyn Fn(&Module<'_>) -> bool>;
+
+/// A module that a closure is called for.
+#[derive(Debug)]
+pub struct Module<'a> {
+    /// Arguments that the pattern names, in its order: those of the left contexts, of the module, of the right contexts.
+    pub arguments: &'a [f64],
+    key: ModuleKey,
+    drawn: Cell<usize>,
+}
+
+impl Module<'_> {
+    /// Draws a random number, uniform in [0, 1), from the module's own stream.
+    pub fn random(&self) -> f64 {
+        let mut stream = self.key.stream();
+        for _ in 0..self.drawn.get() {
+            stream.uniform();
+        }
+        self.drawn.set(self.drawn.get() + 1);
+        stream.uniform()
+    }
+}
+
+/// A system whose rules are closures.
+///
+/// A parametric system with a guard; a stem of Lindenmayer's *Anabaena*, whose cells divide once they are long enough:
+///
+/// ```
+/// use burgeon_rewriting::ClosureSystem;
+///
+/// let mut stem = ClosureSystem::new(0);
+/// let cell = stem.module("Cell", &["length"])?;
+/// stem.rule_when("Cell(l)", |module| module.arguments[0] >= 2.0, move |module, out| {
+///     out.push(cell, &[module.arguments[0] / 2.0]);
+///     out.push(cell, &[module.arguments[0] / 2.0]);
+/// })?;
+/// stem.rule("Cell(l)", move |module, out| out.push(cell, &[module.arguments[0] + 0.5]))?;
+///
+/// let first = stem.chain(|out| out.push(cell, &[1.0]))?;
+/// assert_eq!(stem.text(&stem.derive(first, 4)?), "Cell(1.5) Cell(1.5)\n");
+/// # Ok::<(), burgeon_base::Error>(())
+/// ```
+///
+/// A context-sensitive system, in which a signal moves through a branching chain:
+///
+/// ```
+/// # use burgeon_rewriting::ClosureSystem;
+/// let mut tree = ClosureSystem::new(0);
+/// let (on, off) = (tree.module("On", &[])?, tree.module("Off", &[])?);
+/// tree.rule("On < Off", move |_, out| out.push(on, &[]))?;
+/// let chain = tree.chain(|out| {
+///     out.push(on, &[]);
+///     out.open();
+///     out.push(off, &[]);
+///     out.push(off, &[]);
+///     out.close();
+///     out.push(off, &[]);
+/// })?;
+/// assert_eq!(tree.text(&tree.derive(chain, 1)?), "On [ On Off ] On\n");
+/// # Ok::<(), burgeon_base::Error>(())
+/// ```
+///
+/// A stochastic system: random numbers depend on the seed and on where a module comes from, and on nothing else.
+///
+/// ```
+/// # use burgeon_rewriting::ClosureSystem;
+/// let mut buds = ClosureSystem::new(7);
+/// let (bud, leaf, flower) = (buds.module("Bud", &[])?, buds.module("Leaf", &[])?, buds.module("Flower", &[])?);
+/// buds.rule_weighted("Bud", 3.0, move |_, out| out.push(leaf, &[]))?;
+/// buds.rule_weighted("Bud", 1.0, move |_, out| out.push(flower, &[]))?;
+/// let chain = buds.chain(|out| (0..1000).for_each(|_| out.push(bud, &[])))?;
+/// let leaves = buds.derive(chain, 1)?.symbols.iter().filter(|symbol| **symbol == leaf).count();
+/// assert!((700..800).contains(&leaves), "{leaves}");
+/// # Ok::<(), burgeon_base::Error>(())
+/// ```
+#[allow(missing_debug_implementations, reason = "rules are code")]
+pub struct ClosureSystem {
+    seed: u64,
+    symbols: Symbols,
+    rules: Vec<Rule>,
+    successors: Vec<Successor>,
+    guards: Vec<Option<Guard>>,
+    ignored: Vec<Symbol>,
+    limit: usize,
+}
+
+impl ClosureSystem {
+    /// Creates a system without modules and rules.
+    pub fn new(seed: u64) -> Self {
+        Self {
+            seed,
+            symbols: Symbols::default(),
+            rules: Vec::new(),
+            successors: Vec::new(),
+            guards: Vec::new(),
+            ignored: Vec::new(),
+            limit: 100_000_000,
+        }
+    }
+
+    /// Declares a module with named parameters. Fails if a name is wrong, or if the module is declared with other parameters.
+    pub fn module(&mut self, name: &str, parameters: &[&str]) -> Result<Symbol> {
+        let parameters: Vec<String> = parameters.iter().map(|&parameter| parameter.to_owned()).collect();
+        self.symbols.declare(Signature::new(name, &parameters)?)
+    }
+
+    /// Adds a rule. `successor` writes the modules that take the place of the module into the [`Successors`]; a successor that
+    /// writes nothing erases it. Fails if the pattern is wrong.
+    pub fn rule(
+        &mut self,
+        pattern: &str,
+        successor: impl Fn(&Module<'_>, &mut Successors) + 'static,
+    ) -> Result<()> {
+        self.add(pattern, None, None, Box::new(successor))
+    }
+
+    /// Adds a rule that applies where `guard` holds.
+    pub fn rule_when(
+        &mut self,
+        pattern: &str,
+        guard: impl Fn(&Module<'_>) -> bool + 'static,
+        successor: impl Fn(&Module<'_>, &mut Successors) + 'static,
+    ) -> Result<()> {
+        self.add(pattern, None, Some(Box::new(guard)), Box::new(successor))
+    }
+
+    /// Adds a rule that is drawn among the weighted rules of its module, in proportion to its weight.
+    pub fn rule_weighted(
+        &mut self,
+        pattern: &str,
+        weight: f64,
+        successor: impl Fn(&Module<'_>, &mut Successors) + 'static,
+    ) -> Result<()> {
+        if !(weight >= 0.0 && weight.is_finite()) {
+            return Err(Error::argument(format!(
+                "the weight {weight} of {pattern} is below 0 or not finite"
+            ))
+            .help("give a number of 0 or more"));
+        }
+        self.add(pattern, Some(weight), None, Box::new(successor))
+    }
+
+    fn add(
+        &mut self,
+        pattern: &str,
+        weight: Option<f64>,
+        guard: Option<Guard>,
+        successor: Successor,
+    ) -> Result<()> {
+        if self.rules.len() == MOST_RULES {
+            return Err(Error::limit(Limit::Size, format!("the system has more than {MOST_RULES} rules"))
+                .help("join rules, and tell their modules apart by a parameter"));
+        }
+        let pattern = Pattern::parse(pattern, &self.symbols)?;
+        self.rules.push(Rule::new(pattern, weight, guard.is_some(), None));
+        self.successors.push(successor);
+        self.guards.push(guard);
+        Ok(())
+    }
+
+    /// Makes contexts skip modules with these symbols.
+    pub fn ignore(&mut self, symbols: &[Symbol]) {
+        self.ignored.extend_from_slice(symbols);
+    }
+
+    /// Sets the largest number of modules and brackets of a chain; 100 million if it is not set.
+    pub fn limit(&mut self, modules: usize) {
+        self.limit = modules;
+    }
+
+    /// Returns a chain of the modules that `write` pushes. Fails if brackets do not match, nest too deep, or if a module has the
+    /// wrong number of parameters.
+    pub fn chain(&self, write: impl FnOnce(&mut Successors)) -> Result<Chain> {
+        let mut made = Successors::default();
+        write(&mut made);
+        let arities = self.symbols.arities();
+        let mut depth = 0_usize;
+        let mut params = 0;
+        for symbol in &made.symbols {
+            depth = match *symbol {
+                OPEN => depth + 1,
+                CLOSE => depth.checked_sub(1).ok_or_else(unbalanced)?,
+                _ => depth,
+            };
+            if depth > DEEPEST {
+                return Err(Error::limit(Limit::Size, format!("branches nest deeper than {DEEPEST}")));
+            }
+            let arity = arities.get(usize::from(*symbol)).filter(|_| *symbol != END);
+            params += usize::from(*arity.ok_or_else(|| Error::argument("the chain has an unknown symbol"))?);
+        }
+        if depth > 0 {
+            return Err(unbalanced());
+        }
+        if params != made.params.len() {
+            let found = made.params.len();
+            return Err(Error::argument(format!("the modules take {params} parameters, not {found}")));
+        }
+        made.symbols.push(END);
+        let seed = ModuleKey::seed(self.seed);
+        let mut ordinal = 0;
+        let keys = made.symbols.iter().map(|symbol| match *symbol > END {
+            true => {
+                ordinal += 1;
+                seed.child(ordinal - 1)
+            }
+            false => ModuleKey::default(),
+        });
+        Ok(Chain { keys: keys.collect(), symbols: made.symbols, params: made.params, marks: Vec::new() })
+    }
+
+    /// Derives a chain by at most `steps` steps; stops early if no rule applies.
+    pub fn derive(&self, mut chain: Chain, steps: usize) -> Result<Chain> {
+        let grammar = Grammar::new(Arc::new(self.symbols.clone()), self.rules.clone(), &self.ignored, true);
+        chain.mark(BATCH, grammar.arities());
+        let chains = chain.symbols.iter().filter(|symbol| **symbol == END).count();
+        let plan = Arc::new(StepPlan {
+            grammar,
+            failed: None,
+            chains,
+            batch: BATCH,
+            limit: self.limit,
+            traced: false,
+            notes_places: false,
+        });
+        let mut stepper = Stepper::new(plan);
+        let phases = Phases { first: Vec::new(), each: vec![Box::new(RewritePhase(self))], last: Vec::new() };
+        let derived = derive(&phases, &mut stepper, Arc::new(chain), 0, steps)?;
+        Ok(Arc::unwrap_or_clone(derived.chain))
+    }
+
+    /// Returns the chains as text, one line for each.
+    pub fn text(&self, chain: &Chain) -> String {
+        chain_text(chain, &self.symbols, &PlainNumbers)
+    }
+}
+
+/// Number of symbols that rules are applied to at a time.
+const BATCH: usize = 4096;
+
+fn unbalanced() -> Error {
+    Error::argument("the brackets of the chain do not match").help("close each branch that was opened")
+}
+
+/// Applies the closures of a system.
+struct RewritePhase<'a>(&'a ClosureSystem);
+
+impl Phase<Stepper> for RewritePhase<'_> {
+    fn run(&self, stepper: &mut Stepper, chain: Arc<Chain>, step: usize) -> Result<PhaseOutcome> {
+        let outcome = stepper.step(self.0, &NoHelpers, &Stop::new(), &chain, step)?;
+        stepper.reuse(chain);
+        Ok(PhaseOutcome { chain: Arc::new(outcome.chain), settled: !outcome.ran })
+    }
+}
+
+impl ClosureSystem {
+    /// Returns the modules that a closure is called for.
+    fn each<'a>(&self, applications: &'a Applications<'_>) -> impl Iterator<Item = Module<'a>> {
+        let arity = self.rules[usize::from(applications.rule)].arguments();
+        (0..applications.count).map(move |application| Module {
+            arguments: &applications.arguments[application * arity..][..arity],
+            key: applications.keys.get(application).copied().unwrap_or_default(),
+            drawn: Cell::new(usize::from(applications.weighted)),
+        })
+    }
+}
+
+impl Rules for ClosureSystem {
+    fn apply(&self, applications: &Applications<'_>, successors: &mut Successors) -> Result<(), RuleFailure> {
+        let successor = &self.successors[usize::from(applications.rule)];
+        successors.clear();
+        for module in self.each(applications) {
+            successor(&module, successors);
+            successors.end();
+        }
+        Ok(())
+    }
+
+    fn guard(&self, applications: &Applications<'_>, holds: &mut Vec<u32>) -> Result<(), RuleFailure> {
+        if let Some(guard) = &self.guards[usize::from(applications.rule)] {
+            holds.extend(self.each(applications).map(|module| u32::from(guard(&module))));
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,76 @@
+//! Rewriting of L-systems: parallel, parametric, context-sensitive and stochastic, without a scripting language.
+//!
+//! Comes in: modules and patterns as text, and what the functions of rules do, as an implementation of [`Rules`]. Goes out:
+//! the next [`Chain`], the same for any number of threads. It never knows a virtual machine, an object or a geometry.
+//!
+//! - [`Symbols`] are the declared modules. A [`Pattern`] is the left side of a rule; a [`Grammar`] holds the rules of a system.
+//! - A [`Chain`] holds all modules of a system in columns. [`Links`] find the neighbours of its modules once a step, and a
+//!   [`ContextMatcher`] matches contexts with them.
+//! - A [`Stepper`] makes steps: it chooses the rule of each module, applies the rules in batches, and splices the
+//!   [`Successors`] into the next chain. [`Helpers`] are threads that take pieces of a step.
+//! - [`derive()`] runs [`Phase`]s, of which rewriting is one, until nothing can change.
+//! - Random numbers come from the [`ModuleKey`] of a module, which depends on the seed and the lineage alone.
+//! - A [`ClosureSystem`] is a whole system whose rules are closures.
+//!
+//! Lindenmayer's algae, whose lengths are the Fibonacci numbers:
+//!
+//! ```
+//! use burgeon_rewriting::ClosureSystem;
+//!
+//! let mut algae = ClosureSystem::new(0);
+//! let (a, b) = (algae.module("A", &[])?, algae.module("B", &[])?);
+//! algae.rule("A", move |_, out| {
+//!     out.push(a, &[]);
+//!     out.push(b, &[]);
+//! })?;
+//! algae.rule("B", move |_, out| out.push(a, &[]))?;
+//!
+//! let mut chain = algae.chain(|out| out.push(a, &[]))?;
+//! for length in [2, 3, 5, 8, 13] {
+//!     chain = algae.derive(chain, 1)?;
+//!     assert_eq!(chain.modules(), length);
+//! }
+//! assert_eq!(algae.text(&chain), "A B A A B A B A A B A A B\n");
+//! # Ok::<(), burgeon_base::Error>(())
+//! ```
+
+mod batch;
+mod chain;
+mod choice;
+mod choose;
+mod closures;
+mod column_value;
+mod failed_chains;
+mod grammar;
+mod key;
+mod links;
+mod matching;
+mod output;
+mod pattern;
+mod phases;
+mod rules;
+mod splice;
+mod step;
+mod successors;
+mod symbols;
+mod text;
+mod uses;
+
+pub use batch::{NO_RULE, Scratch};
+pub use chain::{CLOSE, Chain, DEEPEST, END, Mark, OPEN, Symbol};
+pub use choice::Candidates;
+pub use closures::{ClosureSystem, Module};
+pub use column_value::ColumnValue;
+pub use failed_chains::FailedChains;
+pub use grammar::{Choice, Grammar, MOST_RULES, Rule};
+pub use key::ModuleKey;
+pub use links::Links;
+pub use matching::{Bindings, ContextMatcher};
+pub use pattern::{Context, Item, Pattern};
+pub use phases::{Derivation, Phase, PhaseOutcome, Phases, derive};
+pub use rules::{Applications, RuleFailure, Rules};
+pub use step::{Helpers, NoHelpers, StepOutcome, StepPlan, StepWork, Stepper};
+pub use successors::{ReturnShape, Successors};
+pub use symbols::{FIRST_SYMBOL, NameScope, PLACEHOLDERS, Signature, Symbols, placeholder};
+pub use text::{PlainNumbers, ShowParameters, chain_text, module_brief, module_text, write_chains};
+pub use uses::Use;

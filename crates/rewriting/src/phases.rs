@@ -1,0 +1,76 @@
+//! Derivation as a list of phases.
+
+use std::sync::Arc;
+
+use crate::chain::Chain;
+use burgeon_base::error::Result;
+
+/// A phase of a derivation: rewriting, or what comes before, between and after steps. `S` is the state of the derivation.
+pub trait Phase<S> {
+    /// Runs the phase on the chain as it stands after `step` steps, or in step number `step` if it is run in a step.
+    fn run(&self, state: &mut S, chain: Arc<Chain>, step: usize) -> Result<PhaseOutcome>;
+}
+
+/// Result of a phase.
+#[derive(Debug)]
+pub struct PhaseOutcome {
+    /// Chain after the phase.
+    pub chain: Arc<Chain>,
+    /// Set if nothing can change in later steps, so that the derivation ends and this step does not count.
+    pub settled: bool,
+}
+
+impl PhaseOutcome {
+    /// Creates the result of a phase after which the derivation goes on.
+    pub fn next(chain: Arc<Chain>) -> Self {
+        Self { chain, settled: false }
+    }
+}
+
+/// Phases of a derivation, in the order in which they run.
+#[allow(missing_debug_implementations, reason = "phases are code")]
+pub struct Phases<'a, S> {
+    /// Phases on the axiom.
+    pub first: Vec<Box<dyn Phase<S> + 'a>>,
+    /// Phases of each step.
+    pub each: Vec<Box<dyn Phase<S> + 'a>>,
+    /// Phases on the last chain.
+    pub last: Vec<Box<dyn Phase<S> + 'a>>,
+}
+
+/// Result of a derivation.
+#[derive(Debug)]
+pub struct Derivation {
+    /// Last chain.
+    pub chain: Arc<Chain>,
+    /// Number of steps.
+    pub steps: usize,
+}
+
+/// Runs the phases of a derivation from a chain after `begin` steps up to `end` steps, or until a phase of a step has settled.
+pub fn derive<S>(
+    phases: &Phases<'_, S>,
+    state: &mut S,
+    mut chain: Arc<Chain>,
+    begin: usize,
+    end: usize,
+) -> Result<Derivation> {
+    for phase in &phases.first {
+        chain = phase.run(state, chain, begin)?.chain;
+    }
+    let mut steps = begin;
+    'steps: while steps < end {
+        for phase in &phases.each {
+            let outcome = phase.run(state, chain, steps + 1)?;
+            chain = outcome.chain;
+            if outcome.settled {
+                break 'steps;
+            }
+        }
+        steps += 1;
+    }
+    for phase in &phases.last {
+        chain = phase.run(state, chain, steps)?.chain;
+    }
+    Ok(Derivation { chain, steps })
+}

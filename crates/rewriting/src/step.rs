@@ -1,0 +1,316 @@
+//! One derivation step: distributes pieces of the chain and merges the results in their order.
+
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::{Arc, Condvar, Mutex};
+
+use crate::batch::{Batch, ChainPiece, Scratch};
+use crate::chain::{Chain, END, Mark};
+use crate::failed_chains::FailedChains;
+use crate::grammar::Grammar;
+use crate::links::Links;
+use crate::output::Output;
+use crate::rules::Rules;
+use crate::uses::Use;
+use burgeon_base::Stop;
+use burgeon_base::error::{Error, Limit, Result};
+use burgeon_base::locks::LockRecovery;
+use burgeon_base::memory::make_exact_room;
+
+/// Settings of all steps of a derivation.
+#[derive(Debug)]
+pub struct StepPlan {
+    /// Rules.
+    pub grammar: Grammar,
+    /// Chains that are left out, if there can be any.
+    pub failed: Option<Arc<FailedChains>>,
+    /// Number of chains.
+    pub chains: usize,
+    /// Number of symbols that a thread takes at a time.
+    pub batch: usize,
+    /// Largest number of symbols of a chain.
+    pub limit: usize,
+    /// Set if [`StepOutcome::applied`] is wanted.
+    pub traced: bool,
+    /// Set if rules are given the places of their modules.
+    pub notes_places: bool,
+}
+
+/// Work of one step, shared by threads.
+#[derive(Debug)]
+pub struct StepWork {
+    plan: Arc<StepPlan>,
+    chain: Arc<Chain>,
+    links: Links,
+    step: usize,
+    pieces: Vec<ChainPiece>,
+    next: AtomicUsize,
+    /// First piece that failed; later ones are not begun.
+    failed: AtomicUsize,
+    results: Mutex<Vec<Option<Result<Output>>>>,
+    /// Cleared outputs, whose memory is used again: fresh pages cost more than the rewriting itself.
+    spare: Mutex<Vec<Output>>,
+    ready: Condvar,
+}
+
+impl StepWork {
+    /// Rewrites the next piece with the functions of this thread; returns `false` if none is left.
+    pub fn work(&self, rules: &dyn Rules, stop: &Stop, scratch: &mut Scratch) -> bool {
+        let index = self.next.fetch_add(1, Ordering::Relaxed);
+        if index >= self.pieces.len() || index > self.failed.load(Ordering::Relaxed) {
+            return false;
+        }
+        let batch =
+            Batch { rules, plan: &self.plan, chain: &self.chain, links: &self.links, step: self.step };
+        let spare = self.spare.lock().recover().pop().unwrap_or_default();
+        let result = stop.check().and_then(|()| batch.rewrite(self.pieces[index], scratch, spare));
+        if result.is_err() {
+            self.failed.fetch_min(index, Ordering::Relaxed);
+        }
+        self.results.lock().recover()[index] = Some(result);
+        self.ready.notify_all();
+        true
+    }
+
+    /// Abandons the pieces that no thread has begun.
+    fn abandon(&self) {
+        self.failed.store(0, Ordering::Relaxed);
+        self.next.store(self.pieces.len(), Ordering::Relaxed);
+    }
+
+    fn take(&self, index: usize) -> Option<Result<Output>> {
+        self.results.lock().recover()[index].take()
+    }
+
+    fn wait(&self, index: usize) -> Result<Output> {
+        let mut results = self.results.lock().recover();
+        loop {
+            match results[index].take() {
+                Some(result) => return result,
+                None => results = self.ready.wait(results).recover(),
+            }
+        }
+    }
+}
+
+/// Threads that take pieces of a step.
+pub trait Helpers {
+    /// Offers a step of so many pieces to other threads, which call [`StepWork::work`] until it returns `false`. They hold
+    /// the step only while they work.
+    fn offer(&self, step: &Arc<StepWork>, pieces: usize) -> Result<()>;
+}
+
+/// No threads besides the one that steps.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct NoHelpers;
+
+impl Helpers for NoHelpers {
+    fn offer(&self, _: &Arc<StepWork>, _: usize) -> Result<()> {
+        Ok(())
+    }
+}
+
+/// Result of a step.
+#[derive(Debug)]
+pub struct StepOutcome {
+    /// Next chain.
+    pub chain: Chain,
+    /// Set if any rule ran.
+    pub ran: bool,
+    /// Set if any rule that ran replaced or erased its module.
+    pub changed: bool,
+    /// For each symbol of the chain before, the rule that ran or [`NO_RULE`](crate::NO_RULE), and the number of its successors;
+    /// empty unless the plan is traced.
+    pub applied: Vec<(u16, u32)>,
+}
+
+/// Results of all pieces, besides their chain.
+struct StepTotals {
+    ran: bool,
+    changed: bool,
+    applied: Vec<(u16, u32)>,
+}
+
+/// Makes steps, and keeps the memory of the last chain for the next.
+#[derive(Debug)]
+pub struct Stepper {
+    plan: Arc<StepPlan>,
+    spare: Chain,
+    links: Links,
+    scratch: Scratch,
+    outputs: Vec<Output>,
+    /// Work of each rule in all steps.
+    uses: Vec<Use>,
+}
+
+impl Stepper {
+    /// Creates a stepper for the rules of `plan`.
+    pub fn new(plan: Arc<StepPlan>) -> Self {
+        Self {
+            uses: vec![Use::default(); plan.grammar.rules().len()],
+            plan,
+            spare: Chain::default(),
+            links: Links::default(),
+            scratch: Scratch::default(),
+            outputs: Vec::new(),
+        }
+    }
+
+    /// Makes step number `step` on `chain`, which is marked (see [`Chain::mark`]).
+    ///
+    /// Fails if a function of a rule fails, if the chain grows past the limit of the plan, and once `stop` is stopped.
+    pub fn step(
+        &mut self,
+        rules: &dyn Rules,
+        helpers: &dyn Helpers,
+        stop: &Stop,
+        chain: &Arc<Chain>,
+        step: usize,
+    ) -> Result<StepOutcome> {
+        self.links.build(chain, &self.plan.grammar);
+        let pieces = pieces(chain, self.plan.batch);
+        let count = pieces.len();
+        let work = Arc::new(StepWork {
+            plan: Arc::clone(&self.plan),
+            chain: Arc::clone(chain),
+            links: std::mem::take(&mut self.links),
+            step,
+            pieces,
+            next: AtomicUsize::new(0),
+            failed: AtomicUsize::new(usize::MAX),
+            spare: Mutex::new(std::mem::take(&mut self.outputs)),
+            results: Mutex::new(std::iter::repeat_with(|| None).take(count).collect()),
+            ready: Condvar::new(),
+        });
+        helpers.offer(&work, count)?;
+        let result = self.merge(rules, stop, &work);
+        if result.is_err() {
+            work.abandon();
+        }
+        let work = reclaim(work);
+        let StepTotals { ran, changed, applied } = result?;
+        self.links = work.links;
+        self.outputs = work.spare.into_inner().recover();
+        Ok(StepOutcome { chain: std::mem::take(&mut self.spare), ran, changed, applied })
+    }
+
+    /// Takes back a chain that is no longer needed, for its memory.
+    pub fn reuse(&mut self, chain: Arc<Chain>) {
+        if let Ok(chain) = Arc::try_unwrap(chain)
+            && chain.symbols.capacity() > self.spare.symbols.capacity()
+        {
+            self.spare = chain;
+        }
+    }
+
+    /// Works on pieces and merges their results in order.
+    fn merge(&mut self, rules: &dyn Rules, stop: &Stop, work: &StepWork) -> Result<StepTotals> {
+        let made = &mut self.spare;
+        made.clear();
+        let mut growth = vec![0usize; self.plan.grammar.rules().len()];
+        let mut applied = Vec::new();
+        let (mut ran, mut changed) = (false, false);
+        let mut chain = 0;
+        for index in 0..work.pieces.len() {
+            let mut output = loop {
+                if let Some(output) = work.take(index) {
+                    break output?;
+                }
+                if !work.work(rules, stop, &mut self.scratch) {
+                    break work.wait(index)?;
+                }
+            };
+            let base = made.end(chain);
+            let read = [work.pieces[index].end, work.chain.symbols.len()];
+            append(&mut made.symbols, &output.chain.symbols, read);
+            append(&mut made.params, &output.chain.params, read);
+            append(&mut made.keys, &output.chain.keys, read);
+            let rebased = output.chain.marks.iter().map(|mark| Mark {
+                module: base.module + mark.module,
+                param: base.param + mark.param,
+                chain: base.chain + mark.chain,
+            });
+            made.marks.extend(rebased);
+            if self.plan.chains > 1 {
+                chain += output.chain.symbols.iter().filter(|symbol| **symbol == END).count();
+            }
+            ran |= output.ran;
+            changed |= output.changed;
+            for (rule, done) in &output.uses {
+                growth[usize::from(*rule)] += done.made;
+                self.uses[usize::from(*rule)] += *done;
+            }
+            applied.append(&mut output.applied);
+            output.clear();
+            work.spare.lock().recover().push(output);
+            if made.symbols.len() > self.plan.limit {
+                return Err(self.limit_error(&growth, work.step));
+            }
+        }
+        Ok(StepTotals { ran, changed, applied })
+    }
+
+    /// Returns the work of each rule in all steps so far.
+    pub fn uses(&self) -> &[Use] {
+        &self.uses
+    }
+
+    /// Returns the error for a chain that has grown past the limit, with the rule that has made most.
+    fn limit_error(&self, growth: &[usize], step: usize) -> Error {
+        let limit = self.plan.limit;
+        let error = Error::limit(Limit::Modules, format!("the chain grew past {limit} modules in step {step}"))
+            .help("end the growth with a guard or a counter, derive fewer steps, or raise the limit: --module-limit N");
+        match growth.iter().enumerate().max_by_key(|(index, count)| (**count, usize::MAX - index)) {
+            Some((rule, _)) => {
+                let rule = &self.plan.grammar.rules()[rule];
+                error.at(rule.place.clone()).rule(format!("{} (which grew most)", rule.pattern.text))
+            }
+            None => error,
+        }
+    }
+}
+
+/// Waits until every other thread has dropped the work.
+fn reclaim(mut work: Arc<StepWork>) -> StepWork {
+    loop {
+        match Arc::try_unwrap(work) {
+            Ok(work) => return work,
+            Err(shared) => {
+                std::thread::yield_now();
+                work = shared;
+            }
+        }
+    }
+}
+
+/// Appends `items`, the result of one more piece, to `array`, once `read` of `all` symbols have been read.
+///
+/// If the array is empty or full, reserves memory for all pieces, as if the rest made as much as what has been read; but at
+/// most four times the present size.
+fn append<T: Copy>(array: &mut Vec<T>, items: &[T], [read, all]: [usize; 2]) {
+    let length = array.len() + items.len();
+    if array.is_empty() || length > array.capacity() {
+        let expected = length.saturating_mul(all) / read.max(1);
+        let expected = expected.min(4 * array.capacity().max(length)).max(length);
+        make_exact_room(array, expected + expected / 16 - array.len());
+    }
+    array.extend_from_slice(items);
+}
+
+/// Joins the chain's marks to pieces of at least `size` symbols.
+fn pieces(chain: &Chain, size: usize) -> Vec<ChainPiece> {
+    let mut pieces: Vec<ChainPiece> = Vec::new();
+    for mark in &chain.marks {
+        match pieces.last_mut() {
+            Some(piece) if mark.module - piece.begin.module < size => {}
+            Some(piece) => {
+                piece.end = mark.module;
+                pieces.push(ChainPiece { begin: *mark, end: mark.module });
+            }
+            None => pieces.push(ChainPiece { begin: *mark, end: mark.module }),
+        }
+    }
+    if let Some(piece) = pieces.last_mut() {
+        piece.end = chain.symbols.len();
+    }
+    pieces
+}
