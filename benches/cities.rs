@@ -1,4 +1,4 @@
-//! Towns: 200 seeds of each script, looked at building by building and street by street.
+//! Towns: 200 seeds of each script, with statistics of buildings and streets.
 //! `cargo bench --bench cities [-- SEEDS] [SCRIPT] [extent=METRES]`.
 
 #![allow(clippy::print_stdout, reason = "a bench prints its figures")]

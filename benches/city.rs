@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::time::Instant;
 
-/// How often each is measured; the best counts.
+/// Number of measurements; the best counts.
 const ROUNDS: usize = 4;
 
 fn main() {
@@ -38,14 +38,14 @@ fn main() {
     std::fs::remove_file(output).ok();
 }
 
-/// What a run took.
+/// Measurements of a run.
 struct Measured {
     faces: f64,
-    /// From the start of the program to its end (s).
+    /// Wall-clock time from the start of the program to its end (s).
     time: f64,
-    /// Of all threads, the system's included (s).
+    /// CPU time of all threads, including system time (s).
     cpu: f64,
-    /// At the peak (MB).
+    /// Peak memory (MB).
     memory: f64,
     /// Size of the model (MB).
     file: f64,
@@ -74,11 +74,12 @@ fn measure(script: &Path, data: &Path, settings: &[&str], output: &PathBuf) -> M
     }
 }
 
-/// CPU time (s) of all programs that were started and have ended; Linux tells it.
+/// Returns the CPU time (s) of all child processes that have ended; only on Linux.
 fn children_cpu() -> f64 {
     let stat = std::fs::read_to_string("/proc/self/stat").unwrap_or_default();
     let fields: Vec<&str> = stat.rsplit(')').next().unwrap_or_default().split_whitespace().collect();
     let ticks = |index: usize| fields.get(index).and_then(|field| field.parse::<f64>().ok());
-    // Fields 16 and 17 of proc_pid_stat(5), in hundredths of a second; the name before the first one is cut off.
+    // Fields 16 and 17 of proc_pid_stat(5), in hundredths of a second, counted without the fields up to the process
+    // name.
     ticks(13).zip(ticks(14)).map_or(f64::NAN, |(user, system)| (user + system) / 100.0)
 }

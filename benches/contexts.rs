@@ -1,5 +1,5 @@
-//! Contexts and choices over thousands of random systems, beside the naive matcher of the tests; and the time that a
-//! context takes by the length of the chain, which must not grow. `cargo bench --bench contexts [-- SEEDS]`.
+//! Contexts and choices of thousands of random systems, compared with the naive matcher of the tests; and the time of a
+//! context by the length of the chain, which must not grow. `cargo bench --bench contexts [-- SEEDS]`.
 
 #![allow(clippy::print_stdout, reason = "a bench prints its figures")]
 
@@ -23,7 +23,7 @@ use generate::{Dice, Engine, KINDS, Made};
 
 const SIZES: [usize; 4] = [32_768, 131_072, 524_288, 1_048_576];
 
-/// Chains of one unit again and again, in which nothing is found however far one looks.
+/// Chains that repeat one unit, in which no context matches at any distance.
 const REGULAR: [(&[&str], &str); 6] = [
     (&["X"], "X > [ Z ]"),
     (&["X", "[", "C", "]"], "X > [ Z ]"),
@@ -33,7 +33,7 @@ const REGULAR: [(&[&str], &str); 6] = [
     (&["[", "X", "X"], "A < X > A"),
 ];
 
-/// The time that links and all matches of a chain take (ns for each word), the least of three.
+/// Measures the time to compute the links and all matches of a chain (ns for each word): the minimum of three runs.
 #[allow(clippy::cast_precision_loss, reason = "shown with one digit")]
 fn time(made: &Made) -> f64 {
     let each = (0..3).map(|_| {
@@ -47,7 +47,7 @@ fn time(made: &Made) -> f64 {
     each.fold(f64::INFINITY, f64::min)
 }
 
-/// Prints a row, and fails if time grows with the chain.
+/// Prints a row. Panics if the time per word grows with the chain.
 fn row(name: &str, make: impl Fn(usize) -> Made) {
     let times = SIZES.map(|size| time(&make(size)));
     println!("| {name} | {} |", times.map(|time| format!("{time:.1}")).join(" | "));

@@ -1,4 +1,5 @@
-//! Hostile files by the thousand: none may panic, hang or take more than it may; and how time grows with what is large.
+//! Thousands of hostile files: none may cause a panic, a hang or excessive memory use. Also the growth of time with
+//! size.
 //! `cargo bench --bench foreign`.
 
 #![allow(clippy::print_stdout, reason = "a bench prints its figures")]
@@ -17,7 +18,7 @@ use glam::DVec3;
 
 const VILLAGE: &str = include_str!("../examples/data/village.geojson");
 
-/// Random numbers that are the same each time.
+/// Random numbers that are the same in each run.
 struct Dice(Stream);
 
 impl Dice {
@@ -25,7 +26,7 @@ impl Dice {
         self.0.below(sides)
     }
 
-    /// Changes, repeats, moves or cuts out some of `bytes`.
+    /// Changes, repeats, moves or removes some of `bytes`.
     fn damage(&mut self, bytes: &mut Vec<u8>) {
         for _ in 0..=self.roll(4) {
             let (from, length) = (self.roll(bytes.len()), self.roll(40));
@@ -46,7 +47,7 @@ impl Dice {
     }
 }
 
-/// Has `read` look at `count` damaged copies of `whole`; it tells whether it took one.
+/// Calls `read` for `count` damaged copies of `whole`; it returns true if it accepted the copy.
 fn damaged(what: &str, whole: &[u8], count: usize, read: impl Fn(&[u8]) -> bool) {
     let (mut dice, mut good, mut longest) = (Dice(Stream::new(1)), 0, Duration::ZERO);
     for _ in 0..count {

@@ -1,5 +1,5 @@
-//! A turtle draws a tree of a million branches: segments a second of one thread's CPU time. And a tower of a thousand
-//! steps, drawn once, against one whose rule may ask the object after each step.
+//! A turtle draws a tree of a million branches: segments per second of one thread's CPU time. Also a tower of a
+//! thousand steps, drawn once, compared with one whose rules may query the object after each step.
 //! `cargo bench --bench interpretation`.
 
 #![allow(clippy::print_stdout, reason = "a bench prints its figures")]
@@ -76,7 +76,7 @@ fn tree() {
         without = without.min(cpu(false).0);
     }
     std::fs::remove_file(path).ok();
-    // The least of each: what disturbs a run makes it longer, and the difference of two runs anything.
+    // The minimum of each run: disturbances make a run longer, but can change the difference of two runs either way.
     let (time, segments) = (with.saturating_sub(without).as_secs_f64(), f64::from((1u32 << 20) - 1));
     println!("Interpretation: {segments} segments, {triangles} triangles in {time:.3} s of CPU time");
     println!("{:.2} M segments a second and core, mesh and scene included", segments / time / 1e6);

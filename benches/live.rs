@@ -1,4 +1,4 @@
-//! From saving a script to its model being ready for the page, and what 500 reloads do to the server's memory.
+//! Time from saving a script to the encoded model for the page, and the effect of 500 reloads on the server's memory.
 //! `cargo bench --bench live`.
 
 #![allow(clippy::print_stdout, reason = "a bench prints its figures")]
@@ -15,7 +15,7 @@ use tungstenite::{Message, WebSocket};
 
 const TOWER: &str = include_str!("../scripts/tower.lua");
 
-/// A wall of bricks: a million triangles from one axiom.
+/// Wall of bricks: a million triangles from one axiom.
 const MILLION: &str = r#"local Row, Brick = module("Row", "n"), module("Brick", "x")
 local wall = lsystem({ object = extruder({ sides = 4, smooth = false }), interpret = "last" })
 local rows = {}
@@ -52,7 +52,7 @@ fn main() {
     server.wait().unwrap();
 }
 
-/// A server of the real binary, and a page.
+/// Starts a server with the real binary, and connects a page.
 fn start(folder: &Path) -> (Child, WebSocket<TcpStream>) {
     let mut server = Command::new(env!("CARGO_BIN_EXE_burgeon"))
         .args(["live", "s.lua", "--json", "--no-open", "--port", "0"])
@@ -71,7 +71,7 @@ fn start(folder: &Path) -> (Child, WebSocket<TcpStream>) {
     (server, tungstenite::client(address, stream).unwrap().0)
 }
 
-/// The next model.
+/// Returns the next model.
 fn next(page: &mut WebSocket<TcpStream>) -> Value {
     loop {
         if let Message::Text(text) = page.read().unwrap() {
@@ -84,7 +84,7 @@ fn next(page: &mut WebSocket<TcpStream>) -> Value {
     }
 }
 
-/// Saves other scripts again and again; prints medians.
+/// Saves a sequence of different scripts and prints medians.
 fn measure(
     name: &str,
     script: &Path,
@@ -114,7 +114,7 @@ fn measure(
     }
 }
 
-/// The server's resident memory (MB), where the system tells it.
+/// Returns the server's resident memory (MB), or 0 if the system does not report it.
 fn resident(server: &Child) -> f64 {
     let status = std::fs::read_to_string(format!("/proc/{}/status", server.id())).unwrap_or_default();
     let line = status.lines().find_map(|line| line.strip_prefix("VmRSS:")).unwrap_or("0");

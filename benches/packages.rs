@@ -1,4 +1,5 @@
-//! What packages add to the start of a run: one of 200 files of which one is required, and of which all are.
+//! Time that packages add to the start of a run: a package of 200 files of which one is required, and one of which all
+//! are.
 //! `cargo bench --bench packages`.
 
 #![allow(clippy::print_stdout, reason = "a bench prints its figures")]
@@ -10,10 +11,10 @@ use std::time::{Duration, Instant};
 
 const FILES: usize = 200;
 
-/// What a package may add to the start of a run (ms).
+/// Maximum time that a package may add to the start of a run (ms).
 const MOST: f64 = 50.0;
 
-/// A package of so many scripts, and as many images.
+/// Creates a package with this number of scripts and images.
 fn package(folder: &Path, name: &str, files: usize) {
     let inner = folder.join("mods").join(name);
     fs::create_dir_all(inner.join("textures")).unwrap();
@@ -26,7 +27,7 @@ fn package(folder: &Path, name: &str, files: usize) {
     }
 }
 
-/// The median time of a run of `script`, without drawing anything.
+/// Returns the median time of a run of `script` without export.
 fn start(folder: &Path, script: &str) -> Duration {
     let path = folder.join("s.lua");
     fs::write(&path, script).unwrap();

@@ -1,5 +1,7 @@
-//! Six rewriting workloads, beside the crate `symbios` in one process: CPU time of one thread, wall time of two
-//! once both are running and with the second one's start, and the memory at the peak. `cargo bench --bench rewriting [-- WORKLOAD...]`.
+//! Six rewriting workloads, compared with the crate `symbios` in the same process: CPU time of one thread, wall-clock
+//! time of two threads with and without the start of the second one, and peak memory.
+//!
+//! `cargo bench --bench rewriting [-- WORKLOAD...]`.
 
 #![allow(clippy::print_stdout, reason = "a bench prints its figures")]
 
@@ -173,7 +175,8 @@ fn directive(system: &mut symbios::System, directive: &str) {
     system.add_directive(directive).expect("the workload's directive is valid");
 }
 
-/// The workload's script, run `times` times: from the second time on, every thread's machine stands ready.
+/// Writes the workload's script, which runs `times` times. From the second run on, the Lua machines of all threads
+/// exist.
 fn write_script(workload: &Workload, steps: usize, times: usize) -> PathBuf {
     let path = std::env::temp_dir().join(format!("burgeon bench {} {steps}.lua", std::process::id()));
     let mut file = std::fs::File::create(&path).expect("the temporary folder can be written to");
@@ -226,15 +229,15 @@ fn rate(read: usize, time: Duration) -> f64 {
     read as f64 / time.as_secs_f64() / 1e6
 }
 
-/// The largest resident memory of this process so far (bytes).
+/// Returns the peak resident memory of this process so far (bytes).
 fn peak() -> usize {
     let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
     let line = status.lines().find_map(|line| line.strip_prefix("VmHWM:"));
     line.and_then(|line| line.split_whitespace().next()?.parse::<usize>().ok()).unwrap_or(0) * 1024
 }
 
-/// Bytes for each final symbol at the peak, measured in a process of its own against a run without steps. `None` if there
-/// are too few symbols for it to be seen.
+/// Measures the peak memory per final symbol (bytes) in a separate process, relative to a run without steps. Returns
+/// `None` if there are too few symbols to measure.
 fn memory(workload: &Workload) -> Option<f64> {
     let run = |steps: usize| -> (f64, f64) {
         let program = std::env::current_exe().expect("the bench knows its own file");

@@ -1,7 +1,8 @@
-//! Straight skeletons: time for each building of a real town, for a comb of 400 teeth, how time grows with the
-//! number of edges, and how many regular plans with noise have none, or a roof that is not closed.
-//! `cargo bench --bench skeleton`; a number after `--` is that of the plans of each sort, 10,000 unless given, and a
-//! second one their seed.
+//! Straight skeletons: time for each building of a real town and for a comb with 400 teeth, growth of time with the
+//! number of edges, and the number of noisy regular plans without a skeleton or with a roof that is not closed.
+//!
+//! `cargo bench --bench skeleton [-- PLANS [SEED]]`: the number of plans of each type, 10,000 by default, and their
+//! seed.
 
 #![allow(clippy::print_stdout, reason = "a bench prints its figures")]
 
@@ -24,7 +25,7 @@ mod samples;
 use samples::{FAMILIES, Family, Random, still};
 
 fn main() {
-    // Cargo adds `--bench`.
+    // Cargo adds the argument `--bench`.
     let mut numbers = std::env::args().skip(1).filter_map(|argument| argument.parse::<u64>().ok());
     let (count, seed) = (numbers.next().unwrap_or(10_000), numbers.next().unwrap_or(1));
     for family in &FAMILIES {
@@ -56,7 +57,7 @@ fn main() {
     }
 }
 
-/// The buildings of a real town, if its file is beside the repository.
+/// Reads the buildings of a real town, if its file is next to the repository.
 fn town() -> Option<Vec<Polygon>> {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../shared/data/france_buildings.gpkg");
     let wanted = SourceOptions { layer: Some("buildings".into()), ..SourceOptions::default() };
@@ -85,8 +86,8 @@ fn each(plans: &[Polygon]) {
     println!("without a skeleton: {failed}");
 }
 
-/// What is wrong with the skeletons and hip roofs of so many plans of a family: as they are, 1 m and 1 km wide, and far
-/// from the origin.
+/// Prints the failures of the skeletons and hip roofs of `count` plans of a family: unscaled, 1 m wide, 1 km wide, and
+/// far from the origin.
 fn regular(family: &Family, count: u64, seed: u64) {
     let (mut random, mut chance) = (Random(seed), Random(seed + 2));
     let (mut failed, mut open, mut stuck, mut times) = ([0; 4], 0, 0, Vec::new());
@@ -127,7 +128,7 @@ fn regular(family: &Family, count: u64, seed: u64) {
     );
 }
 
-/// Whether walls and a hip roof over a footprint are a closed solid, in which no edge has more than two faces.
+/// Returns true if walls and a hip roof over a footprint form a closed solid, in which no edge has more than two faces.
 fn is_closed(rings: &Rings) -> bool {
     let table = |entries: &[(&str, Value)]| Table {
         class: None,
@@ -139,7 +140,7 @@ fn is_closed(rings: &Rings) -> bool {
     let geometry = rings.clone().into_value();
     let Ok(mut house) = Footprint::kind().make(&table(&[("geometry", geometry)])) else { return false };
     house.begin();
-    // A ring that crosses itself has been untangled; what is asked is whether it gets its roof then.
+    // A self-crossing ring has been untangled; the test is whether it gets its roof.
     let untangled = house.notes().len();
     for (method, argument) in [
         ("groundwork", Value::Text("extruded".into())),
@@ -169,7 +170,7 @@ fn is_closed(rings: &Rings) -> bool {
     !replaced && solid::check(drawing.parts()).is_solid() && uses.values().all(|uses| *uses == 2)
 }
 
-/// The shortest of several times (s).
+/// Returns the minimum of several times (s).
 fn best(plan: &Polygon, rounds: u32) -> f64 {
     let paces = vec![Pace::default(); plan.size()];
     let time = |_| {
@@ -187,18 +188,18 @@ fn comb(teeth: u32) -> Polygon {
         ring.extend([(x, 0.0), (x, -5.0), (x + 1.0, -5.0), (x + 1.0, 0.0)]);
     }
     ring.extend([(2.0 * f64::from(teeth) - 1.0, 5.0), (0.0, 5.0)]);
-    // The first and the last tooth go on into the back.
+    // The first and the last tooth extend into the back.
     ring.remove(ring.len() - 3);
     ring.remove(0);
     around(ring.into_iter().map(DVec2::from).collect())
 }
 
-/// A comb of about so many edges.
+/// Returns a comb with about this number of edges.
 fn comb_of(edges: u32) -> Polygon {
     comb(edges / 4)
 }
 
-/// A star whose corners are anywhere.
+/// Returns a star with random corners.
 fn star(edges: u32) -> Polygon {
     let mut stream = burgeon::random::Stream::new(7);
     let mut corner = |index: u32| {

@@ -1,5 +1,5 @@
-//! Geometries by the thousand: the footprints of a region that meet each other, their union, hulls and buffers, and the
-//! nearest road of every building of a town. `cargo bench --bench spatial`; it needs the data files beside the tree.
+//! Thousands of geometries: intersecting footprints of a region, their union, hulls and buffers, and the nearest road
+//! of every building of a town. `cargo bench --bench spatial`; it requires the data files next to the repository.
 
 #![allow(clippy::print_stdout, reason = "a bench prints its figures")]
 #![allow(clippy::unwrap_used, reason = "a bench stops at what is wrong")]
@@ -39,7 +39,7 @@ fn main() {
     town();
 }
 
-/// The footprints of a region.
+/// Measures operations on the footprints of a region.
 fn region() {
     let Some(path) = shared("france_buildings.gpkg") else { return };
     let layer = layer(&path, "buildings");
@@ -110,7 +110,7 @@ fn region() {
     );
 }
 
-/// The nearest road of every building, by the segments of the roads.
+/// Finds the nearest road of every building, by the segments of the roads.
 fn town() {
     let Some(path) = shared("helsinki.gpkg") else { return };
     let names = Source::open(&path, "helsinki").unwrap().layers();

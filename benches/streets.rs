@@ -1,5 +1,5 @@
-//! Streets: 200 seeds of each pattern, checked and measured beside real cities, and 100,000 pieces grown by a script.
-//! `cargo bench --bench streets [-- SEEDS]`; `-- towns` takes only the measures of towns that nobody planned, beside real ones.
+//! Streets: 200 seeds of each pattern, checked and compared with real cities, and 100,000 segments grown by a script.
+//! `cargo bench --bench streets [-- SEEDS]`; `-- towns` only compares the statistics of unplanned towns with real ones.
 
 #![allow(clippy::print_stdout, reason = "a bench prints its figures")]
 
@@ -14,7 +14,7 @@ use burgeon::script::RunOptions;
 use check::{PATTERNS, check, grown};
 use looks::{EACH, MEANS, NAMES, faults, looks, real};
 
-/// What a pattern is compared by: its name and its value of a network.
+/// Statistics for comparison with a pattern: a city's name and its values.
 const CITIES: [(&str, [f64; 9]); 4] = [
     ("Vancouver", [3.22, 0.08, 0.56, 0.36, 1.03, 0.30, f64::NAN, f64::NAN, f64::NAN]),
     ("London", [2.56, 0.25, 0.67, 0.07, 1.06, 0.14, f64::NAN, f64::NAN, f64::NAN]),
@@ -22,7 +22,7 @@ const CITIES: [(&str, [f64; 9]); 4] = [
     ("Monaco", [2.80, 0.14, 0.78, 0.08, 1.21, 0.21, 0.06, 1660.0, 0.70]),
 ];
 
-/// A town of 100,000 pieces.
+/// Town of 100,000 segments.
 const LARGE: &str = r#"
 local Tip = module("Tip", "junction", "heading", "depth")
 local roads = lsystem({ object = network({ markings = false }) })
@@ -42,7 +42,7 @@ end)
 roads:derive(400)
 "#;
 
-/// Towns that nobody planned beside real ones, by all measures.
+/// Prints all statistics of unplanned towns next to those of real ones.
 fn look_at_towns(seeds: u64) {
     let row = |name: &str, of: &[f64; 16]| {
         let values = of.iter().map(|value| match value {

@@ -1,7 +1,7 @@
 //! Terrain: full expansion, the reference view, a flight over it, queries and meshes.
 //!
-//! `cargo bench --bench terrain`; behind `--` the names of those that are wanted. Times are wall clock, the least of
-//! some rounds, and in brackets that of all processors.
+//! `cargo bench --bench terrain [-- NAME...]` measures all cases or the named ones. Times are wall-clock times, the
+//! minimum of several rounds, followed by the CPU time of all threads in brackets.
 
 #![allow(clippy::print_stdout, reason = "a bench prints its figures")]
 #![allow(
@@ -68,7 +68,7 @@ fn reference() -> View {
     View { cell: 512.0, rings: [(4, 8), (8, 6), (12, 4), (16, 2)].map(ring).to_vec() }
 }
 
-/// The least time, by the clock and of all processors, of some rounds.
+/// Returns the minimum wall-clock time and the minimum CPU time of several rounds.
 fn least(rounds: usize, mut work: impl FnMut()) -> (Duration, Duration) {
     let mut best = (Duration::MAX, Duration::MAX);
     for _ in 0..rounds {
@@ -79,7 +79,7 @@ fn least(rounds: usize, mut work: impl FnMut()) -> (Duration, Duration) {
     best
 }
 
-/// The memory (MB) that the process holds at present.
+/// Returns the current memory of the process (MB).
 fn held() -> f64 {
     let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
     let line = status.lines().find(|line| line.starts_with("VmRSS"));
@@ -125,7 +125,7 @@ fn main() {
 #[path = "../tests/terrain/measured.rs"]
 mod measured;
 
-/// Thousands of grounds over measured heights, of which the tests check some.
+/// Checks thousands of terrains with measured heights, of which the tests check some.
 fn measure() {
     let begin = Instant::now();
     let (mut worst, mut wrong) = (measured::Worst::default(), 0);
@@ -155,7 +155,7 @@ fn measure() {
 #[path = "../tests/terrain/landscapes.rs"]
 mod landscapes;
 
-/// Landscapes of all kinds and sizes for 100 seeds, of which the tests check some.
+/// Checks landscapes of all types and sizes for 100 seeds, of which the tests check some.
 fn landscape() {
     let (mut count, mut wrong) = (0, 0);
     for (kind, _) in landscapes::KINDS {
@@ -283,7 +283,7 @@ fn full() {
     }
 }
 
-/// A terrain that the rules of a system divide, with one triangle for each half of it.
+/// Terrain that the rules of a system divide, with one triangle for each half of it.
 const SYSTEM: &str = r#"
 local Hill = module("Hill", "height", "step")
 local Vale = module("Vale", "height", "step")

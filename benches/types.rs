@@ -1,5 +1,5 @@
-//! What a type of object in Lua costs beside one in Rust: a method that takes a number, by call, and ten thousand objects
-//! on as many features, by run. `cargo bench --bench types`.
+//! Cost of an object type in Lua compared with one in Rust: a method with a number as argument, per call, and ten
+//! thousand objects on as many features, per run. `cargo bench --bench types`.
 
 #![allow(clippy::print_stdout, reason = "a bench prints its figures")]
 
@@ -13,7 +13,7 @@ use burgeon::script::RunOptions;
 use cpu_time::ProcessTime;
 use glam::DVec3;
 
-/// Balls on top of one another.
+/// Balls stacked on each other.
 #[object("pearls", draws, begins_empty, crate = burgeon::kit)]
 pub struct Pearls {
     /// Radius of a pearl (m).
@@ -35,12 +35,12 @@ impl Pearls {
         Ok(())
     }
 
-    /// Adds to a number that nothing is drawn with.
+    /// Adds `by` to a number that is not drawn.
     pub fn grow(&mut self, by: f64) {
         self.size += by;
     }
 
-    /// How many.
+    /// Returns the sum of all numbers that were added.
     pub fn size(&self) -> f64 {
         self.size
     }
@@ -61,7 +61,7 @@ local pearls = object("lua_pearls", {
 })
 "#;
 
-/// A million modules in one chain, each of which is interpreted by this.
+/// Returns a script with a million modules in one chain and this `interpretation` of each.
 fn calls(interpretation: &str) -> String {
     format!(
         r#"
@@ -84,7 +84,7 @@ s:interpret("A(n)", function(this, n) this:add() end)
 s:derive(3)
 "#;
 
-/// CPU time (s) of the fastest of `rounds` runs of `script`.
+/// Returns the CPU time (s) of the fastest of `rounds` runs of `script`.
 fn time(folder: &Path, rounds: usize, script: &str) -> f64 {
     let path = folder.join("bench.lua");
     std::fs::write(&path, script).expect("the temporary folder can be written to");

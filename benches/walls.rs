@@ -1,5 +1,5 @@
-//! The walls of 15,608 buildings that no other building stands before: `scripts/geospatial/facades.lua` on the data file
-//! of a region, without what it draws. `cargo bench --bench walls`. Needs `../shared/data`.
+//! Exposed walls of 15,608 buildings: `scripts/geospatial/facades.lua` on the data file of a region, without its
+//! drawings. `cargo bench --bench walls`. Needs `../shared/data`.
 
 #![allow(clippy::print_stdout, reason = "a bench prints its figures")]
 
@@ -7,10 +7,10 @@ use std::path::Path;
 use std::process::Command;
 use std::time::Instant;
 
-/// How often it is measured; the best counts.
+/// Number of measurements; the best counts.
 const ROUNDS: usize = 5;
 
-/// How long it may take (s), with the start of the program.
+/// Maximum time (s), including the start of the program.
 const MOST: f64 = 3.0;
 
 const LAYERS: &str = r#"
@@ -21,7 +21,7 @@ return {
 }
 "#;
 
-/// Every wall that is left is a small model, so that they are counted.
+/// Places a small model for every exposed wall, so that the walls can be counted.
 const DETAILS: &str = r#"
 local Post = module("Post")
 local post = lsystem({ object = extruder({ sides = 3 }) })

@@ -1,6 +1,6 @@
-//! A type of object made outside of Burgeon: beads, balls on top of one another. The program registers it, runs
-//! a script that uses it, and writes the model to `beads.glb` and a picture of it to `beads.png`, or to the folder
-//! that it is given.
+//! An object type outside of Burgeon: beads, balls stacked on each other. The program registers the type, runs a script
+//! that uses it, and writes the model to `beads.glb` and a render of it to `beads.png`, in the folder of its argument
+//! or the current folder.
 
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -13,7 +13,7 @@ use burgeon::script::RunOptions;
 use burgeon::{Result, export};
 use glam::DVec3;
 
-/// Balls on top of one another.
+/// Balls stacked on each other.
 #[object("beads", draws, begins_empty, crate = burgeon::kit)]
 pub struct Beads {
     /// Radius of a bead (m).
@@ -37,13 +37,13 @@ impl Beads {
         sphere(self.drawing.part(part), middle, self.radius, 16)
     }
 
-    /// Height of the beads (m).
+    /// Returns the height of the beads (m).
     pub fn height(&self) -> f64 {
         self.height
     }
 }
 
-/// The types that come with Burgeon, and beads.
+/// Returns the object types of Burgeon, and beads.
 fn registry() -> Result<Registry> {
     let mut registry = burgeon::objects::registry();
     registry.add(Arc::clone(Beads::kind()))?;

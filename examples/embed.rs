@@ -1,7 +1,7 @@
-//! A program that runs scripts: it sets their parameters, shows how far a run has come, gives up one that takes too long,
-//! takes the model as buffers without a file, and runs the script again when it or what it reads changes.
+//! A program that runs scripts. It sets their parameters, shows the progress of a run, cancels a run that takes too
+//! long, gets the model as buffers without a file, and runs the script again when it or its input files change.
 //!
-//! `cargo run --release --example embed -- scripts/tower.lua floors=9` ends after one run; with `--watch` it goes on.
+//! `cargo run --release --example embed -- scripts/tower.lua floors=9` ends after one run; with `--watch` it continues.
 
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, mpsc};
@@ -13,10 +13,10 @@ use burgeon::watch::Watch;
 use burgeon::{Error, Result};
 use glam::Mat4;
 
-/// How long a run may take before it is given up.
+/// Time limit of a run.
 const PATIENCE: Duration = Duration::from_secs(60);
 
-/// What a renderer takes: the corners of a part, three numbers each, its triangles, and where it is seen.
+/// Input of a renderer: the corners of a part, three numbers each, its triangles, and the transforms of its instances.
 struct DrawCall {
     positions: Vec<f32>,
     normals: Vec<f32>,
@@ -25,7 +25,7 @@ struct DrawCall {
     transforms: Vec<Mat4>,
 }
 
-/// The model as buffers, a mesh that is seen many times once.
+/// Converts the model to buffers; a mesh with several instances is converted once.
 fn draw_calls(scene: &Scene) -> Vec<DrawCall> {
     let mut calls = Vec::new();
     for (number, mesh) in scene.meshes.iter().enumerate() {
@@ -44,7 +44,7 @@ fn draw_calls(scene: &Scene) -> Vec<DrawCall> {
     calls
 }
 
-/// Runs the script with these parameters, as `name=value`; gives the model, and the files that it came from.
+/// Runs the script with these parameters (`name=value`). Returns the model, and the files that it depends on.
 fn model(script: &Path, set: &[(String, String)]) -> (Result<Vec<DrawCall>>, Vec<PathBuf>) {
     let options = RunOptions { params: set.to_vec().into(), ..burgeon::options() };
     let session = match Session::new(script, options) {
@@ -55,7 +55,7 @@ fn model(script: &Path, set: &[(String, String)]) -> (Result<Vec<DrawCall>>, Vec
     let running = Arc::clone(&session);
     let run = std::thread::spawn(move || {
         let run = burgeon::run_session(&running);
-        // Whoever waits may have given up.
+        // The receiver may have stopped waiting.
         let _ = done.send(());
         run
     });
@@ -70,7 +70,7 @@ fn model(script: &Path, set: &[(String, String)]) -> (Result<Vec<DrawCall>>, Vec
     (run.map(|run| draw_calls(&run.scene)), session.files())
 }
 
-/// Shows a model, or why there is none; a program would hand the buffers to its renderer here.
+/// Prints a model or its error. A real program would pass the buffers to its renderer here.
 fn show(model: &Result<Vec<DrawCall>>) {
     match model {
         Err(error) => eprintln!("{error}"),
@@ -103,7 +103,7 @@ fn main() -> Result<()> {
     }
     let (changed, changes) = mpsc::channel();
     let tell = move |_| {
-        // The program may be over.
+        // The program may be about to exit.
         let _ = changed.send(());
     };
     let watch = Watch::new(files, tell, |why| eprintln!("{why}"))?;

@@ -1,4 +1,5 @@
-//! The program's memory: mimalloc's, but for large arrays, which are pages of the system and grow without being copied.
+//! Memory allocator of the program: mimalloc, except that large arrays are mapped pages, which grow without being
+//! copied.
 #![allow(unsafe_code, reason = "an allocator hands out memory that nothing has a type for yet")]
 
 use std::alloc::{GlobalAlloc, Layout};
@@ -7,7 +8,7 @@ use std::ptr::null_mut;
 use burgeon_base::memory::MAPPED;
 use mimalloc::MiMalloc;
 
-/// Allocates for all threads.
+/// Allocator for all threads.
 pub(crate) struct ProgramAllocator;
 
 const PAGE: usize = 4096;
@@ -16,14 +17,14 @@ fn is_mapped(size: usize, align: usize) -> bool {
     cfg!(target_os = "linux") && size >= MAPPED && align <= PAGE
 }
 
-// SAFETY: whether an allocation is mapped follows from its layout alone, so that each goes back to where it came from;
-// mimalloc's own contract is that of the trait, and mapped pages are as large as asked for, aligned and nobody else's.
+// SAFETY: the layout alone determines whether an allocation is mapped, so each is returned to its origin. mimalloc's
+// own contract is that of the trait, and mapped pages have the requested size, are aligned and are not shared.
 unsafe impl GlobalAlloc for ProgramAllocator {
     unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
         if is_mapped(layout.size(), layout.align()) {
             return map(layout.size());
         }
-        // SAFETY: as the caller promises.
+        // SAFETY: guaranteed by the caller.
         unsafe { MiMalloc.alloc(layout) }
     }
 
@@ -31,7 +32,7 @@ unsafe impl GlobalAlloc for ProgramAllocator {
         if is_mapped(layout.size(), layout.align()) {
             return map(layout.size());
         }
-        // SAFETY: as the caller promises.
+        // SAFETY: guaranteed by the caller.
         unsafe { MiMalloc.alloc_zeroed(layout) }
     }
 
@@ -39,7 +40,7 @@ unsafe impl GlobalAlloc for ProgramAllocator {
         if is_mapped(layout.size(), layout.align()) {
             return unmap(at, layout.size());
         }
-        // SAFETY: as the caller promises.
+        // SAFETY: guaranteed by the caller.
         unsafe { MiMalloc.dealloc(at, layout) }
     }
 
@@ -47,11 +48,11 @@ unsafe impl GlobalAlloc for ProgramAllocator {
         let mapped = [layout.size(), size].map(|size| is_mapped(size, layout.align()));
         match mapped {
             [true, true] => remap(at, layout.size(), size),
-            // SAFETY: as the caller promises.
+            // SAFETY: guaranteed by the caller.
             [false, false] => unsafe { MiMalloc.realloc(at, layout, size) },
             _ => {
-                // SAFETY: the size is not 0 and no greater than a layout may be, as the caller promises; both places have
-                // room for the lesser of the sizes, and are two.
+                // SAFETY: the caller guarantees that the size is not 0 and does not exceed the maximum size of a
+                // layout. Both allocations have room for the smaller size and do not overlap.
                 unsafe {
                     let new = self.alloc(Layout::from_size_align_unchecked(size, layout.align()));
                     if !new.is_null() {
@@ -65,27 +66,27 @@ unsafe impl GlobalAlloc for ProgramAllocator {
     }
 }
 
-/// Fresh pages, which are zero.
+/// Maps new pages, which are zeroed.
 #[cfg(target_os = "linux")]
 fn map(size: usize) -> *mut u8 {
     let (access, kind) = (libc::PROT_READ | libc::PROT_WRITE, libc::MAP_PRIVATE | libc::MAP_ANONYMOUS);
-    // SAFETY: it takes nothing that is in use.
+    // SAFETY: the call affects no existing memory.
     let at = unsafe { libc::mmap(null_mut(), size, access, kind, -1, 0) };
     if at == libc::MAP_FAILED { null_mut() } else { at.cast() }
 }
 
-/// As many pages as a size takes now, with what they hold, perhaps at another place.
+/// Resizes mapped pages to the number that the new size needs, keeping their content. The address may change.
 #[cfg(target_os = "linux")]
 fn remap(at: *mut u8, from: usize, to: usize) -> *mut u8 {
     let [from, to] = [from, to].map(|size| size.next_multiple_of(PAGE));
-    // SAFETY: the pages are those of one allocation, which its owner gives up for what comes back.
+    // SAFETY: the pages belong to one allocation, which its owner exchanges for the result.
     let at = unsafe { libc::mremap(at.cast(), from, to, libc::MREMAP_MAYMOVE) };
     if at == libc::MAP_FAILED { null_mut() } else { at.cast() }
 }
 
 #[cfg(target_os = "linux")]
 fn unmap(at: *mut u8, size: usize) {
-    // SAFETY: the pages are those of one allocation, which its owner gives up.
+    // SAFETY: the pages belong to one allocation, which its owner releases.
     unsafe {
         libc::munmap(at.cast(), size.next_multiple_of(PAGE));
     }
@@ -112,7 +113,7 @@ mod tests {
     fn what_an_array_holds_stays_while_it_becomes_larger_and_smaller_than_what_is_mapped() {
         let sizes = [1000, MAPPED, 5 * MAPPED + 1, MAPPED + 4097, MAPPED - 1, 3 * MAPPED, 10];
         let layout = |size: usize| Layout::from_size_align(size, 8).expect("a layout");
-        // SAFETY: each size is that of the allocation at that time.
+        // SAFETY: each size is the size of the allocation at that time.
         unsafe {
             let mut at = ProgramAllocator.alloc_zeroed(layout(sizes[0]));
             for place in 0..10 {

@@ -1,4 +1,4 @@
-//! Burgeon: procedural modelling by rewriting. Rules are written in Lua, geometry is made in Rust.
+//! Burgeon: procedural modelling by rewriting. Rules are written in Lua, geometry is computed in Rust.
 //!
 //! ```text
 //! script.lua ──► script ──► rules ──────► derive ⇄ interpret ──────────► scene ──────► export | picture | live
@@ -10,65 +10,67 @@
 //!                                                    └────── geometry
 //! ```
 //!
-//! This crate is the program and the way into the house: its parts are members of the workspace, under `crates/`. Each
-//! uses only those that stand before it on this map, which a test holds against the `use` lines:
+//! This crate contains the program and the public API. Its parts are crates of the workspace, under `crates/`. Each
+//! crate uses only crates that precede it on this map, which a test compares with the `use` lines:
 //!
 //! ```text
 //! base       uses ──► nothing
 //! macros     uses ──► nothing
+//! rewriting  uses ──► base
 //! scene      uses ──► base
 //! geometry   uses ──► base, scene
 //! spatial    uses ──► base, geometry
 //! streets    uses ──► base, geometry
 //! data       uses ──► base, spatial
 //! query      uses ──► base, data, geometry, spatial
-//! kit        uses ──► base, data, geometry, macros, scene, spatial
+//! kit        uses ──► base, data, geometry, macros, rewriting, scene, spatial
 //! language   uses ──► kit
-//! terrain    uses ──► base, geometry, kit, scene
-//! objects    uses ──► base, data, geometry, kit, scene, streets, terrain
+//! terrain    uses ──► base, geometry, kit, rewriting, scene
+//! objects    uses ──► base, data, geometry, kit, rewriting, scene, streets, terrain
 //! packages   uses ──► base
-//! analysis   uses ──► base, kit, language, packages
-//! engine     uses ──► analysis, base, data, kit, language, packages, query, scene
+//! analysis   uses ──► base, kit, language, packages, rewriting
+//! engine     uses ──► analysis, base, data, kit, language, packages, query, rewriting, scene
 //! picture    uses ──► base, scene
 //! export     uses ──► base, data, picture, scene
 //! watch      uses ──► base
 //! presets    uses ──► base, engine, export, watch
 //! variations uses ──► base, engine, kit, picture, scene
-//! live       uses ──► base, engine, export, kit, picture, presets, scene, variations, watch
-//! burgeon    uses ──► base, data, engine, export, geometry, kit, language, live, objects, packages, picture, presets, query, scene, spatial, terrain, variations, watch
+//! live       uses ──► base, engine, export, kit, picture, presets, rewriting, scene, variations, watch
+//! burgeon    uses ──► base, data, engine, export, geometry, kit, language, live, objects, packages, picture, presets, query, rewriting, scene, spatial, terrain, variations, watch
 //! ```
 //!
-//! - [`error`], [`warning`](mod@warning) and [`text`]: what a person is told when something is wrong, and when
-//!   something hardly can be meant. [`Stop`] ends work that nobody waits for; a [`Budget`] is what reading foreign bytes
-//!   may take.
-//! - [`scene`]: a [`Scene`](scene::Scene) of meshes and instances, ready to be written.
-//! - [`geometry`]: lines, rings and polygons, frames, cross-sections, sweeps, straight skeletons and roofs, without rules
-//!   or scripts.
+//! - [`error`], [`warning`](mod@warning) and [`text`]: errors, warnings and human-readable text. [`Stop`] cancels work;
+//!   a [`Budget`] limits the memory and time for reading untrusted bytes.
+//! - [`scene`]: a [`Scene`](scene::Scene) of meshes and instances, ready for export.
+//! - [`geometry`]: lines, rings and polygons, frames, cross-sections, sweeps, straight skeletons and roofs, independent
+//!   of rules and scripts.
 //! - [`spatial`]: a [`Geometry`](spatial::Geometry) as a value, with the operations of OGC Simple Features.
 //! - [`sources`]: data files, read into a [`Layer`](sources::Layer) of features in metres, or into a
 //!   [`Relief`](sources::elevation::Relief) of measured heights.
-//! - [`query`]: SQL over layers, in a database within the program: a [`Database`](query::Database) gives a
+//! - [`query`]: SQL over layers, in an embedded database: a [`Database`](query::Database) returns a
 //!   [`QueryAnswer`](query::QueryAnswer).
-//! - [`kit`]: the contract of objects. A [`Kind`](kit::Kind) in a [`Registry`](kit::Registry) says what an
-//!   [`Object`](kit::Object) can do; a [`Grammar`](rewriting::Grammar) of [`Pattern`](rewriting::Pattern)s matches
-//!   along a [`Chain`](rewriting::Chain), without Lua.
-//! - [`language`]: what scripts can use, told once: [`names`](language::names), and the definition file for editors.
-//! - [`terrain`]: a [`World`](terrain::World) that is divided by rules, the [`Ground`](terrain::Ground) that is expanded
-//!   of it, a [`Globe`](terrain::globe::Globe), and the search for rules that [`fit`](terrain::fit) a height map.
-//! - [`objects`]: the types of objects that come with Burgeon, in one [`registry`](objects::registry).
-//! - [`script`], [`results`] and [`trace`](mod@trace), the engine, which knows no type of object by name: a
-//!   [`Session`](script::Session) is one run of a script, in one [`Machine`](script::Machine) for each thread; chains are
-//!   rewritten step by step into a [`DerivedSystem`](results::DerivedSystem), and interpreted in between.
+//! - [`rewriting`]: L-systems without Lua. A [`Grammar`](rewriting::Grammar) of [`Pattern`](rewriting::Pattern)s matches along a
+//!   [`Chain`](rewriting::Chain), and a [`Stepper`](rewriting::Stepper) makes the next one.
+//! - [`kit`]: the interface of objects. A [`Kind`](kit::Kind) in a [`Registry`](kit::Registry) describes the fields and
+//!   methods of an [`Object`](kit::Object).
+//! - [`language`]: the scripting API, described once: [`names`](language::names), and the definition file for editors.
+//! - [`terrain`]: a [`World`](terrain::World) that is divided by rules, the [`Ground`](terrain::Ground) that is
+//!   expanded from it, a [`Globe`](terrain::globe::Globe), and the search for rules that [`fit`](terrain::fit) a height
+//!   map.
+//! - [`objects`]: the object types of Burgeon, in one [`registry`](objects::registry).
+//! - [`script`], [`results`] and [`trace`](mod@trace): the engine, which does not depend on specific object types. A
+//!   [`Session`](script::Session) is one run of a script, with one [`Machine`](script::Machine) for each thread. Chains
+//!   are rewritten step by step into a [`DerivedSystem`](results::DerivedSystem), and interpreted between the steps.
 //! - [`export`] and [`picture`]: the scene as a file ([`Format`](export::Format)) or an image
 //!   ([`render`](picture::render)).
-//! - [`packages`]: folders of scripts, models and textures that other scripts use, and the order that they come in.
-//! - [`watch`]: tells when the files of a script have changed.
-//! - [`presets`]: values of parameters under names, in a file beside the script.
-//! - [`variations`]: many runs of a script, as thumbnails to choose from.
-//! - [`live`]: a [`Live`](live::Live) server shows the scene on a page in the browser, and shows it anew on every
-//!   save. It is behind the feature `live`, which is on unless turned off.
+//! - [`packages`]: folders of scripts, models and textures for use by other scripts, and their load order.
+//! - [`watch`]: reports changes of the files of a script.
+//! - [`presets`]: named values of parameters, in a file next to the script.
+//! - [`variations`]: many runs of a script, as thumbnails for comparison.
+//! - [`live`]: a [`Live`](live::Live) server shows the scene in the browser, and updates it on every save. It requires
+//!   the feature `live`, which is enabled by default.
 //!
-//! [`run()`] goes the whole way, from a file to a scene:
+//! [`run()`] executes all stages, from a file to a scene:
 //!
 //! ```
 //! use std::path::Path;
@@ -87,18 +89,18 @@
 //! # }
 //! ```
 //!
-//! # Where it takes a shorter way
+//! # Differences from ABOP
 //!
-//! The meaning of a script is that of *The Algorithmic Beauty of Plants*. Two things are done otherwise, since that
-//! is faster or more useful:
+//! Scripts have the semantics of *The Algorithmic Beauty of Plants* (ABOP). Two points differ, because that is faster
+//! or more useful:
 //!
-//! - *Rules are prepared.* When a script is loaded, the returns of rules that are written in place, as functions
-//!   within the call of `rule`, are rewritten: where the modules and branches of a return can be seen in its text,
-//!   it becomes one call that writes all parameters into the columns of the next chain. The results of other
-//!   returns, and of functions from elsewhere, are collected and taken apart: slower, with the same meaning. Line
-//!   numbers stay as they are.
-//! - *A derivation ends when nothing can change.* Not only when no rule applies: also after a step in which every
-//!   rule that ran left its module as it was, if the object begins each pass empty and nothing draws random
+//! - *Rules are prepared.* When a script is loaded, the returns of rules that are written in place, as functions within
+//!   the call of `rule`, are rewritten: if the modules and branches of a return are visible in its text, the return
+//!   becomes one call that writes all parameters into the columns of the next chain. The results of other returns, and
+//!   of functions defined elsewhere, are collected and decomposed, which is slower and has the same meaning. Line
+//!   numbers are preserved.
+//! - *A derivation ends when nothing can change.* It ends if no rule applies. It also ends after a step in which every
+//!   rule that ran left its module unchanged, if the object begins each pass empty and the step draws no random
 //!   numbers. Such a step is not counted.
 #![recursion_limit = "256"]
 
@@ -127,7 +129,7 @@ pub use burgeon_terrain as terrain;
 pub use burgeon_variations as variations;
 pub use burgeon_watch as watch;
 
-/// How a script is run unless something else is said, with all the types of objects that come with Burgeon.
+/// Returns the default options to run a script, with all object types of Burgeon.
 pub fn options() -> script::RunOptions {
     script::RunOptions { registry: objects::registry(), ..script::RunOptions::default() }
 }

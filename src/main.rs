@@ -1,4 +1,4 @@
-//! The command line.
+//! Command line program.
 
 use std::process::ExitCode;
 

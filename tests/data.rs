@@ -1,4 +1,4 @@
-//! Real data files, where they are beside the repository, against numbers that were computed with other programs.
+//! Tests with real data files, if they exist next to the repository, against results computed with other programs.
 
 #![allow(clippy::unwrap_used, reason = "a test stops at what is wrong")]
 #![allow(
@@ -30,7 +30,7 @@ fn measured_ground_is_exact_at_every_sample_at_any_level_and_so_are_its_triangle
     assert!(samples > 50_000, "{samples} in {} cases", cases.len());
 }
 
-/// The file in the folder of shared data; tells that the test is skipped where there is none.
+/// Returns the path of a file in the folder of shared data; prints that the test is skipped if the file is missing.
 fn shared(name: &str) -> Option<PathBuf> {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../shared/data").join(name);
     let found = path.is_file().then_some(path);
@@ -50,7 +50,7 @@ fn layer(path: &Path, name: &str, condition: Option<&str>) -> Layer {
     Layer::new(table, &mut None).unwrap()
 }
 
-/// The area (m²) within a polygon, of which holes are taken away since they turn the other way.
+/// Returns the area (m²) of a polygon; holes count as negative because of their orientation.
 fn area(geometry: &Geometry) -> f64 {
     let Geometry::Polygon(rings) = geometry else { return 0.0 };
     let ring = |ring: &Vec<DVec3>| -> f64 {
@@ -136,7 +136,7 @@ fn monacos_mountains_are_as_high_as_maps_say_under_the_towns_own_frame() {
         Raster::open(&heights, "N43E007.hgt.zip", &Default::default(), &Default::default()).unwrap(),
     );
     assert_eq!((raster.columns, raster.rows, raster.filled), (1201, 1201, 1595));
-    // Whichever comes first decides the frame.
+    // The first source determines the frame.
     for heights_first in [true, false] {
         let mut frame = None;
         let relief =
@@ -162,7 +162,7 @@ fn monacos_mountains_are_as_high_as_maps_say_under_the_towns_own_frame() {
         for (height, expected) in found.iter().zip([1_097.042_4, 364.224, 1.387, 0.0]) {
             assert!((height - expected).abs() < 1e-3, "{found:?}");
         }
-        // The town stands between the harbour and the mountains.
+        // The town is between the harbour and the mountains.
         let points = buildings.features.iter().flat_map(|feature| feature.geometry.points());
         let under = points.map(|at| ground.height_at(DVec2::new(at[0], at[1])).unwrap());
         let (low, high) =
@@ -230,7 +230,7 @@ fn the_same_features_are_read_from_every_format_that_another_program_writes() {
     assert!(table.features[0].geometry.points().all(|at| at.x < 30.0 && at.y > 60.0));
 }
 
-/// The rings of one of the polygons that triangulators are tested with.
+/// Returns the rings of one of the polygons used as tests of triangulators.
 fn rings(text: &str) -> Rings {
     let rings: Vec<Vec<Vec<f64>>> = serde_json::from_str(text).unwrap();
     let point = |at: &Vec<f64>| DVec3::new(at[0], at[1], 0.0);
@@ -267,7 +267,7 @@ fn bad_polygons_become_valid_plans_or_are_refused_with_a_reason() {
             }
         }
     }
-    // A triangulator, too, makes nothing of these.
+    // Triangulators reject these, too.
     let nothing = ["degenerate", "empty-square", "infinite-loop-jhl", "issue107", "issue83"];
     assert_eq!(refused, nothing.map(|name| format!("{name}.json")));
     assert_eq!((names.len(), clean, repaired.len()), (56, 13, 38), "{repaired:?}");

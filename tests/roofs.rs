@@ -1,4 +1,4 @@
-//! Roofs over all buildings of real data files, where they are beside the repository.
+//! Tests of roofs over all buildings of real data files, if these are available next to the repository.
 
 #![allow(clippy::unwrap_used, reason = "a test stops at what is wrong")]
 
@@ -16,7 +16,7 @@ const KINDS: [&str; 10] =
     ["flat", "shed", "gable", "gambrel", "shed_gambrel", "hip", "mansard", "pagoda", "porch", "dutch_hip"];
 const EAVES: [&str; 3] = ["closed", "open", "slab"];
 
-/// A file or folder of shared data; tells that the test is skipped where there is none.
+/// Returns a file or folder of shared data, or reports that the test is skipped.
 fn shared(name: &str) -> Option<PathBuf> {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../shared/data").join(name);
     let found = path.exists().then_some(path);
@@ -26,7 +26,7 @@ fn shared(name: &str) -> Option<PathBuf> {
     found
 }
 
-/// The rings of all buildings in a file.
+/// Returns the rings of all buildings in a file.
 fn buildings(name: &str) -> Option<Vec<Rings>> {
     let wanted = SourceOptions { layer: Some("buildings".into()), ..SourceOptions::default() };
     let table = Source::open(&shared(name)?, "file").unwrap().read("file", &wanted).unwrap();
@@ -46,13 +46,13 @@ fn call(object: &mut dyn Object, method: &str, argument: Value) {
     values(object, &[argument]).unwrap_or_else(|error| panic!("{method}: {error}"));
 }
 
-/// A building that has not been built yet.
+/// Creates a building that is not built yet.
 fn footprint(rings: &Rings) -> burgeon::error::Result<Box<dyn Object>> {
     let geometry = rings.clone().into_value();
     Footprint::kind().make(&table(&[("geometry", geometry)]))
 }
 
-/// The notes of a building with walls of 3 m, once it has been checked to be a closed solid.
+/// Builds a building with walls of 3 m, asserts that it is a closed solid, and returns its report entries.
 fn build(rings: &Rings, kind: &str, eaves: &str, overhang: f64) -> Vec<String> {
     let mut house = footprint(rings).unwrap();
     raise(&mut *house, kind, eaves, overhang);
@@ -61,7 +61,7 @@ fn build(rings: &Rings, kind: &str, eaves: &str, overhang: f64) -> Vec<String> {
     house.notes().iter().map(|note| note.what.clone()).collect()
 }
 
-/// Builds it, with walls of 3 m.
+/// Builds a building with walls of 3 m.
 fn raise(house: &mut dyn Object, kind: &str, eaves: &str, overhang: f64) {
     house.begin();
     call(house, "groundwork", Value::Text("extruded".into()));
@@ -75,12 +75,12 @@ fn raise(house: &mut dyn Object, kind: &str, eaves: &str, overhang: f64) {
     call(house, "roof", Value::Table(Arc::new(roof)));
 }
 
-/// Checks the skeletons of all plans, and a roof on each, of all kinds in turn.
+/// Checks the skeletons of all plans, and a roof on each, with all types in turn.
 fn check(name: &str, least: usize) {
     let Some(buildings) = buildings(name) else { return };
     let (mut plans, mut failed, mut replaced) = (0, 0, 0);
     for (number, rings) in buildings.iter().enumerate() {
-        // Some cross themselves; they are refused with the place.
+        // Some outlines cross themselves; they are refused with the position.
         let Ok(plan) = Plan::new(rings) else { continue };
         plans += 1;
         let skeleton = Skeleton::new(&plan.flat(), &vec![Pace::default(); plan.polygon().size()]);
@@ -108,7 +108,8 @@ fn every_building_of_helsinki_and_monaco_is_a_closed_solid_under_roofs_of_all_ki
     check("monaco.gpkg", 1_200);
 }
 
-/// Builds all buildings of a file beside one another, with party gables, and checks that none meets itself.
+/// Builds all buildings of a file next to one another, with party gables, and checks that none intersects
+/// itself.
 fn check_beside_neighbours(name: &str, kinds: &[&str], eaves: &str) {
     let Some(buildings) = buildings(name) else { return };
     let mut houses: Vec<Box<dyn Object>> =
@@ -151,7 +152,7 @@ fn every_plan_that_is_made_to_be_bad_is_refused_or_roofed() {
         let Ok(plan) = Plan::new(&rings) else { continue };
         let skeleton = Skeleton::new(&plan.flat(), &vec![Pace::default(); plan.polygon().size()]);
         assert!(skeleton.is_ok(), "{}", path.display());
-        // Meshes have no millimetres so far away.
+        // Meshes have no millimetre precision so far from the origin.
         let near = plan.polygon().points().all(|point| point.abs().max_element() < 10_000.0);
         for kind in KINDS.iter().filter(|_| near) {
             build(&rings, kind, "closed", 0.0);

@@ -1,4 +1,4 @@
-//! Packs the definitions of the EPSG's registry: as constants they would be a fifth of the program.
+//! Compresses the definitions of the EPSG registry: as constants, they would take up a fifth of the program.
 
 #[cfg(feature = "data")]
 fn main() -> std::io::Result<()> {

@@ -1,4 +1,4 @@
-//! Packs the page's files, as they are sent.
+//! Compresses the page's files with gzip, as they are sent.
 
 use std::fs;
 use std::io::{Result, Write as _};

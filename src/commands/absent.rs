@@ -1,12 +1,12 @@
-//! `burgeon live` where the program is built without it: it says so.
+//! Stub of `burgeon live`, for builds without the live view.
 
 use burgeon::{Error, Result};
 use clap::Args;
 
-/// Shows what a script makes in the browser (this program was built without it)
+/// Opens a live view that updates on every save (this program was built without it)
 #[derive(Args)]
 pub(crate) struct LiveCommand {
-    /// Whatever it would take.
+    /// Ignored arguments of the command
     #[arg(trailing_var_arg = true, allow_hyphen_values = true, hide = true)]
     given: Vec<String>,
 }

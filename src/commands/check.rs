@@ -1,4 +1,4 @@
-//! `burgeon check`: reports all problems of a script, those that only a run meets included.
+//! `burgeon check`: reports all problems of a script, including those that only occur in a run.
 
 use burgeon::Result;
 use clap::Args;
@@ -29,7 +29,7 @@ impl CheckCommand {
             options.limits.whole_program = true;
             Ok(options)
         };
-        // What is wrong with calls is found all at once, and the rest by a run.
+        // The check finds all problems of calls at once, and the run finds the rest.
         let burgeon::ScriptCheck { params, mut warnings, .. } = burgeon::check(path, options()?)?;
         if !self.quick {
             let run = burgeon::run(path, options()?)?;

@@ -1,4 +1,4 @@
-//! Reads the command line, and runs the command that it names.
+//! Parses the command line and runs its command.
 
 use std::io::{ErrorKind, Write as _};
 use std::process::ExitCode;
@@ -34,7 +34,7 @@ enum Command {
     Completions(completions::CompletionsCommand),
 }
 
-/// Runs the command that the command line names.
+/// Runs the command of the command line.
 pub(crate) fn main() -> ExitCode {
     let cli = match Cli::try_parse() {
         Ok(cli) => cli,
@@ -54,7 +54,7 @@ pub(crate) fn main() -> ExitCode {
         Command::Completions(command) => (command.json(), command.run()),
     };
     match result {
-        // Whoever reads no further knows it; whoever asks how it ended is told that something was left out.
+        // A reader that closed the pipe needs no message, but the exit status shows that the output is incomplete.
         Ok(()) if report::is_closed() => ExitCode::FAILURE,
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
@@ -64,9 +64,9 @@ pub(crate) fn main() -> ExitCode {
     }
 }
 
-/// Prints what was asked about the command line.
+/// Prints the requested help or version.
 fn print_help(error: &clap::Error) -> ExitCode {
-    // This knows whether a terminal takes colours.
+    // clap detects whether the terminal supports colours.
     let printed = error.print().and_then(|()| std::io::stdout().flush());
     match printed {
         Ok(()) => ExitCode::SUCCESS,
@@ -78,7 +78,7 @@ fn print_help(error: &clap::Error) -> ExitCode {
     }
 }
 
-/// Tells what is wrong with the command line, or what was asked about it.
+/// Prints the error of the command line, or the requested help or version.
 fn refuse_command_line(error: &clap::Error) -> ExitCode {
     let wants_json = std::env::args_os()
         .skip(1)

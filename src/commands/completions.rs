@@ -8,10 +8,10 @@ use serde_json::json;
 /// Prints a script that completes the command line in a shell
 #[derive(Args)]
 pub(crate) struct CompletionsCommand {
-    /// The shell
+    /// Shell for which to print the script
     shell: Shell,
 
-    /// Prints one JSON document, for machines, in place of text for people
+    /// Prints machine-readable JSON instead of text
     #[arg(long)]
     json: bool,
 }

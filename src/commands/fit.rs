@@ -1,4 +1,4 @@
-//! `burgeon fit`: from a height map to a rule table for terrain.
+//! `burgeon fit`: fits a rule table for terrain to a height map.
 
 use std::fs::File;
 use std::io::{Read, Write as _};
@@ -21,27 +21,27 @@ use super::progress::ProgressDisplay;
 use super::report;
 use super::shared::{on_interrupt, seconds, threads, whole};
 
-/// What a file that this command wrote says first.
+/// First lines of a file written by this command.
 const MARK: &str = "--!strict\n-- A rule table for terrain";
 
-/// How long (s) the best table may take to be written after an interrupt.
+/// Time limit for writing the best table after an interrupt.
 const PATIENCE: Duration = Duration::from_secs(10);
 
 /// Searches for a rule table whose terrain is like a height map
 #[derive(Args)]
 pub(crate) struct FitCommand {
-    /// The height map: hill, ridge, crater, plain or mountains
+    /// Height map: hill, ridge, crater, plain, mountains, or a file of heights
     target: String,
 
-    /// The module of rules to write, a .lua file
+    /// Module of rules to write, a .lua file
     #[arg(short, long, value_name = "FILE", value_parser = output, required = true)]
     output: PathBuf,
 
-    /// The seed of all random numbers
+    /// Seed of all random numbers
     #[arg(long, value_name = "N", value_parser = whole::<u64>, default_value_t = 0, allow_negative_numbers = true)]
     seed: u64,
 
-    /// Stops after this time, with the best that was found [default: 60, or no such limit with --rounds]
+    /// Stops after this time, with the best table so far [default: 60, or no such limit with --rounds]
     #[arg(long, value_name = "SECONDS", value_parser = seconds, allow_negative_numbers = true)]
     seconds: Option<f64>,
 
@@ -49,24 +49,24 @@ pub(crate) struct FitCommand {
     #[arg(long, value_name = "N", value_parser = whole::<usize>, allow_negative_numbers = true)]
     rounds: Option<usize>,
 
-    /// Symbols that the table may have, 1 to 64
+    /// Maximum number of symbols of the table, 1 to 64
     #[arg(long, value_name = "N", default_value_t = 16, value_parser = clap::value_parser!(u8).range(1..=64),
           allow_negative_numbers = true)]
     symbols: u8,
 
-    /// Works with N threads; the result of a round does not depend on it [default: one for each core]
+    /// Number of threads; does not affect the result of a round [default: number of cores]
     #[arg(long, value_name = "N", value_parser = threads, allow_negative_numbers = true)]
     threads: Option<u16>,
 
-    /// Prints one JSON document, for machines, in place of text for people
+    /// Prints machine-readable JSON instead of text
     #[arg(long)]
     json: bool,
 }
 
-/// How long (s) the search takes if nothing says when it ends.
+/// Default duration of the search (s), if no limit is set.
 const SECONDS: f64 = 60.0;
 
-/// How far the search is: the rounds that are over, and the best error with how many tables were tried.
+/// Progress of the search: the number of completed rounds, and the best error with the number of tables tried.
 type Best = Arc<Mutex<(usize, Option<(f64, usize)>)>>;
 
 impl FitCommand {
@@ -84,7 +84,7 @@ impl FitCommand {
         let done = Mutex::new(done);
         on_interrupt(move || {
             interrupted.store(true, Ordering::Release);
-            // Either it is written or it takes too long.
+            // Wait until the table is written or the time limit is exceeded.
             let _ = done.lock().recover().recv_timeout(PATIENCE);
         })?;
         let (fitted, late) = self.search(&target, begin, &over)?;
@@ -98,19 +98,19 @@ impl FitCommand {
         ]);
         export::write_file(&self.output, |out| out.write_all(text.as_bytes()))?;
         let told = self.tell(&fitted, begin.elapsed(), late);
-        // Nobody waits, unless there was an interrupt.
+        // An error means that there was no interrupt, so nothing waits.
         let _ = written.send(());
         told
     }
 
-    /// The best table, and after how many rounds the time ended the search, if it did before --rounds.
+    /// Returns the best table, and the number of completed rounds if the time limit ended the search before `--rounds`.
     fn search(
         &self,
         target: &Target,
         begin: Instant,
         over: &AtomicBool,
     ) -> Result<(FitResult, Option<usize>)> {
-        // Where the rounds end it, the result is the same on every machine, however long they take.
+        // With a number of rounds and no time limit, the result is the same on every machine.
         let limit = self.seconds.or(self.rounds.is_none().then_some(SECONDS)).map(Duration::from_secs_f64);
         let best = Best::default();
         let shown = Arc::clone(&best);
@@ -141,13 +141,13 @@ impl FitCommand {
             Error::system(format!("cannot start threads: {error}")).help("use fewer: --threads 1")
         })?;
         let fitted = pool.install(|| search.run(target, &stop, &mut tell));
-        // The round in which the time ended it is not whole.
+        // The round in which the time limit was reached is incomplete.
         let whole = best.lock().recover().0.saturating_sub(1);
         let late = late.into_inner() && self.rounds.is_some();
         Ok((fitted, late.then_some(whole)))
     }
 
-    /// Refuses, before any work, a file that could not be written when it is done, and one that holds something else.
+    /// Fails, before any work, if the output file could not be written, or if it was not written by this command.
     fn check_output(&self) -> Result<()> {
         let path = &self.output;
         let shown = path.display();
@@ -206,16 +206,16 @@ impl FitCommand {
     }
 }
 
-/// How many cells a side of a height map from a file is given.
+/// Number of cells along a side of a height map from a file.
 const ACROSS: usize = 128;
 
-/// The height map that the command line names: one by formula, or a file of heights.
+/// Returns the height map that the command line names: a formula, or a file of heights.
 fn target(name: &str) -> Result<Target> {
     let path = Path::new(name);
     if !path.exists() {
         return Target::named(name);
     }
-    // Only the shape of the ground matters: both maps are scaled, so any place and any range of a picture will do.
+    // Only the shape of the terrain matters: both maps are scaled, so any position and any height range are suitable.
     let range = |height: f64| is_png(path).then_some(height);
     let wanted = HeightOptions {
         low: range(0.0),
@@ -229,7 +229,7 @@ fn target(name: &str) -> Result<Target> {
     Target::resample(raster.columns, raster.rows, &heights, ACROSS)
 }
 
-/// Whether the file at `path` begins as a PNG; false if it cannot be read, which reading it reports.
+/// Returns true if the file at `path` begins as a PNG; false if it cannot be read, which a later read reports.
 fn is_png(path: &Path) -> bool {
     let mut head = [0; 4];
     File::open(path).and_then(|mut file| file.read_exact(&mut head)).is_ok() && &head == b"\x89PNG"

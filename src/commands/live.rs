@@ -1,4 +1,4 @@
-//! `burgeon live`: serves the live page until it is interrupted.
+//! `burgeon live`: runs the live view until it is interrupted.
 
 use std::sync::mpsc::channel;
 
@@ -17,23 +17,23 @@ pub(crate) struct LiveCommand {
     #[command(flatten)]
     script: ScriptFlags,
 
-    /// Listens on this port of this machine; 0 takes any that is free [default: 4747, or the next that is free]
+    /// Port to listen on; 0 selects a free port [default: 4747 or the next free port]
     #[arg(long, value_name = "N", help_heading = "Page")]
     port: Option<u16>,
 
-    /// Opens the page in the browser [default: from a terminal, where there is a display]
+    /// Opens the browser [default: if run from a terminal with a display]
     #[arg(long, conflicts_with = "no_open", help_heading = "Page")]
     open: bool,
 
-    /// Leaves the browser alone
+    /// Does not open the browser
     #[arg(long, help_heading = "Page")]
     no_open: bool,
 
-    /// Opens lines that are clicked in the page, such as 'code -g {file}:{line}'
+    /// Command that opens lines clicked in the page, such as 'code -g {file}:{line}'
     #[arg(long, value_name = "COMMAND", value_parser = editor, help_heading = "Page")]
     editor: Option<Editor>,
 
-    /// The secret part of the address, in the place of the one that is kept for the port
+    /// Secret part of the address, instead of the one stored for the port
     #[arg(long, value_name = "HEX", value_parser = token, hide = true)]
     token: Option<Token>,
 }
@@ -46,7 +46,7 @@ impl LiveCommand {
     pub(crate) fn run(&self) -> Result<()> {
         let (interrupt, interrupted) = channel();
         on_interrupt(move || {
-            // The other end waits for one interrupt only.
+            // The receiver waits for only one interrupt.
             let _ = interrupt.send(());
         })?;
         let live = Live::start(Settings {
@@ -74,14 +74,14 @@ impl LiveCommand {
         if let Some(Err(error)) = opens.then(|| browse(&address)) {
             report::eprint(&format!("{error}\n"));
         }
-        // Nothing else ends it, and an end of the other side would be one.
+        // Only an interrupt ends the command; a closed channel counts as one.
         let _ = interrupted.recv();
         drop(live);
         Ok(())
     }
 }
 
-/// Says on standard error what happens.
+/// Prints notices to standard error.
 fn tell(told: &Notice) {
     match told {
         Notice::Model { triangles, modules, total } => report::eprint(&format!(

@@ -1,7 +1,7 @@
-//! The commands: each reads its flags, does its work through the library, and says what came of it.
+//! Commands: each parses its flags, does its work through the library, and reports the result.
 //!
-//! Comes in: the command line. Goes out: files, standard output, and an exit status: 0 done, 1 the script or its
-//! data failed or something could not be written, 2 the command line is wrong.
+//! Input: the command line. Output: files, standard output, and an exit status: 0 for success, 1 if the script or its
+//! data failed or an output could not be written, 2 if the command line is invalid.
 
 mod api;
 mod check;

@@ -1,4 +1,4 @@
-//! `burgeon new`: a script to start from.
+//! `burgeon new`: creates a starter script.
 
 use std::fs::OpenOptions;
 use std::io::{ErrorKind, Write};
@@ -10,16 +10,16 @@ use serde_json::json;
 
 use super::report;
 
-/// What a new script says.
+/// Content of a new script.
 const STARTER: &str = include_str!("starter.lua");
 
 /// Makes a script to start from
 #[derive(Args)]
 pub(crate) struct NewCommand {
-    /// The file to make; .lua is added if it has no extension
+    /// File to create; .lua is added if it has no extension
     path: PathBuf,
 
-    /// Prints one JSON document, for machines, in place of text for people
+    /// Prints machine-readable JSON instead of text
     #[arg(long)]
     json: bool,
 }
@@ -50,7 +50,7 @@ impl NewCommand {
             }
         })?;
         file.write_all(STARTER.as_bytes()).map_err(|error| {
-            // Half a script would only be in the way.
+            // An incomplete script would only be in the way.
             let _ = std::fs::remove_file(&path);
             Error::file(&path, format!("cannot write {shown}: {error}"))
                 .help("write to another folder or disk")

@@ -1,4 +1,4 @@
-//! Progress on stderr, only where a person sees it.
+//! Progress on stderr, if it is a terminal.
 
 use std::io::IsTerminal;
 use std::sync::Arc;
@@ -9,24 +9,24 @@ use std::time::{Duration, Instant};
 use burgeon::script::Session;
 use indicatif::{ProgressBar, ProgressStyle};
 
-/// How long a run may be silent.
+/// Time before progress is shown.
 const PATIENCE: Duration = Duration::from_millis(400);
 
-/// Shows how far a run has come until it is dropped.
+/// Display of a run's progress. It ends when it is dropped.
 pub(crate) struct ProgressDisplay {
     over: Arc<AtomicBool>,
     thread: Option<JoinHandle<()>>,
 }
 
 impl ProgressDisplay {
-    /// Watches `session`; silent unless stderr is a terminal and `wanted`.
+    /// Shows the progress of `session`, unless stderr is not a terminal or `wanted` is false.
     pub(crate) fn show(session: &Arc<Session>, wanted: bool) -> Self {
         let session = Arc::clone(session);
         let begin = Instant::now();
         Self::saying(move || session.progress.message(begin.elapsed()), wanted)
     }
 
-    /// Shows `message` again and again; silent unless stderr is a terminal and `wanted`.
+    /// Shows `message` repeatedly, unless stderr is not a terminal or `wanted` is false.
     pub(crate) fn saying(message: impl Fn() -> String + Send + 'static, wanted: bool) -> Self {
         let over = Arc::new(AtomicBool::new(false));
         if !wanted || !std::io::stderr().is_terminal() {
@@ -41,7 +41,7 @@ impl ProgressDisplay {
                     return;
                 }
             }
-            // A wide message is cut where the terminal ends; another would leave its lines behind.
+            // A wide message is cut at the edge of the terminal; a wrapped one would leave lines behind.
             let style = ProgressStyle::with_template("{spinner} {wide_msg}");
             let bar = ProgressBar::new_spinner()
                 .with_style(style.unwrap_or_else(|_| ProgressStyle::default_spinner()));
@@ -60,7 +60,7 @@ impl Drop for ProgressDisplay {
     fn drop(&mut self) {
         self.over.store(true, Ordering::Relaxed);
         if let Some(thread) = self.thread.take() {
-            // What it shows does not matter any more.
+            // The result of the thread is not needed.
             let _ = thread.join();
         }
     }

@@ -1,4 +1,4 @@
-//! What commands say: errors with the script's line, and the summary of a run.
+//! Messages of commands: errors with the script's line, and the summary of a run.
 
 use std::fmt::Write as _;
 use std::io::{self, BufWriter, ErrorKind, IsTerminal as _, StdoutLock, Write as _};
@@ -13,7 +13,8 @@ use burgeon::text::grouped;
 use burgeon::{Error, Result, Run, Warning};
 use serde_json::json;
 
-/// Prints an error to stderr, with the line of the script that it is about; as JSON to stdout for machines, if it can be.
+/// Prints an error to stderr, with the line of the script where it occurred. With `json`, prints JSON to stdout if
+/// possible.
 pub(crate) fn error(error: &Error, json: bool) {
     if json {
         let problems: Vec<_> = error.problems().map(Error::to_json).collect();
@@ -30,7 +31,7 @@ pub(crate) fn error(error: &Error, json: bool) {
     eprint(&text);
 }
 
-/// Warnings for a person, as errors are told.
+/// Formats warnings as text, in the format of errors.
 pub(crate) fn warnings<'a>(warnings: impl IntoIterator<Item = &'a Warning>) -> String {
     let mut text = String::new();
     for warning in warnings {
@@ -40,20 +41,20 @@ pub(crate) fn warnings<'a>(warnings: impl IntoIterator<Item = &'a Warning>) -> S
     text
 }
 
-/// Warnings for machines.
+/// Converts warnings to JSON.
 pub(crate) fn warnings_json(warnings: &[Warning]) -> serde_json::Value {
     warnings.iter().map(Warning::to_json).collect()
 }
 
-/// The text of a line of a script.
+/// Returns the text of a line of a script.
 fn line(place: &burgeon::error::SourcePlace) -> Option<String> {
     let (_, line) = place.excerpt(0, 0).pop()?;
     Some(line.trim().to_owned())
 }
 
-/// The summary of a run for a person.
+/// Formats the summary of a run as text.
 ///
-/// `listed` is the file that lists what was skipped or simplified, if there is one.
+/// `listed` is the file that lists skipped and simplified features, if there is one.
 pub(crate) fn summary(run: &Run, writing: Duration, total: Duration, listed: Option<&Path>) -> String {
     let modules: usize = run.systems.iter().map(|system| system.modules()).sum();
     let chains: usize = run.systems.iter().map(|system| system.features.len()).sum();
@@ -105,7 +106,7 @@ pub(crate) fn summary(run: &Run, writing: Duration, total: Duration, listed: Opt
     text
 }
 
-/// The summary of a run for machines.
+/// Returns the summary of a run as JSON.
 pub(crate) fn summary_json(run: &Run, writing: Duration, total: Duration) -> serde_json::Value {
     let seconds = |duration: Duration| duration.as_secs_f64();
     json!({
@@ -138,18 +139,18 @@ pub(crate) fn summary_json(run: &Run, writing: Duration, total: Duration) -> ser
     })
 }
 
-/// The packages that a model was made with, for machines.
+/// Returns the packages that a model was made with, as JSON.
 fn packages_json(packages: &[burgeon::scene::ScenePackage]) -> serde_json::Value {
     let list = packages.iter().map(|it| json!({ "name": it.name, "version": it.version, "hash": it.hash }));
     list.collect()
 }
 
-/// The parameters' values by their names, for machines.
+/// Returns the parameters' values by name, as JSON.
 pub(crate) fn params_json(params: &[Param]) -> serde_json::Value {
     params.iter().map(|param| (param.name.clone(), setting_json(&param.value))).collect()
 }
 
-/// A parameter's value for machines.
+/// Converts a parameter's value to JSON.
 pub(crate) fn setting_json(setting: &Setting) -> serde_json::Value {
     match setting {
         Setting::Number(number) => json!(number),
@@ -158,7 +159,7 @@ pub(crate) fn setting_json(setting: &Setting) -> serde_json::Value {
     }
 }
 
-/// The largest resident memory of this process (MB), where the system tells it.
+/// Returns the peak resident memory of this process (MB), if the system reports it.
 fn peak_memory() -> Option<u64> {
     let status = std::fs::read_to_string("/proc/self/status").ok()?;
     let line = status.lines().find_map(|line| line.strip_prefix("VmHWM:"))?;
@@ -169,21 +170,22 @@ fn plural(number: usize, noun: &str) -> String {
     format!("{} {noun}{}", grouped(number), if number == 1 { "" } else { "s" })
 }
 
-/// A time in milliseconds or seconds.
+/// Formats a time in milliseconds or seconds.
 pub(crate) fn time(duration: Duration) -> String {
     let seconds = duration.as_secs_f64();
     if seconds < 1.0 { format!("{:.1} ms", seconds * 1e3) } else { format!("{seconds:.2} s") }
 }
 
-/// Whether a reader of standard output has gone away before it had everything.
+/// Set if the reader of standard output has closed the pipe before the end.
 static CLOSED: AtomicBool = AtomicBool::new(false);
 
-/// Whether something was left out on standard output, since its reader has gone away.
+/// Returns true if output was lost because the reader of standard output has closed the pipe.
 pub(crate) fn is_closed() -> bool {
     CLOSED.load(Ordering::Relaxed)
 }
 
-/// Standard output: a program gets everything as it is, a terminal all at once, with nothing that it would obey.
+/// Standard output. A pipe or file receives the output unchanged; a terminal receives it at once, with control
+/// characters escaped.
 pub(crate) enum StandardOutput {
     Program(StdoutLock<'static>),
     Terminal(Vec<u8>),
@@ -210,12 +212,12 @@ impl io::Write for StandardOutput {
     }
 }
 
-/// Writes to standard output. A reader that has gone away, as `head` does, wants no more and is told nothing.
+/// Writes to standard output. A reader that closes the pipe, as `head` does, causes no error.
 pub(crate) fn print(text: &str) -> Result<()> {
     print_all(|out| out.write_all(text.as_bytes()))
 }
 
-/// As [`print`], for what need not be in memory all at once.
+/// Writes to standard output as [`print`] does, for content that need not be in memory at once.
 pub(crate) fn print_all(
     content: impl FnOnce(&mut BufWriter<StandardOutput>) -> io::Result<()>,
 ) -> Result<()> {
@@ -235,7 +237,8 @@ pub(crate) fn print_all(
     }
 }
 
-/// Writes what a script prints, with control characters written out. On a terminal, it replaces the line of progress.
+/// Writes the output of a script's `print`, with control characters escaped. On a terminal, it replaces the progress
+/// line.
 pub(crate) fn printed(text: &str) {
     let text = escaped_lines(text);
     let line = match io::stderr().is_terminal() {

@@ -1,4 +1,4 @@
-//! `burgeon setup`: what an editor needs in a folder of scripts.
+//! `burgeon setup`: sets up an editor for a folder of scripts.
 
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
@@ -20,11 +20,11 @@ use super::shared::user_mods;
 /// that they declare
 #[derive(Args)]
 pub(crate) struct SetupCommand {
-    /// The folder with the scripts, which the editor opens
+    /// Folder of the scripts, which the editor opens
     #[arg(default_value = ".")]
     folder: PathBuf,
 
-    /// Prints one JSON document, for machines, in place of text for people
+    /// Prints machine-readable JSON instead of text
     #[arg(long)]
     json: bool,
 }
@@ -40,7 +40,7 @@ impl SetupCommand {
             return Err(Error::file(&self.folder, message).help("make the folder first"));
         }
         let packages = self.packages();
-        // Looked at first, so that nothing is written where one of them cannot be merged.
+        // Merge the files first, so that nothing is written if one of them cannot be merged.
         let merged = [
             (SETTINGS, merged_settings(read(&self.folder.join(SETTINGS))?.as_deref())),
             (LUAURC, merged_luaurc(read(&self.folder.join(LUAURC))?.as_deref(), &self.aliases(&packages))),
@@ -91,14 +91,14 @@ impl SetupCommand {
 }
 
 impl SetupCommand {
-    /// The packages that scripts of the folder can use.
+    /// Returns the packages that scripts of the folder can use.
     fn packages(&self) -> Packages {
         let search =
             PackageSearch { script: Some(self.folder.clone()), given: Vec::new(), user: user_mods() };
         Packages::find(&search, &api_version())
     }
 
-    /// For each package its name and where it is: those in the folder from there.
+    /// Returns the name and the path of each package; paths inside the folder are relative.
     fn aliases(&self, packages: &Packages) -> Vec<(String, String)> {
         let alias = |package: &Package| {
             let folder = match package.origin {
@@ -111,7 +111,7 @@ impl SetupCommand {
         packages.order().iter().map(alias).collect()
     }
 
-    /// The types of objects that the scripts of the folder and its packages declare, as far as they run.
+    /// Returns the object types that the scripts of the folder and its packages declare, as far as the scripts run.
     fn types(&self, packages: &Packages) -> Vec<Arc<Kind>> {
         let options = |mods: Vec<PathBuf>| {
             let inputs = RunInputs { mods, user_mods: user_mods(), ..RunInputs::default() };
@@ -127,7 +127,7 @@ impl SetupCommand {
             scripts.iter().flat_map(|script| burgeon::declared_types(script, options(Vec::new())));
         let beside = self.folder.join("mods");
         let of_packages = packages.order().iter().flat_map(|package| {
-            // What the folder of a package is called by is how its files are named.
+            // The displayed path of a package determines how its files are named.
             let mods = std::iter::once(package.shown.clone()).chain(beside.is_dir().then(|| beside.clone()));
             burgeon::declared_types_of_package(&package.shown, options(mods.collect()))
         });
@@ -135,13 +135,13 @@ impl SetupCommand {
     }
 }
 
-/// The most scripts of a folder that are looked through for types of objects.
+/// Maximum number of scripts of a folder that are searched for object types.
 const MOST: usize = 200;
 
-/// How long one of them may run for that.
+/// Time limit of one of these scripts.
 const LONGEST: Duration = Duration::from_secs(10);
 
-/// What is in a file; nothing if there is none.
+/// Reads a file; `None` if it does not exist.
 fn read(path: &Path) -> Result<Option<String>> {
     match std::fs::read_to_string(path) {
         Ok(text) => Ok(Some(text)),
@@ -151,7 +151,7 @@ fn read(path: &Path) -> Result<Option<String>> {
     }
 }
 
-/// Writes a file so that it appears whole or not at all.
+/// Writes a file completely or not at all.
 fn write(path: &Path, text: &str) -> Result<()> {
     let refuse = |error: std::io::Error| {
         Error::file(path, format!("cannot write {}: {error}", path.display())).help("choose another folder")

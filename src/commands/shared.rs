@@ -1,4 +1,4 @@
-//! Flags that several commands have.
+//! Flags of several commands.
 
 use std::path::{Path, PathBuf};
 use std::time::Duration;
@@ -12,7 +12,7 @@ use clap::{Args, ValueEnum};
 
 use super::report;
 
-/// How a script is run.
+/// Flags of commands that run a script.
 #[derive(Args)]
 pub(crate) struct ScriptFlags {
     /// The script, a Lua file
@@ -79,7 +79,7 @@ pub(crate) struct ScriptFlags {
           allow_negative_numbers = true, help_heading = "Limits")]
     triangle_limit: u32,
 
-    /// Modules that a thread takes at a time; the result does not depend on it
+    /// Number of modules that a thread processes at a time; does not affect the result
     #[arg(long, value_name = "N", default_value_t = 4096, hide = true)]
     batch: u32,
 
@@ -93,13 +93,14 @@ pub(crate) struct ScriptFlags {
 }
 
 impl ScriptFlags {
-    /// The files that decide what is made even if the script cannot be read.
+    /// Returns the files that affect the result even if the script cannot be read.
     pub(crate) fn files(&self) -> Vec<PathBuf> {
         let presets = self.preset.as_ref().and_then(|name| Some(self.presets(name).ok()?.0));
         std::iter::once(&self.script).chain(&self.stdlib).cloned().chain(presets).collect()
     }
 
-    /// The file that the preset `name` is in, and its name there: `@castle/grand` is in the presets.json of a package.
+    /// Returns the file of the preset `name`, and its name in the file: `@castle/grand` is in the presets.json of a
+    /// package.
     fn presets(&self, name: &str) -> Result<(PathBuf, String)> {
         if !FileName::is_meant(name) {
             return Ok((Presets::path_of(&self.script), name.to_owned()));
@@ -116,10 +117,10 @@ impl ScriptFlags {
         Ok((located.shown, meant.path))
     }
 
-    /// How to run the script. Fails if there is no such preset.
+    /// Returns the run options. Fails if the preset does not exist.
     pub(crate) fn options(&self) -> Result<RunOptions> {
         let preset = match &self.preset {
-            // A script that is not there is told of by the run.
+            // The run reports a missing script.
             Some(name) if self.script.is_file() => {
                 let (path, inner) = self.presets(name)?;
                 let preset = Presets::read_file(&path)?.get(&inner)?.clone();
@@ -160,7 +161,7 @@ impl ScriptFlags {
     }
 }
 
-/// The user's folder of packages, which need not be there.
+/// Returns the user's packages folder, which need not exist.
 pub(crate) fn user_mods() -> Option<PathBuf> {
     let set = |name: &str| std::env::var_os(name).filter(|value| !value.is_empty()).map(PathBuf::from);
     let home = || set("HOME").map(|home| home.join(".local/share"));
@@ -168,7 +169,7 @@ pub(crate) fn user_mods() -> Option<PathBuf> {
     data.map(|folder| folder.join("burgeon/mods"))
 }
 
-/// How a picture is taken, but for its size.
+/// Flags of a render, except its size.
 #[derive(Args)]
 pub(crate) struct PictureFlags {
     /// Where the camera stands: 0 is north, 90 east (degrees) [default: by the model]
@@ -188,7 +189,7 @@ pub(crate) struct PictureFlags {
     background: BackgroundFlag,
 }
 
-/// Reads `X,Y,Z,M`.
+/// Parses `X,Y,Z,M`.
 fn look(text: &str) -> std::result::Result<ViewBall, String> {
     let numbers: Vec<f64> = text
         .split(',')
@@ -229,7 +230,7 @@ impl PictureFlags {
     }
 }
 
-/// Calls `ended` when the user interrupts; if the program is still there soon after, it ends as it is.
+/// Calls `ended` when the user interrupts the program. If the program is still running 0.5 s later, it exits.
 pub(crate) fn on_interrupt(ended: impl Fn() + Send + 'static) -> Result<()> {
     ctrlc::set_handler(move || {
         ended();
@@ -240,7 +241,7 @@ pub(crate) fn on_interrupt(ended: impl Fn() + Send + 'static) -> Result<()> {
     .map_err(deaf)
 }
 
-/// Ends the program when the user or the system asks for it, and leaves nothing half written.
+/// Exits the program on an interrupt by the user or the system, without leaving incomplete files.
 pub(crate) fn end_on_interrupt() -> Result<()> {
     ctrlc::set_handler(|| {
         burgeon::export::abandon();
@@ -249,7 +250,7 @@ pub(crate) fn end_on_interrupt() -> Result<()> {
     .map_err(deaf)
 }
 
-/// What shells take for the end by an interrupt.
+/// Exit status that shells use for an interrupt.
 const INTERRUPTED: i32 = 130;
 
 fn deaf(error: ctrlc::Error) -> Error {

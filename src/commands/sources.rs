@@ -1,4 +1,4 @@
-//! `burgeon sources`: what data files hold.
+//! `burgeon sources`: lists the content of data files.
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -25,12 +25,12 @@ pub(crate) struct SourcesCommand {
           allow_negative_numbers = true, help_heading = "Limits")]
     time_limit: f64,
 
-    /// Memory that reading may take
+    /// Memory limit for reading
     #[arg(long, value_name = "MEGABYTES", default_value_t = 2048, value_parser = megabytes,
           allow_negative_numbers = true, help_heading = "Limits")]
     memory_limit: u32,
 
-    /// Prints one JSON document, for machines, in place of text for people
+    /// Prints machine-readable JSON instead of text
     #[arg(long)]
     json: bool,
 }
@@ -65,7 +65,7 @@ impl SourcesCommand {
     }
 }
 
-/// What a file, or the database at an address, holds.
+/// Lists the content of a file, or of the database at an address.
 fn listing(file: &Path, budget: &Arc<Budget>) -> Result<Listing> {
     match file.to_str() {
         Some(text) if text.starts_with("postgres://") || text.starts_with("postgresql://") => {

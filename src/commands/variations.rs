@@ -1,4 +1,4 @@
-//! `burgeon variations`: a contact sheet of many runs.
+//! `burgeon variations`: renders a contact sheet of many runs.
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -23,27 +23,27 @@ pub(crate) struct VariationsCommand {
     #[command(flatten)]
     script: ScriptFlags,
 
-    /// The seeds: 1..16, or 3,7,12
+    /// Seeds: 1..16, or 3,7,12
     #[arg(long, value_name = "SEEDS", value_parser = seeds, group = "over", allow_hyphen_values = true)]
     seeds: Option<VariationAxis>,
 
-    /// A parameter and its values: twist=0..90:10 in steps of 10, kind=a,b,c, or kind for every choice
+    /// Parameter and its values: twist=0..90:10 in steps of 10, kind=a,b,c, or kind for every choice
     #[arg(long, value_name = "NAME=VALUES", value_parser = sweep, group = "over")]
     sweep: Option<VariationAxis>,
 
-    /// The contact sheet, a .png file
+    /// Contact sheet, a .png file
     #[arg(short, long, value_name = "FILE", value_parser = output, required = true)]
     output: PathBuf,
 
-    /// Variations in a row [default: as many as look well]
+    /// Number of variations in a row [default: automatic]
     #[arg(long, value_name = "N", value_parser = columns, allow_negative_numbers = true)]
     columns: Option<usize>,
 
-    /// How the pictures go together
+    /// Camera of the cells
     #[arg(long, value_enum, default_value_t = FramingFlag::All, help_heading = "Pictures")]
     fit: FramingFlag,
 
-    /// Width and height of a cell in pixels
+    /// Width and height of a cell (pixels)
     #[arg(long, value_name = "WIDTHxHEIGHT", value_parser = size, default_value = "320x320", help_heading = "Pictures")]
     size: (u32, u32),
 
@@ -53,9 +53,9 @@ pub(crate) struct VariationsCommand {
 
 #[derive(Clone, Copy, ValueEnum)]
 enum FramingFlag {
-    /// One camera for all: what looks larger is larger
+    /// Common camera of all cells, so that sizes can be compared
     All,
-    /// Each model fills its cell
+    /// Separate cameras: each model fills its cell
     Each,
 }
 
@@ -124,7 +124,7 @@ impl VariationsCommand {
                 report::error(error, false);
             }
         }
-        // Most cells have the same ones.
+        // Most cells have the same warnings.
         let mut warnings: Vec<&Warning> = Vec::new();
         for warning in cells.iter().filter_map(|cell| cell.made.as_ref().ok()).flat_map(|made| &made.warnings)
         {
@@ -144,7 +144,7 @@ impl VariationsCommand {
     }
 }
 
-/// If nothing is left to be shown, the reasons become one error.
+/// Combines the errors into one if all variations failed.
 fn refuse_if_all_failed(cells: &[Variation]) -> Result<()> {
     let mut errors: Vec<(Error, String)> = Vec::new();
     for cell in cells {
@@ -154,7 +154,7 @@ fn refuse_if_all_failed(cells: &[Variation]) -> Result<()> {
             errors.push((error.clone(), text));
         }
     }
-    // Many runs fail in the same way, with other numbers in the text.
+    // Many runs fail in the same way, with different numbers in the message.
     errors.truncate(5);
     Err(Error::several(
         errors
@@ -164,7 +164,7 @@ fn refuse_if_all_failed(cells: &[Variation]) -> Result<()> {
     ))
 }
 
-/// What a cell without a picture says.
+/// Returns the text of a cell without a render.
 fn failure_text(cell: &Variation) -> String {
     match &cell.made {
         Ok(_) => String::new(),

@@ -264,7 +264,7 @@ fn each_member_has_a_front_page_that_says_what_comes_in_what_goes_out_and_what_i
     for member in members() {
         let front = text(format!("crates/{member}/src/lib.rs"));
         let page: String = front.lines().map_while(|line| line.strip_prefix("//!")).collect();
-        for words in ["Comes in: ", "Goes out: ", " never "] {
+        for words in ["Input: ", "Output: ", " never "] {
             assert!(page.contains(words), "crates/{member}/src/lib.rs does not say what {words:?}");
         }
     }

@@ -1,4 +1,4 @@
-//! What every network keeps, whatever its pattern and seed, looked at pair by pair in whole numbers.
+//! Invariants of every network, for any pattern and seed, tested for all pairs of segments in integers.
 
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -7,7 +7,7 @@ use burgeon::objects::Network;
 use burgeon::script::RunOptions;
 use glam::{DVec2, DVec3};
 
-/// The patterns of `scripts/roads.lua`, and how far (m) their dead ends are joined.
+/// Patterns of `scripts/roads.lua`, with the search radius (m) for joining their dead ends.
 pub(crate) const PATTERNS: [(&str, f64); 7] = [
     ("organic", 30.0),
     ("raster", 40.0),
@@ -17,10 +17,10 @@ pub(crate) const PATTERNS: [(&str, f64); 7] = [
     ("districts", 40.0),
     ("centres", 30.0),
 ];
-/// How much longer than a joint the way along the streets has to be.
+/// Minimum ratio of the path along the streets to the length of a joining street.
 pub(crate) const DETOUR: f64 = 2.5;
 
-/// The network that a script grows.
+/// Returns the network that a script grows.
 pub(crate) fn grown(script: &str, seed: u64, set: &[(&str, &str)]) -> Network {
     let path = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("scripts").join(script);
     let set: Vec<_> = set.iter().map(|(name, value)| ((*name).to_owned(), (*value).to_owned())).collect();
@@ -32,7 +32,7 @@ pub(crate) fn grown(script: &str, seed: u64, set: &[(&str, &str)]) -> Network {
 
 pub(crate) type Whole = (i128, i128);
 
-/// A place in steps of the grid, exactly.
+/// Returns the exact position in grid steps.
 #[allow(clippy::cast_possible_truncation, reason = "places are on the grid, and within 2^30 steps")]
 pub(crate) fn whole(at: DVec2) -> Whole {
     let steps = at * 1024.0;
@@ -44,7 +44,7 @@ pub(crate) fn side(a: Whole, b: Whole, c: Whole) -> i128 {
     ((b.0 - a.0) * (c.1 - a.1) - (b.1 - a.1) * (c.0 - a.0)).signum()
 }
 
-/// Whether two pieces have a place in common.
+/// Returns true if two segments share a point.
 pub(crate) fn meet([a, b]: [Whole; 2], [c, d]: [Whole; 2]) -> bool {
     let within = |a: Whole, b: Whole, p: Whole| {
         a.0.min(b.0) <= p.0 && p.0 <= a.0.max(b.0) && a.1.min(b.1) <= p.1 && p.1 <= a.1.max(b.1)
@@ -57,8 +57,8 @@ pub(crate) fn meet([a, b]: [Whole; 2], [c, d]: [Whole; 2]) -> bool {
         || of_b == 0 && within(c, d, b)
 }
 
-/// Asserts that no street crosses another but at a junction, that junctions keep their angle, that the network is one, that
-/// no dead end is left that could be joined, and that areas add up.
+/// Asserts that streets meet only at junctions, that junctions keep their minimum angle, that the network is connected,
+/// that no dead end remains that could be joined, and that areas add up.
 pub(crate) fn check(grown: &Network, radius: f64, about: &str) {
     let network = grown.network();
     let pieces: Vec<_> =
@@ -84,10 +84,10 @@ pub(crate) fn check(grown: &Network, radius: f64, about: &str) {
     assert_eq!(network.components(), 1, "{about}: parts");
     let (left, joinable) = (grown.dead_ends(), grown.joinable(Some(radius), Some(DETOUR)).expect("a radius"));
     assert_eq!(joinable, 0, "{about}: {joinable} of {left} dead ends could be joined");
-    // Euler: vertices and faces with the outside are edges and 2.
+    // Euler's formula: vertices plus faces, including the outside, equals edges plus 2.
     let there = network.junctions().iter().filter(|junction| junction.degree() > 0).count();
     assert_eq!(there + network.faces().len() + 1, network.size() + 2, "{about}: faces");
-    // Streets, blocks and what lies around them fill the plane.
+    // Streets, blocks and the outside fill the plane.
     let surfaces = network.surfaces(Default::default(), &Default::default());
     let twice = |ring: &[DVec3]| -> f64 {
         let first = ring[0];

@@ -1,4 +1,5 @@
-//! What whole towns keep with any seed: buildings off the streets and off one another, lots on streets, one network.
+//! Invariants of whole towns for any seed: buildings overlap neither streets nor each other, lots have street fronts,
+//! and the network is connected.
 
 use std::path::PathBuf;
 
@@ -9,14 +10,14 @@ use glam::{DVec2, DVec3};
 
 use crate::check::{Whole, meet, side, whole};
 
-/// A script of a town: how far its dead ends are joined (m), how much longer the way along the streets has to be, and a small
-/// town of its kind.
+/// Script of a town, with the search radius (m) and the minimum detour ratio for joining its dead ends, and the
+/// parameters of a small town of its type.
 pub(crate) struct Town {
     pub(crate) script: &'static str,
     joint: (f64, f64),
-    /// The radius (m) of its turning circles.
+    /// Radius (m) of its turning circles.
     turning: f64,
-    /// How many seeds the tests look at.
+    /// Number of seeds that the tests examine.
     #[allow(dead_code, reason = "the bench has its own")]
     pub(crate) seeds: u64,
     set: &'static [(&'static str, &'static str)],
@@ -53,40 +54,41 @@ pub(crate) const TOWNS: [Town; 4] = [
     },
 ];
 
-/// What was counted in a town.
+/// Counts in a town.
 #[derive(Debug, Default)]
 pub(crate) struct TownFigures {
     pub(crate) buildings: usize,
-    /// Pairs of buildings that have a place in common.
+    /// Pairs of buildings that intersect.
     pub(crate) overlaps: usize,
-    /// Buildings that have a place in common with a carriageway or a sidewalk.
+    /// Buildings that intersect a carriageway or a sidewalk.
     pub(crate) on_street: usize,
     pub(crate) pieces: usize,
-    /// Pairs of streets that have a place in common without a junction.
+    /// Pairs of streets that share a point without a junction.
     pub(crate) crossings: usize,
-    /// The least angle (degrees) at a junction less what the script asks for.
+    /// Minimum angle (degrees) at a junction, minus the minimum that the script requires.
     pub(crate) angle: f64,
     pub(crate) components: usize,
     pub(crate) dead_ends: usize,
     /// Dead ends that could be joined.
     pub(crate) joinable: u32,
     pub(crate) lots: usize,
-    /// Lots to be built on without a front on a street.
+    /// Building lots without a front on a street.
     pub(crate) landlocked: usize,
-    /// By how much the areas of lots differ from that of their blocks, and those of blocks and streets from what they fill, as a part
-    /// of the whole.
+    /// Relative difference between the areas of lots and of their blocks, and between the areas of blocks and streets
+    /// and of the region that they fill.
     pub(crate) area: f64,
-    /// The rank correlation of the heights of buildings with the depth of their street, where the script tells of both.
+    /// Rank correlation between the heights of buildings and the hierarchy depth of their street, if the script
+    /// provides both.
     pub(crate) correlation: Option<f64>,
 }
 
 impl TownFigures {
-    /// The share of what could be joined and is no dead end.
+    /// Returns the fraction of dead ends that cannot be joined; 1 if none can be joined.
     pub(crate) fn joined(&self) -> f64 {
         if self.joinable == 0 { 1.0 } else { 1.0 - f64::from(self.joinable) / self.dead_ends.max(1) as f64 }
     }
 
-    /// What a town is to keep and does not.
+    /// Returns the first violated invariant of a town.
     pub(crate) fn fault(&self) -> Option<&'static str> {
         let faults = [
             (self.pieces < 6 || self.buildings < 6, "hardly anything is there"),
@@ -104,14 +106,14 @@ impl TownFigures {
 }
 
 impl Town {
-    /// The script, and what was asked of it.
+    /// Returns the script's name with its parameters.
     pub(crate) fn name(&self) -> String {
         let set = self.set.iter().filter(|(name, _)| !["detail", "trees"].contains(name));
         set.fold(self.script.to_owned(), |name, (option, value)| format!("{name} {option}={value}"))
     }
 }
 
-/// A ring in whole steps of 2^-40 m, and the box around it.
+/// Ring in integer steps of 2^-40 m, with its bounding box.
 struct Outline {
     ring: Vec<Whole>,
     low: Whole,
@@ -136,7 +138,7 @@ impl Outline {
         (0..self.ring.len()).map(|index| [self.ring[index], self.ring[(index + 1) % self.ring.len()]])
     }
 
-    /// Whether a place is inside, and not on the border.
+    /// Returns true if a position is inside, and not on the border.
     fn holds(&self, at: Whole) -> bool {
         let on = |[a, b]: [Whole; 2]| {
             side(a, b, at) == 0
@@ -152,7 +154,7 @@ impl Outline {
         crossed.count() % 2 == 1 && !self.edges().any(on)
     }
 
-    /// A place inside, beside its lowest corner.
+    /// Returns a position inside, next to the lowest corner.
     fn inner(&self) -> Whole {
         let count = self.ring.len();
         let lowest = (0..count).min_by_key(|index| (self.ring[*index].1, self.ring[*index].0)).unwrap_or(0);
@@ -161,7 +163,7 @@ impl Outline {
         (near(before.0, at.0, after.0), near(before.1, at.1, after.1))
     }
 
-    /// Whether both have an area in common.
+    /// Returns true if the interiors intersect.
     fn overlaps(&self, other: &Self) -> bool {
         if self.low.0 > other.high.0
             || other.low.0 > self.high.0
@@ -180,7 +182,7 @@ impl Outline {
     }
 }
 
-/// The pairs of outlines of two lists, or of one, that have an area in common.
+/// Returns the pairs of outlines of two lists, or of one, whose interiors intersect.
 fn overlapping(one: &[Outline], two: Option<&[Outline]>) -> Vec<(usize, usize)> {
     let mut order: Vec<usize> = (0..two.unwrap_or(one).len()).collect();
     let others = two.unwrap_or(one);
@@ -198,7 +200,7 @@ fn overlapping(one: &[Outline], two: Option<&[Outline]>) -> Vec<(usize, usize)> 
     found
 }
 
-/// The surfaces of streets from above: carriageways, medians and sidewalks, in triangles, and the sum of their areas (m²).
+/// Returns the surfaces of streets from above as triangles: carriageways, medians and sidewalks.
 fn street_surfaces(network: &StreetNetwork, options: SurfaceOptions) -> Vec<[DVec2; 3]> {
     let surfaces = network.surfaces(options, &Default::default());
     let medians = surfaces.medians.iter().map(|median| &median.top);
@@ -221,7 +223,7 @@ fn area(ring: &[DVec2]) -> f64 {
     ring.windows(2).map(|pair| (pair[0] - ring[0]).perp_dot(pair[1] - ring[0])).sum::<f64>() / 2.0
 }
 
-/// The rank correlation of pairs (C. Spearman, 1904); equal values have the mean of their ranks.
+/// Computes the rank correlation of pairs (C. Spearman, 1904); equal values have the mean of their ranks.
 fn rank_correlation(pairs: &[(f64, f64)]) -> f64 {
     let ranks = |values: Vec<f64>| -> Vec<f64> {
         let below = |value: f64| values.iter().filter(|other| **other < value).count() as f64;
@@ -236,7 +238,7 @@ fn rank_correlation(pairs: &[(f64, f64)]) -> f64 {
     product(&one, &two) / (product(&one, &one) * product(&two, &two)).sqrt()
 }
 
-/// Counts all of it in the town that a script makes, which reaches as far as it does for its kind unless an `extent` is given.
+/// Counts all figures in the town of a script; its extent is that of the script's small town unless `extent` is given.
 pub(crate) fn figures(town: &Town, seed: u64, extent: Option<&str>) -> TownFigures {
     let path = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("scripts").join(town.script);
     let mut set: Vec<_> =
@@ -280,7 +282,7 @@ pub(crate) fn figures(town: &Town, seed: u64, extent: Option<&str>) -> TownFigur
     }
     figures.angle = least - network.constraints().least_angle();
 
-    // Buildings: those that stand on others are inside of them.
+    // Buildings: those on top of others are inside them.
     let footprints: Vec<&Footprint> =
         objects().filter_map(|object| object.downcast_ref::<Footprint>()).collect();
     let is_lowest = |it: &&Footprint| match it.attribute("tier".into()) {
@@ -312,7 +314,7 @@ pub(crate) fn figures(town: &Town, seed: u64, extent: Option<&str>) -> TownFigur
         .collect();
     figures.correlation = (pairs.len() > 2).then(|| rank_correlation(&pairs));
 
-    // Lots of all kinds, and areas.
+    // Lots of all uses, and areas.
     let blocks = network.lot_blocks(options);
     let of = |rings: &[Vec<DVec2>]| rings.iter().map(|ring| area(ring)).sum::<f64>();
     let of_blocks: f64 = blocks.iter().map(|block| of(&block.rings)).sum();
@@ -333,7 +335,7 @@ pub(crate) fn figures(town: &Town, seed: u64, extent: Option<&str>) -> TownFigur
         let of_lots: f64 = lots.iter().map(|lot| lot.area).sum();
         figures.area = figures.area.max((of_lots - of_blocks).abs() / of_blocks.max(1.0));
     }
-    // Streets, blocks and what lies around them fill the plane: the outer border of the walks encloses both.
+    // Streets, blocks and the outside fill the plane: the outer border of the sidewalks encloses streets and blocks.
     let walks = network.surfaces(options, &Default::default()).sidewalks;
     let flat = |ring: &[DVec3]| ring.iter().map(|at| at.truncate()).collect::<Vec<DVec2>>();
     let outside: f64 = walks.iter().map(|walk| area(&flat(&walk.edge))).filter(|area| *area < 0.0).sum();

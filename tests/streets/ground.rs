@@ -1,4 +1,4 @@
-//! Streets on hilly ground: sidewalks meet it, as it is queried and as it is shown.
+//! Streets on hilly terrain: sidewalks meet both the queried and the displayed terrain.
 
 use std::path::PathBuf;
 
@@ -8,10 +8,10 @@ use burgeon::scene::{Mesh, Scene};
 use burgeon::script::RunOptions;
 use glam::{DVec2, DVec3};
 
-/// How far (m) outside of the sidewalk the ground is looked at.
+/// Distance (m) outside the sidewalk at which the terrain is sampled.
 const BESIDE: f64 = 0.1;
 
-/// The triangles of the ground that is shown, by square.
+/// Triangles of the displayed terrain, by square.
 struct ShownGround {
     squares: std::collections::HashMap<[i64; 2], Vec<[DVec3; 3]>>,
 }
@@ -19,13 +19,13 @@ struct ShownGround {
 const SQUARE: f64 = 4.0;
 
 impl ShownGround {
-    /// Those of the meshes of the terrain.
+    /// Collects the triangles of the terrain's meshes.
     #[allow(clippy::cast_possible_truncation, reason = "places of a town")]
     fn new(scene: &Scene) -> Self {
         let mut squares: std::collections::HashMap<[i64; 2], Vec<[DVec3; 3]>> = Default::default();
         for instance in &scene.instances {
             let mesh: &Mesh = &scene.meshes[instance.mesh];
-            // A tile is called by its level, row and column.
+            // The name of a tile consists of its level, row and column.
             if mesh.name.split(' ').next_back().is_none_or(|place| place.split('/').count() != 3) {
                 continue;
             }
@@ -47,7 +47,7 @@ impl ShownGround {
         Self { squares }
     }
 
-    /// The height (m) of the ground at a place; none where none is shown.
+    /// Returns the height (m) of the terrain at a position; `None` where no terrain is displayed.
     #[allow(clippy::cast_possible_truncation, reason = "places of a town")]
     fn height(&self, at: DVec2) -> Option<f64> {
         let square = [(at.x / SQUARE).floor() as i64, (at.y / SQUARE).floor() as i64];
@@ -61,8 +61,8 @@ impl ShownGround {
     }
 }
 
-/// How far sidewalks are above the ground just outside: as it is queried, and as it is shown; and at how many places the
-/// ground is shown within streets.
+/// Heights of sidewalks above the terrain just outside, as queried and as displayed; and the number of positions at
+/// which the terrain is displayed within streets.
 #[derive(Default)]
 struct Floats {
     queried: Vec<f64>,
@@ -109,7 +109,7 @@ fn measured(script: &str, seed: u64, set: &[(&str, &str)], floats: &mut Floats) 
                     let sidewalk = height(at(half));
                     let ground = land.height(Vector(outside.extend(0.0))).expect("a height");
                     floats.queried.push(sidewalk - ground);
-                    // Nothing is shown where there is a hole.
+                    // A hole in the terrain has no height.
                     floats
                         .shown
                         .push(shown.height(outside).map_or(f64::INFINITY, |ground| sidewalk - ground));
@@ -123,7 +123,7 @@ fn measured(script: &str, seed: u64, set: &[(&str, &str)], floats: &mut Floats) 
     }
 }
 
-/// The median, the 95th percentile and the greatest of the absolute values.
+/// Returns the median, the 95th percentile and the maximum of the absolute values.
 fn spread(floats: &mut [f64]) -> [f64; 3] {
     floats.iter_mut().for_each(|float| *float = float.abs());
     floats.sort_by(f64::total_cmp);

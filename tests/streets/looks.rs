@@ -1,4 +1,4 @@
-//! What towns that nobody planned look like: measures of those that grow, beside real ones taken by the same code.
+//! Appearance of organically grown towns: measures of generated and of real networks, computed by the same code.
 
 use std::path::Path;
 
@@ -6,11 +6,11 @@ use burgeon::sources::{Attribute, Source, SourceOptions};
 use burgeon_streets::StreetNetwork;
 use glam::DVec2;
 
-/// How far (m) the towns reach, and how many rings of the same width their density is taken in.
+/// Radius (m) of the towns, and the number of rings of equal width for measuring their density.
 pub(crate) const REACH: f64 = 1000.0;
 pub(crate) const RINGS: usize = 4;
 
-/// The names of the measures, in the order of [`looks`].
+/// Names of the measures, in the order of [`looks`].
 pub(crate) const NAMES: [&str; 16] = [
     "degree",
     "dead ends",
@@ -30,9 +30,9 @@ pub(crate) const NAMES: [&str; 16] = [
     "knots",
 ];
 
-/// Bounds of the mean of each measure over many seeds: as in London, Monaco and Helsinki. Areas are in m², density is in km/km²,
-/// and zigzags are on each kilometre. Blocks spread less than in Helsinki (0.64) and Monaco (0.74), which have islands between
-/// carriageways and harbours.
+/// Bounds of the mean of each measure over many seeds, as in London, Monaco and Helsinki. Areas are in m², density is
+/// in km/km², and zigzags are per kilometre. Block areas vary less than in Helsinki (0.64) and Monaco (0.74), which
+/// have islands between carriageways and harbours.
 pub(crate) const MEANS: [[f64; 2]; 16] = [
     [2.55, 2.9],
     [0.12, 0.25],
@@ -52,7 +52,7 @@ pub(crate) const MEANS: [[f64; 2]; 16] = [
     [0.0, 0.07],
 ];
 
-/// Bounds of the measures of each single town, in which few streets change much.
+/// Bounds of the measures of each single town, in which a few streets have a large effect.
 pub(crate) const EACH: [[f64; 2]; 16] = [
     [2.4, 3.05],
     [0.06, 0.34],
@@ -72,7 +72,8 @@ pub(crate) const EACH: [[f64; 2]; 16] = [
     [0.0, 0.07],
 ];
 
-/// The measures of a network; its decline, from one ring around the middle to the next, is the greatest quotient.
+/// Returns the measures of a network; its decline is the maximum ratio of densities from one ring around the centre to
+/// the next.
 pub(crate) fn looks(network: &StreetNetwork) -> [f64; 16] {
     let of = network.measures();
     let [ends, three, four] = of.shares;
@@ -98,14 +99,15 @@ pub(crate) fn looks(network: &StreetNetwork) -> [f64; 16] {
     ]
 }
 
-/// Lists the measures outside of their bounds.
+/// Lists the measures outside their bounds.
 pub(crate) fn faults(of: &[f64; 16], bounds: &[[f64; 2]; 16]) -> Vec<String> {
     let all = NAMES.iter().zip(of).zip(bounds);
     let wrong = all.filter(|((_, value), [least, most])| !(least..=most).contains(value));
     wrong.map(|((name, value), [least, most])| format!("{name} {value:.3}, not {least} to {most}")).collect()
 }
 
-/// The streets of a real town, those for cars without ways to single houses; tells that it is left out where its data is not there.
+/// Returns the streets of a real town for motor vehicles, without access to single houses; prints that the test is
+/// skipped if the data is missing.
 pub(crate) fn real(file: &str) -> Option<StreetNetwork> {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../shared/data").join(file);
     if !path.is_file() {
@@ -127,7 +129,7 @@ pub(crate) fn real(file: &str) -> Option<StreetNetwork> {
     let lines =
         streets.map(|street| street.geometry.points().map(|at| at.truncate()).collect::<Vec<DVec2>>());
     let lines: Vec<Vec<DVec2>> = lines.collect();
-    // Measures are the same anywhere, and streets are near the origin.
+    // Measures do not depend on the position, and streets must be near the origin.
     let origin = lines.iter().flatten().next().copied().unwrap_or_default();
     let lines: Vec<Vec<DVec2>> =
         lines.iter().map(|line| line.iter().map(|at| *at - origin).collect()).collect();

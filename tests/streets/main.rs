@@ -1,6 +1,6 @@
-//! Networks that the patterns of the library grow: what each keeps with any seed, and what they are like together.
+//! Networks grown by the patterns of the library: their invariants for any seed, and their statistics.
 //!
-//! `cargo bench --bench streets` looks at 200 seeds of each.
+//! `cargo bench --bench streets` examines 200 seeds of each pattern.
 
 mod check;
 mod cities;
@@ -14,8 +14,8 @@ use check::{PATTERNS, check, grown};
 use cities::{TOWNS, figures};
 use looks::{EACH, MEANS, faults, looks, real};
 
-/// The mean of each measure over some seeds of a pattern: degree, shares of dead ends, of 3 and of 4 streets, circuity,
-/// meshedness, orientation order.
+/// Returns the mean of each measure over some seeds of a pattern: degree, fractions of dead ends and of junctions of 3
+/// and of 4 streets, circuity, meshedness, orientation order, and spread of block areas.
 fn means(pattern: &str, seeds: u64) -> [f64; 8] {
     let mut sums = [0.0; 8];
     for seed in 1..=seeds {
@@ -86,7 +86,7 @@ fn towns_that_nobody_planned_look_like_real_ones() {
 
 #[test]
 fn measures_of_real_towns_are_those_that_other_programs_take() {
-    // With Shapely: density, largest block, median block and spread of Helsinki and Monaco.
+    // Computed with Shapely: density, largest block, median block and spread of Helsinki and Monaco.
     for (file, [density, largest, block, spread]) in [
         ("helsinki.gpkg", [23.6, 162_146.0, 7000.0, 0.637]),
         ("monaco.gpkg", [41.7, 163_906.0, 1243.0, 0.738]),
@@ -102,7 +102,7 @@ fn measures_of_real_towns_are_those_that_other_programs_take() {
 
 #[test]
 fn rasters_and_rings_are_like_the_streets_of_new_cities() {
-    // Vancouver, whose streets rings and rays are as well; the order of Chicago.
+    // Bounds as in Vancouver for both patterns; the raster's orientation order is as in Chicago.
     for (pattern, ordered) in [("raster", 0.75..=1.0), ("radial", 0.0..=0.2)] {
         let [degree, ends, three, four, circuity, meshedness, order, spread] = means(pattern, 6);
         assert!((3.1..3.4).contains(&degree), "{pattern}: degree {degree}");
@@ -132,7 +132,7 @@ fn ten_seeds_are_ten_towns() {
     }
 }
 
-/// What a line of a script that uses the library is refused with.
+/// Returns the error for a line of a script that uses the library.
 fn refused(line: &str) -> String {
     let folder = tempfile::tempdir().expect("a folder");
     let library = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("scripts/templates");

@@ -1,4 +1,4 @@
-//! Words of every kind: each street that a word asks for is there, or a warning says why not.
+//! Tests with words of all types: each street in a word is built, or a warning reports why not.
 
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -6,7 +6,7 @@ use std::sync::Arc;
 use burgeon::objects::Network;
 use burgeon::script::RunOptions;
 
-/// A generator of numbers: xorshift.
+/// Random number generator (xorshift).
 struct Numbers(u64);
 
 impl Numbers {
@@ -22,7 +22,7 @@ impl Numbers {
     }
 }
 
-/// A word of F, X, turns, branches, and now and then a symbol without a meaning.
+/// Returns a word of F, X, turns, branches, and occasionally a symbol without meaning.
 fn word(random: &mut Numbers, depth: u32) -> String {
     let mut word = String::new();
     for _ in 0..2 + random.below(4) {
@@ -40,7 +40,7 @@ fn word(random: &mut Numbers, depth: u32) -> String {
     word
 }
 
-/// How many F there are when X has become `word` so many times.
+/// Returns the number of F after X has been replaced by `word` in each iteration.
 fn streets(axiom: &str, word: &str, iterations: u32) -> u64 {
     let count = |text: &str, symbol: char| text.chars().filter(|other| *other == symbol).count() as u64;
     let (mut built, mut open) = (count(axiom, 'F'), count(axiom, 'X'));
@@ -51,7 +51,7 @@ fn streets(axiom: &str, word: &str, iterations: u32) -> u64 {
     built
 }
 
-/// The numbers of a warning: streets that were added, all of them, refused, beyond a refused one, and repeated.
+/// Returns the numbers in a warning: streets added, all streets, refused, beyond a refused street, and repeated.
 fn told(text: &str) -> [u64; 5] {
     let number = |before: &str, after: &str| -> u64 {
         let Some(end) = text.find(after) else { return 0 };
@@ -70,7 +70,7 @@ fn told(text: &str) -> [u64; 5] {
         number(" ", " lie beyond"),
         number(" ", " repeat a street"),
     ];
-    // Each reason has a count and a place.
+    // Each reason has a count and a position.
     let reasons = text.split("): ").next().unwrap_or(text);
     let reasons: u64 = reasons
         .match_indices(" (")

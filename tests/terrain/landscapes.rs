@@ -1,11 +1,11 @@
-//! Landscapes of the shipped script: of any kind, size and seed, in few cells.
+//! Checks of the shipped landscape script, for all kinds, sizes and seeds, with few cells.
 
 use std::path::Path;
 
 use burgeon::WarningKind;
 use burgeon::script::RunOptions;
 
-/// The kinds, and where their water stands, as a part of the size.
+/// Kinds, with the height of their water as a fraction of the size.
 pub(crate) const KINDS: [(&str, Option<f64>); 5] = [
     ("mountains", None),
     ("hills", Some(-0.009)),
@@ -14,10 +14,10 @@ pub(crate) const KINDS: [(&str, Option<f64>); 5] = [
     ("plain", Some(-0.0035)),
 ];
 
-/// Lengths (m) of a side.
+/// Side lengths (m).
 pub(crate) const SIZES: [u32; 3] = [500, 3000, 50_000];
 
-/// Runs a landscape, and says how many trees it has. What is wrong is said: an error, a warning, or a tree in the sea.
+/// Runs a landscape, and returns its number of trees. Fails with an error, a warning, or a tree in the sea.
 pub(crate) fn check(kind: &str, size: u32, seed: u64) -> Result<usize, String> {
     let script = Path::new(env!("CARGO_MANIFEST_DIR")).join("scripts/landscape.lua");
     let set = [
@@ -26,21 +26,21 @@ pub(crate) fn check(kind: &str, size: u32, seed: u64) -> Result<usize, String> {
         ("levels", "5".into()),
         ("rough", "2".into()),
     ];
-    // So many trees are seen in an eighth of the time.
+    // Large landscapes without trees take an eighth of the time.
     let trees = if size > 3000 { "false" } else { "true" };
     let set = set.into_iter().chain([("trees", trees.into())]).map(|(name, value)| (name.to_owned(), value));
     let options =
         RunOptions { params: set.collect::<Vec<_>>().into(), seed, threads: Some(1), ..burgeon::options() };
     let told = |what: String| format!("kind={kind} size={size} seed={seed}: {what}");
     let run = burgeon::run(&script, options).map_err(|error| told(error.to_string()))?;
-    // In so few cells a spring may be beside the shore, where no river begins.
+    // With so few cells, a spring may be next to the shore, where no river can start.
     let warning = run.warnings.iter().find(|warning| warning.kind() != WarningKind::DrawsNothing);
     if let Some(warning) = warning {
         return Err(told(warning.to_string()));
     }
     let level = KINDS.iter().find(|(known, _)| *known == kind).and_then(|(_, level)| *level);
     let mut trees = 0;
-    // Trees alone are models that were placed.
+    // Trees are the only placed models.
     for tree in run.scene.instances.iter().filter(|instance| instance.placement.is_some()) {
         trees += 1;
         let height = tree.transform.translation.z;

@@ -1,5 +1,5 @@
-//! Terrain over measured heights, made at random: the ground is exact at every sample, and so are its triangles where
-//! its cells are small enough.
+//! Checks of terrain over random measured heights: the ground is exact at every sample, and so are its
+//! triangles if the cells are small enough.
 
 use std::collections::HashMap;
 use std::sync::Arc;
@@ -16,7 +16,7 @@ use burgeon::terrain::{
 };
 use glam::{DVec2, DVec3};
 
-/// How far the ground and its triangles were from the samples at most (m).
+/// Maximum distances of the ground and of its triangles from the samples (m).
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct Worst {
     pub ground: f64,
@@ -24,7 +24,7 @@ pub(crate) struct Worst {
     pub samples: usize,
 }
 
-/// Numbers of a case.
+/// Random numbers of a case.
 struct RandomSource(Stream);
 
 impl RandomSource {
@@ -41,21 +41,21 @@ impl RandomSource {
     }
 }
 
-/// Case number `seed`. What is wrong is said.
+/// Checks case number `seed`; fails with a description of the defect.
 pub(crate) fn check(seed: u64) -> Result<Worst, String> {
     let mut luck = RandomSource(Stream::new(seed));
     let relief = relief(&mut luck);
     let elevation = Elevation::new(Arc::new(relief));
     let (low, high) = (elevation.low().truncate(), elevation.high().truncate());
     let step = elevation.step();
-    // A square within the raster, which may be turned against it: its corners may not be covered.
+    // A square within the raster, which may be rotated relative to it: its corners may not be covered.
     let whole = (high - low).min_element();
     let aligned = luck.odds(0.3);
     let mut size = whole * luck.between(0.3, 0.68);
     let mut corner =
         low.midpoint(high) - size / 2.0 + DVec2::new(luck.between(-0.1, 0.1), luck.between(-0.1, 0.1)) * size;
     if aligned {
-        // Cells that are as large as samples, or half or twice as large, whose corners or middles samples are.
+        // Cells as large as samples, half or twice as large, with samples at their corners or centres.
         let level = 1 << (1 + luck.below(4));
         size = (f64::from(level) * step).min(whole / 2.0);
         let first = elevation.samples(corner, corner + size);
@@ -92,7 +92,7 @@ pub(crate) fn check(seed: u64) -> Result<Worst, String> {
     })
 }
 
-/// Random heights, in metres or in other coordinates.
+/// Returns random heights, in metres or in other coordinates.
 fn relief(luck: &mut RandomSource) -> Relief {
     let (columns, rows) = (4 + luck.below(40), 4 + luck.below(40));
     let step = 10f64.powf(luck.between(-0.5, 1.8));
@@ -122,7 +122,7 @@ fn relief(luck: &mut RandomSource) -> Relief {
     };
     let grid = SampleGrid { first, step: [step * unit[0], step * ratio * unit[1]] };
     let crs = crs.map(|code| Crs::epsg(code).unwrap());
-    // Another source may have decided the projection.
+    // Another source may have defined the projection.
     let middle = match &crs {
         Some(crs) if crs.is_geographic() => [first[0] - 0.3, first[1]],
         _ => [7.5, 43.7],
@@ -182,13 +182,13 @@ fn measure(
     let world = ground.world();
     let mut worst = Worst::default();
     let mesh = GroundMesh::new(ground, error);
-    // A tile that cannot show samples is only asked for heights.
+    // Only heights are tested for a tile that cannot show samples.
     let mut shown: Vec<DVec3> = Vec::new();
     for tile in ground.tiles() {
         let (low, across) = tile.bounds(world);
         for place in elevation.samples(low, low + across) {
             let expected = elevation.height_at(place).ok_or("a sample outside")?;
-            // A place on the rim may be outside by rounding.
+            // A point on the boundary may be outside by its rounding error.
             let within = place.clamp(corner, corner + size);
             let height = ground.height(within).ok_or("no height")?;
             if !edited {
@@ -210,7 +210,8 @@ fn measure(
     for (index, sample) in shown.iter().enumerate() {
         buckets.entry(bucket(sample.truncate())).or_default().push(index);
     }
-    // Places are told in f32, and a sample counts as on a side or a corner that is near: on a slope that is a height.
+    // Positions are stored in f32, and samples near a side or a corner count as on it; on a slope this
+    // changes the height.
     let moved = 2.5e-4 + size * 5e-7;
     let mut best = vec![f64::INFINITY; shown.len()];
     let mut area = 0.0;
@@ -266,7 +267,7 @@ fn measure(
     Ok(worst)
 }
 
-/// Refuses edges inside a square of this size that triangles do not run along as often one way as the other.
+/// Fails if an edge inside a square of this size has different numbers of triangles in both directions.
 fn check_gaps(edges: &HashMap<[[u32; 3]; 2], i32>, size: f32) -> Result<(), String> {
     for (edge, _) in edges.iter().filter(|(_, count)| **count != 0) {
         let on = |axis: usize, rim: f32| {

@@ -1,9 +1,9 @@
-//! Rivers over random ground: they raise nothing, and nothing grows in their beds.
+//! Checks of rivers over random ground: they raise no ground, and no plants grow in their beds.
 
 use burgeon::script::RunOptions;
 use glam::DVec3;
 
-/// Trees everywhere, on ground that a river crosses unless `RIVER` is false.
+/// Script with trees everywhere, on ground that a river crosses unless `RIVER` is false.
 const SCRIPT: &str = r#"
 local Look = module("Look")
 local any = { -1, 1 }
@@ -22,7 +22,7 @@ end)
 land:derive(0)
 "#;
 
-/// One river: how many places of its ground it lowers, and how many plants are left beside it.
+/// Checks one river; returns the number of points that it lowers, and the number of plants that it removes.
 pub(crate) fn check(seed: u64, width: f64, decay: f64) -> (usize, usize) {
     let scene = |river: bool| {
         let script = SCRIPT
@@ -41,7 +41,7 @@ pub(crate) fn check(seed: u64, width: f64, decay: f64) -> (usize, usize) {
         placed.map(|instance| instance.transform.translation).collect()
     };
     let (before, after) = (plants(&dry), plants(&wet));
-    // Plants stand on the ground, so they measure it, at the same places in both.
+    // Plants are on the ground, so they measure its height, at equal positions in both scenes.
     let mut old = before.iter();
     let mut lowered = 0;
     for at in &after {

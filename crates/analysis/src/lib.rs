@@ -1,6 +1,6 @@
 //! Reads a script before it runs: finds mistakes that can be seen without running it, and prepares its rules.
 //!
-//! Comes in: the text of a script, what it may use, and what makes bytecode of it. Goes out: an [`Analysis`], the text
+//! Input: the text of a script, what it may use, and what makes bytecode of it. Output: an [`Analysis`], the text
 //! that is to run and what is known of its functions; then what is wrong with its calls. It never runs a script, and knows
 //! no virtual machine.
 //!

@@ -1,6 +1,6 @@
 //! What all of Burgeon stands on: errors and warnings, limits on foreign input, and files.
 //!
-//! Comes in: nothing of Burgeon. Goes out: an [`Error`] with its place, rule and remedy, a [`Warning`] that a run
+//! Input: nothing of Burgeon. Output: an [`Error`] with its place, rule and remedy, a [`Warning`] that a run
 //! collects, a [`Budget`] for whoever reads foreign bytes, and a [`Stop`] that ends work nobody waits for. It never
 //! prints.
 

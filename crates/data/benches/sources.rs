@@ -1,5 +1,5 @@
-//! How long layers of all formats take to read, and how much memory a million features take.
-//! `cargo bench -p burgeon-data --bench sources`.
+//! Benchmark of layers in all formats: time to read, and memory for a million features. `cargo bench -p burgeon-data
+//! --bench sources`.
 
 #![allow(clippy::print_stdout, reason = "a bench prints its figures")]
 #![allow(clippy::unwrap_used, reason = "a bench stops at what is wrong")]
@@ -15,14 +15,14 @@ use flatgeobuf::{ColumnType, FgbCrs, FgbWriter, FgbWriterOptions, GeometryType};
 use geozero::wkb::Wkb;
 use geozero::{ColumnValue, PropertyProcessor};
 
-/// As the program has it.
+/// The same allocator as in the program.
 #[global_allocator]
 static ALLOCATOR: mimalloc::MiMalloc = mimalloc::MiMalloc;
 
-/// How many features are a million.
+/// Number of features: one million.
 const COUNT: usize = 1_000_000;
 
-/// What is read of each file: a name, and what is wanted.
+/// Parts of each file to read: a name, and the options.
 fn parts(layer: Option<&str>) -> [(&'static str, SourceOptions); 3] {
     let all = SourceOptions { layer: layer.map(str::to_owned), ..SourceOptions::default() };
     let few = SourceOptions { limit: Some(1000), ..all.clone() };
@@ -31,7 +31,7 @@ fn parts(layer: Option<&str>) -> [(&'static str, SourceOptions); 3] {
     [("all", all), ("limit = 1000", few), ("within a box", place)]
 }
 
-/// A place of a feature, as if in a city of a thousand streets (m, EPSG:3067).
+/// Returns the position (m, EPSG:3067) of a feature, as if in a city of a thousand streets.
 fn place(number: usize) -> [f64; 2] {
     #[allow(clippy::cast_precision_loss, reason = "below 2^53")]
     let [x, y] = [number % 1000, number / 1000].map(|at| at as f64 * 10.0);
@@ -123,7 +123,7 @@ fn flatgeobuf(path: &Path, polygons: bool) {
     writer.write(std::io::BufWriter::new(std::fs::File::create(path).unwrap())).unwrap();
 }
 
-/// The most memory (MiB) that this process has had.
+/// Returns the peak memory (MiB) of this process.
 fn peak() -> usize {
     let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
     let line = status.lines().find_map(|line| line.strip_prefix("VmHWM:"));
@@ -140,7 +140,7 @@ fn read(path: &Path, part: usize) {
     println!("{count:9} features {seconds:6.2} s {:5} MiB at most", peak());
 }
 
-/// Extracts of the folder of shared data, where it is there.
+/// Reads the extracts in the folder of shared data, if it exists.
 fn extracts() {
     let shared = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared/data");
     for file in ["Helsinki.osm.pbf", "monaco-latest.osm.pbf"] {
@@ -168,7 +168,7 @@ fn extracts() {
     }
 }
 
-/// Writes a million points or small polygons.
+/// Writer of a million points or small polygons.
 type Writer = fn(&Path, bool);
 
 fn main() {

@@ -1,4 +1,5 @@
-//! What stands in the place of `formats` where a program is built without the feature `data`: it says so.
+//! Replacement for `formats` in programs built without the feature `data`: each function returns an error that names
+//! the missing feature.
 
 use std::fs::File;
 use std::path::Path;
@@ -12,7 +13,7 @@ fn left_out<T>() -> Result<T> {
     Err(Error::left_out("data formats", "data"))
 }
 
-/// A database of layers, of which there is none without the feature `data`.
+/// Database of layers; never constructed without the feature `data`.
 pub enum GeoPackage {}
 
 impl GeoPackage {
@@ -29,7 +30,7 @@ impl GeoPackage {
     }
 }
 
-/// A format of files of which none is read without the feature `data`.
+/// Defines a file format that cannot be read without the feature `data`.
 macro_rules! absent {
     ($name:ident, $doc:literal, ($($argument:ident: $kind:ty),*)) => {
         #[doc = $doc]
@@ -53,7 +54,7 @@ macro_rules! absent {
 
 absent!(FlatGeobuf, "A row of features, of which there is none without the feature `data`.", (_wanted: &SourceOptions));
 
-/// An extract, of which there is none without the feature `data`.
+/// OpenStreetMap extract; never constructed without the feature `data`.
 pub enum OsmFile {}
 
 impl FlatGeobuf {
@@ -80,7 +81,7 @@ impl OsmFile {
     }
 }
 
-/// Refuses what begins as XML, a shapefile or CityJSON does, and what is called delimited text.
+/// Fails for XML, shapefiles, CityJSON and delimited text; returns other files unchanged.
 pub(crate) fn layered(
     file: DataFile,
     head: &[u8],
@@ -95,7 +96,7 @@ pub(crate) fn layered(
     Ok(Err(file))
 }
 
-/// Refuses what is packed.
+/// Fails for compressed files; returns other files unchanged.
 pub(crate) fn unpacked(
     file: DataFile,
     head: &[u8],
@@ -122,7 +123,7 @@ pub(crate) mod condition {
 pub(crate) mod projection {
     use super::{Error, Result, left_out};
 
-    /// A projection, of which there is none.
+    /// Projection; never constructed without the feature `data`.
     #[derive(Clone)]
     pub(crate) enum Projection {}
 
@@ -147,12 +148,12 @@ pub(crate) mod output {
     use crate::output::RecordTable;
     use burgeon_base::stop::Stop;
 
-    /// Refuses GeoPackages.
+    /// Fails, because GeoPackages are available only with the feature `data`.
     pub fn check_geopackage() -> Result<()> {
         left_out()
     }
 
-    /// A GeoPackage, of which there is none without the feature `data`.
+    /// Fails, because GeoPackages need the feature `data`.
     pub fn write_geopackage(
         _tables: &[RecordTable],
         _frame: Option<&ReferenceFrame>,

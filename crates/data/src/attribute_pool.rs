@@ -1,4 +1,4 @@
-//! Attributes that many features have alike, such as those of most buildings in a register, are there once.
+//! Pool of attribute lists: equal lists, such as those of most buildings in a register, are stored once.
 
 use std::hash::{Hash, Hasher};
 use std::sync::Arc;
@@ -7,23 +7,23 @@ use rustc_hash::FxHasher;
 
 use super::Attribute;
 
-/// The attributes of a feature: the numbers of their names, and their values.
+/// Attributes of a feature: the indices of their names, and their values.
 pub(super) type FeatureAttributes = Arc<[(usize, Attribute)]>;
 
-/// How many are remembered.
+/// Number of slots in the pool.
 const PLACES: usize = 4096;
 
-/// What features had that came lately.
+/// Pool of recent attribute lists, by hash.
 #[derive(Debug)]
 pub(super) struct AttributePool(Vec<Option<FeatureAttributes>>);
 
 impl AttributePool {
-    /// None.
+    /// Creates an empty pool.
     pub(super) fn new() -> Self {
         Self(Vec::new())
     }
 
-    /// What is equal to `attributes` and came lately; otherwise these are remembered. Also tells whether they are new.
+    /// Returns the stored list equal to `attributes`, or stores `attributes`. The flag is true if they were new.
     pub(super) fn intern(&mut self, attributes: Vec<(usize, Attribute)>) -> (FeatureAttributes, bool) {
         let Some(place) = place(&attributes) else { return (attributes.into(), true) };
         if self.0.is_empty() {
@@ -39,7 +39,7 @@ impl AttributePool {
     }
 }
 
-/// Where attributes are remembered; lists and objects of GeoJSON are not.
+/// Returns the slot for attributes; `None` if they contain GeoJSON lists or objects, which are not pooled.
 #[allow(clippy::cast_possible_truncation, reason = "any bits of a hash will do")]
 fn place(attributes: &[(usize, Attribute)]) -> Option<usize> {
     let mut hasher = FxHasher::default();
@@ -47,7 +47,7 @@ fn place(attributes: &[(usize, Attribute)]) -> Option<usize> {
         name.hash(&mut hasher);
         match value {
             Attribute::Boolean(value) => value.hash(&mut hasher),
-            // Few numbers differ in their lower bits, from which the hasher draws most.
+            // Few numbers differ in their lower bits, which the hasher uses most.
             Attribute::Number(value) => {
                 (value.to_bits() ^ value.to_bits().rotate_right(32)).hash(&mut hasher)
             }
@@ -58,7 +58,7 @@ fn place(attributes: &[(usize, Attribute)]) -> Option<usize> {
     Some(hasher.finish() as usize % PLACES)
 }
 
-/// Whether two lists are the same to the last bit: zeros have signs.
+/// Returns true if two lists are equal bit by bit; 0 and -0 differ.
 fn same(known: &[(usize, Attribute)], others: &[(usize, Attribute)]) -> bool {
     known.len() == others.len()
         && known.iter().zip(others).all(|((name, value), (other_name, other))| {
@@ -86,7 +86,7 @@ mod tests {
             let height = Attribute::Number(f64::from(number % 30));
             own += usize::from(pool.intern(vec![(0, kind), (1, height), (2, Attribute::Number(3.0))]).1);
         }
-        // There are 60, of which some may take turns in one place.
+        // There are 60 lists, and some may alternate in one slot.
         assert!((60..6000).contains(&own), "{own}");
     }
 }

@@ -1,4 +1,4 @@
-//! Layers and rasters as they were read last, for runs that follow one another.
+//! Cache of layers and rasters for consecutive runs.
 
 use std::fmt;
 use std::io::Read;
@@ -12,12 +12,12 @@ use burgeon_base::error::Result;
 use burgeon_base::files;
 use burgeon_base::locks::LockRecovery;
 
-/// How many layers are kept.
+/// Maximum number of cached layers.
 const MOST: usize = 16;
-/// How many rasters are kept, which may be large.
+/// Maximum number of cached rasters, which may be large.
 const MOST_RASTERS: usize = 2;
 
-/// Layers and rasters by the content of their files: one that is saved anew is read anew, and only then.
+/// Layers and rasters by the content of their files; a file is read again only if its content has changed.
 #[derive(Default)]
 pub struct Cache {
     kept: Mutex<Vec<(String, Arc<Layer>, ReferenceFrame)>>,
@@ -31,10 +31,10 @@ impl fmt::Debug for Cache {
 }
 
 impl Cache {
-    /// Returns the text that tells a layer of the file at `path`, which messages call `name`, from all others; `None` if
-    /// that is not known. Fails if the file is a database that another program has locked.
+    /// Returns a key that identifies a layer of the file at `path`, called `name` in messages; `None` if the content
+    /// cannot be identified. Fails if the file is a database locked by another program.
     ///
-    /// `frame` is that of the run so far, into which the layer is brought.
+    /// `frame` is the current reference frame of the run, into which the layer is transformed.
     pub fn key(
         path: &Path,
         name: &str,
@@ -43,21 +43,21 @@ impl Cache {
     ) -> Result<Option<String>> {
         let Some(mut content) = content(path, name, &wanted.budget)? else { return Ok(None) };
         for beside in companions(path) {
-            // One that is not there yet counts as nothing.
+            // A missing file contributes nothing to the key.
             content += &hash(&beside).map(|hash| hash.to_hex().to_string()).unwrap_or_default();
         }
         let frame = frame.map(|frame| (&frame.name, frame.origin));
         Ok(Some(format!("{content} {} {wanted:?} {frame:?}", path.display())))
     }
 
-    /// The layer with this key, and the frame that it is in.
+    /// Returns the layer with this key, and its reference frame.
     pub fn get(&self, key: &str) -> Option<(Arc<Layer>, ReferenceFrame)> {
         let kept = self.kept.lock().recover();
         let found = kept.iter().find(|(known, ..)| known == key);
         found.map(|(_, layer, frame)| (Arc::clone(layer), frame.clone()))
     }
 
-    /// Keeps a layer; the oldest goes when there are many.
+    /// Stores a layer; removes the oldest if the cache is full.
     pub fn keep(&self, key: String, layer: &Arc<Layer>, frame: &ReferenceFrame) {
         let mut kept = self.kept.lock().recover();
         if kept.len() >= MOST {
@@ -66,7 +66,8 @@ impl Cache {
         kept.push((key, Arc::clone(layer), frame.clone()));
     }
 
-    /// The raster in files, each of which has a name and a path; read, unless it is kept. The oldest goes when there are many.
+    /// Returns the raster of files, each with a name and a path; reads it if it is not cached. Removes the oldest
+    /// raster if the cache is full.
     pub fn raster(
         &self,
         files: &[(String, PathBuf)],
@@ -75,7 +76,7 @@ impl Cache {
     ) -> Result<Arc<Raster>> {
         let read = || Raster::open_all(files, wanted, budget).map(Arc::new);
         let contents = files.iter().map(|(name, path)| Ok((hash(path)?.to_hex(), name)));
-        // What is no file is left to the reader, which says so.
+        // The reader reports files that cannot be hashed.
         let Ok(contents) = contents.collect::<std::io::Result<Vec<_>>>() else { return read() };
         let key = format!("{contents:?} {wanted:?}");
         let mut kept = self.rasters.lock().recover();
@@ -91,16 +92,16 @@ impl Cache {
     }
 }
 
-/// Returns the text that tells the content of a file from all others, if it can be told.
+/// Returns a key that identifies the content of a file, if possible.
 fn content(path: &Path, name: &str, budget: &Arc<Budget>) -> Result<Option<String>> {
     let mut head = Vec::new();
     let read = files::read_unlocked(path, |file, _| {
         file.take(16).read_to_end(&mut head)?;
         Ok(())
     });
-    // What cannot be read is left to the reader, which says so.
+    // The reader reports files that cannot be read.
     let Ok(read) = read else { return Ok(None) };
-    // A file that a database of this process has locked is a database.
+    // A file locked by a database connection of this process is a database.
     if read.is_none() || head.starts_with(b"SQLite format 3") {
         return database_content(path, name, budget);
     }
@@ -117,7 +118,7 @@ fn database_content(_: &Path, _: &str, _: &Arc<Budget>) -> Result<Option<String>
     Ok(None)
 }
 
-/// What tells a file's content from all others.
+/// Returns the hash of a file's content.
 fn hash(path: &Path) -> std::io::Result<blake3::Hash> {
     let (file, _) = burgeon_base::files::open(path)?;
     let mut hasher = blake3::Hasher::new();

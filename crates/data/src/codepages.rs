@@ -1,28 +1,28 @@
-//! Code pages: the letters that the upper half of the bytes means in texts that are no UTF-8.
+//! Code pages: the characters of bytes from 128 in text that is not UTF-8.
 //!
 //! Source: the Unicode Consortium's mapping tables.
 
 use std::borrow::Cow;
 
-/// A code page of one byte to a letter.
+/// Code page with one byte per character.
 #[derive(Debug)]
 pub(crate) struct CodePage {
-    /// Its number, as Windows counts them.
+    /// Windows code page number.
     pub(crate) number: u32,
-    /// The letters of the bytes from 128 on.
+    /// Characters of the bytes from 128 to 255.
     letters: &'static str,
 }
 
-/// The code page that files without a word about their encoding are mostly in: that of western Europe.
+/// Usual code page of files that do not declare their encoding: western European.
 pub(crate) const WESTERN: u32 = 1252;
 
 impl CodePage {
-    /// The code page with a number.
+    /// Returns the code page with a number.
     pub(crate) fn numbered(number: u32) -> Option<&'static Self> {
         PAGES.iter().find(|page| page.number == number)
     }
 
-    /// The text that bytes are.
+    /// Decodes bytes to text.
     pub(crate) fn decode<'b>(&self, bytes: &'b [u8]) -> Cow<'b, str> {
         if let Some(text) = std::str::from_utf8(bytes).ok().filter(|text| text.is_ascii()) {
             return Cow::Borrowed(text);
@@ -36,15 +36,16 @@ impl CodePage {
     }
 }
 
-/// What a text without a known encoding was read as.
+/// Text without a declared encoding, and its assumed encoding.
 pub(crate) enum GuessedText<'b> {
-    /// It is UTF-8.
+    /// UTF-8.
     Utf8(&'b str),
-    /// It is in the code page of western Europe, or has two bytes for each letter.
+    /// Western European or UTF-16 text, with the name of the encoding.
     Other(String, &'static str),
 }
 
-/// The text that bytes are: UTF-8, UTF-16 with a byte order mark, or else Windows-1252. None if they are no text.
+/// Decodes bytes as UTF-8, as UTF-16 with a byte order mark, or otherwise as Windows-1252. Returns `None` if they are
+/// not text.
 pub(crate) fn guess(bytes: &[u8]) -> Option<GuessedText<'_>> {
     let wide = |read: fn([u8; 2]) -> u16| {
         let units: Vec<u16> = bytes[2..].chunks_exact(2).map(|pair| read([pair[0], pair[1]])).collect();

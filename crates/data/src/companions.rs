@@ -1,12 +1,12 @@
-//! The files that belong to a data file and lie beside it.
+//! Companion files next to a data file.
 
 use std::path::{Path, PathBuf};
 
-/// The extensions of the files that belong to a shapefile, besides its own.
+/// Extensions of the companion files of a shapefile.
 pub(crate) const OF_SHAPEFILE: [&str; 3] = ["dbf", "prj", "cpg"];
 
-/// The files beside the one at `path` that are read with it: those of a shapefile. Those that are not there are among them, since
-/// they may come.
+/// Returns the companion files that are read with the file at `path`: for a shapefile, its `.dbf`, `.prj` and `.cpg`
+/// files. Missing files are included, because they may be added later.
 pub fn companions(path: &Path) -> Vec<PathBuf> {
     let is_shape = path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("shp"));
     if !is_shape {
@@ -15,7 +15,7 @@ pub fn companions(path: &Path) -> Vec<PathBuf> {
     OF_SHAPEFILE.iter().map(|extension| companion(path, extension)).collect()
 }
 
-/// The file beside the one at `path` that has another extension, in small or in large letters.
+/// Returns the path of the companion file with another extension, in lower or upper case.
 pub(crate) fn companion(path: &Path, extension: &str) -> PathBuf {
     let small = path.with_extension(extension);
     let large = path.with_extension(extension.to_ascii_uppercase());

@@ -1,4 +1,4 @@
-//! The bytes of a data file: on a disk, or unpacked into memory.
+//! Bytes of a data file, on disk or unpacked in memory.
 
 use std::fs::File;
 use std::io::{self, Cursor, Read, Seek};
@@ -8,30 +8,30 @@ use std::sync::Arc;
 use burgeon_base::budget::Budget;
 use burgeon_base::error::{Error, Limit, Result};
 
-/// A data file that has been opened.
+/// Open data file.
 pub(crate) struct DataFile {
-    /// Its bytes.
+    /// Bytes of the file.
     pub(crate) content: Content,
-    /// Where it is; of a file that was unpacked, where it would be.
+    /// Path of the file; for an unpacked file, the path that it would have.
     pub(crate) path: PathBuf,
-    /// Its name in messages.
+    /// Name in messages.
     pub(crate) name: String,
 }
 
-/// Bytes that can be read from the front any number of times.
+/// Bytes that can be read from the beginning any number of times.
 pub(crate) enum Content {
-    /// Those of a file.
+    /// File on disk.
     File(File),
-    /// Those that were unpacked, for which memory was taken.
+    /// Unpacked bytes, counted in the memory budget.
     #[cfg_attr(not(feature = "data"), allow(dead_code, reason = "nothing is unpacked without the feature"))]
     Memory(Arc<[u8]>),
 }
 
-/// Bytes that are read from the front to the end.
+/// Reader from the beginning to the end.
 pub(crate) type ContentReader = Box<dyn Read + Send>;
 
 impl Content {
-    /// A reader that begins at the front. There may be one at a time.
+    /// Returns a reader that starts at the beginning. Only one reader may exist at a time.
     pub(crate) fn reader(&self) -> io::Result<ContentReader> {
         Ok(match self {
             Self::File(file) => {
@@ -43,7 +43,7 @@ impl Content {
         })
     }
 
-    /// How many bytes there are.
+    /// Returns the number of bytes.
     pub(crate) fn size(&self) -> io::Result<u64> {
         match self {
             Self::File(file) => Ok(file.metadata()?.len()),
@@ -51,7 +51,7 @@ impl Content {
         }
     }
 
-    /// The first bytes, at most `count`.
+    /// Returns the first bytes, at most `count`.
     pub(crate) fn head(&self, count: u64) -> io::Result<Vec<u8>> {
         let mut head = Vec::new();
         self.reader()?.take(count).read_to_end(&mut head)?;
@@ -60,12 +60,12 @@ impl Content {
 }
 
 impl DataFile {
-    /// The file at `path`, which messages call `name`.
+    /// Creates a data file from the open file at `path`, called `name` in messages.
     pub(crate) fn new(file: File, path: &Path, name: &str) -> Self {
         Self { content: Content::File(file), path: path.to_path_buf(), name: name.to_owned() }
     }
 
-    /// All bytes, for which memory is taken, of a file of at most `most` bytes.
+    /// Returns all bytes, counted in the memory budget; fails if there are more than `most`.
     pub(crate) fn bytes(&self, most: u64, budget: &Budget) -> Result<Arc<[u8]>> {
         let cannot =
             |error: io::Error| Error::file(&self.path, format!("cannot read {}: {error}", self.name));
@@ -76,16 +76,16 @@ impl DataFile {
         self.check_size(size, most)?;
         budget.check()?;
         let room = usize::try_from(size).unwrap_or(usize::MAX);
-        // While they become shared bytes they are there twice.
+        // During the conversion to shared bytes, the data exists twice.
         let _held = budget.hold(room)?;
         budget.take(room)?;
         let mut bytes = Vec::with_capacity(room);
-        // It may grow while it is read.
+        // The file may grow while it is read.
         self.content.reader().and_then(|reader| reader.take(size).read_to_end(&mut bytes)).map_err(cannot)?;
         Ok(bytes.into())
     }
 
-    /// Fails if it has more than `most` bytes.
+    /// Fails if `size` exceeds `most` bytes.
     pub(crate) fn check_size(&self, size: u64, most: u64) -> Result<()> {
         if size <= most {
             return Ok(());
@@ -94,18 +94,18 @@ impl DataFile {
             .help("convert it to a FlatGeobuf or a GeoPackage, of which a part can be read"))
     }
 
-    /// Its name without folders and extension.
+    /// Returns the file name without folders and extension.
     #[cfg(feature = "data")]
     pub(crate) fn stem(&self) -> String {
         self.path.file_stem().map_or_else(|| self.name.clone(), |stem| stem.to_string_lossy().into_owned())
     }
 
-    /// Its extension in small letters.
+    /// Returns the extension in lower case.
     pub(crate) fn extension(&self) -> String {
         self.path.extension().unwrap_or_default().to_string_lossy().to_ascii_lowercase()
     }
 
-    /// The file on a disk; fails for one that was unpacked, since a `what` is read piece by piece.
+    /// Returns the file on disk; fails for an unpacked file, because a `what` is read in parts.
     pub(crate) fn on_disk(self, what: &str) -> Result<(File, PathBuf, String)> {
         match self.content {
             Content::File(file) => Ok((file, self.path, self.name)),
@@ -118,14 +118,14 @@ impl DataFile {
     }
 }
 
-/// A data file with layers that are read one by one.
+/// Data file with layers that can be read individually.
 pub trait LayeredFile: Send {
-    /// The name of its format.
+    /// Returns the name of the format.
     fn format(&self) -> &'static str;
 
-    /// The names of its layers.
+    /// Returns the names of the layers.
     fn layers(&self) -> Vec<String>;
 
-    /// Reads what is `wanted` of a layer, in the order of the file.
+    /// Reads the features of a layer that `wanted` selects, in file order.
     fn read(&self, layer: &str, wanted: &crate::SourceOptions) -> Result<crate::FeatureTable>;
 }

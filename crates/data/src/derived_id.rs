@@ -1,8 +1,8 @@
-//! The ids of features that have none in their file.
+//! Ids of features that have no id in their file.
 
 use super::{Attribute, Geometry};
 
-/// The id of a feature that has none: a hash of its geometry and its attributes, whatever their order.
+/// Returns the id of a feature without one: a hash of its geometry and its attributes, independent of their order.
 pub(super) fn derived_id(parts: &[Geometry], attributes: &[(usize, Attribute)], names: &[String]) -> String {
     let mut hasher = blake3::Hasher::new();
     let mut add = |bytes: &[u8]| {
@@ -13,7 +13,7 @@ pub(super) fn derived_id(parts: &[Geometry], attributes: &[(usize, Attribute)], 
         for list in part.lists() {
             add(&list.len().to_le_bytes());
             for point in list {
-                // Both zeros are the same place.
+                // Both zeros are the same position.
                 point.to_array().iter().for_each(|value| add(&(value + 0.0).to_bits().to_le_bytes()));
             }
         }
@@ -28,7 +28,7 @@ pub(super) fn derived_id(parts: &[Geometry], attributes: &[(usize, Attribute)], 
             add(part.as_bytes());
         }
     }
-    // Short enough to take no memory of its own.
+    // A short string needs no heap memory.
     let hash = hasher.finalize().to_hex();
     format!("f{}", &hash[..11])
 }
@@ -42,7 +42,7 @@ mod tests {
     fn features_without_ids_keep_theirs_whatever_comes_and_goes_around_them() {
         let read = |all: &[usize]| {
             let mut table = FeatureTable::new("a", "a", Crs::epsg(4326), &SourceOptions::default());
-            // Another feature may have brought the names in another order.
+            // Another feature may have introduced the names in another order.
             let names = if all.len().is_multiple_of(2) { ["height", "kind"] } else { ["kind", "height"] };
             let [a, b] = names.map(|name| table.name(name));
             let [kind, height] = if all.len().is_multiple_of(2) { [b, a] } else { [a, b] };

@@ -1,13 +1,13 @@
-//! Formats that are recognised and not read: what a file is, and how to convert it.
+//! Formats that are recognised but not supported, with instructions for converting them.
 
 use std::path::Path;
 
 use burgeon_base::error::{Error, Result};
 
-/// How to convert what GDAL reads.
+/// Conversion with GDAL.
 const OGR: &str = "convert it: ogr2ogr out.gpkg FILE";
 
-/// What a file begins with, what it is, and what to do.
+/// First bytes of a file, its description, and the remedy.
 const BEGINNINGS: [(&[u8], &str, &str); 36] = [
     (b"PAR1", "a GeoParquet file", OGR),
     (b"ARROW1", "an Arrow (Feather) file", OGR),
@@ -75,7 +75,7 @@ const BEGINNINGS: [(&[u8], &str, &str); 36] = [
     (b"solid ", "a mesh (STL)", "convert it to .glb, and place it: model(\"FILE.glb\")"),
 ];
 
-/// Extensions that tell what a file is, where its beginning does not.
+/// File extension, description, and remedy, for files that cannot be recognised from their first bytes.
 const EXTENSIONS: [(&str, &str, &str); 24] = [
     ("dbf", "the table of a shapefile", "name its .shp file, and keep all of its files beside one another"),
     ("shx", "the index of a shapefile", "name its .shp file, and keep all of its files beside one another"),
@@ -119,7 +119,7 @@ fn error(name: &str, what: &str, remedy: &str) -> Error {
     Error::data(format!("{name} is {what}, which is not read as a source")).help(remedy)
 }
 
-/// Refuses a file that begins with `head`, if it is of a format that is known and not read.
+/// Fails if a file that begins with `head` has a known but unsupported format.
 pub(crate) fn refuse_beginning(head: &[u8], name: &str) -> Result<()> {
     let text = head.strip_prefix(b"\xef\xbb\xbf").unwrap_or(head).trim_ascii_start();
     let found = BEGINNINGS.iter().find(|(begins, ..)| head.starts_with(begins) || text.starts_with(begins));
@@ -139,14 +139,14 @@ pub(crate) fn refuse_beginning(head: &[u8], name: &str) -> Result<()> {
     Ok(())
 }
 
-/// Refuses a file by its name, if its content tells nothing.
+/// Fails if the extension is that of a known but unsupported format; used if the content is not recognised.
 pub(crate) fn refuse_extension(path: &Path, name: &str) -> Result<()> {
     let extension = path.extension().unwrap_or_default().to_string_lossy().to_ascii_lowercase();
     let found = EXTENSIONS.iter().find(|(known, ..)| *known == extension);
     found.map_or(Ok(()), |(_, what, remedy)| Err(error(name, what, remedy)))
 }
 
-/// The error for a folder; some formats are folders.
+/// Returns the error for a folder whose format is known but unsupported.
 pub(crate) fn folder(path: &Path, name: &str) -> Option<Error> {
     let extension = path.extension()?.to_string_lossy().to_ascii_lowercase();
     (extension == "gdb").then(|| error(name, "a File Geodatabase", "convert it: ogr2ogr out.gpkg FOLDER.gdb"))

@@ -1,4 +1,4 @@
-//! Coordinate systems, and the one projection and origin in which all sources of a run meet.
+//! Coordinate systems, and the common projection and origin of all sources in a run.
 
 use glam::DVec3;
 use rayon::prelude::*;
@@ -8,28 +8,28 @@ use super::table::{Feature, FeatureTable};
 use burgeon_base::error::{Error, Result};
 use burgeon_base::text::{number, shown};
 
-/// The farthest (m) that a coordinate may lie from the origin.
+/// Maximum absolute coordinate (m) relative to the origin.
 pub(super) const FARTHEST: f64 = 2_000_000.0;
 
-/// What to do about a coordinate system that cannot be used.
+/// Remedy for a coordinate system that cannot be used.
 const REMEDY: &str = "name the right one: source(file, { crs = 4326 }), or convert the file to EPSG:4326";
 
-/// A coordinate system: of the EPSG's registry, or a transverse Mercator projection around a middle.
+/// Coordinate system: from the EPSG registry, or a transverse Mercator projection around a centre.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Crs {
-    /// Its number in the registry.
+    /// EPSG code.
     pub code: Option<u16>,
     name: String,
     definition: String,
     is_geographic: bool,
-    /// About how many metres one of its units is.
+    /// Approximate length of one unit (m).
     metres: f64,
 }
 
 impl Crs {
-    /// The coordinate system with the number `code`.
+    /// Returns the coordinate system with the EPSG code `code`.
     pub fn epsg(code: u32) -> Result<Self> {
-        // Numbers that were in use before there was one of EPSG's.
+        // Codes that were in use before EPSG assigned one.
         let code = if matches!(code, 900_913 | 102_100 | 102_113) { 3857 } else { code };
         let (code, definition) = known(code)?.ok_or_else(|| {
             let message = format!("the coordinate system EPSG:{code} is not known");
@@ -54,8 +54,8 @@ impl Crs {
         Self { code, name, definition, is_geographic, metres }
     }
 
-    /// The transverse Mercator projection around a middle, a longitude and a latitude (degrees) of WGS 84, from where
-    /// its metres are counted.
+    /// Returns a transverse Mercator projection around a centre, given as longitude and latitude (degrees, WGS 84); the
+    /// centre is the origin of its coordinates.
     pub fn around([longitude, latitude]: [f64; 2]) -> Self {
         let name = format!("transverse Mercator around {longitude:?}, {latitude:?}");
         let definition = format!(
@@ -64,22 +64,22 @@ impl Crs {
         Self::defined(None, name, definition)
     }
 
-    /// Such as `EPSG:3067`.
+    /// Returns the name, such as `EPSG:3067`.
     pub fn name(&self) -> String {
         self.name.clone()
     }
 
-    /// Whether coordinates are longitude and latitude (degrees).
+    /// Returns true if coordinates are longitude and latitude (degrees).
     pub fn is_geographic(&self) -> bool {
         self.is_geographic
     }
 
-    /// About how many metres one of its units is.
+    /// Returns the approximate length of one unit (m).
     pub(super) fn metres(&self) -> f64 {
         self.metres
     }
 
-    /// What its angles are multiplied by to be radians; 1 where it has none.
+    /// Returns the factor that converts angles to radians; 1 if coordinates are not angles.
     fn unit(&self) -> f64 {
         if self.is_geographic() { 1f64.to_radians() } else { 1.0 }
     }
@@ -95,12 +95,13 @@ impl Crs {
         Projection::new(&self.definition, cannot)
     }
 
-    /// Whether its metres are those of the ground, but for the thousandths that every projection costs.
+    /// Returns true if lengths in its coordinates are true lengths, except for distortions of thousandths in any
+    /// projection.
     fn is_true(&self) -> bool {
         !self.is_geographic() && !matches!(self.code, Some(3857 | 3785 | 3395))
     }
 
-    /// Its definition with metres as the unit, and with east and north.
+    /// Returns the definition with metres as the unit, and with the axes east and north.
     fn in_metres(&self) -> String {
         let kept = self.definition.split_whitespace().filter(|part| {
             !["+units=", "+to_meter=", "+axis="].iter().any(|prefix| part.starts_with(prefix))
@@ -109,36 +110,36 @@ impl Crs {
     }
 }
 
-/// The projection and the origin of a run.
+/// Projection and origin of a run.
 #[derive(Clone)]
 pub struct ReferenceFrame {
-    /// What it is called.
+    /// Name.
     pub name: String,
-    /// Where its origin lies in the projection (m): whole hundreds.
+    /// Origin in the projection (m), in multiples of 100.
     pub origin: [f64; 2],
-    /// The longitude and the latitude (degrees) that a transverse Mercator projection of the run's own is around.
+    /// Centre (longitude and latitude in degrees) of a transverse Mercator projection specific to the run.
     pub middle: Option<[f64; 2]>,
-    /// The EPSG code of its projection; `None` if it is none of EPSG's, or one whose unit was changed to metres.
+    /// EPSG code of the projection; `None` if it has none, or if its unit was changed to metres.
     pub epsg: Option<u16>,
     definition: String,
     projection: Projection,
 }
 
 impl ReferenceFrame {
-    /// The frame that suits `table` best. Features with places that cannot be are left out of the table.
+    /// Returns the most suitable frame for `table`. Features with impossible positions are removed from the table.
     ///
-    /// A projected layer keeps its projection, in metres. A geographic one, or one in Mercator's projection, whose
-    /// metres are longer than those of the ground, is projected by a transverse Mercator projection around its
-    /// centre, rounded to a tenth of a degree: lengths are true to 1e-5 within 25 km of it, and north is up, where
-    /// a UTM zone would shorten all lengths by 4e-4 and turn north by up to 3 degrees.
+    /// A projected layer keeps its projection, in metres. A geographic layer, or a layer in Mercator projection, whose
+    /// lengths are too long, is projected by a transverse Mercator projection around its centre, rounded to 0.1
+    /// degrees. Lengths are then accurate to 1e-5 within 25 km of the centre, and north is up, whereas a UTM zone would
+    /// shorten all lengths by 4e-4 and rotate north by up to 3 degrees.
     ///
-    /// Where features lie too far apart for one model, those around the median decide.
+    /// If features are too far apart for one model, those around the median decide.
     pub fn new(table: &mut FeatureTable) -> Result<Self> {
         let crs = table.crs.clone()?;
         refuse_odd_degrees(&crs, table)?;
         let (place, half) = centre(&crs, table, |_| true)?;
         let frame = Self::around(&crs, place, &table.shown)?;
-        // Half as far is near enough in any projection.
+        // Half of the maximum distance is close enough in any projection.
         if half * crs.metres() < FARTHEST / 2.0 {
             return Ok(frame);
         }
@@ -161,8 +162,7 @@ impl ReferenceFrame {
         Ok(if kept { better } else { middle })
     }
 
-    /// The frame that suits best what lies around the point `x`, `y` of `crs`, and is called `shown`.
-    ///
+    /// Returns the most suitable frame around the point `x`, `y` of `crs`, called `shown` in messages.
     /// ```
     /// use burgeon_data::{Crs, ReferenceFrame};
     ///
@@ -208,18 +208,18 @@ impl ReferenceFrame {
         Ok(frame)
     }
 
-    /// PROJ text of the projection.
+    /// Returns the PROJ definition of the projection.
     pub fn definition(&self) -> &str {
         &self.definition
     }
 
-    /// The way from `crs` into this frame, and back.
+    /// Returns the transformation from `crs` into this frame and back.
     pub fn passage(&self, crs: &Crs) -> Result<Passage<'_>> {
         let stays = normal(&crs.definition) == normal(&self.definition);
         Ok(Passage { frame: self, outside: crs.projection()?, unit: crs.unit(), stays })
     }
 
-    /// Brings the features of `table` into this frame; those that have no place there are left out.
+    /// Transforms the features of `table` into this frame; features without a position in it are removed.
     pub(super) fn bring(&self, table: &mut FeatureTable) -> Result<()> {
         let crs = table.crs.clone()?;
         refuse_odd_degrees(&crs, table)?;
@@ -248,24 +248,24 @@ impl ReferenceFrame {
     }
 }
 
-/// Whether a place of a frame (m) may be one of a model.
+/// Returns true if a position in a frame (m) is close enough for a model.
 fn within(place: [f64; 2]) -> bool {
-    // A comparison with what is no number fails.
+    // A comparison with NaN is false.
     place.iter().all(|value| value.abs() <= FARTHEST)
 }
 
-/// The way from a coordinate system into a frame, and back.
+/// Transformation from a coordinate system into a frame and back.
 pub struct Passage<'a> {
     frame: &'a ReferenceFrame,
     outside: Projection,
-    /// What the outside's coordinates are multiplied by to be radians, or 1.
+    /// Factor that converts the coordinates of the other system to radians, or 1.
     unit: f64,
-    /// Whether both have the same projection, so that coordinates stay as they are.
+    /// Set if both have the same projection, so only the origin differs.
     pub stays: bool,
 }
 
 impl Passage<'_> {
-    /// Where a point of the coordinate system lies in the frame (m); NaN if it cannot be projected.
+    /// Returns the position in the frame (m) of a point in the coordinate system; NaN if it cannot be projected.
     pub fn enter(&self, [x, y]: [f64; 2]) -> [f64; 2] {
         let mut point = (x * self.unit, y * self.unit, 0.0);
         if self.stays {
@@ -276,7 +276,7 @@ impl Passage<'_> {
         [point.0 - self.frame.origin[0], point.1 - self.frame.origin[1]]
     }
 
-    /// Which point of the coordinate system lies at a place of the frame (m); NaN if it cannot be projected.
+    /// Returns the point in the coordinate system at a position in the frame (m); NaN if it cannot be projected.
     pub fn leave(&self, [x, y]: [f64; 2]) -> [f64; 2] {
         let mut point = (x + self.frame.origin[0], y + self.frame.origin[1], 0.0);
         if self.stays {
@@ -289,7 +289,7 @@ impl Passage<'_> {
     }
 }
 
-/// The parts of a definition in the order of the alphabet, without those that mean nothing here.
+/// Returns the sorted parts of a definition, without those that have no effect here.
 fn normal(definition: &str) -> Vec<&str> {
     let mut parts: Vec<&str> = definition.split_whitespace().collect();
     parts.retain(|part| !matches!(*part, "+no_defs" | "+type=crs"));
@@ -297,7 +297,7 @@ fn normal(definition: &str) -> Vec<&str> {
     parts
 }
 
-/// Leaves out features with coordinates that are no numbers, or degrees that there are not.
+/// Removes features with coordinates that are not finite, or not valid degrees.
 fn refuse_odd_degrees(crs: &Crs, table: &mut FeatureTable) -> Result<()> {
     table.refuse_endless()?;
     if !crs.is_geographic() {
@@ -314,7 +314,7 @@ fn refuse_odd_degrees(crs: &Crs, table: &mut FeatureTable) -> Result<()> {
     })
 }
 
-/// A place in the midst of most features: the median of their first points, along each axis.
+/// Returns a position amid most features: the median of their first points along each axis.
 fn median(crs: &Crs, table: &FeatureTable) -> [f64; 2] {
     let middle = |values: &mut Vec<f64>| {
         let half = values.len() / 2;
@@ -324,7 +324,7 @@ fn median(crs: &Crs, table: &FeatureTable) -> [f64; 2] {
     if !crs.is_geographic() {
         return [0, 1].map(|axis| middle(&mut firsts().map(|point| point[axis]).collect()));
     }
-    // Longitudes have no order across the date line, but places on a sphere have.
+    // Longitudes have no order across the date line, but the coordinates of points on a sphere have.
     let on_sphere = firsts().map(|point| {
         let ((sin, cos), (up, out)) = (point[0].to_radians().sin_cos(), point[1].to_radians().sin_cos());
         [cos * out, sin * out, up]
@@ -334,8 +334,8 @@ fn median(crs: &Crs, table: &FeatureTable) -> [f64; 2] {
     [y.atan2(x).to_degrees(), z.atan2(x.hypot(y)).to_degrees()]
 }
 
-/// The middle of the bounds of those features that count, and half of their greater side. Longitudes are counted on from
-/// the first one, across the date line.
+/// Returns the centre of the bounds of the features that `counts` accepts, and half of the longer side. Longitudes are
+/// relative to the first one, across the date line.
 fn centre(
     crs: &Crs,
     table: &FeatureTable,
@@ -401,12 +401,12 @@ mod tests {
         assert_eq!((frame.origin, frame.name.as_str()), ([385_400.0, 6_671_500.0], "EPSG:3067"));
         let at = placed(&frame, table(3067, &[corner]))[0];
         assert_eq!(at[..2], [corner[0] - 385_400.0, corner[1] - 6_671_500.0]);
-        // EPSG:2272 counts in feet of 0.3048006 m.
+        // EPSG:2272 uses feet of 0.3048006 m.
         let feet = [[2_690_000.0, 235_000.0], [2_690_100.0, 235_000.0]];
         let frame = ReferenceFrame::new(&mut table(2272, &feet)).unwrap();
         let [a, b] = placed(&frame, table(2272, &feet))[..] else { panic!("two") };
         assert!((b[0] - a[0] - 30.480_06).abs() < 1e-4, "{a:?} {b:?}");
-        // At 60 degrees Mercator's metres are twice those of the ground.
+        // At 60 degrees, Mercator lengths are twice the true lengths.
         let mercator = [[1_113_194.908, 8_399_737.89], [1_113_294.908, 8_399_737.89]];
         let frame = ReferenceFrame::new(&mut table(3857, &mercator)).unwrap();
         let [a, b] = placed(&frame, table(3857, &mercator))[..] else { panic!("two") };
@@ -415,7 +415,8 @@ mod tests {
 
     #[test]
     fn another_coordinate_system_comes_into_the_first_ones_frame() {
-        // PROJ 9 has 385600, 6671500 of EPSG:3067 at 24.93802 E, 60.16435 N or so; there and back is exact.
+        // According to PROJ 9, 385600, 6671500 in EPSG:3067 is at about 24.93802 E, 60.16435 N; the round trip is
+        // exact.
         let frame = ReferenceFrame::new(&mut table(3067, &[[385_600.0, 6_671_500.0]])).unwrap();
         let wgs = Crs::epsg(4326).unwrap();
         let mut point = (385_600.0, 6_671_500.0, 0.0);

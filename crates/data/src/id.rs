@@ -1,12 +1,12 @@
-//! The ids of features, small enough for millions of them.
+//! Compact feature ids, for millions of features.
 
 use std::fmt;
 use std::ops::Deref;
 
-/// How many bytes stand in the id itself.
+/// Maximum length of an id that is stored inline (bytes).
 const SHORT: usize = 14;
 
-/// A feature's id: a text, of which a short one takes no memory of its own.
+/// Feature id: a text; short texts need no heap memory.
 #[derive(Clone)]
 pub struct FeatureId(IdText);
 
@@ -21,10 +21,10 @@ enum IdText {
 }
 
 impl FeatureId {
-    /// Its text.
+    /// Returns the text.
     pub fn as_str(&self) -> &str {
         match &self.0 {
-            // It was a text when it was put there.
+            // The bytes are from a valid text.
             IdText::Short { length, bytes } => {
                 std::str::from_utf8(&bytes[..usize::from(*length)]).unwrap_or_default()
             }
@@ -32,7 +32,7 @@ impl FeatureId {
         }
     }
 
-    /// How much memory (bytes) it takes besides its own place.
+    /// Returns the memory (bytes) used in addition to the value itself.
     pub(crate) fn weight(&self) -> usize {
         match &self.0 {
             IdText::Short { .. } => 0,

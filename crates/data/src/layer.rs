@@ -1,4 +1,4 @@
-//! A layer in metres, as scripts get it.
+//! Layer in metres, as used by scripts.
 
 use rayon::prelude::*;
 
@@ -8,37 +8,37 @@ use burgeon_base::error::{Error, Result};
 use burgeon_base::text::shown;
 use burgeon_base::warning::{Warning, WarningKind};
 
-/// Features of a data file, in metres around the run's origin.
+/// Features of a data file, in metres relative to the run's origin.
 #[derive(Debug)]
 pub struct Layer {
-    /// The layer's name.
+    /// Name of the layer.
     pub name: String,
     /// File and layer, for messages.
     pub shown: String,
-    /// The projection that its coordinates are in.
+    /// Projection of the coordinates.
     pub crs: String,
-    /// Where the origin lies in that projection (m).
+    /// Origin in that projection (m).
     pub origin: [f64; 2],
-    /// The names of attributes, in the order of the file.
+    /// Attribute names, in file order.
     pub names: Vec<String>,
-    /// The features in the order of the file; rings are counter-clockwise, holes clockwise.
+    /// Features in file order; outer rings are counter-clockwise, holes clockwise.
     pub features: Vec<Feature>,
-    /// The least and the greatest coordinates (m).
+    /// Minimum and maximum coordinates (m).
     pub bounds: [[f64; 3]; 2],
-    /// How many features had no geometry, or one without extent, and were left out.
+    /// Number of skipped features without a geometry, or with one without extent.
     pub empty: usize,
-    /// How many of them had points, but too few that differ for a line or an area.
+    /// Number of these features that have points, but too few distinct ones for a line or an area.
     pub collapsed: usize,
-    /// The ids of features whose geometry cannot be read or has no place, and why; they are left out.
+    /// Ids of skipped features whose geometry cannot be read or has no position, with the reasons.
     pub refused: Vec<(String, Error)>,
-    /// What people should know of how it was read, besides what was left out.
+    /// Other messages about reading the layer.
     pub notes: Vec<String>,
-    /// How many features had no id, and got one that their content tells.
+    /// Number of features without an id, which received an id derived from their content.
     pub derived: usize,
 }
 
 impl Layer {
-    /// What people should know of how it was read.
+    /// Returns the warnings about reading the layer.
     pub fn warnings(&self) -> Vec<Warning> {
         let features = |count: usize| if count == 1 { "feature" } else { "features" };
         let shown = &self.shown;
@@ -63,7 +63,7 @@ impl Layer {
         warnings
     }
 
-    /// The remark that features had no ids, if any had none.
+    /// Returns a message that features had no ids, if there were any.
     pub fn derived_note(&self) -> Option<String> {
         let features =
             if self.derived == 1 { "feature has no id and gets" } else { "features have no ids and get" };
@@ -76,7 +76,7 @@ impl Layer {
         })
     }
 
-    /// About how much memory (bytes) it takes.
+    /// Returns the approximate memory use (bytes).
     pub fn size(&self) -> usize {
         let of = |feature: &Feature| {
             300 + feature.id.len() + feature.geometry.points().count() * 24 + feature.attributes.len() * 40
@@ -84,7 +84,7 @@ impl Layer {
         self.features.iter().map(of).sum()
     }
 
-    /// Brings `table` into `frame`, which is made for it unless there is one already.
+    /// Transforms `table` into `frame`; creates the frame if there is none.
     pub fn new(mut table: FeatureTable, frame: &mut Option<ReferenceFrame>) -> Result<Self> {
         table.refuse_endless()?;
         let left = |table: &FeatureTable| match table.refused.first() {
@@ -97,7 +97,7 @@ impl Layer {
             None => ReferenceFrame::new(&mut table).or_else(|error| left(&table).and(Err(error)))?,
         };
         found.bring(&mut table)?;
-        // What decides on a place must have one.
+        // A feature that determines the frame must have a position in it.
         left(&table)?;
         let frame = frame.insert(found);
         let nothing = || [[f64::INFINITY; 3], [f64::NEG_INFINITY; 3]];
@@ -127,7 +127,8 @@ impl Layer {
     }
 }
 
-/// Which features have lines or areas that are not valid, in words: what is computed with them may not be what they look like.
+/// Returns a message about features with invalid lines or areas, because computations with them may give unexpected
+/// results.
 fn invalid(table: &FeatureTable) -> Result<Option<String>> {
     let reason = |feature: &Feature| feature.geometry.validity_reason_within(&table.budget);
     let wrong = table.features.par_iter().enumerate().filter_map(|(number, feature)| match reason(feature) {
@@ -145,7 +146,7 @@ fn invalid(table: &FeatureTable) -> Result<Option<String>> {
     }))
 }
 
-/// The bounds around two; which of the two zeros a coordinate is does not depend on their order.
+/// Returns the union of two bounds; the sign of a zero does not depend on their order.
 fn around([a, b]: [[f64; 3]; 2], [c, d]: [[f64; 3]; 2]) -> [[f64; 3]; 2] {
     let each = |choose: fn(f64, f64) -> f64, a: [f64; 3], b: [f64; 3]| {
         std::array::from_fn(|axis| choose(a[axis], b[axis]) + 0.0)

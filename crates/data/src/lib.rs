@@ -1,9 +1,9 @@
-//! Data files: layers of features with geometry and attributes, from GeoJSON, GeoPackage, FlatGeobuf, shapefiles, CSV, GML,
-//! CityGML, CityJSON, KML, GPX and OpenStreetMap, and measured [`elevation`].
+//! Data files: layers of features with geometry and attributes, from GeoJSON, GeoPackage, FlatGeobuf, shapefiles, CSV,
+//! GML, CityGML, CityJSON, KML, GPX and OpenStreetMap, and measured [`elevation`].
 //!
-//! Comes in: a file. Goes out: a [`Listing`] of what it holds, or a [`Layer`] in metres around an origin, ready to
-//! be modelled. Coordinates are projected here, once: everything behind works in metres. It never panics on
-//! what a file holds, and never changes a file.
+//! Input: a file. Output: a [`Listing`] of its content, or a [`Layer`] in metres relative to an origin, ready for
+//! modelling. Coordinates are projected once, here; all later stages use metres. The crate never panics because of a
+//! file's content, and never changes a file.
 
 mod attribute_pool;
 mod cache;
@@ -48,7 +48,7 @@ pub use table::{Attribute, Feature, FeatureTable};
 pub use tags::{TagFilter, TagTest};
 pub use world_place::{WORLD_AXES, WorldPlace};
 
-/// The extensions of data files.
+/// Extensions of data files.
 pub const EXTENSIONS: [&str; 23] = [
     "geojson",
     "json",
@@ -75,10 +75,10 @@ pub const EXTENSIONS: [&str; 23] = [
     "cityjsonl",
 ];
 
-/// The extensions of files that hold one GeoJSON document after another.
+/// Extensions of files that contain a sequence of GeoJSON documents.
 const SEQUENCES: [&str; 5] = ["geojsons", "geojsonl", "geojsonseq", "ndjson", "jsonl"];
 
-/// Parts `FILE:LAYER`; the layer is whatever follows the first colon behind a data file's extension.
+/// Splits `FILE:LAYER`; the layer begins after the first colon that follows a data file's extension.
 pub fn split_name(text: &str) -> (&str, Option<&str>) {
     let lower = text.to_ascii_lowercase();
     let colons = text.match_indices(':').map(|(colon, _)| colon);

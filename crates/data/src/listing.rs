@@ -1,4 +1,4 @@
-//! What a data file holds, for people and for machines.
+//! Listing of a data file's content, human-readable or machine-readable.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write as _;
@@ -13,55 +13,55 @@ use burgeon_base::budget::Budget;
 use burgeon_base::error::{Error, Result};
 use burgeon_base::text::{escaped, number, shown};
 
-/// How many texts are shown of an attribute.
+/// Number of example texts shown for an attribute.
 const EXAMPLES: usize = 3;
 
-/// What a data file holds.
+/// Content of a data file.
 #[derive(Debug)]
 pub struct Listing {
-    /// The file as it was named.
+    /// File name as given.
     pub file: String,
-    /// What its format is called, such as `GeoPackage`.
+    /// Name of the format, such as `GeoPackage`.
     pub format: &'static str,
-    /// Its layers, in order.
+    /// Layers in file order.
     pub layers: Vec<LayerListing>,
 }
 
-/// What a layer holds.
+/// Content of a layer.
 #[derive(Debug)]
 pub struct LayerListing {
-    /// Its name.
+    /// Name.
     pub name: String,
-    /// Such as `EPSG:3067`, or why it is not known.
+    /// Coordinate system, such as `EPSG:3067`, or the reason why it is unknown.
     pub crs: Result<String>,
-    /// How many records with a geometry there are.
+    /// Number of records with a geometry.
     pub records: usize,
-    /// How many features they give of each kind, one for each part of a geometry.
+    /// Number of features of each type; each part of a geometry is one feature.
     pub kinds: BTreeMap<GeometryKind, usize>,
-    /// How many features have no geometry.
+    /// Number of features without a geometry.
     pub empty: usize,
-    /// How many features cannot be read, and why the first of them cannot.
+    /// Number of features that cannot be read, and the reason for the first of them.
     pub refused: Option<(usize, String)>,
-    /// West, south, east and north in the layer's own units; nothing without features.
+    /// West, south, east and north in the layer's units; `None` without features.
     pub extent: Option<[f64; 4]>,
-    /// The attributes, in the order of the file.
+    /// Attributes, in file order.
     pub attributes: Vec<AttributeListing>,
 }
 
-/// What is known of an attribute.
+/// Description of an attribute.
 #[derive(Debug, Default)]
 pub struct AttributeListing {
-    /// Its name.
+    /// Name.
     pub name: String,
-    /// `boolean`, `number`, `text`, `table`.
+    /// Types of its values: `boolean`, `number`, `text`, `table`.
     pub types: BTreeSet<&'static str>,
-    /// How many features have it.
+    /// Number of features with this attribute.
     pub count: usize,
-    /// How many features without a geometry have it.
+    /// Number of features without a geometry that have this attribute.
     pub unplaced: usize,
-    /// The least and the greatest number.
+    /// Minimum and maximum number.
     pub range: Option<[f64; 2]>,
-    /// The first texts that differ.
+    /// First distinct texts.
     pub examples: Vec<String>,
 }
 
@@ -95,7 +95,7 @@ impl Listing {
                 for layer in file.layers() {
                     let wanted = SourceOptions { layer: Some(layer), ..wanted.clone() };
                     let layer = LayerListing::of(file.read(&wanted)?)?;
-                    // Those are offered that the extract has something of.
+                    // Only layers with content in the extract are listed.
                     if layer.records > 0 || layer.refused.is_some() {
                         layers.push(layer);
                     }
@@ -107,13 +107,13 @@ impl Listing {
         Ok(Self { file: name, format, layers })
     }
 
-    /// The listing for machines.
+    /// Returns the listing as machine-readable JSON.
     pub fn to_json(&self) -> Value {
         let layers: Vec<Value> = self.layers.iter().map(LayerListing::to_json).collect();
         json!({ "file": self.file, "format": self.format, "layers": layers })
     }
 
-    /// The listing for people.
+    /// Returns the listing as human-readable text.
     pub fn text(&self) -> String {
         let mut text = format!("{}: {}\n", escaped(&self.file), self.format);
         if self.layers.is_empty() {
@@ -126,7 +126,7 @@ impl Listing {
     }
 }
 
-/// Names the file that may be meant, if there is none at `path`.
+/// Suggests the file with the most similar name if there is none at `path`.
 fn missing(path: &Path, error: Error) -> Error {
     let wanted = path.file_name().map(|name| name.to_string_lossy().into_owned());
     let folder = match path.parent() {
@@ -142,7 +142,7 @@ fn missing(path: &Path, error: Error) -> Error {
     }
 }
 
-/// The data file in `folder` whose name is nearest to `wanted`.
+/// Returns the data file in `folder` whose name is most similar to `wanted`.
 pub fn nearest_file(folder: &Path, wanted: &str) -> Option<String> {
     let entries = std::fs::read_dir(folder).ok()?;
     let mut names: Vec<String> =
@@ -156,7 +156,7 @@ pub fn nearest_file(folder: &Path, wanted: &str) -> Option<String> {
 }
 
 impl LayerListing {
-    /// What is in a table, without places that are no numbers, which every run leaves out.
+    /// Returns the content of a table, without features with coordinates that are not finite, which every run skips.
     pub fn of(mut table: FeatureTable) -> Result<Self> {
         table.refuse_endless()?;
         let mut kinds = BTreeMap::new();

@@ -1,4 +1,4 @@
-//! Data files of any format, and what is wanted of them.
+//! Data files of any format, and options for reading them.
 
 use std::fmt;
 use std::io::Read;
@@ -14,31 +14,31 @@ use burgeon_base::budget::Budget;
 use burgeon_base::error::{Error, Result};
 use burgeon_base::text::{listed, shown};
 
-/// What is wanted of a data file.
+/// Options for reading a data file.
 #[derive(Clone, Default)]
 pub struct SourceOptions {
-    /// The layer; the only one if `None`.
+    /// Name of the layer; the only layer if `None`.
     pub layer: Option<String>,
-    /// An SQL condition that features meet.
+    /// SQL condition on features.
     pub condition: Option<String>,
-    /// What the tags of features of OpenStreetMap are.
+    /// Filter of OpenStreetMap tags.
     pub tags: Option<TagFilter>,
-    /// West, south, east and north of a box that features touch, in the coordinates of the file.
+    /// West, south, east and north of a box that features must touch, in the coordinates of the file.
     pub within: Option<[f64; 4]>,
-    /// The most features to read.
+    /// Maximum number of features to read.
     pub limit: Option<usize>,
-    /// The attribute that tells features apart.
+    /// Name of the id attribute.
     pub id: Option<String>,
-    /// Reads only geometries of this kind.
+    /// Type of the geometries to read.
     pub kind: Option<GeometryKind>,
-    /// The EPSG code that holds in place of the file's.
+    /// EPSG code that overrides the file's coordinate system.
     pub crs: Option<u32>,
-    /// What reading may take.
+    /// Limits on the resources for reading.
     pub budget: Arc<Budget>,
 }
 
 impl fmt::Debug for SourceOptions {
-    /// All that decides what is read.
+    /// Writes all options that affect the content that is read.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Self { layer, condition, tags, within, limit, id, kind, crs, budget: _ } = self;
         write!(f, "{layer:?} {condition:?} {tags:?} {within:?} {limit:?} {id:?} {kind:?} {crs:?}")
@@ -46,8 +46,8 @@ impl fmt::Debug for SourceOptions {
 }
 
 impl SourceOptions {
-    /// What is read of a file that does not ask a condition itself: that comes afterwards, and how many features are wanted
-    /// counts those that meet it.
+    /// Returns the options for a file that does not evaluate conditions itself. The condition and the limit are then
+    /// applied after reading.
     fn without_condition(&self) -> Self {
         match &self.condition {
             Some(_) => Self { condition: None, limit: None, ..self.clone() },
@@ -56,40 +56,40 @@ impl SourceOptions {
     }
 }
 
-/// An open data file.
+/// Open data file.
 pub enum Source {
-    /// A GeoJSON file, all of it.
+    /// GeoJSON file, completely read.
     GeoJson(Box<FeatureTable>),
-    /// A GeoPackage, a database of layers.
+    /// GeoPackage, a database of layers.
     GeoPackage(GeoPackage),
-    /// A FlatGeobuf, one layer.
+    /// FlatGeobuf, one layer.
     FlatGeobuf(Box<FlatGeobuf>),
-    /// A file of another format, whose layers are read one by one.
+    /// File of another format, whose layers are read individually.
     Layered(Box<dyn LayeredFile>),
-    /// An extract of OpenStreetMap, with layers that tags choose.
+    /// OpenStreetMap extract, with layers selected by tags.
     Osm(OsmFile),
 }
 
-/// What to name in place of what is no data file.
+/// Remedy for a file that is not a data file.
 const NAME_ONE: &str =
     "name a .geojson, .gpkg, .fgb, .shp, .csv, .gml, .kml, .gpx, .city.json or .osm.pbf file";
 
-/// The formats that are read.
+/// Supported formats.
 pub(crate) const FORMATS: &str = "data files are GeoJSON, GeoPackage, FlatGeobuf, Shapefile, CSV, GML, CityGML, CityJSON, KML, GPX, \
                                   .osm and .osm.pbf";
 
-/// How many of the first bytes tell the format of a file.
+/// Number of first bytes used to detect the format.
 const HEAD: u64 = 4096;
 
 impl Source {
-    /// Opens the file at `path`, which messages call `name`. Its content tells what it is.
+    /// Opens the file at `path`, called `name` in messages. The format is detected from the content.
     ///
-    /// Fails if it cannot be read, or is of no format that is known.
+    /// Fails if the file cannot be read, or has an unknown format.
     pub fn open(path: &Path, name: &str) -> Result<Self> {
         Self::open_within(path, name, &SourceOptions::default())
     }
 
-    /// The same, if it takes no more than the budget that is `wanted`.
+    /// Opens the file like [`Self::open`], within the budget in `wanted`.
     pub fn open_within(path: &Path, name: &str, wanted: &SourceOptions) -> Result<Self> {
         let cannot = |error: std::io::Error| match error.kind() {
             std::io::ErrorKind::NotFound => {
@@ -102,7 +102,8 @@ impl Source {
             _ => Error::file(path, format!("cannot read {name}: {error}")).help(NAME_ONE),
         };
         if path.metadata().is_ok_and(|meta| burgeon_base::files::is_locked(&meta)) {
-            // A database of this process reads it, and would lose its lock when another handle is closed.
+            // A database connection of this process reads the file, and would lose its lock if another handle were
+            // closed.
             return Ok(Self::GeoPackage(GeoPackage::open(path, name, wanted)?));
         }
         let (file, _) = burgeon_base::files::open(path).map_err(cannot)?;
@@ -118,7 +119,7 @@ impl Source {
         }
     }
 
-    /// Opens a file that is not packed, and begins with `head`.
+    /// Opens an uncompressed file that begins with `head`.
     fn of_content(
         file: DataFile,
         head: &[u8],
@@ -151,7 +152,7 @@ impl Source {
         Self::geojson(&file, &wanted.without_condition(), cannot)
     }
 
-    /// Reads GeoJSON, all of it.
+    /// Reads a complete GeoJSON file.
     fn geojson(
         file: &DataFile,
         wanted: &SourceOptions,
@@ -175,7 +176,7 @@ impl Source {
         Ok(Self::GeoJson(Box::new(read.map_err(|error| error.about(name))?)))
     }
 
-    /// What its format is called.
+    /// Returns the name of the format.
     pub fn format(&self) -> &'static str {
         match self {
             Self::GeoJson(_) => "GeoJSON",
@@ -186,7 +187,7 @@ impl Source {
         }
     }
 
-    /// Whether it asks conditions itself while it is read, and tells its features apart, as databases do.
+    /// Returns true if the format evaluates conditions and identifies features itself, as databases do.
     fn asks_conditions(&self) -> bool {
         match self {
             Self::GeoPackage(_) => true,
@@ -194,7 +195,7 @@ impl Source {
         }
     }
 
-    /// The names of its layers.
+    /// Returns the names of the layers.
     pub fn layers(&self) -> Vec<String> {
         match self {
             Self::GeoJson(table) => vec![table.layer.clone()],
@@ -205,7 +206,7 @@ impl Source {
         }
     }
 
-    /// Reads what is `wanted`, in the order of the file.
+    /// Reads the features that `wanted` selects, in file order.
     pub fn read(self, name: &str, wanted: &SourceOptions) -> Result<FeatureTable> {
         if wanted.tags.is_some() && !matches!(self, Self::Osm(_)) {
             return Err(Error::argument(format!("{name} is {}, which takes no tags", self.format()))
@@ -244,7 +245,7 @@ impl Source {
     }
 }
 
-/// The error for a table without features.
+/// Returns the error for a table without features.
 pub(super) fn nothing(table: &FeatureTable, wanted: &SourceOptions) -> Error {
     let what = &table.shown;
     if wanted.limit == Some(0) {
@@ -269,7 +270,7 @@ pub(super) fn nothing(table: &FeatureTable, wanted: &SourceOptions) -> Error {
     Error::data(format!("{what} has no features"))
 }
 
-/// The layer of `name` that is meant.
+/// Returns the requested layer of the file `name`, or its only layer.
 pub(crate) fn choose(name: &str, layers: &[String], wanted: Option<&str>) -> Result<String> {
     let list = listed(layers.iter().map(String::as_str));
     match (wanted, layers) {

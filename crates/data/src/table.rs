@@ -1,4 +1,4 @@
-//! What a layer holds, as it stands in its file.
+//! Content of a layer, as stored in its file.
 
 use std::sync::Arc;
 
@@ -15,79 +15,79 @@ use burgeon_base::error::{Error, Result};
 use burgeon_base::text::{listed, shown};
 use burgeon_spatial::{Geometry, GeometryKind};
 
-/// What a feature knows under a name.
+/// Value of an attribute.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Attribute {
     /// True or false.
     Boolean(bool),
-    /// A finite number.
+    /// Finite number.
     Number(f64),
     /// Text.
     Text(Arc<str>),
-    /// A list or an object of GeoJSON.
+    /// GeoJSON list or object.
     Nested(Arc<serde_json::Value>),
 }
 
-/// A record with a geometry.
+/// Record with a geometry.
 #[derive(Debug, Clone)]
 pub struct Feature {
-    /// Tells it from all others of its layer.
+    /// Id, unique within its layer.
     pub id: FeatureId,
-    /// Where it is: a geometry of one part.
+    /// Geometry with one part.
     pub geometry: Geometry,
-    /// What it knows: the number of the name in [`FeatureTable::names`], and the value. Features that know the same may
-    /// share it.
+    /// Indices of the names in [`FeatureTable::names`], and the values. Features with equal attributes may share the
+    /// list.
     pub attributes: Arc<[(usize, Attribute)]>,
 }
 
-/// A layer as it stands in its file.
+/// Layer as stored in its file.
 #[derive(Debug)]
 pub struct FeatureTable {
-    /// The layer's name.
+    /// Name of the layer.
     pub layer: String,
     /// File and layer, for messages.
     pub shown: String,
-    /// The coordinate system, or why it is not known.
+    /// Coordinate system, or the reason why it is unknown.
     pub crs: Result<Crs>,
-    /// The names of attributes, in the order of the file.
+    /// Attribute names, in file order.
     pub names: Vec<String>,
-    /// The features in the order of the file, one for each part of a geometry.
+    /// Features in file order, one for each part of a geometry.
     pub features: Vec<Feature>,
-    /// How many records the features come from: fewer where some have several parts.
+    /// Number of records; less than the number of features if records have several parts.
     pub records: usize,
-    /// How many features had no geometry, or one without extent, and were left out.
+    /// Number of skipped features without a geometry, or with one without extent.
     pub empty: usize,
-    /// How many of them had points, but too few that differ.
+    /// Number of these features that have points, but too few distinct ones.
     pub(super) collapsed: usize,
-    /// The ids of features whose geometry cannot be read, and why; they are left out.
+    /// Ids of skipped features whose geometry cannot be read, with the reasons.
     pub refused: Vec<(String, Error)>,
-    /// What people should know of how it was read, besides what was left out.
+    /// Other messages about reading the layer.
     pub notes: Vec<String>,
-    /// How many features had no id, and got one that their content tells.
+    /// Number of features without an id, which received an id derived from their content.
     pub derived: usize,
-    /// For each attribute, how many features without a geometry had it.
+    /// For each attribute, the number of features without a geometry that have it.
     pub(super) unplaced: Vec<usize>,
     selection: Selection,
     ids: TakenIds,
-    /// The numbers of the attributes' names.
+    /// Indices of the attribute names.
     numbers: FxHashMap<String, usize>,
-    /// Short texts that came lately, which many features share.
+    /// Recent short texts, which many features share.
     texts: FxHashSet<Arc<str>>,
     pool: AttributePool,
-    /// The numbers of the features that are further parts of the record before, in their order.
+    /// Indices of the features that are further parts of the preceding record, in order.
     further: Vec<usize>,
-    /// What finding out about them may take.
+    /// Limits on the resources for examining the features.
     pub(super) budget: Arc<Budget>,
 }
 
-/// Which features are kept as they are read.
+/// Selection of the features to keep.
 #[derive(Debug)]
 struct Selection {
     kind: Option<GeometryKind>,
-    /// West, south, east and north of what features touch, in the coordinates of the file.
+    /// West, south, east and north of a box that features must touch, in the coordinates of the file.
     within: Option<[f64; 4]>,
     limit: Option<usize>,
-    /// The kinds that there were, by their numbers, whether they are kept or not.
+    /// Types of geometries that occurred, by number, kept or not.
     seen: [bool; 3],
 }
 
@@ -101,7 +101,7 @@ impl Selection {
     }
 }
 
-/// Whether the bounds of a geometry and a box have a place in common.
+/// Returns true if the bounds of a geometry intersect a box.
 fn touches(geometry: &Geometry, [west, south, east, north]: [f64; 4]) -> bool {
     let (mut low, mut high) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
     for point in geometry.points() {
@@ -113,17 +113,17 @@ fn touches(geometry: &Geometry, [west, south, east, north]: [f64; 4]) -> bool {
     low[0] <= east && low[1] <= north && high[0] >= west && high[1] >= south
 }
 
-/// About how much memory (bytes) a geometry takes besides its own place.
+/// Returns the approximate memory (bytes) that a geometry uses in addition to the value itself.
 fn weight(geometry: &Geometry) -> usize {
     geometry.lists().iter().map(|list| if list.len() > 1 { 48 + 24 * list.len() } else { 0 }).sum()
 }
 
-/// How many texts are remembered, and the longest of them (bytes).
+/// Maximum number of remembered texts, and maximum length of such a text (bytes).
 const TEXTS: usize = 4096;
 const LONGEST_TEXT: usize = 40;
 
 impl FeatureTable {
-    /// An empty table of a layer, which keeps what is `wanted`.
+    /// Creates an empty table of a layer, which keeps the features that `wanted` selects.
     pub(super) fn new(layer: &str, shown: &str, crs: Result<Crs>, wanted: &SourceOptions) -> Self {
         let SourceOptions { kind, within, limit, .. } = *wanted;
         Self {
@@ -149,8 +149,8 @@ impl FeatureTable {
         }
     }
 
-    /// A layer with attributes called `names`, whose features are [pushed](Self::push) by another reader; `shown` is what
-    /// messages call it.
+    /// Creates a layer with attributes called `names`, whose features are [pushed](Self::push) by another reader;
+    /// `shown` is its name in messages.
     pub fn of_layer(
         layer: &str,
         shown: &str,
@@ -161,7 +161,7 @@ impl FeatureTable {
         Self { names, ..Self::new(layer, shown, crs, wanted) }
     }
 
-    /// The number of the attribute called `name`, which is added if it is new.
+    /// Returns the index of the attribute called `name`; adds it if it is new.
     pub(super) fn name(&mut self, name: &str) -> usize {
         match self.numbers.get(name) {
             Some(number) => *number,
@@ -174,7 +174,7 @@ impl FeatureTable {
         }
     }
 
-    /// A text as an attribute; features share those that come often.
+    /// Returns a text as an attribute; features share frequent texts.
     pub(super) fn text(&mut self, text: &str) -> Attribute {
         if text.len() > LONGEST_TEXT {
             return Attribute::Text(text.into());
@@ -190,19 +190,19 @@ impl FeatureTable {
         Attribute::Text(text)
     }
 
-    /// Whether as many features are there as are wanted.
+    /// Returns true if the requested number of features has been reached.
     pub(super) fn is_full(&self) -> bool {
         self.selection.limit.is_some_and(|limit| self.features.len() >= limit)
     }
 
-    /// Whether there was a geometry, kept or not.
+    /// Returns true if there was a geometry, kept or not.
     pub(super) fn has_seen(&self) -> bool {
         self.selection.seen.contains(&true)
     }
 
-    /// Adds a feature for each of `parts` that is wanted; with an id that is taken, it becomes `id.2`, `id.3` and so on.
+    /// Adds a feature for each selected part; if the id is taken, the feature gets `id.2`, `id.3` and so on.
     ///
-    /// Fails if reading is to end, or if there is no memory left for more.
+    /// Fails if reading must end, or if the memory budget is exceeded.
     pub fn push(
         &mut self,
         id: &str,
@@ -247,8 +247,8 @@ impl FeatureTable {
         Ok(())
     }
 
-    /// Adds features that have no id, as [`push`](Self::push) does: a hash of what they are and know becomes their id. So it stays the
-    /// same when others come, go or change places. Those that are the same in everything are numbered.
+    /// Adds features without an id, like [`push`](Self::push). The id is a hash of the geometry and the attributes, so
+    /// it does not change when other features are added, removed or reordered. Identical features are numbered.
     pub(super) fn push_unnamed(
         &mut self,
         parts: Vec<Geometry>,
@@ -261,7 +261,8 @@ impl FeatureTable {
         Ok(())
     }
 
-    /// The same, with the value of the attribute `column` as the id of features that have it.
+    /// Adds features with the value of the attribute `column` as the id; features without that attribute get a derived
+    /// id.
     #[cfg(feature = "data")]
     pub(super) fn push_identified(
         &mut self,
@@ -276,9 +277,9 @@ impl FeatureTable {
         }
     }
 
-    /// Counts a feature without a geometry. If it has points of which none comes, they are within `bounds`.
+    /// Counts a feature without a geometry. If it has points, but too few for a geometry, they are within `bounds`.
     ///
-    /// Where features of a box are wanted, one that lies elsewhere or nowhere is none of them.
+    /// If a box was requested, features outside the box or without a position are not counted.
     pub(super) fn add_empty(&mut self, attributes: &[(usize, Attribute)], bounds: Option<[f64; 4]>) {
         if self.selection.within.is_some() && !bounds.is_some_and(|bounds| self.concerns(Some(bounds))) {
             return;
@@ -293,7 +294,7 @@ impl FeatureTable {
         }
     }
 
-    /// Whether something with these bounds may touch the box that is wanted, if one is. What lies at a place that is not known may.
+    /// Returns true if a feature with these bounds may touch the requested box, if any; also if the bounds are unknown.
     pub(super) fn concerns(&self, bounds: Option<[f64; 4]>) -> bool {
         let (Some(within), Some([west, south, east, north])) = (self.selection.within, bounds) else {
             return true;
@@ -301,16 +302,16 @@ impl FeatureTable {
         west <= within[2] && south <= within[3] && east >= within[0] && north >= within[1]
     }
 
-    /// Leaves out a feature as [`refuse`](Self::refuse) does, unless its bounds say that it is none of those that are wanted.
+    /// Skips a feature like [`refuse`](Self::refuse), unless its bounds are outside the requested box.
     pub(super) fn refuse_at(&mut self, id: String, error: Error, bounds: Option<[f64; 4]>) -> Result<()> {
         if self.concerns(bounds) { self.refuse(id, error) } else { self.budget.tick() }
     }
 
-    /// Keeps the features with these numbers, which come in order, and at most `limit` of them.
+    /// Keeps the features with these indices, which must be sorted, and at most `limit` of them.
     pub(super) fn keep(&mut self, kept: &[usize], limit: Option<usize>) {
         let mut kept = kept.iter().take(limit.unwrap_or(usize::MAX)).copied().peekable();
         let mut further = self.further.iter().copied().peekable();
-        // The number of the first feature of each record, for all that are kept.
+        // Index of the first feature of the record, for each kept feature.
         let mut firsts = Vec::new();
         let (mut number, mut first) = (0, 0);
         self.features.retain(|_| {
@@ -328,15 +329,15 @@ impl FeatureTable {
         self.records = firsts.len() - self.further.len();
     }
 
-    /// The table with what is wanted of it: a coordinate system in place of its own, one kind of geometry, so many
-    /// features. Fails if nothing is left.
+    /// Returns the table after applying the options: the coordinate system, the geometry type and the number of
+    /// features. Fails if no features remain.
     pub fn finished(mut self, wanted: &SourceOptions) -> Result<Self> {
         if let Some(code) = wanted.crs {
             self.crs = Crs::epsg(code);
         }
         self.check_kind()?;
         self.derived = self.derived.min(self.features.len());
-        // It would keep what a condition has left out.
+        // The pool would keep attributes that a condition has removed.
         self.pool = AttributePool::new();
         if let (true, Some((_, error))) = (self.features.is_empty() && !self.has_seen(), self.refused.first())
         {
@@ -348,7 +349,7 @@ impl FeatureTable {
         Ok(self)
     }
 
-    /// Leaves out a feature for the reason that `error` gives. Fails as [`FeatureTable::push`] does.
+    /// Skips a feature for the reason in `error`. Fails like [`FeatureTable::push`].
     pub fn refuse(&mut self, id: String, error: Error) -> Result<()> {
         self.budget.tick()?;
         self.budget.take(500 + id.len())?;
@@ -356,7 +357,7 @@ impl FeatureTable {
         Ok(())
     }
 
-    /// Leaves out the features of which `why` tells something.
+    /// Skips the features for which `why` returns an error.
     pub(super) fn refuse_those(
         &mut self,
         why: impl Fn(&mut Feature) -> Option<Error> + Send + Sync,
@@ -375,7 +376,7 @@ impl FeatureTable {
         Ok(())
     }
 
-    /// Leaves out features with coordinates that are no finite numbers.
+    /// Skips features with coordinates that are not finite.
     pub(super) fn refuse_endless(&mut self) -> Result<()> {
         let name = self.shown.clone();
         self.refuse_those(|feature| {
@@ -388,7 +389,7 @@ impl FeatureTable {
         })
     }
 
-    /// The number of the attribute `name`, and an error that lists those that there are if there is none.
+    /// Returns the index of the attribute `name`; if there is none, fails with a list of the attributes.
     pub(super) fn column(&self, name: &str) -> Result<usize> {
         self.names.iter().position(|known| known == name).ok_or_else(|| {
             let names = || self.names.iter().map(String::as_str);
@@ -397,7 +398,7 @@ impl FeatureTable {
         })
     }
 
-    /// Takes the features' ids from the attribute `name`, where one is given and a feature has it.
+    /// Sets the features' ids from the attribute `name`, if given, for features with that attribute.
     pub(super) fn identify(&mut self, name: Option<&str>) -> Result<()> {
         let Some(name) = name else { return Ok(()) };
         let column = self.column(name)?;
@@ -414,7 +415,7 @@ impl FeatureTable {
         Ok(())
     }
 
-    /// Fails if there were geometries, but none of the kind that is wanted.
+    /// Fails if there were geometries, but none of the requested type.
     pub(super) fn check_kind(&self) -> Result<()> {
         let Some(kind) = self.selection.kind else { return Ok(()) };
         let seen = |known: &GeometryKind| self.selection.seen.get(*known as usize) == Some(&true);
@@ -434,7 +435,7 @@ impl FeatureTable {
 }
 
 impl Attribute {
-    /// About how much memory (bytes) it takes besides its place in a list.
+    /// Returns the approximate memory (bytes) used in addition to the entry in a list.
     fn weight(&self) -> usize {
         fn nested(value: &serde_json::Value) -> usize {
             use serde_json::Value as Json;
@@ -454,7 +455,7 @@ impl Attribute {
         }
     }
 
-    /// The value as a feature's id.
+    /// Returns the value as a feature id.
     pub(super) fn as_id(&self) -> String {
         match self {
             Self::Boolean(value) => value.to_string(),
@@ -464,7 +465,7 @@ impl Attribute {
         }
     }
 
-    /// `boolean`, `number`, `text` or `table`.
+    /// Returns the type name: `boolean`, `number`, `text` or `table`.
     pub fn kind(&self) -> &'static str {
         match self {
             Self::Boolean(_) => "boolean",

@@ -1,23 +1,23 @@
-//! Filters of tags, by which features of OpenStreetMap are chosen.
+//! Tag filters that select OpenStreetMap features.
 
 use std::sync::Arc;
 
-/// What the tag of a key has to be.
+/// Test on the tag of a key.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum TagTest {
-    /// Any value but `no`.
+    /// Any value except `no`.
     Set,
     /// Any value.
     Any,
-    /// Not there, or `no`.
+    /// Absent, or `no`.
     Unset,
-    /// One of these values.
+    /// Any value in this list.
     OneOf(Vec<Arc<str>>),
 }
 
 #[cfg(feature = "data")]
 impl TagTest {
-    /// Whether it holds for the value of a tag, or for none.
+    /// Returns true if the test matches the value of a tag, or its absence.
     pub(crate) fn holds(&self, value: Option<&[u8]>) -> bool {
         match (self, value) {
             (Self::Set, Some(value)) => value != b"no",
@@ -28,28 +28,28 @@ impl TagTest {
         }
     }
 
-    /// Whether it can hold only where there is a tag.
+    /// Returns true if the test can match only if the tag is present.
     fn needs(&self) -> bool {
         !matches!(self, Self::Unset)
     }
 }
 
-/// Chooses features by their tags: all tests of one of the alternatives hold.
+/// Filter of features by tags: all tests of at least one alternative must match.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct TagFilter {
-    /// The alternatives, each a list of keys and of what their tags have to be.
+    /// Alternatives, each a list of keys and tests.
     pub alternatives: Vec<Vec<(Arc<str>, TagTest)>>,
 }
 
 #[cfg(feature = "data")]
 impl TagFilter {
-    /// The first alternative that holds for the values of keys.
+    /// Returns the first alternative that matches the values of keys.
     pub(crate) fn chosen<'v>(&self, value: impl Fn(&str) -> Option<&'v [u8]>) -> Option<usize> {
         let holds = |tests: &Vec<(Arc<str>, TagTest)>| tests.iter().all(|(key, test)| test.holds(value(key)));
         self.alternatives.iter().position(holds)
     }
 
-    /// The keys of which a feature must have one; none if features without any tag may be meant.
+    /// Returns keys of which a feature must have one; `None` if features without any tag may match.
     pub(crate) fn needed(&self) -> Option<Vec<&str>> {
         let first = |tests: &Vec<(Arc<str>, TagTest)>| tests.iter().position(|(_, test)| test.needs());
         let needed = self.alternatives.iter().map(|tests| first(tests).map(|at| &*tests[at].0));

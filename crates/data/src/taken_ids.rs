@@ -1,4 +1,4 @@
-//! Which ids of a layer are taken, so that each feature gets one of its own.
+//! Ids already used in a layer, so that each feature gets a unique id.
 
 use std::hash::BuildHasher;
 
@@ -8,14 +8,14 @@ use rustc_hash::{FxBuildHasher, FxHashMap};
 use super::Feature;
 use super::id::FeatureId;
 
-/// The ids that are taken.
+/// Ids in use.
 #[derive(Debug)]
 pub(super) struct TakenIds {
-    /// Ids from this number on are free, as long as all of them are numbers that grow; then `features` is empty.
+    /// First free number, as long as all ids are increasing numbers; `features` is then empty.
     free: Option<u64>,
-    /// The numbers of features, by their ids.
+    /// Indices of features, by id.
     features: HashTable<u32>,
-    /// The number that was tried last behind an id that came again.
+    /// Last number appended to a repeated id.
     last: FxHashMap<String, usize>,
 }
 
@@ -23,19 +23,19 @@ fn hash(id: &str) -> u64 {
     FxBuildHasher.hash_one(id)
 }
 
-/// The number that `id` is, written as numbers are.
+/// Returns the number in `id`, if it is in canonical decimal notation.
 fn counted(id: &str) -> Option<u64> {
     let plain = id.bytes().all(|byte| byte.is_ascii_digit()) && (id.len() == 1 || !id.starts_with('0'));
     if plain { id.parse().ok() } else { None }
 }
 
 impl TakenIds {
-    /// None.
+    /// Creates an empty set.
     pub(super) fn new() -> Self {
         Self { free: Some(0), features: HashTable::new(), last: FxHashMap::default() }
     }
 
-    /// The id that the next of `features` gets, where it wants `id`: that one, or it with a number behind it.
+    /// Returns the id for the next of `features`: `id` if it is free, otherwise `id` with a number appended.
     pub(super) fn fresh(&mut self, id: &str, features: &[Feature]) -> FeatureId {
         let number = self.free.and_then(|free| counted(id).filter(|number| *number >= free));
         if let Some(after) = number.and_then(|number| number.checked_add(1)) {
@@ -63,7 +63,7 @@ impl TakenIds {
         id
     }
 
-    /// From here on ids are looked up.
+    /// Switches to looking up ids in the table.
     fn look_up(&mut self, features: &[Feature]) {
         if self.free.take().is_some() {
             self.features = HashTable::with_capacity(features.len() + 1);
@@ -74,17 +74,17 @@ impl TakenIds {
         }
     }
 
-    /// Takes `id` for the feature at `place`.
+    /// Inserts `id` for the feature at `place`.
     fn insert(&mut self, id: &str, place: usize, features: &[Feature]) {
         let own = hash(id);
         let of = |number: &u32| {
-            // The next one is not there yet.
+            // The new feature is not yet in the list.
             features.get(*number as usize).map_or(own, |feature| hash(&feature.id))
         };
         self.features.insert_unique(own, u32::try_from(place).unwrap_or(u32::MAX), of);
     }
 
-    /// Counts a part with this id that is not wanted, so that others have the same ids as if it were.
+    /// Counts a part with this id that is not selected, so other parts get the same ids as if it were.
     pub(super) fn skip(&mut self, id: &str, features: &[Feature]) {
         self.look_up(features);
         let first = usize::from(self.taken(id, features));

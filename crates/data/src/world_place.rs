@@ -1,4 +1,4 @@
-//! The place of a model on the earth, for files and summaries.
+//! Position of a model on Earth, for files and summaries.
 
 use std::fmt;
 
@@ -6,22 +6,22 @@ use serde_json::{Value, json};
 
 use super::{Crs, ReferenceFrame};
 
-/// The axes of the coordinates of a run.
+/// Axes of a run's coordinates.
 pub const WORLD_AXES: &str = "x east, y north, z up (m)";
 
-/// Where the coordinates of a run lie on the earth: its origin in a coordinate system.
+/// Georeference of a run's coordinates: the origin in a coordinate system.
 #[derive(Debug, Clone, PartialEq)]
 pub struct WorldPlace {
-    /// The coordinate system: `EPSG:3067`, or a PROJ text of one that EPSG does not list.
+    /// Coordinate system: `EPSG:3067`, or a PROJ definition of a system without an EPSG code.
     pub crs: String,
-    /// East and north (m) of the origin in it.
+    /// East and north (m) of the origin in the coordinate system.
     pub origin: [f64; 2],
     /// Longitude and latitude (degrees) of the origin; `None` if they cannot be computed.
     pub degrees: Option<[f64; 2]>,
 }
 
 impl ReferenceFrame {
-    /// The place of the origin.
+    /// Returns the position of the origin.
     ///
     /// ```
     /// use burgeon_data::{Crs, ReferenceFrame};
@@ -39,7 +39,7 @@ impl ReferenceFrame {
         let degrees = || -> Option<[f64; 2]> {
             let degrees = Crs::epsg(4326).ok()?;
             let place = self.passage(&degrees).ok()?.leave([0.0; 2]);
-            // A ten-millionth of a degree is a centimetre.
+            // A ten-millionth of a degree is about a centimetre.
             let rounded = place.map(|angle| (angle * 1e7).round() / 1e7);
             rounded.iter().all(|angle| angle.is_finite()).then_some(rounded)
         };
@@ -48,7 +48,7 @@ impl ReferenceFrame {
 }
 
 impl WorldPlace {
-    /// The place as JSON: `crs`, `origin`, `longitude`, `latitude`.
+    /// Returns the position as JSON: `crs`, `origin`, `longitude`, `latitude`.
     pub fn to_json(&self) -> Value {
         let mut place = json!({ "crs": self.crs, "origin": self.origin });
         if let Some([longitude, latitude]) = self.degrees {

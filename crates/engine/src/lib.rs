@@ -1,6 +1,6 @@
 //! Runs scripts: virtual machines, parallel rewriting, and interpretation in between.
 //!
-//! Comes in: a script and the [`Registry`](burgeon_kit::Registry) of types that it may use. Goes out: a [`Run`] with
+//! Input: a script and the [`Registry`](burgeon_kit::Registry) of types that it may use. Output: a [`Run`] with
 //! its scene. It never knows a type of object by name, and never writes a file.
 
 mod check;

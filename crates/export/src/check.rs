@@ -1,39 +1,40 @@
-//! What every format needs to know of a scene before it writes the first byte.
+//! Checks that every format runs on a scene before it writes the first byte.
 
 use burgeon_base::error::{Error, Result};
 use burgeon_scene::{Mesh, Part, Scene};
 use glam::{DVec3, Vec3};
 use rayon::prelude::*;
 
-/// The largest coordinate (m) and the largest number of a transform; their products still are numbers in f32.
+/// Largest coordinate (m) and largest number of a transform. Products of two such numbers still fit into f32.
 const LARGEST: f64 = 1e15;
 
-/// A scene that can be written, and what of it is shown.
+/// Scene that can be written, with the parts of it that are shown.
 #[derive(Debug)]
 pub(super) struct SceneCheck<'a> {
-    /// The scene as it came.
+    /// Checked scene, unchanged.
     pub(super) scene: &'a Scene,
-    /// For each mesh, whether an instance names it and it has a triangle.
+    /// For each mesh, true if an instance names the mesh and the mesh has a triangle.
     pub(super) meshes: Vec<bool>,
-    /// For each mesh, what its parts are like; nothing if no instance names it.
+    /// For each mesh, the extents of its parts; empty if no instance names the mesh.
     pub(super) parts: Vec<Vec<PartExtent>>,
-    /// For each material, whether a triangle of a shown mesh has it.
+    /// For each material, true if a triangle of a shown mesh uses it.
     pub(super) materials: Vec<bool>,
-    /// The point (m) that the file's coordinates are counted from.
+    /// Origin (m) of the file's coordinates.
     pub(super) origin: DVec3,
 }
 
-/// What is known of a part once it has been checked, so that nobody has to look at all of it again for that.
+/// Extent of a checked part, stored so that the part is measured only once.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct PartExtent {
-    /// How many of its [`triangles`] there are.
+    /// Number of its [`triangles`].
     pub(super) triangles: usize,
-    /// The box (m) around its points; the origin without any.
+    /// Bounding box (m) of its points; both corners are the origin if there are no points.
     pub(super) low: Vec3,
     pub(super) high: Vec3,
 }
 
-/// Refuses a scene that names what it does not have or has a number that is none, in what it shows.
+/// Checks a scene. Fails if a shown part of it refers to something that does not exist or contains a number that is not
+/// finite.
 pub(super) fn check(scene: &Scene) -> Result<SceneCheck<'_>> {
     let mut meshes = vec![false; scene.meshes.len()];
     for (i, instance) in scene.instances.iter().enumerate() {
@@ -72,46 +73,46 @@ pub(super) fn check(scene: &Scene) -> Result<SceneCheck<'_>> {
     Ok(SceneCheck { scene, meshes, parts, materials, origin: origin(bounds) })
 }
 
-/// The least box (m) around the `measured` parts of `mesh`.
+/// Returns the bounding box (m) of the `measured` parts of `mesh`.
 fn bounds(mesh: &Mesh, measured: &[PartExtent]) -> Option<(DVec3, DVec3)> {
     let parts = mesh.parts.iter().zip(measured).filter(|(part, _)| !part.positions.is_empty());
     let boxes = parts.map(|(_, PartExtent { low, high, .. })| (low.as_dvec3(), high.as_dvec3()));
     boxes.reduce(|(a, b), (low, high)| (a.min(low), b.max(high)))
 }
 
-/// The triangles of `part` with three different corners; the others cover nothing and are not written.
+/// Returns the triangles of `part` with three different corners. The others have no area and are not written.
 pub(super) fn triangles(part: &Part) -> impl Iterator<Item = [u32; 3]> + Clone + '_ {
     shown(part.triangles.iter())
 }
 
-/// Those of `triangles` with three different corners.
+/// Filters `triangles` to those with three different corners.
 pub(super) fn shown<T: Iterator<Item = [u32; 3]> + Clone>(
     triangles: T,
 ) -> impl Iterator<Item = [u32; 3]> + Clone + use<T> {
     triangles.filter(|[a, b, c]| a != b && b != c && c != a)
 }
 
-/// The parts of `mesh` that have a triangle.
+/// Returns the parts of `mesh` that have a triangle.
 pub(super) fn shown_parts(mesh: &Mesh) -> impl Iterator<Item = &Part> {
     mesh.parts.iter().filter(|part| triangles(part).next().is_some())
 }
 
-/// The point (m) to count coordinates from: the world's origin, or whole metres near the centre of `bounds` if
-/// that is more than 10 km away.
+/// Returns the origin (m) of the file's coordinates: the world's origin, or whole metres near the centre of `bounds` if
+/// the centre is more than 10 km away.
 ///
-/// There an f32 still resolves a millimetre. Heights are kept unless they are that large too.
+/// At 10 km an f32 still resolves a millimetre. Heights are kept unless the centre's height exceeds 10 km too.
 pub(super) fn origin(bounds: Option<(DVec3, DVec3)>) -> DVec3 {
     let far = 10_000.0;
     let centre = bounds.map_or(DVec3::ZERO, |(low, high)| (low + high) * 0.5);
     if centre.length() <= far {
         return DVec3::ZERO;
     }
-    // Rounded to f32, so that a file which stores it as f32 stores it exactly.
+    // Rounded to f32, so that a file that stores the origin as f32 stores it exactly.
     let whole = centre.round().as_vec3().as_dvec3();
     if centre.z.abs() > far { whole } else { whole.with_z(0.0) }
 }
 
-/// A `kind` of thing by its name, or by its number if it has none.
+/// Returns a label for an item of type `kind`: its number, and its name if it has one.
 pub(super) fn named(kind: &str, name: &str, index: usize) -> String {
     if name.is_empty() { format!("{kind} {index}") } else { format!("{kind} {index} ({name:?})") }
 }
@@ -121,7 +122,7 @@ fn unsound(mesh: &Mesh, index: usize, what: &str) -> Error {
     error.help("look for a division by zero or an empty shape in what built it")
 }
 
-/// Measures `part`, or tells what is wrong with it, as the end of a sentence about its mesh.
+/// Measures `part`. Fails with the end of a sentence about its mesh.
 fn check_part(scene: &Scene, part: &Part) -> Result<PartExtent, String> {
     let Some(material) = scene.materials.get(part.material) else {
         return Err(format!("uses material {}, which is not there", part.material));

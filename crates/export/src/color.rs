@@ -1,17 +1,17 @@
-//! Numbers of colours.
+//! Conversion of colour components.
 
-/// `number` between 0 and 1; 0 for what is no number.
+/// Clamps `number` to 0 to 1; NaN becomes 0.
 pub(super) fn fraction(number: f32) -> f32 {
     if number.is_nan() { 0.0 } else { number.clamp(0.0, 1.0) }
 }
 
-/// A linear component, 0 to 1, as sRGB has it (IEC 61966-2-1).
+/// Converts a linear component, 0 to 1, to sRGB (IEC 61966-2-1).
 pub(super) fn srgb(linear: f32) -> f32 {
     let linear = fraction(linear);
     if linear <= 0.003_130_8 { linear * 12.92 } else { 1.055 * linear.powf(1.0 / 2.4) - 0.055 }
 }
 
-/// An sRGB component, 0 to 1, as a linear one.
+/// Converts an sRGB component, 0 to 1, to linear.
 pub(super) fn linear(srgb: f32) -> f32 {
     if srgb <= 0.040_45 { srgb / 12.92 } else { ((srgb + 0.055) / 1.055).powf(2.4) }
 }

@@ -1,31 +1,31 @@
-//! Transforms as formats want them: a translation, a rotation and a scale.
+//! Decomposition of transforms into a translation, a rotation and a scale, as formats require.
 
 use glam::{DAffine3, DMat3, DQuat, DVec3};
 
-/// The axes of files in which y is up.
+/// Description of the axes of y-up files.
 pub(crate) const Y_UP_AXES: &str = "x east, y up, z south (m)";
 
-/// A transform that scales, then turns, then moves.
+/// Transform that scales, then rotates, then translates.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Trs {
-    /// Metres.
+    /// Translation (m).
     pub(super) translation: DVec3,
-    /// A unit quaternion.
+    /// Rotation as a unit quaternion.
     pub(super) rotation: DQuat,
-    /// One factor is negative in a mirroring.
+    /// Scale factors; one is negative if the transform mirrors.
     pub(super) scale: DVec3,
 }
 
-/// A transform in the form that glTF has for it.
+/// Transform in the form that glTF allows.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Steps {
-    /// Every transform that keeps right angles.
+    /// Any transform that preserves right angles.
     One(Trs),
-    /// A sheared one: the rotation first, the rest after it.
+    /// Sheared transform: apply the rotation first, then the rest.
     Two(Trs, DQuat),
 }
 
-/// `transform`, between coordinates with z up, between those with y up instead.
+/// Converts `transform` from z-up to y-up coordinates.
 pub(super) fn y_up(transform: &DAffine3) -> DAffine3 {
     let turn = |v: DVec3| DVec3::new(v.x, v.z, -v.y);
     let DMat3 { x_axis, y_axis, z_axis } = transform.matrix3;
@@ -35,14 +35,14 @@ pub(super) fn y_up(transform: &DAffine3) -> DAffine3 {
     }
 }
 
-/// Takes `transform` apart.
+/// Decomposes `transform`.
 ///
-/// A sheared transform has no translation, rotation and scale, and glTF allows no matrix for it either. But it
-/// is a rotation, a scale along the axes and another rotation, one inside the other (the singular value
-/// decomposition).
+/// A sheared transform has no decomposition into one translation, rotation and scale, and glTF does not allow a matrix
+/// for it either. It is therefore written as a rotation, then a scale along the axes, then another rotation, one nested
+/// in the other (the singular value decomposition).
 pub(super) fn decompose(transform: &DAffine3) -> Steps {
     let columns = transform.matrix3;
-    // A micrometre on a metre, where f32 begins to round.
+    // A micrometre per metre: the precision of f32.
     let square = |a: DVec3, b: DVec3| a.dot(b).abs() <= 1e-6 * a.length() * b.length();
     if square(columns.x_axis, columns.y_axis)
         && square(columns.y_axis, columns.z_axis)
@@ -55,7 +55,7 @@ pub(super) fn decompose(transform: &DAffine3) -> Steps {
     Steps::Two(rest, DQuat::from_mat3(&first.transpose()).normalize())
 }
 
-/// The transform whose `columns` are at right angles.
+/// Returns the transform whose `columns` are orthogonal.
 fn from_columns(columns: DMat3, translation: DVec3) -> Trs {
     let mut scale = DVec3::new(columns.x_axis.length(), columns.y_axis.length(), columns.z_axis.length());
     if columns.determinant() < 0.0 {
@@ -72,7 +72,7 @@ fn from_columns(columns: DMat3, translation: DVec3) -> Trs {
     Trs { translation, rotation: DQuat::from_mat3(&right_handed(axes)).normalize(), scale }
 }
 
-/// A rotation with the known ones of three `axes`; the others are where a flattening transform leaves none.
+/// Completes `axes` to a rotation; axes that a flattening transform leaves undefined are chosen.
 fn right_handed(axes: [Option<DVec3>; 3]) -> DMat3 {
     match axes {
         [Some(x), Some(y), Some(z)] => DMat3::from_cols(x, y, z),
@@ -86,12 +86,12 @@ fn right_handed(axes: [Option<DVec3>; 3]) -> DMat3 {
     }
 }
 
-/// The eigenvectors of a `symmetric` matrix as the columns of a rotation.
+/// Returns the eigenvectors of a `symmetric` matrix as the columns of a rotation.
 ///
 /// Method: Jacobi's, as in Golub and Van Loan, "Matrix Computations", section 8.5.
 fn principal_axes(mut symmetric: DMat3) -> DMat3 {
     let mut axes = DMat3::IDENTITY;
-    // What is left off the diagonal is squared in each sweep of three, so eight are more than f64 needs.
+    // Each sweep of three rotations squares the off-diagonal remainder, so eight sweeps are more than f64 needs.
     for (p, q) in [(0, 1), (0, 2), (1, 2)].into_iter().cycle().take(3 * 8) {
         let off = symmetric.col(q)[p];
         if off == 0.0 {

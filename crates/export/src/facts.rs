@@ -1,49 +1,50 @@
-//! What is written: what is seen, and what is known of it.
+//! Input of an export: the scene and the facts about it.
 
 use burgeon_data::ReferenceFrame;
 use burgeon_data::output::RecordTable;
 use burgeon_picture::Picture;
 use burgeon_scene::{CityClass, Scene};
 
-/// What a run gives to its files.
+/// Input of an export, from a run.
 #[derive(Clone, Copy)]
 pub struct Export<'a> {
-    /// What is seen.
+    /// Scene to write.
     pub scene: &'a Scene,
-    /// How a picture of it is taken.
+    /// Camera and size of a render of the scene.
     pub picture: &'a Picture,
-    /// What is known of it.
+    /// Facts about the scene.
     pub facts: SceneFacts<'a>,
 }
 
-/// What is known of a scene besides what is seen, for formats that tell it.
+/// Facts about a scene beyond its geometry, for formats that store them.
 #[derive(Clone, Copy)]
 pub struct SceneFacts<'a> {
-    /// Where on the earth it is.
+    /// Projection and origin of the scene on the earth.
     pub frame: Option<&'a ReferenceFrame>,
-    /// The level of detail that it was made in, from 0 to 3.
+    /// Level of detail of the scene, from 0 to 3.
     pub detail: u8,
-    /// What is known of the systems that put something into the scene, as far as they have features.
+    /// Facts about the systems that contributed to the scene and have features.
     pub systems: &'a [SystemFacts],
-    /// What rules made that has a geometry: a table for each symbol.
+    /// Layers of modules with a geometry: one table for each symbol.
     pub layers: &'a [RecordTable],
-    /// The attributes of features that models in glTF have, beside ids (`EXT_structural_metadata`); `None` for neither.
+    /// Feature attributes to include in glTF models, in addition to ids (`EXT_structural_metadata`). `None` omits ids
+    /// too.
     pub metadata: Option<&'a [String]>,
 }
 
-/// What is known of a system's chains.
+/// Facts about the chains of a system.
 #[derive(Debug, Clone, Default)]
 pub struct SystemFacts {
-    /// The system's place in the script, from 0.
+    /// Index of the system in the script, from 0.
     pub system: usize,
-    /// For each of its chains in their order, what is known of its feature.
+    /// Attributes of the feature of each chain, in the order of the chains.
     pub records: RecordTable,
-    /// What its chains are in a city, if the script says.
+    /// Class of its city objects, if the script specifies one.
     pub class: Option<CityClass>,
 }
 
 impl Default for SceneFacts<'_> {
-    /// Nothing is known of a scene in full detail.
+    /// Returns facts of a scene in full detail, without a frame, systems, layers or metadata.
     fn default() -> Self {
         Self { frame: None, detail: 3, systems: &[], layers: &[], metadata: None }
     }

@@ -1,4 +1,4 @@
-//! Files that appear together and whole, or not at all.
+//! Files that are published together and complete, or not at all.
 
 use std::fs::{self, File};
 use std::io::{self, BufWriter, Seek, SeekFrom, Write};
@@ -10,31 +10,31 @@ use super::temporary::{Temporary, TemporaryNames, remove};
 use burgeon_base::error::{Error, Result};
 use burgeon_base::stop::Stop;
 
-/// What is to be written in one act: everything has a temporary name until [`publish`](Files::publish), and is gone if it
-/// is dropped before that.
+/// Group of files to write in one transaction. Every file has a temporary name until [`publish`](Files::publish), and
+/// is removed if the group is dropped before that.
 ///
-/// A link stays, and what it leads to is replaced by a file of the same mode and owner. What has other names too, or an
-/// owner that only the system can give, is written into. What is no file, such as a pipe, gets its content when the
-/// others have been written.
+/// A symbolic link is kept, and its target is replaced by a file of the same mode and owner. A file that has other hard
+/// links, or an owner that this process cannot set, is overwritten in place. A target that is not a regular file, such
+/// as a pipe, receives its content after the other files have been written.
 #[derive(Default)]
 pub struct Files {
     stop: Arc<Stop>,
     written: Vec<OutputFile>,
-    /// Folders that were made for them, each after the one that it is in.
+    /// Folders that were created for the files, each after its parent.
     folders: Vec<Temporary>,
 }
 
-/// A file under its temporary name.
+/// File under its temporary name.
 struct OutputFile {
     target: FileTarget,
     temporary: Temporary,
     way: ReplaceMethod,
 }
 
-/// Where the content of a file goes.
+/// Writer for the content of a file.
 pub type Out = BufWriter<Stoppable>;
 
-/// A file that cannot be written to any more once a stop was asked for.
+/// File that refuses further writes after cancellation.
 #[derive(Debug)]
 pub struct Stoppable {
     file: File,
@@ -42,20 +42,20 @@ pub struct Stoppable {
 }
 
 impl Files {
-    /// Nothing yet. Whatever is written ends, with the reason, when `stop` asks for it.
+    /// Creates an empty group. If `stop` requests cancellation, writing fails with its reason.
     pub fn new(stop: &Arc<Stop>) -> Self {
         Self { stop: Arc::clone(stop), written: Vec::new(), folders: Vec::new() }
     }
 
-    /// What asks for an end.
+    /// Returns the cancellation signal.
     pub fn stop(&self) -> Arc<Stop> {
         Arc::clone(&self.stop)
     }
 
-    /// Writes what will be at `path`.
+    /// Writes the content of the future file `path`.
     ///
-    /// Fails if its folder is not there, if it is a folder or must not be written to, if it leads to the same file as
-    /// another path, and if the disk is full.
+    /// Fails if the folder does not exist, if `path` is a folder or not writable, if `path` refers to the same file as
+    /// another path, or if the disk is full.
     pub fn write(&mut self, path: &Path, content: impl FnOnce(&mut Out) -> io::Result<()>) -> Result<()> {
         self.stop.check()?;
         let target = FileTarget::of(path)?;
@@ -67,14 +67,14 @@ impl Files {
         let written = OutputFile { target, temporary, way };
         let mut out = BufWriter::with_capacity(1 << 18, Stoppable { file, stop: Arc::clone(&self.stop) });
         let done = content(&mut out).and_then(|()| out.flush());
-        // What has been stopped has not failed.
+        // A cancelled write reports the cancellation and not an error of the file.
         self.stop.check()?;
         done.map_err(|error| written.target.refused(&error))?;
         self.written.push(written);
         Ok(())
     }
 
-    /// Makes the folder `path` for files that will be in it, unless it is there.
+    /// Creates the folder `path` for files of this group, unless it exists.
     pub fn folder(&mut self, path: &Path) -> Result<()> {
         let missing = |path: &&Path| !path.as_os_str().is_empty() && !path.exists();
         let missing: Vec<&Path> = path.ancestors().take_while(missing).collect();
@@ -95,7 +95,7 @@ impl Files {
         .help("name another folder"))
     }
 
-    /// As [`write`](Self::write), but the same `bytes` may have been written to `path` already.
+    /// Writes `bytes` as [`write`](Self::write) does, unless the same `bytes` have already been written to `path`.
     pub(super) fn copy(&mut self, path: &Path, bytes: &[u8]) -> Result<()> {
         match self.has(path, bytes) {
             Some(true) => Ok(()),
@@ -103,15 +103,15 @@ impl Files {
         }
     }
 
-    /// Whether what will be at `path` is `bytes`; `None` if nothing has been written to it.
+    /// Reports whether the content written for `path` is `bytes`; `None` if nothing has been written for it.
     pub(super) fn has(&self, path: &Path, bytes: &[u8]) -> Option<bool> {
         let target = FileTarget::of(path).ok()?;
         let known = self.written.iter().find(|known| known.target.is(&target))?;
         Some(fs::read(known.temporary.path()).is_ok_and(|known| known == bytes))
     }
 
-    /// Gives every file its name, in the order they were written. If one of them fails, those before it are as they
-    /// were.
+    /// Renames every file to its final name, in the order of writing. If one rename fails, the earlier files are
+    /// restored.
     pub fn publish(self) -> Result<()> {
         self.stop.check()?;
         for OutputFile { target, temporary, .. } in
@@ -124,7 +124,7 @@ impl Files {
         if done.is_ok() {
             self.folders.iter().for_each(|folder| folder.keep(&mut names));
         }
-        // They ask for the names when they go.
+        // Dropping a temporary locks the names, so release the lock first.
         drop(names);
         drop(kept);
         done
@@ -138,13 +138,13 @@ impl Drop for Files {
     }
 }
 
-/// Brings all that was written to its place. The first of the result is what was there before.
+/// Moves all written files to their final paths. The first value of the result is the previous files.
 fn replace(written: &[OutputFile], names: &mut TemporaryNames) -> (Vec<Option<Temporary>>, Result<()>) {
     let mut kept: Vec<Option<Temporary>> = Vec::new();
     let files: Vec<&OutputFile> = written.iter().filter(|file| file.way != ReplaceMethod::Through).collect();
     for (index, file) in files.iter().enumerate() {
         let into = file.way == ReplaceMethod::Into;
-        // Nothing can fail after the last name that is given, so that one needs no way back.
+        // Nothing can fail after the last rename, so the last file needs no backup.
         let last = index + 1 == files.len() && !into;
         let target = file.target.real();
         let before = if last { Ok(None) } else { Temporary::of(target, into, names) };
@@ -162,8 +162,8 @@ fn replace(written: &[OutputFile], names: &mut TemporaryNames) -> (Vec<Option<Te
     (kept, Ok(()))
 }
 
-/// Brings back what was `before` at the place of `file`, which has taken it unless it `failed` to; if that fails there
-/// is nothing better to do.
+/// Restores the previous file `before` at the path of `file`, which has replaced it unless it `failed` to. An error
+/// while restoring is ignored, because nothing more can be done.
 fn restore(file: &OutputFile, before: Option<&Temporary>, failed: bool, names: &mut TemporaryNames) {
     let target = file.target.real();
     match (before, file.way) {
@@ -244,7 +244,7 @@ mod tests {
             files
         };
         let files = all();
-        // In the way after it has been looked for.
+        // A folder that blocks the path appears after the check.
         fs::create_dir_all(path("a.gltf/full")).unwrap();
         files.publish().unwrap_err();
         let read = |name: &str| fs::read_to_string(path(name)).unwrap();

@@ -1,34 +1,34 @@
-//! The formats that a scene can be written in.
+//! Export formats of a scene.
 
 use burgeon_base::error::{Error, Result};
 use burgeon_scene::image;
 use std::path::Path;
 
-/// What kind of file to write.
+/// File format of an export.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Format {
     /// glTF 2.0 in one binary file, textures included.
     Glb,
-    /// glTF 2.0 as readable JSON, with a `.bin` file and the textures beside it.
+    /// glTF 2.0 as readable JSON, with a `.bin` file and the textures next to it.
     Gltf,
-    /// Wavefront OBJ, with a `.mtl` file and the textures beside it. Instances become copies.
+    /// Wavefront OBJ, with a `.mtl` file and the textures next to it. Instances become copies.
     Obj,
-    /// A picture.
+    /// Render of the scene.
     Png,
-    /// A drawing to scale: a plan, or an elevation of what stands upright and thin.
+    /// Drawing to scale: a plan, or an elevation of a thin upright model.
     Svg,
-    /// X3D 3.3 in XML, with the textures beside it.
+    /// X3D 3.3 in XML, with the textures next to it.
     X3d,
     /// CityJSON 2.0: buildings with their surfaces, and other city objects.
     CityJson,
     /// GeoJSON: the modules of the final chains that have a geometry, in degrees.
     GeoJson,
-    /// A GeoPackage of the same, with a layer for each symbol.
+    /// GeoPackage of the same modules, with a layer for each symbol.
     GeoPackage,
 }
 
 impl Format {
-    /// Every format, in the order in which messages list them.
+    /// All formats, in the order in which messages list them.
     pub const ALL: [Self; 9] = [
         Self::Glb,
         Self::Gltf,
@@ -41,10 +41,10 @@ impl Format {
         Self::GeoPackage,
     ];
 
-    /// Those that show what is seen, and need to know nothing else of a run.
+    /// Formats that need only the scene and no facts about the run.
     pub const OF_SCENES: [Self; 6] = [Self::Glb, Self::Gltf, Self::Obj, Self::Png, Self::Svg, Self::X3d];
 
-    /// The extension, in lower case and without a dot.
+    /// Returns the extension, in lower case and without a dot.
     pub const fn extension(self) -> &'static str {
         match self {
             Self::Glb => "glb",
@@ -59,18 +59,18 @@ impl Format {
         }
     }
 
-    /// The extensions of all formats, with `word` before the last one: ".glb, .gltf and .obj".
+    /// Lists the extensions of all formats, with `word` before the last one: ".glb, .gltf and .obj".
     pub fn listed(word: &str) -> String {
         let [others @ .., last] = Self::ALL.map(|format| format!(".{}", format.extension()));
         format!("{} {word} {last}", others.join(", "))
     }
 
-    /// Whether it holds layers of what rules made and nothing of the scene.
+    /// Returns true if the format stores layers of modules and nothing of the scene.
     pub fn has_layers(self) -> bool {
         matches!(self, Self::GeoJson | Self::GeoPackage)
     }
 
-    /// Refuses the format that this program was built without.
+    /// Fails if this program was built without the format.
     pub fn check(self) -> Result<()> {
         match self {
             Self::Png => image::check(),
@@ -79,9 +79,9 @@ impl Format {
         }
     }
 
-    /// The format that the extension of `path` names, in upper or lower case.
+    /// Returns the format that the extension of `path` names, in upper or lower case.
     ///
-    /// Fails on an unknown or missing extension and says which there are.
+    /// Fails on an unknown or missing extension; the error lists the known ones.
     ///
     /// ```
     /// use burgeon_export::Format;

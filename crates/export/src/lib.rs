@@ -1,14 +1,14 @@
-//! Files: a scene becomes a model, a picture or a drawing that other programs open.
+//! Export: writes a scene as a model, a render or a drawing that other programs open.
 //!
-//! Comes in: a [`Scene`] in metres, z up. Goes out: one file, or several that belong together, picked by the
-//! path's extension ([`Format`]). It never changes the scene, and it never leaves half a file: everything is
-//! written beside the path under temporary names ([`Files`]) and appears when all of it is there. The same
-//! scene gives the same bytes.
+//! Input: a [`Scene`] in metres, z up. Output: one file, or several files that belong together, in the format of the
+//! path's extension ([`Format`]). The crate never changes the scene and never leaves incomplete files: everything is
+//! written next to the path under temporary names ([`Files`]) and published when all of it is complete. The same scene
+//! results in the same bytes.
 //!
-//! Heights of the ground are written by [`heights`], from a grid and not from a scene.
+//! Terrain heights are written by [`heights`], from a grid instead of a scene.
 //!
-//! Every format refuses a scene that names what it does not have (`check`), leaves out what is not shown,
-//! and moves a model that is far from the world's origin near to its own (`check::origin`).
+//! Every format rejects a scene with invalid references (`check`), omits the parts that are not shown, and moves a
+//! model that is far from the world's origin to a nearby origin (`check::origin`).
 
 #![allow(
     clippy::cast_possible_truncation,
@@ -47,10 +47,10 @@ use burgeon_scene::Scene;
 use std::io::{self, Write};
 use std::path::Path;
 
-/// Writes `scene` to `path` in the format of its extension; `picture` matters to `.png` alone.
+/// Writes `scene` to `path` in the format of its extension; only `.png` uses `picture`.
 ///
-/// `.gltf`, `.obj` and `.x3d` bring files beside `path` whose names begin with its stem. On failure everything is as
-/// it was before. Fails as [`Files::scene`] does.
+/// `.gltf`, `.obj` and `.x3d` write additional files next to `path` whose names begin with its stem. On failure all
+/// files are as before. Fails as [`Files::scene`] does.
 pub fn write(scene: &Scene, path: &Path, picture: &Picture) -> Result<()> {
     let mut files = Files::default();
     files.scene(scene, path, picture)?;
@@ -58,18 +58,18 @@ pub fn write(scene: &Scene, path: &Path, picture: &Picture) -> Result<()> {
 }
 
 impl Files {
-    /// Writes what will be `scene` at `path`, in the format of its extension; `picture` matters to `.png` alone.
+    /// Writes `scene` to the future file `path`, in the format of its extension; only `.png` uses `picture`.
     ///
-    /// Nothing is known of it but what is seen. Fails as [`export`](Files::export) does.
+    /// The export has no facts beyond the geometry. Fails as [`export`](Files::export) does.
     pub fn scene(&mut self, scene: &Scene, path: &Path, picture: &Picture) -> Result<()> {
         self.export(&Export { scene, picture, facts: SceneFacts::default() }, path)
     }
 
-    /// Writes what will be at `path`, in the format of its extension.
+    /// Writes an export to the future file `path`, in the format of its extension.
     ///
-    /// `.gltf`, `.obj` and `.x3d` bring files beside `path` whose names begin with its stem. Fails as
-    /// [`write`](Files::write) does, if the extension is no format, if the scene is not sound, if a texture cannot be read
-    /// and if something has no place where the format counts from.
+    /// `.gltf`, `.obj` and `.x3d` write additional files next to `path` whose names begin with its stem. Fails as
+    /// [`write`](Files::write) does, if the extension is unknown, if the scene is invalid, if a texture cannot be read,
+    /// or if a point is outside the domain of the format's projection.
     pub fn export(&mut self, export: &Export<'_>, path: &Path) -> Result<()> {
         let format = Format::of(path)?;
         format.check()?;
@@ -101,28 +101,29 @@ impl Files {
     }
 }
 
-/// Writes one file whole or not at all; what is no regular file, such as a pipe, is given all of it at once.
+/// Writes one file completely or not at all. A target that is not a regular file, such as a pipe, receives the whole
+/// content at once.
 pub fn write_file(path: &Path, content: impl FnOnce(&mut Out) -> io::Result<()>) -> Result<()> {
     let mut files = Files::default();
     files.write(path, content)?;
     files.publish()
 }
 
-/// Whether [`Files::publish`] could give all of these files their names: to be asked before a long run. It leaves
-/// nothing behind.
+/// Checks that [`Files::publish`] could write all of these files, to be called before a long run. It leaves no files
+/// behind.
 ///
-/// Fails if two of them are the same file, a folder is not there or takes no files, or one of them is a folder.
+/// Fails if two paths are the same file, if a folder does not exist or is not writable, or if a path is a folder.
 pub fn check_files<'a>(paths: impl IntoIterator<Item = &'a Path>) -> Result<()> {
     let mut files = Files::default();
     paths.into_iter().try_for_each(|path| files.write(path, |_| Ok(())))
 }
 
-/// The name of `path` without its extension.
+/// Returns the name of `path` without its extension.
 fn stem(path: &Path) -> String {
     path.file_stem().unwrap_or_default().to_string_lossy().into_owned()
 }
 
-/// A file name as a relative reference of RFC 3986.
+/// Encodes a file name as a relative reference (RFC 3986).
 fn uri(name: &str) -> String {
     let mut uri = String::with_capacity(name.len());
     for byte in name.bytes() {
@@ -134,7 +135,7 @@ fn uri(name: &str) -> String {
     uri
 }
 
-/// The picture of `scene` as a PNG file. Fails as [`burgeon_picture::render`] does.
+/// Renders `scene` as a PNG file. Fails as [`burgeon_picture::render`] does.
 pub fn png(scene: &Scene, picture: &Picture, stop: &Stop) -> Result<Vec<u8>> {
     burgeon_scene::image::encode(&render_within(scene, None, picture, stop)?)
 }
@@ -143,7 +144,7 @@ pub fn png(scene: &Scene, picture: &Picture, stop: &Stop) -> Result<Vec<u8>> {
 mod tests {
     use super::*;
 
-    /// The samples go to the folder `BURGEON_SAMPLES` if it is set, where validators can look at them.
+    /// Samples are kept in the folder `BURGEON_SAMPLES` if it is set, so that validators can check them.
     #[test]
     fn every_sample_is_written_in_every_format_and_leaves_no_temporary_file() {
         let temporary = tempfile::tempdir().unwrap();

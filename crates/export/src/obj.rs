@@ -1,8 +1,8 @@
-//! Wavefront OBJ, the plain text that almost every modelling program reads.
+//! Wavefront OBJ, the text format that almost every modelling program reads.
 //!
-//! OBJ has no instances, so each becomes an object of its own with its points where they are in the world. It
-//! has no axes either: y is up here, as in glTF. Materials have the classic lighting and, for programs that
-//! know them, the physically based `Pr` and `Pm`.
+//! OBJ has no instances, so each instance becomes a separate object in world coordinates. OBJ does not define axes
+//! either: y is up here, as in glTF. Materials have the classic lighting parameters and, for programs that support
+//! them, the physically based `Pr` and `Pm`.
 
 use super::SceneFacts;
 use super::check::{SceneCheck, check, shown_parts, triangles};
@@ -17,7 +17,7 @@ use glam::{DMat3, DVec3};
 use std::io::{self, Write};
 use std::path::Path;
 
-/// Writes an `.obj` file to `path`, and its `.mtl` file and copies of the textures beside it.
+/// Writes an `.obj` file to `path`, with its `.mtl` file and copies of the textures next to it.
 pub(super) fn write(scene: &Scene, facts: &SceneFacts<'_>, path: &Path, files: &mut Files) -> Result<()> {
     let checked = check(scene)?;
     let images = Images::load(&checked)?;
@@ -43,7 +43,7 @@ fn heading() -> String {
     format!("# Burgeon {}", env!("CARGO_PKG_VERSION"))
 }
 
-/// Writes everything but the materials, whose `names` are in the file `library`.
+/// Writes everything except the materials, whose `names` are in the file `library`.
 fn write_objects(
     checked: &SceneCheck<'_>,
     frame: Option<&ReferenceFrame>,
@@ -87,13 +87,13 @@ fn write_objects(
     Ok(())
 }
 
-/// The numbers that the next point and texture coordinate get; OBJ counts from 1 through the whole file.
+/// Numbers of the next point and texture coordinate. OBJ counts from 1 through the whole file.
 struct ObjNumbers {
     point: u64,
     tex_coord: u64,
 }
 
-/// Writes the points and triangles of `part`; `size` is its texture's, in metres.
+/// Writes the points and triangles of `part`; `size` is the size (m) of its texture.
 fn write_part(
     part: &Part,
     size: Option<[f64; 2]>,
@@ -134,7 +134,7 @@ fn write_part(
     Ok(())
 }
 
-/// Writes a vector of the scene, z up, as the shortest decimals that give the same f32.
+/// Writes a vector of the scene, z up, as the shortest decimals that represent the same f32.
 fn write_vector(key: &str, vector: DVec3, out: &mut impl Write) -> io::Result<()> {
     let [x, y, z] = (y_up(vector).as_vec3() + 0.0).to_array();
     writeln!(out, "{key} {x} {y} {z}")
@@ -144,8 +144,8 @@ fn y_up(vector: DVec3) -> DVec3 {
     DVec3::new(vector.x, vector.z, -vector.y)
 }
 
-/// What turns normals if `matrix` turns points: its inverse transpose but for a positive factor, which exists
-/// for a flattening matrix too.
+/// Returns the matrix that transforms normals if `matrix` transforms points: its inverse transpose up to a positive
+/// factor, which exists for a flattening matrix too.
 fn normal_matrix(matrix: &DMat3) -> DMat3 {
     let (x, y, z) = (matrix.x_axis, matrix.y_axis, matrix.z_axis);
     let cofactors = DMat3::from_cols(y.cross(z), z.cross(x), x.cross(y));
@@ -160,9 +160,9 @@ fn write_material(
 ) -> io::Result<()> {
     let [r, g, b, opacity] = material.base_color.map(fraction);
     let (metallic, roughness) = (fraction(material.metallic), fraction(material.roughness));
-    // What mirrors: 4 % of the light on anything but metal, and the metal's own colour.
+    // Specular reflection: 4 % of the light for dielectrics, and the metal's own colour for metals.
     let specular = [r, g, b].map(|color| 0.04 + (color - 0.04) * metallic);
-    // The exponent of Blinn and Phong that looks as rough (Karis, "Specular BRDF Reference", 2013).
+    // Exponent of Blinn and Phong for the same roughness (Karis, "Specular BRDF Reference", 2013).
     let exponent = (2.0 / roughness.max(0.045).powi(4) - 2.0).clamp(0.0, 1000.0);
     writeln!(out, "newmtl {name}\nillum 2")?;
     for (key, color) in [("Kd", [r, g, b]), ("Ks", specular), ("Ke", material.emissive)] {
@@ -176,7 +176,7 @@ fn write_material(
     Ok(())
 }
 
-/// A different word for each material, the nearest to its name.
+/// Returns a unique word for each material, as similar to its name as possible.
 fn material_names(materials: &[Material]) -> Vec<String> {
     let mut names: Vec<String> = Vec::with_capacity(materials.len());
     let mut taken = rustc_hash::FxHashSet::default();
@@ -193,7 +193,7 @@ fn material_names(materials: &[Material]) -> Vec<String> {
     names
 }
 
-/// `name` without what would end a name or a line in OBJ; `other` if it is empty.
+/// Replaces the characters of `name` that would end a name or a line in OBJ. Returns `other` if `name` is empty.
 fn word(name: &str, other: &str) -> String {
     let name = if name.is_empty() { other } else { name };
     name.replace(|letter: char| letter.is_whitespace() || letter.is_control() || letter == '#', "_")
@@ -205,7 +205,7 @@ mod tests {
     use super::*;
     use std::path::Path;
 
-    /// What a reader of OBJ finds: the points, the triangles with their normals' indices, and the text.
+    /// Content of an OBJ file: the points, the triangles with the indices of their normals, and the text.
     struct ObjContent {
         points: Vec<DVec3>,
         normals: Vec<DVec3>,

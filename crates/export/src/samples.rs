@@ -4,7 +4,7 @@ use burgeon_scene::{Instance, Material, Mesh, Part, Scene, Texture};
 use glam::{DAffine3, DMat3, DQuat, DVec3, Vec2, Vec3};
 use std::path::Path;
 
-/// The box from (-0.5, -0.5, 0) to (0.5, 0.5, 1), four points for each side.
+/// Returns the box from (-0.5, -0.5, 0) to (0.5, 0.5, 1), with four points for each side.
 pub(super) fn cube(name: &str, material: usize) -> Mesh {
     let mut part = Part { material, ..Part::default() };
     for axis in 0..3 {
@@ -39,7 +39,7 @@ fn plaster() -> Material {
     Material { name: "plaster".into(), ..Material::default() }
 }
 
-/// A row of `count` boxes, turned and scaled and each with a name; the first is not.
+/// Returns a row of `count` boxes, rotated and scaled. Each has a name except the first.
 pub(super) fn boxes(count: usize) -> Scene {
     let mut scene = Scene {
         materials: vec![plaster()],
@@ -59,7 +59,7 @@ pub(super) fn boxes(count: usize) -> Scene {
     scene
 }
 
-/// `count` boxes on a spiral that differ in their transforms alone, every third mirrored.
+/// Returns `count` boxes on a spiral that differ only in their transforms; every third is mirrored.
 pub(super) fn many(count: usize) -> Scene {
     let mut scene = boxes(0);
     for i in 0..count {
@@ -75,7 +75,7 @@ pub(super) fn many(count: usize) -> Scene {
     scene
 }
 
-/// A sheared, a mirrored and a sheared mirrored box, and a flattened one.
+/// Returns a sheared, a mirrored and a sheared mirrored box, and a flattened one.
 pub(super) fn twisted() -> Scene {
     let mut scene = boxes(0);
     let shear = DMat3::from_cols(DVec3::X, DVec3::new(0.6, 1.0, 0.1), DVec3::new(0.0, 0.4, 2.0));
@@ -87,7 +87,7 @@ pub(super) fn twisted() -> Scene {
     scene
 }
 
-/// Three boxes at geographic coordinates.
+/// Returns three boxes at coordinates far from the origin.
 pub(super) fn far() -> Scene {
     let mut scene = boxes(3);
     for instance in &mut scene.instances {
@@ -96,7 +96,7 @@ pub(super) fn far() -> Scene {
     scene
 }
 
-/// Boxes with two images: one for two materials, and a second.
+/// Returns boxes with two images: one used by two materials, and a second one.
 pub(super) fn textured(folder: &Path) -> Scene {
     let brick = image::RgbImage::from_fn(64, 32, |x, y| {
         if y % 8 == 0 || (x + y / 8 * 8) % 16 == 0 {
@@ -126,7 +126,7 @@ pub(super) fn textured(folder: &Path) -> Scene {
     scene
 }
 
-/// Materials of every kind, on boxes in a row.
+/// Returns materials of all types, on boxes in a row.
 fn materials() -> Scene {
     let named = |name: &str| Material { name: name.into(), ..Material::default() };
     let materials = vec![
@@ -144,7 +144,8 @@ fn materials() -> Scene {
     scene
 }
 
-/// A box whose sides have different materials, one part without triangles, bad normals and bad corners.
+/// Returns a box whose sides have different materials, with one part without triangles, and invalid normals and
+/// corners.
 fn odd() -> Scene {
     let mut scene = boxes(1);
     scene.materials.push(Material { base_color: [0.7, 0.1, 0.1, 1.0], ..plaster() });
@@ -167,7 +168,7 @@ fn odd() -> Scene {
     scene
 }
 
-/// A hill of `n` by `n` squares, with more points than a u16 counts from `n` = 256 on.
+/// Returns a hill of `n` by `n` squares. From `n` = 256 on it has more points than a u16 can index.
 pub(super) fn hill(n: u32) -> Scene {
     let mut part = Part::default();
     for i in 0..=n {
@@ -194,7 +195,7 @@ pub(super) fn hill(n: u32) -> Scene {
     Scene { materials: vec![material], meshes, instances, ..Scene::default() }
 }
 
-/// Blocks of gabled houses on a ground.
+/// Returns blocks of gabled houses on the ground.
 pub(super) fn town(side: usize) -> Scene {
     let color = |name: &str, color: [f32; 3]| Material {
         name: name.into(),
@@ -255,7 +256,7 @@ pub(super) fn town(side: usize) -> Scene {
     scene
 }
 
-/// The levels of a Koch curve as thin bars in the plane y = 0.
+/// Returns the levels of a Koch curve as thin bars in the plane y = 0.
 pub(super) fn standing() -> Scene {
     let mut scene = Scene {
         materials: vec![plaster()],
@@ -279,7 +280,7 @@ pub(super) fn standing() -> Scene {
     scene
 }
 
-/// Every sample with its name; images go to `folder`.
+/// Returns every sample with its name; images are written to `folder`.
 pub(super) fn all(folder: &Path) -> Vec<(&'static str, Scene)> {
     let mut far_forest = many(100);
     for instance in &mut far_forest.instances {
@@ -321,7 +322,8 @@ pub(super) fn all(folder: &Path) -> Vec<(&'static str, Scene)> {
     ]
 }
 
-/// The volume (m³) that the instances enclose, each counted positive, whatever its orientation.
+/// Computes the volume (m³) that the instances enclose. Each instance counts as positive, regardless of its
+/// orientation.
 pub(super) fn volume(scene: &Scene) -> f64 {
     let mut sum = 0.0;
     for instance in &scene.instances {

@@ -1,4 +1,4 @@
-//! Where a file goes: through links to what they lead to, and with the mode and the owner of what is there.
+//! Target of a file: resolves links, and preserves the mode and the owner of an existing file.
 
 use std::fs::{self, File, Metadata};
 use std::io::{self, ErrorKind};
@@ -7,32 +7,33 @@ use std::path::{Path, PathBuf};
 use super::temporary::Temporary;
 use burgeon_base::error::{Error, Result};
 
-/// The most links that lead from one to the next.
+/// Maximum length of a chain of links.
 const LINKS: usize = 40;
 
-/// A place that a file can be written to.
+/// Path that a file can be written to.
 pub(super) struct FileTarget {
-    /// As it was named.
+    /// Path as the caller named it.
     named: PathBuf,
-    /// Where its links lead, in a folder without links.
+    /// Path with all links resolved.
     real: PathBuf,
-    /// What is there.
+    /// Metadata of the existing file, if any.
     there: Option<Metadata>,
 }
 
-/// How what was written under a temporary name comes to its place.
+/// Method to move a file from its temporary name to its target.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum ReplaceMethod {
-    /// It takes the place of what is there.
+    /// Renames the file, replacing the existing one.
     Instead,
-    /// It is copied into what is there, since that has other names too, or an owner that nobody else can make a file for.
+    /// Copies the content into the existing file, because it has other hard links or an owner that this process cannot
+    /// set.
     Into,
-    /// It is copied into what is there and cannot be taken back, such as a pipe.
+    /// Copies the content into a target that cannot be restored, such as a pipe.
     Through,
 }
 
 impl FileTarget {
-    /// The place that `named` leads to. Fails if its folder is not there, and if it is a folder or must not be written to.
+    /// Resolves `named`. Fails if its folder does not exist, if it is a folder, or if it is not writable.
     pub(super) fn of(named: &Path) -> Result<Self> {
         let there = named.metadata().ok();
         if there.as_ref().is_some_and(Metadata::is_dir) {
@@ -42,7 +43,7 @@ impl FileTarget {
             );
         }
         let real = match &there {
-            // The names that the system has for open pipes lead nowhere.
+            // The names that the system gives to open pipes are links without a target.
             Some(there) if !there.is_file() => named.to_path_buf(),
             _ => follow(named).map_err(|error| refused(named, &error))?,
         };
@@ -52,7 +53,8 @@ impl FileTarget {
             return Err(Error::file(named, format!("cannot write {shown}: there is no folder {folder}"))
                 .help("make the folder first, or write to one that is there"));
         }
-        // What is about to be replaced need not be asked by the system, but its owner may have meant to keep it.
+        // Replacing a file does not require permission to write to it, but its owner may have write-protected it on
+        // purpose.
         if there.as_ref().is_some_and(Metadata::is_file) {
             File::options().write(true).open(&real).map_err(|error| refused(named, &error))?;
         }
@@ -63,18 +65,18 @@ impl FileTarget {
         Ok(Self { named: named.to_path_buf(), real, there })
     }
 
-    /// Where it is.
+    /// Returns the resolved path.
     pub(super) fn real(&self) -> &Path {
         &self.real
     }
 
-    /// Whether both are the same file.
+    /// Returns true if both are the same file.
     pub(super) fn is(&self, other: &Self) -> bool {
         let same = |(a, b): (&Metadata, &Metadata)| identity(a).is_some_and(|a| identity(b) == Some(a));
         self.real == other.real || self.there.as_ref().zip(other.there.as_ref()).is_some_and(same)
     }
 
-    /// A file to write what is to go there, and how it will.
+    /// Creates a temporary file for the content, and selects the method to replace the target.
     pub(super) fn create(&self) -> Result<(Temporary, File, ReplaceMethod)> {
         let elsewhere = |way: ReplaceMethod| {
             let name = self.real.file_name().unwrap_or_default();
@@ -91,7 +93,7 @@ impl FileTarget {
                     let alike = !has_other_names(there) && liken(&file, there).is_ok();
                     Ok((temporary, file, if alike { ReplaceMethod::Instead } else { ReplaceMethod::Into }))
                 }
-                // The file may be written to, and its folder not.
+                // The file may be writable although its folder is not.
                 Err(error) if is_forbidden(&error) => elsewhere(ReplaceMethod::Into),
                 Err(error) => Err(error),
             },
@@ -99,12 +101,12 @@ impl FileTarget {
         created.map_err(|error: io::Error| self.refused(&error))
     }
 
-    /// The error if it could not be written.
+    /// Returns the error for a failed write.
     pub(super) fn refused(&self, error: &io::Error) -> Error {
         refused(&self.named, error)
     }
 
-    /// Copies the file at `path` into what is there.
+    /// Copies the file at `path` into the existing target.
     pub(super) fn fill(&self, path: &Path) -> io::Result<()> {
         let mut out = File::options().write(true).open(&self.real)?;
         if self.there.as_ref().is_some_and(Metadata::is_file) {
@@ -114,7 +116,7 @@ impl FileTarget {
     }
 }
 
-/// Where the links at `path` lead, even if there is nothing yet.
+/// Resolves the links at `path`, even if the final target does not exist.
 fn follow(path: &Path) -> io::Result<PathBuf> {
     let mut path = path.to_path_buf();
     for _ in 0..LINKS {
@@ -126,7 +128,7 @@ fn follow(path: &Path) -> io::Result<PathBuf> {
     Err(io::Error::other("its links lead in a circle"))
 }
 
-/// The folder that `path` is in.
+/// Returns the folder that contains `path`.
 fn folder(path: &Path) -> &Path {
     match path.parent() {
         Some(folder) if folder.as_os_str().is_empty() => Path::new("."),
@@ -135,7 +137,7 @@ fn folder(path: &Path) -> &Path {
     }
 }
 
-/// Gives `file` the owner and the mode that `like` tells.
+/// Sets the owner and the mode of `file` to those of `like`.
 #[cfg(unix)]
 fn liken(file: &File, like: &Metadata) -> io::Result<()> {
     use std::os::unix::fs::{MetadataExt, fchown};
@@ -151,7 +153,7 @@ fn liken(_: &File, _: &Metadata) -> io::Result<()> {
     Ok(())
 }
 
-/// Keeps `file`, in a folder for everyone, from all but its owner.
+/// Restricts access to `file`, which is in a shared folder, to its owner.
 #[cfg(unix)]
 fn hide(file: &File) -> io::Result<()> {
     file.set_permissions(std::os::unix::fs::PermissionsExt::from_mode(0o600))
@@ -172,7 +174,7 @@ fn has_other_names(_: &Metadata) -> bool {
     false
 }
 
-/// What tells a file from all others, whatever it is called.
+/// Returns a key that identifies a file regardless of its name.
 #[cfg(unix)]
 fn identity(there: &Metadata) -> Option<(u64, u64)> {
     use std::os::unix::fs::MetadataExt;
@@ -188,7 +190,7 @@ fn is_forbidden(error: &io::Error) -> bool {
     matches!(error.kind(), ErrorKind::PermissionDenied | ErrorKind::ReadOnlyFilesystem)
 }
 
-/// The error for a `path` that could not be written.
+/// Returns the error for a failed write to `path`.
 fn refused(path: &Path, error: &io::Error) -> Error {
     let said = Error::file(path, format!("cannot write {}: {error}", path.display()));
     match error.kind() {

@@ -1,4 +1,4 @@
-//! Files that have only a temporary name yet: they are gone once they are dropped, and when the program is told to end.
+//! Files with temporary names. They are removed when they are dropped, and when the program is told to exit.
 
 use burgeon_base::locks::LockRecovery;
 
@@ -10,15 +10,15 @@ use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Mutex, MutexGuard};
 
-/// The temporary names of this process.
+/// Temporary names of this process.
 static NAMES: Mutex<BTreeSet<PathBuf>> = Mutex::new(BTreeSet::new());
 
-/// A file under a temporary name, or a folder for files that have only such names.
+/// File under a temporary name, or a folder for such files.
 pub(super) struct Temporary {
     path: PathBuf,
 }
 
-/// All temporary names of this process: while this is there, nothing gets one, changes it or loses it.
+/// Lock on all temporary names of this process. While it exists, no other thread adds, renames or removes one.
 pub(super) struct TemporaryNames(MutexGuard<'static, BTreeSet<PathBuf>>);
 
 impl TemporaryNames {
@@ -27,25 +27,26 @@ impl TemporaryNames {
     }
 }
 
-/// Removes all files that have only a temporary name, and lets none appear any more: for a program that is about to end.
+/// Removes all files that have a temporary name, and prevents new ones. To be called by a program that is about to
+/// exit.
 pub fn abandon() {
     let names = TemporaryNames::lock();
-    // A folder comes before what is in it.
+    // A folder sorts before its content, so remove in reverse order.
     for path in names.0.iter().rev() {
         remove(path);
     }
-    // Whoever writes waits here for the end.
+    // Other writers block here until the process exits.
     std::mem::forget(names);
 }
 
 impl Temporary {
-    /// An empty file beside `target`.
+    /// Creates an empty file next to `target`.
     pub(super) fn beside(target: &Path) -> io::Result<(Self, File)> {
         let mut names = TemporaryNames::lock();
         loop {
             let path = name_beside(target);
             match File::create_new(&path) {
-                // A process that had our number was killed and left its file.
+                // A file that a killed process with the same process id has left behind.
                 Err(error) if error.kind() == ErrorKind::AlreadyExists => {}
                 other => {
                     let file = other?;
@@ -56,8 +57,8 @@ impl Temporary {
         }
     }
 
-    /// A second name for the file at `target`, or a copy if it is to be written into or the disk knows no second
-    /// names; `None` if there is no such file.
+    /// Creates a second hard link to the file at `target`, or a copy if `copied` or if the file system does not support
+    /// hard links. Returns `None` if there is no such file.
     pub(super) fn of(target: &Path, copied: bool, names: &mut TemporaryNames) -> io::Result<Option<Self>> {
         if !target.is_file() {
             return Ok(None);
@@ -65,7 +66,7 @@ impl Temporary {
         let mut path = name_beside(target);
         let copy = |path: &Path| fs::copy(target, path).map(|_| ()).inspect_err(|_| remove(path));
         if copied && copy(&path).is_err() {
-            // Its folder may take no files.
+            // The folder may not be writable.
             path = name_beside(&std::env::temp_dir().join(target.file_name().unwrap_or_default()));
             copy(&path)?;
         } else if !copied && fs::hard_link(target, &path).is_err() {
@@ -75,7 +76,7 @@ impl Temporary {
         Ok(Some(Self { path }))
     }
 
-    /// An empty folder at `path`, which is there for good once it is kept.
+    /// Creates an empty folder at `path`, which is removed unless it is kept.
     pub(super) fn folder(path: &Path) -> io::Result<Self> {
         let mut names = TemporaryNames::lock();
         fs::create_dir(path)?;
@@ -83,17 +84,17 @@ impl Temporary {
         Ok(Self { path: path.to_path_buf() })
     }
 
-    /// Lets it stay under its name.
+    /// Keeps the file or folder under its name.
     pub(super) fn keep(&self, names: &mut TemporaryNames) {
         names.0.remove(&self.path);
     }
 
-    /// Where it is.
+    /// Returns the path.
     pub(super) fn path(&self) -> &Path {
         &self.path
     }
 
-    /// Gives it the name `target`, in the place of what has it.
+    /// Renames the file to `target`, replacing an existing file.
     pub(super) fn rename(&self, target: &Path, names: &mut TemporaryNames) -> io::Result<()> {
         fs::rename(&self.path, target)?;
         names.0.remove(&self.path);
@@ -103,21 +104,21 @@ impl Temporary {
 
 impl Drop for Temporary {
     fn drop(&mut self) {
-        // One that has been renamed or is kept has no temporary name any more.
+        // A renamed or kept file no longer has a temporary name.
         if TemporaryNames::lock().0.remove(&self.path) {
             remove(&self.path);
         }
     }
 }
 
-/// Removes a file of ours, or a folder without files; if that fails there is nothing better to do than to leave it.
+/// Removes a temporary file or an empty folder. An error is ignored, because the file can only be left behind.
 pub(super) fn remove(path: &Path) {
     if fs::remove_file(path).is_err() {
         let _ = fs::remove_dir(path);
     }
 }
 
-/// A name beside `target` that this process has not used yet.
+/// Returns a name next to `target` that this process has not used yet.
 fn name_beside(target: &Path) -> PathBuf {
     static NEXT: AtomicU64 = AtomicU64::new(0);
     let mut name = OsString::from(".");

@@ -1,4 +1,4 @@
-//! The image files of a scene's materials.
+//! Image files of a scene's materials.
 
 use super::check::{SceneCheck, named};
 use super::color::linear;
@@ -11,29 +11,29 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-/// The image files that shown materials use, each once, in the order of the materials.
+/// Image files that shown materials use, each once, in the order of the materials.
 pub(super) struct Images {
-    /// The files.
+    /// Image files.
     pub(super) files: Vec<ImageFile>,
     /// For each material of the scene, the index of its file.
     pub(super) of_material: Vec<Option<usize>>,
 }
 
-/// A PNG or JPEG file as it lies on the disk.
+/// PNG or JPEG file, unchanged.
 pub(super) struct ImageFile {
     path: PathBuf,
-    /// What is known of an image without a file, to tell it from others.
+    /// Content of an image without a file, which distinguishes it from others.
     content: Option<Arc<[u8]>>,
-    /// What the file holds, unchanged.
+    /// Content of the file, unchanged.
     pub(super) bytes: Vec<u8>,
-    /// PNG or JPEG, by its content and not by its name.
+    /// PNG or JPEG, according to the content and not the name.
     kind: ImageKind,
-    /// Whether its pixels have an opacity.
+    /// Set if its pixels have an alpha channel.
     pub(super) has_alpha: bool,
 }
 
 impl Images {
-    /// Reads the files. Fails if one of them is not there or is neither PNG nor JPEG.
+    /// Reads the files. Fails if one of them does not exist or is neither PNG nor JPEG.
     pub(super) fn load(checked: &SceneCheck<'_>) -> Result<Self> {
         let mut images = Self { files: Vec::new(), of_material: Vec::new() };
         for (i, material) in checked.scene.materials.iter().enumerate() {
@@ -56,10 +56,10 @@ impl Images {
         Ok(images)
     }
 
-    /// A file name for a copy of each image beside the export at `main`, such as `city_brick.png`.
+    /// Returns a file name for a copy of each image next to the export at `main`, such as `city_brick.png`.
     ///
-    /// They begin with the stem of the export, differ from each other and from what else is among the `files`, and no
-    /// source is overwritten.
+    /// The names begin with the stem of the export, differ from each other and from the other names in `files`, and do
+    /// not overwrite a source.
     pub(super) fn copy_names(&self, main: &Path, files: &Files) -> Vec<String> {
         let place = |path: &Path| fs::canonicalize(path).ok();
         let sources: Vec<_> = self.files.iter().filter_map(|file| place(&file.path)).collect();
@@ -85,7 +85,7 @@ impl Images {
     }
 }
 
-/// The most bytes that an image file may have.
+/// Maximum size of an image file (bytes).
 const LARGEST: u64 = 1_000_000_000;
 
 impl ImageFile {
@@ -108,7 +108,7 @@ impl ImageFile {
         Ok(Self { path: path.clone(), content, bytes, kind, has_alpha })
     }
 
-    /// The file's name without folder and extension; all that it is called, of an image without a file.
+    /// Returns the file's name without folder and extension, or the whole name of an image without a file.
     pub(super) fn stem(&self) -> String {
         if self.content.is_some() {
             return self.path.to_string_lossy().into_owned();
@@ -116,19 +116,19 @@ impl ImageFile {
         self.path.file_stem().unwrap_or_default().to_string_lossy().into_owned()
     }
 
-    /// `png` or `jpg`.
+    /// Returns `png` or `jpg`.
     pub(super) fn extension(&self) -> &'static str {
         self.kind.extension()
     }
 
-    /// The media type, such as `image/png`.
+    /// Returns the media type, such as `image/png`.
     pub(super) fn media_type(&self) -> &'static str {
         self.kind.media_type()
     }
 
-    /// The mean colour of what is opaque, linear from 0 to 1; white if the file turns out to be damaged.
+    /// Computes the mean colour of the pixels weighted by opacity, linear from 0 to 1; white if the file is damaged.
     ///
-    /// Fails where images are not decoded.
+    /// Fails in builds that do not decode images.
     pub(super) fn mean_color(&self) -> Result<[f32; 3]> {
         image::check()?;
         let Ok(image) = image::decode(&self.bytes) else { return Ok([1.0; 3]) };
@@ -146,11 +146,12 @@ impl ImageFile {
     }
 }
 
-/// The most letters of an image's own name in that of its copy: systems of files take some 255 bytes in all.
+/// Maximum number of characters of an image's own name in the name of its copy. File systems allow about 255 bytes in
+/// total.
 const LONGEST: usize = 48;
 
-/// What an image without a file is called, as every system takes it for the name of one: tiles are called by level,
-/// column and row.
+/// Converts the name of an image without a file to a portable file name. Tiles, for example, are named by level, column
+/// and row.
 fn plain(name: &str) -> String {
     let name = Path::new(name).with_extension("");
     let letter = |letter: char| if letter.is_alphanumeric() || "-_.".contains(letter) { letter } else { '_' };

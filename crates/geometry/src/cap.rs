@@ -1,4 +1,4 @@
-//! Triangles that fill the end of a sweep, without T-junctions and slivers.
+//! Triangulation of the ends of a sweep, without T-junctions or slivers.
 
 use geo::TriangulateEarcut;
 use glam::DVec2;
@@ -9,16 +9,18 @@ use super::planar::{geo_polygon, twice_area};
 use super::sides::Sides;
 use burgeon_base::error::{Error, Result};
 
-/// Fills a polygon: counter-clockwise triangles of indices into the points of all `rings`, one after another.
+/// Triangulates a polygon, and returns counter-clockwise triangles of indices into the concatenated points of
+/// `rings`.
 ///
-/// The first ring is the counter-clockwise outline, the others are clockwise holes; they do not touch. Every
-/// edge of a ring is the edge of exactly one triangle, also where points lie on a straight line.
+/// The first ring is the counter-clockwise outline, the others are clockwise holes; rings do not touch. Every
+/// edge of a ring is an edge of exactly one triangle, even if points lie on a straight line. Fails if the
+/// polygon is too narrow to triangulate.
 ///
-/// Method: ear clipping (D. Eberly, "Triangulation by Ear Clipping", 2002); edges that skip a point on a line
-/// are split there; then edges are flipped until the triangulation is Delaunay but for the rings (C. Lawson,
-/// "Software for C1 surface interpolation", 1977), which removes slivers. Where points lie on a line but for rounding,
-/// as those of many holes in turned rows, clipping may choose wrongly: then all points are triangulated with exact
-/// predicates, which is slower.
+/// Method: ear clipping (D. Eberly, "Triangulation by Ear Clipping", 2002). Edges that skip a collinear point
+/// are split there. Then edges are flipped until the triangulation is constrained Delaunay (C. Lawson,
+/// "Software for C1 surface interpolation", 1977), which removes slivers. If points are collinear up to
+/// rounding, such as the corners of many holes in rotated rows, clipping may choose wrong ears. In that case
+/// all points are triangulated with exact predicates, which is slower.
 pub(super) fn triangulate(rings: &[impl AsRef<[DVec2]>]) -> Result<Vec<[usize; 3]>> {
     let points: Vec<DVec2> = rings.iter().flat_map(AsRef::as_ref).copied().collect();
     let border = border(rings);
@@ -37,7 +39,8 @@ pub(super) fn triangulate(rings: &[impl AsRef<[DVec2]>]) -> Result<Vec<[usize; 3
         })
 }
 
-/// The triangles of ear clipping without T-junctions and slivers, where it succeeds.
+/// Triangulates by ear clipping, without T-junctions or slivers; the result may be wrong if points are nearly
+/// collinear.
 fn clipped(rings: &[impl AsRef<[DVec2]>], points: &[DVec2], border: &[usize]) -> Vec<[usize; 3]> {
     let mut triangles = earcut(rings, points);
     let mut sides = Sides::of(&triangles, points.len());
@@ -53,7 +56,8 @@ fn clipped(rings: &[impl AsRef<[DVec2]>], points: &[DVec2], border: &[usize]) ->
     triangles
 }
 
-/// The triangles inside the rings of the Delaunay triangulation with their edges; `None` if rings meet.
+/// Returns the triangles of the constrained Delaunay triangulation that lie inside the rings; `None` if rings
+/// intersect.
 fn delaunay(points: &[DVec2], border: &[usize]) -> Option<Vec<[usize; 3]>> {
     let mut all = ConstrainedDelaunayTriangulation::<Point2<f64>>::new();
     let insert = |point: &DVec2| all.insert(Point2::new(point.x, point.y)).ok();
@@ -85,12 +89,12 @@ fn delaunay(points: &[DVec2], border: &[usize]) -> Option<Vec<[usize; 3]>> {
     Some(chosen.map(|face| face.vertices().map(|corner| corner.fix().index())).collect())
 }
 
-/// The ear-clipping result, counter-clockwise as a whole.
+/// Triangulates by ear clipping, with counter-clockwise triangles in total.
 fn earcut(rings: &[impl AsRef<[DVec2]>], points: &[DVec2]) -> Vec<[usize; 3]> {
     let raw = geo_polygon(rings).earcut_triangles_raw();
     let mut triangles: Vec<[usize; 3]> =
         raw.triangle_indices.chunks_exact(3).map(|corner| [corner[0], corner[1], corner[2]]).collect();
-    // One triangle alone may be so thin that its sign is rounding.
+    // A single triangle may be so thin that the sign of its area is a rounding error.
     let sum: f64 = triangles.iter().map(|&[a, b, c]| twice_area([points[a], points[b], points[c]])).sum();
     if sum < 0.0 {
         triangles.iter_mut().for_each(|triangle| triangle.reverse());
@@ -98,7 +102,7 @@ fn earcut(rings: &[impl AsRef<[DVec2]>], points: &[DVec2]) -> Vec<[usize; 3]> {
     triangles
 }
 
-/// The directed edges of the rings: for each point the next one of its ring.
+/// Returns the directed edges of the rings: for each point, the index of the next point of its ring.
 fn border(rings: &[impl AsRef<[DVec2]>]) -> Vec<usize> {
     let mut first = 0;
     let mut next = Vec::with_capacity(rings.iter().map(|ring| ring.as_ref().len()).sum());
@@ -109,7 +113,8 @@ fn border(rings: &[impl AsRef<[DVec2]>]) -> Vec<usize> {
     next
 }
 
-/// The directed triangle edges that have neither a neighbour running the other way nor an edge of the border.
+/// Returns the directed edges that lack a neighbour: triangle edges with neither an opposite triangle edge
+/// nor a border edge, and reversed border edges without a triangle.
 fn unmatched(triangles: &[[usize; 3]], sides: &Sides, border: &[usize]) -> Vec<(usize, usize)> {
     let all = triangles.iter().flat_map(|&[a, b, c]| [(a, b), (b, c), (c, a)]);
     let missing = border.iter().enumerate().filter(|&(a, &b)| sides.owner(a, b).is_none());
@@ -117,7 +122,8 @@ fn unmatched(triangles: &[[usize; 3]], sides: &Sides, border: &[usize]) -> Vec<(
     lonely.chain(missing.map(|(a, &b)| (b, a))).collect()
 }
 
-/// Splits each triangle with an unmatched edge at the ends of other unmatched edges that lie on that edge.
+/// Splits each triangle with an unmatched edge at the endpoints of other unmatched edges that lie on that
+/// edge.
 fn split_at_skipped_points(triangles: &mut Vec<[usize; 3]>, points: &[DVec2], unmatched: &[(usize, usize)]) {
     let mut ends: Vec<usize> = unmatched.iter().flat_map(|&(a, b)| [a, b]).collect();
     ends.sort_unstable();
@@ -143,7 +149,7 @@ fn split_at_skipped_points(triangles: &mut Vec<[usize; 3]>, points: &[DVec2], un
     *triangles = result;
 }
 
-/// Those of `candidates` that lie between the points `a` and `b`, in order from `a`.
+/// Returns the `candidates` between the points `a` and `b`, in order from `a`.
 fn skipped(points: &[DVec2], candidates: &[usize], a: usize, b: usize) -> Vec<usize> {
     let along = points[b] - points[a];
     let square = along.length_squared();
@@ -158,18 +164,19 @@ fn skipped(points: &[DVec2], candidates: &[usize], a: usize, b: usize) -> Vec<us
     found.into_iter().map(|(_, candidate)| candidate).collect()
 }
 
-/// Flips inner edges whose opposite angles add up to more than half a turn, until there are none.
+/// Flips inner edges whose opposite angles add up to more than half a turn, until none is left.
 fn flip(triangles: &mut [[usize; 3]], sides: &mut Sides, points: &[DVec2]) {
     let mut pending: Vec<(usize, usize)> =
         triangles.iter().flat_map(|&[a, b, c]| [(a, b), (b, c), (c, a)]).filter(|(a, b)| a < b).collect();
-    // Each flip raises the smallest angles, so it ends by itself; the limit is for angles that rounding ties.
+    // Each flip increases the smallest angles, so the loop terminates; the limit handles angles that are
+    // equal up to rounding.
     let mut left = 16 * triangles.len() * triangles.len().min(64);
     while let Some((a, b)) = pending.pop() {
         let (Some(one), Some(two)) = (sides.owner(a, b), sides.owner(b, a)) else { continue };
         let (c, d) = (opposite(triangles[one], a, b), opposite(triangles[two], a, b));
         let [pa, pb, pc, pd] = [a, b, c, d].map(|index| points[index]);
         let convex = twice_area([pa, pd, pc]) > 0.0 && twice_area([pd, pb, pc]) > 0.0;
-        // Two angles of at most a quarter turn need not be measured.
+        // Two angles of at most a quarter turn add up to at most half a turn.
         let small = (pa - pc).dot(pb - pc) >= 0.0 && (pb - pd).dot(pa - pd) >= 0.0;
         if !convex || small || !is_wide([pa - pc, pb - pc], [pb - pd, pa - pd]) || left == 0 {
             continue;
@@ -185,16 +192,18 @@ fn flip(triangles: &mut [[usize; 3]], sides: &mut Sides, points: &[DVec2]) {
     }
 }
 
-/// The corner of `triangle` that is neither `a` nor `b`.
+/// Returns the corner of `triangle` that is neither `a` nor `b`.
 fn opposite(triangle: [usize; 3], a: usize, b: usize) -> usize {
     triangle.into_iter().find(|&corner| corner != a && corner != b).unwrap_or(a)
 }
 
-/// Whether the angles between two pairs of directions, each counter-clockwise and less than half a turn, add up to more
-/// than half a turn, by more than rounding would.
+/// Returns true if the angles between two pairs of directions add up to more than half a turn, beyond
+/// rounding.
+///
+/// Each pair is counter-clockwise and encloses less than half a turn.
 fn is_wide([u, v]: [DVec2; 2], [w, z]: [DVec2; 2]) -> bool {
     let (crosses, dots) = ([u.perp_dot(v), w.perp_dot(z)], [u.dot(v), w.dot(z)]);
-    // The sine and the cosine of the sum, times all lengths.
+    // Sine and cosine of the sum of the angles, scaled by the product of all lengths.
     let sine = crosses[0] * dots[1] + dots[0] * crosses[1];
     let cosine = dots[0] * dots[1] - crosses[0] * crosses[1];
     let lengths = [u, v, w, z].map(DVec2::length_squared).iter().product::<f64>().sqrt();
@@ -251,7 +260,8 @@ mod tests {
         assert!((filled(&[turned]) - 17.0).abs() < 1e-12);
     }
 
-    /// A turned rectangle with rows of equal holes, whose corners lie in lines but for rounding.
+    /// Returns a rotated rectangle with rows of equal holes, whose corners are collinear up to rounding, and
+    /// its area.
     fn turned_grid(seed: u64) -> (Vec<Vec<DVec2>>, f64) {
         let mut random = super::super::skeleton::samples::Random(seed);
         let mut whole = |from: f64, to: f64| from + (random.next() * (to - from + 1.0)).floor();

@@ -1,4 +1,4 @@
-//! Single faces and balls, for drawing objects.
+//! Single faces and spheres for drawing objects.
 
 use geo::TriangulateEarcut;
 use glam::{DVec2, DVec3};
@@ -7,27 +7,28 @@ use super::planar::geo_polygon;
 use burgeon_base::error::{Error, Limit, Result};
 use burgeon_scene::Part;
 
-/// Adds a flat polygon with `corners` (m) in order, at least three; its normal follows the right hand.
+/// Adds a flat polygon with at least three `corners` (m); its normal follows the right-hand rule.
 ///
-/// Corners off the common plane are kept where they are; the polygon is divided as seen along its mean normal
-/// (Newell's method). Texture coordinates are metres within the plane. A polygon without area adds nothing.
+/// Corners that are not coplanar keep their positions; the polygon is triangulated in the plane of its mean
+/// normal (Newell's method). Texture coordinates are metres within that plane. A polygon without area adds
+/// nothing. Fails if a corner is not finite or fewer than three corners are distinct.
 pub fn face(part: &mut Part, corners: &[DVec3]) -> Result<()> {
     shaded_face(part, corners, CornerShading::default())
 }
 
-/// What the corners of a face look like, where that does not follow from its plane; in the order of the corners.
+/// Normals and texture coordinates that override those of the face's plane, in the order of the corners.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct CornerShading<'a> {
-    /// Where each faces.
+    /// Normal of each corner.
     pub normals: Option<&'a [DVec3]>,
-    /// Where each is on a texture (m).
+    /// Texture coordinates of each corner (m).
     pub uvs: Option<&'a [DVec2]>,
 }
 
-/// As [`face`], with normals and texture coordinates that are given.
+/// Adds a face like [`face`], with explicit normals and texture coordinates.
 pub fn shaded_face(part: &mut Part, corners: &[DVec3], shading: CornerShading<'_>) -> Result<()> {
     let mut points: Vec<DVec3> = Vec::with_capacity(corners.len());
-    // Which of the corners each is.
+    // Index of each kept point in `corners`.
     let mut numbers: Vec<usize> = Vec::with_capacity(corners.len());
     for (number, corner) in corners.iter().enumerate() {
         if !corner.is_finite() {
@@ -86,7 +87,7 @@ pub fn shaded_face(part: &mut Part, corners: &[DVec3], shading: CornerShading<'_
     Ok(())
 }
 
-/// Adds a closed ball with `radius` (m) and `sides` faces around its axis, at least 3.
+/// Adds a closed sphere with `radius` (m) and `sides` faces around its axis, at least 3.
 pub fn sphere(part: &mut Part, center: DVec3, radius: f64, sides: u32) -> Result<()> {
     if !radius.is_finite() || radius < 0.0 {
         return Err(Error::geometry(format!("the radius of a ball must be 0 or more, and is {radius}")));
@@ -99,7 +100,7 @@ pub fn sphere(part: &mut Part, center: DVec3, radius: f64, sides: u32) -> Result
         .map_err(|_| Error::limit(Limit::Size, "a mesh holds too many vertices"))?;
     for row in 0..=rows {
         let (sin, cos) = (std::f64::consts::PI * f64::from(row) / f64::from(rows)).sin_cos();
-        // Exact poles, so that the faces around them meet.
+        // Exact poles close the surface.
         let sin = if row == 0 || row == rows { 0.0 } else { sin };
         for side in 0..=sides {
             let angle = std::f64::consts::TAU * f64::from(side % sides) / f64::from(sides);

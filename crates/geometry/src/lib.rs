@@ -1,7 +1,7 @@
 //! Geometry without rules or scripts: frames, cross-sections, sweeps, straight skeletons and roofs.
 //!
-//! Comes in: points, outlines and cross-sections, in metres. Goes out: faces, lines and meshes, closed or with their
-//! open edges named. It never reads a file, draws a random number or looks at a module.
+//! Input: points, outlines and cross-sections in metres. Output: faces, lines and meshes, closed or with a
+//! list of their open edges. This crate never reads a file, draws a random number or reads a module.
 
 mod cap;
 mod face;
@@ -44,7 +44,7 @@ pub use strand::{MOST_SIDES, Strand, tube};
 pub use sweep::{Lengthwise, SweepOptions, SweepResult, sweep};
 pub use union::{Crossing, Union, UnionCell};
 
-/// The examples of the README.
+/// Doc tests of the README.
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]
 pub struct Readme;

@@ -1,4 +1,4 @@
-//! The rings of a cross-section: what a user gave, made clean or refused.
+//! Rings of a cross-section: validated and cleaned user input.
 
 use geo::line_intersection::{LineIntersection, line_intersection};
 use geo::{Coord, Orientation};
@@ -11,7 +11,7 @@ use super::simplify::corners;
 use burgeon_base::Stop;
 use burgeon_base::error::{Error, Result};
 
-/// A point with its place, counted from 1, in the list that the user gave.
+/// A point with its position in the user's list, counted from 1.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct NumberedPoint {
     pub point: SectionPoint,
@@ -24,46 +24,48 @@ impl Point for NumberedPoint {
     }
 }
 
-/// A ring with the name that errors give it.
+/// A ring with its name in error messages.
 struct NamedRing {
     name: String,
     points: Vec<NumberedPoint>,
 }
 
-/// What rings belong to, and how closely they are looked at.
+/// Owner and tolerances of rings.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct OutlineOptions {
-    /// The name that errors give it.
+    /// Name of the owner in error messages.
     pub owner: &'static str,
-    /// Points within this distance (m) are one.
+    /// Distance (m) within which points are merged.
     pub near: f64,
-    /// Tolerance (m) of the simplification: the ring stays within it of what was given, but for tips of spikes that are
-    /// not wider and for points that are one. With 0, sharp points exactly between their neighbours are dropped.
+    /// Tolerance (m) of the simplification.
+    ///
+    /// The simplified ring stays within this distance of the input, except for the tips of spikes that are
+    /// not wider and for merged points. If 0, only sharp points exactly between their neighbours are dropped.
     pub straight: f64,
 }
 
-/// Slits that are not wider (m) are only rounding.
+/// Maximum width (m) of slits caused by rounding.
 const ROUNDING: f64 = 1e-6;
 
-/// How far (m) from the line between its neighbours a point may lie that is not needed.
+/// Maximum distance (m) of an unnecessary point from the line between its neighbours.
 const STRAIGHT: f64 = 1e-9;
 
-/// The tolerances that are tried in turn, as parts of the one that was asked for, until no edges meet.
+/// Fractions of the requested tolerance that are tried in turn until no edges meet.
 const FINER: [f64; 3] = [1.0, 0.25, 0.05];
 
 const SECTION: OutlineOptions = OutlineOptions { owner: "cross-section", near: 1e-9, straight: 0.0 };
 
-/// Closed rings in order: the outer one counter-clockwise, the holes clockwise.
+/// Returns cleaned closed rings: the outer ring counter-clockwise, then the holes clockwise.
 ///
-/// Repeated points are dropped, and so are sharp points on a straight line between sharp points. Fails if a
-/// ring has a coordinate that is not finite, fewer than 3 distinct points or no area, if rings cross or touch
-/// themselves or each other, and if a hole is not inside the outer ring or is inside another hole.
+/// Drops repeated points, and sharp points on a straight line between sharp points. Fails if a coordinate is
+/// not finite, if a ring has fewer than 3 distinct points or no area, if rings cross or touch themselves or
+/// each other, or if a hole is outside the outer ring or inside another hole.
 pub(super) fn closed(outer: &[SectionPoint], holes: &[Vec<SectionPoint>]) -> Result<Vec<Vec<SectionPoint>>> {
     let rings = numbered_rings(outer, holes, &SECTION)?;
     Ok(rings.into_iter().map(|ring| ring.into_iter().map(|point| point.point).collect()).collect())
 }
 
-/// As [`closed`], in the `manner` of another thing than a cross-section, and with the places of the points.
+/// Cleans rings like [`closed`], with the options of another owner, and keeps the numbers of the points.
 pub(super) fn numbered_rings(
     outer: &[SectionPoint],
     holes: &[Vec<SectionPoint>],
@@ -74,7 +76,7 @@ pub(super) fn numbered_rings(
     let turned = rings.into_iter().enumerate().map(|(index, ring)| {
         let mut points = ring.points;
         if (twice_area(points.iter().copied()) > 0.0) != (index == 0) {
-            // The first point stays first, since texture coordinates begin there.
+            // The first point stays first because texture coordinates begin there.
             points[1..].reverse();
         }
         points
@@ -82,7 +84,7 @@ pub(super) fn numbered_rings(
     Ok(turned.collect())
 }
 
-/// The rings simplified as far as none of their edges meet: walls thinner than the tolerance need a finer one.
+/// Simplifies the rings so far that no edges meet; walls thinner than the tolerance need a finer one.
 fn rings_within(
     outer: &[SectionPoint],
     holes: &[Vec<SectionPoint>],
@@ -104,7 +106,7 @@ fn rings_within(
     Err(refused.unwrap_or_else(|| Error::geometry("the outline cannot be simplified")))
 }
 
-/// An open line of at least 2 distinct points, cleaned like a ring; fails if it crosses or touches itself.
+/// Returns a cleaned open line of at least 2 distinct points; fails if it crosses or touches itself.
 pub(super) fn open(points: &[SectionPoint]) -> Result<Vec<SectionPoint>> {
     let name = "the line".to_owned();
     let mut points = numbered(&name, points, &SECTION)?;
@@ -119,7 +121,7 @@ pub(super) fn open(points: &[SectionPoint]) -> Result<Vec<SectionPoint>> {
     Ok(line.points.into_iter().map(|point| point.point).collect())
 }
 
-/// Whether these points are the ring of a hole, so far as it can be told of one alone.
+/// Returns true if the points form a valid hole, regardless of other rings.
 pub(super) fn is_hole(points: &[SectionPoint], manner: &OutlineOptions) -> bool {
     ring(String::new(), points, true, manner).is_ok()
 }
@@ -128,7 +130,7 @@ fn ring(name: String, points: &[SectionPoint], is_hole: bool, manner: &OutlineOp
     let owner = manner.owner;
     let mut points = numbered(&name, points, manner)?;
     let simplifies = manner.straight > 0.0;
-    // What is simplified is measured against all points that were given.
+    // The simplification compares with all input points.
     drop_repeated(&mut points, if simplifies { 0.0 } else { manner.near }, true);
     if points.len() < 3 {
         let count = points.len();
@@ -177,7 +179,7 @@ fn numbered(name: &str, points: &[SectionPoint], manner: &OutlineOptions) -> Res
     points.iter().enumerate().map(number).collect()
 }
 
-/// Drops points within `near` (m) of the one before; in a ring also across its end.
+/// Drops points within `near` (m) of the previous point; in a ring also across its end.
 fn drop_repeated(points: &mut Vec<NumberedPoint>, near: f64, closed: bool) {
     points.dedup_by(|next, kept| is_same(next, kept, near));
     while closed && points.len() > 1 && is_same(&points[0], &points[points.len() - 1], near) {
@@ -185,12 +187,12 @@ fn drop_repeated(points: &mut Vec<NumberedPoint>, near: f64, closed: bool) {
     }
 }
 
-/// Whether two points are too near to each other to be two.
+/// Returns true if two points are within `near` (m) of each other.
 fn is_same(a: &NumberedPoint, b: &NumberedPoint, near: f64) -> bool {
     a.point.at.distance_squared(b.point.at) <= near * near
 }
 
-/// Drops the sharp points on a straight line between sharp points, which change neither shape nor shading.
+/// Drops sharp points on a straight line between sharp points; they affect neither shape nor shading.
 fn drop_straight(points: &mut Vec<NumberedPoint>, closed: bool) {
     let mut index = usize::from(!closed);
     while points.len() > 2 && index < points.len() - usize::from(!closed) {
@@ -208,8 +210,10 @@ fn drop_straight(points: &mut Vec<NumberedPoint>, closed: bool) {
     }
 }
 
-/// Drops points on a straight line that is left where others were dropped, and the tips of spikes, where one side lies along the other within the tolerance. Spikes into the area are slits,
-/// which are filled elsewhere, unless they are only rounding.
+/// Drops collinear points that remain after other points were dropped, and the tips of spikes.
+///
+/// A spike is a corner where one side lies along the other within the tolerance. Spikes into the area are
+/// slits: other code fills them, unless they are only rounding errors.
 fn drop_spikes(points: &mut Vec<NumberedPoint>, is_hole: bool, manner: &OutlineOptions) {
     let outwards = if (twice_area(points.iter().copied()) > 0.0) == is_hole { -1.0 } else { 1.0 };
     let mut index = 0;
@@ -223,7 +227,7 @@ fn drop_spikes(points: &mut Vec<NumberedPoint>, is_hole: bool, manner: &OutlineO
         let is_straight = a.dot(b) > 0.0 && turn.abs() <= STRAIGHT * longer;
         if is_tip || is_straight || a.length().min(b.length()) <= manner.near {
             points.remove(index);
-            // The points beside a tip may be another one now.
+            // The neighbours of a dropped tip may be new tips.
             index = index.saturating_sub(2);
         } else {
             index += 1;
@@ -231,23 +235,23 @@ fn drop_spikes(points: &mut Vec<NumberedPoint>, is_hole: bool, manner: &OutlineO
     }
 }
 
-/// A point of a ring between those before and after it.
+/// Returns a point of a ring between its neighbours.
 fn around(points: &[NumberedPoint], index: usize) -> [NumberedPoint; 3] {
     let count = points.len();
     [(index + count - 1) % count, index, (index + 1) % count].map(|index| points[index])
 }
 
-/// Edges after which it is checked again that the run goes on.
+/// Number of edges between two checks for cancellation.
 const STOP_EDGES: usize = 64;
 
-/// An edge of a ring, by the indices of the ring and of its first point.
+/// An edge of a ring, identified by the indices of the ring and of its first point.
 struct OutlineEdge {
     ring: usize,
     index: usize,
     line: geo::Line,
 }
 
-/// Fails if two edges have a point in common other than the one where they follow each other.
+/// Fails if two edges share a point other than the common endpoint of consecutive edges.
 fn refuse_crossings(rings: &[NamedRing], closed: bool, manner: &OutlineOptions) -> Result<()> {
     let owner = manner.owner;
     let mut edges = Vec::new();
@@ -257,7 +261,7 @@ fn refuse_crossings(rings: &[NamedRing], closed: bool, manner: &OutlineOptions) 
             edges.push(OutlineEdge { ring, index, line: geo::Line::new(start, end) });
         }
     }
-    // From left to right, so that each edge meets only those that begin before it ends.
+    // Sweep from left to right: each edge is compared only with edges that begin before it ends.
     let left = |edge: &OutlineEdge| edge.line.start.x.min(edge.line.end.x);
     edges.sort_by(|a, b| left(a).total_cmp(&left(b)));
     let stop = Stop::current();
@@ -292,13 +296,13 @@ fn refuse_crossings(rings: &[NamedRing], closed: bool, manner: &OutlineOptions) 
     Ok(())
 }
 
-/// Where two edges meet though they should not.
+/// Returns the position (m) of a forbidden intersection of two edges.
 fn meeting(a: &OutlineEdge, b: &OutlineEdge, count: usize, closed: bool) -> Option<DVec2> {
     let follows = |a: &OutlineEdge, b: &OutlineEdge| {
         b.index == a.index + 1 || (closed && b.index == 0 && a.index + 1 == count)
     };
     let neighbours = a.ring == b.ring && (follows(a, b) || follows(b, a));
-    // Most pairs of edges follow each other around a corner, where they have nothing else in common.
+    // Most pairs of edges are consecutive and share only their corner.
     if neighbours && turns(a.line, b.line) {
         return None;
     }
@@ -309,7 +313,7 @@ fn meeting(a: &OutlineEdge, b: &OutlineEdge, count: usize, closed: bool) -> Opti
     }
 }
 
-/// Whether two lines certainly run different ways: by more than rounding could feign.
+/// Returns true if two lines differ in direction by more than rounding errors.
 fn turns(a: geo::Line, b: geo::Line) -> bool {
     let [u, v] = [a, b].map(|line| vector(line.end) - vector(line.start));
     let cross = u.perp_dot(v);
@@ -321,7 +325,7 @@ fn edge_name(edge: &OutlineEdge, rings: &[NamedRing]) -> String {
     format!("{}-{}", points[edge.index].number, points[(edge.index + 1) % points.len()].number)
 }
 
-/// Fails if a hole is not inside the first ring or is inside another hole; no rings meet.
+/// Fails if a hole is outside the first ring or inside another hole; rings do not intersect.
 fn refuse_misplaced_holes(rings: &[NamedRing], manner: &OutlineOptions) -> Result<()> {
     for (index, hole) in rings.iter().enumerate().skip(1) {
         let DVec2 { x, y } = hole.points[0].point.at;

@@ -1,4 +1,4 @@
-//! The way of a sweep: stations, and the arcs that they lie on.
+//! Paths of sweeps: stations, and segments with stations on lines and arcs.
 
 use std::f64::consts::TAU;
 
@@ -7,52 +7,54 @@ use glam::{DQuat, DVec2};
 use super::Frame;
 use burgeon_base::error::{Error, Limit, Result};
 
-/// The greatest number of steps of a segment.
+/// Maximum number of steps of a segment.
 const MOST_STEPS: usize = 1_000_000;
 
-/// A place on the way of a sweep, with the size and turn that the cross-section has there.
+/// A position on the path of a sweep, with the scale and twist of the cross-section.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Station {
-    /// The section stands at its position, across its heading, x to the right and y opposite to its `up`.
+    /// Frame of the cross-section, which is normal to the heading, with x to the right and y opposite to
+    /// `up`.
     pub frame: Frame,
-    /// Factors of the section's x and y; negative ones mirror it.
+    /// Scale factors of the cross-section's x and y; negative factors mirror it.
     pub scale: DVec2,
-    /// Turn of the section about the heading (radians), in the sense of [`Frame::roll`].
+    /// Rotation of the cross-section about the heading (radians), in the direction of [`Frame::roll`].
     pub twist: f64,
-    /// Whether the surface has an edge around the section here, even where it is smooth along the way.
+    /// Marks a sharp edge around the cross-section, even if the surface is smooth along the path.
     pub sharp: bool,
 }
 
 impl Station {
-    /// A station without twist whose section is scaled evenly.
+    /// Creates a station with uniform scale and without twist.
     pub fn new(frame: Frame, scale: f64) -> Self {
         Self { frame, scale: DVec2::splat(scale), twist: 0.0, sharp: false }
     }
 }
 
-/// A piece of way: a straight line or an arc of a circle, along which scale and twist change evenly.
+/// A segment of a path: a straight line or a circular arc, along which scale and twist change linearly.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Segment {
-    /// Length of the centre line (m); a negative one goes backwards.
+    /// Length of the centreline (m); negative lengths go backwards.
     pub length: f64,
-    /// The angle (radians) between the headings at both ends; the radius is `length` / `bend`.
+    /// Angle (radians) between the headings at both ends; the radius is `length` / `bend`.
     pub bend: f64,
-    /// Where to the way bends (radians): 0 to the left, a quarter turn downwards, opposite to the frame's `up`.
+    /// Direction of the bend (radians): 0 is left, a quarter turn is down, opposite to the frame's `up`.
     pub toward: f64,
-    /// Turn of the section about the heading (radians) between both ends, in the sense of [`Frame::roll`].
+    /// Rotation of the cross-section about the heading (radians) between both ends, in the direction of
+    /// [`Frame::roll`].
     pub twist: f64,
-    /// Factors of the section's x and y at the start.
+    /// Scale factors of the cross-section's x and y at the start.
     pub from: DVec2,
-    /// Factors of the section's x and y at the end.
+    /// Scale factors of the cross-section's x and y at the end.
     pub to: DVec2,
-    /// The number of pieces that the segment is made of.
+    /// Number of steps that the segment is divided into.
     pub steps: usize,
-    /// Whether the surface has an edge around the section at the start.
+    /// Marks a sharp edge around the cross-section at the start.
     pub sharp: bool,
 }
 
 impl Default for Segment {
-    /// A straight metre in one piece.
+    /// Returns a straight segment of 1 m in one step.
     fn default() -> Self {
         let (from, to) = (DVec2::ONE, DVec2::ONE);
         Self { length: 1.0, bend: 0.0, toward: 0.0, twist: 0.0, from, to, steps: 1, sharp: false }
@@ -60,14 +62,15 @@ impl Default for Segment {
 }
 
 impl Segment {
-    /// The same segment, bent with a curvature (1/m): the reciprocal of the radius.
+    /// Returns the segment bent with a curvature (1/m), the reciprocal of the radius.
     #[must_use]
     pub fn curved(mut self, curvature: f64) -> Self {
         self.bend = self.length * curvature;
         self
     }
 
-    /// The number of steps, at least 1, that keeps bend and twist under `angle` (radians) in each.
+    /// Returns the number of steps, at least 1, for which bend and twist per step are at most `angle`
+    /// (radians).
     pub fn steps_for(&self, angle: f64) -> usize {
         let steps = (self.bend.abs().max(self.twist.abs()) / angle).ceil();
         if steps.is_finite() { (steps as usize).max(1) } else { 1 }
@@ -75,9 +78,10 @@ impl Segment {
 
     /// Adds `steps` + 1 stations from `start` on to `stations`, and returns the frame at the end.
     ///
-    /// The returned frame includes the twist, so a segment that begins there continues this one exactly.
-    /// The stations lie on the arc, their headings along it. Fails if a value is not finite, without steps,
-    /// and if a step bends or twists by half a turn or more, since the surface would meet itself.
+    /// The returned frame includes the twist, so a segment that begins there continues this segment exactly.
+    /// The stations lie on the arc, and their headings are tangent to it. Fails if a value is not finite, if
+    /// there are no steps or too many, or if a step bends or twists by half a turn or more, because the
+    /// surface would intersect itself.
     pub fn stations(&self, start: Frame, stations: &mut impl Extend<Station>) -> Result<Frame> {
         self.refuse_impossible()?;
         stations.extend((0..=self.steps).map(|step| {
@@ -95,7 +99,7 @@ impl Segment {
         Ok(end)
     }
 
-    /// The frame without twist at a `fraction` of the way.
+    /// Returns the frame without twist at a `fraction` of the length.
     fn frame(&self, start: Frame, fraction: f64) -> Frame {
         let angle = self.bend * fraction;
         if angle == 0.0 {
@@ -103,7 +107,7 @@ impl Segment {
         }
         let (sin, cos) = self.toward.sin_cos();
         let direction = start.left * cos - start.up * sin;
-        // The chord of an arc is at half of its angle, and shorter than it by the sine's quotient.
+        // The chord of an arc is at half of its angle, and shorter than the arc by the factor sin(x) / x.
         let half = angle / 2.0;
         let shortening = if half.abs() < 1e-8 { 1.0 } else { half.sin() / half };
         let chord = start.heading * half.cos() + direction * half.sin();

@@ -1,4 +1,4 @@
-//! Plans: the outline of a building on the ground, made clean, repaired or refused.
+//! Building footprints: cleaned and repaired outlines.
 
 use glam::{DVec2, DVec3};
 use smallvec::SmallVec;
@@ -11,28 +11,28 @@ use burgeon_base::error::{Error, Limit, Result};
 
 const PLAN: OutlineOptions = OutlineOptions { owner: "footprint", near: 0.01, straight: 2e-3 };
 
-/// The greatest number of points that a footprint may be given.
+/// Maximum number of input points of a footprint.
 const MOST_GIVEN: usize = 100_000;
-/// The greatest number of corners of a footprint after it is simplified: a roof takes time that grows with their square.
+/// Maximum number of corners of a simplified footprint: the time for a roof grows with their square.
 const MOST_CORNERS: usize = 20_000;
 
-/// The outline of a building: a polygon whose points have heights and whose rings do not meet.
+/// The outline of a building: a polygon whose points have heights and whose rings do not intersect.
 #[derive(Debug, Clone, Default)]
 pub struct Plan {
     polygon: Polygon<DVec3>,
     given: EdgeOrigin,
-    /// How many points the rings had that were given.
+    /// Number of points of each input ring.
     sizes: Vec<usize>,
     repairs: Vec<&'static str>,
     trouble: String,
 }
 
-/// What the edges of a plan stand for.
+/// Relation between the edges of a plan and the input edges.
 #[derive(Debug, Clone)]
 enum EdgeOrigin {
-    /// For each point the place, counted from 0, that it had in its ring.
+    /// Index in its input ring (counted from 0) of each point.
     Places(Vec<Vec<usize>>),
-    /// For each edge the edges that were given, counted from 0 over all rings.
+    /// Input edges of each edge, counted from 0 over all rings.
     Edges(Vec<Vec<usize>>),
 }
 
@@ -43,13 +43,15 @@ impl Default for EdgeOrigin {
 }
 
 impl Plan {
-    /// The plan inside the first ring and outside the others, whichever way they run.
+    /// Creates a plan from the area inside the first ring and outside the other rings; their directions do
+    /// not matter.
     ///
-    /// The rings are simplified: the plan stays within 2 mm of them, or within 1 cm where they have edges that are shorter
-    /// than that, however many points they have. Spikes that are not wider than 2 mm are dropped, and openings that are
-    /// nowhere wider than 1 cm are filled, which [`Plan::repairs`] reports. Where rings cross or touch themselves or each other, or a hole is
-    /// not inside the outer ring, the greatest part of what they enclose is the plan, and [`Plan::repairs`] tells
-    /// what was done. Fails, with the place, if nothing is enclosed.
+    /// Simplifies the rings: the plan stays within 2 mm of them, or within 1 cm at edges that are shorter
+    /// than 1 cm, regardless of the number of points. Drops spikes that are at most 2 mm wide, and fills
+    /// openings that are nowhere wider than 1 cm. If rings cross or touch themselves or each other, or if a
+    /// hole is not inside the outer ring, the plan is the largest part of the enclosed area.
+    /// [`Plan::repairs`] lists filled openings and all other repairs. Fails with the position if the rings
+    /// enclose no area.
     ///
     /// ```
     /// use burgeon_geometry::{Plan, Rings};
@@ -120,13 +122,15 @@ impl Plan {
         Self { polygon, given: EdgeOrigin::Edges(given), sizes, repairs: notes, trouble }
     }
 
-    /// The polygon (m), with the heights of the ground.
+    /// Returns the polygon (m) with ground heights.
     pub fn polygon(&self) -> &Polygon<DVec3> {
         &self.polygon
     }
 
-    /// For each edge of all rings, the edges that it stands for: those of the rings that were given, counted from 0
-    /// over all of them. An edge goes from its point to the next one.
+    /// Returns the input edges that each edge of the plan corresponds to, counted from 0 over all input
+    /// rings.
+    ///
+    /// An edge runs from its point to the next point.
     pub fn given_edges(&self) -> Vec<SmallVec<[usize; 2]>> {
         let places = match &self.given {
             EdgeOrigin::Places(places) => places,
@@ -150,34 +154,34 @@ impl Plan {
         given
     }
 
-    /// What was done to make a plan of the rings, if that was needed, and what was wrong with them.
+    /// Returns the repairs that were needed to create the plan, and the defect of the input rings.
     pub fn repairs(&self) -> (&[&'static str], &str) {
         (&self.repairs, &self.trouble)
     }
 
-    /// The number of edges of the rings that were given.
+    /// Returns the number of input edges.
     pub fn given(&self) -> usize {
         self.sizes.iter().sum()
     }
 
-    /// The plan moved by `offset` (m).
+    /// Moves the plan by `offset` (m).
     pub fn moved(mut self, offset: DVec3) -> Self {
         self.polygon = self.polygon.moved(offset);
         self
     }
 
-    /// The polygon as seen from above (m).
+    /// Returns the polygon projected onto the horizontal plane (m).
     pub fn flat(&self) -> Polygon {
         self.polygon.flat()
     }
 
-    /// The area as a part of its convex hull's: 1 if it is convex and has no holes.
+    /// Returns the ratio of the area to the area of the convex hull: 1 for a convex plan without holes.
     pub fn convexity(&self) -> f64 {
         let whole = self.polygon.hull().map_or(0.0, |hull| hull.area());
         if whole > 0.0 { self.polygon.area() / whole } else { 0.0 }
     }
 
-    /// The lowest and the highest ground (m).
+    /// Returns the lowest and the highest ground height (m).
     pub fn ground(&self) -> (f64, f64) {
         let heights = self.polygon.points().map(|point| point.z);
         heights.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), z| (low.min(z), high.max(z)))

@@ -5,7 +5,8 @@ use glam::{DVec3, Vec3};
 use super::ring::SectionRing;
 use super::solid::is_flat;
 
-/// A face between two rings: two corners on the first from left to right, then two on the second from right.
+/// A face between two rings: two corners on the first ring from left to right, then two on the second from
+/// right to left.
 pub(super) struct Quad {
     exact: [DVec3; 4],
     points: [Vec3; 4],
@@ -19,14 +20,15 @@ impl Quad {
         }
     }
 
-    /// The triangles along the shorter diagonal, without those that have shrunk to a line between two points.
+    /// Splits the face along its shorter diagonal, without the triangles that have collapsed to a line
+    /// between two points.
     ///
-    /// `None` if a triangle has three corners on one line whichever diagonal is taken.
+    /// Returns `None` if a triangle has three collinear corners with either diagonal.
     #[inline]
     pub(super) fn split(&self) -> Option<[Option<[usize; 3]>; 2]> {
         let [a, b, c, d] = self.exact;
-        // The margin keeps rounding from turning the diagonals of equal faces in different ways. At a tip, the
-        // corner on the right is the one that stands for the face.
+        // The margin prevents rounding from choosing different diagonals in equal faces. At a tip, the right
+        // corner represents the face.
         let second = if self.is_one_point(2, 3) {
             false
         } else {
@@ -38,7 +40,8 @@ impl Quad {
         self.faces(first).or_else(|| self.faces(other))
     }
 
-    /// Those of two triangles that have not shrunk to a line between two points; `None` if another is flat.
+    /// Returns the triangles that have not collapsed to a line between two points; `None` if another triangle
+    /// is flat.
     #[inline]
     fn faces(&self, split: [[usize; 3]; 2]) -> Option<[Option<[usize; 3]>; 2]> {
         let mut kept = [None; 2];
@@ -64,7 +67,7 @@ impl Quad {
         self.points[a] == self.points[b]
     }
 
-    /// The normal of a triangle, as long as twice its area (m²).
+    /// Returns the normal of a triangle with a length of twice its area (m²).
     pub(super) fn area(&self, corners: [usize; 3]) -> DVec3 {
         let [a, b, c] = corners.map(|corner| self.exact[corner]);
         (b - a).cross(c - a)

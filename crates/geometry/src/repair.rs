@@ -1,7 +1,7 @@
-//! Makes a plan of rings that cross or touch: what they enclose is found anew.
+//! Repair of plans whose rings cross or touch: the enclosed area is computed again.
 //!
-//! Method: boolean operations on polygons (i_overlay, through `geo`) around the middle of the rings. Where what they
-//! enclose still touches itself, a notch as wide as a hand is cut out there.
+//! Method: Boolean operations on polygons (i_overlay, through `geo`) around the centre of the rings. If the
+//! enclosed area still touches itself, a notch is cut out at that point.
 
 use glam::{DVec2, DVec3};
 use rstar::primitives::{GeomWithData, Line};
@@ -18,40 +18,42 @@ use burgeon_base::error::Result;
 
 /// Half of the width (m) of the notch where a plan touches itself.
 const NOTCH: f64 = 0.05;
-/// The least area (m²) that matters.
+/// Minimum area (m²) of a part.
 const LEAST: f64 = 0.01;
-/// Points this near (m) to an edge touch it; if none does, so do those this near.
+/// Maximum distance (m) from an edge at which a point touches it; `NEAR` applies if no point is within
+/// `TOUCHING`.
 const TOUCHING: f64 = 1e-6;
 const NEAR: f64 = 0.012;
-/// How often notches are cut.
+/// Maximum number of rounds of fills and notches.
 const ROUNDS: usize = 6;
-/// How far (m) from an edge that was given what stands for it lies.
+/// Maximum distance (m) of an edge of the plan from its input edge.
 const ALONG: f64 = 0.02;
 
-/// How often the edges of rings may meet, other than at their ends, for each of them, and in all where they are few.
+/// Maximum number of intersections per edge, other than shared endpoints; small plans may have `FEW_MEETINGS`
+/// in total.
 const MEETINGS: usize = 8;
 const FEW_MEETINGS: usize = 10_000;
 
-/// The note of a plan without its slits.
+/// Note for a plan whose slits were filled.
 const SLITS: &str = "slits of at most 1 cm filled";
-/// The note of a plan with notches.
+/// Note for a plan with notches.
 const NOTCHED: &str = "a notch cut where it touches itself";
-/// What is said of a ring that crosses itself.
+/// Note for an outer ring that crosses itself.
 const LOOPS: &str = "loops of the outer ring left out";
 
-/// Rings that became a plan.
+/// A repaired plan.
 pub(super) struct PlanRepair {
     pub polygon: Polygon<DVec3>,
-    /// For each edge of all rings, the edges that were given and that it stands for.
+    /// Input edges that each edge of all rings corresponds to.
     pub given: Vec<Vec<usize>>,
-    /// What was done.
+    /// Notes about the repairs.
     pub notes: Vec<&'static str>,
-    /// The first slit that was filled, if any was.
+    /// First filled slit, if any.
     pub slit: Option<Slit>,
 }
 
-/// The greatest part of what the first ring encloses without the others; `None` if nothing is left that is a plan, or
-/// if the rings meet so often that they are none.
+/// Computes the largest part of the first ring minus the other rings; `None` if no valid plan remains, or if
+/// the rings intersect too often.
 pub(super) fn repair(given: &Rings, manner: &OutlineOptions) -> Option<PlanRepair> {
     let known = |point: &DVec3| point.is_finite() && point.truncate().abs().max_element() <= MOST;
     if !given.iter().flatten().all(known) {
@@ -67,7 +69,7 @@ pub(super) fn repair(given: &Rings, manner: &OutlineOptions) -> Option<PlanRepai
     settle(area, notes, given, middle, manner)
 }
 
-/// The plan of sound rings without the slits in them; `None` if they have none, or nothing is left that is a plan.
+/// Fills the slits of a plan of valid rings; `None` if it has no slits, or if no valid plan remains.
 pub(super) fn fill(given: &Rings, sound: &[Vec<DVec2>], manner: &OutlineOptions) -> Option<PlanRepair> {
     if slits::find(sound, manner).is_empty() {
         return None;
@@ -77,7 +79,7 @@ pub(super) fn fill(given: &Rings, sound: &[Vec<DVec2>], manner: &OutlineOptions)
     settle(vec![sound], Vec::new(), given, middle, manner)
 }
 
-/// The middle (m) of the box around the first ring.
+/// Returns the centre (m) of the bounding box of the first ring.
 fn middle_of(given: &Rings) -> Option<DVec2> {
     let mut points = given.first()?.iter().map(|point| point.truncate());
     let first = points.next()?;
@@ -85,13 +87,13 @@ fn middle_of(given: &Rings) -> Option<DVec2> {
     Some(low.midpoint(high))
 }
 
-/// The rings as seen from above, around another origin.
+/// Returns the rings projected onto the horizontal plane, relative to `middle`.
 fn rings_around(given: &Rings, middle: DVec2) -> Rings<DVec2> {
     given.iter().map(|ring| ring.iter().map(|point| point.truncate() - middle).collect()).collect()
 }
 
-/// Makes a plan of the greatest part of an area around `middle`: fills its slits, and cuts notches where it touches
-/// itself.
+/// Makes a plan of the largest part of an area around `middle`: fills its slits, and cuts notches where it
+/// touches itself.
 fn settle(
     mut area: PolygonArea,
     mut notes: Vec<&'static str>,
@@ -118,7 +120,7 @@ fn settle(
                 note(&mut notes, SLITS);
                 continue;
             }
-            // Rings that are apart by rounding alone are one where a roof is made of them.
+            // Rings that are apart only by rounding would be merged when a roof is built.
             let touching = notches(&Rings::from(&clean), TOUCHING);
             if !touching.is_empty() {
                 area = overlay::overlay(&[whole], &touching, |[inside, notch]| inside && !notch).ok()?;
@@ -126,7 +128,7 @@ fn settle(
                 continue;
             }
             let done = finish(&clean, &local, given, middle);
-            // What touches itself but for rounding may do so again where it was given.
+            // An area that touches itself up to rounding may do so again at its original position.
             if let Some((polygon, given)) = done
                 && cleaned(&Rings::from(&polygon.flat()), manner).is_some()
             {
@@ -144,15 +146,15 @@ fn settle(
     None
 }
 
-/// Whether the edges of rings meet more often than those of any outline that is meant: so often that what they enclose
-/// would be many times as much as was given.
+/// Returns true if the edges of rings intersect more often than those of any plausible outline, so that the
+/// enclosed area would have many times the size of the input.
 ///
-/// Edges are looked at from one side to the other, and not beyond the meetings that are allowed.
+/// A sweep over the sorted edges ends as soon as the limit is exceeded.
 fn meets_too_often(rings: &Rings<DVec2>) -> bool {
     let mut edges: Vec<[DVec2; 2]> = rings.iter().flat_map(|ring| edges(ring)).collect();
     let length = edges.iter().fold(DVec2::ZERO, |sum, [a, b]| sum + (*b - *a).abs());
     if length.x > length.y {
-        // Along the axis on which they cover each other less.
+        // Sort along the axis on which the edges overlap less.
         edges.iter_mut().flatten().for_each(|point| *point = DVec2::new(point.y, point.x));
     }
     let low = |[a, b]: &[DVec2; 2]| a.min(*b);
@@ -161,7 +163,7 @@ fn meets_too_often(rings: &Rings<DVec2>) -> bool {
     let mut left = FEW_MEETINGS.max(MEETINGS * edges.len());
     let stop = Stop::current();
     for (index, a) in edges.iter().enumerate() {
-        // The run ends with its own error.
+        // The cancelled run ends with its own error.
         if stop.as_ref().is_some_and(|stop| stop.is_stopped()) {
             return true;
         }
@@ -184,7 +186,7 @@ fn meets_too_often(rings: &Rings<DVec2>) -> bool {
     false
 }
 
-/// The points of sound rings that are needed; `None` if the rings meet.
+/// Returns the simplified points of valid rings; `None` if the rings intersect.
 fn cleaned(rings: &Rings<DVec2>, manner: &OutlineOptions) -> Option<Polygon> {
     let sharp: Vec<Vec<SectionPoint>> =
         rings.iter().map(|ring| ring.iter().copied().map(SectionPoint::sharp).collect()).collect();
@@ -200,8 +202,8 @@ fn note(notes: &mut Vec<&'static str>, what: &'static str) {
     }
 }
 
-/// The area that the first ring encloses without the areas that the others enclose. Fails if the work of this thread is to
-/// stop.
+/// Computes the area enclosed by the first ring minus the areas enclosed by the others. Fails if the work of
+/// this thread is cancelled.
 fn enclosed(rings: &Rings<DVec2>, notes: &mut Vec<&'static str>) -> Result<PolygonArea> {
     let whole = |ring: &Vec<DVec2>| overlay::fill(&[Rings(vec![ring.clone()])], Fill::NonZero);
     let Some((outer, holes)) = rings.split_first() else { return Ok(PolygonArea::new()) };
@@ -236,7 +238,7 @@ fn enclosed(rings: &Rings<DVec2>, notes: &mut Vec<&'static str>) -> Result<Polyg
     Ok(rest)
 }
 
-/// The rings of a quadrilateral, counter-clockwise.
+/// Returns a polygon as rings, counter-clockwise.
 fn counter_clockwise(mut corners: Vec<DVec2>) -> Rings<DVec2> {
     if twice_area(corners.iter().copied()) < 0.0 {
         corners.reverse();
@@ -244,12 +246,12 @@ fn counter_clockwise(mut corners: Vec<DVec2>) -> Rings<DVec2> {
     Rings(vec![corners])
 }
 
-/// The size of an area (m²).
+/// Returns the size of an area (m²).
 fn size(area: &[Rings<DVec2>]) -> f64 {
     area.iter().flat_map(|rings| rings.iter()).map(|ring| twice_area(ring.iter().copied()) / 2.0).sum()
 }
 
-/// The greatest of several areas.
+/// Returns the largest of several areas; `None` if all are too small.
 fn greatest(areas: PolygonArea, notes: &mut Vec<&'static str>) -> Option<Rings<DVec2>> {
     let sized: Vec<(f64, Rings<DVec2>)> = areas
         .into_iter()
@@ -259,12 +261,12 @@ fn greatest(areas: PolygonArea, notes: &mut Vec<&'static str>) -> Option<Rings<D
     if sized.len() > 1 && !notes.contains(&LOOPS) {
         note(notes, "the greatest part kept");
     }
-    // Of equal ones the first.
+    // The first of equal areas is chosen.
     let greatest = sized.into_iter().reduce(|best, next| if next.0 > best.0 { next } else { best });
     greatest.map(|(_, part)| part)
 }
 
-/// The rings of a polygon, without holes that are none.
+/// Returns the rings of a polygon without invalid holes.
 fn rings_of(polygon: &Rings<DVec2>, manner: &OutlineOptions) -> Rings<DVec2> {
     let is_sound = |ring: &Vec<DVec2>| {
         let sharp: Vec<SectionPoint> = ring.iter().copied().map(SectionPoint::sharp).collect();
@@ -276,7 +278,7 @@ fn rings_of(polygon: &Rings<DVec2>, manner: &OutlineOptions) -> Rings<DVec2> {
 
 type IndexedEdge = GeomWithData<Line<[f64; 2]>, usize>;
 
-/// The edges of rings that have a length, by place, each with its number over all rings.
+/// Returns a spatial index of the ring edges with a length, each with its number over all rings.
 fn edge_tree(rings: &Rings<DVec2>) -> RTree<IndexedEdge> {
     let ends = rings.iter().flat_map(|ring| edges(ring));
     let lines = ends.enumerate().filter(|(_, [from, to])| from.distance_squared(*to) > 0.0);
@@ -287,7 +289,7 @@ fn edge_tree(rings: &Rings<DVec2>) -> RTree<IndexedEdge> {
     )
 }
 
-/// Squares around the points that lie within `near` (m) of an edge which does not begin or end there.
+/// Returns squares around the points within `near` (m) of an edge that does not begin or end there.
 fn notches(rings: &Rings<DVec2>, near: f64) -> PolygonArea {
     let tree = edge_tree(rings);
     let mut found = PolygonArea::new();
@@ -311,7 +313,8 @@ fn notches(rings: &Rings<DVec2>, near: f64) -> PolygonArea {
     found
 }
 
-/// The polygon with the heights of the ground, and for each edge those that were given; `None` if it is none there.
+/// Returns the polygon with ground heights, and the input edges of each edge; `None` if it is invalid at its
+/// original position.
 fn finish(
     clean: &Polygon,
     local: &Rings<DVec2>,
@@ -323,7 +326,7 @@ fn finish(
     let on_ground = |at: DVec2| {
         let Some(edge) = tree.nearest_neighbor(&at.to_array()) else { return at.extend(0.0) };
         let [from, to] = ends[edge.data];
-        // What comes of a point that was given is that point.
+        // A point that stems from an input point keeps its exact position and height.
         for given in [from, to] {
             if (given.truncate() - middle).distance(at) < 1e-4 {
                 return given - middle.extend(0.0);

@@ -1,4 +1,4 @@
-//! Tests of plans that are repaired.
+//! Tests of repaired plans.
 
 use glam::{DVec2, DVec3};
 use proptest::prelude::*;
@@ -13,7 +13,7 @@ fn made(rings: &[&[[f64; 2]]]) -> Plan {
     Plan::new(&rings.iter().map(|points| ring(points)).collect()).unwrap()
 }
 
-/// Whether a plan is one: nothing is left to be repaired, and areas and directions are right.
+/// Asserts that a plan is valid: it needs no further repair, and its areas and directions are right.
 fn assert_valid(plan: &Plan) {
     let again = Plan::new(&Rings::from(plan.polygon())).unwrap();
     assert_eq!(again.repairs().0, [""; 0]);
@@ -29,7 +29,8 @@ fn of_an_hourglass_the_greater_half_is_kept_with_its_edges() {
     let plan = made(&[&[[0.0, 0.0], [6.0, 6.0], [0.0, 6.0], [2.0, 0.0]]]);
     assert_valid(&plan);
     assert!(plan.repairs().0.contains(&"loops of the outer ring left out"), "{:?}", plan.repairs());
-    // The lower triangle has 2 m along y = 0, the upper one 6 m along y = 6: they meet at y = 1.5.
+    // The lower triangle has 2 m along y = 0 and the upper triangle has 6 m along y = 6, so they meet at y =
+    // 1.5.
     assert!((plan.polygon().area() - 13.5).abs() < 1e-6, "{}", plan.polygon().area());
     let mut given: Vec<Vec<usize>> =
         plan.given_edges().into_iter().map(smallvec::SmallVec::into_vec).collect();
@@ -111,8 +112,8 @@ fn scribbles_take_no_longer_than_outlines() {
     let mut shapes: Vec<Vec<DVec3>> = Vec::new();
     for count in [300, 3001, 10_000] {
         let size = count as f64;
-        // A star of which each edge crosses nearly all others, random places, a comb that lies on itself, circles
-        // that go around again and again, and a flower of many small loops.
+        // A star in which each edge crosses nearly all others, random positions, a comb with overlapping
+        // edges, circles that are traced repeatedly, and a flower of many small loops.
         shapes.push(around(count, &|at| {
             DVec2::from_angle(at * std::f64::consts::PI * (1.0 + 1.0 / size)) * 20.0
         }));

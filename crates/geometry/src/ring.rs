@@ -1,4 +1,4 @@
-//! The cross-section set up at the stations of a sweep, as rings of points.
+//! Rings of points: the cross-section at the stations of a sweep.
 
 use glam::{DVec2, DVec3, Vec3};
 
@@ -7,19 +7,20 @@ use smallvec::SmallVec;
 use super::{Frame, Section, Station};
 use burgeon_base::error::{Error, Result};
 
-/// Lengths (m) up to this are nothing: about what a coordinate of a few metres is rounded to in f32.
+/// Maximum length (m) that counts as zero: about the f32 rounding error of a coordinate of a few metres.
 pub(super) const NOTHING: f64 = 1.0 / (1 << 22) as f64;
 
-/// Coordinates and factors are no greater, so that squares and products of them fit into f32 and f64.
+/// Maximum coordinate (m) and factor: squares and products of them fit into f32 and f64.
 pub(super) const MOST: f64 = 1e9;
 
-/// The points of a rectangle, the usual section of many small solids: its rings take no memory of their own.
+/// Number of points of a rectangle, the usual section of small solids: its rings need no heap memory.
 pub(super) const FEW: usize = 4;
 
-/// A section that reaches no further (m) from its axis is squeezed onto it, so that no face is a sliver.
+/// Minimum reach (m) of a section from its axis: a smaller section collapses onto the axis, so that no face
+/// is a sliver.
 const LEAST_REACH: f64 = 1e-6;
 
-/// The section's place, size and turn, as seen from the piece of way before or after a ring.
+/// Position, scale and twist of the section, relative to the path segment before or after a ring.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Pose {
     pub(super) frame: Frame,
@@ -28,7 +29,7 @@ pub(super) struct Pose {
 }
 
 impl Pose {
-    /// The directions of the section's x and y.
+    /// Returns the directions of the section's x and y.
     pub(super) fn axes(&self) -> (DVec3, DVec3) {
         let mut frame = self.frame;
         if self.twist != 0.0 {
@@ -38,37 +39,37 @@ impl Pose {
     }
 }
 
-/// The section at one place.
+/// The section at one position.
 #[derive(Debug)]
 pub(super) struct SectionRing {
-    /// The station's number, counted from 1.
+    /// Number of the station, counted from 1.
     pub(super) station: usize,
-    /// As the piece of way that ends here sees it; its heading differs from that of `after` at a mitre.
+    /// Pose for the path segment that ends here; its heading differs from that of `after` at a mitre.
     pub(super) before: Pose,
-    /// As the piece of way that begins here sees it.
+    /// Pose for the path segment that begins here.
     pub(super) after: Pose,
-    /// The direction in which the ring's plane is crossed.
+    /// Normal of the ring's plane, along the path.
     pub(super) normal: DVec3,
-    /// The points (m), in the section's order.
+    /// Points (m), in the section's order.
     pub(super) exact: SmallVec<[DVec3; FEW]>,
-    /// The points (m) as they are exported.
+    /// Points (m) at export precision.
     pub(super) points: SmallVec<[Vec3; FEW]>,
-    /// Whether the surface has an edge along the ring.
+    /// Marks a sharp edge along the ring.
     pub(super) sharp: bool,
 }
 
 impl SectionRing {
-    /// Whether the section has shrunk to one point.
+    /// Returns true if the section has shrunk to one point.
     pub(super) fn is_apex(&self) -> bool {
         self.after.scale == DVec2::ZERO
     }
 
-    /// Whether the section has kept an area.
+    /// Returns true if the section has an area.
     pub(super) fn is_full(&self) -> bool {
         self.after.scale.x != 0.0 && self.after.scale.y != 0.0
     }
 
-    /// The place (m) of the section's origin.
+    /// Returns the position (m) of the section's origin.
     pub(super) fn centre(&self) -> DVec3 {
         self.after.frame.position
     }
@@ -79,11 +80,11 @@ impl SectionRing {
     }
 }
 
-/// The rings of `section` at all `stations`, one where several are the same.
+/// Returns the rings of `section` at all `stations`, with one ring for coincident stations.
 ///
-/// Stations at one place with different headings are joined by a mitre: their rings lie in the plane halfway.
-/// If `closed`, so are the last and the first, and a last ring that repeats the first is left out.
-/// Fails if a value is not finite or the way turns back on itself.
+/// A mitre joins stations at one position with different headings: their rings lie in the plane halfway
+/// between. If `closed`, the last and the first station are joined as well, and a last ring that repeats the
+/// first is omitted. Fails if a value is not finite or if the path turns back on itself.
 pub(super) fn rings(section: &Section, stations: &[Station], closed: bool) -> Result<Vec<SectionRing>> {
     for (index, station) in stations.iter().enumerate() {
         refuse_infinite(index + 1, station)?;
@@ -113,7 +114,7 @@ pub(super) fn rings(section: &Section, stations: &[Station], closed: bool) -> Re
     Ok(rings)
 }
 
-/// Runs of stations at one place, each with the direction in which its plane is crossed.
+/// Groups consecutive stations at one position, each with the normal of its plane.
 fn groups(stations: &[Station], closed: bool) -> impl Iterator<Item = (std::ops::Range<usize>, DVec3)> {
     let apart = |a: usize, b: usize| {
         let [a, b] = [a, b].map(|index| stations[index].frame.position);
@@ -175,16 +176,17 @@ fn ring(
     })
 }
 
-/// The point (m) at export precision, on a grid as fine as f32 at one metre.
+/// Returns the point (m) at export precision, on a grid with the resolution of f32 at one metre.
 ///
-/// Without the grid, points that ought to be one differ by what rounding leaves near 0, where f32 is finer.
+/// Without the grid, equal points would differ by rounding errors near 0, where f32 is finer.
 fn snapped(point: DVec3) -> Vec3 {
     const GRID: f64 = (1 << 24) as f64;
     // Adding 0 turns -0 into 0.
     (rounded(point * GRID) / GRID + DVec3::ZERO).as_vec3()
 }
 
-/// As `round`, which is a function of the system's library for processors of every age; for numbers that fit into i64.
+/// Rounds like `f64::round`, which calls a system library function on baseline processors; numbers must fit
+/// into i64.
 fn rounded(vector: DVec3) -> DVec3 {
     #[allow(clippy::cast_possible_truncation, reason = "the fraction is put back")]
     let round = |number: f64| {
@@ -215,7 +217,7 @@ fn refuse_infinite(number: usize, station: &Station) -> Result<()> {
     Err(Error::geometry(format!("the {name} of station {number} is {text}")).help("give numbers up to 1e9"))
 }
 
-/// Whether all of a vector is a number that is not too great.
+/// Returns true if all components are finite and at most [`MOST`].
 fn is_usable(value: DVec3) -> bool {
     value.is_finite() && value.abs().max_element() <= MOST
 }

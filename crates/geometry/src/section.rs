@@ -1,4 +1,4 @@
-//! Cross-sections: the flat shape that a sweep moves through space.
+//! Cross-sections: the flat shape that a sweep moves along a path.
 
 use std::sync::OnceLock;
 
@@ -9,45 +9,45 @@ use super::skin::Skin;
 use super::{cap, outline};
 use burgeon_base::error::{Error, Limit, Result};
 
-/// The greatest number of points of a cross-section.
+/// Maximum number of points of a cross-section.
 pub const MOST_POINTS: usize = 10_000;
 
 /// A point of a cross-section's outline.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SectionPoint {
-    /// The place (m).
+    /// Position (m).
     pub at: DVec2,
-    /// Whether the surface is shaded as round here; otherwise there is an edge.
+    /// Smooth shading at this point; otherwise the surface has a sharp edge.
     pub smooth: bool,
 }
 
 impl SectionPoint {
-    /// A point with an edge.
+    /// Creates a point with a sharp edge.
     pub fn sharp(at: DVec2) -> Self {
         Self { at, smooth: false }
     }
 
-    /// A point of a round outline.
+    /// Creates a point of a smooth outline.
     pub fn smooth(at: DVec2) -> Self {
         Self { at, smooth: true }
     }
 }
 
-/// A cross-section in its own plane, in metres where its scale is 1.
+/// A cross-section in its own plane, in metres at scale 1.
 ///
-/// x is to the right and y upwards, looking against the extruding direction. The outer ring is
-/// counter-clockwise and the holes are clockwise, whichever way they were given. An open section is one line
-/// without holes; swept, it gives a ribbon, whose front is to the right of the line's direction.
+/// x is to the right and y is up, as seen against the extrusion direction. The outer ring is
+/// counter-clockwise and the holes are clockwise, regardless of the input directions. An open section is one
+/// line without holes; its sweep is a ribbon whose front is to the right of the line's direction.
 #[derive(Debug, Clone)]
 pub struct Section {
     rings: Vec<Vec<Knot>>,
     open: bool,
     cap: Vec<[usize; 3]>,
-    /// Its division into faces, with edges at all points or at the sharp ones, once it has been asked for.
+    /// Cached divisions into faces: with edges at all points, or only at sharp points.
     skins: [OnceLock<Skin>; 2],
 }
 
-// Everything else follows from these.
+// All other fields follow from these.
 impl PartialEq for Section {
     fn eq(&self, other: &Self) -> bool {
         self.open == other.open && self.rings == other.rings
@@ -63,11 +63,12 @@ pub(super) struct Knot {
 }
 
 impl Section {
-    /// A ring of points and then its holes, each in either direction and without a repeated last point.
+    /// Creates a section from an outer ring and holes, each in either direction and without a repeated last
+    /// point.
     ///
-    /// Repeated points are dropped, and so are sharp points on a straight line between sharp points.
-    /// Fails if a coordinate is not finite, if a ring has fewer than 3 distinct points or no area or meets
-    /// itself or another ring, and if a hole is outside the outer ring or inside another hole.
+    /// Drops repeated points, and sharp points on a straight line between sharp points. Fails if a coordinate
+    /// is not finite, if a ring has fewer than 3 distinct points or no area, if rings cross or touch
+    /// themselves or each other, or if a hole is outside the outer ring or inside another hole.
     pub fn new(rings: &Rings<SectionPoint>) -> Result<Self> {
         refuse_too_many(rings.iter().map(Vec::len).sum())?;
         let (outer, holes) =
@@ -76,13 +77,13 @@ impl Section {
         Self::with_rings(rings.iter().map(|ring| knots(ring)).collect(), false)
     }
 
-    /// A ring of points that is known to be counter-clockwise, convex and sound.
+    /// Creates a section from a ring that is known to be counter-clockwise, convex and valid.
     pub(super) fn convex<const N: usize>(points: [SectionPoint; N]) -> Self {
         let cap = (1..N - 1).map(|corner| [0, corner, corner + 1]).collect();
         Self { rings: vec![knots(&points)], open: false, cap, skins: Default::default() }
     }
 
-    /// Rings of sharp points (m), otherwise like [`Section::new`].
+    /// Creates a section from rings of sharp points (m), with the conditions of [`Section::new`].
     ///
     /// ```
     /// use burgeon_geometry::{Rings, Section};
@@ -98,13 +99,14 @@ impl Section {
         Self::new(&rings.iter().map(sharp).collect())
     }
 
-    /// An open line, which gives a ribbon; fails if it has fewer than 2 distinct points or meets itself.
+    /// Creates an open section, swept to a ribbon; fails if it has fewer than 2 distinct points or intersects
+    /// itself.
     pub fn open(points: &[SectionPoint]) -> Result<Self> {
         refuse_too_many(points.len())?;
         Self::with_rings(vec![knots(&outline::open(points)?)], true)
     }
 
-    /// The same shape with all corners marked as smooth or as sharp.
+    /// Marks all corners as smooth or as sharp.
     #[must_use]
     pub fn marked(mut self, smooth: bool) -> Self {
         self.rings.iter_mut().flatten().for_each(|knot| knot.smooth = smooth);
@@ -112,7 +114,7 @@ impl Section {
         self
     }
 
-    /// The same shape, shaded as round except where its outline turns by more than `angle` (radians).
+    /// Marks corners as smooth, except where the outline turns by more than `angle` (radians).
     #[must_use]
     pub fn creased(mut self, angle: f64) -> Self {
         for ring in &mut self.rings {
@@ -128,21 +130,23 @@ impl Section {
         self
     }
 
-    /// The same shape with its edges divided evenly, so that there are at least `around` points in the first
-    /// ring and points as dense as there in the holes. The shading stays as it is.
+    /// Divides the edges evenly, so that the first ring has at least `around` points and the holes have
+    /// points of the same density.
+    ///
+    /// The shading stays the same.
     pub fn resampled(&self, around: usize) -> Result<Self> {
         refuse_too_many(around)?;
         let step = self.edge_lengths(0).iter().sum::<f64>() / around.max(1) as f64;
         self.divided(|from, to| {
-            // The margin keeps rounding from adding a point where the length is a whole number of steps.
+            // The margin prevents rounding from adding a point if the length is an integer number of steps.
             let pieces = ((to.distance(from) / step - 1e-9).ceil()).max(1.0) as usize;
             (1..pieces).map(|i| from.lerp(to, i as f64 / pieces as f64)).collect()
         })
     }
 
-    /// The same shape with a point in each edge wherever another point has the same `axis` coordinate.
+    /// Adds a point to each edge wherever another point has the same `axis` coordinate.
     ///
-    /// Squeezed to a line along that axis, its edges then cover each other one by one.
+    /// If the section is then squeezed to a line along that axis, its edges coincide in pairs.
     pub(super) fn divided_at_levels(&self, axis: usize) -> Result<Self> {
         let mut levels: Vec<f64> = self.knots().map(|knot| knot.at[axis]).collect();
         levels.sort_by(f64::total_cmp);
@@ -193,50 +197,51 @@ impl Section {
         Ok(Self { rings, open, cap, skins: Default::default() })
     }
 
-    /// Whether the section is a line and its sweep a ribbon.
+    /// Returns true if the section is a line and its sweep is a ribbon.
     pub fn is_open(&self) -> bool {
         self.open
     }
 
-    /// The points of all rings in order, the first ring first.
+    /// Returns the points of all rings in order, the first ring first.
     pub fn points(&self) -> impl Iterator<Item = DVec2> {
         self.knots().map(|knot| knot.at)
     }
 
-    /// The number of points of all rings.
+    /// Returns the number of points of all rings.
     pub fn corners(&self) -> usize {
         self.rings.iter().map(Vec::len).sum()
     }
 
-    /// The number of rings: 1 and the number of holes.
+    /// Returns the number of rings: 1 plus the number of holes.
     pub fn ring_count(&self) -> usize {
         self.rings.len()
     }
 
-    /// The lengths (m) of the edges of the ring with this index, in order; none if there is no such ring.
+    /// Returns the lengths (m) of the edges of the ring with this index, in order; empty if the ring does not
+    /// exist.
     pub fn edge_lengths(&self, ring: usize) -> Vec<f64> {
         let Some(ring) = self.rings.get(ring) else { return Vec::new() };
         let edges = ring.len() - usize::from(self.open);
         (0..edges).map(|i| ring[i].at.distance(ring[(i + 1) % ring.len()].at)).collect()
     }
 
-    /// The length (m) of the outline and of all holes.
+    /// Returns the length (m) of the outline and of all holes.
     pub fn perimeter(&self) -> f64 {
         (0..self.rings.len()).flat_map(|ring| self.edge_lengths(ring)).sum()
     }
 
-    /// The area (m²) without the holes; 0 if the section is open.
+    /// Returns the area (m²) without the holes; 0 if the section is open.
     pub fn area(&self) -> f64 {
         let points: Vec<DVec2> = self.points().collect();
         self.cap.iter().map(|&[a, b, c]| (points[b] - points[a]).perp_dot(points[c] - points[a]) / 2.0).sum()
     }
 
-    /// Counter-clockwise triangles of indices into [`Section::points`] that fill the section.
+    /// Returns counter-clockwise triangles that fill the section, as indices into [`Section::points`].
     pub fn cap(&self) -> &[[usize; 3]] {
         &self.cap
     }
 
-    /// The greatest distance (m) of a point from the y axis and from the x axis.
+    /// Returns the maximum distance (m) of a point from the y axis and from the x axis.
     pub fn reach(&self) -> DVec2 {
         self.points().fold(DVec2::ZERO, |reach, point| reach.max(point.abs()))
     }
@@ -245,7 +250,8 @@ impl Section {
         &self.rings
     }
 
-    /// Its division into faces, with edges at the sharp points, or at all points unless it is shaded as round `around`.
+    /// Returns the division into faces, with edges at the sharp points, or at all points unless `around`
+    /// requests smooth shading.
     pub(super) fn skin(&self, around: bool) -> &Skin {
         self.skins[usize::from(around)].get_or_init(|| Skin::new(self, around))
     }

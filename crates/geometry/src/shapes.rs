@@ -1,4 +1,4 @@
-//! Cross-sections by name: regular polygons, stars and rectangles.
+//! Named cross-sections: regular polygons, stars and rectangles.
 
 use std::cmp::Ordering;
 use std::f64::consts::{FRAC_1_SQRT_2, FRAC_PI_2};
@@ -11,7 +11,7 @@ use super::{Section, SectionPoint};
 use burgeon_base::error::{Error, Result};
 
 impl Section {
-    /// A smooth regular polygon whose points lie at 1 m from the centre, the first one at (1, 0).
+    /// Creates a smooth regular polygon with points at 1 m from the centre, the first at (1, 0).
     ///
     /// Fails with fewer than 3 `sides`.
     pub fn regular(sides: usize) -> Result<Self> {
@@ -24,9 +24,10 @@ impl Section {
         Self::new(&Rings(vec![points]))
     }
 
-    /// A star of sharp points at 1 m from the centre, the first at (1, 0), with notches at `inner` (m) between.
+    /// Creates a star of sharp points at 1 m from the centre, the first at (1, 0), with notches at `inner`
+    /// (m) between.
     ///
-    /// Fails with fewer than 2 `points` or if `inner` is not more than 0.
+    /// Fails with fewer than 2 `points` or if `inner` is not positive.
     pub fn star(points: usize, inner: f64) -> Result<Self> {
         if points < 2 || !inner.is_finite() || inner <= 0.0 {
             return Err(Error::geometry(format!(
@@ -39,14 +40,15 @@ impl Section {
         Self::polygon(&Rings(vec![(0..2 * points).map(corner).collect()]))
     }
 
-    /// A rectangle of `width` by `height` (m) about the centre, its first point at the lower left.
+    /// Creates a rectangle of `width` by `height` (m) about the centre, with the first point at the lower
+    /// left.
     ///
-    /// Fails if either is not more than 0.
+    /// Fails if either size is not positive.
     pub fn rectangle(width: f64, height: f64) -> Result<Self> {
         refuse_flat(width, height)?;
         let half = DVec2::new(width, height) / 2.0;
         let corners = [-half, DVec2::new(half.x, -half.y), half, DVec2::new(-half.x, half.y)];
-        // As thin as a line to the checks of other polygons.
+        // The general validation refuses rectangles that are as thin as a line.
         if width.min(height) < 1e-6 * width.max(height).max(1.0) {
             return Self::polygon(&Rings(vec![corners.to_vec()]));
         }
@@ -54,9 +56,9 @@ impl Section {
     }
 }
 
-/// The point number `index` of `count` at 1 m from the centre, counter-clockwise from (1, 0).
+/// Returns point `index` of `count` at 1 m from the centre, counter-clockwise from (1, 0).
 fn on_circle(index: usize, count: usize) -> DVec2 {
-    // By quarters, so that points which mirror each other do so to the last bit.
+    // Computed by quadrant, so that mirrored points are equal to the last bit.
     let (quarter, rest) = (4 * index / count % 4, (4 * index) % count);
     let angle = |part: usize| FRAC_PI_2 * (part as f64 / count as f64);
     let point = match (2 * rest).cmp(&count) {

@@ -1,21 +1,21 @@
-//! Which triangle is on the left of a directed edge.
+//! Lookup of the triangle to the left of a directed edge.
 
 use rustc_hash::FxHashMap;
 
-/// With at most this many points, a table of all pairs is smaller and faster than a map.
+/// Maximum number of points for a table of all pairs, which is then smaller and faster than a map.
 const FEW: usize = 48;
 
-/// No triangle.
+/// Marker for a side without a triangle.
 const NONE: u32 = u32::MAX;
 
-/// The sides of triangles, each with the triangle that it belongs to; of several the last one.
+/// Directed sides of triangles, each with its triangle; a later triangle replaces an earlier one.
 pub(super) enum Sides {
     Table { points: usize, owners: Vec<u32> },
     Map(FxHashMap<(usize, usize), usize>),
 }
 
 impl Sides {
-    /// The sides of `triangles` over so many points.
+    /// Collects the sides of `triangles` over this number of points.
     pub(super) fn of(triangles: &[[usize; 3]], points: usize) -> Self {
         let mut sides = if points <= FEW {
             Self::Table { points, owners: vec![NONE; points * points] }
@@ -42,7 +42,7 @@ impl Sides {
         }
     }
 
-    /// Forgets a side.
+    /// Removes a side.
     pub(super) fn remove(&mut self, from: usize, to: usize) {
         match self {
             Self::Table { points, owners } => owners[from * *points + to] = NONE,
@@ -52,7 +52,7 @@ impl Sides {
         }
     }
 
-    /// The triangle that this is a side of.
+    /// Returns the triangle with this side.
     pub(super) fn owner(&self, from: usize, to: usize) -> Option<usize> {
         match self {
             Self::Table { points, owners } => {

@@ -1,17 +1,20 @@
-//! Rings with fewer points, measured against the ring as it was given.
+//! Simplification of rings, measured against the input ring.
 
 use glam::DVec2;
 
 use super::planar::{self, Point, distance};
 
-/// The places in `ring` of the points that stay, in order: every other point is within `tolerance` (m) of the edge that
-/// replaces it, and every point of that edge is as near to the ring as it was given.
+/// Returns the indices of the points of `ring` to keep, in order.
 ///
-/// Fewer than three places are returned if the ring is nowhere wider than `tolerance`. Each point is measured against
-/// the given ring and never against an earlier result, so dense rings do not drift.
+/// Every dropped point is within `tolerance` (m) of the edge that replaces it, and every point of that edge
+/// is as close to the input ring.
 ///
-/// Method: D. Douglas and T. Peucker, "Algorithms for the reduction of the number of points required to represent a
-/// digitized line or its caricature", 1973, between the point farthest from the middle and the point farthest from that.
+/// Returns fewer than three indices if the ring is nowhere wider than `tolerance`. Each point is compared
+/// with the input ring and never with an earlier result, so dense rings do not drift.
+///
+/// Method: D. Douglas and T. Peucker, "Algorithms for the reduction of the number of points required to
+/// represent a digitized line or its caricature", 1973, on the two chains between the point farthest from the
+/// centre and the point farthest from that point.
 pub(super) fn corners<P: Point>(ring: &[P], tolerance: f64) -> Vec<usize> {
     let count = ring.len();
     if count < 3 {
@@ -32,7 +35,7 @@ pub(super) fn corners<P: Point>(ring: &[P], tolerance: f64) -> Vec<usize> {
         let stays = planar::kept(&line, tolerance, |point, way| distance(way, point));
         kept.extend((0..steps).filter(|step| stays[*step]).map(|step| (from + step) % count));
     }
-    // The two points in between may be on a straight line themselves.
+    // The two ends of the chains may be collinear with their neighbours.
     for end in [first, second] {
         let Some(index) = kept.iter().position(|place| *place == end).filter(|_| kept.len() > 3) else {
             continue;
@@ -61,12 +64,13 @@ mod tests {
 
     const TOLERANCE: f64 = 2e-3;
 
-    /// So many, or as many times that as `BURGEON_CASES` asks for.
+    /// Returns `count`, multiplied by the environment variable `BURGEON_CASES` if it is set.
     fn cases(count: usize) -> usize {
         count * std::env::var("BURGEON_CASES").ok().and_then(|times| times.parse().ok()).unwrap_or(1)
     }
 
-    /// The greatest distance (m) of points along `ring` from the edges of `other`; infinite beyond 1 m.
+    /// Returns the maximum distance (m) of points along `ring` from the edges of `other`; infinite beyond 1
+    /// m.
     #[allow(clippy::cast_possible_truncation, reason = "places of a plan")]
     fn off(ring: &[DVec2], other: &[DVec2]) -> f64 {
         let cell = |at: DVec2| [at.x.floor() as i64, at.y.floor() as i64];
@@ -91,7 +95,8 @@ mod tests {
         (0..count).map(|index| place(index as f64 / count as f64)).collect()
     }
 
-    /// The ring with `steps` points to each edge, each moved by up to `noise` (m).
+    /// Divides the edges of a ring into steps of at most `step` (m), and moves each new point by up to
+    /// `noise` (m).
     fn dense(ring: &[DVec2], step: f64, noise: f64, random: &mut Random) -> Vec<DVec2> {
         let mut points = Vec::new();
         for [a, b] in planar::edges(ring) {
@@ -105,7 +110,7 @@ mod tests {
         points
     }
 
-    /// Dense rings of many sorts, each with how far (m) its plan may be from it.
+    /// Returns dense rings of a shape chosen by `round`.
     fn samples(round: usize, random: &mut Random) -> Vec<Vec<DVec2>> {
         let mut between = |from: f64, to: f64| from + (to - from) * random.next();
         let turn = DVec2::from_angle(between(0.0, TAU));

@@ -1,52 +1,53 @@
-//! Sizes that a part of a whole may have, and how parts share the whole among them.
+//! Possible sizes of the parts of a whole, and the division of a whole into parts.
 
 use smallvec::{SmallVec, smallvec};
 
 use burgeon_base::error::{Error, Limit, Result};
 
-/// Lengths (m) that differ by less are the same.
+/// Tolerance (m) within which lengths are equal.
 pub const SAME: f64 = 1e-9;
 
-/// The most intervals that sizes may consist of.
+/// Maximum number of intervals of a set of sizes.
 const MOST: usize = 4096;
 
-/// The most pairs of intervals that are added.
+/// Maximum number of pairs of intervals in a sum.
 const MOST_SUMS: usize = 1 << 22;
 
-/// A set of lengths (m): closed intervals, in order and apart.
+/// A set of lengths (m): disjoint closed intervals in ascending order.
 ///
-/// A row of windows of 1 m each can be 1, 2 or 3 m wide and nothing between; so a least and a greatest size alone
-/// could not tell what fits.
+/// A row of 1 m windows can be 1, 2 or 3 m wide but nothing in between, so a minimum and a maximum are not
+/// sufficient.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Sizes(SmallVec<[[f64; 2]; 2]>);
 
 impl Sizes {
-    /// All lengths from `low` to `high` (m), which may be infinite; none if `low` is greater.
+    /// Returns all lengths from `low` to `high` (m), which may be infinite; empty if `low` is greater.
     pub fn between(low: f64, high: f64) -> Self {
         if low > high + SAME { Self::default() } else { Self(smallvec![[low, high.max(low)]]) }
     }
 
-    /// Whether there is no such length.
+    /// Returns true if the set contains no length.
     pub fn is_empty(&self) -> bool {
         self.0.is_empty()
     }
 
-    /// The least length (m); infinite if there is none.
+    /// Returns the minimum length (m); infinite if the set is empty.
     pub fn low(&self) -> f64 {
         self.0.first().map_or(f64::INFINITY, |first| first[0])
     }
 
-    /// The greatest length (m); 0 if there is none.
+    /// Returns the maximum length (m); 0 if the set is empty.
     pub fn high(&self) -> f64 {
         self.0.last().map_or(0.0, |last| last[1])
     }
 
-    /// Whether `length` (m) is among them.
+    /// Returns true if the set contains `length` (m).
     pub fn contains(&self, length: f64) -> bool {
         self.0.iter().any(|[low, high]| length >= low - SAME && length <= high + SAME)
     }
 
-    /// The length (m) among them that is nearest to `length` (m), the lower of two; infinite if there is none.
+    /// Returns the length (m) of the set that is closest to `length` (m), the smaller of two; infinite if the
+    /// set is empty.
     pub fn nearest(&self, length: f64) -> f64 {
         let clamped = self.0.iter().map(|[low, high]| length.clamp(*low, *high));
         clamped.fold(
@@ -57,7 +58,7 @@ impl Sizes {
         )
     }
 
-    /// The lengths that both have.
+    /// Returns the intersection of both sets.
     #[must_use]
     pub fn and(&self, other: &Self) -> Self {
         let pairs = self.0.iter().flat_map(|a| other.0.iter().map(move |b| (a, b)));
@@ -65,7 +66,7 @@ impl Sizes {
         Self::gather(both.filter(|[low, high]| *low <= high + SAME).collect())
     }
 
-    /// The sums of a length of each.
+    /// Returns the sums of a length of each set; fails if there are too many intervals.
     pub fn plus(&self, other: &Self) -> Result<Self> {
         if self.0.len().saturating_mul(other.0.len()) > MOST_SUMS {
             return Err(too_many());
@@ -74,14 +75,14 @@ impl Sizes {
         Self::gather(pairs.collect()).limited()
     }
 
-    /// `counts` times one length, the same each time.
+    /// Returns the multiples of each length by each of `counts`; fails if there are too many intervals.
     pub fn times(&self, counts: std::ops::RangeInclusive<u32>) -> Result<Self> {
         let mut intervals: SmallVec<[[f64; 2]; 2]> = SmallVec::new();
-        // The least length of an interval without an end.
+        // Minimum length of an unbounded interval.
         let mut endless = f64::INFINITY;
         for count in counts {
             let count = f64::from(count);
-            // From here on, longer ones only add what one interval without an end has already.
+            // Larger counts add nothing to an existing unbounded interval.
             if endless <= count * self.low() {
                 break;
             }
@@ -96,7 +97,7 @@ impl Sizes {
         Self::gather(intervals).limited()
     }
 
-    /// What is left of `whole` when a length of these is taken away.
+    /// Returns the differences of `whole` and each length.
     #[must_use]
     fn rest_of(&self, whole: f64) -> Self {
         Self(self.0.iter().rev().map(|[low, high]| [whole - high, whole - low]).collect())
@@ -130,24 +131,24 @@ fn too_many() -> Error {
 /// A part of a whole.
 #[derive(Debug, Clone, Default)]
 pub struct Share {
-    /// The lengths that it may have (m).
+    /// Possible lengths (m).
     pub sizes: Sizes,
-    /// The length that it had best have (m).
+    /// Preferred length (m).
     pub target: Option<f64>,
-    /// Parts of a lower order give way first.
+    /// Priority of the adjustment: parts of a lower order change first.
     pub order: u8,
 }
 
-/// Parts that fill a whole one after another.
+/// Consecutive parts that fill a whole.
 #[derive(Debug, Clone, Default)]
 pub struct Split {
     shares: Vec<Share>,
-    /// The sums of the sizes from each part on.
+    /// Sums of the sizes from each part to the end.
     rest: Vec<Sizes>,
 }
 
 impl Split {
-    /// Parts in their order; fails if their sums are too many.
+    /// Creates a division into parts, in their order; fails if their sums have too many intervals.
     pub fn new(shares: Vec<Share>) -> Result<Self> {
         let mut rest = vec![Sizes::between(0.0, 0.0)];
         for share in shares.iter().rev() {
@@ -158,20 +159,21 @@ impl Split {
         Ok(Self { shares, rest })
     }
 
-    /// The lengths that the whole may have.
+    /// Returns the possible lengths of the whole.
     pub fn sizes(&self) -> &Sizes {
         &self.rest[0]
     }
 
-    /// The length (m) that the whole had best have, if all parts have one.
+    /// Returns the preferred length (m) of the whole, if all parts have one.
     pub fn target(&self) -> Option<f64> {
         self.shares.iter().map(|share| share.target).sum()
     }
 
-    /// The lengths (m) of the parts, which add up to `whole` (m); `None` if it is not among [`Split::sizes`].
+    /// Returns the lengths (m) of the parts, which add up to `whole` (m); `None` if [`Split::sizes`] does not
+    /// contain it.
     ///
-    /// Each begins with its target, or with its least length. What is missing or left over is shared out evenly,
-    /// lower orders first, as far as the sizes allow.
+    /// Each part begins with its preferred length or its minimum length. The difference to `whole` is
+    /// distributed evenly, lower orders first, as far as the sizes allow.
     pub fn divide(&self, whole: f64) -> Option<SmallVec<[f64; 8]>> {
         if !self.sizes().contains(whole) {
             return None;
@@ -184,7 +186,7 @@ impl Split {
         for order in 0..=2 {
             self.level(&mut lengths, order, whole);
         }
-        // Where sizes have gaps: the nearest ones that still leave a possible rest.
+        // If sizes have gaps, choose the closest lengths for which the remaining parts can fill the rest.
         let mut left = whole;
         for (index, share) in self.shares.iter().enumerate() {
             let possible = share.sizes.and(&self.rest[index + 1].rest_of(left));
@@ -196,7 +198,7 @@ impl Split {
 
     /// Grows or shrinks the parts of an order evenly towards a sum of `whole`.
     fn level(&self, lengths: &mut [f64], order: u8, whole: f64) {
-        // Each round ends with a part at its limit, or with nothing left.
+        // Each round ends with a part at its limit or with no difference left.
         for _ in 0..=self.shares.len() {
             let missing = whole - lengths.iter().sum::<f64>();
             if missing.abs() <= SAME {

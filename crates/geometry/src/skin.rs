@@ -1,4 +1,4 @@
-//! How the side of a sweep is divided around: columns of vertices, joined to strips between edges.
+//! Division of the sides of a sweep: columns of vertices, joined into strips between sharp edges.
 
 use std::ops::Range;
 
@@ -9,33 +9,33 @@ use super::Section;
 use super::ring::FEW;
 use super::section::Knot;
 
-/// One vertex in each row around: a point of the section and the outline's direction there.
+/// One vertex of each row: a point of the section and the outline's direction there.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct SkinColumn {
     pub(super) point: usize,
     pub(super) tangent: Tangent,
 }
 
-/// A direction between those of up to three edges, each with its weight.
+/// A weighted mean of the directions of up to three edges.
 ///
-/// It is mixed only after the edges have been scaled, so that it stays between them.
+/// The mean is computed after the edges are scaled, so that the direction stays between them.
 pub(super) type Tangent = [(DVec2, f64); 3];
 
-/// Columns that follow each other without an edge between.
+/// Consecutive columns without a sharp edge between them.
 #[derive(Debug, Clone)]
 pub(super) struct Strip {
-    /// Each column and the next one are joined by faces.
+    /// Range of columns; faces join each column to the next one.
     pub(super) columns: Range<usize>,
-    /// The section's ring.
+    /// Index of the section's ring.
     pub(super) ring: usize,
-    /// Whether the strip follows a straight line.
+    /// Marks a strip along a straight line.
     pub(super) straight: bool,
 }
 
 /// Texture coordinates (m) around the section.
 pub(super) type SkinCoordinates = SmallVec<[f64; 2 * FEW]>;
 
-/// The division of a section's outline.
+/// Division of a section's outline.
 #[derive(Debug, Clone)]
 pub(super) struct Skin {
     pub(super) columns: Vec<SkinColumn>,
@@ -43,9 +43,9 @@ pub(super) struct Skin {
 }
 
 impl Skin {
-    /// Divides at the sharp points, or at every point unless the surface is smooth `around`.
+    /// Divides the outline at the sharp points, or at every point unless the surface is smooth `around`.
     ///
-    /// A ring without sharp points is divided at its first point, since texture coordinates begin there.
+    /// A ring without sharp points is divided at its first point, because texture coordinates begin there.
     pub(super) fn new(section: &Section, around: bool) -> Self {
         let mut skin = Self { columns: Vec::new(), strips: Vec::new() };
         let mut first = 0;
@@ -80,9 +80,10 @@ impl Skin {
         }
     }
 
-    /// Texture coordinates (m) of all columns along a ring of points, after the strips' middles.
+    /// Returns the texture coordinates (m) of all columns along a ring of points, relative to the strips'
+    /// centres `middles`.
     ///
-    /// They run to both sides from the middle of each strip, so that a face which tapers is not sheared.
+    /// They run to both sides from the centre of each strip, so that a tapering face is not sheared.
     pub(super) fn across(&self, points: &[DVec3], middles: &[f64]) -> SkinCoordinates {
         let mut across: SkinCoordinates = smallvec![0.0; self.columns.len()];
         for (strip, middle) in self.strips.iter().zip(middles) {
@@ -96,7 +97,7 @@ impl Skin {
         across
     }
 
-    /// The middle (m) of each strip on the way around its ring.
+    /// Returns the position (m) of each strip's centre along its ring.
     pub(super) fn middles(&self, points: &[DVec3]) -> SkinCoordinates {
         let (mut ring, mut sum) = (0, 0.0);
         let middle = |strip: &Strip| {
@@ -124,12 +125,12 @@ struct Tangents<'a> {
 }
 
 impl Tangents<'_> {
-    /// The direction at a point as the edge before it sees it.
+    /// Returns the direction at a point for the edge that ends there.
     fn before(&self, point: usize) -> Tangent {
         self.at(point, self.edge(self.previous(point)))
     }
 
-    /// The direction at a point as the edge after it sees it.
+    /// Returns the direction at a point for the edge that begins there.
     fn after(&self, point: usize) -> Tangent {
         self.at(point, self.edge(point))
     }
@@ -147,13 +148,13 @@ impl Tangents<'_> {
         }
     }
 
-    /// Whether the direction at a corner is halfway between both edges.
+    /// Returns true if the direction at a corner is the mean of both edges.
     fn is_round(&self, corner: usize) -> bool {
         let end = self.open && (corner == 0 || corner + 1 == self.ring.len());
         self.ring[corner].smooth && !end
     }
 
-    /// The direction at an inserted point: between those of the corners at both ends of its edge.
+    /// Returns the direction at an inserted point, interpolated between the corners at both ends of its edge.
     fn between_corners(&self, point: usize) -> Tangent {
         let (mut from, mut to) = (self.previous(point), self.next(point));
         while self.ring[from].inserted {
@@ -170,7 +171,7 @@ impl Tangents<'_> {
         [(edge, 1.0 - before - after), (self.edge(self.previous(from)), before), (self.edge(to), after)]
     }
 
-    /// The direction of the edge that begins at a point.
+    /// Returns the direction of the edge that begins at a point.
     fn edge(&self, point: usize) -> DVec2 {
         (self.ring[self.next(point)].at - self.ring[point].at).normalize_or_zero()
     }

@@ -1,33 +1,33 @@
-//! Slits in plans: openings so narrow that no roof can follow them, which are filled.
+//! Slits in plans: openings that are too narrow for a roof to follow.
 //!
-//! Rule: an opening that is nowhere wider than the distance at which two points become one is filled, and the plan says
-//! so. A roof over a wider one follows its walls. An opening that becomes narrow only towards its end, such as a sharp
-//! notch, stays as it is.
+//! An opening is a slit if it is nowhere wider than the distance within which points are merged. Slits are
+//! filled, and the plan reports them. A roof over a wider opening follows its walls. An opening that becomes
+//! narrow only towards its end, such as a sharp notch, is kept.
 
 use glam::DVec2;
 
 use super::outline::OutlineOptions;
 
-/// Openings less deep (m) than this part of their greatest width are no slits.
+/// Minimum ratio of the depth of a slit to its maximum width.
 const DEEP: f64 = 2.0;
-/// The cosine of the greatest angle between the sides of a slit.
+/// Cosine of the minimum angle between the directions of the sides of a slit.
 const OPPOSITE: f64 = -0.95;
-/// How far (m) what fills a slit reaches into the walls around it.
+/// Overlap (m) of the filled area with the walls around it.
 const OVERLAP: f64 = 1e-4;
 
 /// A part of a slit between two straight walls.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Slit {
-    /// The corners (m) of the area that fills it.
+    /// Corners (m) of the area that fills it.
     pub corners: [DVec2; 4],
-    /// Its ends (m), in its middle.
+    /// Ends (m) on the centreline.
     pub ends: [DVec2; 2],
-    /// Its greatest width (m).
+    /// Maximum width (m).
     pub width: f64,
 }
 
 impl Slit {
-    /// A description for a note.
+    /// Returns a description for a report entry.
     pub(super) fn describe(&self) -> String {
         let [from, to] = self.ends;
         format!(
@@ -41,7 +41,7 @@ impl Slit {
     }
 }
 
-/// The slits of sound rings, of which the first is counter-clockwise and the others are clockwise.
+/// Finds the slits of valid rings: the first ring is counter-clockwise, the others are clockwise.
 pub(super) fn find<R: AsRef<[DVec2]>>(rings: &[R], manner: &OutlineOptions) -> Vec<Slit> {
     let edges = rings.iter().map(AsRef::as_ref).flat_map(super::planar::edges);
     let mut edges: Vec<[DVec2; 2]> = edges.collect();
@@ -62,14 +62,14 @@ pub(super) fn find<R: AsRef<[DVec2]>>(rings: &[R], manner: &OutlineOptions) -> V
     slits
 }
 
-/// The slit between two edges with the area on their left, if there is one that is nowhere wider than `widest` (m).
+/// Returns the slit between two edges with the area on their left, if it is nowhere wider than `widest` (m).
 fn between([a, b]: [DVec2; 2], [c, d]: [DVec2; 2], widest: f64) -> Option<Slit> {
     let (length, along) = (a.distance(b), (b - a).try_normalize()?);
     if along.dot((d - c).try_normalize()?) > OPPOSITE {
         return None;
     }
     let out = -along.perp();
-    // From the end of the other edge to its beginning, which runs as this edge does.
+    // The other edge is reversed, so that both edges have the same direction.
     let [from, to] = [d - a, c - a].map(|at| DVec2::new(at.dot(along), at.dot(out)));
     let [begin, end] = [from.x.max(0.0), to.x.min(length)];
     let slope = (to.y - from.y) / (to.x - from.x);
@@ -78,7 +78,7 @@ fn between([a, b]: [DVec2; 2], [c, d]: [DVec2; 2], widest: f64) -> Option<Slit> 
     if least < -1e-9 || !(width > 0.0 && width <= widest) || end - begin < DEEP * width.max(widest) {
         return None;
     }
-    // A slit askew to the walls at its ends is filled up to their corners.
+    // If the walls at the ends of a slit are oblique, the slit is filled up to their corners.
     let near = 2.0 * widest;
     let corner = |place: f64, own: f64, at: DVec2, between: DVec2| {
         if (place - own).abs() <= near { at } else { between }

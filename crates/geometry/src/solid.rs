@@ -1,4 +1,4 @@
-//! Checks of finished triangles: whether they close, which way they face, what they enclose.
+//! Checks of finished triangle meshes: closedness, orientation, volume and area.
 
 use glam::{DVec3, Vec3};
 use rustc_hash::FxHashMap;
@@ -6,26 +6,26 @@ use rustc_hash::FxHashMap;
 use super::planar::edges;
 use burgeon_scene::Part;
 
-/// What [`check`] found; nothing is wrong with a solid for which [`SolidCheck::is_solid`] holds.
+/// Result of [`check`]: the defects of a surface; empty if [`SolidCheck::is_solid`] returns true.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct SolidCheck {
-    /// Edges (m) with a triangle on one side only, in the order of their first use.
+    /// Edges (m) with an odd number of triangles, in the order of their first use.
     pub open: Vec<[Vec3; 2]>,
-    /// Edges (m) whose triangles run along them the same way, so that one of the two faces inwards.
+    /// Edges (m) whose triangles run along them in the same direction, so that one of two faces is inverted.
     pub inconsistent: Vec<[Vec3; 2]>,
-    /// Triangles that are no thicker than a thousand-millionth of their longest edge.
+    /// Number of triangles that are at most 1e-9 times as thick as their longest edge.
     pub zero_area: usize,
-    /// Positions with a coordinate that is infinite or not a number.
+    /// Number of positions with an infinite or NaN coordinate.
     pub not_finite: usize,
 }
 
 impl SolidCheck {
-    /// Whether every edge has as many triangles running one way as the other.
+    /// Returns true if every edge has the same number of triangles in both directions.
     pub fn is_closed(&self) -> bool {
         self.open.is_empty() && self.inconsistent.is_empty()
     }
 
-    /// Whether the surface is closed, consistently oriented, finite and free of zero-area triangles.
+    /// Returns true if the surface is closed, consistently oriented, finite and free of zero-area triangles.
     pub fn is_solid(&self) -> bool {
         self.is_closed() && self.zero_area == 0 && self.not_finite == 0
     }
@@ -33,8 +33,8 @@ impl SolidCheck {
 
 /// Checks the surface that `parts` form together.
 ///
-/// Two corners are one point if their positions are equal to the last bit; -0 equals 0. An edge that several
-/// sheets share is sound if as many triangles run along it one way as the other.
+/// Corners are welded if their positions are equal to the last bit; -0 equals 0. An edge that several sheets
+/// share is valid if the same number of triangles runs along it in both directions.
 pub fn check<'a>(parts: impl IntoIterator<Item = &'a Part>) -> SolidCheck {
     let mut found = SolidCheck::default();
     let mut points: Vec<Vec3> = Vec::new();
@@ -76,7 +76,7 @@ pub fn check<'a>(parts: impl IntoIterator<Item = &'a Part>) -> SolidCheck {
     found
 }
 
-/// An edge with the number of triangles that run along it each way.
+/// An edge with the number of triangles in each direction.
 struct SolidEdge {
     from: usize,
     to: usize,
@@ -84,34 +84,34 @@ struct SolidEdge {
     against: usize,
 }
 
-/// Whether a triangle is no thicker than a thousand-millionth of its longest edge.
+/// Returns true if a triangle is at most 1e-9 times as thick as its longest edge.
 #[inline]
 pub(super) fn is_flat([a, b, c]: [DVec3; 3]) -> bool {
     let longest = a.distance_squared(b).max(b.distance_squared(c)).max(c.distance_squared(a));
     (b - a).cross(c - a).length() <= longest * 1e-9
 }
 
-/// What is wrong with a surface beyond its edges: what [`clashes`] found.
+/// Result of [`clashes`]: the intersections of a surface with itself.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Clashes {
-    /// Edges (m) that more than two triangles share, in the order of their first use.
+    /// Edges (m) shared by more than two triangles, in the order of their first use.
     pub crowded: Vec<[Vec3; 2]>,
-    /// Pairs of triangles, by their numbers over all parts, that lie on one another.
+    /// Pairs of coplanar triangles that overlap, numbered over all parts.
     pub on: Vec<[usize; 2]>,
     /// Pairs of triangles of which one passes through the other.
     pub through: Vec<[usize; 2]>,
 }
 
 impl Clashes {
-    /// Whether there are none.
+    /// Returns true if the surface has no clashes.
     pub fn is_empty(&self) -> bool {
         self.crowded.is_empty() && self.on.is_empty() && self.through.is_empty()
     }
 }
 
-/// Where the surface that `parts` form together meets itself though it should not, by more than `slack` (m).
+/// Finds self-intersections of more than `slack` (m) of the surface that `parts` form together.
 ///
-/// Compares triangles whose boxes meet, from left to right; not for large meshes.
+/// Compares all triangles with intersecting bounding boxes in a sweep along x; not for large meshes.
 pub fn clashes<'a>(parts: impl IntoIterator<Item = &'a Part>, slack: f64) -> Clashes {
     let all: Vec<[DVec3; 3]> = parts.into_iter().flat_map(triangles).collect();
     let mut found = Clashes::default();
@@ -145,7 +145,7 @@ pub fn clashes<'a>(parts: impl IntoIterator<Item = &'a Part>, slack: f64) -> Cla
     found
 }
 
-/// Whether two triangles in one plane have an area in common that is wider than `slack` (m).
+/// Returns true if two coplanar triangles have a common area that is wider than `slack` (m).
 fn lie_on(one: [DVec3; 3], other: [DVec3; 3], slack: f64) -> bool {
     let normal = (one[1] - one[0]).cross(one[2] - one[0]).normalize_or_zero();
     if normal == DVec3::ZERO || other.iter().any(|at| normal.dot(*at - one[0]).abs() > slack / 2.0) {
@@ -172,7 +172,7 @@ fn lie_on(one: [DVec3; 3], other: [DVec3; 3], slack: f64) -> bool {
     area > slack * slack
 }
 
-/// Whether an edge of `one` passes through `other`, by more than `slack` (m).
+/// Returns true if an edge of `one` passes through `other` by more than `slack` (m).
 fn passes(one: [DVec3; 3], other: [DVec3; 3], slack: f64) -> bool {
     let normal = (other[1] - other[0]).cross(other[2] - other[0]).normalize_or_zero();
     (0..3).any(|side| {
@@ -189,21 +189,21 @@ fn passes(one: [DVec3; 3], other: [DVec3; 3], slack: f64) -> bool {
     })
 }
 
-/// The volume (m³) that `parts` enclose together; negative if they face inwards, meaningless if they are open.
+/// Returns the volume (m³) enclosed by `parts`; negative if they face inwards, undefined if they are open.
 ///
 /// Method: the divergence theorem, as a sum of the signed tetrahedra between each triangle and one point.
 pub fn volume<'a>(parts: impl IntoIterator<Item = &'a Part>) -> f64 {
     let mut apex = None;
     let mut sum = 0.0;
     for [a, b, c] in parts.into_iter().flat_map(triangles) {
-        // A point of the surface itself loses fewer digits than the origin when the solid is far from it.
+        // A point of the surface loses fewer digits than the origin if the solid is far from the origin.
         let apex = *apex.get_or_insert(a);
         sum += (a - apex).dot((b - apex).cross(c - apex));
     }
     sum / 6.0
 }
 
-/// The area (m²) of all triangles.
+/// Returns the total area (m²) of all triangles.
 pub fn area<'a>(parts: impl IntoIterator<Item = &'a Part>) -> f64 {
     parts.into_iter().flat_map(triangles).map(|[a, b, c]| (b - a).cross(c - a).length() / 2.0).sum()
 }
@@ -216,7 +216,7 @@ fn triangles(part: &Part) -> impl Iterator<Item = [DVec3; 3]> {
 mod tests {
     use super::*;
 
-    /// The tetrahedron between the origin and the three unit points, facing outwards.
+    /// Returns the tetrahedron with corners at the origin and the three unit points, facing outwards.
     fn tetrahedron() -> Part {
         let positions = vec![Vec3::ZERO, Vec3::X, Vec3::Y, Vec3::Z];
         let triangles = vec![[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]].into();
@@ -250,7 +250,7 @@ mod tests {
         };
         let through = clashes([&tetrahedron(), &moved(Vec3::splat(0.1))], 1e-3);
         assert!(through.on.is_empty() && !through.through.is_empty() && through.crowded.is_empty());
-        // Three of its faces lie on those of the other.
+        // Three faces of each solid overlap faces of the other.
         let twice = clashes([&tetrahedron(), &moved(Vec3::ZERO)], 1e-3);
         assert_eq!((twice.on.len(), twice.crowded.len()), (4, 6));
         let beside = clashes([&tetrahedron(), &moved(Vec3::X * 0.5)], 1e-3);
@@ -285,7 +285,7 @@ mod tests {
         solid.triangles.push([0, 1, 4]);
         let found = check([&solid]);
         assert_eq!((found.zero_area, found.not_finite), (1, 1));
-        // A triangle that has shrunk to an edge has no area, but opens nothing.
+        // A triangle that has collapsed to an edge has no area, but leaves no edge open.
         let mut solid = tetrahedron();
         solid.triangles.push([0, 0, 1]);
         let found = check([&solid]);

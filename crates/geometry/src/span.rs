@@ -1,4 +1,4 @@
-//! The piece of surface between two rings: which way it faces, and its normals.
+//! Spans: the surface between two rings, with its orientation and normals.
 
 use std::f64::consts::FRAC_PI_2;
 
@@ -10,7 +10,7 @@ use super::ring::{FEW, NOTHING, Pose, SectionRing};
 use super::skin::{Skin, Tangent};
 use burgeon_base::error::{Error, Result};
 
-/// How normals are spread over a surface.
+/// Directions in which normals are smooth over a surface.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct NormalSpread {
     pub(super) around: bool,
@@ -23,18 +23,19 @@ pub(super) type Normals = SmallVec<[DVec3; 2 * FEW]>;
 /// The surface between two rings.
 #[derive(Debug)]
 pub(super) struct Span {
-    /// 1 if the faces look outwards as they come, -1 if mirroring or going backwards turns them round.
+    /// Orientation: 1 if the faces point outwards as constructed, -1 if mirroring or a backward path inverts
+    /// them.
     pub(super) sign: f64,
-    /// Whether both rings are at the same place.
+    /// Marks two rings at the same position.
     pub(super) step: bool,
     /// Unit normals of all columns at the first and at the second ring.
     pub(super) normals: [Normals; 2],
 }
 
 impl Span {
-    /// The span from ring `a` to ring `b`; `None` if there is nothing between them.
+    /// Creates the span from ring `a` to ring `b`; `None` if the span has no surface.
     ///
-    /// `direction` is -1 for a way against its headings. Fails if a scale changes its sign on the way.
+    /// `direction` is -1 for a path against its headings. Fails if a scale changes its sign within the span.
     pub(super) fn new(
         section: &Section,
         skin: &Skin,
@@ -69,7 +70,7 @@ impl Span {
     }
 }
 
-/// Both columns of a face with the face's own normal.
+/// Computes flat normals: both columns of a face have the normal of the face.
 fn flat(skin: &Skin, a: &SectionRing, b: &SectionRing) -> [Normals; 2] {
     let mut normals: Normals = smallvec![DVec3::Z; skin.columns.len()];
     for strip in &skin.strips {
@@ -83,7 +84,7 @@ fn flat(skin: &Skin, a: &SectionRing, b: &SectionRing) -> [Normals; 2] {
     [Normals::from_slice(&normals), normals]
 }
 
-/// The normals of the surface that the faces stand for: across the outline and the way of each point.
+/// Computes smooth normals: the cross product of the outline's direction and the motion of each point.
 fn smooth(section: &Section, skin: &Skin, [a, b]: [&SectionRing; 2], along: bool) -> [Normals; 2] {
     let points: Vec<DVec2> = section.points().collect();
     let motion = Motion::new(&a.after, &b.before);
@@ -106,7 +107,7 @@ struct SpanEnd {
     y: DVec3,
     heading: DVec3,
     scale: DVec2,
-    /// The scale with which directions around are measured: not 0, since a cone's tip has them, too.
+    /// Scale for directions around the outline: not 0, so that the tip of a cone has directions.
     least: DVec2,
 }
 
@@ -123,7 +124,7 @@ impl SpanEnd {
         self.x * (self.least.x * point.x) + self.y * (self.least.y * point.y)
     }
 
-    /// The direction of the outline.
+    /// Returns the direction of the outline.
     fn around(&self, tangent: Tangent) -> DVec3 {
         let used = tangent.into_iter().filter(|(_, weight)| *weight > 0.0);
         let mixed: DVec3 = used.map(|(edge, weight)| self.offset(edge).normalize_or_zero() * weight).sum();
@@ -131,11 +132,12 @@ impl SpanEnd {
     }
 }
 
-/// How points move along a span: the centre on an arc of even curvature, with even twist and change of scale.
+/// Motion of points along a span: the centre moves on an arc of constant curvature, and twist and scale
+/// change linearly.
 struct Motion {
-    /// The centre's motion at both ends, over the whole span.
+    /// Motion of the centre at both ends, over the whole span.
     centre: [DVec3; 2],
-    /// The section's turn at both ends, over the whole span: axis times angle (radians).
+    /// Rotation of the section at both ends, over the whole span: axis times angle (radians).
     turn: [DVec3; 2],
     scale: DVec2,
 }
@@ -154,7 +156,7 @@ impl Motion {
         Self { centre, turn, scale: to.scale - from.scale }
     }
 
-    /// The way of a point of the section at one end.
+    /// Returns the motion of a point of the section at one end.
     fn way(&self, side: usize, ends: &SpanEnd, point: DVec2) -> DVec3 {
         let offset = ends.x * (ends.scale.x * point.x) + ends.y * (ends.scale.y * point.y);
         let growth = ends.x * (self.scale.x * point.x) + ends.y * (self.scale.y * point.y);
@@ -162,7 +164,7 @@ impl Motion {
     }
 }
 
-/// The shortest turn from one frame to another, without their twists: axis times angle (radians).
+/// Returns the smallest rotation from one frame to another, without their twists: axis times angle (radians).
 fn turn_between(from: &Pose, to: &Pose) -> DVec3 {
     let [a, b] = [from, to]
         .map(|pose| DQuat::from_mat3(&DMat3::from_cols(pose.frame.heading, pose.frame.left, pose.frame.up)));

@@ -1,4 +1,4 @@
-//! Strands: round tubes through many points, made for millions of branches.
+//! Strands: round tubes through many points, optimized for millions of branches.
 
 use std::f64::consts::TAU;
 use std::sync::LazyLock;
@@ -9,20 +9,20 @@ use super::ring::MOST;
 use burgeon_base::error::{Error, Limit, Result};
 use burgeon_scene::{Normal, Part, Triangles};
 
-/// The greatest number of sides of a strand.
+/// Maximum number of sides of a strand.
 pub const MOST_SIDES: usize = 64;
 
-/// A circle of radius 1 m for each number of sides.
+/// Unit circles, indexed by number of sides.
 static CIRCLES: LazyLock<Vec<Circle>> = LazyLock::new(|| (0..=MOST_SIDES).map(Circle::new).collect());
 
-/// Points around a circle of radius 1 m.
+/// Points on a circle with a radius of 1 m.
 #[derive(Debug)]
 struct Circle {
-    /// One for each side.
+    /// Points, one for each side.
     points: Vec<Vec2>,
-    /// Their x and y, four at a time; the last ones are filled up.
+    /// The x and y coordinates in groups of four, padded with zeros.
     fours: Vec<[Vec4; 2]>,
-    /// The length (m) around it, with its flat sides.
+    /// Perimeter (m) of the polygon.
     perimeter: f32,
 }
 
@@ -44,51 +44,52 @@ impl Circle {
     }
 }
 
-/// The direction in which a ring is stretched, and by how much more than 1.
+/// Direction in which a ring is stretched, and the stretch factor minus 1.
 type Mitre = (Vec3A, f32);
 
 const STRAIGHT: Mitre = (Vec3A::ZERO, 0.0);
 
-/// A round tube that grows from point to point: a closed solid once [`Strand::end`] has been called.
+/// A round tube that grows from point to point: a closed solid after [`Strand::end`].
 ///
-/// Its rings stand halfway between the pieces that they join, stretched as a mitre is, and turn with the way
-/// without twisting about it. A radius of 0 at the start or the end makes a tip, otherwise the ends are flat.
-/// Texture coordinates are metres: u to both sides of the line opposite to the seam, v along the way.
+/// Each ring lies halfway between the segments that it joins, stretched to a mitre; rings turn with the path
+/// without twisting. A radius of 0 at the start or the end creates a tip; other ends are flat. Texture
+/// coordinates are in metres: u to both sides of the line opposite to the seam, v along the path.
 ///
-/// Nothing is kept but the last ring and the next place, so a strand can be put aside while others grow in the
-/// same part. It must be ended once, and a copy of it must not go on.
+/// A strand stores only its last ring and position, so several strands can grow alternately in the same part.
+/// Call [`Strand::end`] exactly once, and do not continue a copy of a strand.
 #[derive(Debug, Clone)]
 pub struct Strand {
     circle: &'static Circle,
-    /// Across the last direction: where the ring begins.
+    /// Start of the ring, perpendicular to the last direction.
     side: Vec3A,
-    /// The direction that `side` is across.
+    /// Direction to which `side` is perpendicular.
     across: Vec3A,
-    /// The place that the strand has come to; its ring waits for the direction in which it goes on.
+    /// Current position (m); its ring is added when the next direction is known.
     position: DVec3,
     radius: f32,
     v: f64,
-    /// The piece that ends at `position`, if there is one.
+    /// Segment that ends at `position`, if any.
     last: Option<StrandPiece>,
 }
 
-/// A piece of a strand that has its first ring, not yet its second.
+/// A segment of a strand with its first ring but without its second.
 #[derive(Debug, Clone, Copy)]
 struct StrandPiece {
     direction: Vec3A,
-    /// How much the radius shrinks on each metre.
+    /// Decrease of the radius per metre.
     slope: f32,
-    /// The first vertex of its first ring.
+    /// Index of the first vertex of its first ring.
     ring: u32,
-    /// Whether that ring is a tip.
+    /// Marks a first ring that is a tip.
     tip: bool,
 }
 
 impl Strand {
-    /// A strand with `sides` faces around (3 to 64) that begins at `position` (m) with `radius` (m).
+    /// Begins a strand with `sides` faces around (3 to 64) at `position` (m) with `radius` (m).
     ///
-    /// `side` points from the centre to the seam, across the way; if it does not, any other direction is taken.
-    /// Fails if a value is not finite or there are too few or too many sides.
+    /// `side` points from the centre to the seam, perpendicular to the path; if it is zero or parallel to the
+    /// path, another direction is chosen. Fails if a value is not finite or if there are too few or too many
+    /// sides.
     pub fn begin(sides: usize, position: DVec3, side: DVec3, radius: f64) -> Result<Self> {
         refuse_infinite(position, radius)?;
         if !(3..=MOST_SIDES).contains(&sides) {
@@ -101,19 +102,19 @@ impl Strand {
         Ok(Self { circle, side, across: Vec3A::ZERO, position, radius, v: 0.0, last: None })
     }
 
-    /// The place (m) that the strand has come to.
+    /// Returns the current position (m).
     pub fn position(&self) -> DVec3 {
         self.position
     }
 
-    /// Goes straight to `position` (m), where the radius is `radius` (m).
+    /// Adds a straight segment to `position` (m) with `radius` (m) at its end.
     ///
-    /// A place nearer than a coordinate's rounding only changes the radius. Fails if a value is not finite or
-    /// the part is full.
+    /// A position closer than the rounding error of a coordinate only changes the radius. Fails if a value is
+    /// not finite or if the part is full.
     #[inline]
     pub fn extend_to(&mut self, part: &mut Part, position: DVec3, radius: f64) -> Result<()> {
         refuse_infinite(position, radius)?;
-        // Only places need f64; directions are rounded to f32 in the end, and everything is recomputed from them.
+        // Only positions need f64: directions are rounded to f32 in the output, and errors do not accumulate.
         let way = (position - self.position).as_vec3a();
         let length = way.length();
         let radius = radius.abs() as f32;
@@ -129,7 +130,7 @@ impl Strand {
             )
             .help("draw fewer branches or fewer sides, or begin another mesh"));
         }
-        // For the most that one place and the end can add: two rings and two caps, or the faces of two tips.
+        // Room for the maximum of one segment and the end: two rings and two caps, or the faces of two tips.
         part.make_room(4 * self.vertices(), 2 * self.vertices());
         let direction = way / length;
         let slope = (self.radius - radius) / length;
@@ -144,7 +145,7 @@ impl Strand {
         Ok(())
     }
 
-    /// Closes the strand; one that never went anywhere adds nothing.
+    /// Closes the strand; a strand without segments adds nothing.
     pub fn end(self, part: &mut Part) {
         let Some(last) = self.last else { return };
         if self.radius <= self.least_radius() && !last.tip {
@@ -157,7 +158,7 @@ impl Strand {
         self.cap(part, last.direction, ring, false);
     }
 
-    /// The first ring with its cap, or the tip.
+    /// Adds the first ring with its cap, or the tip.
     fn start(&mut self, part: &mut Part, direction: Vec3A, slope: f32) -> (u32, bool) {
         let side = self.side.reject_from_normalized(direction);
         let side = if side.length_squared() > 1e-6 { side } else { direction.any_orthonormal_vector() };
@@ -170,32 +171,35 @@ impl Strand {
         (ring, false)
     }
 
-    /// The ring between the last piece and one that goes on in `direction`, with the last piece's faces.
+    /// Adds the ring between the last segment and a segment in `direction`, and the faces of the last
+    /// segment.
     #[inline]
     fn joint(&mut self, part: &mut Part, last: StrandPiece, direction: Vec3A, slope: f32) -> u32 {
         let sum = last.direction + direction;
         let square = sum.length_squared();
         let mut normal = last.direction;
         let mut mitre = STRAIGHT;
-        // The square is 4 times that of the cosine of half the turn. Beyond 120 degrees the ring is put across
-        // the last piece, since a mitre would stand out too far.
+        // The square is 4 times the squared cosine of half the turn. Beyond 120 degrees the ring is
+        // perpendicular to the last segment, because a mitre would be too long.
         let bend = direction - last.direction;
         let bent = bend.length_squared();
         if square > 1.0 && bent > 1e-10 {
             let length = square.sqrt();
             normal = sum / length;
-            // Along the bend a mitre is longer by the reciprocal of the cosine.
+            // Along the bend, a mitre is longer by the reciprocal of the cosine.
             mitre = (bend / bent.sqrt(), 2.0 / length - 1.0);
         }
         self.carry_side(normal);
         let ring = self.ring(part, normal, mitre, (last.slope + slope) / 2.0);
-        // By way of each piece's own direction, since the shortest ways between rings alone would twist it.
+        // The side turns via the direction of each segment: the shortest rotations between rings alone would
+        // twist it.
         self.carry_side(direction);
         self.faces(part, last.ring, ring, last.tip, false);
         ring
     }
 
-    /// Turns `side` by the shortest way from the direction it is across to `direction`.
+    /// Rotates `side` by the smallest rotation from the direction that it is perpendicular to, to
+    /// `direction`.
     #[inline]
     fn carry_side(&mut self, direction: Vec3A) {
         let sum = self.across + direction;
@@ -203,13 +207,14 @@ impl Strand {
         if cosine > 1e-6 {
             let side = self.side - sum * (self.side.dot(direction) / cosine);
             let side = side - direction * direction.dot(side);
-            // Removes what rounding has changed of the length: a step of Newton's method for 1 / square root.
+            // Corrects the rounding error of the length with a step of Newton's method for 1 / sqrt(x).
             self.side = side * (1.5 - 0.5 * side.length_squared());
         }
         self.across = direction;
     }
 
-    /// Adds a ring across `normal`, stretched in the direction of the `mitre` by its second part.
+    /// Adds a ring perpendicular to `normal`, stretched in the direction of the `mitre` by its factor;
+    /// returns its first vertex.
     #[inline]
     fn ring(&self, part: &mut Part, normal: Vec3A, mitre: Mitre, slope: f32) -> u32 {
         let first = part.positions.len() as u32;
@@ -229,7 +234,8 @@ impl Strand {
             let along = |axis: usize| lift[axis] + (flat_x[axis] * *x + flat_y[axis] * *y);
             part.normals.extend_from_slice(&Normal::four([along(0), along(1), along(2)]));
         }
-        // The last is the first again, with another place in the texture; the last four may have been too many.
+        // The last vertex repeats the first with another texture coordinate; the last group of four may have
+        // been padded.
         let at = first as usize;
         part.normals.truncate(at + points.len());
         part.positions.push(part.positions[at]);
@@ -238,7 +244,8 @@ impl Strand {
         first
     }
 
-    /// Adds a tip: the same point once for each face; `outwards` is -1 at the start and 1 at the end.
+    /// Adds a tip, the same point once for each face, and returns its first vertex; `outwards` is -1 at the
+    /// start and 1 at the end.
     fn tip(&self, part: &mut Part, direction: Vec3A, slope: f32, outwards: f32) -> u32 {
         let first = part.positions.len() as u32;
         let y = direction.cross(self.side);
@@ -254,7 +261,7 @@ impl Strand {
         first
     }
 
-    /// Adds the faces from one ring to the next, either of which may be a tip.
+    /// Adds the faces from one ring to the next; either may be a tip.
     #[inline]
     fn faces(&self, part: &mut Part, from: u32, to: u32, from_tip: bool, to_tip: bool) {
         let sides = self.circle.sides() as u32;
@@ -265,7 +272,7 @@ impl Strand {
         }
     }
 
-    /// Closes a ring with a flat fan that looks against `direction` at the `start`, along it at the end.
+    /// Closes a ring with a flat fan that faces against `direction` at the `start` and along it at the end.
     fn cap(&self, part: &mut Part, direction: Vec3A, ring: u32, start: bool) {
         let first = part.positions.len() as u32;
         let sides = self.circle.sides();
@@ -277,20 +284,21 @@ impl Strand {
         part.triangles.fan(first, sides as u16, start);
     }
 
-    /// The vertices of a ring: one for each side, and the first again where the texture ends.
+    /// Returns the number of vertices of a ring: one for each side, and the first again where the texture
+    /// ends.
     #[inline]
     fn vertices(&self) -> usize {
         self.circle.sides() + 1
     }
 
-    /// The radius (m) under which a ring's points could not be told apart at export precision.
+    /// Returns the radius (m) below which the points of a ring would coincide at export precision.
     #[inline]
     fn least_radius(&self) -> f32 {
         rounding(self.position) * self.vertices() as f32
     }
 }
 
-/// Adds one closed, straight, round tube with its own ends; see [`Strand`].
+/// Adds one closed, straight, round tube with flat ends or tips; see [`Strand`].
 pub fn tube(part: &mut Part, sides: usize, from: (DVec3, f64), to: (DVec3, f64)) -> Result<()> {
     let mut strand = Strand::begin(sides, from.0, DVec3::ZERO, from.1)?;
     strand.extend_to(part, to.0, to.1)?;
@@ -298,7 +306,7 @@ pub fn tube(part: &mut Part, sides: usize, from: (DVec3, f64), to: (DVec3, f64))
     Ok(())
 }
 
-/// A length (m) that is a few times what export precision can tell apart at `position`.
+/// Returns a length (m) of a few times the export precision at `position`.
 #[inline]
 fn rounding(position: DVec3) -> f32 {
     1e-6 + position.as_vec3a().abs().max_element() * 5e-7
@@ -306,7 +314,7 @@ fn rounding(position: DVec3) -> f32 {
 
 #[inline]
 fn refuse_infinite(position: DVec3, radius: f64) -> Result<()> {
-    // False for what is not a number, too.
+    // The comparisons are false for NaN.
     if position.abs().max_element() <= MOST && position.is_finite() && radius.abs() <= MOST {
         return Ok(());
     }
@@ -386,7 +394,7 @@ mod tests {
         assert!(check([&part]).is_solid() && looks_outwards(&part));
         let expected = length * 0.01 * polygon(8);
         assert!((volume([&part]) - expected).abs() < 1e-6, "{} {expected}", volume([&part]));
-        // Around a planar bend the seam stays on the side where it was.
+        // Around a planar bend the seam stays on its side.
         let circle: Vec<_> = (0..40).map(|i| DVec2::from_angle(f64::from(i) * 0.1)).collect();
         let planar: Vec<_> = circle.iter().map(|p| (DVec3::new(0.0, p.x, p.y), 0.05)).collect();
         let part = strand(5, &planar);

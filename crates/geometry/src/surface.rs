@@ -1,4 +1,4 @@
-//! The surface of a sweep while it is being built: rows of vertices, faces between them, and the ends.
+//! Construction of the surface of a sweep: rows of vertices, faces between them, and the ends.
 
 use glam::{DVec2, DVec3, Vec2, Vec3};
 use smallvec::{SmallVec, smallvec};
@@ -11,22 +11,22 @@ use super::{Lengthwise, Section, SweepOptions, SweepResult};
 use burgeon_base::error::{Error, Limit, Result};
 use burgeon_scene::{Normal, Part};
 
-/// A sweep that is being built.
+/// A sweep under construction.
 pub(super) struct SweepSurface<'a> {
     part: &'a mut Part,
     section: &'a Section,
     rings: &'a [SectionRing],
     options: &'a SweepOptions,
     skin: &'a Skin,
-    /// From each ring to the next one.
+    /// Spans from each ring to the next one.
     spans: SmallVec<[Option<Span>; 1]>,
-    /// -1 if the way goes against its headings.
+    /// Direction of the path: -1 if it runs against its headings, otherwise 1.
     direction: f64,
     open: Vec<[Vec3; 2]>,
     reached: Vec<(usize, usize)>,
 }
 
-/// The vertices of a ring, as one of its sides sees it.
+/// Vertices of a ring for one of its two adjacent spans.
 #[derive(Clone, Copy)]
 struct SurfaceRow {
     first: u32,
@@ -84,7 +84,7 @@ impl<'a> SweepSurface<'a> {
         Ok(SweepResult { v, open: self.open, reached: self.reached })
     }
 
-    /// Notes that the triangles added last lead to `ring`.
+    /// Records that all triangles up to `ring` have been added.
     fn reach(&mut self, ring: usize) {
         self.reached.push((self.rings[ring].station - 1, self.part.triangles.len()));
     }
@@ -102,7 +102,7 @@ impl<'a> SweepSurface<'a> {
         .help("give fewer steps or points, or begin another mesh"))
     }
 
-    /// Adds the faces between the rings; the result is v at the end.
+    /// Adds the faces between the rings, and returns v at the end.
     fn sides(&mut self) -> Result<f64> {
         let Some(wide) = self.rings.iter().find(|ring| ring.is_full()).or(self.rings.first()) else {
             return Ok(self.options.v);
@@ -130,7 +130,7 @@ impl<'a> SweepSurface<'a> {
         Ok(v)
     }
 
-    /// How far (m) the texture runs from one ring to the next.
+    /// Returns the length (m) of the texture from one ring to the next.
     fn advance(&self, a: &SectionRing, b: &SectionRing) -> f64 {
         let along = a.centre().distance(b.centre());
         if self.options.lengthwise == Lengthwise::Axis && along > NOTHING {
@@ -149,7 +149,7 @@ impl<'a> SweepSurface<'a> {
         if weights > 0.0 { sum / weights } else { along }
     }
 
-    /// The span after this one if the surface goes on smoothly from one to the other.
+    /// Returns the next span if the surface continues smoothly into it.
     fn joined(&self, index: usize) -> Option<usize> {
         let next = if self.options.closed { (index + 1) % self.spans.len() } else { index + 1 };
         let ring = &self.rings[(index + 1) % self.rings.len()];
@@ -158,7 +158,7 @@ impl<'a> SweepSurface<'a> {
         smooth.then_some(next)
     }
 
-    /// Adds the vertices of a span's first (`side` 0) or second ring (1).
+    /// Adds the vertices of a span's first ring (`side` 0) or second ring (`side` 1).
     fn row(&mut self, index: usize, side: usize, v: f64, middles: &[f64]) -> SurfaceRow {
         let ring = &self.rings[(index + side) % self.rings.len()];
         let opposite = &self.rings[(index + 1 - side) % self.rings.len()];
@@ -187,7 +187,8 @@ impl<'a> SweepSurface<'a> {
         SurfaceRow { first }
     }
 
-    /// Lets the texture of a round tip run to the middle of each face, rather than to one point for all.
+    /// Moves the texture coordinates of a round tip to the centre of each face, instead of one point for all
+    /// faces.
     fn spread_tip(&self, across: &mut [f64], opposite: &[f64]) {
         for strip in self.skin.strips.iter().filter(|strip| !strip.straight) {
             for column in strip.columns.start + 1..strip.columns.end {
@@ -196,7 +197,8 @@ impl<'a> SweepSurface<'a> {
         }
     }
 
-    /// The normal of a tip in the face before a column: each face has its own, since a tip has none.
+    /// Returns the normal of a tip in the face before a column: each face has its own, because a tip has no
+    /// unique normal.
     fn tip_normal(&self, span: &Span, side: usize, column: usize) -> DVec3 {
         let normals = &span.normals[side];
         let begins = self.skin.strips.iter().any(|strip| strip.columns.start == column);
@@ -237,7 +239,8 @@ impl<'a> SweepSurface<'a> {
         Ok(())
     }
 
-    /// Closes the end at a ring that looks to `outwards` along its headings, or notes that it is open.
+    /// Closes the end at a ring with a cap that faces `outwards` along its headings, or records its edges as
+    /// open.
     fn end(&mut self, ring: usize, cap: bool, outwards: f64) {
         let ring = &self.rings[ring];
         if !ring.is_full() {
@@ -272,7 +275,7 @@ impl<'a> SweepSurface<'a> {
         }
     }
 
-    /// Notes the border of a ribbon as open.
+    /// Records the border of a ribbon as open edges.
     fn ribbon_edges(&mut self) {
         let mut edges = Vec::new();
         let present = pairs(self.rings, self.options.closed).zip(&self.spans);
@@ -288,7 +291,7 @@ impl<'a> SweepSurface<'a> {
         self.open.extend(edges.into_iter().filter(|[from, to]| from != to));
     }
 
-    /// Repeats what was added since `vertices` and `triangles` as seen from behind.
+    /// Adds the back side of all geometry since `vertices` and `triangles`.
     fn back(&mut self, (vertices, triangles): (usize, usize)) {
         let part = &mut *self.part;
         let offset = (part.positions.len() - vertices) as u32;
@@ -306,7 +309,7 @@ impl<'a> SweepSurface<'a> {
     }
 }
 
-/// Each ring with the next one.
+/// Returns each ring with the next one.
 fn pairs(rings: &[SectionRing], closed: bool) -> impl Iterator<Item = [&SectionRing; 2]> {
     let count = if closed && rings.len() > 2 { rings.len() } else { rings.len().saturating_sub(1) };
     (0..count).map(|index| [&rings[index], &rings[(index + 1) % rings.len()]])

@@ -1,4 +1,4 @@
-//! Sweeps: the surface that a cross-section leaves along its way, closed by caps.
+//! Sweeps: the surface of a cross-section moved along a path, closed by caps.
 
 use std::borrow::Cow;
 
@@ -10,39 +10,39 @@ use super::{Section, Station};
 use burgeon_base::error::{Error, Result};
 use burgeon_scene::Part;
 
-/// How far the texture runs between two stations.
+/// Texture length between two stations.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Lengthwise {
-    /// As far as the surface, on average: a texture keeps its size also where the section tapers or twists.
+    /// Mean length of the surface: the texture keeps its scale even if the section tapers or twists.
     #[default]
     Surface,
-    /// As far as the centre line: a texture keeps in step with the way, such as a tower's storeys.
+    /// Length of the centreline: the texture follows the path, such as the storeys of a tower.
     Axis,
 }
 
-/// How a sweep is shaded, closed and textured.
+/// Shading, caps and texture of a sweep.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SweepOptions {
-    /// Whether the surface is shaded as round around the section, at the points that are marked smooth.
+    /// Smooth shading around the section, at points that are marked smooth.
     pub around: bool,
-    /// Whether the surface is shaded as round along the way, at the stations that are not marked sharp.
+    /// Smooth shading along the path, at stations that are not marked sharp.
     pub along: bool,
-    /// Whether the start is closed.
+    /// Closes the start with a cap.
     pub start_cap: bool,
-    /// Whether the end is closed.
+    /// Closes the end with a cap.
     pub end_cap: bool,
-    /// Whether the last station leads back to the first one, as in a ring; there are no caps then.
+    /// Joins the last station to the first, as in a ring without caps.
     pub closed: bool,
-    /// Whether an open section gets its back side, too; without it, the material has to be two-sided.
+    /// Adds the back side of an open section; without it, the material must be two-sided.
     pub back: bool,
-    /// The texture coordinate v (m) at the first station.
+    /// Texture coordinate v (m) at the first station.
     pub v: f64,
-    /// How far v runs between two stations.
+    /// Length of v between two stations.
     pub lengthwise: Lengthwise,
 }
 
 impl Default for SweepOptions {
-    /// Round where it is marked so, closed by caps at both ends.
+    /// Returns options for smooth shading where marked, with caps at both ends.
     fn default() -> Self {
         Self {
             around: true,
@@ -57,28 +57,29 @@ impl Default for SweepOptions {
     }
 }
 
-/// What a sweep has added.
+/// Result of a sweep.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct SweepResult {
-    /// The texture coordinate v (m) at the end, where the next sweep can go on.
+    /// Texture coordinate v (m) at the end, where the next sweep can continue.
     pub v: f64,
-    /// The edges (m) where the surface is open: at ends without a cap, and all around a ribbon.
+    /// Open edges (m): at ends without a cap, and all around a ribbon.
     pub open: Vec<[Vec3; 2]>,
-    /// Which stations its triangles lead to: in order, each station's number from 0 and how many triangles the part
-    /// had when those that lead to it had been added. Caps count for their station.
+    /// Triangles by station, in order: the index of a station, and the number of triangles of the part after
+    /// those that lead to the station and its cap.
     pub reached: Vec<(usize, usize)>,
 }
 
-/// Adds the surface that `section` leaves along `stations` to `part`.
+/// Adds the surface of `section` moved along `stations` to `part`.
 ///
-/// Triangles are counter-clockwise seen from outside, also if scales are negative or the way goes backwards.
-/// Texture coordinates are metres: u around the section and v along the way on the sides, the section's x and
-/// y on the caps, never mirrored. A scale of 0 makes a tip, a scale of 0 in x or y alone a ridge; neither has
-/// a cap. Two stations at one place make a step if their sections differ, a mitre if their headings do, and
-/// are one if nothing does. With fewer than 2 different stations, nothing is added.
+/// Triangles are counter-clockwise seen from outside, even if scales are negative or the path runs backwards.
+/// Texture coordinates are in metres and never mirrored: u around the section and v along the path on the
+/// sides, the section's x and y on the caps. A scale of 0 creates a tip, and a scale of 0 only in x or y
+/// creates a ridge; neither has a cap. Two stations at one position form a step if their sections differ, a
+/// mitre if their headings differ, and are merged if they are equal. Fewer than 2 distinct stations add
+/// nothing.
 ///
-/// Fails, and adds nothing, if a value is not finite, if the way turns back at one place, if a scale changes
-/// its sign between two stations, if the outlines of a step cross, or if a face would have no area.
+/// Fails, and adds nothing, if a value is not finite, if the path turns back at one position, if a scale
+/// changes its sign between two stations, if the outlines of a step cross, or if a face would have no area.
 ///
 /// ```
 /// use burgeon_geometry::{Frame, Section, Segment, SweepOptions, solid, sweep};

@@ -1,25 +1,26 @@
-//! Unions of rectangles that lie in one plane, as triangles.
+//! Triangulation of unions of rectangles in one plane.
 
 use glam::DVec2;
 
 use super::planar::twice_area;
 
-/// A rectangle between lines, which go by their numbers in order.
+/// A rectangle between lines, which are identified by their numbers in ascending order.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub struct UnionCell {
-    /// The line below it and the one above it.
+    /// Lower and upper line.
     pub y: [u32; 2],
-    /// The line on its left and the one on its right.
+    /// Left and right line.
     pub x: [u32; 2],
 }
 
-/// A place where two lines cross, by their numbers: x and y.
+/// Crossing of two lines, by their numbers: x and y.
 pub type Crossing = [u32; 2];
 
-/// The union of rectangles as triangles; it keeps its memory from one to the next.
+/// Triangulation of the union of rectangles; its memory is reused by the next union.
 ///
-/// The vertices are the corners of the union's outline and other places on it that are asked for; each is there once.
-/// Whatever meets the outline at those places has no T-junction with it, and there is none inside.
+/// The vertices are the corners of the union's outline and requested positions on the outline, each only
+/// once. Geometry that meets the outline at these positions has no T-junctions with it, and the inside has
+/// none.
 ///
 /// ```
 /// use burgeon_geometry::{UnionCell, Union};
@@ -39,31 +40,32 @@ pub type Crossing = [u32; 2];
 /// ```
 #[derive(Debug, Default)]
 pub struct Union {
-    /// The vertices.
+    /// Vertices.
     pub vertices: Vec<Crossing>,
-    /// Counter-clockwise, by the numbers of vertices.
+    /// Counter-clockwise triangles of indices of vertices.
     pub triangles: Vec<[u32; 3]>,
-    /// The lines on which something begins, ends or is asked for.
+    /// Lines on which a rectangle begins or ends or a requested position lies.
     lines: Vec<u32>,
-    /// The rectangles above the present line, from left to right.
+    /// Rectangles above the current line, from left to right.
     open: Vec<UnionCell>,
-    /// Where the union is just below the present line, and just above it.
+    /// Intervals of the union just below the current line, and just above it.
     below: Vec<[u32; 2]>,
     above: Vec<[u32; 2]>,
-    /// The upper border of what has become triangles, from left to right, over all that is just below the line.
+    /// Upper border of the triangulated area, from left to right, over all that is just below the line.
     front: Vec<u32>,
     next: Vec<u32>,
-    /// The vertices on the present line: x, whether the union is just below, and whether it is just above to its left.
+    /// Vertices on the current line: x, whether the union is just below, and whether it is just above on the
+    /// left.
     line: Vec<(u32, bool, bool)>,
 }
 
-/// A corner is none if the triangle there is thinner than this part of its longest side.
+/// Minimum ratio of the height of a triangle to its longest side.
 const THIN: f64 = 1e-8;
 
 impl Union {
-    /// The corners of the union's outline.
+    /// Reports the corners of the union's outline.
     ///
-    /// `cells` are in order and do not overlap.
+    /// `cells` are sorted and do not overlap.
     pub fn corners(&mut self, cells: &[UnionCell], mut found: impl FnMut(Crossing)) {
         self.begin(cells, &[]);
         let mut rest = cells;
@@ -75,12 +77,12 @@ impl Union {
         }
     }
 
-    /// Makes triangles of `cells`, which are in order and do not overlap, between lines at these places.
+    /// Triangulates `cells` between lines at `places` (m); `cells` are sorted and do not overlap.
     ///
-    /// Those of `others` that lie on the outline become vertices, too; they are in the order of y, then x.
+    /// Those of `others` that lie on the outline also become vertices; `others` are sorted by y, then x.
     ///
-    /// Method: a sweep with a front that is a chain of vertices from left to right, as monotone polygons are
-    /// triangulated (M. R. Garey and others, "Triangulating a simple polygon", 1978).
+    /// Method: a sweep with a front that is a chain of vertices from left to right, as in the triangulation
+    /// of monotone polygons (M. R. Garey and others, "Triangulating a simple polygon", 1978).
     pub fn triangulate(&mut self, cells: &[UnionCell], others: &[Crossing], places: [&[f64]; 2]) {
         self.begin(cells, others);
         let (mut rest, mut others) = (cells, others);
@@ -106,7 +108,7 @@ impl Union {
         self.front.clear();
     }
 
-    /// Goes on to line `y`; returns those of the cells `rest` that begin above it.
+    /// Advances to line `y`, and returns the cells of `rest` that begin above it.
     fn advance<'a>(&mut self, y: u32, rest: &'a [UnionCell]) -> &'a [UnionCell] {
         std::mem::swap(&mut self.below, &mut self.above);
         self.open.retain(|cell| cell.y[1] > y);
@@ -123,14 +125,14 @@ impl Union {
         rest
     }
 
-    /// Finds the vertices on the present line, some of which may be `others`.
+    /// Finds the vertices on the current line; some of them may be `others`.
     fn find_line(&mut self, others: &[Crossing]) {
         let Self { below, above, line, .. } = self;
         line.clear();
         let mut ends =
             [below.iter().flatten().copied().peekable(), above.iter().flatten().copied().peekable()];
         let mut others = others.iter().map(|at| at[0]).peekable();
-        // Whether the union is to the left of x, below and above.
+        // Position relative to the union on the left of x, below and above the line.
         let mut inside = [false; 2];
         loop {
             let [low, high] = &mut ends;
@@ -151,7 +153,7 @@ impl Union {
         }
     }
 
-    /// Makes triangles of what lies between the front and line `y`.
+    /// Triangulates the area between the front and line `y`.
     fn move_front(&mut self, y: u32, places: [&[f64]; 2]) {
         let Self { vertices, triangles, below, above, front, next, line, .. } = self;
         let first = vertices.len();
@@ -165,7 +167,7 @@ impl Union {
                 next.push(lone);
             }
             let begin = next.len();
-            // The number in `next` of the vertex before on this line.
+            // Index in `next` of the previous vertex on this line.
             let mut before = None;
             while let Some((point, &(x, _, above_left))) = points.next_if(|(_, (x, ..))| *x <= right) {
                 let corner = |vertex: u32| {
@@ -217,7 +219,7 @@ impl Union {
     }
 }
 
-/// Makes triangles of all that is below the straight line from the vertex at `from` in `chain` to its last one.
+/// Triangulates the area below the straight line from the vertex at `from` in `chain` to its last vertex.
 fn close(chain: &mut Vec<u32>, from: usize, triangles: &mut Vec<[u32; 3]>, corner: impl Fn(u32) -> DVec2) {
     while chain.len() > from + 2 {
         let widest = (from + 1..chain.len() - 1).max_by(|a, b| {
@@ -230,7 +232,7 @@ fn close(chain: &mut Vec<u32>, from: usize, triangles: &mut Vec<[u32; 3]>, corne
     }
 }
 
-/// Whether a triangle is counter-clockwise, and not thin.
+/// Returns true if a triangle is counter-clockwise and not thin.
 fn is_wide([a, b, c]: [DVec2; 3]) -> bool {
     let longest = a.distance_squared(b).max(b.distance_squared(c)).max(c.distance_squared(a));
     twice_area([a, b, c]) > THIN * longest
@@ -244,10 +246,10 @@ mod tests {
 
     use super::*;
 
-    /// A plan of squares, each in the union or not.
+    /// A grid of squares; true if a square is in the union.
     type Squares = Vec<Vec<bool>>;
 
-    /// The squares as rectangles, each as long as it can be if its number among `long` says so.
+    /// Converts squares to rectangles; `long` selects those that extend over several squares.
     fn cells(squares: &Squares, long: &[bool]) -> Vec<UnionCell> {
         let mut cells: Vec<UnionCell> = Vec::new();
         for (y, row) in (0u32..).zip(squares) {
@@ -264,7 +266,7 @@ mod tests {
         cells
     }
 
-    /// The four squares around a crossing: below on the left and on the right, above on the left and on the right.
+    /// Returns the four squares around a crossing: lower left, lower right, upper left, upper right.
     fn around(squares: &Squares, [x, y]: Crossing) -> [bool; 4] {
         let inside = |x: Option<u32>, y: Option<u32>| {
             let row = squares.get(y? as usize)?;

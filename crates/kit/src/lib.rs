@@ -1,6 +1,6 @@
 //! The contract of objects: values, types of objects and what rules need of them.
 //!
-//! Comes in: values from scripts. Goes out: [`Kind`]s in a [`Registry`], [`Object`]s with their drawings, and the [`Values`]
+//! Input: values from scripts. Output: [`Kind`]s in a [`Registry`], [`Object`]s with their drawings, and the [`Values`]
 //! that modules of chains carry. It never knows a virtual machine, nor a type of object but the [`Model`], which is what a system has drawn, and the [`GeometryObject`], which is a value.
 
 extern crate self as burgeon_kit;

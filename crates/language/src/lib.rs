@@ -1,6 +1,6 @@
 //! What scripts can use, told once: the names of the language, their arguments and types, and what follows from them.
 //!
-//! Comes in: a registry of types of objects, and the text of the standard library. Goes out: names with their forms of
+//! Input: a registry of types of objects, and the text of the standard library. Output: names with their forms of
 //! calling, types that a value may be held against, and the definition file for editors. It never runs a script, and
 //! knows no virtual machine.
 

@@ -1,10 +1,10 @@
-//! Who may ask: the checks of every request besides that of its [token](super::Token).
+//! Access control: the checks of every request in addition to its [token](super::Token).
 //!
-//! Any web page that the user visits can send requests to this machine's ports. So a request needs the token,
-//! must have been sent to this machine by name (or another site could rebind its own name to it), and, where a
-//! browser tells the origin, must come from a page of this server.
+//! Any web page that the user visits can send requests to this machine's ports. A request must therefore contain the
+//! token, and its host must be a name of this machine (otherwise another site could rebind its own name to it). If the
+//! browser sends the origin, the origin must be a page of this server.
 
-/// Whether a request to `host` from a page of `origin` may be answered.
+/// Returns true if a request to `host` from a page of `origin` may be answered.
 pub(super) fn admits(host: Option<&str>, origin: Option<&str>) -> bool {
     let Some(host) = host.filter(|host| is_this_machine(host)) else { return false };
     origin.is_none_or(|origin| {
@@ -12,7 +12,8 @@ pub(super) fn admits(host: Option<&str>, origin: Option<&str>) -> bool {
     })
 }
 
-/// Whether `host` is a name of this machine alone, with any port, since a tunnel may lead to it.
+/// Returns true if `host` is a name of this machine only. Any port is allowed, because requests may pass through a
+/// tunnel.
 fn is_this_machine(host: &str) -> bool {
     let (name, port) = match host.strip_prefix('[').and_then(|rest| rest.split_once(']')) {
         Some((inner, rest)) => {

@@ -1,4 +1,4 @@
-//! What pages ask for: each message changes the request and has a run made, or is answered.
+//! Commands of pages: each message is answered, or changes the request and starts a run.
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -14,8 +14,8 @@ use super::{tools, trace};
 use burgeon_base::error::{Error, Result};
 
 impl ServerState {
-    /// Does what `text`, a page's message, asks for. Returns what that page alone is answered; what takes longer
-    /// comes through `page`.
+    /// Executes the command in `text`, a page's message. Returns the answer to that page; slow answers are sent through
+    /// `page`.
     pub(super) fn ask(self: &Arc<Self>, text: &str, page: &Sender<Utf8Bytes>) -> Option<Event> {
         let refused = |id: Option<u64>, error: &Error| Some(Event::refused(id, error));
         match message::read(text) {
@@ -63,8 +63,8 @@ impl ServerState {
         }
     }
 
-    /// Changes the request and has a run made of it, or answers with what there is already. `id` is that of the message, if it
-    /// had one.
+    /// Changes the request and schedules a run for it, or returns the present model if it already fits. `id` is the id
+    /// of the message, if it has one.
     pub(super) fn change(
         &self,
         id: Option<u64>,
@@ -83,7 +83,7 @@ impl ServerState {
             if inner.cancelled.take().is_none() {
                 return present;
             }
-            // What is shown is the present model again, for all pages.
+            // The present model is shown again, so inform all pages.
             present.iter().for_each(|event| self.send(event));
             return None;
         }
@@ -92,7 +92,7 @@ impl ServerState {
         None
     }
 
-    /// Opens a line of a file in the editor. Fails if there is no editor or the file is none of the script's.
+    /// Opens a line of a file in the editor. Fails if there is no editor or the file does not belong to the script.
     fn open(&self, file: &str, line: usize) -> Result<()> {
         let Some(editor) = &self.editor else {
             return Err(
@@ -102,7 +102,7 @@ impl ServerState {
         editor.open(&self.own_file(file)?, line.max(1))
     }
 
-    /// The script's file that errors, or the list of files, name so.
+    /// Returns the path of the script's file that errors and the list of files refer to by `name`.
     pub(super) fn own_file(&self, name: &str) -> Result<PathBuf> {
         let mut own: Vec<PathBuf> = self.lock().files.clone();
         own.extend(
@@ -121,9 +121,9 @@ impl ServerState {
         alike.dedup();
         match (found, &alike[..]) {
             (Some(path), _) => Ok(path),
-            // The name of a link to the script is not that of the file it leads to.
+            // The name of a link to the script differs from the name of its target.
             (None, _) if name == self.script_name() => Ok(script),
-            // A file in another folder by its name alone, if there is no other one of that name.
+            // A file in another folder by its file name, if that name is unique.
             (None, [path]) if !name.is_empty() => Ok((*path).clone()),
             (None, _) => {
                 Err(Error::not_found("file", name, [], format!("{name:?} is not a file of the script")))
@@ -131,7 +131,7 @@ impl ServerState {
         }
     }
 
-    /// The name that the engine has for `path`, a file of the script.
+    /// Returns the engine's name of `path`, a file of the script.
     pub(super) fn engine_name(&self, path: &Path) -> String {
         let is = |known: &Path| known.canonicalize().is_ok_and(|known| known == path);
         let whole = [&self.script].into_iter().chain(&self.options.inputs.stdlib).find(|known| is(known));

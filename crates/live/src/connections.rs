@@ -1,8 +1,8 @@
-//! Connections: accepts them, and lets none keep others waiting.
+//! Accepts connections, and prevents each from blocking others.
 //!
-//! Any program of this machine can connect. Until a connection has sent a request with the token it is unproven: such
-//! connections have a short while for it, they are few, and the oldest is closed first. So they can neither fill the server
-//! nor use up its file handles.
+//! Any program on this machine can connect. Until a connection has sent a request with the token, it is unproven. The
+//! time and the number of unproven connections are limited, and the oldest is closed first, so they can neither
+//! overload the server nor exhaust its file handles.
 
 use std::collections::VecDeque;
 use std::convert::Infallible;
@@ -21,21 +21,21 @@ use super::Notice;
 use super::server::{Site, answer};
 use burgeon_base::locks::LockRecovery;
 
-/// How long the head of a request may take, and a connection be silent after one.
+/// Time limit for the head of a request, and for an idle connection after it.
 const HEAD: Duration = Duration::from_secs(5);
 
-/// The most unproven connections at a time; fewer where the system allows few files.
+/// Maximum number of unproven connections; fewer if the system allows few files.
 const UNPROVEN: usize = 64;
 
-/// How long to wait after the system had no room for a connection.
+/// Pause after the system has refused a connection.
 const PAUSE: Duration = Duration::from_millis(20);
 
-/// Those who have not sent a request with the token yet, in the order in which they came.
+/// Connections that have not sent a request with the token yet, in the order of their arrival.
 #[derive(Default)]
 pub(super) struct UnprovenConnections(Mutex<VecDeque<Arc<Notify>>>);
 
 impl UnprovenConnections {
-    /// Takes a new one in, and sends those away that are too many.
+    /// Adds a connection, and closes the oldest ones if there are more than `most`.
     fn admit(&self, most: usize) -> Arc<Notify> {
         let away = Arc::new(Notify::new());
         let mut all = self.0.lock().recover();
@@ -46,7 +46,7 @@ impl UnprovenConnections {
         away
     }
 
-    /// One that is none any more, or has gone.
+    /// Removes a connection that has been proven or closed.
     fn remove(&self, away: &Arc<Notify>) {
         self.0.lock().recover().retain(|it| !Arc::ptr_eq(it, away));
     }
@@ -56,7 +56,7 @@ impl UnprovenConnections {
     }
 }
 
-/// Answers requests until it is dropped.
+/// Answers requests until the future is dropped.
 pub(super) async fn serve(listener: TcpListener, site: Arc<Site>) {
     let unproven = Arc::new(UnprovenConnections::default());
     let most = UNPROVEN.min(files_allowed().unwrap_or(usize::MAX) / 8).max(2);
@@ -67,13 +67,13 @@ pub(super) async fn serve(listener: TcpListener, site: Arc<Site>) {
                 let away = unproven.admit(most);
                 tokio::spawn(handle(stream, Arc::clone(&site), Arc::clone(&unproven), away));
             }
-            // It went before it was taken.
+            // The client closed the connection before it was accepted.
             Err(error)
                 if matches!(
                     error.kind(),
                     ErrorKind::ConnectionAborted | ErrorKind::ConnectionReset | ErrorKind::Interrupted
                 ) => {}
-            // Most likely there are too many open files.
+            // Too many open files are the most likely cause.
             Err(error) => {
                 if !std::mem::replace(&mut notices, true) {
                     site.state.tell(&Notice::Note(format!("a connection has to wait: {error}")));
@@ -87,7 +87,8 @@ pub(super) async fn serve(listener: TcpListener, site: Arc<Site>) {
 
 /// Answers the requests of one connection.
 async fn handle(stream: TcpStream, site: Arc<Site>, unproven: Arc<UnprovenConnections>, away: Arc<Notify>) {
-    // Messages are small, and none is to wait for the next. A connection that refuses is only slower.
+    // Messages are small and must not wait for the next one. If setting the option fails, the connection is only
+    // slower.
     let _ = stream.set_nodelay(true);
     let service = service_fn(|request: hyper::Request<hyper::body::Incoming>| {
         let (site, known) = (Arc::clone(&site), || unproven.remove(&away));
@@ -99,14 +100,14 @@ async fn handle(stream: TcpStream, site: Arc<Site>, unproven: Arc<UnprovenConnec
         .serve_connection(TokioIo::new(stream), service)
         .with_upgrades();
     tokio::select! {
-        // Whatever ended it, there is nobody to tell.
+        // An error is ignored, because the client is no longer reachable.
         _ = connection => {}
         () = away.notified() => {}
     }
     unproven.remove(&away);
 }
 
-/// How many files the system lets this program open, where that is known.
+/// Returns the number of files that the system allows this program to open, if known.
 fn files_allowed() -> Option<usize> {
     let limits = std::fs::read_to_string("/proc/self/limits").ok()?;
     let line = limits.lines().find_map(|line| line.strip_prefix("Max open files"))?;

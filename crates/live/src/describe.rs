@@ -1,4 +1,4 @@
-//! A run in the words of pages: its counts, systems, rules and times; and why there is nothing to see.
+//! Description of a run for pages: counts, systems, rules and times, and the reason if the model is empty.
 
 use std::time::Duration;
 
@@ -10,7 +10,7 @@ use burgeon_engine::run::Run;
 use burgeon_engine::script::Session;
 use serde_json::json;
 
-/// What pages are told of a run, but for what depends on the request and on the model's bytes.
+/// Describes a run for pages, except for the parts that depend on the request and on the model's bytes.
 pub(super) fn describe(state: &ServerState, job: &RunJob, session: &Session, run: &Run) -> ModelMessage {
     let mut files: Vec<String> = session.files().iter().map(|path| state.name(path)).collect();
     let textures = run.scene.materials.iter().filter_map(|material| material.texture.as_ref());
@@ -66,14 +66,14 @@ pub(super) fn describe(state: &ServerState, job: &RunJob, session: &Session, run
     }
 }
 
-/// What became of features that could not be built as asked, and how to see which they are.
+/// Returns a summary of skipped and simplified features and a command that lists them, or `None` if there are none.
 pub(super) fn remark(state: &ServerState, run: &Run) -> Option<(String, String)> {
     let report = run.report();
     let help = || format!("burgeon run {} --report FILE lists them", state.script.display());
     (!report.is_clean()).then(|| (report.to_string(), help()))
 }
 
-/// Why a run shows nothing, and what to do about it.
+/// Returns the reason that a run draws nothing, and a remedy.
 fn nothing(run: &Run, limit: Option<usize>) -> String {
     let modules: usize = run.systems.iter().map(|system| system.modules()).sum();
     let steps = run.systems.iter().map(|system| system.steps).max().unwrap_or(0);

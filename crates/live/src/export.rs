@@ -1,4 +1,4 @@
-//! The present model as a file to keep, in any format that `run` writes.
+//! Download of the present model as a file, in any format that `run` writes.
 
 use std::fs::{self, File};
 use std::io::{BufReader, Cursor};
@@ -13,19 +13,19 @@ use burgeon_export::{Files, Format};
 use burgeon_picture::Picture;
 use burgeon_scene::Scene;
 
-/// The largest width and height (pixels) of a picture.
+/// Maximum width and height (pixels) of a render.
 const LARGEST: u32 = 8192;
 
-/// A file to keep.
+/// File to download.
 pub(super) struct Download {
-    /// The name that it is kept under.
+    /// Suggested file name.
     pub name: String,
     pub media_type: &'static str,
     pub bytes: Vec<u8>,
 }
 
-/// What `make` gives, made by threads of its own: a run that is under way shares the others, and is not to wait until a
-/// large picture is done.
+/// Returns the result of `make`, which runs in a separate thread pool. Runs in progress share the global pool and must
+/// not wait for a large render.
 pub(super) fn apart<T: Send>(make: impl FnOnce() -> T + Send) -> T {
     match rayon::ThreadPoolBuilder::new().thread_name(|_| "burgeon export".to_owned()).build() {
         Ok(pool) => pool.install(make),
@@ -33,13 +33,13 @@ pub(super) fn apart<T: Send>(make: impl FnOnce() -> T + Send) -> T {
     }
 }
 
-/// `scene` as a file called `name`, whose extension picks the format. What comes as several files is one archive. Fails
-/// soon after a stop was asked for.
+/// Encodes `scene` as a file called `name`, whose extension selects the format. Several files are combined into one
+/// archive. Fails soon after a stop was requested.
 pub(super) fn download(scene: &Scene, name: &str, picture: &Picture, stop: &Arc<Stop>) -> Result<Download> {
     stop.check()?;
     let format = Format::of(name.as_ref())?;
     let stem = name.rsplit_once('.').map_or(name, |(stem, _)| stem);
-    // The parts of a model name each other by the stem.
+    // The parts of a model refer to each other by the stem.
     let stem: String =
         stem.chars().map(|it| if it.is_alphanumeric() || "-_. ()".contains(it) { it } else { '_' }).collect();
     let stem = stem.trim_matches(['.', ' ']);
@@ -67,7 +67,7 @@ pub(super) fn download(scene: &Scene, name: &str, picture: &Picture, stop: &Arc<
     for (name, path) in files {
         stop.check()?;
         archive.start_file(name, options).map_err(|error| Error::internal(error.to_string()))?;
-        // A large model in memory besides its archive would be too much.
+        // A large model in memory in addition to its archive would need too much memory.
         let mut file = BufReader::with_capacity(1 << 18, File::open(&path).map_err(failed)?);
         std::io::copy(&mut file, &mut archive).map_err(failed)?;
     }
@@ -75,9 +75,9 @@ pub(super) fn download(scene: &Scene, name: &str, picture: &Picture, stop: &Arc<
     Ok(Download { name: format!("{stem}.{}.zip", format.extension()), media_type: "application/zip", bytes })
 }
 
-/// The picture that the query of an address requests: `azimuth`, `elevation` (degrees), `width`, `height` (pixels).
+/// Parses the render settings in the query of a URL: `azimuth`, `elevation` (degrees), `width`, `height` (pixels).
 ///
-/// Larger pictures than can be made soon become smaller. Fails on other names and on what is no number.
+/// Sizes that would take too long are reduced. Fails on other names and on values that are not numbers.
 pub(super) fn picture(query: &str) -> Result<Picture> {
     let mut picture = Picture::default();
     for pair in query.split('&').filter(|pair| !pair.is_empty()) {
@@ -134,7 +134,7 @@ mod tests {
             apart(|| {
                 rayon::broadcast(|_| {
                     begun.lock().unwrap().send(()).unwrap();
-                    // All of its threads are busy until the run has ended.
+                    // All threads of the pool are busy until the run has ended.
                     ends.lock().unwrap().recv_timeout(Duration::from_secs(5)).is_ok()
                 })
             })

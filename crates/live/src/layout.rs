@@ -1,6 +1,6 @@
-//! Triangles by glTF's indices, as pages name them, and by the scene's, as the engine does.
+//! Conversion between triangles by glTF's indices, which pages use, and by the scene's indices, which the engine uses.
 //!
-//! A document leaves out meshes and parts that have nothing to show, and triangles that cover nothing.
+//! A document omits meshes and parts without shown triangles, and triangles without area.
 
 use std::collections::BTreeMap;
 
@@ -10,14 +10,14 @@ use burgeon_engine::trace::{self, TriangleRun, exported_triangle};
 use burgeon_export::gltf::Layout;
 use burgeon_scene::{Mesh, Part, Scene};
 
-/// A scene and where its things are in the document that pages have.
+/// Scene, with its layout in the document that pages have.
 pub(super) struct Indices<'a> {
     pub scene: &'a Scene,
     pub layout: &'a Layout,
 }
 
 impl Indices<'_> {
-    /// The triangle of the scene that a page has picked. Fails if the document has no such triangle.
+    /// Returns the triangle of the scene that a page has picked. Fails if the document has no such triangle.
     pub(super) fn triangle(&self, pick: &PickCommand) -> Result<trace::Pick> {
         let gone = || Error::unavailable("there is no such triangle; this page may show an older model");
         let shows = |instance: &usize| -> bool {
@@ -36,7 +36,7 @@ impl Indices<'_> {
         Ok(trace::Pick { instance, part, triangle })
     }
 
-    /// `runs` as ranges of the document, those that touch as one.
+    /// Converts `runs` to ranges of the document, merging adjacent ones.
     pub(super) fn ranges(&self, runs: &[TriangleRun]) -> Vec<Range> {
         let mut sorted: Vec<&TriangleRun> = runs.iter().collect();
         sorted.sort_by_key(|run| (run.mesh, run.part, run.from));
@@ -69,7 +69,7 @@ impl Indices<'_> {
         ranges
     }
 
-    /// All that these instances show.
+    /// Returns everything that these instances show.
     pub(super) fn placed(&mut self, instances: &[usize]) -> Vec<Range> {
         let mut nodes: BTreeMap<(usize, usize), Option<Vec<usize>>> = BTreeMap::new();
         for instance in instances {
@@ -105,29 +105,29 @@ impl Indices<'_> {
     }
 }
 
-/// A part as it is in the document.
+/// Part as written in the document.
 struct DocumentPart {
     mesh: usize,
     primitive: usize,
-    /// The triangles that are not, in order.
+    /// Triangles that are omitted, in order.
     left_out: Vec<usize>,
     count: usize,
 }
 
 impl DocumentPart {
-    /// How many triangles of the document come before triangle `index` of the part.
+    /// Returns the number of triangles of the document before triangle `index` of the part.
     fn before(&self, index: usize) -> usize {
         let index = index.min(self.count);
         index - self.left_out.partition_point(|left_out| *left_out < index)
     }
 }
 
-/// The parts that are written, with their indices.
+/// Returns the parts that are written, with their indices.
 fn shown_parts(mesh: &Mesh) -> impl Iterator<Item = (usize, &Part)> {
     mesh.parts.iter().enumerate().filter(|(_, part)| exported_triangle(part, 0).is_some())
 }
 
-/// The triangles that are not written.
+/// Returns the triangles that are not written.
 fn degenerate(part: &Part) -> impl Iterator<Item = usize> {
     let triangles = part.triangles.iter().enumerate();
     triangles.filter(|(_, [a, b, c])| a == b || b == c || c == a).map(|(index, _)| index)
@@ -139,7 +139,7 @@ mod tests {
     use burgeon_export::gltf::InstancePlace;
     use burgeon_scene::Instance;
 
-    /// Two instances of a mesh whose first part has nothing to show and whose second has a triangle without area.
+    /// Returns two instances of a mesh. Its first part shows nothing, and its second part has a triangle without area.
     fn scene() -> (Scene, Layout) {
         let part = |triangles: Vec<[u32; 3]>| Part { triangles: triangles.into(), ..Part::default() };
         let mesh = Mesh {

@@ -1,8 +1,8 @@
-//! The live page: a server on this machine that shows what a script makes, and shows it anew on every save.
+//! Live view: a local server that shows a script's model in the browser and updates it on every save.
 //!
-//! Comes in: a script, and what its pages ask for ([`message`]). Goes out: the page, the present model as glTF, and
-//! news over a socket. It never answers anybody but this machine's user (`address`, `token`), never writes to the script's
-//! folder but presets, and never lets a page wait for a run.
+//! Input: a script, and commands of its pages ([`message`]). Output: the page, the present model as glTF, and events
+//! over a socket. The server answers only this machine's user (`address`, `token`), writes only presets to the script's
+//! folder, and never lets a page wait for a run.
 //!
 //! ```text
 //! files ──► watch ──► state ──► work ──► state ──► server, socket ──► pages
@@ -10,8 +10,8 @@
 //!                       └────────── commands ◄────────────┘
 //! ```
 //!
-//! One thread runs the script (`work`) as it was last requested (`request`); all pages share that request and the model
-//! (`state`). A newer request stops the run of an older one, unless that is almost done.
+//! One thread runs the script (`work`) with the latest request (`request`); all pages share that request and the model
+//! (`state`). A newer request cancels the run of an older one, unless the run is almost done.
 
 mod address;
 mod commands;
@@ -53,52 +53,52 @@ use server::Site;
 use state::{DueRun, ServerState};
 use token::Keep;
 
-/// The port that is taken if it is free and none was named.
+/// Port that is used if it is free and none was specified.
 pub const PORT: u16 = 4747;
 
-/// How many ports after a taken one are tried.
+/// Number of ports to try after an occupied one.
 const TRIES: u16 = 100;
 
-/// What is to be served.
+/// Settings of a server.
 pub struct Settings {
-    /// The script; it need not exist yet.
+    /// Path of the script, which need not exist yet.
     pub script: PathBuf,
-    /// How it is run at first. Pages change the parameters, the seed and the limit of steps.
+    /// Initial run options. Pages change the parameters, the seed and the step limit.
     pub options: RunOptions,
-    /// The port; [`PORT`] or one of the next if `None`.
+    /// Port; if `None`, [`PORT`] or one of the next ports.
     pub port: Option<u16>,
-    /// The secret part of the address. The one that is kept for the port if `None`, so that a page that is open finds the
-    /// next server there; a new one if the port may be any that is free.
+    /// Secret part of the address. If `None`, the token stored for the port is used, so that an open page reconnects to
+    /// the next server there; if the port may be any free one, a new token.
     pub token: Option<Token>,
-    /// What opens lines of the script.
+    /// Editor that opens lines of the script.
     pub editor: Option<Editor>,
-    /// Is told what happens, from several threads.
+    /// Receiver of notices. It is called from several threads.
     pub tell: Box<dyn Fn(&Notice) + Send + Sync>,
 }
 
-/// What the place is told where the server was started.
+/// Notice to the process that started the server.
 #[derive(Debug, Clone)]
 pub enum Notice {
-    /// There is a new model.
+    /// Completion of a new model.
     Model {
-        /// Triangles that are seen.
+        /// Number of visible triangles.
         triangles: usize,
-        /// Modules of all systems.
+        /// Number of modules of all systems.
         modules: usize,
-        /// From the cause to the model's bytes.
+        /// Time from the cause to the model's bytes.
         total: Duration,
     },
-    /// The script has failed.
+    /// Failure of the script.
     Failed(Error),
-    /// The new model has a warning that the last one did not have.
+    /// Warning of the new model that the previous model did not have.
     Warning(Warning),
-    /// The script does not exist.
+    /// Absence of the script file.
     Waiting(String),
-    /// Something else worth knowing.
+    /// Other information.
     Note(String),
 }
 
-/// A server that runs until it is dropped.
+/// Live view server. It runs until it is dropped.
 pub struct Live {
     state: Arc<ServerState>,
     port: u16,
@@ -109,7 +109,7 @@ pub struct Live {
 }
 
 impl Live {
-    /// Starts a server. Fails if the port, or every port that was tried, is taken.
+    /// Starts a server. Fails if the port, or every port that was tried, is occupied.
     pub fn start(settings: Settings) -> Result<Self> {
         let listener = listen(settings.port)?;
         let failed = |error: std::io::Error| Error::system(format!("cannot start the server: {error}"));
@@ -156,17 +156,17 @@ impl Live {
         Ok(Self { state, port, token, keep, runtime: Some(runtime), threads })
     }
 
-    /// The port that it listens on.
+    /// Returns the port on which the server listens.
     pub fn port(&self) -> u16 {
         self.port
     }
 
-    /// The secret part of the address.
+    /// Returns the secret part of the address.
     pub fn token(&self) -> &Token {
         &self.token
     }
 
-    /// Where a browser finds the page.
+    /// Returns the address of the page.
     pub fn address(&self) -> String {
         format!("http://127.0.0.1:{}/{}/", self.port, self.token.as_str())
     }
@@ -180,13 +180,13 @@ impl Drop for Live {
             runtime.shutdown_background();
         }
         for thread in self.threads.drain(..) {
-            // One that panicked has nothing left to end.
+            // A thread that panicked needs no further cleanup.
             let _ = thread.join();
         }
     }
 }
 
-/// Listens on `port` of this machine alone, or on the first free one from [`PORT`] on.
+/// Listens on `port` of this machine only, or on the first free port from [`PORT`] on.
 fn listen(port: Option<u16>) -> Result<TcpListener> {
     let bind = |port: u16| TcpListener::bind((Ipv4Addr::LOCALHOST, port));
     let first = port.unwrap_or(PORT);

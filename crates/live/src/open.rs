@@ -1,4 +1,4 @@
-//! Other programs: the editor that shows a line of a script, and the browser.
+//! External programs: the editor that opens a line of a script, and the browser.
 
 use std::io::IsTerminal;
 use std::path::Path;
@@ -6,13 +6,13 @@ use std::process::{Command, Stdio};
 
 use burgeon_base::error::{Error, Result};
 
-/// A command that opens a file at a line, such as `code -g {file}:{line}`.
+/// Command that opens a file at a line, such as `code -g {file}:{line}`.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Editor(Vec<String>);
 
 impl Editor {
-    /// Takes a command line apart at blanks outside of quotes; no shell reads it. The file comes last if `{file}`
-    /// is not in it. Fails if there is no program or a quote does not end.
+    /// Splits a command line at spaces outside of quotes, without a shell. The file is appended if `{file}` does not
+    /// occur. Fails if there is no program or a quote is not closed.
     pub fn from_text(text: &str) -> Result<Self> {
         let mut words: Vec<String> = Vec::new();
         let mut quote = None;
@@ -54,14 +54,14 @@ impl Editor {
         Ok(Self(words))
     }
 
-    /// The words of the command for `line` of `file`.
+    /// Returns the words of the command for `line` of `file`.
     fn words(&self, file: &Path, line: usize) -> Vec<String> {
         let (file, line) = (file.display().to_string(), line.to_string());
-        // A file's name may contain {line}, so that is put in first.
+        // The name of a file may contain {line}, so {line} is replaced first.
         self.0.iter().map(|word| word.replace("{line}", &line).replace("{file}", &file)).collect()
     }
 
-    /// Starts the editor. Fails if there is no such program.
+    /// Starts the editor. Fails if the program does not exist.
     pub(super) fn open(&self, file: &Path, line: usize) -> Result<()> {
         let words = self.words(file, line);
         let Some((program, arguments)) = words.split_first() else { return Ok(()) };
@@ -72,15 +72,15 @@ impl Editor {
     }
 }
 
-/// Starts a program that goes on by itself.
+/// Starts a program that continues independently.
 fn start(command: &mut Command) -> std::io::Result<()> {
     let mut child = command.stdin(Stdio::null()).stdout(Stdio::null()).stderr(Stdio::null()).spawn()?;
-    // Its end has to be taken notice of, or it stays in the system's list. Nothing else depends on it.
+    // Wait for its exit, so that no zombie process remains. An error is ignored, because nothing else depends on it.
     let _ = std::thread::Builder::new().name("burgeon editor".to_owned()).spawn(move || child.wait());
     Ok(())
 }
 
-/// Whether a person is likely to see a browser that is opened here.
+/// Returns true if the user is likely to see a browser that is opened on this machine.
 pub fn has_display() -> bool {
     let set = |name: &str| std::env::var_os(name).is_some_and(|value| !value.is_empty());
     let shown = if cfg!(any(target_os = "macos", windows)) {
@@ -91,7 +91,7 @@ pub fn has_display() -> bool {
     shown && std::io::stdout().is_terminal()
 }
 
-/// Opens `address` in the browser that the system prefers. Fails if the system has no way to do so.
+/// Opens `address` in the default browser. Fails if the system cannot do so.
 pub fn browse(address: &str) -> Result<()> {
     let mut command = if cfg!(target_os = "macos") {
         Command::new("open")

@@ -1,4 +1,4 @@
-//! The page's own files, packed as browsers take them.
+//! Static files of the page, compressed with gzip.
 
 use std::io::Read as _;
 
@@ -7,7 +7,7 @@ use axum::http::header::{self, HeaderMap};
 use axum::response::{IntoResponse, Response};
 use flate2::read::GzDecoder;
 
-/// One file of the page.
+/// Static file of the page.
 pub(super) struct PageFile {
     packed: &'static [u8],
     media_type: &'static str,
@@ -19,20 +19,20 @@ macro_rules! packed {
     };
 }
 
-/// The page itself.
+/// HTML document of the page.
 pub(super) const INDEX: PageFile =
     PageFile { packed: packed!("index.html"), media_type: "text/html; charset=utf-8" };
 
-/// What it does.
+/// Script of the page.
 pub(super) const SCRIPT: PageFile =
     PageFile { packed: packed!("viewer.js"), media_type: "text/javascript; charset=utf-8" };
 
-/// How it looks.
+/// Style sheet of the page.
 pub(super) const STYLE: PageFile =
     PageFile { packed: packed!("viewer.css"), media_type: "text/css; charset=utf-8" };
 
 impl PageFile {
-    /// The file for whoever sent `headers`: packed if he says that he can unpack it.
+    /// Returns the file as a response to a request with `headers`: compressed if the client accepts gzip.
     pub(super) fn answer(&self, headers: &HeaderMap) -> Response {
         let kind = [(header::CONTENT_TYPE, self.media_type), (header::VARY, "accept-encoding")];
         if takes_gzip(headers) {
@@ -40,13 +40,13 @@ impl PageFile {
             return (kind, [(header::CONTENT_ENCODING, "gzip")], packed).into_response();
         }
         let mut plain = Vec::new();
-        // It was packed by this program's own build.
+        // Decompression cannot fail, because this program's own build compressed the file.
         let _ = GzDecoder::new(self.packed).read_to_end(&mut plain);
         (kind, plain).into_response()
     }
 }
 
-/// Whether gzip is named among the encodings that are taken, and not refused by a weight of 0.
+/// Returns true if gzip is among the accepted encodings with a weight above 0.
 fn takes_gzip(headers: &HeaderMap) -> bool {
     let named = headers.get_all(header::ACCEPT_ENCODING).iter().filter_map(|value| value.to_str().ok());
     named.flat_map(|value| value.split(',')).any(|encoding| {

@@ -1,7 +1,7 @@
-//! What pages have requested: values of parameters, the seed, the limit of steps.
+//! Request of the pages: parameter values, the seed and the step limit.
 //!
-//! Values are kept by name across saves of the script, and beside each the default that the script had when it
-//! was set, so that a page can show both when the script changes its mind.
+//! Values are kept by name across saves of the script. Each value is stored with the script's default at the time when
+//! it was set, so that a page can show both if the script changes its default.
 
 use std::collections::BTreeMap;
 
@@ -11,36 +11,36 @@ use super::message::ParamMessage;
 use burgeon_base::error::{Error, Result};
 use burgeon_engine::script::{Param, Preset, RunOptions, Setting};
 
-/// What pages have requested.
+/// Current request of the pages.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Request {
     values: BTreeMap<String, ParamText>,
     seed: u64,
     pub steps: Option<usize>,
-    /// The preset that has been loaded or saved, as long as its values and its seed are the present ones.
+    /// Preset that was loaded or saved, while its values and its seed equal the present ones.
     preset: Option<Preset>,
 }
 
-/// A value that was set.
+/// Value that was set.
 #[derive(Debug, Clone)]
 struct ParamText {
     text: String,
-    /// The script's default at that time, once it is known.
+    /// Default of the script at that time, if known.
     default: Option<Setting>,
 }
 
-/// All that decides what a run makes.
+/// Inputs that determine the result of a run.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Inputs {
     pub set: Vec<(String, String)>,
     pub seed: u64,
     pub steps: Option<usize>,
-    /// Counts the changes of files.
+    /// Number of file changes so far.
     pub generation: u64,
 }
 
 impl Request {
-    /// What the command line requests.
+    /// Creates the request of the command line.
     pub(super) fn new(options: &RunOptions) -> Self {
         let given = |text: &String| ParamText { text: text.clone(), default: None };
         let preset = options.params.preset.as_ref().map(Preset::set).unwrap_or_default();
@@ -57,10 +57,10 @@ impl Request {
         Inputs { set, seed: self.seed, steps: self.steps, generation }
     }
 
-    /// Sets parameters, all or none of them; null puts a default back.
+    /// Sets parameters, all or none of them; null restores a default.
     ///
-    /// Fails if a value is not text, a number or a switch, and if it is none that its parameter takes, where
-    /// `params`, those of the script as it is, are known.
+    /// Fails if a value is not a string, a number or a boolean. Also fails if the parameter does not accept the value,
+    /// provided that `params`, the current parameters of the script, are known.
     pub(super) fn set(&mut self, wished: &Map<String, Value>, params: Option<&[Param]>) -> Result<()> {
         let mut read = Vec::new();
         for (name, value) in wished {
@@ -105,18 +105,18 @@ impl Request {
         Ok(())
     }
 
-    /// Puts all defaults back.
+    /// Restores all defaults.
     pub(super) fn reset(&mut self) {
         self.values.clear();
         self.preset = None;
     }
 
-    /// The seed.
+    /// Returns the seed.
     pub(super) fn seed(&self) -> u64 {
         self.seed
     }
 
-    /// Takes another seed.
+    /// Sets the seed.
     pub(super) fn set_seed(&mut self, seed: u64) {
         if seed != self.seed {
             self.preset = None;
@@ -124,22 +124,22 @@ impl Request {
         self.seed = seed;
     }
 
-    /// The name of the preset whose values and seed are the present ones.
+    /// Returns the name of the preset whose values and seed equal the present ones.
     pub(super) fn preset(&self) -> Option<String> {
         self.preset.as_ref().map(|preset| preset.name.clone())
     }
 
-    /// Notes that `preset` has the present values and seed.
+    /// Records that `preset` has the present values and seed.
     pub(super) fn is_preset(&mut self, preset: Preset) {
         self.preset = Some(preset);
     }
 
-    /// Forgets the preset unless `find` finds it still, as it was.
+    /// Clears the preset unless `find` still finds it unchanged.
     pub(super) fn look_for_preset(&mut self, find: impl Fn(&str) -> Result<Preset>) {
         self.preset.take_if(|known| !find(&known.name).is_ok_and(|preset| preset.is_like(known)));
     }
 
-    /// Takes the values of a preset in the place of all others, and its seed if it has one.
+    /// Replaces all values by those of a preset, and the seed if the preset has one.
     pub(super) fn load(&mut self, preset: &Preset) {
         let given = |(name, text)| (name, ParamText { text, default: None });
         self.values = preset.set().into_iter().map(given).collect();
@@ -147,7 +147,7 @@ impl Request {
         self.preset = Some(preset.clone());
     }
 
-    /// The values that are set and that `params` take.
+    /// Returns the values that are set and that `params` accept.
     pub(super) fn used(&self, params: &[Param]) -> Vec<(String, Setting)> {
         let used = params.iter().filter_map(|param| {
             let given = self.values.get(&param.name)?;
@@ -156,7 +156,7 @@ impl Request {
         used.collect()
     }
 
-    /// `params`, those of an earlier run, with the values that are requested now, as far as they take them.
+    /// Returns `params` of an earlier run with the currently requested values, as far as the parameters accept them.
     pub(super) fn requested(&mut self, params: &[Param]) -> Vec<ParamMessage> {
         let mut requested = params.to_vec();
         for param in &mut requested {
@@ -166,7 +166,7 @@ impl Request {
         self.params(&requested)
     }
 
-    /// Gives values their parameters' full names, where a plain one meant one of a package.
+    /// Replaces short names by the parameters' full names, if a short name refers to a parameter of a package.
     fn qualify(&mut self, params: &[Param]) {
         let plain: Vec<(String, String)> = self
             .values
@@ -183,24 +183,25 @@ impl Request {
         }
     }
 
-    /// The parameters of a run as pages show them, the script's own first. Notes the defaults of values whose default was not known.
+    /// Describes the parameters of a run for pages, the script's own first. Stores the defaults of values whose default
+    /// was unknown.
     pub(super) fn params(&mut self, params: &[Param]) -> Vec<ParamMessage> {
         self.qualify(params);
         let mut messages = Vec::with_capacity(params.len());
         for param in params {
             let given = self.values.get_mut(&param.name);
-            // A value that the script does not take any more is not the one that is shown.
+            // A value that the script no longer accepts is not shown.
             let used = given.filter(|given| param.accept(&given.text).is_ok());
             let old = used.map(|given| given.default.get_or_insert_with(|| param.default.clone()));
             messages.push((!param.own, ParamMessage::new(param, old.as_deref())));
         }
-        // Those of files that the script requires are declared before it comes to its own.
+        // The parameters of required files are declared before the script's own.
         messages.sort_by_key(|(required, _)| *required);
         messages.into_iter().map(|(_, message)| message).collect()
     }
 }
 
-/// The seed that a page sent: a whole number from 0, as text or as a number.
+/// Parses the seed that a page sent: an integer from 0, as a string or a number.
 pub(super) fn seed(value: &Value) -> Result<u64> {
     let seed = match value {
         Value::String(text) => text.trim().parse().ok(),

@@ -1,4 +1,4 @@
-//! The routes: the page, models, exports and the socket, for those who know the address.
+//! Routes: the page, models, exports and the socket, for clients that know the address.
 
 use std::sync::Arc;
 
@@ -21,25 +21,25 @@ use burgeon_base::error::Error;
 use burgeon_base::stop::Stop;
 use burgeon_export::gltf;
 
-/// Only what comes from this server; textures inside of models are read from the browser's own memory.
+/// Content security policy: only content of this server. Textures inside models are read from the browser's memory.
 const POLICY: &str = "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' blob: data:; \
                       connect-src 'self' blob: data:; base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
 
-/// How the name of a model ends that has all its texture coordinates.
+/// File name suffix of a model with all its texture coordinates.
 const MEASURED: &str = ".uv.glb";
 
 const FOR_EVER: &str = "private, max-age=31536000, immutable";
 const NEVER: &str = "no-store";
 
-/// What every request needs.
+/// Shared state of all request handlers.
 pub(super) struct Site {
     pub state: Arc<ServerState>,
     pub token: Token,
-    /// Exports are made one at a time; those that were given up count until they have ended.
+    /// Limit of one export at a time. A cancelled export counts until it has ended.
     pub exports: Arc<Semaphore>,
 }
 
-/// Stops what is made for a request when the page has gone and nobody waits for it any more.
+/// Guard that cancels the work for a request when the client disconnects.
 struct RequestGuard(Arc<Stop>);
 
 impl Drop for RequestGuard {
@@ -49,7 +49,8 @@ impl Drop for RequestGuard {
 }
 
 impl Site {
-    /// What `make` gives, in its turn and apart from runs; it ends early when the page goes. `None` if it panicked.
+    /// Runs `make` when its turn comes, separately from runs of the script, and cancels it when the client disconnects.
+    /// Returns `None` if `make` panicked.
     async fn export<T: Send + 'static>(
         &self,
         make: impl FnOnce(&Arc<Stop>) -> T + Send + 'static,
@@ -66,7 +67,7 @@ impl Site {
     }
 }
 
-/// The answer to a request; `known` is called before it is made if the request has the token.
+/// Answers a request; calls `known` before handling the request if it has the token.
 pub(super) async fn answer(site: &Arc<Site>, request: Request, known: impl FnOnce()) -> Response {
     let mut response = route(site, request, known).await;
     let headers = response.headers_mut();
@@ -116,7 +117,7 @@ async fn route(site: &Arc<Site>, request: Request, known: impl FnOnce()) -> Resp
         return ([(header::ALLOW, "GET")], refused).into_response();
     }
     match inner {
-        // The page's addresses are relative to the folder.
+        // The page's URLs are relative to the folder.
         None => (StatusCode::PERMANENT_REDIRECT, [(header::LOCATION, format!("/{token}/"))]).into_response(),
         Some("") => page::INDEX.answer(headers),
         Some("viewer.js") => page::SCRIPT.answer(headers),
@@ -139,7 +140,7 @@ async fn route(site: &Arc<Site>, request: Request, known: impl FnOnce()) -> Resp
     }
 }
 
-/// The value of a header that may be there once; `Err` if it is there more often or is not text.
+/// Returns the value of a header that may occur once; fails if it occurs more often or is not text.
 fn only<'a>(headers: &'a HeaderMap, name: &HeaderName) -> std::result::Result<Option<&'a str>, ()> {
     let mut values = headers.get_all(name).iter();
     match (values.next(), values.next()) {
@@ -160,7 +161,7 @@ async fn open_socket(site: &Arc<Site>, request: Request) -> Response {
     }
 }
 
-/// A file that is named by its content.
+/// Responds with a file whose name is a hash of its content.
 fn content_file(
     name: &str,
     ending: &str,
@@ -175,7 +176,7 @@ fn content_file(
     }
 }
 
-/// The present model as [`gltf::glb_with_texture_coordinates`] has it, which few ever want to see.
+/// Encodes the present model as [`gltf::glb_with_texture_coordinates`] does. Few pages request it.
 async fn measured(site: &Arc<Site>, name: &str) -> Response {
     let shown = site.state.lock().shown.clone();
     let url = name.strip_suffix(MEASURED).map(|hash| format!("model/{hash}.glb"));
@@ -222,7 +223,7 @@ async fn save(site: &Arc<Site>, name: &str, query: &str) -> Response {
     }
 }
 
-/// `name` without the escapes of addresses; `None` if that is no text or leads to another folder.
+/// Decodes the percent-encoding of `name`. Returns `None` if the result is not text or refers to another folder.
 fn decoded(name: &str) -> Option<String> {
     let is_escape = |rest: &str| rest.len() >= 2 && rest.bytes().take(2).all(|it| it.is_ascii_hexdigit());
     if !name.split('%').skip(1).all(is_escape) {
@@ -233,10 +234,10 @@ fn decoded(name: &str) -> Option<String> {
     (!leads_away).then_some(name)
 }
 
-/// What is escaped in the name of a file in a header.
+/// Characters that are escaped in a file name in a header.
 const ESCAPED: &AsciiSet = &NON_ALPHANUMERIC.remove(b'-').remove(b'_').remove(b'.');
 
-/// Has a browser keep a file under `name`.
+/// Returns a header that makes the browser save a file as `name`.
 fn disposition(name: &str) -> HeaderValue {
     let plain: String =
         name.chars().map(|it| if it.is_ascii_graphic() && it != '"' { it } else { '_' }).collect();

@@ -1,4 +1,4 @@
-//! A page's socket: what the server says to all pages, and answers to this one.
+//! WebSocket of a page: the server's events to all pages, and answers to this page.
 
 use std::sync::Arc;
 use std::time::{Duration, Instant};
@@ -13,27 +13,27 @@ use super::message::Event;
 use super::state::ServerState;
 use burgeon_base::error::Error;
 
-/// The largest message (bytes) that a page may send.
+/// Maximum size (bytes) of a message from a page.
 const LARGEST: usize = 64 << 10;
 
-/// How long a page may take to receive a message before it is given up.
+/// Time limit for sending a message to a page before the connection is closed.
 const PATIENCE: Duration = Duration::from_secs(30);
 
-/// Answers that wait for a page at most.
+/// Maximum number of answers that wait for a page.
 const ANSWERS: usize = 16;
 
-/// How often a page is asked whether it is still there.
+/// Interval of pings to a page.
 const HEARTBEAT: Duration = Duration::from_secs(30);
 
-/// How long a page may say nothing, not even that it is still there, before it is given up.
+/// Maximum silence of a page, including pongs, before the connection is closed.
 const SILENCE: Duration = Duration::from_secs(100);
 
-/// A socket that takes no large messages.
+/// Limits the size of messages that a socket accepts.
 pub(super) fn limited(upgrade: WebSocketUpgrade) -> WebSocketUpgrade {
     upgrade.max_message_size(LARGEST).max_frame_size(LARGEST)
 }
 
-/// Talks to a page until one side ends it.
+/// Exchanges messages with a page until one side closes the connection.
 pub(super) async fn talk(mut socket: WebSocket, state: Arc<ServerState>) {
     let Some(mut said) = greet(&mut socket, &state).await else { return };
     let (later, mut answers) = channel(ANSWERS);
@@ -43,7 +43,7 @@ pub(super) async fn talk(mut socket: WebSocket, state: Arc<ServerState>) {
         let going = tokio::select! {
             message = said.recv() => match message {
                 Ok(text) => send(&mut socket, text).await,
-                // It was slower than its queue is long. The present state says all that still matters.
+                // The page was too slow for its queue. The present state contains everything that still matters.
                 Err(RecvError::Lagged(_)) => match greet(&mut socket, &state).await {
                     Some(fresh) => { said = fresh; true }
                     None => false,
@@ -71,7 +71,7 @@ pub(super) async fn talk(mut socket: WebSocket, state: Arc<ServerState>) {
     }
 }
 
-/// Tells the present state. Returns where the rest is heard, unless the page has gone.
+/// Sends the present state. Returns the receiver of later events, or `None` if the page has disconnected.
 async fn greet(socket: &mut WebSocket, state: &ServerState) -> Option<Receiver<Utf8Bytes>> {
     let (texts, said) = state.greet();
     for text in texts {
@@ -89,7 +89,7 @@ async fn answer(
     text: Utf8Bytes,
 ) -> bool {
     let (state, later) = (Arc::clone(state), later.clone());
-    // Some answers take a while, and other pages are not to wait for them.
+    // Some answers take a while, and other pages must not wait for them.
     let ask = move || state.ask(&text, &later).map(|event| state.to_text(&event));
     match tokio::task::spawn_blocking(ask).await {
         Ok(Some(text)) => send(socket, text).await,
@@ -101,7 +101,7 @@ async fn answer(
     }
 }
 
-/// Sends a text. Returns whether the page is still there.
+/// Sends a text. Returns true if the page is still connected.
 async fn send(socket: &mut WebSocket, text: Utf8Bytes) -> bool {
     deliver(socket, Message::Text(text)).await
 }

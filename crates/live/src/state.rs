@@ -1,4 +1,4 @@
-//! What all pages share: the request, the run that is under way, the present model, and what is wrong.
+//! State that all pages share: the request, the current run, the present model, and its problems.
 
 use std::collections::{BTreeSet, VecDeque};
 use std::path::{MAIN_SEPARATOR, Path, PathBuf};
@@ -25,40 +25,41 @@ use burgeon_export::gltf::Layout;
 use burgeon_presets::Presets;
 use burgeon_watch::Change;
 
-/// Messages that wait for a page at most; a page that is slower gets the present state instead.
+/// Maximum number of messages that wait for a page. A slower page receives the present state instead.
 const QUEUE: usize = 64;
 
-/// Models that are kept at most, and their size (bytes) beyond which only the present one is.
+/// Maximum number of stored models, and the total size (bytes) beyond which only the present model is stored.
 const KEPT: usize = 3;
 const KEPT_BYTES: usize = 256 << 20;
 
-/// Lines that an error shows before and after its own.
+/// Number of lines that an error shows before and after its own.
 const AROUND: usize = 2;
 
-/// Small pictures that are kept at most.
+/// Maximum number of stored small renders.
 const PICTURES: usize = 512;
 
-/// A run that is likely to take less is not stopped for a newer value, so that a page sees pictures while a
-/// slider moves.
+/// Expected duration below which a run is not cancelled for a newer value, so that a page shows models while a slider
+/// moves.
 const SHORT: Duration = Duration::from_millis(400);
 
-/// What all pages share.
+/// State that all pages share.
 pub(super) struct ServerState {
     pub script: PathBuf,
     pub options: RunOptions,
     pub editor: Option<Editor>,
     tell: Box<dyn Fn(&Notice) + Send + Sync>,
     inner: Mutex<LiveState>,
-    /// Wakes the worker and whoever tells of progress.
+    /// Condition that wakes the worker and the thread that reports progress.
     pub wake: Condvar,
     pages: broadcast::Sender<Utf8Bytes>,
-    /// Ends the variations that are being made.
+    /// Cancellation of the variations in progress.
     pub variations: Mutex<Option<Arc<Stop>>>,
-    /// The names of presets that pages know; held while their file is written or read, so that a change is told once.
+    /// Names of presets that pages know. The lock is held while their file is written or read, so that a change is
+    /// reported once.
     pub presets: Mutex<Vec<String>>,
-    /// By package: the file of its presets, as far as a run has told.
+    /// Presets file of each package, as far as runs have found them.
     pub package_presets: Mutex<Vec<(String, PathBuf)>>,
-    /// Held while a chain is traced, since each may take all cores.
+    /// Lock that is held while a chain is traced, because each trace may use all cores.
     pub tracing: Mutex<()>,
 }
 
@@ -67,50 +68,50 @@ pub(super) struct LiveState {
     pub due: Option<DueRun>,
     pub running: Option<ActiveRun>,
     pub shown: Option<Arc<PresentModel>>,
-    /// Why there is no newer model: the script is missing or has an error.
+    /// Reason that there is no newer model: the script is missing or has an error.
     pub trouble: Option<Event>,
-    /// That the last run was stopped by a page, so that what is shown is older than what is requested.
+    /// Cancellation event, if a page cancelled the last run, so that the shown model is older than the request.
     pub cancelled: Option<Event>,
-    /// Since when the model that is shown has not been the present one.
+    /// Time since which the shown model has been out of date.
     pub stale: Option<Instant>,
-    /// Since when failures are kept back because files change.
+    /// Time since which failures have been withheld because files are changing.
     pub doubts: Option<Instant>,
-    /// What the last run that came to an end was made from.
+    /// Inputs of the last completed run.
     pub finished: Option<Inputs>,
-    /// How long that took.
+    /// Duration of the last completed run.
     pub took: Duration,
-    /// Counts the changes of files.
+    /// Number of file changes so far.
     pub generation: u64,
     pub runs: u64,
-    /// The parameters of the script as it is; unknown while it has an error.
+    /// Parameters of the current script; `None` while it has an error.
     pub params: Option<Vec<Param>>,
     models: VecDeque<(String, Bytes)>,
     pictures: VecDeque<(String, Bytes)>,
-    /// For these inputs, but for their limit, the number of steps to the end.
+    /// Total number of steps for these inputs without their limit.
     pub last_step: Option<(Inputs, usize)>,
-    /// Values that could not be used, as far as that has been told.
+    /// Unusable values that have already been reported.
     pub left_out: BTreeSet<String>,
-    /// The warnings of the last model, as far as they have been told.
+    /// Warnings of the last model that have already been reported.
     pub warnings: BTreeSet<String>,
-    /// The same of its notes.
+    /// Notes of the last model that have already been reported.
     pub notes: BTreeSet<String>,
-    /// The script's files, which an editor may open.
+    /// Files of the script, which an editor may open.
     pub files: Vec<PathBuf>,
-    /// Ends what is made besides models, for it is about a script that has changed.
+    /// Cancellation of work other than models, which refers to a script that has changed.
     pub aside: Arc<Stop>,
     pub over: bool,
 }
 
-/// A run that is to be made.
+/// Scheduled run.
 #[derive(Clone)]
 pub(super) struct DueRun {
     pub cause: Cause,
     pub files: Vec<String>,
-    /// When its cause was seen.
+    /// Time when the cause was detected.
     pub at: Instant,
 }
 
-/// A run that is under way.
+/// Run in progress.
 pub(super) struct ActiveRun {
     pub run: u64,
     pub cause: Cause,
@@ -118,18 +119,18 @@ pub(super) struct ActiveRun {
     pub session: Arc<Session>,
     pub begin: Instant,
     pub cancelled: Arc<AtomicBool>,
-    /// Whether pages do not know of it.
+    /// Set if pages are not informed about the run.
     pub background: bool,
 }
 
-/// The present model.
+/// Present model.
 pub(super) struct PresentModel {
     pub run: Arc<Run>,
-    /// What had been requested.
+    /// Request that led to the model.
     pub request: Request,
-    /// What it was made from.
+    /// Inputs of the model.
     pub inputs: Inputs,
-    /// Where the scene's things are in the model's bytes.
+    /// Layout of the scene in the model's bytes.
     pub layout: Arc<Layout>,
     pub message: ModelMessage,
 }
@@ -137,7 +138,7 @@ pub(super) struct PresentModel {
 impl ServerState {
     pub(super) fn new(mut settings: Settings) -> Self {
         let request = Request::new(&settings.options);
-        // Its values are a part of the request from now on.
+        // The preset's values are part of the request from now on.
         settings.options.params.preset = None;
         settings.options.inputs.cache = Some(std::sync::Arc::default());
         let presets = super::tools::presets(&settings.script);
@@ -184,13 +185,13 @@ impl ServerState {
         self.inner.lock().recover()
     }
 
-    /// Says something to all pages. Called with the lock held, it comes in order.
+    /// Sends an event to all pages. Events sent while the lock is held arrive in order.
     pub(super) fn send(&self, event: &Event) {
-        // There may be no page.
+        // An error means that there is no page.
         let _ = self.pages.send(self.to_text(event));
     }
 
-    /// `event` as it travels, with paths from the script's folder on.
+    /// Serialises `event`, with paths relative to the script's folder.
     pub(super) fn to_text(&self, event: &Event) -> Utf8Bytes {
         if let Event::Model(_) = event {
             return event.to_text().into();
@@ -202,24 +203,24 @@ impl ServerState {
         event.to_text().into()
     }
 
-    /// `text` with the paths of files in the script's folder from there on.
+    /// Makes the paths of files in the script's folder relative within `text`.
     fn relative(&self, text: &str) -> String {
         let real = self.script.canonicalize().ok();
         let scripts = [Some(self.script.as_path()), real.as_deref()];
         let folders = scripts.into_iter().flatten().filter_map(Path::parent);
-        // Whatever begins with a slash is in the root.
+        // If the folder were the root, every absolute path would match.
         let folders = folders.filter(|folder| folder.is_absolute() && folder.parent().is_some());
         folders.fold(text.to_owned(), |text, folder| {
             text.replace(&format!("{}{MAIN_SEPARATOR}", folder.display()), "")
         })
     }
 
-    /// Says something where the server was started.
+    /// Sends a notice to the process that started the server.
     pub(super) fn tell(&self, notice: &Notice) {
         (self.tell)(notice);
     }
 
-    /// What a new page is told first, and where it hears the rest.
+    /// Returns the first messages for a new page, and the receiver of later ones.
     pub(super) fn greet(&self) -> (Vec<Utf8Bytes>, broadcast::Receiver<Utf8Bytes>) {
         let presets = self.presets.lock().recover();
         let inner = self.lock();
@@ -248,12 +249,12 @@ impl ServerState {
         }
     }
 
-    /// The script's file name.
+    /// Returns the file name of the script.
     pub(super) fn script_name(&self) -> String {
         self.script.file_name().unwrap_or(self.script.as_os_str()).to_string_lossy().into_owned()
     }
 
-    /// A file as pages name it: from the script's folder.
+    /// Returns the name of a file relative to the script's folder, as pages use it.
     pub(super) fn name(&self, path: &Path) -> String {
         if path == self.script {
             return self.script_name();
@@ -267,12 +268,12 @@ impl ServerState {
         inner.unwrap_or(path).display().to_string()
     }
 
-    /// An error whose file is named as pages name it, with the lines around its own.
+    /// Converts an error to JSON, with the file named as pages name it and with the surrounding lines.
     pub(super) fn error_json(&self, error: &Error) -> serde_json::Value {
         self.placed(error.to_json(), error.place())
     }
 
-    /// The same of a warning.
+    /// Converts a warning in the same way.
     pub(super) fn warning_json(&self, warning: &Warning) -> serde_json::Value {
         self.placed(warning.to_json(), warning.place())
     }
@@ -294,7 +295,7 @@ impl ServerState {
         object
     }
 
-    /// A file of an error or a rule as pages name it.
+    /// Returns the name of a file of an error or a rule, as pages use it.
     pub(super) fn short(&self, file: &str) -> String {
         let file = Path::new(file);
         let folder = self.script.parent().filter(|folder| !folder.as_os_str().is_empty());
@@ -302,17 +303,17 @@ impl ServerState {
         inner.map_or_else(|| self.name(file), |inner| inner.display().to_string())
     }
 
-    /// The model of that name, if it is kept.
+    /// Returns the model with that hash, if it is stored.
     pub(super) fn model(&self, hash: &str) -> Option<Bytes> {
         self.lock().models.iter().find(|(known, _)| known == hash).map(|(_, bytes)| bytes.clone())
     }
 
-    /// The small picture of that name, if it is kept.
+    /// Returns the small render with that hash, if it is stored.
     pub(super) fn picture(&self, hash: &str) -> Option<Bytes> {
         self.lock().pictures.iter().find(|(known, _)| known == hash).map(|(_, bytes)| bytes.clone())
     }
 
-    /// Keeps a small picture. Returns where pages find it.
+    /// Stores a small render. Returns its URL.
     pub(super) fn keep_picture(&self, png: Vec<u8>) -> String {
         let hash = blake3::hash(&png).to_hex()[..32].to_owned();
         let mut inner = self.lock();
@@ -324,14 +325,14 @@ impl ServerState {
         format!("picture/{hash}.png")
     }
 
-    /// Ends the variations that are being made, for they are of no use any more.
+    /// Cancels the variations in progress, which are no longer needed.
     fn stop_variations(&self, why: &str) {
         if let Some(stop) = self.variations.lock().recover().take() {
             stop.stop(Error::stopped(why));
         }
     }
 
-    /// Takes notice of changed files.
+    /// Handles changed files.
     pub(super) fn changed(&self, change: &Change) {
         let mut presets = vec![Presets::path_of(&self.script)];
         let of_packages = self.package_presets.lock().recover();
@@ -353,7 +354,7 @@ impl ServerState {
         self.wake.notify_all();
     }
 
-    /// Ends the worker, and the run that is under way.
+    /// Stops the worker, and the current run.
     pub(super) fn end(&self) {
         self.stop_variations("the server ends");
         let mut inner = self.lock();
@@ -365,7 +366,7 @@ impl ServerState {
 }
 
 impl LiveState {
-    /// Has a run made as soon as may be.
+    /// Schedules a run as soon as possible.
     pub(super) fn post(&mut self, mut due: DueRun) {
         let soon_over = self.took < SHORT
             && self
@@ -385,14 +386,14 @@ impl LiveState {
         self.due = Some(due);
     }
 
-    /// The model that is shown, as pages are told it now.
+    /// Returns the shown model, as currently described to pages.
     pub(super) fn present(&self) -> Option<ModelMessage> {
         let shown = self.shown.as_ref()?;
         Some(ModelMessage { preset: self.request.preset(), ..shown.message.clone() })
     }
 
-    /// Takes the request back to that of the model that is shown, and tells pages its values again: what was cancelled
-    /// must not come with the next change.
+    /// Restores the request of the shown model and sends its values to the pages, so that cancelled values do not
+    /// return with the next change.
     pub(super) fn take_back(&mut self, state: &ServerState) {
         let Some(shown) = self.shown.clone() else { return };
         let before = self.request.inputs(self.generation);
@@ -410,19 +411,19 @@ impl LiveState {
         }
     }
 
-    /// Whether the model that is shown is that of the request and of the files as they are.
+    /// Returns true if the shown model corresponds to the request and to the current files.
     fn is_present(&self) -> bool {
         self.shown.as_ref().is_some_and(|shown| shown.inputs == self.request.inputs(self.generation))
     }
 
-    /// Notes that the model that is shown is not the present one any more.
+    /// Records that the shown model is out of date.
     pub(super) fn grow_stale(&mut self) {
         if self.shown.is_some() {
             self.stale.get_or_insert_with(Instant::now);
         }
     }
 
-    /// Tells that `run` was stopped, and keeps in mind whether the model is older than what is requested.
+    /// Reports that `run` was cancelled, and records if the model is older than the request.
     pub(super) fn cancelled(&mut self, state: &ServerState, run: u64) {
         let stale = self.due.is_none() && !self.is_present();
         let event = Event::Cancelled { run, stale };
@@ -433,7 +434,7 @@ impl LiveState {
         }
     }
 
-    /// Stops the run that is under way. Returns whether there is one that pages know of.
+    /// Cancels the current run. Returns true if there is one that pages know of.
     pub(super) fn stop(&self, why: &str) -> bool {
         let Some(running) = &self.running else { return false };
         running.cancelled.store(true, Ordering::Release);
@@ -441,7 +442,7 @@ impl LiveState {
         !running.background
     }
 
-    /// Keeps a model; those that came before it go when they are too many or too large.
+    /// Stores a model, and removes older ones if they are too many or too large. Returns the removed models.
     pub(super) fn keep(&mut self, hash: String, bytes: Bytes) -> VecDeque<(String, Bytes)> {
         self.models.retain(|(known, _)| *known != hash);
         self.models.push_back((hash, bytes));

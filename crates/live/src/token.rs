@@ -1,7 +1,7 @@
-//! The secret part of the address: made anew, or kept, so that a page that is open finds the next server of its port.
+//! Secret part of the address. It is random, or stored so that an open page finds the next server on its port.
 //!
-//! A page that looks for its server tells nobody the token before whoever listens has proved that it knows it
-//! ([`Token::proof`]): while the server is away, another user's program may have taken its port.
+//! A page that searches for its server reveals the token only after the listener has proved that it knows the token
+//! ([`Token::proof`]): while the server is not running, another user's program may have taken its port.
 
 use std::fmt;
 use std::fs;
@@ -14,21 +14,21 @@ use sha2::Sha256;
 
 use burgeon_base::error::{Error, Result};
 
-/// Bytes of a token.
+/// Number of random bytes of a token.
 const LENGTH: usize = 16;
 
-/// The digits that a token may have.
+/// Allowed number of digits of a token.
 const DIGITS: std::ops::RangeInclusive<usize> = LENGTH * 2..=LENGTH * 16;
 
-/// How long a token is kept after its server has begun or ended.
+/// Time for which a token is stored after its server has started or stopped.
 const KEPT: Duration = Duration::from_secs(24 * 60 * 60);
 
-/// A random name that is known to those whom the address was told.
+/// Random secret that is known only to recipients of the address.
 #[derive(Clone, PartialEq, Eq)]
 pub struct Token(String);
 
 impl Token {
-    /// A new one, of 128 random bits. Fails if the system has no random numbers.
+    /// Creates a token of 128 random bits. Fails if the system does not provide random numbers.
     pub fn random() -> Result<Self> {
         let mut bytes = [0; LENGTH];
         getrandom::fill(&mut bytes)
@@ -36,7 +36,7 @@ impl Token {
         Ok(Self(hexadecimal(&bytes)))
     }
 
-    /// One that was made before: at least 32 digits from 0 to 9 and a to f.
+    /// Parses an existing token: 32 to 256 digits from 0 to 9 and a to f.
     pub fn from_text(text: &str) -> Result<Self> {
         if !DIGITS.contains(&text.len()) || !is_hexadecimal(text) {
             return Err(Error::usage("a token has 32 to 256 digits from 0 to 9 and a to f"));
@@ -44,19 +44,19 @@ impl Token {
         Ok(Self(text.to_owned()))
     }
 
-    /// The digits.
+    /// Returns the digits.
     pub fn as_str(&self) -> &str {
         &self.0
     }
 
-    /// Whether `given` is it, in a time that does not tell how much of it is right.
+    /// Compares `given` with the token in constant time.
     pub fn is(&self, given: &str) -> bool {
         let same = self.0.bytes().zip(given.bytes()).fold(0, |seen, (a, b)| seen | (a ^ b)) == 0;
         same && self.0.len() == given.len()
     }
 
-    /// What only those who know the token can make of `question`: its HMAC-SHA-256, as digits. `None` if the question is
-    /// not of 32 to 128 digits.
+    /// Returns a proof of knowledge of the token: the HMAC-SHA-256 of `question` with the token as key, as hexadecimal
+    /// digits. Returns `None` unless the question has 32 to 128 hexadecimal digits.
     ///
     /// Method: Krawczyk, Bellare and Canetti, "HMAC: Keyed-Hashing for Message Authentication", RFC 2104, 1997.
     pub(super) fn proof(&self, question: &str) -> Option<String> {
@@ -84,25 +84,25 @@ fn hexadecimal(bytes: &[u8]) -> String {
     bytes.iter().map(|byte| format!("{byte:02x}")).collect()
 }
 
-/// Where the token of a port is kept, in a folder that nobody else can look into.
+/// File that stores the token of a port, in a private folder.
 #[derive(Debug)]
 pub(super) struct Keep(PathBuf);
 
 impl Keep {
-    /// That of `port`, in the folder of this user's session. `None` if there is no such folder.
+    /// Returns the store of `port`, in the folder of this user's session. Returns `None` if there is no such folder.
     pub(super) fn of(port: u16) -> Option<Self> {
         let name = format!("live-{port}.token");
         folders().find_map(|folder| private(&folder).then(|| Self(folder.join(&name))))
     }
 
-    /// The token that was kept, or a new one that is kept from now on. Fails if the system has no random numbers.
+    /// Returns the stored token, or creates and stores a new one. Fails if the system does not provide random numbers.
     pub(super) fn token(&self) -> Result<Token> {
         let token = self.read().map_or_else(Token::random, Ok)?;
         self.write(&token);
         Ok(token)
     }
 
-    /// Notes that the token is still in use.
+    /// Extends the storage time if the token is still the stored one.
     pub(super) fn renew(&self, token: &Token) {
         if self.read().is_some_and(|kept| kept == *token) {
             self.write(token);
@@ -120,7 +120,7 @@ impl Keep {
         Token::from_text(text.trim_end()).ok()
     }
 
-    /// A token that cannot be kept is as good as one that is not: pages are told when the address has changed.
+    /// Writes the token. An error is ignored: without a stored token, pages only learn that the address has changed.
     fn write(&self, token: &Token) {
         let Some(folder) = self.0.parent() else { return };
         let made = tempfile::Builder::new().prefix(".token").tempfile_in(folder);
@@ -131,7 +131,7 @@ impl Keep {
     }
 }
 
-/// Folders of this user alone, the one that lasts as long as the session first.
+/// Lists folders that belong to this user only, the folder with the lifetime of the session first.
 fn folders() -> impl Iterator<Item = PathBuf> {
     let set = |name: &str| std::env::var_os(name).map(PathBuf::from).filter(|path| path.is_absolute());
     let home = || set("HOME").map(|home| home.join(".local/state"));
@@ -139,7 +139,7 @@ fn folders() -> impl Iterator<Item = PathBuf> {
     set("XDG_RUNTIME_DIR").into_iter().chain(lasting).map(|folder| folder.join("burgeon"))
 }
 
-/// Makes `folder` if it is not there. Returns whether it is this user's alone.
+/// Creates `folder` if it does not exist. Returns true if only this user has access to it.
 fn private(folder: &Path) -> bool {
     let mut builder = fs::DirBuilder::new();
     builder.recursive(true);
@@ -149,7 +149,7 @@ fn private(folder: &Path) -> bool {
         return false;
     }
     let Ok(metadata) = fs::symlink_metadata(folder) else { return false };
-    // Whoever may write into a folder that is open to its owner alone is its owner.
+    // A user that can write to a folder with access for its owner only is the owner.
     metadata.is_dir() && is_private(&metadata) && tempfile::tempfile_in(folder).is_ok()
 }
 
@@ -159,7 +159,7 @@ fn is_private(metadata: &fs::Metadata) -> bool {
     metadata.permissions().mode() & 0o077 == 0
 }
 
-/// What lies in a user's own folders is the user's alone where nobody has changed that.
+/// Returns true: on other systems, a user's own folders are private by default.
 #[cfg(not(unix))]
 fn is_private(_: &fs::Metadata) -> bool {
     true
@@ -188,7 +188,7 @@ mod tests {
     fn a_proof_depends_on_the_token_and_on_the_question() {
         let token = |digit: &str| Token::from_text(&digit.repeat(32)).unwrap();
         let question = "5".repeat(32);
-        // As other implementations have it.
+        // Value computed by an independent implementation.
         assert_eq!(
             token("0").proof(&question).as_deref(),
             Some("a0f41c624afc1463089e878e22f1ac32ef205e3e3db151851875c4e08b62a5a1")

@@ -1,4 +1,4 @@
-//! Presets and variations: the request under a name, and small pictures of other values.
+//! Presets and variations: named requests, and small renders with other values.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -20,13 +20,13 @@ use burgeon_presets::Presets;
 use burgeon_scene::image;
 use burgeon_variations::{Framing, Variation, VariationAxis, Variations};
 
-/// How often a page is told how many scripts of variations have run.
+/// Interval of progress reports of variations.
 const TICK: Duration = Duration::from_millis(500);
 
-/// Width and height (pixels) of a small picture.
+/// Width and height (pixels) of a small render.
 const SIZE: (u32, u32) = (320, 240);
 
-/// The names of the script's presets; none if their file is broken, which is told when one of them is used.
+/// Returns the names of the script's presets; empty if their file is invalid, which is reported when a preset is used.
 pub(super) fn presets(script: &Path) -> Vec<String> {
     Presets::read(script).map(|presets| names(&presets)).unwrap_or_default()
 }
@@ -35,19 +35,19 @@ fn names(presets: &Presets) -> Vec<String> {
     presets.names().map(str::to_owned).collect()
 }
 
-/// The names of the script's presets, and those of packages, such as `@castle/grand`.
+/// Returns the names of the script's presets and of packages' presets, such as `@castle/grand`.
 fn all_names(state: &ServerState, own: &Presets) -> Vec<String> {
     let of_packages = state.package_presets.lock().recover();
     let mut all = names(own);
     for (package, path) in of_packages.iter() {
-        // What is wrong with their file is told to those who use one of them.
+        // An error of their file is reported when one of its presets is used.
         let Ok(presets) = Presets::read_file(path) else { continue };
         all.extend(presets.names().map(|name| format!("@{package}/{name}")));
     }
     all
 }
 
-/// The preset that pages call `name`, of the script or of a package.
+/// Returns the preset with the name `name` in pages, of the script or of a package.
 fn find(state: &ServerState, own: &Presets, name: &str) -> Result<Preset> {
     let Some((package, inner)) = of_package(name) else { return own.get(name).cloned() };
     let of_packages = state.package_presets.lock().recover();
@@ -60,12 +60,12 @@ fn find(state: &ServerState, own: &Presets, name: &str) -> Result<Preset> {
     Ok(Preset { name: name.to_owned(), ..preset })
 }
 
-/// The package and the name of a preset that pages call `@castle/grand`.
+/// Splits the name of a package's preset, such as `@castle/grand`, into package and name.
 fn of_package(name: &str) -> Option<(&str, &str)> {
     name.strip_prefix('@')?.split_once('/')
 }
 
-/// Takes notice of the packages that a run has found to have presets. Returns their files.
+/// Records the packages with presets that a run has found. Returns the files of their presets.
 pub(super) fn find_package_presets(state: &ServerState, session: &Session) -> Vec<(PathBuf, bool)> {
     let found = session.package_presets();
     let files = session.package_preset_places();
@@ -79,8 +79,8 @@ pub(super) fn find_package_presets(state: &ServerState, session: &Session) -> Ve
     files
 }
 
-/// Saves, loads or deletes a preset; one that is there is saved over only if it is to be replaced. Returns what the page
-/// that asked is answered.
+/// Saves, loads or deletes a preset; an existing preset is overwritten only if `replace` is set. Returns the answer to
+/// the page.
 pub(super) fn preset(state: &ServerState, action: &str, name: &str, replace: bool) -> Option<Event> {
     let mut known = state.presets.lock().recover();
     let done = match action {
@@ -116,7 +116,7 @@ pub(super) fn preset(state: &ServerState, action: &str, name: &str, replace: boo
     }
 }
 
-/// Tells pages of presets that someone has changed in their file.
+/// Informs pages after the presets file has been edited.
 pub(super) fn presets_changed(state: &ServerState) {
     let mut known = state.presets.lock().recover();
     let read = Presets::read(&state.script);
@@ -153,7 +153,7 @@ fn save(state: &ServerState, name: &str, replace: bool) -> Result<Presets> {
     };
     let presets = Presets::save(&state.script, preset.clone())?;
     let inner = &mut *state.lock();
-    // Another page may have changed them since.
+    // Another page may have changed the request since.
     let same = |params: &[Param]| inner.request.used(params) == preset.params;
     if inner.params.as_deref().is_some_and(same) && preset.seed == Some(inner.request.seed()) {
         inner.request.is_preset(preset);
@@ -161,8 +161,8 @@ fn save(state: &ServerState, name: &str, replace: bool) -> Result<Presets> {
     Ok(presets)
 }
 
-/// Has small pictures of other values made, and sent to the page that asked through `page`, in place of those
-/// that are being made. Returns why that cannot be.
+/// Starts small renders with other values and sends them to the page through `page`. Cancels the variations in
+/// progress. Returns the rejection if that fails.
 pub(super) fn variations(
     state: &Arc<ServerState>,
     id: u64,
@@ -213,7 +213,7 @@ pub(super) fn variations(
         let gone = || stop.stop(Error::stopped("the page has gone"));
         let (running, page, state) = (&variations, &page, &*state);
         let tell = move || {
-            // It ends with the other end of the channel.
+            // The loop ends when the other end of the channel is dropped.
             while ended.recv_timeout(TICK) == Err(RecvTimeoutError::Timeout) {
                 let event = Event::Variations { id, ran: running.ran(), of };
                 if page.blocking_send(state.to_text(&event)).is_err() {
@@ -223,7 +223,7 @@ pub(super) fn variations(
         };
         let made = std::thread::scope(|scope| {
             scope.spawn(tell);
-            // What looks larger is larger, so that seeds and values can be compared.
+            // All renders have the same scale, so that sizes can be compared.
             let made = variations.make(&picture, Framing::Together, |cell| {
                 let event = variation(state, id, of, cell);
                 if page.blocking_send(state.to_text(&event)).is_err() {
@@ -236,7 +236,7 @@ pub(super) fn variations(
         if let Err(error) = made
             && !stop.is_stopped()
         {
-            // The page may have gone.
+            // An error means that the page has disconnected.
             let _ = page.blocking_send(state.to_text(&Event::refused(Some(id), &error)));
         }
     };
@@ -273,7 +273,7 @@ fn variation(state: &ServerState, id: u64, of: usize, cell: Variation) -> Event 
     }
 }
 
-/// What a page wants other values of: seeds, or a parameter.
+/// Parses the axis of the variations that a page requests: seeds, or a parameter.
 pub(super) fn over(
     seeds: Option<&[String]>,
     param: Option<String>,

@@ -1,6 +1,6 @@
-//! From the picture to the script and back: which module made a triangle, what a line of the script made.
+//! Links between the model and the script: the module that made a triangle, and the results of a line of the script.
 //!
-//! The engine speaks of the scene's meshes and parts, pages speak of glTF's meshes and primitives (`layout`).
+//! The engine uses the scene's meshes and parts, pages use glTF's meshes and primitives (`layout`).
 
 use std::sync::Arc;
 use std::time::Duration;
@@ -20,10 +20,10 @@ use burgeon_engine::script::RunOptions;
 use burgeon_engine::trace as engine;
 use burgeon_rewriting::END;
 
-/// How long it may take to find out what made something.
+/// Time limit for finding the origin of a triangle or the result of a line.
 const PATIENCE: Duration = Duration::from_secs(30);
 
-/// The number of modules of each symbol that occurs, the most frequent first.
+/// Returns the number of modules of each symbol that occurs, the most frequent first.
 pub(super) fn symbols(system: &DerivedSystem) -> Vec<CountMessage> {
     let mut counts = vec![0; system.symbols.arities().len()];
     for symbol in &system.chain.symbols {
@@ -37,7 +37,7 @@ pub(super) fn symbols(system: &DerivedSystem) -> Vec<CountMessage> {
     found
 }
 
-/// The rules of all systems with what they cost.
+/// Returns the rules of all systems with their costs.
 pub(super) fn rules(state: &ServerState, run: &Run) -> Vec<RuleMessage> {
     let reports = run.systems.iter().flat_map(|system| &system.rules);
     let rules = reports.map(|report| {
@@ -55,12 +55,12 @@ pub(super) fn rules(state: &ServerState, run: &Run) -> Vec<RuleMessage> {
     rules.collect()
 }
 
-/// A place as pages name it; no file and line 0 if there is none.
+/// Returns a location as pages name it; an empty file and line 0 if there is none.
 fn place(state: &ServerState, place: Option<&SourcePlace>) -> (String, usize) {
     place.map_or_else(|| (String::new(), 0), |place| (state.short(&place.file), place.line))
 }
 
-/// The module that made a triangle.
+/// Finds the module that made a triangle.
 pub(super) fn pick(state: &ServerState, pick: &PickCommand) -> Event {
     let find = || -> Result<PickMessage> {
         let (shown, options) = present(state)?;
@@ -79,7 +79,7 @@ pub(super) fn pick(state: &ServerState, pick: &PickCommand) -> Event {
     find().map_or_else(|error| refused(pick.id, &error), |picked| Event::Picked(Box::new(picked)))
 }
 
-/// What a line of a script made.
+/// Finds the modules and triangles that a line of a script made.
 pub(super) fn highlight(state: &ServerState, id: u64, file: &str, line: usize) -> Event {
     let find = || -> Result<HighlightMessage> {
         let (shown, options) = present(state)?;
@@ -104,7 +104,7 @@ pub(super) fn highlight(state: &ServerState, id: u64, file: &str, line: usize) -
     find().map_or_else(|error| refused(id, &error), |found| Event::Highlighted(Box::new(found)))
 }
 
-/// A part of a chain.
+/// Returns a part of a chain.
 pub(super) fn chain(state: &ServerState, id: u64, system: usize, chain: usize, module: usize) -> Event {
     let shown = state.lock().shown.clone();
     let derived = shown.as_ref().and_then(|shown| system_of(&shown.run, system));
@@ -117,7 +117,7 @@ pub(super) fn chain(state: &ServerState, id: u64, system: usize, chain: usize, m
     }
 }
 
-/// The present model, and how to run the script as it was run for it. Fails if the script has changed since.
+/// Returns the present model, and the options with which its script was run. Fails if the script has changed since.
 fn present(state: &ServerState) -> Result<(Arc<PresentModel>, RunOptions)> {
     let inner = state.lock();
     let Some(shown) = inner.shown.clone() else { return Err(Error::unavailable("there is no model yet")) };

@@ -1,4 +1,4 @@
-//! The worker: one thread that runs the script as it was last requested and makes the model's bytes.
+//! Worker: one thread that runs the script with the latest request and encodes the model.
 
 use std::collections::BTreeSet;
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -23,22 +23,22 @@ use burgeon_export::gltf::{self, Layout};
 use burgeon_presets::Presets;
 use burgeon_watch::{Watch, unsettled};
 
-/// How often pages are told how far a run has come.
+/// Interval of progress reports to pages.
 const TICK: Duration = Duration::from_millis(100);
 
-/// The largest model (bytes) that is sent to pages: browsers hold no larger array.
+/// Maximum size (bytes) of a model that is sent to pages. Browsers do not support larger arrays.
 const LARGEST: usize = 2_000_000_000;
 
-/// Problems of one run, and warnings, that pages are told at most.
+/// Maximum number of problems or warnings of a run that pages receive.
 pub(super) const PROBLEMS: usize = 50;
 
-/// How long a file that was there may be missing, as in the middle of a save, before a page is told.
+/// Time for which an existing file may be missing, as during a save, before pages are informed.
 const MISSING: Duration = Duration::from_millis(150);
 
-/// How long failures may be kept back because files change.
+/// Maximum time for which failures are withheld because files are changing.
 const DOUBT: Duration = Duration::from_secs(2);
 
-/// What finding the number of steps may take when nothing else is to be done.
+/// Limits of a run in idle time that only determines the number of steps.
 const IDLE_LIMITS: Limits = Limits {
     time: Duration::from_secs(10),
     memory: 1 << 30,
@@ -47,7 +47,7 @@ const IDLE_LIMITS: Limits = Limits {
     triangles: 10_000_000,
 };
 
-/// A run to be made.
+/// Run to execute.
 pub(super) struct RunJob {
     pub run: u64,
     pub due: DueRun,
@@ -55,7 +55,7 @@ pub(super) struct RunJob {
     pub inputs: Inputs,
 }
 
-/// What came of a run.
+/// Outcome of a run.
 enum RunOutcome {
     NewModel(Box<NewModel>),
     Missing,
@@ -66,21 +66,21 @@ enum RunOutcome {
 struct NewModel {
     run: Run,
     file: ModelFile,
-    /// What pages are told of it, but for what depends on the request.
+    /// Description for pages, except for the parts that depend on the request.
     message: ModelMessage,
 }
 
-/// The model as pages get it.
+/// Encoded model for pages.
 #[derive(Default)]
 struct ModelFile {
-    /// Its name, which depends on its content alone, and its content; nothing if there is nothing to show.
+    /// File name, which is a hash of the content, and the content; `None` if the model is empty.
     content: Option<(String, Bytes)>,
     layout: Layout,
-    /// Why there is nothing, if there is too much.
+    /// Reason for omitting the content, if the model is too large.
     note: Option<String>,
 }
 
-/// Works until the state is over.
+/// Executes runs until the server stops.
 pub(super) fn work(state: &ServerState, watch: &Watch) {
     let mut followed: Vec<(PathBuf, bool)> = Vec::new();
     while let Some(job) = next(state) {
@@ -88,9 +88,9 @@ pub(super) fn work(state: &ServerState, watch: &Watch) {
         let mut session = None;
         let attempt = catch_unwind(AssertUnwindSafe(|| attempt(state, &job, &mut session)));
         let outcome = attempt.unwrap_or_else(|panic| RunOutcome::Failed(internal(panic.as_ref())));
-        // Files that were looked for in vain are watched too: the run may succeed once they are there.
+        // Missing files that the run looked for are watched too, because the run may succeed once they exist.
         let mut files = session.as_ref().map(|session| session.sought()).unwrap_or_default();
-        // These are watched from the beginning.
+        // These files are watched from the start.
         files.extend(always(state).into_iter().map(|path| (path, true)));
         let presets = Presets::path_of(&state.script);
         let there = presets.is_file();
@@ -99,7 +99,7 @@ pub(super) fn work(state: &ServerState, watch: &Watch) {
             files.extend(super::tools::find_package_presets(state, session));
         }
         if matches!(outcome, RunOutcome::Cancelled) {
-            // It has not come to all of its files.
+            // The cancelled run has not reached all of its files.
             followed.extend(files);
         } else {
             followed = files;
@@ -122,14 +122,14 @@ pub(super) fn work(state: &ServerState, watch: &Watch) {
     }
 }
 
-/// Waits until `files`, on which a run has failed, have been as they are for a while. Returns whether something newer is
-/// to be made: what was read may have been the half of what was being written.
+/// Waits until `files`, with which a run has failed, have been stable for a while. Returns true if a newer run is due.
+/// The run may have read a file that was only half written.
 fn superseded(state: &ServerState, job: &RunJob, files: &[(PathBuf, bool)], watch: &Watch) -> bool {
     let gone = job.due.cause == Cause::Save && files.iter().any(|(path, there)| *there && !path.exists());
     let young = unsettled(files.iter().map(|(path, _)| path.as_path()));
     let wait = young.max(gone.then_some(MISSING)).unwrap_or_default();
     let mut inner = state.lock();
-    // A file that is written all the time is not waited for.
+    // Do not wait for a file that is written continuously.
     if inner.doubts.is_some_and(|since| since.elapsed() > DOUBT) {
         return false;
     }
@@ -146,7 +146,7 @@ fn superseded(state: &ServerState, job: &RunJob, files: &[(PathBuf, bool)], watc
     true
 }
 
-/// Tells pages how far the run has come, until the state is over.
+/// Sends the progress of the run to pages, until the server stops.
 pub(super) fn report(state: &ServerState) {
     let mut inner = state.lock();
     while !inner.over {
@@ -167,12 +167,12 @@ pub(super) fn report(state: &ServerState) {
     }
 }
 
-/// The files that decide what is made even if the script cannot be read.
+/// Returns the files that affect the result even if the script cannot be read.
 pub(super) fn always(state: &ServerState) -> Vec<PathBuf> {
     std::iter::once(state.script.clone()).chain(state.options.inputs.stdlib.clone()).collect()
 }
 
-/// Waits for something to do.
+/// Waits for the next run; `None` if the server stops.
 fn next(state: &ServerState) -> Option<RunJob> {
     let mut inner = state.lock();
     loop {
@@ -191,7 +191,8 @@ fn next(state: &ServerState) -> Option<RunJob> {
     }
 }
 
-/// Makes `session` the one that others can stop; pages do not know of one without a job. Returns the flag that tells whether they have.
+/// Registers `session` as the run that others can cancel; without a job, pages are not informed about it. Returns the
+/// flag that is set on cancellation.
 fn register(state: &ServerState, job: Option<&RunJob>, session: &Arc<Session>) -> Arc<AtomicBool> {
     let mut inner = state.lock();
     let cancelled = Arc::new(AtomicBool::new(inner.over || inner.due.is_some()));
@@ -211,7 +212,7 @@ fn register(state: &ServerState, job: Option<&RunJob>, session: &Arc<Session>) -
     cancelled
 }
 
-/// How the script is run with these inputs.
+/// Returns the options to run the script with these inputs.
 pub(super) fn options(state: &ServerState, inputs: &Inputs) -> RunOptions {
     let base = state.options.clone();
     RunOptions {
@@ -256,7 +257,7 @@ fn attempt(state: &ServerState, job: &RunJob, kept: &mut Option<Arc<Session>>) -
     }
 }
 
-/// The model's bytes, and how long it took to make them.
+/// Encodes the model. Returns the file and the time taken.
 fn encode(run: &Run) -> Result<(ModelFile, Duration)> {
     let begin = Instant::now();
     if run.scene.triangles() == 0 {
@@ -271,7 +272,7 @@ fn encode(run: &Run) -> Result<(ModelFile, Duration)> {
         Ok((glb, _)) => {
             nothing(format!("the model takes {} MB, more than a page can show", glb.len() / 1_000_000))
         }
-        // The scene is sound, or the run would have failed: it is too large for any file.
+        // The scene is valid, or the run would have failed, so it is too large for any file.
         Err(error) if *error.kind() == ErrorKind::Limit(Limit::Format) => nothing(error.to_string()),
         Err(error) => return Err(error),
     };
@@ -283,7 +284,7 @@ fn internal(panic: &(dyn std::any::Any + Send)) -> Error {
         .help("this is a mistake in Burgeon; please report it with the script")
 }
 
-/// Takes over what came of a run, and tells everybody.
+/// Stores the outcome of a run, and informs pages and the process that started the server.
 fn finish(state: &ServerState, job: &RunJob, session: Option<&Session>, outcome: RunOutcome) {
     let mut inner = state.lock();
     if !matches!(outcome, RunOutcome::Cancelled) {
@@ -291,7 +292,7 @@ fn finish(state: &ServerState, job: &RunJob, session: Option<&Session>, outcome:
     }
     let running = inner.running.take();
     let quick = running.as_ref().map(|running| running.begin.elapsed());
-    // A page has cancelled it while its end was on the way, and the request is another one already.
+    // A page has cancelled the run just before its end, and the request has already been restored.
     let stopped = running.is_some_and(|running| running.cancelled.load(Ordering::Acquire));
     let outcome = if stopped && inner.due.is_none() { RunOutcome::Cancelled } else { outcome };
     if let Some(session) = session.filter(|_| !matches!(outcome, RunOutcome::Cancelled)) {
@@ -351,7 +352,7 @@ fn finish(state: &ServerState, job: &RunJob, session: Option<&Session>, outcome:
         }
     }
     drop(inner);
-    // Large models take a while to go.
+    // Freeing large models takes a while.
     drop(gone);
     for notice in notices {
         state.tell(&notice);
@@ -359,7 +360,7 @@ fn finish(state: &ServerState, job: &RunJob, session: Option<&Session>, outcome:
 }
 
 impl LiveState {
-    /// The parameters of the model that is shown with the values that are requested; none if there is no model.
+    /// Returns the parameters of the shown model with the requested values; empty if there is no model.
     fn requested_params(&mut self) -> Vec<ParamMessage> {
         let shown = self.shown.clone();
         shown.map(|shown| self.request.requested(&shown.run.params)).unwrap_or_default()
@@ -374,7 +375,7 @@ impl LiveState {
         self.trouble = Some(event);
     }
 
-    /// The warnings of a run that the one before did not have.
+    /// Returns the warnings that the previous run did not have.
     fn new_warnings(&mut self, warnings: &[Warning]) -> Vec<Notice> {
         let text = |it: &Warning| format!("{:?} {}", it.place(), it.message());
         let new = warnings.iter().filter(|warning| !self.warnings.contains(&text(warning)));
@@ -383,7 +384,7 @@ impl LiveState {
         notices
     }
 
-    /// Tells of values that the script does not take any more, once each.
+    /// Reports values that the script no longer accepts, once each.
     fn tell_left_out(&mut self, state: &ServerState, left_out: &[(String, Error)]) -> Vec<Notice> {
         let texts: Vec<String> = left_out
             .iter()
@@ -398,8 +399,8 @@ impl LiveState {
         notices
     }
 
-    /// The number of steps to the end, of a run with these inputs that took `steps`; the best guess if it was
-    /// stopped by a limit and the number is not known.
+    /// Returns the total number of steps for a run with these inputs that took `steps`; an estimate if the run was
+    /// limited and the number is unknown.
     fn last_step_of(&mut self, inputs: &Inputs, steps: usize) -> usize {
         let whole = Inputs { steps: None, ..inputs.clone() };
         if inputs.steps.is_none_or(|limit| steps < limit) {
@@ -413,7 +414,7 @@ impl LiveState {
     }
 }
 
-/// The inputs of the shown model without their limit, if the number of its steps is not known.
+/// Returns the inputs of the shown model without their limit, if its total number of steps is unknown.
 fn wants_last_step(state: &ServerState) -> Option<Inputs> {
     let inner = state.lock();
     let inputs = inner.finished.as_ref()?;
@@ -424,7 +425,7 @@ fn wants_last_step(state: &ServerState) -> Option<Inputs> {
     (inner.last_step.as_ref().is_none_or(|(known, _)| *known != whole)).then_some(whole)
 }
 
-/// Runs the script without a limit of steps, only to count them; `None` if it was stopped for something newer.
+/// Runs the script without a step limit, only to count the steps. Returns `None` if a newer run cancels it.
 fn last_step(state: &ServerState, inputs: &Inputs) -> Option<usize> {
     let mut options = options(state, inputs);
     options.reports.print = None;
@@ -441,7 +442,7 @@ fn last_step(state: &ServerState, inputs: &Inputs) -> Option<usize> {
     match run {
         _ if stopped => None,
         Ok(run) => run.systems.iter().map(|system| system.steps).max(),
-        // It goes at least as far as it came.
+        // The derivation has at least as many steps as it completed.
         Err(_) => Some(session.progress.counts().0),
     }
 }

@@ -1,6 +1,6 @@
 //! Attributes that declare a type of object, and what scripts can do with it.
 //!
-//! Comes in: an `impl` block or a struct, as anyone would write it. Goes out: the same, and what the contract of
+//! Input: an `impl` block or a struct, as anyone would write it. Output: the same, and what the contract of
 //! objects, the crate `burgeon_kit`, needs to know of it. They never read a file, and keep nothing.
 
 mod attribute;

@@ -1,4 +1,4 @@
-//! Measured heights of the ground, to be asked for by place.
+//! Measured ground heights, queried by position.
 
 use std::fmt;
 use std::sync::Arc;
@@ -11,28 +11,28 @@ use burgeon_kit::{Expectation, LoadRequest, LoadedObject, Loader, fields, method
 use burgeon_kit::{Parameter, Table, Value, Vector};
 use burgeon_terrain::HeightSource;
 
-/// The one encoding of heights as colours that is known.
+/// Name of the only supported encoding of heights as colours.
 const TERRAIN_RGB: &str = "terrain-rgb";
 
-/// What `elevation(file, options)` takes besides the file.
+/// Options of `elevation(file, options)`.
 #[fields("elevation")]
 pub struct ElevationOptions {
-    /// The EPSG code of the coordinates, in place of the file's.
+    /// EPSG code of the coordinates, instead of the file's.
     pub crs: Option<u32>,
-    /// The height (m) of black in a 16-bit PNG.
+    /// Height (m) of black in a 16-bit PNG.
     pub low: Option<f64>,
-    /// The height (m) of white in a 16-bit PNG.
+    /// Height (m) of white in a 16-bit PNG.
     pub high: Option<f64>,
-    /// The outer edges of the samples, `{ west, south, east, north }`, in `crs`, or in metres without one.
+    /// Outer edges of the samples, `{ west, south, east, north }`, in `crs`, or in metres if `crs` is omitted.
     pub bounds: Option<Vec<f64>>,
-    /// How colours of a PNG are heights: `"terrain-rgb"`.
+    /// Encoding of heights as colours of a PNG: `"terrain-rgb"`.
     pub encoding: Option<String>,
-    /// Whether heights that are missing are filled in from around them without a word.
+    /// Fill missing heights from neighbouring heights without a warning.
     pub fill: bool,
 }
 
 impl ElevationOptions {
-    /// What is wanted of the file. Fails if the bounds are not four numbers, or the encoding is not known.
+    /// Converts the options for reading the file. Fails if the bounds are not four numbers, or the encoding is unknown.
     pub fn wanted(self) -> Result<HeightOptions> {
         let bounds = self.bounds.map(|edges| {
             <[f64; 4]>::try_from(edges).map_err(|edges| {
@@ -55,9 +55,9 @@ impl ElevationOptions {
     }
 }
 
-/// Measured heights of the ground, from a file, or from several that lie beside one another.
+/// Measured ground heights, from one file or from several adjacent files.
 ///
-/// It never changes, and copies share it.
+/// An elevation is immutable; copies share it.
 #[object("elevation", options = ElevationOptions, loader = LOADER)]
 pub struct Elevation {
     relief: Arc<Relief>,
@@ -65,39 +65,39 @@ pub struct Elevation {
 
 #[methods("elevation")]
 impl Elevation {
-    /// The height of the ground (m) at a place; fails outside of the file's bounds.
+    /// Returns the ground height (m) at a position. Fails outside the file's bounds.
     pub fn height(&self, place: Vector) -> Result<f64> {
         self.height_at(place.0.truncate()).ok_or_else(|| self.outside(place.0))
     }
 
-    /// The lowest corner of the box around it (m).
+    /// Returns the minimum corner of the bounding box (m).
     pub fn low(&self) -> DVec3 {
         self.relief.low()
     }
 
-    /// The highest corner of the box around it (m).
+    /// Returns the maximum corner of the bounding box (m).
     pub fn high(&self) -> DVec3 {
         self.relief.high()
     }
 
-    /// The distance of neighbouring samples (m).
+    /// Returns the distance (m) between neighbouring samples.
     pub fn step(&self) -> f64 {
         self.relief.step()
     }
 }
 
 impl Elevation {
-    /// The heights of `relief`.
+    /// Creates an elevation with the heights of `relief`.
     pub fn new(relief: Arc<Relief>) -> Self {
         Self { relief }
     }
 
-    /// The height of the ground (m) at `place` (m); `None` outside of the file's bounds.
+    /// Returns the ground height (m) at `place` (m), or `None` outside the file's bounds.
     pub fn height_at(&self, place: DVec2) -> Option<f64> {
         self.relief.height(place)
     }
 
-    /// What it asks.
+    /// Returns the heights that this elevation queries.
     pub fn relief(&self) -> &Relief {
         &self.relief
     }
@@ -127,7 +127,7 @@ const LOADER: Loader = Loader {
     load,
 };
 
-/// Reads the heights of files, as the options of the script want them.
+/// Reads the heights of files with the options of the script.
 fn load(file: &mut LoadRequest<'_>, options: &Table) -> Result<LoadedObject> {
     let options = ElevationOptions::from_table(options)?;
     let fill = options.fill;
@@ -137,7 +137,7 @@ fn load(file: &mut LoadRequest<'_>, options: &Table) -> Result<LoadedObject> {
         None => Raster::open_all(file.files, &wanted, file.budget).map(Arc::new),
     };
     let raster = raster?;
-    // A raster that is kept from an earlier run was not read for this one, and takes its room all the same.
+    // A raster cached by an earlier run was not read in this run, but still counts against the memory budget.
     let memory = raster.heights.len() * size_of::<f32>();
     let mut warnings = raster.warnings();
     if !fill {

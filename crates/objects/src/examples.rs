@@ -1,8 +1,8 @@
-//! Scripts that show what methods and fields do, for the reference.
+//! Scripts that demonstrate methods and fields, for the reference.
 
 use burgeon_kit::{ScriptExample, examples};
 
-/// Those that draw: each has one picture.
+/// Scripts that draw: each has one render.
 pub const EXAMPLES: &[ScriptExample] = examples! {
     "extruder" shows "extruder";
     "footprint" shows "footprint";
@@ -57,7 +57,7 @@ pub const EXAMPLES: &[ScriptExample] = examples! {
     "turtle/width" shows "turtle:width" "turtle.width";
 };
 
-/// Those of which no picture is drawn: most ask something.
+/// Scripts without a render: most of them call read methods.
 pub const PLAIN_EXAMPLES: &[ScriptExample] = examples! {
     "elevation/height" shows "elevation:height" "elevation:low" "elevation:high" "elevation:step";
     "extruder/position" shows "extruder:position" "extruder:heading" "extruder:distance"

@@ -1,9 +1,9 @@
-//! The types of objects that come with Burgeon, one type to a file.
+//! The object types that Burgeon provides, one type per file.
 //!
-//! Comes in: values from scripts. Goes out: geometry for the scene. Objects never know of Lua or of chains.
+//! Input: values from scripts. Output: geometry for the scene. An object never depends on Lua or chains.
 //!
-//! A new type is a new file and a line in [`registry`]: a struct with `#[object]`, and `#[methods]` for what scripts may
-//! call. What else it takes, its examples and its page, stands in CONTRIBUTING.md.
+//! A new type is a new file and a line in [`registry`]: a struct with `#[object]`, and `#[methods]` for the methods
+//! that scripts may call. CONTRIBUTING.md lists the other steps, such as examples and the reference page.
 
 mod elevation;
 mod examples;
@@ -37,7 +37,7 @@ use std::sync::Arc;
 
 use burgeon_kit::{GeometryObject, Registry};
 
-/// The types that come with Burgeon.
+/// Returns the registry of the object types that Burgeon provides.
 pub fn registry() -> Registry {
     let model = Arc::new(import::kind());
     let own = [

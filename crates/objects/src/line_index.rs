@@ -1,4 +1,4 @@
-//! An index of lines, for those who ask which way the nearest one lies: `streets` in scripts.
+//! A spatial index of lines that finds the nearest line: `streets` in scripts.
 
 use std::fmt;
 use std::sync::Arc;
@@ -13,23 +13,23 @@ use burgeon_geometry::Line;
 use burgeon_kit::{Expectation, fields, methods, object};
 use burgeon_kit::{Lines, Parameter, Value, Vector, Warn};
 
-/// The farthest (m) that a street lies from what faces it.
+/// Maximum distance (m) between a street and an edge that faces it.
 const FARTHEST: f64 = 300.0;
-/// The cosine of the greatest angle (60 degrees) between the way an edge faces and the way to its street.
+/// Cosine of the maximum angle (60 degrees) between the outward normal of an edge and the direction to its street.
 const FACING: f64 = 0.5;
-/// How many pieces of streets are looked at for one that an edge faces.
+/// Maximum number of street segments that are tested for one edge.
 const TRIES: usize = 64;
 
-/// What `streets(source)` takes.
+/// Fields of `streets(source)`.
 #[fields("streets")]
 pub struct LineIndexOptions {
-    /// The streets' lines (m): a source, or lists of points.
+    /// Street lines (m): a source, or lists of points.
     pub lines: Lines,
 }
 
-/// Streets, for footprints to know which of their edges is on one.
+/// Streets, with which footprints find their edges on a street.
 ///
-/// They are lines on the ground, to be found by place.
+/// They are lines on the ground, indexed by position.
 #[object(
     "streets",
     options = LineIndexOptions,
@@ -50,7 +50,8 @@ impl fmt::Debug for LineIndex {
 
 #[methods("streets")]
 impl LineIndex {
-    /// Distance (m) from a place on the ground to the nearest street; infinite if there is none.
+    /// Returns the distance (m) from a position on the ground to the nearest street, or infinity if there are no
+    /// streets.
     pub fn distance(&self, place: Vector) -> f64 {
         let place = place.0.truncate().to_array();
         let nearest = self.pieces.nearest_neighbor(&place);
@@ -59,7 +60,7 @@ impl LineIndex {
 }
 
 impl LineIndex {
-    /// The index of the lines that a script names.
+    /// Creates the index of the lines that a script specifies.
     pub fn new(options: LineIndexOptions) -> Result<Self> {
         let Lines { lines, refused } = options.lines;
         let mut index = Self::over(&lines);
@@ -72,18 +73,18 @@ impl LineIndex {
         Ok(index)
     }
 
-    /// The index of `lines` (m).
+    /// Creates the index of `lines` (m).
     pub fn over(lines: &[Line<DVec3>]) -> Self {
         let pieces = lines.iter().flat_map(Line::edges).filter_map(|edge| {
             let [from, to] = edge.map(DVec3::truncate);
-            // An upright piece has no nearest point.
+            // A vertical segment has no nearest point.
             (from.distance_squared(to) > 0.0).then(|| Piece::new(from.to_array(), to.to_array()))
         });
         Self { pieces: Arc::new(RTree::bulk_load(pieces.collect())), warnings: Vec::new() }
     }
 
-    /// Distance (m) from the middle of the edge from `a` to `b`, whose right side faces outwards, to the nearest
-    /// street that it faces; `None` if that is farther than `most`.
+    /// Returns the distance (m) from the middle of the edge from `a` to `b`, whose right side faces outwards, to the
+    /// nearest street that the edge faces, or `None` if it is farther than `most`.
     pub(super) fn faced(&self, a: DVec2, b: DVec2, most: f64) -> Option<f64> {
         let (middle, out) = (a.midpoint(b), -(b - a).try_normalize()?.perp());
         let most = most.min(FARTHEST);

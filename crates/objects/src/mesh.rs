@@ -1,4 +1,4 @@
-//! Faces that a script gives by their corners, drawn in a frame: in lists, or in buffers where they are many.
+//! Meshes that a script specifies as points and faces, in lists or in buffers, drawn in a frame.
 
 use burgeon_base::error::{Error, Limit, Result};
 use burgeon_base::{MemoryOwner, Stop};
@@ -7,41 +7,42 @@ use burgeon_kit::{BufferBytes, Color, Drawing, Expectation, Field, Parameter, Ta
 use burgeon_scene::{Material, Part};
 use glam::{DVec2, DVec3};
 
-/// Faces that are drawn between two looks at the stop of the run.
+/// Number of faces drawn between two checks for cancellation of the run.
 const STRETCH: usize = 1024;
-/// The most colours that the faces of one call may have.
+/// Maximum number of different colours in one call.
 const MOST_COLORS: usize = 256;
 
-/// Points or directions: a list of vectors, or a buffer of three 32-bit numbers for each.
+/// Points or directions: a list of vectors, or a buffer of three 32-bit floats per vector.
 #[derive(Debug, Clone, Default)]
 pub struct MeshPoints(Vec<DVec3>);
 
-/// Places on a texture (m): a list of { u, v }, or a buffer of two 32-bit numbers for each.
+/// Texture coordinates (m): a list of { u, v }, or a buffer of two 32-bit floats per point.
 #[derive(Debug, Clone, Default)]
 pub struct MeshPlaces(Vec<DVec2>);
 
-/// Colours: a list, or a buffer of four bytes for each.
+/// Colours: a list, or a buffer of four bytes per colour.
 #[derive(Debug, Clone, Default)]
 pub struct MeshColors(Vec<Color>);
 
-/// Faces: a list of lists of the numbers of points, from 1, or a buffer of three 32-bit whole numbers for each, from 0.
+/// Faces: a list of lists of point numbers, from 1, or a buffer of three 32-bit integers per triangle, from 0.
 #[derive(Debug, Clone, Default)]
 pub struct MeshFaces {
     corners: Vec<u32>,
-    /// Where the corners of each face end.
+    /// End of each face's range in `corners`.
     ends: Vec<usize>,
-    /// The number of the first point: 1 in lists, as everywhere in Lua, and 0 in buffers, as everywhere else.
+    /// Number of the first point: 1 in lists, as is usual in Lua, and 0 in buffers, as is usual in mesh formats.
     first: u32,
 }
 
-/// What `mesh` takes besides points and faces.
+/// Options of `mesh`, in addition to points and faces.
 #[fields("mesh")]
 pub struct MeshOptions {
-    /// Where each point faces, as vectors or in a buffer like that of points; without them faces are flat.
+    /// Normal of each point, as vectors or in a buffer like that of the points. If omitted, faces are flat.
     pub normals: Option<MeshPoints>,
-    /// Where each point is on the texture (m), as { u, v }, or in a buffer of two 32-bit numbers for each.
+    /// Texture coordinates (m) of each point, as { u, v }, or in a buffer of two 32-bit numbers per point.
     pub uvs: Option<MeshPlaces>,
-    /// The colour of each face, or a buffer of four bytes for each: red, green, blue and opacity. At most 256 different ones.
+    /// Colour of each face, or a buffer of four bytes per face: red, green, blue and opacity. At most 256 different
+    /// colours.
     pub colors: Option<MeshColors>,
 }
 
@@ -125,12 +126,12 @@ impl Parameter for MeshFaces {
 }
 
 impl MeshFaces {
-    /// The number of faces.
+    /// Returns the number of faces.
     fn len(&self) -> usize {
         if self.first == 0 { self.corners.len() / 3 } else { self.ends.len() }
     }
 
-    /// The numbers of the corners of each face, as they were given.
+    /// Returns the point numbers of each face, as the script gave them.
     fn iter(&self) -> impl Iterator<Item = &[u32]> {
         let triangles = if self.first == 0 { self.corners.chunks_exact(3) } else { [].chunks_exact(3) };
         let begins = std::iter::once(0).chain(self.ends.iter().copied());
@@ -161,11 +162,11 @@ impl Parameter for MeshOptions {
     }
 }
 
-/// Draws `faces`, each the numbers of its corners among `points` (m), counter-clockwise seen from outside.
+/// Draws `faces`, each a list of the numbers of its corners among `points` (m), counter-clockwise seen from outside.
 ///
-/// The points are in the axes of `frame`, as models are placed; `kind` is for messages, and `base` the material. Fails
-/// where a face has fewer than three corners, or names a point that there is not, and then draws nothing. What has no area
-/// is left out.
+/// The points are relative to the axes of `frame`, like placed models. `kind` is the type name for error messages, and
+/// `base` the material. Fails before drawing if a face has fewer than three corners or refers to a point that does not
+/// exist. Faces without area are skipped.
 pub(crate) fn draw_mesh(
     (kind, drawing, base): (&str, &mut Drawing, &Material),
     frame: &Frame,
@@ -204,7 +205,7 @@ pub(crate) fn draw_mesh(
         corners.extend(face.iter().map(|corner| (corner - faces.first) as usize));
         let part = drawing.part(parts[if options.colors.is_some() { number } else { 0 }]);
         match corners[..] {
-            // What buffers hold are the triangles of somebody else's mesh, where some have no area.
+            // Buffers hold triangles of imported meshes, some of which have no area.
             [a, b, c] if faces.first == 0 => triangle(part, &placed, shading, [a, b, c])?,
             _ => polygon(part, &placed, shading, &corners)?,
         }
@@ -212,7 +213,7 @@ pub(crate) fn draw_mesh(
     Ok(())
 }
 
-/// Refuses faces with too few corners, or with corners that are none of `count` points.
+/// Fails if a face has fewer than three corners, or a corner that is not one of `count` points.
 fn check(kind: &str, count: usize, faces: &MeshFaces) -> Result<()> {
     let first = faces.first as usize;
     for (number, face) in (1..).zip(faces.iter()) {
@@ -234,7 +235,7 @@ fn check(kind: &str, count: usize, faces: &MeshFaces) -> Result<()> {
     Ok(())
 }
 
-/// The part of the drawing for each face, or one for all.
+/// Returns the number of the drawing's part for each face, or a single part for all faces.
 fn parts(
     kind: &str,
     drawing: &mut Drawing,
@@ -245,7 +246,7 @@ fn parts(
     let mut known: Vec<[f32; 4]> = Vec::new();
     let mut numbers = Vec::with_capacity(colors.0.len());
     for Color(color) in &colors.0 {
-        // Neighbours mostly have the same.
+        // Neighbouring faces usually share a colour, so the search starts at the last one.
         let number = known.iter().rposition(|other| other == color).unwrap_or_else(|| {
             known.push(*color);
             known.len() - 1
@@ -292,7 +293,7 @@ fn triangle(
     Ok(())
 }
 
-/// Adds a face of more corners.
+/// Adds a face of any number of corners.
 fn polygon(part: &mut Part, placed: &[DVec3], shading: CornerShading<'_>, corners: &[usize]) -> Result<()> {
     let points: Vec<DVec3> = corners.iter().map(|corner| placed[*corner]).collect();
     let normals: Option<Vec<DVec3>> =

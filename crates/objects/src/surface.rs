@@ -1,37 +1,38 @@
-//! `material { ... }`: how scripts say what a surface looks like.
+//! `material { ... }`: the appearance of a surface in scripts.
 
 use burgeon_base::error::{Error, Result};
 use burgeon_kit::{Color, Field, Parameter, Table, Value, fields};
 use burgeon_scene::{Material, Texture};
 
-/// What a texture is multiplied with.
+/// Colour that a texture is multiplied by if none is given.
 const WHITE: Color = Color([1.0; 4]);
 
-/// What has neither a colour nor a texture.
+/// Colour of a surface with neither a colour nor a texture.
 const GREY: Color = Color([0.6, 0.6, 0.6, 1.0]);
 
-/// What `material { ... }` takes.
+/// Fields of `material { ... }`.
 #[fields("material")]
 pub struct MaterialOptions {
-    /// Base colour, as "#rrggbb" or { red, green, blue } from 0 to 1; if left out, white under a texture, and grey.
+    /// Base colour, as "#rrggbb" or { red, green, blue } from 0 to 1. If omitted, white with a texture and grey
+    /// without.
     pub color: Option<Color>,
-    /// 0 for wood, stone and plaster, 1 for bare metal.
+    /// Metalness: 0 for wood, stone and plaster, 1 for bare metal.
     #[default(0.0)]
     pub metallic: f64,
-    /// 0 like a mirror, 1 like chalk.
+    /// Roughness: 0 like a mirror, 1 like chalk.
     #[default(0.8)]
     pub roughness: f64,
-    /// Light that the surface gives off itself, as a colour.
+    /// Colour of the light that the surface emits.
     #[default(Color([0.0, 0.0, 0.0, 1.0]))]
     pub emissive: Color,
-    /// An image file beside the script, PNG or JPEG.
+    /// Image file next to the script, PNG or JPEG.
     pub texture: Option<String>,
     /// Width and height (m) of one repetition of the image.
     #[default(vec![1.0, 1.0])]
     pub texture_size: Vec<f64>,
-    /// Whether both sides are seen, as with leaves.
+    /// Visible from both sides, such as leaves.
     pub double_sided: bool,
-    /// A name for people.
+    /// Display name.
     pub name: String,
 }
 
@@ -59,7 +60,7 @@ impl Parameter for MaterialOptions {
 }
 
 impl MaterialOptions {
-    /// The material for the scene.
+    /// Creates the material for the scene. Fails if a factor is out of range or the texture size is invalid.
     pub fn material(&self) -> Result<Material> {
         for (name, factor) in [("metallic", self.metallic), ("roughness", self.roughness)] {
             if !(0.0..=1.0).contains(&factor) {
@@ -92,7 +93,8 @@ impl MaterialOptions {
     }
 }
 
-/// A surface of one colour, from 0 like a mirror to 1 like chalk, and from 0 for wood to 1 for bare metal.
+/// Returns a material of one colour, with a roughness from 0 (mirror) to 1 (chalk) and a metalness from 0 (wood) to 1
+/// (bare metal).
 #[allow(clippy::cast_possible_truncation, reason = "materials are f32")]
 pub(crate) fn plain_material(color: Color, roughness: f64, metallic: f64) -> Material {
     Material {

@@ -12,42 +12,42 @@ use burgeon_geometry::{Frame, Strand, face, sphere};
 use burgeon_kit::{AxisScale, Color, Drawing, Model, Vector, fields, methods, object};
 use burgeon_scene::Material;
 
-/// What `turtle { ... }` takes.
+/// Fields of `turtle { ... }`.
 #[fields("turtle")]
 pub struct TurtleOptions {
-    /// Length of a step where none is given (m).
+    /// Default length of a step (m).
     #[default(1.0)]
     pub step: f64,
-    /// Angle of a turn where none is given (degrees).
+    /// Default angle of a turn (degrees).
     #[default(90.0)]
     pub angle: f64,
-    /// Diameter of what is drawn (m).
+    /// Diameter of branches (m).
     #[default(0.1)]
     pub width: f64,
-    /// Number of faces around what is drawn.
+    /// Number of faces around branches.
     #[default(8)]
     pub sides: u32,
-    /// Colour of what is drawn.
+    /// Colour of the surfaces.
     #[default(Color([0.22, 0.13, 0.07, 1.0]))]
     pub color: Color,
-    /// 0 like a mirror, 1 like chalk.
+    /// Roughness: 0 like a mirror, 1 like chalk.
     #[default(0.85)]
     pub roughness: f64,
-    /// 0 for wood, stone and plaster, 1 for bare metal.
+    /// Metalness: 0 for wood, stone and plaster, 1 for bare metal.
     #[default(0.0)]
     pub metallic: f64,
-    /// Colours that `paint` chooses from, the first being number 1.
+    /// Colours for `paint`, numbered from 1.
     pub palette: Vec<Color>,
-    /// Where it begins (m).
+    /// Start position (m).
     #[default(Vector(DVec3::ZERO))]
     pub position: Vector,
-    /// Where it looks at first.
+    /// Initial heading.
     #[default(Vector(DVec3::Z))]
     pub heading: Vector,
-    /// Direction that its heading bends to with each step drawn.
+    /// Direction towards which the heading bends with each step drawn.
     #[default(Vector(DVec3::NEG_Z))]
     pub tropism: Vector,
-    /// How strongly it bends there, from 0; 0.2 is much.
+    /// Strength of the bending, from 0; 0.2 is strong.
     #[default(0.0)]
     pub elasticity: f64,
 }
@@ -73,17 +73,17 @@ pub struct Turtle {
     polygons: Vec<Vec<DVec3>>,
 }
 
-/// The sines and cosines of angles used lately: most systems turn by the same few over and over.
+/// The sines and cosines of recent angles: most systems repeat the same few angles.
 #[derive(Clone, Default)]
 struct Angles {
-    /// The bits of an angle (degrees), its sine and its cosine, at a place that the bits decide.
+    /// Bits of an angle (degrees), its sine and its cosine, at an index hashed from the bits.
     known: [(u64, f64, f64); 16],
 }
 
 impl Angles {
     #[inline]
     fn sin_cos(&mut self, angle: f64) -> (f64, f64) {
-        // One more, since an empty place has the bits of 0.
+        // Adds 1 because an empty entry has the bits of 0.
         let bits = angle.to_bits().wrapping_add(1);
         let place = bits.wrapping_mul(0x9E37_79B9_7F4A_7C15) >> 60;
         let known = &mut self.known[place as usize];
@@ -99,15 +99,15 @@ impl Angles {
 struct TurtleState {
     frame: Frame,
     width: f64,
-    /// The part of the drawing, and so the material.
+    /// Part of the drawing, which has the material.
     part: usize,
     tropism: DVec3,
     elasticity: f64,
-    /// The branch that is being drawn.
+    /// Branch that is being drawn.
     strand: Option<Branch>,
 }
 
-/// A strand, the part that it is drawn into, and the module that drew its last piece.
+/// A strand, the part that it is drawn into, and the module that drew its last segment.
 #[derive(Clone)]
 struct Branch {
     part: usize,
@@ -117,30 +117,31 @@ struct Branch {
 
 #[methods("turtle")]
 impl Turtle {
-    /// Goes forward by `length` (m, turtle.step unless given) and draws a branch; within a polygon it only moves.
+    /// Moves forward by `length` (m, turtle.step unless given) and draws a branch. Within a polygon, only moves.
     pub fn forward(&mut self, length: Option<f64>) -> Result<()> {
         self.draw(length.unwrap_or(self.options.step))
     }
 
-    /// Goes forward by `length` (m, turtle.step unless given) without drawing.
+    /// Moves forward by `length` (m, turtle.step unless given) without drawing.
     pub fn advance(&mut self, length: Option<f64>) {
         self.lift();
         self.state.frame.forward(length.unwrap_or(self.options.step));
     }
 
-    /// Turns to the left by `angle` (degrees, turtle.angle unless given); a negative one turns right.
+    /// Turns to the left by `angle` (degrees, turtle.angle unless given); a negative angle turns right.
     pub fn turn(&mut self, angle: Option<f64>) {
         let angle = self.angle(angle);
         self.state.frame.turn_by(angle);
     }
 
-    /// Pitches down by `angle` (degrees, turtle.angle unless given); a negative one pitches up.
+    /// Pitches down by `angle` (degrees, turtle.angle unless given); a negative angle pitches up.
     pub fn pitch(&mut self, angle: Option<f64>) {
         let angle = self.angle(angle);
         self.state.frame.pitch_by(angle);
     }
 
-    /// Rolls about the heading by `angle` (degrees, turtle.angle unless given), the left side up; a negative one rolls back.
+    /// Rolls about the heading by `angle` (degrees, turtle.angle unless given), the left side up; a negative angle
+    /// rolls back.
     pub fn roll(&mut self, angle: Option<f64>) {
         let angle = self.angle(angle);
         self.state.frame.roll_by(angle);
@@ -184,13 +185,13 @@ impl Turtle {
         Ok(())
     }
 
-    /// Goes to a place (m) without drawing.
+    /// Moves to a position (m) without drawing.
     pub fn jump(&mut self, position: Vector) {
         self.lift();
         self.state.frame.position = position.0 - self.drawing.origin();
     }
 
-    /// Sets the diameter of what is drawn to `width` (m); a branch tapers to it along the next step.
+    /// Sets the diameter of branches to `width` (m). A branch tapers to it along the next step.
     pub fn width(&mut self, width: f64) -> Result<()> {
         if width < 0.0 {
             return Err(Error::argument(format!("turtle:width: width must not be negative, and is {width}")));
@@ -199,12 +200,12 @@ impl Turtle {
         Ok(())
     }
 
-    /// Sets the colour of what is drawn.
+    /// Sets the colour of the surfaces.
     pub fn color(&mut self, color: Color) {
         self.paint_with(color);
     }
 
-    /// Chooses a colour of the palette, the first being number 1.
+    /// Selects a colour of the palette, by its number from 1.
     pub fn paint(&mut self, number: u32) -> Result<()> {
         let color = (number as usize).checked_sub(1).and_then(|index| self.options.palette.get(index));
         let Some(color) = color else {
@@ -218,7 +219,7 @@ impl Turtle {
         Ok(())
     }
 
-    /// Sets the whole material of what is drawn.
+    /// Sets the whole material of the surfaces.
     pub fn material(&mut self, material: MaterialOptions) -> Result<()> {
         self.state.part = self.drawing.material(&material.material()?);
         Ok(())
@@ -230,7 +231,7 @@ impl Turtle {
         self.state.elasticity = elasticity;
     }
 
-    /// Sets how strongly the heading bends with each step drawn.
+    /// Sets the strength with which the heading bends with each step drawn.
     pub fn elasticity(&mut self, elasticity: f64) {
         self.state.elasticity = elasticity;
     }
@@ -241,7 +242,7 @@ impl Turtle {
         self.polygons.push(Vec::new());
     }
 
-    /// Adds the turtle's place to the polygon that was begun last.
+    /// Adds the turtle's position to the current polygon.
     pub fn point(&mut self) -> Result<()> {
         let position = self.state.frame.position;
         match self.polygons.last_mut() {
@@ -251,7 +252,7 @@ impl Turtle {
         Ok(())
     }
 
-    /// Fills the polygon that was begun last; it is seen from both sides.
+    /// Fills the current polygon, which is visible from both sides.
     pub fn end_polygon(&mut self) -> Result<()> {
         let Some(corners) = self.polygons.pop() else { return Err(no_polygon("end_polygon")) };
         let material = Material { double_sided: true, ..self.drawing.material_of(self.state.part) };
@@ -259,50 +260,51 @@ impl Turtle {
         face(self.drawing.part(part), &corners)
     }
 
-    /// Draws a ball with `radius` (m) around the turtle's place.
+    /// Draws a sphere with `radius` (m) around the turtle's position.
     pub fn sphere(&mut self, radius: f64) -> Result<()> {
         let sides = self.options.sides.max(6);
         sphere(self.drawing.part(self.state.part), self.state.frame.position, radius, sides)
     }
 
-    /// Places what another system has drawn at the turtle's frame, with this `scale` (1 unless given), which may be a vector
+    /// Places another system's model at the turtle's frame, with this `scale` (1 unless given), which may be a vector
     /// with a scale for each axis of the model.
     pub fn place(&mut self, model: Arc<Model>, scale: Option<AxisScale>) {
         let scale = DAffine3::from_scale(scale.unwrap_or_default().0);
         self.drawing.place(&model, self.state.frame.transform() * scale);
     }
 
-    /// Draws `faces` in the turtle's frame, each the numbers of its corners among `points` (m), such as { 1, 2, 3 }.
+    /// Draws `faces` in the turtle's frame, each a list of the numbers of its corners among `points` (m), such as { 1,
+    /// 2, 3 }.
     ///
-    /// Where there are many, buffers hold them: points of three 32-bit numbers, and triangles of three 32-bit whole numbers,
-    /// which count points from 0. `options` shade and colour them.
+    /// For many faces, pass buffers: points of three 32-bit floats, and triangles of three 32-bit integers, which
+    /// number the points from 0. `options` sets shading and colours.
     pub fn mesh(&mut self, points: MeshPoints, faces: MeshFaces, options: Option<MeshOptions>) -> Result<()> {
         let base = self.drawing.material_of(self.state.part);
         let to = ("turtle", &mut self.drawing, &base);
         draw_mesh(to, &self.state.frame, &points, &faces, &options.unwrap_or_default())
     }
 
-    /// Its place (m).
+    /// Returns the position (m).
     pub fn position(&self) -> DVec3 {
         self.drawing.origin() + self.state.frame.position
     }
 
-    /// The direction in which it looks.
+    /// Returns the heading.
     pub fn heading(&self) -> DVec3 {
         self.state.frame.heading
     }
 
-    /// The direction to its left.
+    /// Returns the direction to the left.
     pub fn left(&self) -> DVec3 {
         self.state.frame.left
     }
 
-    /// The direction above it.
+    /// Returns the upward direction of the turtle.
     pub fn up(&self) -> DVec3 {
         self.state.frame.up
     }
 
-    /// Distance (m) from a place to the nearest point of what it has drawn.
+    /// Returns the distance (m) from a position to the nearest point of the drawn model.
     pub fn distance(&self, place: Vector) -> f64 {
         self.drawing.distance(place.0 - self.drawing.origin())
     }
@@ -314,7 +316,7 @@ fn no_polygon(method: &str) -> Error {
 }
 
 impl Turtle {
-    /// A turtle at its beginning.
+    /// Creates a turtle in its initial state.
     pub fn new(options: TurtleOptions) -> Result<Self> {
         if !(3..=64).contains(&options.sides) {
             return Err(Error::argument(format!(
@@ -343,7 +345,7 @@ impl Turtle {
         })
     }
 
-    /// The sine and cosine of `angle` (degrees), or of the usual one.
+    /// Returns the sine and cosine of `angle` (degrees), or of the default angle.
     #[inline]
     fn angle(&mut self, angle: Option<f64>) -> (f64, f64) {
         self.angles.sin_cos(angle.unwrap_or(self.options.angle))
@@ -367,7 +369,7 @@ impl Turtle {
             self.state.frame.forward(length);
             let position = self.state.frame.position;
             if let Some(Branch { part, strand, maker }) = &mut self.state.strand {
-                // The faces that are added now are those of the piece before this one.
+                // These faces belong to the previous segment, which is drawn only now.
                 let radius = self.state.width / 2.0;
                 self.drawing.draw_for(*maker, *part, |part| strand.extend_to(part, position, radius))?;
                 *maker = self.drawing.maker();
@@ -425,14 +427,14 @@ impl Turtle {
     }
 
     fn open_branch(&mut self) {
-        // A copy of the strand is dropped here and does not go on.
+        // The new branch starts without a strand; the strand in the copy continues after the branch.
         self.stack.push(self.state.clone());
         self.state.strand = None;
     }
 
     fn close_branch(&mut self) -> Result<()> {
         self.lift();
-        // Taken by its fields: moving it out of the stack would copy it twice.
+        // Uses `clone_from` because moving the state out of the stack would copy it twice.
         if let Some(state) = self.stack.last() {
             self.state.clone_from(state);
             self.stack.truncate(self.stack.len() - 1);

@@ -1,4 +1,4 @@
-//! The universe: galaxies, their stars and the planets of these, made of a seed and a place, with nothing stored.
+//! The universe: galaxies, their stars and the planets of the stars, generated on demand from a seed and a position.
 
 use std::f64::consts::TAU;
 use std::sync::Arc;
@@ -10,15 +10,15 @@ use burgeon_base::random::Stream;
 use burgeon_kit::{Expectation, Parameter, Seed, Table, TableKey, Value, fields, methods, object};
 use burgeon_rewriting::ModuleKey;
 
-/// What `universe { ... }` takes.
+/// Fields of `universe { ... }`.
 #[fields("universe")]
 pub struct UniverseOptions {
-    /// What all of it comes from: a number or a string.
+    /// Seed of the whole universe: a number or a string.
     #[default(Seed(0))]
     pub seed: Seed,
 }
 
-/// Galaxies, their stars and the planets of these: nothing is stored, and who comes back finds all of it the same.
+/// Galaxies, stars and planets, generated on demand from the seed. The same position always gives the same result.
 #[object(
     "universe",
     options = UniverseOptions,
@@ -32,8 +32,8 @@ pub struct Universe {
 
 #[methods("universe")]
 impl Universe {
-    /// The galaxy in a cube of space, by its column, row and layer: a table with `position` and `radius` (light years),
-    /// `kind`, `color`, `seed`, and `stars`, how many it has.
+    /// Returns the galaxy in a cube of space, by its column, row and layer: a table with `position` and `radius` (light
+    /// years), `kind`, `color`, `seed`, and `stars`, the number of its stars.
     pub fn galaxy(&self, x: f64, y: f64, z: f64) -> Result<Value> {
         let cell = DVec3::new(x, y, z);
         let mut key = self.key;
@@ -49,8 +49,8 @@ impl Universe {
         Ok(sort.table(key, (cell + place) * CUBE, radius, ("stars", stars)))
     }
 
-    /// Star number `index` of a galaxy, from 1: a table with `position` (light years from the galaxy's middle),
-    /// `radius` (m), `kind`, `color`, `seed`, and `planets`, how many it has.
+    /// Returns star number `index` of a galaxy, from 1: a table with `position` (light years from the galaxy's centre),
+    /// `radius` (m), `kind`, `color`, `seed`, and `planets`, the number of its planets.
     pub fn star(&self, galaxy: Galaxy, index: f64) -> Result<Value> {
         let key = galaxy.0.key.child(galaxy.0.number("star", index)?);
         let mut stream = key.stream();
@@ -62,13 +62,14 @@ impl Universe {
         Ok(sort.table(key, position, radius, ("planets", planets)))
     }
 
-    /// Planet number `index` of a star, from 1, the nearest first: a table with `position` (m from the star), `radius`
-    /// (m), `kind`, `color`, `seed`, and `light`, of which the Earth gets 1. A planet takes its radius and seed.
+    /// Returns planet number `index` of a star, from 1, in order of distance: a table with `position` (m from the
+    /// star), `radius` (m), `kind`, `color`, `seed`, and `light`, relative to the light that the Earth receives. Pass
+    /// `radius` and `seed` to `planet`.
     pub fn planet(&self, star: Star, index: f64) -> Result<Value> {
         let number = star.0.number("planet", index)?;
         let key = star.0.key.child(number);
         let mut stream = key.stream();
-        // Each orbit is wider than the one before by about the same factor, and all are wider around bright stars.
+        // Each orbit is wider than the previous one by about the same factor, and all are wider around bright stars.
         let first = 0.25 * star.0.sort.light.powf(0.3);
         let orbit = first * 1.7f64.powf(index + 0.6 * stream.uniform());
         let (turn, tilt) = (stream.uniform() * TAU, (stream.uniform() - 0.5) * 0.08);
@@ -85,32 +86,32 @@ impl Universe {
         Ok(Self::new(&UniverseOptions::from_table(table)?))
     }
 
-    /// The universe of a seed.
+    /// Creates the universe of a seed.
     pub fn new(options: &UniverseOptions) -> Self {
         Self { key: ModuleKey::seed(options.seed.0) }
     }
 }
 
-/// The length (light years) of the sides of the cubes of space.
+/// Side length (light years) of the cubes of space.
 const CUBE: f64 = 3e6;
 
-/// The distance (m) of the Earth from the sun.
+/// Distance (m) between the Earth and the Sun.
 const EARTH_ORBIT: f64 = 1.496e11;
 
-/// A sort of galaxy, star or planet.
+/// A class of galaxies, stars or planets.
 #[derive(Debug, Clone)]
 struct BodyClass {
     name: &'static str,
-    /// How many there are, to others.
+    /// Relative frequency of the class.
     weight: f64,
-    /// The least and the greatest radius: of galaxies in light years, of others in metres.
+    /// Minimum and maximum radius: in light years for galaxies, in metres for stars and planets.
     radius: (f64, f64),
     color: [u8; 3],
-    /// Of stars, how much light they give, of which the sun gives 1.
+    /// Luminosity of a star, relative to the Sun.
     light: f64,
-    /// Of planets, with how much light there are any.
+    /// Range of received light in which a class of planets occurs, relative to the Earth.
     lit: (f64, f64),
-    /// Of galaxies, how high they are for their width, and how many arms they have.
+    /// Flatness of a galaxy (height over width), and its number of arms.
     shape: (f64, u32),
 }
 
@@ -159,7 +160,7 @@ const GALAXIES: &[BodyClass] = &[
     },
 ];
 
-/// By the classes of Morgan and Keenan, as often as near the sun.
+/// Star classes of Morgan and Keenan, as frequent as near the Sun.
 const STARS: &[BodyClass] = &[
     BodyClass { name: "M", weight: 76.5, radius: (9e7, 4.8e8), color: [255, 180, 107], light: 0.03, ..PLAIN },
     BodyClass {
@@ -221,7 +222,7 @@ const PLANETS: &[BodyClass] = &[
 ];
 
 impl BodyClass {
-    /// One of `sorts` that may be, in proportion to how many there are.
+    /// Chooses a class for which `may` is true at random, weighted by frequency.
     fn draw(sorts: &'static [Self], may: impl Fn(&Self) -> bool, stream: &mut Stream) -> &'static Self {
         let whole: f64 = sorts.iter().filter(|sort| may(sort)).map(|sort| sort.weight).sum();
         let mut left = stream.uniform() * whole;
@@ -241,7 +242,7 @@ impl BodyClass {
         least * (greatest / least).powf(stream.uniform())
     }
 
-    /// Where in a galaxy a star is, whose radius is 1.
+    /// Returns a random position of a star in a galaxy of radius 1.
     fn place(&self, stream: &mut Stream) -> DVec3 {
         let (flatness, arms) = self.shape;
         let out = stream.uniform().powf(if arms > 0 { 0.7 } else { 1.2 });
@@ -257,7 +258,7 @@ impl BodyClass {
         DVec3::new(turn.cos() * out, turn.sin() * out, up)
     }
 
-    /// What scripts know of one of it.
+    /// Returns the table that scripts receive for a body of this class.
     fn table(&self, key: ModuleKey, position: DVec3, radius: f64, more: (&str, f64)) -> Value {
         let [red, green, blue] = self.color;
         let mut entries = vec![
@@ -273,18 +274,18 @@ impl BodyClass {
     }
 }
 
-/// What a galaxy or a star tells of those in it.
+/// The data of a galaxy or a star from which its stars or planets are generated.
 #[derive(Debug)]
 struct Parentage {
     key: ModuleKey,
     sort: &'static BodyClass,
     radius: f64,
-    /// How many it has.
+    /// Number of its stars or planets.
     count: f64,
 }
 
 impl Parentage {
-    /// Reads the table of one of `sorts`, where `count` says how many it has.
+    /// Reads the table of a body whose class is one of `sorts`; the entry `count` holds the number of its children.
     fn read(value: &Value, sorts: &'static [BodyClass], count: &str) -> Option<Self> {
         let Value::Table(table) = value else { return None };
         let number = |name: &str| match table.get(name) {
@@ -297,7 +298,7 @@ impl Parentage {
         Some(Self { key: ModuleKey(seed.0), sort, radius: number("radius")?, count: number(count)? })
     }
 
-    /// A number of a `what` that it has. Fails if it has not so many.
+    /// Converts the number of a `what` of this body. Fails if it is not between 1 and the count.
     fn number(&self, what: &str, index: f64) -> Result<usize> {
         if !(1.0..=self.count).contains(&index) {
             return Err(Error::not_found(
@@ -312,7 +313,7 @@ impl Parentage {
     }
 }
 
-/// A number of a thing or a cube. Fails if it is not whole.
+/// Converts the number of a body or the coordinate of a cube. Fails if it is not an integer below 2^53.
 #[allow(
     clippy::cast_possible_truncation,
     clippy::cast_sign_loss,
@@ -326,7 +327,7 @@ fn whole(number: f64) -> Result<usize> {
         .help("galaxies, stars and planets are numbered"))
 }
 
-/// A galaxy, as [`Universe::galaxy`] gives it.
+/// A galaxy, as returned by [`Universe::galaxy`].
 #[derive(Debug)]
 pub struct Galaxy(Parentage);
 
@@ -345,7 +346,7 @@ impl Parameter for Galaxy {
     }
 }
 
-/// A star, as [`Universe::star`] gives it.
+/// A star, as returned by [`Universe::star`].
 #[derive(Debug)]
 pub struct Star(Parentage);
 

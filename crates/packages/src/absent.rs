@@ -1,4 +1,4 @@
-//! In the place of `unzip` in a program that is built without it.
+//! Stub of `unzip`, for builds without the feature `zip`.
 
 use std::path::Path;
 
@@ -6,7 +6,7 @@ use burgeon_base::error::{Error, Result};
 
 use super::install::PackageCopy;
 
-/// Says that zips cannot be read.
+/// Fails, because zip files are not supported.
 pub(crate) fn unpack(from: &Path, _: &mut PackageCopy) -> Result<()> {
     Err(Error::unavailable(format!(
         "{} is no folder, and this Burgeon is built without zips",

@@ -1,4 +1,4 @@
-//! Checks which packages can be used, and which can be used together.
+//! Checks which packages can be used, alone and together.
 
 use std::collections::{BTreeMap, BTreeSet, HashSet};
 
@@ -11,10 +11,10 @@ use super::find::{Package, PackageOrigin, Packages};
 use super::manifest::{Dependency, Manifest};
 use super::order::DependencyCircle;
 
-/// The most packages that are named as the cause of why another one cannot be used.
+/// Maximum number of packages that an error names as the cause of another one's problem.
 const MOST_CAUSES: usize = 20;
 
-/// Notes at each package why it cannot be used, and in `found` what people should know of them.
+/// Stores at each package the reason that it cannot be used, and in `found` the warnings about packages.
 pub(crate) fn check(found: &mut Packages, api: &Version, circles: Vec<DependencyCircle>) {
     let own: Vec<Vec<Error>> =
         found.order().iter().map(|package| problems(found, package, api, &circles)).collect();
@@ -46,19 +46,19 @@ pub(crate) fn check(found: &mut Packages, api: &Version, circles: Vec<Dependency
 }
 
 impl Packages {
-    /// The errors for packages called by the names in `used` that cannot be used together.
+    /// Returns an error for each conflict between the packages whose names `used` accepts.
     pub fn conflicts(&self, used: impl Fn(&str) -> bool) -> Vec<Error> {
         let together: Vec<&Package> =
             self.order().iter().filter(|package| used(&package.manifest.name)).collect();
         together.iter().flat_map(|package| conflicts(package, &together)).collect()
     }
 
-    /// The warnings for scripts that use the package `name`.
+    /// Returns the warnings for scripts that use the package `name`.
     pub fn notices(&self, name: &str) -> impl Iterator<Item = &Warning> {
         self.notices.iter().filter(move |(of, _)| of == name).map(|(_, warning)| warning)
     }
 
-    /// Fails if a package that says `manifest` needs others that are not among these, or not in the versions that it needs.
+    /// Fails if a package with `manifest` requires packages that are missing or have other versions.
     pub fn check_needs(&self, manifest: &Manifest) -> Result<()> {
         let missing: Vec<Error> =
             manifest.depends.iter().filter_map(|wanted| need(self, manifest, wanted)).collect();
@@ -66,9 +66,9 @@ impl Packages {
     }
 }
 
-/// The problems of each package, and of those that it needs.
+/// Combines the problems of each package with the problems of the packages that it requires.
 fn inherited(found: &Packages, own: &[Vec<Error>]) -> Vec<Vec<Error>> {
-    // Those that others need come first, but for those of circles, which have no order.
+    // Required packages come first in the order, except for packages in cycles, which have no order.
     let mut causes: Vec<BTreeSet<usize>> = Vec::with_capacity(own.len());
     for (place, package) in found.order().iter().enumerate() {
         let mut of: BTreeSet<usize> = (!own[place].is_empty()).then_some(place).into_iter().collect();
@@ -93,7 +93,7 @@ fn inherited(found: &Packages, own: &[Vec<Error>]) -> Vec<Vec<Error>> {
     of.collect()
 }
 
-/// The errors for those of `together` that `package` cannot be used with.
+/// Returns an error for each of `together` that conflicts with `package`.
 fn conflicts(package: &Package, together: &[&Package]) -> Vec<Error> {
     let with = |conflict: &Dependency| {
         let other = together.iter().find(|other| other.manifest.name == conflict.name)?;
@@ -108,7 +108,7 @@ fn conflicts(package: &Package, together: &[&Package]) -> Vec<Error> {
     package.manifest.conflicts.iter().filter_map(with).collect()
 }
 
-/// The problems of `package` itself.
+/// Returns the problems of `package` itself.
 fn problems(found: &Packages, package: &Package, api: &Version, circles: &[DependencyCircle]) -> Vec<Error> {
     let manifest = &package.manifest;
     let name = &manifest.name;
@@ -152,7 +152,7 @@ fn problems(found: &Packages, package: &Package, api: &Version, circles: &[Depen
                 .at(Some(manifest.place(line))),
         );
     }
-    // What it needs is used with it, so nothing of that may be in its way.
+    // Required packages are used together with the package, so none of them may conflict.
     let needed = found.with_dependencies(name);
     if needed.len() > 1 {
         problems.extend(needed.iter().flat_map(|package| conflicts(package, &needed)));
@@ -160,7 +160,7 @@ fn problems(found: &Packages, package: &Package, api: &Version, circles: &[Depen
     problems
 }
 
-/// The error for what a package that says `manifest` needs, if it is not there.
+/// Returns the error for the requirement `wanted` of a package with `manifest`, if it is not satisfied.
 fn need(found: &Packages, manifest: &Manifest, wanted: &Dependency) -> Option<Error> {
     let place = Some(manifest.place(wanted.line));
     let (name, versions) = (&manifest.name, &wanted.versions);
@@ -186,7 +186,7 @@ fn need(found: &Packages, manifest: &Manifest, wanted: &Dependency) -> Option<Er
     (!versions.matches(&other.manifest.version)).then(|| unmatched(found, manifest, wanted, other).at(place))
 }
 
-/// The error for a package of another version than `manifest` wants.
+/// Returns the error for a package whose version does not satisfy `manifest`.
 pub(crate) fn unmatched(
     found: &Packages,
     manifest: &Manifest,
@@ -212,8 +212,8 @@ fn undeclared(manifest: &Manifest, does: &str, other: &str, line: usize) -> Erro
         .at(Some(manifest.place(line)))
 }
 
-/// The warnings about packages that are there and yet not used, each with the package whose users are warned: one that is
-/// to replace something and cannot, and an optional one that does not fit.
+/// Returns the warnings about packages that exist but are not used: replacing packages with problems, and optional
+/// packages of another version. Each warning comes with the package whose users receive it.
 fn unfit(found: &Packages) -> Vec<(String, Warning)> {
     let mut warnings = Vec::new();
     for package in found.order() {
@@ -251,8 +251,8 @@ fn unfit(found: &Packages) -> Vec<(String, Warning)> {
     warnings
 }
 
-/// The warnings about what two packages replace, each with the package that it is of, unless the one that counts depends
-/// on the other: then it knows.
+/// Returns the warnings about files and defaults that two packages replace, each with the package that owns them. There
+/// is no warning if the effective package depends on the other one, because it then replaces on purpose.
 fn contested(found: &Packages) -> Vec<(String, Warning)> {
     let mut claims: BTreeMap<(String, String), Vec<(&Package, usize)>> = BTreeMap::new();
     for package in found.order().iter().filter(|package| package.replaces()) {

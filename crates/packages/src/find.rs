@@ -1,4 +1,4 @@
-//! Finds the packages in some folders.
+//! Finds the packages in a list of folders.
 
 use std::collections::{BTreeSet, HashMap};
 use std::path::{Path, PathBuf};
@@ -11,123 +11,123 @@ use super::manifest::{MANIFEST, Manifest};
 use super::switches::{SWITCHES, disabled_names};
 use super::{check, order};
 
-/// The folder beside a script that its packages are in.
+/// Name of the packages folder next to a script.
 pub(crate) const BESIDE: &str = "mods";
 
-/// The most entries that a folder of packages may have.
+/// Maximum number of entries in a packages folder.
 const MOST: usize = 10_000;
 
-/// Where packages may be. Who comes first, wins: of packages of one name, the one beside the script counts, then those in
-/// the folders that are given, then that of the user.
+/// Folders to search for packages. If several packages have the same name, the one next to the script takes precedence,
+/// then one in the specified folders, then the user's.
 #[derive(Debug, Clone, Default)]
 pub struct PackageSearch {
-    /// The folder that the script is in, as it was named, if there is a script.
+    /// Folder of the script, as named, if there is a script.
     pub script: Option<PathBuf>,
-    /// Folders that are given, each a package or a folder of packages.
+    /// Specified folders, each a package or a folder of packages.
     pub given: Vec<PathBuf>,
-    /// The user's own folder of packages, which need not be there.
+    /// User's packages folder, which need not exist.
     pub user: Option<PathBuf>,
 }
 
-/// Where a package was found.
+/// Origin of a package.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum PackageOrigin {
-    /// In `mods/` beside the script.
+    /// In `mods/` next to the script.
     Beside,
-    /// In a folder that was given.
+    /// In a specified folder.
     Given,
-    /// In the user's folder. Such a package is there for whoever names it, and replaces nothing by itself.
+    /// In the user's folder. Such a package is available by name, and replaces nothing unless it is required.
     User,
 }
 
-/// A package that was found.
+/// Package that was found.
 #[derive(Debug, Clone)]
 pub struct Package {
-    /// What it says of itself.
+    /// Content of its `mod.toml`.
     pub manifest: Manifest,
-    /// Its folder, without links.
+    /// Folder of the package, with links resolved.
     pub folder: PathBuf,
-    /// Its folder as people find it.
+    /// Folder of the package as displayed to users.
     pub shown: PathBuf,
-    /// Where it was found.
+    /// Origin of the package.
     pub origin: PackageOrigin,
-    /// Whether it is to replace files and defaults of others by itself: it was put beside the script or given, or one of
-    /// those depends on it.
+    /// Set if the package replaces files and defaults of others: its folder is next to the script or was specified, or
+    /// a package for which that is true depends on it.
     pub is_replacing: bool,
-    /// Errors that stop every script that uses it; empty if it can be used.
+    /// Errors that stop every script that uses the package; empty if it can be used.
     pub problems: Vec<Error>,
 }
 
-/// A package that is switched off in a file beside the script.
+/// Package that is disabled in a file next to the script.
 #[derive(Debug, Clone)]
 pub struct DisabledPackage {
-    /// Its name.
+    /// Name of the package.
     pub name: String,
-    /// Its version.
+    /// Version of the package.
     pub version: Version,
-    /// Its folder as people find it.
+    /// Folder of the package as displayed to users.
     pub shown: PathBuf,
 }
 
-/// A package that is not used, since another one of its name comes first.
+/// Package that is not used because another one with the same name takes precedence.
 #[derive(Debug, Clone)]
 pub struct HiddenPackage {
-    /// Its name.
+    /// Name of the package.
     pub name: String,
-    /// Its version.
+    /// Version of the package.
     pub version: Version,
-    /// Its folder as people find it.
+    /// Folder of the package as displayed to users.
     pub shown: PathBuf,
-    /// The folder of the one that counts.
+    /// Folder of the package that takes precedence.
     pub by: PathBuf,
 }
 
-/// A folder with a `mod.toml` that is wrong.
+/// Folder with an invalid `mod.toml`.
 #[derive(Debug, Clone)]
 pub struct BrokenPackage {
-    /// The folder.
+    /// Folder of the package.
     pub folder: PathBuf,
-    /// What is wrong.
+    /// Error in the file.
     pub error: Error,
 }
 
-/// The packages that there are, those that others depend on first, and otherwise by name.
+/// Available packages, in dependency order and otherwise by name.
 #[derive(Debug, Clone, Default)]
 pub struct Packages {
     packages: Vec<Package>,
-    /// The places of `packages` by name.
+    /// Indices into `packages` by name.
     places: HashMap<String, usize>,
-    /// The folders that were searched, and those that would be if they were there, without links.
+    /// Folders that were searched, and missing folders that would be searched if they existed, with links resolved.
     pub(crate) roots: Vec<PathBuf>,
-    /// The paths that decide which packages there are, and whether something is there.
+    /// Paths that determine the available packages, each with a flag that is set if the path exists.
     sought: Vec<(PathBuf, bool)>,
-    /// Packages of which others count.
+    /// Packages over which others take precedence.
     pub hidden: Vec<HiddenPackage>,
-    /// Packages that are switched off.
+    /// Disabled packages.
     pub disabled: Vec<DisabledPackage>,
-    /// The names that are switched off, sorted, and the file that says so as people find it.
+    /// Disabled names, sorted, and the path of the file that lists them, as displayed to users.
     pub(crate) off: (Vec<String>, PathBuf),
-    /// Packages that cannot be read. No script that does not use them is stopped.
+    /// Packages that cannot be read. They only stop scripts that use them.
     pub broken: Vec<BrokenPackage>,
-    /// Errors that stop every script: folders that were named and are not there.
+    /// Errors that stop every script: specified folders that do not exist.
     pub problems: Vec<Error>,
     /// Warnings about all packages, used or not.
     pub warnings: Vec<Warning>,
-    /// Warnings for scripts that use the package of the name.
+    /// Warnings for scripts that use the package with that name.
     pub(crate) notices: Vec<(String, Warning)>,
 }
 
 impl Package {
-    /// Whether its replacements count. A package that cannot be used replaces nothing.
+    /// Returns true if the package's replacements are effective. A package with problems replaces nothing.
     pub fn replaces(&self) -> bool {
         self.is_replacing && self.problems.is_empty()
     }
 }
 
 impl Packages {
-    /// The packages in the folders of `search`, for scripts of version `api` of the script API.
+    /// Finds the packages in the folders of `search`, for scripts with version `api` of the script API.
     ///
-    /// Only each `mod.toml` is read. Errors in a package are kept with it until a script uses it.
+    /// Only each `mod.toml` is read. Errors in a package are stored with it until a script uses it.
     pub fn find(search: &PackageSearch, api: &Version) -> Self {
         let mut found = Self::default();
         if let Some(script) = &search.script {
@@ -139,13 +139,13 @@ impl Packages {
                     Ok(names) => found.off = (names, script.join(BESIDE).join(SWITCHES)),
                     Err(error) => found.warn(error),
                 }
-                // Whoever puts a link there means what it leads to, such as a checkout.
+                // A link there refers to its target, such as a checkout.
                 match root.canonicalize() {
                     Ok(root) if root.is_dir() => {
                         found.search(&root, &script.join(BESIDE), PackageOrigin::Beside);
                     }
                     Ok(_) => {}
-                    // There may be one soon.
+                    // The folder may be created later.
                     Err(_) => found.roots.push(root),
                 }
             }
@@ -186,7 +186,7 @@ impl Packages {
         found
     }
 
-    /// All of them: each after those that it depends on, and else by name.
+    /// Returns all packages in dependency order and otherwise by name.
     pub fn order(&self) -> &[Package] {
         &self.packages
     }
@@ -195,34 +195,34 @@ impl Packages {
         &mut self.packages
     }
 
-    /// The package called `name`.
+    /// Returns the package called `name`.
     pub fn get(&self, name: &str) -> Option<&Package> {
         self.place_in_order(name).map(|place| &self.packages[place])
     }
 
-    /// Where the package called `name` stands in the order.
+    /// Returns the index of the package called `name` in the order.
     pub(crate) fn place_in_order(&self, name: &str) -> Option<usize> {
         self.places.get(name).copied()
     }
 
-    /// Whether the packages called `name` are switched off.
+    /// Returns true if packages called `name` are disabled.
     pub(crate) fn is_off(&self, name: &str) -> bool {
         self.off.0.binary_search_by(|known| known.as_str().cmp(name)).is_ok()
     }
 
-    /// Every path that decides which packages there are and what they say, and whether something is there: the folders
-    /// that were searched, each `mod.toml`, and the file that switches packages off.
+    /// Returns every path that determines the available packages and their properties: the folders that were searched,
+    /// each `mod.toml`, and the file that disables packages. The flag of each path is set if the path exists.
     pub fn sought(&self) -> Vec<(PathBuf, bool)> {
         let roots = self.roots.iter().map(|root| (root.clone(), root.is_dir()));
         self.sought.iter().cloned().chain(roots).collect()
     }
 
-    /// The package `name` and all that it needs, in order.
+    /// Returns the package `name` and all packages that it requires, in order.
     pub fn with_dependencies(&self, name: &str) -> Vec<&Package> {
         self.closure(name, false)
     }
 
-    /// The package `name` and all that comes before it, since it needs it or uses it if it is there, in order.
+    /// Returns the package `name` and all packages that precede it as required or as optional dependencies, in order.
     pub(crate) fn with_wanted(&self, name: &str) -> Vec<&Package> {
         self.closure(name, true)
     }
@@ -244,7 +244,7 @@ impl Packages {
         wanted.into_iter().map(|place| &self.packages[place]).collect()
     }
 
-    /// The package that cannot be read in a folder called `name`.
+    /// Returns the package that cannot be read in a folder called `name`.
     pub(crate) fn broken_called(&self, name: &str) -> Option<&BrokenPackage> {
         self.broken.iter().find(|broken| broken.folder.file_name().is_some_and(|it| it == name))
     }
@@ -255,7 +255,7 @@ impl Packages {
         self.warnings.push(warning.at(error.place().cloned()));
     }
 
-    /// Adds the packages in the folder `root`, which people find as `shown`.
+    /// Adds the packages in the folder `root`, which is displayed to users as `shown`.
     fn search(&mut self, root: &Path, shown: &Path, origin: PackageOrigin) {
         self.roots.push(root.to_path_buf());
         let names = match names(root) {
@@ -272,13 +272,13 @@ impl Packages {
         for name in names {
             let (folder, shown) = (root.join(&name), shown.join(&name));
             match folder.canonicalize() {
-                // A link leads to a package that is worked on elsewhere.
+                // The target of a link is a package under development elsewhere.
                 Ok(place) => {
                     let there = place.join(MANIFEST).symlink_metadata().is_ok();
                     if there {
                         self.add(place, shown, origin);
                     } else if place.is_dir() {
-                        // It may become one.
+                        // The folder may become a package.
                         self.sought.push((folder.join(MANIFEST), false));
                     }
                 }
@@ -288,13 +288,13 @@ impl Packages {
                     self.sought.push((folder.join(MANIFEST), false));
                     self.broken.push(BrokenPackage { folder, error });
                 }
-                // It is gone by now.
+                // The entry has been deleted in the meantime.
                 Err(_) => {}
             }
         }
     }
 
-    /// Adds the package in `folder`, unless there is one of that name already.
+    /// Adds the package in `folder`, unless a package with that name exists.
     fn add(&mut self, folder: PathBuf, shown: PathBuf, origin: PackageOrigin) {
         self.sought.push((folder.join(MANIFEST), true));
         let manifest = match Manifest::read(&folder, &shown) {
@@ -319,11 +319,11 @@ impl Packages {
             ))
             .help("remove one of them")
             .at(Some(manifest.begin()));
-            // Whoever uses it is told which one is not meant.
+            // Users of either package learn of the conflict.
             known.problems.push(error.clone());
             return self.broken.push(BrokenPackage { folder, error });
         }
-        // The user's folder is there for all scripts, and each may have versions of its own.
+        // The user's folder is shared by all scripts, and each script may have its own versions.
         if origin != PackageOrigin::User {
             let message = format!("{name} {version} in {} is not used, for there is {both}", shown.display());
             let warning = Warning::new(burgeon_base::WarningKind::HiddenPackage, message);
@@ -336,7 +336,7 @@ impl Packages {
     }
 }
 
-/// The names of what is in a folder, in their own order; what begins with a point is none of them.
+/// Returns the sorted names of the entries of a folder, without hidden ones that begin with a dot.
 fn names(root: &Path) -> Result<Vec<String>, std::io::Error> {
     let entries = std::fs::read_dir(root)?.take(MOST + 1);
     let mut names: Vec<String> =

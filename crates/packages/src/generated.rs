@@ -1,4 +1,4 @@
-//! Random sets of packages, held against a plain account of which of them can be used.
+//! Tests of random sets of packages against a simple model of the packages that can be used.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
@@ -7,10 +7,10 @@ use proptest::prelude::*;
 
 use super::*;
 
-/// How many names there are.
+/// Number of different names.
 const NAMES: usize = 8;
 
-/// A package as a test writes it.
+/// Package as a test writes it.
 #[derive(Debug, Clone)]
 struct PackageSketch {
     major: u64,
@@ -25,13 +25,13 @@ struct PackageSketch {
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum PackageCondition {
     Sound,
-    /// Its `mod.toml` is nonsense.
+    /// Package with an invalid `mod.toml`.
     Broken,
-    /// It is switched off.
+    /// Disabled package.
     Off,
-    /// Its folder is a link to one elsewhere.
+    /// Package whose folder is a link.
     Link,
-    /// There is none of that name.
+    /// Missing package.
     Missing,
 }
 
@@ -40,7 +40,7 @@ fn name(number: usize) -> String {
 }
 
 fn written() -> impl Strategy<Value = PackageSketch> {
-    // 0 stands for all versions.
+    // 0 represents all versions.
     let others = |most: usize| prop::collection::vec((0..NAMES, 0..3_u64), 0..most);
     let state = prop_oneof![
         8 => Just(PackageCondition::Sound), 1 => Just(PackageCondition::Broken), 1 => Just(PackageCondition::Off), 1 => Just(PackageCondition::Link), 1 => Just(PackageCondition::Missing),
@@ -118,7 +118,7 @@ fn find(folder: &Path) -> Packages {
     Packages::find(&search, &Version::new(1, 0, 0))
 }
 
-/// Whether the package `number` is there and can be read.
+/// Returns true if the package `number` exists and can be read.
 fn is_there(packages: &[PackageSketch], number: usize) -> bool {
     matches!(packages[number].state, PackageCondition::Sound | PackageCondition::Link)
 }
@@ -127,7 +127,7 @@ fn fits(packages: &[PackageSketch], (other, major): (usize, u64)) -> bool {
     is_there(packages, other) && (major == 0 || packages[other].major == major)
 }
 
-/// The package and all that it needs.
+/// Returns the package and all packages that it requires.
 fn closure(packages: &[PackageSketch], number: usize, with_optional: bool) -> BTreeSet<usize> {
     let (mut all, mut next) = (BTreeSet::from([number]), vec![number]);
     while let Some(at) = next.pop() {
@@ -141,7 +141,7 @@ fn closure(packages: &[PackageSketch], number: usize, with_optional: bool) -> BT
     all
 }
 
-/// Whether a package needs itself, over others or not.
+/// Returns true if a package requires itself, directly or indirectly.
 fn is_in_circle(packages: &[PackageSketch], number: usize) -> bool {
     let mut needs = packages[number].needs.iter();
     needs.any(|(other, _)| is_there(packages, *other) && closure(packages, *other, false).contains(&number))
@@ -152,7 +152,7 @@ fn can_be_used(packages: &[PackageSketch], number: usize) -> bool {
     let sound = |it: &usize| {
         let needs_fit = packages[*it].needs.iter().all(|need| fits(packages, *need));
         let own = closure(packages, *it, false);
-        // What a package needs is used with it; a package alone is in nobody's way.
+        // Required packages are used together with the package. A package without requirements cannot conflict.
         let clashes = |one: &usize| {
             packages[*one].conflicts.iter().any(|(other, major)| {
                 own.contains(other) && (*major == 0 || packages[*other].major == *major)
@@ -201,7 +201,7 @@ proptest! {
                 prop_assert!(leads_back || waits || place(*other).unwrap() < at, "p{} and p{}: {:?}\n{:?}", number, other, order, packages);
             }
         }
-        // Those that are needed are locked with what needs them.
+        // Required packages are locked together with the package that requires them.
         for number in (0..NAMES).filter(|number| can_be_used(&packages, *number)) {
             let needed: Vec<String> = found.with_dependencies(&name(number)).iter().map(|it| it.manifest.name.clone()).collect();
             let lock = found.lock(|name| needed.iter().any(|it| it == name)).unwrap();
@@ -215,14 +215,14 @@ proptest! {
         others in prop::collection::vec(written(), NAMES),
         seen in 0..NAMES,
     ) {
-        // All that the package does not need, not even if it is there, is another.
+        // All packages that the package does not depend on, not even optionally, are replaced by others.
         let own = closure(&packages, seen, true);
         let changed: Vec<PackageSketch> = (0..NAMES)
             .map(|number| if own.contains(&number) || !is_there(&packages, number) { packages[number].clone() } else { others[number].clone() })
             .collect();
         let (one, other) = (write(&packages), write(&changed));
         let (one, other) = (locate(&find(one.path()), seen), locate(&find(other.path()), seen));
-        // A needed one that was missing may be there now; nothing else matters.
+        // A required package that was missing may exist now; no other difference may change the result.
         let text = |result: &burgeon_base::Result<()>| result.as_ref().err().map(|error| error.problems().count());
         prop_assert_eq!(text(&one).is_some(), text(&other).is_some());
     }

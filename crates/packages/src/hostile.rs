@@ -1,4 +1,4 @@
-//! What is installed is sound, and what is not leaves nothing behind.
+//! Tests that installed packages are valid, and that rejected packages leave no files behind.
 
 use std::io::{Cursor, Read as _, Write as _};
 use std::path::Path;
@@ -10,7 +10,7 @@ use super::*;
 
 const MOD: &str = "name = \"castle\"\nversion = \"1.0.0\"\napi = \"1\"\n";
 
-/// A zip of these files.
+/// Returns a zip of these files.
 fn zipped(files: &[(&str, &str)]) -> Vec<u8> {
     let mut zip = ZipWriter::new(Cursor::new(Vec::new()));
     for (name, content) in files {
@@ -26,7 +26,7 @@ fn zipped(files: &[(&str, &str)]) -> Vec<u8> {
     zip.finish().unwrap().into_inner()
 }
 
-/// Every path below a folder.
+/// Returns every path below a folder.
 fn all(folder: &Path) -> Vec<String> {
     let mut paths = Vec::new();
     let mut folders = vec![folder.to_path_buf()];
@@ -43,7 +43,7 @@ fn all(folder: &Path) -> Vec<String> {
     paths
 }
 
-/// What is told of a zip that must not be installed, in whose place nothing is left.
+/// Returns the error for a zip that must not be installed, and checks that it leaves no files behind.
 fn refused(bytes: &[u8]) -> String {
     let folder = tempfile::tempdir().unwrap();
     let zip = folder.path().join("castle.zip");
@@ -67,7 +67,7 @@ fn a_zip_is_installed_whole_from_its_root_or_from_its_only_folder() {
         let made = install(&zip, &mods, false, |_| Ok(())).unwrap();
         assert_eq!((made.files, made.replaced.is_none(), made.folder), (2, true, mods.join("castle")));
         assert_eq!(all(&mods), ["castle", "castle/a", "castle/a/b.lua", "castle/mod.toml"]);
-        // It is not replaced unless that is asked for, and then the old one is told.
+        // The package is only replaced if requested, and the replaced version is reported.
         let said = install(&zip, &mods, false, |_| Ok(())).unwrap_err().to_string();
         assert!(said.contains("there is a package castle 1.0.0 in ") && said.contains("--replace"), "{said}");
         std::fs::write(mods.join("castle/old.lua"), "").unwrap();
@@ -133,7 +133,7 @@ fn a_hostile_zip_is_refused_and_leaves_nothing_behind() {
 
 #[test]
 fn a_name_that_a_zip_has_twice_is_refused() {
-    // The writer refuses it, so one name is changed into the other where it stands in the file.
+    // The zip writer rejects duplicate names, so rename one file in the bytes of the zip.
     let mut bytes = zipped(&[("mod.toml", MOD), ("one.lua", "1"), ("two.lua", "2")]);
     let places: Vec<usize> = (0..bytes.len() - 7).filter(|at| &bytes[*at..at + 7] == b"two.lua").collect();
     assert_eq!(places.len(), 2);
@@ -147,14 +147,14 @@ fn a_zip_of_too_many_files_or_bytes_is_refused() {
     let mut files: Vec<(&str, &str)> = names.iter().map(|name| (name.as_str(), "")).collect();
     files.push(("mod.toml", MOD));
     assert_eq!(refused(&zipped(&files)), "FOLDER/castle.zip has more than 10000 files and folders");
-    // Folders count, however few files are in them.
+    // Folders count too, regardless of the number of files in them.
     let folder = tempfile::tempdir().unwrap();
     let mut copy = install::PackageCopy::new(folder.path().join("new"), LARGEST, 20).unwrap();
     copy.add(Path::new("a.zip"), &format!("{}x", "a/".repeat(15)), &mut std::io::empty()).unwrap();
     let said =
         copy.add(Path::new("a.zip"), &format!("{}x", "b/".repeat(15)), &mut std::io::empty()).unwrap_err();
     assert_eq!(said.message(), "a.zip has more than 20 files and folders");
-    // What is in a header is not what counts.
+    // The size in a header is not trusted.
     let folder = tempfile::tempdir().unwrap();
     let mut copy = install::PackageCopy::new(folder.path().join("new"), 2_000_000, MOST).unwrap();
     let said = copy.add(Path::new("bomb.zip"), "a.png", &mut std::io::repeat(0).take(u64::MAX)).unwrap_err();
@@ -209,7 +209,7 @@ fn a_folder_with_links_or_devices_is_refused_and_a_sound_one_is_copied() {
     std::fs::remove_file(from.join("A")).unwrap();
     install(&from, &mods, false, |_| Ok(())).unwrap();
     assert_eq!(all(&mods), ["castle", "castle/a", "castle/a/b.lua", "castle/mod.toml"]);
-    // A folder into itself would not end.
+    // Copying a folder into itself must end.
     std::fs::rename(from.join("mod.toml"), from.join("a/mod.toml")).unwrap();
     let said = install(&from.join("a"), &from.join("a/mods"), false, |_| Ok(())).unwrap();
     assert_eq!(said.files, 2);

@@ -1,4 +1,4 @@
-//! Installs a package from a folder or a zip: the whole of it, or nothing.
+//! Installs a package from a folder or a zip, completely or not at all.
 
 use std::collections::BTreeMap;
 use std::fs::{self, File};
@@ -13,38 +13,39 @@ use super::find::Packages;
 use super::manifest::{MANIFEST, Manifest};
 use super::unzip;
 
-/// The most (bytes) that all files of a package may have.
+/// Maximum total size (bytes) of a package's files.
 pub const LARGEST: u64 = 1_000_000_000;
 
-/// The most files and folders that a package may have.
+/// Maximum number of files and folders in a package.
 pub const MOST: usize = 10_000;
 
-/// How deep folders of a package may be within one another.
+/// Maximum nesting depth of folders in a package.
 const DEEPEST: usize = 32;
 
-/// A package that was installed.
+/// Installed package.
 #[derive(Debug, Clone)]
 pub struct Installation {
-    /// What it says of itself.
+    /// Content of its `mod.toml`.
     pub manifest: Manifest,
-    /// Its folder.
+    /// Folder of the package.
     pub folder: PathBuf,
-    /// The version that was there before.
+    /// Version that was replaced, if any.
     pub replaced: Option<Version>,
-    /// How many files it has.
+    /// Number of files.
     pub files: usize,
-    /// How many bytes they have.
+    /// Total size (bytes) of the files.
     pub bytes: u64,
 }
 
-/// Copies the package in the folder or the zip `from` into a folder of its name in `into`.
+/// Copies the package in the folder or zip `from` to a folder with the package's name in `into`.
 ///
-/// Files whose names begin with a point are left out. Fails if it is no package, if there is one already and `replace`
-/// does not say to put this one in its place, and for what a package may not hold: links, devices, names that lead
-/// elsewhere or differ by nothing but capitals, more than [`MOST`] files or [`LARGEST`] bytes. Then all is as before.
+/// Files whose names begin with a dot are skipped. Fails if `from` is not a package, or if the package exists already
+/// and `replace` is not set. Also fails if the package contains links, devices, names that refer to other folders or
+/// differ only in capitalisation, more than [`MOST`] files or more than [`LARGEST`] bytes. On failure all files are as
+/// before.
 ///
-/// `check` sees what the package says of itself before anything is put into its place, and may refuse it. A folder that is
-/// no package of this name is never replaced, nor is a link or a checkout.
+/// `check` receives the manifest before the package is moved to its final folder, and may reject it. A folder that is
+/// not a package of this name is never replaced, nor is a link or a checkout.
 pub fn install(
     from: &Path,
     into: &Path,
@@ -58,7 +59,7 @@ pub fn install(
     })?;
     let was_there = into.exists();
     fs::create_dir_all(into).map_err(|error| unwritable(into, &error))?;
-    // Beside what it becomes, so that it takes one renaming, and with a point, so that nobody takes it for a package.
+    // In the target folder, so that one rename suffices, and hidden, so that it is not taken for a package.
     let built = tempfile::Builder::new().prefix(".burgeon-").tempdir_in(into);
     let installed = built.map_err(|error| unwritable(into, &error)).and_then(|built| {
         let mut copy = PackageCopy::new(built.path().join("new"), LARGEST, MOST)?;
@@ -70,22 +71,22 @@ pub fn install(
         copy.put(built.path(), into, from, replace, &check)
     });
     if installed.is_err() && !was_there {
-        // Only if nobody has put anything there.
+        // Removes the folder only if it is empty.
         let _ = fs::remove_dir(into);
     }
     installed
 }
 
-/// A package that is being copied into a folder from which it is put into its place.
+/// Package that is copied to a temporary folder, from which it is moved to its final folder.
 pub(crate) struct PackageCopy {
     folder: PathBuf,
-    /// The parts of paths by what they are without capitals: how they are written, and whether it is a folder.
+    /// Parts of paths by their case-folded form, each with its spelling and a flag that is set for folders.
     names: BTreeMap<String, (String, bool)>,
     files: usize,
     bytes: u64,
-    /// The most bytes that it may have.
+    /// Maximum total size (bytes).
     most_bytes: u64,
-    /// The most files and folders.
+    /// Maximum number of files and folders.
     most_files: usize,
 }
 
@@ -95,7 +96,7 @@ impl PackageCopy {
         Ok(Self { folder, names: BTreeMap::new(), files: 0, bytes: 0, most_bytes, most_files })
     }
 
-    /// Adds what `content` has as the file `name`, whose parts are apart by `/`. It is about the package `from`.
+    /// Adds the file `name`, with `/` as separator, from the data of `content`. Errors refer to the package `from`.
     pub(crate) fn add(&mut self, from: &Path, name: &str, content: &mut dyn Read) -> Result<()> {
         let normal = normal_form(name);
         let name = &*normal;
@@ -110,7 +111,7 @@ impl PackageCopy {
         }
         let mut file = File::create_new(&path).map_err(|error| unwritable(&path, &error))?;
         let left = self.most_bytes - self.bytes;
-        // What a header says of the size need not be true.
+        // The size in a header is not trusted.
         let copied =
             io::copy(&mut content.take(left + 1), &mut file).and_then(|copied| file.flush().map(|()| copied));
         let copied = copied.map_err(|error| {
@@ -128,13 +129,13 @@ impl PackageCopy {
         Ok(())
     }
 
-    /// Looks at the name of an empty folder, which is not made.
+    /// Checks the name of an empty folder, which is not created.
     #[cfg_attr(not(feature = "zip"), expect(dead_code, reason = "only zips name folders"))]
     pub(crate) fn check_folder(&self, from: &Path, name: &str) -> Result<()> {
         parts(from, name).map(drop)
     }
 
-    /// Takes notice of a file and of the folders that it is in. Fails if another name is in the way.
+    /// Registers a file and the folders that contain it. Fails if it conflicts with another name.
     fn note(&mut self, from: &Path, parts: &[&str]) -> Result<()> {
         let mut path = String::new();
         for (index, part) in parts.iter().enumerate() {
@@ -167,7 +168,7 @@ impl PackageCopy {
         Ok(())
     }
 
-    /// The folder that has the `mod.toml`: the whole, or the only folder in it.
+    /// Returns the folder that contains the `mod.toml`: the root, or the only folder in it.
     fn package(&self, from: &Path) -> Result<PathBuf> {
         if self.folder.join(MANIFEST).is_file() {
             return Ok(self.folder.clone());
@@ -181,7 +182,7 @@ impl PackageCopy {
         }
     }
 
-    /// Puts the package into its place in `into`.
+    /// Moves the package to its final folder in `into`.
     fn put(
         self,
         temporary: &Path,
@@ -229,7 +230,7 @@ impl PackageCopy {
         }
         if let Err(error) = fs::rename(&built, &folder) {
             if there {
-                // What cannot go back either is told by the first error.
+                // If restoring the old folder fails too, the first error is reported.
                 let _ = fs::rename(&old, &folder);
             }
             return Err(cannot(error));
@@ -239,8 +240,8 @@ impl PackageCopy {
     }
 }
 
-/// Fails if the folder, which is in the place of a package `name` and whose `mod.toml` says `before`, is not just that
-/// package: what is not known to come from a package is not deleted.
+/// Fails if the existing folder of the package `name`, whose `mod.toml` contains `before`, has other content than that
+/// package. Files of unknown origin are never deleted.
 fn refuse_to_replace(folder: &Path, name: &str, before: Option<&Result<Manifest>>) -> Result<()> {
     let shown = folder.display();
     let refuse = |what: &str| {
@@ -261,17 +262,18 @@ fn refuse_to_replace(folder: &Path, name: &str, before: Option<&Result<Manifest>
     }
 }
 
-/// What tells a folder in which people work on a package from a copy of one.
+/// Folders that mark a package under development, in contrast to an installed copy.
 const CHECKOUTS: [&str; 5] = [".git", ".hg", ".svn", ".jj", ".bzr"];
 
-/// The folder in `into` that holds a package `name`, whatever it is called.
+/// Returns the folder in `into` that contains a package `name`, regardless of the folder's name.
 fn elsewhere(into: &Path, name: &str) -> Option<PathBuf> {
     let search = super::PackageSearch { given: vec![into.to_path_buf()], ..super::PackageSearch::default() };
     let found = Packages::find(&search, &Version::new(0, 0, 0));
     Some(found.get(name)?.shown.clone())
 }
 
-/// The parts of the path `name` of a file of the package `from`. Fails if it could lead anywhere else.
+/// Splits the path `name` of a file of the package `from` into its parts. Fails if the path could refer to a location
+/// outside the package.
 fn parts<'a>(from: &Path, name: &'a str) -> Result<Vec<&'a str>> {
     let refuse = |why: &str| {
         let name = name.escape_debug();
@@ -301,7 +303,7 @@ fn parts<'a>(from: &Path, name: &'a str) -> Result<Vec<&'a str>> {
     Ok(parts)
 }
 
-/// Whether Windows takes a name for that of a device.
+/// Returns true if Windows interprets a name as a device.
 fn is_device(name: &str) -> bool {
     let stem = name.split('.').next().unwrap_or_default().to_ascii_lowercase();
     let numbered =
@@ -309,7 +311,7 @@ fn is_device(name: &str) -> bool {
     ["con", "prn", "aux", "nul"].contains(&&*stem) || numbered("com") || numbered("lpt")
 }
 
-/// Whether a file is of those that systems and other programs leave behind.
+/// Returns true for files that operating systems and other programs leave behind.
 fn is_left_out(parts: &[&str]) -> bool {
     parts.iter().any(|part| part.starts_with('.') || *part == "__MACOSX")
 }
@@ -356,7 +358,7 @@ fn copy_folder(from: &Path, copy: &mut PackageCopy) -> Result<()> {
     Ok(())
 }
 
-/// The error for what is neither a file nor a folder.
+/// Returns the error for an entry that is neither a file nor a folder.
 pub(crate) fn no_file(from: &Path, name: &str, is_link: bool) -> Error {
     let what = if is_link { "a link" } else { "a device or a pipe" };
     Error::data(format!("{} has {}, which is {what}", from.display(), name.escape_debug()))

@@ -3,26 +3,26 @@
 //! ```toml
 //! name = "castle"
 //! version = "1.2.0"
-//! api = "1.0"                  # the version of the script API that it needs
+//! api = "1.0"                  # required version of the script API
 //!
 //! [depends]
-//! masonry = "1.1"              # what must be there, and is loaded before it
+//! masonry = "1.1"              # required, and loaded before this package
 //! [optional]
-//! banners = "1"                # what it uses where it is there
+//! banners = "1"                # used if available
 //! [conflicts]
-//! ruins = "*"                  # what it cannot be used with
+//! ruins = "*"                  # cannot be used together with this package
 //! [replaces]
 //! "@masonry/stone.png" = "grey.png"
 //! [params.masonry]
 //! course = 0.4                 # another default of a parameter
 //! ```
 //!
-//! Comes in: folders in which packages may be ([`PackageSearch`]), and names of their files, such as `@castle/towers.lua`. Goes
-//! out: [`Packages`] in an order that depends on nothing but what they say of each other, the file that a name means
-//! ([`Packages::locate`]), and an installed folder ([`install()`]). It never runs a script, and it never leads to a file
-//! outside the folder of a package.
+//! Input: folders to search for packages ([`PackageSearch`]), and names of their files, such as `@castle/towers.lua`.
+//! Output: [`Packages`] in an order that depends only on their dependencies and names, the file that a name refers to
+//! ([`Packages::locate`]), and an installed folder ([`install()`]). The crate never runs a script, and never resolves a
+//! name to a file outside the folder of a package.
 //!
-//! A package that is broken, or that cannot be used with another one, stops nobody who does not use it.
+//! A package that is invalid, or conflicts with another one, only affects scripts that use it.
 
 mod check;
 mod find;

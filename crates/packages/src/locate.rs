@@ -1,4 +1,4 @@
-//! Which file a name such as `@castle/towers.lua` means.
+//! Resolves names of files such as `@castle/towers.lua`.
 
 use std::fmt;
 use std::path::{Path, PathBuf};
@@ -11,12 +11,12 @@ use super::find::{Package, Packages};
 use super::install::MOST;
 use super::manifest::{MANIFEST, Replacement, is_name};
 
-/// The name of a package's file.
+/// Name of a package's file.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
 pub struct FileName {
-    /// The package.
+    /// Name of the package.
     pub package: String,
-    /// The file from the package's folder, with `/` between its parts; empty for the package itself.
+    /// Path of the file relative to the package's folder, separated by `/`; empty for the package itself.
     pub path: String,
 }
 
@@ -28,12 +28,12 @@ impl fmt::Display for FileName {
 }
 
 impl FileName {
-    /// Whether a name that a script gives is meant to be that of a package's file.
+    /// Returns true if a name in a script refers to a package's file.
     pub fn is_meant(name: &str) -> bool {
         name.starts_with('@')
     }
 
-    /// Reads `@castle/towers.lua`. Fails for what leads out of the package, and for a name that no package can have.
+    /// Parses `@castle/towers.lua`. Fails if the path leaves the package, and for an invalid package name.
     pub fn parse(name: &str) -> Result<Self> {
         let inner = name.strip_prefix('@').unwrap_or(name);
         let (package, path) = inner.split_once('/').unwrap_or((inner, ""));
@@ -57,8 +57,8 @@ impl FileName {
         Ok(Self { package: package.to_owned(), path: normal_form(&parts.join("/")).into_owned() })
     }
 
-    /// Reads `@castle/towers`, without an ending, as the name of a script: `towers.lua` of that package, `init.lua` where
-    /// it is the package's own name.
+    /// Parses `@castle/towers`, without an extension, as the name of a script: `towers.lua` of that package, or
+    /// `init.lua` if the name is only the package.
     pub fn script(name: &str) -> Result<Self> {
         let Self { package, path } = Self::parse(name)?;
         let path = if path.is_empty() { "init.lua".to_owned() } else { format!("{path}.lua") };
@@ -66,26 +66,26 @@ impl FileName {
     }
 }
 
-/// The file that a name means.
+/// File that a name refers to.
 #[derive(Debug, Clone)]
 pub struct PackageFile<'a> {
-    /// Its own name: that of the file that counts, where others replace the one that was asked for.
+    /// Name of the effective file, which may replace the requested one.
     pub name: FileName,
-    /// Where it is, without links.
+    /// Path of the file, with links resolved.
     pub path: PathBuf,
-    /// How people find it.
+    /// Path as displayed to users.
     pub shown: PathBuf,
-    /// The package that it is of.
+    /// Package that contains the file.
     pub package: &'a Package,
 }
 
 impl Packages {
-    /// The file that `name` means, which is to be a `what`, where a file of the package `asker` asks for it; the script's
-    /// own files may ask for all.
+    /// Resolves `name` to a file of type `what`, requested by a file of the package `asker`. Without an `asker`, a file
+    /// of the script requests it, which may use all packages.
     ///
-    /// A file in whose place another package has its own means that one: that of the last package in order. A package
-    /// that replaces a file still finds, by its name, the one that it replaces. `seek` is told of each path that decides
-    /// the answer, and whether a file is there.
+    /// If other packages replace the file, the replacement of the last package in order is returned. A package that
+    /// replaces a file can still refer by name to the file that it replaces. `seek` is called for each path that
+    /// affects the result, with a flag that is set if the file exists.
     pub fn locate(
         &self,
         what: &'static str,
@@ -122,7 +122,7 @@ impl Packages {
         }
     }
 
-    /// The package `name`, for `asker`.
+    /// Returns the package `name`, if `asker` may use it.
     fn used(
         &self,
         name: &str,
@@ -165,7 +165,7 @@ impl Packages {
         ))
     }
 
-    /// The package that replaces a file of another for `asker`, and how.
+    /// Returns the package that replaces a file of another package for `asker`, and the replacement.
     fn replacing(
         &self,
         of: &Package,
@@ -181,7 +181,7 @@ impl Packages {
         found.next().map(|(_, package, replacement)| (package, replacement))
     }
 
-    /// The packages that replace a file of `of`, in order, each with its place in the order.
+    /// Returns the packages that replace a file of `of`, in order, each with its index in the order.
     pub(crate) fn replacements<'a>(
         &'a self,
         of: &Package,
@@ -198,13 +198,13 @@ impl Packages {
         })
     }
 
-    /// The name of the package whose file counts in the place of `target`, if any replaces it.
+    /// Returns the name of the package whose file effectively replaces `target`, if any.
     pub fn replacer(&self, target: &FileName) -> Option<&str> {
         let of = self.get(&target.package)?;
         self.replacements(of, &target.path).next_back().map(|(_, package, _)| package.manifest.name.as_str())
     }
 
-    /// The files of `package` that others replace, each with the package whose file counts.
+    /// Returns the files of `package` that others replace, each with the package of the effective replacement.
     pub fn replaced(&self, package: &Package) -> Vec<(FileName, &str)> {
         let replacing = self.order().iter().filter(|other| other.replaces());
         let targets = replacing.flat_map(|other| other.manifest.replaces.iter().map(|one| &one.target));
@@ -215,12 +215,13 @@ impl Packages {
         files.into_iter().filter_map(|file| Some((file.clone(), self.replacer(&file)?))).collect()
     }
 
-    /// The package whose file people find as `shown`.
+    /// Returns the package of the file with the displayed path `shown`.
     pub fn owner(&self, shown: &Path) -> Option<&Package> {
         self.order().iter().find(|package| shown.starts_with(&package.shown))
     }
 
-    /// The names behind which packages have a file called `name`, which a script has named without a package.
+    /// Returns the qualified names of files called `name` in all packages, for a script that used the name without a
+    /// package.
     pub fn having(&self, name: &str) -> Vec<String> {
         let sound = FileName::parse(&format!("@own/{name}")).is_ok_and(|sound| !sound.path.is_empty());
         let having = self.order().iter().filter(|package| sound && package.folder.join(name).is_file());
@@ -229,13 +230,13 @@ impl Packages {
 }
 
 impl Package {
-    /// The error for what it uses of a package that it does not depend on.
+    /// Returns the error for the use of a package that is not declared as a dependency.
     pub fn not_declared(&self, other: &str) -> Error {
         let message = format!("the package {} does not depend on {other}", self.manifest.name);
         Error::scope(message).help(format!("write into its mod.toml, below [depends]: {other} = \"*\""))
     }
 
-    /// Its Lua files from its folder, sorted.
+    /// Returns the paths of its Lua files relative to its folder, sorted.
     pub fn scripts(&self) -> Vec<String> {
         let mut scripts = Vec::new();
         let mut folders = vec![String::new()];
@@ -244,7 +245,7 @@ impl Package {
             for entry in entries.take(MOST) {
                 let Ok(name) = entry.file_name().into_string() else { continue };
                 let path = if inner.is_empty() { name.clone() } else { format!("{inner}/{name}") };
-                // What a link leads to is looked at where it is.
+                // Targets of links are listed at their own location.
                 let Ok(kind) = entry.file_type() else { continue };
                 if kind.is_dir() && !name.starts_with('.') && folders.len() < MOST {
                     folders.push(path);
@@ -259,13 +260,13 @@ impl Package {
 }
 
 impl Packages {
-    /// What `package` replaces with a file that it has not, or of a package that has no such file.
+    /// Returns an error for each replacement in `package` whose own file or target does not exist.
     pub fn check_files(&self, package: &Package) -> Vec<Error> {
         let mut problems = Vec::new();
         for one in &package.manifest.replaces {
             let own = FileName { package: package.manifest.name.clone(), path: one.file.clone() };
             for name in [&one.target, &own] {
-                // As it is without what others replace.
+                // Without the replacements of other packages.
                 let Some(owner) = self.get(&name.package) else { continue };
                 if !owner.folder.join(&name.path).is_file() {
                     let error = missing("file", name, owner, &name.path, None);
@@ -277,7 +278,7 @@ impl Packages {
     }
 }
 
-/// The path of the file `path` in `folder` as it is written there: its name may not be in normal form.
+/// Returns the path of the file `path` in `folder` as spelled on disk, which may differ in Unicode normalisation.
 fn spelling(folder: &Path, path: &str) -> PathBuf {
     let plain = folder.join(path);
     if path.is_ascii() || plain.symlink_metadata().is_ok() {
@@ -303,7 +304,7 @@ fn spelling(folder: &Path, path: &str) -> PathBuf {
     found
 }
 
-/// The error for a file that is not there; `by` is why it is looked for there.
+/// Returns the error for a missing file; `by` is the replacement that refers to it.
 fn missing(
     what: &'static str,
     name: &FileName,

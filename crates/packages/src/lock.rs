@@ -1,4 +1,4 @@
-//! The lock of a run: which packages it used, in which versions, and what was in them.
+//! Lock of a run: the packages that it used, with their versions and the hashes of their files.
 
 use std::fs::File;
 use std::io::Read as _;
@@ -10,21 +10,21 @@ use semver::Version;
 use super::find::{Package, Packages};
 use super::install::{LARGEST, MOST};
 
-/// A package as it was when a run used it.
+/// Package as it was when a run used it.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct LockedPackage {
-    /// Its name.
+    /// Name of the package.
     pub name: String,
-    /// Its version.
+    /// Version of the package.
     pub version: Version,
-    /// The hash of its files: `blake3:` and 64 hexadecimal digits.
+    /// Hash of its files: `blake3:` and 64 hexadecimal digits.
     pub hash: String,
 }
 
 impl Packages {
-    /// Those of the packages called by the names in `used`, in order.
+    /// Locks the packages whose names `used` accepts, in order.
     ///
-    /// Fails if a file cannot be read, and for more than [`MOST`] files or [`LARGEST`] bytes in one.
+    /// Fails if a file cannot be read, or if a package has more than [`MOST`] files or [`LARGEST`] bytes.
     pub fn lock(&self, used: impl Fn(&str) -> bool) -> Result<Vec<LockedPackage>> {
         let used = self.order().iter().filter(|package| used(&package.manifest.name));
         used.map(Package::lock).collect()
@@ -32,11 +32,11 @@ impl Packages {
 }
 
 impl Package {
-    /// What it is at present.
+    /// Locks the package in its current state.
     ///
-    /// The hash is that of all files but those whose names begin with a point, in the order of their names: of each the
-    /// name from the package's folder and the content, each after its length. It does not depend on where the package is,
-    /// nor on times.
+    /// The hash covers all files in the order of their names, except files whose names begin with a dot. For each file
+    /// it includes the name relative to the package's folder and the content, each after its length. It does not depend
+    /// on the location of the package or on times.
     fn lock(&self) -> Result<LockedPackage> {
         let mut files = Vec::new();
         list(&self.folder, String::new(), 0, &mut files);
@@ -69,12 +69,12 @@ impl Package {
     }
 }
 
-/// Adds the first `length` bytes of a file; what is written to it meanwhile is cut off.
+/// Adds the first `length` bytes of a file; data that is appended in the meantime is ignored.
 fn add(hasher: &mut blake3::Hasher, file: File, length: u64) -> std::io::Result<()> {
     hasher.update_reader(file.take(length)).map(drop)
 }
 
-/// Adds the files in `inner` of the folder to `files`, but no more than are needed to see that there are too many.
+/// Adds the files in `inner` of the folder to `files`, stopping once there are too many.
 fn list(folder: &Path, inner: String, depth: usize, files: &mut Vec<String>) {
     let entries = std::fs::read_dir(folder.join(&inner)).into_iter().flatten().flatten();
     for entry in entries.take(MOST + 1) {

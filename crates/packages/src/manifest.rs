@@ -1,4 +1,4 @@
-//! `mod.toml`: what a package says of itself.
+//! `mod.toml`: the manifest of a package.
 
 use std::path::Path;
 
@@ -9,16 +9,16 @@ use toml::de::{DeTable, DeValue};
 
 use super::locate::FileName;
 
-/// What the file is called.
+/// File name of the manifest.
 pub const MANIFEST: &str = "mod.toml";
 
-/// The most (bytes) that a `mod.toml` may have.
+/// Maximum size (bytes) of a `mod.toml`.
 const LARGEST: u64 = 65_536;
 
-/// The most letters that a package's name may have.
+/// Maximum number of characters of a package's name.
 const LONGEST: usize = 40;
 
-/// What may stand in a `mod.toml`.
+/// Allowed keys in a `mod.toml`.
 const KEYS: [&str; 11] = [
     "name",
     "version",
@@ -33,73 +33,74 @@ const KEYS: [&str; 11] = [
     "params",
 ];
 
-/// What a package says of itself.
+/// Manifest of a package.
 #[derive(Debug, Clone)]
 pub struct Manifest {
-    /// Its name, as scripts write it behind an `@`.
+    /// Name of the package, which scripts write after an `@`.
     pub name: String,
-    /// Its version.
+    /// Version of the package.
     pub version: Version,
-    /// The versions of the script API that it can be used with.
+    /// Versions of the script API that the package supports.
     pub api: VersionReq,
-    /// What it is, for people; may be empty.
+    /// Human-readable description; may be empty.
     pub doc: String,
-    /// Who made it.
+    /// Authors of the package.
     pub authors: Vec<String>,
-    /// What others may do with it; may be empty.
+    /// Licence of the package; may be empty.
     pub licence: String,
-    /// What must be there.
+    /// Required packages.
     pub depends: Vec<Dependency>,
-    /// What it uses where it is there.
+    /// Packages that are used if available.
     pub optional: Vec<Dependency>,
-    /// What it cannot be used with.
+    /// Packages that cannot be used together with this one.
     pub conflicts: Vec<Dependency>,
-    /// The files of other packages in whose place it has its own.
+    /// Files of other packages that this package replaces.
     pub replaces: Vec<Replacement>,
-    /// Other defaults for parameters of packages.
+    /// New defaults for parameters of packages.
     pub params: Vec<ParamDefault>,
-    /// Where the version of the script API stands.
+    /// Line of the version of the script API.
     pub(crate) api_line: usize,
-    /// The file, as people find it.
+    /// Path of the file, as displayed to users.
     pub(crate) file: String,
 }
 
-/// Versions of another package.
+/// Version requirement for another package.
 #[derive(Debug, Clone)]
 pub struct Dependency {
-    /// The other package.
+    /// Name of the other package.
     pub name: String,
-    /// Its versions that are meant.
+    /// Required versions.
     pub versions: VersionReq,
-    /// Where it stands in the file.
+    /// Line in the file.
     pub(crate) line: usize,
 }
 
-/// A file in the place of one of another package.
+/// Replacement of a file of another package.
 #[derive(Debug, Clone)]
 pub struct Replacement {
-    /// The file that is replaced.
+    /// Replaced file.
     pub target: FileName,
-    /// The file of its own, from its folder.
+    /// Path of the package's own file, relative to its folder.
     pub file: String,
-    /// Where it stands in the file.
+    /// Line in the file.
     pub(crate) line: usize,
 }
 
-/// Another default of a parameter.
+/// New default of a parameter.
 #[derive(Debug, Clone)]
 pub struct ParamDefault {
-    /// The package whose files declare the parameter.
+    /// Package whose files declare the parameter.
     pub package: String,
-    /// The parameter.
+    /// Name of the parameter.
     pub name: String,
-    /// The default as text, as a command line would give it.
+    /// Default as text, in the format of the command line.
     pub value: String,
-    /// Where it stands in the file.
+    /// Line in the file.
     pub(crate) line: usize,
 }
 
-/// Whether `name` can be a package's: it begins with a small letter, and has small letters, digits, `_` and `-`.
+/// Returns true if `name` is a valid package name: a lower-case letter, followed by lower-case letters, digits, `_` and
+/// `-`.
 pub fn is_name(name: &str) -> bool {
     let mut letters = name.chars();
     letters.next().is_some_and(|first| first.is_ascii_lowercase())
@@ -109,9 +110,9 @@ pub fn is_name(name: &str) -> bool {
 }
 
 impl Manifest {
-    /// Reads the `mod.toml` in `folder`; people find the folder as `shown`.
+    /// Reads the `mod.toml` in `folder`, which is displayed to users as `shown`.
     ///
-    /// Fails, with the line, for a file that is not of this form, and for one that a link leads out of the folder to.
+    /// Fails with the line if the file is invalid. Also fails if a link leads to a file outside the folder.
     pub fn read(folder: &Path, shown: &Path) -> Result<Self> {
         let (path, shown) = (folder.join(MANIFEST), shown.join(MANIFEST));
         let name = shown.display().to_string();
@@ -130,7 +131,7 @@ impl Manifest {
         Self::parse(text.strip_prefix('\u{feff}').unwrap_or(&text), &name)
     }
 
-    /// Reads `text`, the content of the file that people find as `file`.
+    /// Parses `text`, the content of the file with the displayed path `file`.
     pub fn parse(text: &str, file: &str) -> Result<Self> {
         let file = ManifestFile { text, name: file };
         let table = DeTable::parse(text).map_err(|error| {
@@ -179,41 +180,41 @@ impl Manifest {
         })
     }
 
-    /// A line of the file.
+    /// Returns the location of a line of the file.
     pub(crate) fn place(&self, line: usize) -> SourcePlace {
         SourcePlace { file: self.file.clone(), line }
     }
 
-    /// Where it begins.
+    /// Returns the location of the beginning of the file.
     pub fn begin(&self) -> SourcePlace {
         self.place(1)
     }
 
-    /// What it must or may have before it.
+    /// Returns the required and the optional dependencies.
     pub fn wanted(&self) -> impl Iterator<Item = &Dependency> {
         self.depends.iter().chain(&self.optional)
     }
 
-    /// Whether it may use the files of the package `name`.
+    /// Returns true if the package may use the files of the package `name`.
     pub fn may_use(&self, name: &str) -> bool {
         self.name == name || self.wanted().any(|wanted| wanted.name == name)
     }
 }
 
 impl ParamDefault {
-    /// Where it stands in the `mod.toml` of `package`.
+    /// Returns its location in the `mod.toml` of `package`.
     pub fn place(&self, package: &Manifest) -> SourcePlace {
         package.place(self.line)
     }
 }
 
-/// A `mod.toml` that is being read.
+/// State of a `mod.toml` during parsing.
 struct ManifestFile<'a> {
     text: &'a str,
     name: &'a str,
 }
 
-/// A text, and where it begins.
+/// String with its offset in the file (bytes).
 type PlacedText = (String, usize);
 
 impl ManifestFile<'_> {
@@ -231,7 +232,7 @@ impl ManifestFile<'_> {
             .at(Some(self.place(0)))
     }
 
-    /// The error for a `field` whose value should be `what`.
+    /// Returns the error for a `field` whose value should be `what`.
     fn refuse(&self, field: &str, what: &str, value: &Spanned<DeValue<'_>>) -> Error {
         Error::data(format!("{field} must be {what}, not {}", kind(value.get_ref())))
             .at(Some(self.place(value.span().start)))
@@ -256,7 +257,7 @@ impl ManifestFile<'_> {
             .ok_or_else(|| self.refuse("authors", "a list of texts", value).help("write authors = [\"Ada\"]"))
     }
 
-    /// The table `field`, whose members are given as key, where the key begins, and value.
+    /// Returns the members of the table `field`: the key, the offset of the key (bytes) and the value.
     fn members<'t, 'i>(
         &self,
         table: &'t DeTable<'i>,
@@ -268,7 +269,7 @@ impl ManifestFile<'_> {
             let short = field.rsplit('.').next().unwrap_or(field);
             self.refuse(short, "a table", value).help(format!("write {example}"))
         })?;
-        // In the order of the file, which is what people see.
+        // Sort by the order in the file, which users see.
         let mut members: Vec<_> =
             members.iter().map(|(key, value)| (&**key.get_ref(), key.span().start, value)).collect();
         members.sort_by_key(|(_, at, _)| *at);
@@ -322,7 +323,7 @@ impl ManifestFile<'_> {
                         .refuse(&format!("replaces: {target}"), "a file of the package", value)
                         .help(format!("write {example}")));
                 };
-                // A path that is sound is so behind any name.
+                // The validity of a path does not depend on the package's name.
                 FileName::parse(&format!("@own/{file}")).map_err(|_| {
                     Error::file(file, format!("replaces: {file:?} is no file of the package"))
                         .help("name it from the package's folder: \"textures/stone.png\"")
@@ -365,7 +366,7 @@ impl ManifestFile<'_> {
     }
 }
 
-/// What a value is, for people.
+/// Returns the human-readable type of a value.
 fn kind(value: &DeValue<'_>) -> &'static str {
     match value {
         DeValue::String(_) => "a text",

@@ -1,16 +1,17 @@
-//! The order of packages: each after those that it depends on, and otherwise by name.
+//! Dependency order of packages: each after its dependencies, and otherwise by name.
 
 use std::collections::{BTreeMap, BTreeSet, VecDeque};
 
 use super::find::Package;
 
-/// Packages that depend on each other in a circle, from one of them back to it.
+/// Cycle of packages that depend on each other, from one of them back to itself.
 pub(crate) type DependencyCircle = Vec<String>;
 
-/// Sorts `packages`, each after those that it depends on and those optional ones that are there.
+/// Sorts `packages`, each after its required dependencies and its available optional ones.
 ///
-/// Optional dependencies among packages that lead back to each other do not count: they may name one another. Packages of
-/// circles of dependencies that are needed come last, by name, as do those that need them.
+/// Optional dependencies within a group of packages that depend on each other are ignored, so such packages may name
+/// one another. Packages in cycles of required dependencies come last, by name, and so do the packages that require
+/// them.
 pub(crate) fn sort(mut packages: Vec<Package>) -> (Vec<Package>, Vec<DependencyCircle>) {
     packages.sort_by(|a, b| a.manifest.name.cmp(&b.manifest.name));
     let graph = DependencyGraph::new(&packages);
@@ -21,11 +22,11 @@ pub(crate) fn sort(mut packages: Vec<Package>) -> (Vec<Package>, Vec<DependencyC
     (sorted, circles)
 }
 
-/// The packages, by their places in the order of their names, and those that each depends on.
+/// Dependency graph of packages, indexed by the order of their names.
 struct DependencyGraph {
-    /// Dependencies that are needed.
+    /// Required dependencies.
     needed: Vec<Vec<usize>>,
-    /// Those and the optional ones.
+    /// Required and optional dependencies.
     wanted: Vec<Vec<usize>>,
 }
 
@@ -45,9 +46,9 @@ impl DependencyGraph {
         Self { wanted: wanted.collect(), needed }
     }
 
-    /// The places in order, and those that wait for themselves or for such, by name.
+    /// Returns the sorted indices, and the indices of packages in cycles or with dependencies in cycles, by name.
     fn order(&self) -> (Vec<usize>, Vec<usize>) {
-        // Nobody waits for an optional one that has no order itself.
+        // An optional dependency that has no order itself is ignored.
         let needed = self.needed.iter().map(|needed| needed.iter().copied().collect());
         let (_, lost) = sorted(&needed.collect::<Vec<_>>());
         let lost: BTreeSet<usize> = lost.into_iter().collect();
@@ -60,7 +61,7 @@ impl DependencyGraph {
         sorted(&before.collect::<Vec<_>>())
     }
 
-    /// The shortest circle of each group of `waiting` packages that need each other.
+    /// Returns the shortest cycle of each group of `waiting` packages that require each other.
     fn circles(&self, waiting: &[usize], packages: &[Package]) -> Vec<DependencyCircle> {
         let group = groups(&self.needed);
         let mut known = BTreeSet::new();
@@ -78,7 +79,7 @@ impl DependencyGraph {
         circles
     }
 
-    /// The shortest way from `start` back to it.
+    /// Returns the shortest path from `start` back to `start`.
     fn circle(&self, start: usize) -> Option<Vec<usize>> {
         let mut from: BTreeMap<usize, usize> = BTreeMap::new();
         let mut next = VecDeque::from([start]);
@@ -92,7 +93,7 @@ impl DependencyGraph {
                         way.push(at);
                     }
                     way.reverse();
-                    // A package that needs itself has been written twice at once.
+                    // A package that requires itself occurs twice in succession.
                     way.dedup();
                     if way.len() == 1 {
                         way.push(start);
@@ -109,7 +110,8 @@ impl DependencyGraph {
     }
 }
 
-/// The places, each after those `before` it and otherwise by number, and those that wait for themselves or for such.
+/// Sorts the indices topologically, each after those `before` it and otherwise by number. Also returns the indices in
+/// cycles and those that depend on them.
 fn sorted(before: &[BTreeSet<usize>]) -> (Vec<usize>, Vec<usize>) {
     let mut waits: Vec<usize> = before.iter().map(BTreeSet::len).collect();
     let mut followers: Vec<Vec<usize>> = vec![Vec::new(); before.len()];
@@ -130,7 +132,7 @@ fn sorted(before: &[BTreeSet<usize>]) -> (Vec<usize>, Vec<usize>) {
     (order, (0..before.len()).filter(|place| waits[*place] > 0).collect())
 }
 
-/// The group of each place: those that lead back to each other are in one.
+/// Computes the strongly connected component of each index.
 ///
 /// Method: R. Tarjan, "Depth-first search and linear graph algorithms", 1972, without recursion.
 fn groups(edges: &[Vec<usize>]) -> Vec<usize> {

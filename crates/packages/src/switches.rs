@@ -1,4 +1,4 @@
-//! Switches packages off and on: a file beside the script's packages has the names of those that are off.
+//! Enables and disables packages: a file next to the script's packages lists the names of the disabled ones.
 
 use std::fs;
 use std::io::{ErrorKind, Write as _};
@@ -9,16 +9,17 @@ use burgeon_base::error::{Error, Result, SourcePlace};
 use super::find::BESIDE;
 use super::manifest::is_name;
 
-/// The file, in the folder of packages beside a script.
+/// File name, in the packages folder next to a script.
 pub const SWITCHES: &str = "disabled.txt";
 
-/// The most (bytes) that the file may have.
+/// Maximum size (bytes) of the file.
 const LARGEST: u64 = 1_000_000;
 
-/// Switches the packages called `name` off for scripts in the folder `script`, or on. Returns the file that says which are
-/// off, and whether it was changed.
+/// Disables the packages called `name` for scripts in the folder `script`, or enables them if `on`. Returns the path of
+/// the file that lists disabled packages, and true if it was changed.
 ///
-/// Other lines of the file stay as they are. The file goes with its last name. Fails if the file cannot be read or written.
+/// Other lines of the file are unchanged. The file is deleted together with its last name. Fails if the file cannot be
+/// read or written.
 pub fn switch(script: &Path, name: &str, on: bool) -> Result<(PathBuf, bool)> {
     let folder = script.join(BESIDE);
     let file = folder.join(SWITCHES);
@@ -46,7 +47,7 @@ pub fn switch(script: &Path, name: &str, on: bool) -> Result<(PathBuf, bool)> {
     Ok((file, true))
 }
 
-/// The names in the file of the folder of packages `mods`, sorted; none if there is no file.
+/// Returns the names in the file of the packages folder `mods`, sorted; empty if there is no file.
 pub(crate) fn disabled_names(mods: &Path) -> Result<Vec<String>> {
     let text = read(mods)?.unwrap_or_default();
     let mut names = Vec::new();
@@ -67,12 +68,12 @@ pub(crate) fn disabled_names(mods: &Path) -> Result<Vec<String>> {
     Ok(names)
 }
 
-/// The name in a line, without its comment.
+/// Returns the name in a line, without its comment.
 fn name_of(line: &str) -> &str {
     line.split('#').next().unwrap_or_default().trim()
 }
 
-/// The file's text, if there is one. A link is not followed, since messages show lines of what it leads to.
+/// Returns the file's text, if the file exists. A link is not followed, because messages show lines of the file.
 fn read(mods: &Path) -> Result<Option<String>> {
     let file = mods.join(SWITCHES);
     let cannot = |why: &dyn std::fmt::Display| {

@@ -1,4 +1,4 @@
-//! Packages in folders: which are found, in which order, and what their files' names mean.
+//! Tests of packages in folders: finding and ordering them, and resolving the names of their files.
 
 use std::path::{Path, PathBuf};
 
@@ -6,7 +6,7 @@ use proptest::prelude::*;
 
 use super::*;
 
-/// A folder with packages, each by its path and what its `mod.toml` says besides its name.
+/// Creates a folder with packages, each given by its path and the content of its `mod.toml` after the name.
 fn folder(packages: &[(&str, &str)]) -> tempfile::TempDir {
     let folder = tempfile::tempdir().unwrap();
     for (path, more) in packages {
@@ -41,13 +41,13 @@ fn order(packages: &Packages) -> Vec<&str> {
     packages.order().iter().map(|package| package.manifest.name.as_str()).collect()
 }
 
-/// What is wrong, without the folder that it is in.
+/// Formats problems without the path of the test folder.
 fn told(folder: &tempfile::TempDir, problems: &[burgeon_base::Error]) -> String {
     let text: Vec<String> = problems.iter().map(ToString::to_string).collect();
     text.join("\n").replace(&folder.path().display().to_string(), "FOLDER")
 }
 
-/// All that is wrong with packages, used or not, without the folder that they are in.
+/// Formats all problems of packages, used or not, without the path of the test folder.
 fn troubles(folder: &tempfile::TempDir, packages: &Packages) -> String {
     let of_packages = packages.order().iter().flat_map(|package| &package.problems);
     let broken = packages.broken.iter().map(|broken| &broken.error);
@@ -88,7 +88,7 @@ fn of_one_name_the_one_beside_the_script_counts_and_the_others_are_told() {
     let packages = find(&folder);
     assert_eq!(packages.get("castle").unwrap().manifest.version, Version::new(1, 0, 0));
     assert_eq!(packages.hidden.len(), 2);
-    // The user's folder is there for all scripts, so that it has others is no news.
+    // The user's folder is shared by all scripts, so other versions in it cause no warning.
     let warnings: Vec<String> = packages.warnings.iter().map(ToString::to_string).collect();
     insta::assert_snapshot!(warnings.join("\n").replace(&folder.path().display().to_string(), "FOLDER"), @r"
     FOLDER/given/castle/mod.toml:1: castle 2.0.0 in FOLDER/given/castle is not used, for there is castle 1.0.0 in FOLDER/mods/castle
@@ -154,7 +154,7 @@ fn optional_packages_may_name_one_another() {
     let packages = find(&folder);
     assert_eq!(order(&packages), ["a", "c", "b"]);
     assert!(locate(&packages, "@b/x.lua", "a").is_ok());
-    // One of another version is done without, and refused to whoever asks for it.
+    // An optional package of another version is ignored, and rejected for packages that request it.
     assert!(locate(&packages, "@b/x.lua", "").is_ok());
     let said = locate(&packages, "@b/x.lua", "c").unwrap_err();
     assert!(said.contains("the package c needs b ^2, but 1.0.0 is in"), "{said}");
@@ -192,7 +192,7 @@ fn switched_off_packages_are_not_there() {
     std::fs::write(&file, "Castle!").unwrap();
     assert!(switch(script, "castle", false).unwrap_err().place().is_some());
     assert_eq!(order(&find(&folder)), ["castle", "ruins"]);
-    // A link is not followed, for what it leads to would be shown.
+    // A link is not followed, because its target would be shown.
     std::fs::remove_file(&file).unwrap();
     std::os::unix::fs::symlink("/etc/passwd", &file).unwrap();
     let said = switch(script, "castle", false).unwrap_err().to_string();
@@ -313,7 +313,7 @@ fn links_lead_nowhere_but_into_the_folders_of_packages() {
     symlink(outside.path(), mods.join("castle/all")).unwrap();
     symlink("../tower/mod.toml", mods.join("castle/beside")).unwrap();
     symlink("mod.toml", mods.join("castle/within")).unwrap();
-    // A package that is worked on elsewhere, and one that has gone.
+    // A package under development elsewhere, and a link to a missing one.
     symlink(outside.path().join("gate"), mods.join("gate")).unwrap();
     symlink(outside.path().join("nowhere"), mods.join("gone")).unwrap();
     symlink(outside.path().join("gate"), mods.join("castle/inner")).unwrap();
@@ -331,7 +331,7 @@ fn links_lead_nowhere_but_into_the_folders_of_packages() {
     FOLDER/mods/gone is a link that leads to nothing
       help: remove it, or put a package there
     ");
-    // A mod.toml is nowhere else than its package.
+    // A mod.toml must be inside the folder of its package.
     std::fs::remove_file(mods.join("gone")).unwrap();
     std::fs::remove_file(mods.join("tower/mod.toml")).unwrap();
     symlink(outside.path().join("castle/mod.toml"), mods.join("tower/mod.toml")).unwrap();

@@ -1,4 +1,4 @@
-//! Packages that come as zips. Nothing that a zip says of itself is believed.
+//! Unpacks packages from zip files. The metadata in a zip is not trusted.
 
 use std::collections::BTreeSet;
 use std::io::{BufReader, Read, Seek, SeekFrom};
@@ -9,11 +9,12 @@ use zip::ZipArchive;
 
 use super::install::{LARGEST, MOST, PackageCopy, no_file};
 
-/// What an entry of a zip's list begins with, and how long it is without its name and what follows that.
+/// Signature of an entry in a zip's central directory, and the length of an entry without its name and the fields after
+/// it (bytes).
 const ENTRY: &[u8; 4] = b"PK\x01\x02";
 const ENTRY_LENGTH: usize = 46;
 
-/// The bits of a mode that say what a file is, and those of a plain file and of a link.
+/// Bit mask of the file type in a mode, and the types of a regular file and of a link.
 const KIND: u32 = 0o170_000;
 const PLAIN: u32 = 0o100_000;
 const LINK: u32 = 0o120_000;
@@ -64,7 +65,7 @@ pub(crate) fn unpack(from: &Path, copy: &mut PackageCopy) -> Result<()> {
             .to_owned();
         let kind = entry.unix_mode().map_or(PLAIN, |mode| mode & KIND);
         match name.strip_suffix('/') {
-            // A folder comes into being with the first file in it; its name counts all the same.
+            // A folder is created with its first file, but its name must be valid anyway.
             Some(folder) => copy.check_folder(from, folder)?,
             None if kind == PLAIN || kind == 0 => copy.add(from, &name, &mut entry)?,
             None => return Err(no_file(from, &name, kind == LINK)),
@@ -73,14 +74,15 @@ pub(crate) fn unpack(from: &Path, copy: &mut PackageCopy) -> Result<()> {
     Ok(())
 }
 
-/// The names in the list of a zip that begins at `start`, each as often as it is there; no more than a few over [`MOST`].
+/// Returns the names in the central directory of a zip, which begins at `start`. Repeated names are kept. Stops after
+/// slightly more than [`MOST`] names.
 fn listed(file: &mut std::fs::File, start: u64) -> Option<Vec<Vec<u8>>> {
     file.seek(SeekFrom::Start(start)).ok()?;
     let mut file = BufReader::new(file);
     let mut names = Vec::new();
     while names.len() <= MOST {
         let mut head = [0; ENTRY_LENGTH];
-        // What ends the list is shorter than an entry.
+        // The record that ends the directory is shorter than an entry.
         if file.read_exact(&mut head[..4]).is_err() || head[..4] != *ENTRY {
             break;
         }

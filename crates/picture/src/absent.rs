@@ -1,4 +1,4 @@
-//! What stands in the place of the renderer where a program is built without pictures.
+//! Stubs of the renderer, for builds without the feature `pictures`.
 
 use super::settings::Picture;
 use burgeon_base::error::Result;
@@ -6,26 +6,26 @@ use burgeon_base::stop::Stop;
 use burgeon_scene::Scene;
 use burgeon_scene::image::{self, Image};
 
-/// The room that one or more scenes take.
+/// Extent of one or more scenes.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Extent(());
 
 impl Extent {
-    /// Fails: pictures are not there.
+    /// Fails, because rendering is not available.
     pub fn of(_scene: &Scene) -> Result<Self> {
         image::check().map(|()| Self(()))
     }
 
-    /// Makes room for `other`, too.
+    /// Extends the extent by `other`.
     pub fn join(&mut self, _other: &Self) {}
 }
 
-/// Fails: pictures are not there.
+/// Fails, because rendering is not available.
 pub fn render(scene: &Scene, picture: &Picture) -> Result<Image> {
     render_within(scene, None, picture, &Stop::default())
 }
 
-/// Fails: pictures are not there.
+/// Fails, because rendering is not available.
 pub fn render_within(
     _scene: &Scene,
     _extent: Option<&Extent>,

@@ -1,8 +1,8 @@
-//! Pictures of a scene, made without a graphics card or a display.
+//! Renders a scene to an image on the CPU, without a graphics card or a display.
 //!
-//! Comes in: a [`Scene`](burgeon_scene::Scene) and how it is to be seen, a [`Picture`]. Goes out: an
-//! [`Image`](burgeon_scene::image::Image). It never changes the scene and writes no file. The same scene gives the same
-//! bytes for any number of threads. Without the feature `pictures` nothing is rendered, and [`render`] says so.
+//! Input: a [`Scene`](burgeon_scene::Scene) and its view, a [`Picture`]. Output: an
+//! [`Image`](burgeon_scene::image::Image). The crate never changes the scene and never writes a file. The same scene
+//! results in the same bytes for any number of threads. Without the feature `pictures`, [`render`] fails.
 
 #![allow(
     clippy::cast_possible_truncation,

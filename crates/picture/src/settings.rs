@@ -1,9 +1,9 @@
-//! What can be wished of a picture.
+//! Settings of a render.
 
 use burgeon_base::error::{Error, Result};
 use serde::Deserialize;
 
-/// How a scene is rendered.
+/// Settings of a render.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Picture {
@@ -11,59 +11,59 @@ pub struct Picture {
     pub width: u32,
     /// Height (pixels), 1 to 16384.
     pub height: u32,
-    /// Where the camera stands (degrees): 0 to the north of the model, 90 to the east, 180 to the south.
-    /// North is +y, on a planet its pole. Without it the model's shape decides: a three-quarter view, or the broad side of what is
-    /// flat.
+    /// Azimuth of the camera (degrees): 0 is north of the model, 90 east, 180 south. North is +y, or the pole of a
+    /// planet. `None` chooses by the model's shape: a three-quarter view, or the broad side of a flat model.
     pub azimuth: Option<f64>,
-    /// How high the camera stands above the horizon (degrees), -90 to 90. Without it the model's shape
-    /// decides: lower for what is tall, higher for what is low.
+    /// Elevation of the camera above the horizon (degrees), -90 to 90. `None` chooses by the model's shape: lower for a
+    /// tall model, higher for a low one.
     pub elevation: Option<f64>,
-    /// What is looked at: a place (m), and how far (m) around it is in the picture. Without it the whole model is.
+    /// Sphere that the render shows: its centre (m) and radius (m). `None` shows the whole model.
     pub look: Option<ViewBall>,
-    /// What is behind the model.
+    /// Background of the render.
     pub background: Background,
-    /// Whether a ground under the model's lowest point catches its shadow.
+    /// Set if a ground plane below the model's lowest point shows its shadow.
     pub ground: bool,
-    /// How much time to spend.
+    /// Quality of the render, which determines the time.
     pub quality: Quality,
 }
 
-/// A ball that fills a picture.
+/// Sphere that fills a render.
 #[derive(Debug, Clone, Copy, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ViewBall {
-    /// Its centre (m): x, y and z.
+    /// Centre (m): x, y and z.
     pub at: [f64; 3],
-    /// Its radius (m).
+    /// Radius (m).
     pub radius: f64,
 }
 
-/// What is behind the model.
+/// Background of a render.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Background {
-    /// A light, slightly warm grey, as in a studio.
+    /// Light, slightly warm grey, as in a studio.
     #[default]
     Light,
-    /// A dark, slightly cool grey.
+    /// Dark, slightly cool grey.
     Dark,
-    /// Nothing: the image is transparent there, with the shadow on the ground as translucent black.
+    /// Transparent, with the shadow on the ground as translucent black.
     Clear,
 }
 
-/// How much time to spend.
+/// Quality of a render.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Quality {
-    /// For thumbnails: a few samples.
+    /// Few samples, for thumbnails.
     Draft,
-    /// For showing: smooth edges, soft shadows.
+    /// Smooth edges and soft shadows, for presentation.
     #[default]
     Fine,
 }
 
 impl Default for Picture {
-    /// 1280 by 960 pixels, fine, in a light studio, from where the model is seen best.
+    /// Returns the default settings: 1280 by 960 pixels, fine quality, a light studio, and a viewpoint chosen by the
+    /// model's shape.
     fn default() -> Self {
         Self {
             width: 1280,
@@ -79,10 +79,10 @@ impl Default for Picture {
 }
 
 impl Picture {
-    /// The largest width and height (pixels).
+    /// Maximum width and height (pixels).
     pub const LARGEST: u32 = 16384;
 
-    /// Refuses sizes and angles that have no picture.
+    /// Fails if the size or an angle is invalid.
     pub fn check(&self) -> Result<()> {
         let fits = |size: u32| (1..=Self::LARGEST).contains(&size);
         if !fits(self.width) || !fits(self.height) {

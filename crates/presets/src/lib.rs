@@ -1,4 +1,4 @@
-//! Presets in a file beside the script: `tower.presets.json` for `tower.lua`.
+//! Presets in a file next to the script: `tower.presets.json` for `tower.lua`.
 //!
 //! ```json
 //! {
@@ -12,8 +12,8 @@
 //! }
 //! ```
 //!
-//! Comes in: the path of a script, or a [`Preset`] to keep. Goes out: its [`Presets`], and their file. A file that is not
-//! of this form is refused, and never written over.
+//! Input: the path of a script, or a [`Preset`] to save. Output: its [`Presets`], and their file. A file in another
+//! format is rejected and never overwritten.
 
 use std::fmt;
 use std::io::Write as _;
@@ -29,13 +29,13 @@ use burgeon_base::names::{has_bidi_controls, normal_form};
 use burgeon_engine::script::{Preset, Setting};
 use burgeon_watch::settled;
 
-/// The most (bytes) that a file of presets may have.
+/// Maximum size (bytes) of a presets file.
 const LARGEST: u64 = 16_000_000;
 
-/// The most characters that a preset's name may have.
+/// Maximum number of characters of a preset's name.
 const LONGEST: usize = 80;
 
-/// The presets of a script, in the order of their file.
+/// Presets of a script, in the order of their file.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Presets {
     path: PathBuf,
@@ -43,17 +43,17 @@ pub struct Presets {
 }
 
 impl Presets {
-    /// The file that holds the presets of `script`.
+    /// Returns the path of the presets file of `script`.
     pub fn path_of(script: &Path) -> PathBuf {
         script.with_extension("presets.json")
     }
 
-    /// The presets of `script`; none if there is no file. Fails, with the line, on a file that cannot be understood.
+    /// Reads the presets of `script`; empty if there is no file. Fails with the line if the file is invalid.
     pub fn read(script: &Path) -> Result<Self> {
         Self::read_file(&Self::path_of(script))
     }
 
-    /// The presets in the file at `path`; none if there is no file. Fails as [`read`](Self::read) does.
+    /// Reads the presets in the file at `path`; empty if there is no file. Fails as [`read`](Self::read) does.
     pub fn read_file(path: &Path) -> Result<Self> {
         settled(path, || Self::read_once(path))
     }
@@ -64,7 +64,7 @@ impl Presets {
             Error::file(&path, format!("cannot read the presets in {}: {why}", path.display()))
                 .help("presets are a JSON file that Burgeon can read; move that away if it is something else")
         };
-        // Messages show lines of the file, which may be one of somebody else's where a link leads.
+        // Messages show lines of the file, and the target of a link may belong to another user.
         if path.is_symlink() {
             return Err(cannot(&"it is a link"));
         }
@@ -87,10 +87,10 @@ impl Presets {
         Ok(Self { path, presets })
     }
 
-    /// Adds `preset` to those of `script`, in the place of one with the same name, and gives all of them.
+    /// Saves `preset` for `script`, replacing one with the same name, and returns all presets.
     ///
-    /// The file is written whole or not at all. Fails as [`read`](Self::read) does, if the name cannot be one, and
-    /// if the file cannot be written.
+    /// The file is written completely or not at all. Fails as [`read`](Self::read) does, if the name is invalid, or if
+    /// the file cannot be written.
     pub fn save(script: &Path, preset: Preset) -> Result<Self> {
         check_name(&preset.name)?;
         let mut presets = Self::read(script)?;
@@ -103,7 +103,8 @@ impl Presets {
         Ok(presets)
     }
 
-    /// Removes the preset called `name` from those of `script`, and gives the others. Their file goes with the last one.
+    /// Removes the preset called `name` of `script` and returns the others. The file is deleted together with its last
+    /// preset.
     ///
     /// Fails as [`save`](Self::save) does, and if there is no such preset.
     pub fn remove(script: &Path, name: &str) -> Result<Self> {
@@ -114,7 +115,7 @@ impl Presets {
         Ok(presets)
     }
 
-    /// The preset called `name`. Fails with the names that there are.
+    /// Returns the preset called `name`. Fails if it does not exist; the error lists the names.
     pub fn get(&self, name: &str) -> Result<&Preset> {
         self.presets.iter().find(|preset| is_same(&preset.name, name)).ok_or_else(|| {
             let file = self.path.display();
@@ -134,7 +135,7 @@ impl Presets {
         })
     }
 
-    /// The presets' names, in the order of the file.
+    /// Returns the names of the presets, in the order of the file.
     pub fn names(&self) -> impl Iterator<Item = &str> {
         self.presets.iter().map(|preset| preset.name.as_str())
     }
@@ -159,12 +160,12 @@ impl Presets {
     }
 }
 
-/// Whether two names are the same to people.
+/// Returns true if two names are equal after Unicode normalisation.
 fn is_same(one: &str, other: &str) -> bool {
     normal_form(one) == normal_form(other)
 }
 
-/// A setting as JSON; whole numbers without a decimal point.
+/// Converts a setting to JSON; integers have no decimal point.
 fn value(setting: &Setting) -> Value {
     match setting {
         #[allow(clippy::cast_possible_truncation, reason = "whole and small enough to be exact")]
@@ -175,7 +176,8 @@ fn value(setting: &Setting) -> Value {
     }
 }
 
-/// Refuses what would be hard to name again.
+/// Fails unless a name has 1 to 80 characters, no spaces at its ends, and no control or bidirectional control
+/// characters.
 pub fn check_name(name: &str) -> Result<()> {
     let fits = name.trim() == name && !name.is_empty() && name.chars().count() <= LONGEST;
     if fits && !name.chars().any(char::is_control) && !has_bidi_controls(name) {
@@ -186,13 +188,13 @@ pub fn check_name(name: &str) -> Result<()> {
     )))
 }
 
-/// A file of presets that is being read.
+/// Presets file during parsing.
 struct PresetsFile<'a> {
     name: String,
     text: &'a str,
 }
 
-/// The members of a JSON object in their order, each as it is written.
+/// Members of a JSON object in their order, with their values as written.
 type PresetMembers<'a> = Vec<(String, &'a RawValue)>;
 
 impl<'a> PresetsFile<'a> {
@@ -241,7 +243,7 @@ impl<'a> PresetsFile<'a> {
         Ok(presets)
     }
 
-    /// The members of `raw`, which must be an object without repeated names.
+    /// Returns the members of `raw`, which must be an object without repeated names.
     fn members(&self, raw: &'a RawValue, what: &str, form: &str) -> Result<PresetMembers<'a>> {
         let refuse = |message: String, raw: &RawValue| Error::data(message).at(Some(self.place(raw)));
         let members = if raw.get().starts_with('{') { read_members(raw.get()).ok() } else { None };
@@ -274,7 +276,7 @@ impl<'a> PresetsFile<'a> {
         })
     }
 
-    /// The line on which `raw`, a part of the text, begins.
+    /// Returns the line on which `raw`, a part of the text, begins.
     fn place(&self, raw: &RawValue) -> SourcePlace {
         let from = (raw.get().as_ptr() as usize).saturating_sub(self.text.as_ptr() as usize);
         let before = self.text.as_bytes().get(..from).unwrap_or_default();
@@ -283,7 +285,7 @@ impl<'a> PresetsFile<'a> {
     }
 }
 
-/// What is written there, cut to a length for messages.
+/// Returns the text of `raw`, shortened for messages.
 fn short(raw: &RawValue) -> String {
     let text: String = raw.get().split_whitespace().collect::<Vec<_>>().join(" ");
     if text.chars().count() <= 40 { text } else { text.chars().take(39).chain(['…']).collect() }

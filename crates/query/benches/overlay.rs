@@ -1,9 +1,9 @@
-//! Set operations and buffers on families for which they are hard, near the origin and far from it: how many results are
-//! not valid or not of the right size, and the time.
+//! Set operations and buffers on families of hard cases, near the origin and far from it: the number of results that
+//! are invalid or of the wrong size, and the time.
 //!
-//! `cargo bench -p burgeon-query --bench overlay -- [CASES]`, 100,000 of each family unless it says otherwise (a fiftieth of
-//! unions of many polygons), with BURGEON_SHARED for the folder of `france_buildings.gpkg` and `helsinki.gpkg`
-//! (`../shared/data` unless it says otherwise), of which neighbouring houses are joined.
+//! `cargo bench -p burgeon-query --bench overlay -- [CASES]`, with 100,000 cases per family by default (a fiftieth for
+//! unions of many polygons). BURGEON_SHARED is the folder of `france_buildings.gpkg` and `helsinki.gpkg` (default
+//! `../shared/data`), whose neighbouring houses are joined.
 #![allow(
     clippy::print_stdout,
     clippy::unwrap_used,
@@ -25,7 +25,7 @@ mod families;
 
 use families::{Dice, FAMILIES, PLACES, all_operations};
 
-/// Counts cases that are wrong, and shows the first.
+/// Counts wrong cases, and prints the first.
 fn show(name: &str, place: &str, cases: impl Iterator<Item = Option<String>>) {
     let begin = Instant::now();
     let (mut count, mut wrong, mut first) = (0_usize, 0_usize, None);
@@ -48,7 +48,7 @@ fn moved(geometry: &Geometry, by: DVec2) -> Geometry {
     moved
 }
 
-/// The pairs of valid areas of a layer that meet.
+/// Returns the pairs of valid areas of a layer that intersect.
 fn neighbours(folder: &Path, file: &str) -> Vec<[Geometry; 2]> {
     let database = Database::new(None).unwrap();
     let budget = Arc::new(Budget::default());

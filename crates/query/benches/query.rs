@@ -1,8 +1,8 @@
-//! Spatial questions on footprints, roads and furniture, here and put to PostGIS, in one table.
+//! Spatial queries on footprints, roads and furniture, run by Burgeon and by PostGIS, in one table.
 //!
-//! `cargo bench -p burgeon-query`, with BURGEON_SHARED for the folder of `france_buildings.gpkg` and `helsinki.gpkg`
-//! (`../shared/data` unless it says otherwise), and BURGEON_POSTGIS for the address of a server that may be filled:
-//! `tests/postgis.sh cargo bench -p burgeon-query`.
+//! `cargo bench -p burgeon-query`. BURGEON_SHARED is the folder of `france_buildings.gpkg` and `helsinki.gpkg` (default
+//! `../shared/data`), and BURGEON_POSTGIS is the address of a server to which data may be written: `tests/postgis.sh
+//! cargo bench -p burgeon-query`.
 #![allow(
     clippy::print_stdout,
     clippy::unwrap_used,
@@ -16,12 +16,12 @@ use std::time::Instant;
 use burgeon_base::Budget;
 use burgeon_query::{Cell, Database, QueryAnswer};
 
-/// As the program has it.
+/// Allocator of the program.
 #[global_allocator]
 static ALLOCATOR: mimalloc::MiMalloc = mimalloc::MiMalloc;
 
-/// A question: what it is about, the files that it needs, how it is written, and how many milliseconds it may take, alone
-/// or together with others of the same group.
+/// A query: its description, the files that it needs, its SQL, and its time limit (ms), alone or together with other
+/// queries of the same group.
 struct Question {
     about: &'static str,
     tables: &'static [(&'static str, &'static str)],
@@ -83,7 +83,7 @@ fn folder() -> PathBuf {
         .map_or_else(|| Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared/data"), PathBuf::from)
 }
 
-/// The best of so many times (ms), and what came of it.
+/// Returns the best time (ms) of `times` runs, and the last result.
 fn best(times: usize, mut work: impl FnMut() -> Arc<QueryAnswer>) -> (f64, Arc<QueryAnswer>) {
     let mut least = f64::INFINITY;
     let mut answer = work();
@@ -95,7 +95,7 @@ fn best(times: usize, mut work: impl FnMut() -> Arc<QueryAnswer>) -> (f64, Arc<Q
     (least, answer)
 }
 
-/// Fills a server with the layers of a file, in a schema of its own.
+/// Writes the layers of a file to a server, in separate schemas.
 #[cfg(feature = "postgis")]
 fn fill(address: &str, folder: &Path) {
     let mut client = postgres::Client::connect(address, postgres::NoTls).unwrap();
@@ -131,7 +131,7 @@ fn fill(address: &str, folder: &Path) {
     }
 }
 
-/// The best of three times (ms) that a server takes for a question, and how many rows it gives; with all rows fetched.
+/// Returns the best time (ms) of three runs of a query on a server, with all rows fetched, and the number of rows.
 #[cfg(feature = "postgis")]
 fn server(address: &str, file: &str, sql: &str) -> (f64, usize) {
     let mut client = postgres::Client::connect(address, postgres::NoTls).unwrap();
@@ -147,7 +147,7 @@ fn server(address: &str, file: &str, sql: &str) -> (f64, usize) {
     (least, rows)
 }
 
-/// What a server takes, if there is one.
+/// Returns the time on a server, or an empty string without a server.
 fn beside(file: &str, sql: &str, rows: usize) -> String {
     #[cfg(feature = "postgis")]
     if let Ok(address) = std::env::var("BURGEON_POSTGIS") {

@@ -1,4 +1,4 @@
-//! Puts a statement to SQLite, and takes the rows.
+//! Runs statements in SQLite, and fetches their rows.
 
 use std::sync::Arc;
 
@@ -16,11 +16,11 @@ use burgeon_base::budget::Budget;
 use burgeon_base::error::{Error, Result as BurgeonResult};
 use burgeon_data::ReferenceFrame;
 
-/// Why there are no rows.
+/// The reason for a failed query.
 pub(crate) enum QueryFailure {
-    /// For a reason of ours.
+    /// Error of Burgeon.
     Told(Error),
-    /// For one of SQLite's.
+    /// Error of SQLite.
     Sqlite(rusqlite::Error),
 }
 
@@ -36,7 +36,7 @@ impl From<Error> for QueryFailure {
     }
 }
 
-/// The statement, as it was rewritten if SQLite takes it so.
+/// Prepares the rewritten statement, or the original one if SQLite refuses the rewritten one.
 fn prepare<'a>(
     link: &'a DatabaseLink,
     prepared: &PreparedStatement,
@@ -50,7 +50,7 @@ fn prepare<'a>(
     link.set_automatic_index(!rewritten.indexed)?;
     match link.connection.prepare_cached(&format!("{prefix}{}", rewritten.sql)) {
         Ok(statement) => Ok((statement, true)),
-        // What was written tells better where it is wrong.
+        // The original statement gives a better error message.
         Err(error) => match link.connection.prepare_cached(&format!("{prefix}{}", prepared.original)) {
             Ok(statement) => Ok((statement, false)),
             Err(own) => Err(QueryFailure::Sqlite(if errors::is_syntax(&own) && !errors::is_syntax(&error) {
@@ -62,7 +62,7 @@ fn prepare<'a>(
     }
 }
 
-/// The columns and parameters of a statement.
+/// Returns the columns and parameters of a statement.
 fn shape(
     statement: &CachedStatement<'_>,
     prepared: &PreparedStatement,
@@ -102,7 +102,7 @@ fn shape(
     }
 }
 
-/// The rows of a statement.
+/// Returns the rows of a statement.
 pub(crate) fn rows(
     link: &DatabaseLink,
     prepared: &PreparedStatement,
@@ -126,7 +126,7 @@ pub(crate) fn rows(
     answer
 }
 
-/// The rows of a statement whose tables are there.
+/// Returns the rows of a statement whose temporary tables already exist.
 fn all_rows(
     link: &DatabaseLink,
     prepared: &PreparedStatement,
@@ -160,7 +160,7 @@ fn all_rows(
     Ok(Arc::new(answer))
 }
 
-/// What SQLite does for a statement.
+/// Returns SQLite's query plan of a statement.
 pub(crate) fn plan(link: &DatabaseLink, prepared: &PreparedStatement) -> Result<String, QueryFailure> {
     for table in prepared.rewritten.iter().flat_map(|rewritten| &rewritten.made) {
         link.make(table, |_| Ok::<(), QueryFailure>(()))?;
@@ -174,7 +174,7 @@ pub(crate) fn plan(link: &DatabaseLink, prepared: &PreparedStatement) -> Result<
     Ok(lines.join("\n"))
 }
 
-/// A parameter on its way in.
+/// A parameter to bind.
 struct Bound<'a> {
     cell: &'a Cell,
     frame: Option<&'a ReferenceFrame>,
@@ -199,13 +199,13 @@ impl ToSql for Bound<'_> {
     }
 }
 
-/// A number without a fraction as such, so that it counts rows and divides as whole numbers do.
+/// Converts a number without a fraction to an integer, so that it can be used as a row count and in integer division.
 pub(crate) fn whole(number: f64) -> Option<i64> {
     #[allow(clippy::cast_possible_truncation, reason = "the range is checked")]
     (number.fract() == 0.0 && number.abs() <= 9_007_199_254_740_992.0).then_some(number as i64)
 }
 
-/// A value on its way out.
+/// Converts a value from SQLite to a cell.
 fn cell(
     value: ValueRef<'_>,
     kind: AnswerColumn,
@@ -235,7 +235,7 @@ fn cell(
     })
 }
 
-/// A list that the database has as JSON.
+/// Converts a list from JSON, as SQLite stores it.
 fn list(text: &[u8]) -> BurgeonResult<Cell> {
     let values: Vec<serde_json::Value> = serde_json::from_slice(text)
         .map_err(|error| Error::internal(format!("a list is no JSON: {error}")))?;

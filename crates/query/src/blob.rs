@@ -1,12 +1,12 @@
-//! Geometries as the database within the program has them: GeoPackage's blobs, and well-known binary.
+//! Geometries in the internal database: GeoPackage blobs, and well-known binary.
 
 use burgeon_base::budget::Budget;
 use burgeon_spatial::{Geometry, wkb};
 
-/// How far (in its own units) lines may be from the arcs that they stand for.
+/// Maximum distance between an arc and the line that approximates it (in coordinate units).
 const NEAR: f64 = 0.01;
 
-/// The well-known binary in a blob, which may be a GeoPackage's. Fails with the reason.
+/// Returns the well-known binary in a blob, which may be a GeoPackage blob. Fails with the reason.
 fn body(bytes: &[u8]) -> Result<&[u8], String> {
     if !bytes.starts_with(b"GP") {
         return Ok(bytes);
@@ -15,7 +15,7 @@ fn body(bytes: &[u8]) -> Result<&[u8], String> {
     bytes.get(8 + envelope..).ok_or_else(|| "ends too early".to_owned())
 }
 
-/// The size (bytes) of the bounds in a GeoPackage's blob.
+/// Returns the size (bytes) of the envelope in a GeoPackage blob.
 fn envelope_size(bytes: &[u8]) -> Result<usize, String> {
     let flags = *bytes.get(3).ok_or("ends too early")?;
     if flags & 0x20 != 0 {
@@ -30,7 +30,7 @@ fn envelope_size(bytes: &[u8]) -> Result<usize, String> {
     }
 }
 
-/// The geometry in a blob. Fails with the reason.
+/// Reads the geometry in a blob. Fails with the reason.
 pub(crate) fn read(bytes: &[u8], budget: &Budget) -> Result<Geometry, String> {
     let geometry = wkb::read(body(bytes)?, NEAR, budget)?;
     if geometry.is_sound() {
@@ -41,21 +41,21 @@ pub(crate) fn read(bytes: &[u8], budget: &Budget) -> Result<Geometry, String> {
     Err(format!("has a coordinate {why}"))
 }
 
-/// The version of blobs whose coordinates are not those of the run, but of the reference system that they name.
+/// Version of blobs whose coordinates are in the reference system that they name, and not in the run's.
 const FOREIGN: u8 = 0xb7;
 
-/// The code of the reference system of a blob, if that is not the run's.
+/// Returns the code of the reference system of a blob, if it is not the run's.
 pub(crate) fn foreign(bytes: &[u8]) -> Option<u32> {
     let code = bytes.strip_prefix(&[b'G', b'P', FOREIGN])?.get(1..5)?;
     Some(u32::from_le_bytes(code.try_into().ok()?))
 }
 
-/// A geometry as a GeoPackage's blob with its bounds.
+/// Writes a geometry as a GeoPackage blob with its envelope.
 pub(crate) fn write(geometry: &Geometry) -> Vec<u8> {
     write_in(geometry, None)
 }
 
-/// The same, in the reference system with this code if it is not that of the run.
+/// Writes a geometry as a GeoPackage blob, with the code of its reference system if it is not the run's.
 pub(crate) fn write_in(geometry: &Geometry, foreign: Option<u32>) -> Vec<u8> {
     let bounds = geometry.bounds();
     let mut bytes = b"GP".to_vec();
@@ -71,7 +71,7 @@ pub(crate) fn write_in(geometry: &Geometry, foreign: Option<u32>) -> Vec<u8> {
     bytes
 }
 
-/// The bounds of the geometry in a blob as it tells them; nothing if it does not.
+/// Returns the envelope stored in a blob, if there is one.
 pub(crate) fn told_bounds(bytes: &[u8]) -> Option<[f64; 4]> {
     if !bytes.starts_with(b"GP") || bytes.get(3)? & 0x10 != 0 || envelope_size(bytes).ok()? == 0 {
         return None;

@@ -1,4 +1,4 @@
-//! What a question gives.
+//! The results of a query.
 
 use std::cmp::Ordering;
 use std::fmt;
@@ -8,25 +8,25 @@ use burgeon_base::budget::Budget;
 use burgeon_base::error::{Error, Result};
 use burgeon_spatial::Geometry;
 
-/// One value of a row, or of a parameter.
+/// A value of a row, or of a parameter.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Cell {
-    /// None.
+    /// Null.
     Null,
-    /// True or false.
+    /// Boolean.
     Boolean(bool),
-    /// A number.
+    /// Number.
     Number(f64),
-    /// Text.
+    /// String.
     Text(Arc<str>),
-    /// A geometry, in the run's metres.
+    /// Geometry, in the run's metres.
     Geometry(Arc<Geometry>),
-    /// A list of values, of which none is a list.
+    /// List of values, none of which is a list.
     List(Arc<[Cell]>),
 }
 
 impl Cell {
-    /// `null`, `boolean`, `number`, `text`, `geometry` or `list`.
+    /// Returns the type name: `null`, `boolean`, `number`, `text`, `geometry` or `list`.
     pub fn kind(&self) -> &'static str {
         match self {
             Self::Null => "null",
@@ -38,7 +38,7 @@ impl Cell {
         }
     }
 
-    /// About how much memory (bytes) it takes.
+    /// Returns the approximate memory (bytes).
     pub fn weight(&self) -> usize {
         match self {
             Self::Null | Self::Boolean(_) | Self::Number(_) => 24,
@@ -48,7 +48,8 @@ impl Cell {
         }
     }
 
-    /// An order of all values: what is none, booleans, numbers, texts and geometries; numbers and texts by themselves.
+    /// Compares any two values: null, booleans, numbers, strings, geometries and lists, in this order; values of the
+    /// same type by their content.
     pub fn order(&self, other: &Self) -> Ordering {
         let rank = |cell: &Self| match cell {
             Self::Null => 0,
@@ -97,27 +98,27 @@ impl fmt::Display for Cell {
     }
 }
 
-/// The names that rows are told apart by where a question says nothing of their order.
+/// Names of the columns that identify rows if a query does not specify their order.
 const IDS: [&str; 3] = ["fid", "id", "ogc_fid"];
 
-/// The rows that a question gives.
+/// The rows of a query's result.
 #[derive(Debug, Default)]
 pub struct QueryAnswer {
-    /// The names of columns, in order.
+    /// Names of the columns, in order.
     pub names: Arc<[String]>,
-    /// The rows, in order; each has a cell for every name.
+    /// Rows, in order, each with a cell for every name.
     pub rows: Vec<Vec<Cell>>,
-    /// What it takes of a budget until it is dropped.
+    /// Memory (bytes) charged to a budget until the result is dropped.
     taken: Option<(Arc<Budget>, usize)>,
 }
 
 impl QueryAnswer {
-    /// An answer without rows, which are counted against a budget.
+    /// Creates a result without rows, which charges its rows to a budget.
     pub(crate) fn new(names: Arc<[String]>, budget: &Arc<Budget>) -> Self {
         Self { names, rows: Vec::new(), taken: Some((Arc::clone(budget), 0)) }
     }
 
-    /// Adds a row. Fails if there is no memory for it, or no time.
+    /// Adds a row. Fails if the memory or time limit is exceeded.
     pub(crate) fn push(&mut self, row: Vec<Cell>) -> Result<()> {
         if self.rows.len() >= MOST_ROWS {
             return Err(Error::limit(
@@ -136,12 +137,12 @@ impl QueryAnswer {
         Ok(())
     }
 
-    /// The column that tells rows apart, if there is one.
+    /// Returns the index of the column that identifies rows, if there is one.
     pub fn id(&self) -> Option<usize> {
         IDS.iter().find_map(|id| self.names.iter().position(|name| name.eq_ignore_ascii_case(id)))
     }
 
-    /// Orders the rows by their id, and then by all columns.
+    /// Sorts the rows by their id, and then by all columns.
     pub(crate) fn sort(&mut self) {
         let id = self.id();
         self.rows.sort_by(|a, b| {
@@ -157,7 +158,7 @@ impl QueryAnswer {
     }
 }
 
-/// The most rows of an answer.
+/// Maximum number of rows of a result.
 const MOST_ROWS: usize = 10_000_000;
 
 impl Drop for QueryAnswer {
@@ -169,7 +170,7 @@ impl Drop for QueryAnswer {
 }
 
 impl fmt::Display for QueryAnswer {
-    /// A line of names, and one for each row.
+    /// Writes a line of names, and one line for each row.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(&self.names.join(" | "))?;
         for row in &self.rows {

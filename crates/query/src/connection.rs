@@ -1,7 +1,7 @@
-//! Connections to the database within the program: what they see, and what they may do.
+//! Connections to the internal database: the data that they see, and the operations that are permitted.
 //!
-//! Each reads the same pages in memory, and the files beside them; none can write. What a statement may do is asked by
-//! SQLite before it runs: reading, and calling functions of a list.
+//! Each connection reads the same pages in memory, and the attached files; none can write. SQLite asks an authorizer
+//! before it runs a statement: only reading, and calling functions of a list are allowed.
 
 use std::cell::{Cell, RefCell};
 use std::collections::{BTreeMap, BTreeSet};
@@ -25,73 +25,75 @@ use burgeon_base::error::Result;
 use burgeon_base::locks::LockRecovery;
 use burgeon_data::{PackageState, ReferenceFrame};
 
-/// The longest text or blob (bytes).
+/// Maximum length of a string or blob (bytes).
 const LONGEST: i32 = 200_000_000;
 
-/// The longest statement (bytes).
+/// Maximum length of a statement (bytes).
 pub(crate) const LONGEST_STATEMENT: usize = 200_000;
 
-/// How many files are read as they are; others are copied.
+/// Maximum number of files that are attached; others are copied.
 pub(crate) const MOST_FILES: usize = 8;
 
-/// The most kibibytes of pages that a connection keeps, and the share of the memory that may be used.
+/// Maximum size (KiB) of a connection's page cache. `PAGES_SHARE` divides the memory limit to give the size for small
+/// limits.
 const PAGES: i64 = 32_768;
 const PAGES_SHARE: usize = 32;
 
-/// How many tables that were made of subqueries a connection keeps.
+/// Maximum number of materialized subqueries that a connection keeps.
 const MOST_KEPT: usize = 16;
 
-/// How many prepared statements a connection keeps.
+/// Number of prepared statements that a connection keeps.
 const STATEMENTS: usize = 64;
 
-/// How many steps of SQLite lie between two looks at the clock.
+/// Number of SQLite steps between two checks of the budget.
 const STEPS: i32 = 1000;
 
-/// The indexes of all tables, by table and column.
+/// The spatial indexes of all tables, by table and column.
 pub(crate) type Indexes = RwLock<BTreeMap<String, Arc<SpatialIndex>>>;
 
-/// What the functions of a connection know.
+/// The state that the functions of a connection share.
 pub(crate) struct ConnectionState {
-    /// What the statement that runs may take.
+    /// Budget of the running statement.
     budget: Mutex<Arc<Budget>>,
-    /// The indexes that there are.
+    /// Indexes of the tables.
     pub indexes: Arc<Indexes>,
-    /// The indexes of tables that were made of subqueries.
+    /// Indexes of materialized subqueries.
     pub own_indexes: Mutex<BTreeMap<String, Arc<SpatialIndex>>>,
-    /// The geometries that were read last: those of an outer loop are asked for again and again, and of neighbours.
+    /// Geometries that were read recently: an outer loop requests the same geometries repeatedly, and so do their
+    /// neighbours.
     recent: Mutex<RecentGeometries>,
-    /// The blob that was no geometry.
+    /// Last blob that is not a geometry.
     unreadable: Mutex<Option<Vec<u8>>>,
-    /// Whether what comes is Burgeon's own.
+    /// Set while Burgeon runs its own statements.
     trusted: Mutex<bool>,
-    /// The projection of the run, in whose coordinates tables are.
+    /// Projection of the run, in whose coordinates the tables are.
     pub frame: Option<ReferenceFrame>,
-    /// The clusters that the statement has found so far, by row of a partition.
+    /// Clusters that the statement has computed so far, by row of a partition.
     pub clusters: Mutex<Vec<Vec<Option<u32>>>>,
 }
 
 impl UnwindSafe for ConnectionState {}
 impl RefUnwindSafe for ConnectionState {}
 
-/// How many small geometries are remembered, each in a place that its bytes decide.
+/// Number of small geometries that are cached, each at an index hashed from its bytes.
 const SMALL_GEOMETRIES: usize = 256;
 
-/// The longest blob (bytes) of a small geometry.
+/// Maximum length (bytes) of a small geometry's blob.
 const LONGEST_SMALL: usize = 2048;
 
-/// A blob and what was read of it.
+/// A blob and the geometry read from it.
 type KeptGeometry = Option<(Vec<u8>, Arc<GeometryArgument>)>;
 
 #[derive(Default)]
 struct RecentGeometries {
-    /// The last two that are large.
+    /// Last two large geometries.
     large: [KeptGeometry; 2],
     next: usize,
     small: Vec<KeptGeometry>,
 }
 
 impl RecentGeometries {
-    /// Where a blob is kept, if it is.
+    /// Returns the cache entry for a blob.
     fn place(&mut self, bytes: &[u8]) -> &mut KeptGeometry {
         if bytes.len() <= LONGEST_SMALL {
             self.small.resize(SMALL_GEOMETRIES, None);
@@ -109,18 +111,18 @@ impl RecentGeometries {
 }
 
 impl ConnectionState {
-    /// What may be taken.
+    /// Returns the budget of the running statement.
     pub(crate) fn budget(&self) -> Arc<Budget> {
         Arc::clone(&self.budget.lock().recover())
     }
 
-    /// Lets the next statement take something.
+    /// Sets the budget of the next statement.
     pub(crate) fn give(&self, budget: &Arc<Budget>) {
         *self.budget.lock().recover() = Arc::clone(budget);
         self.clusters.lock().recover().clear();
     }
 
-    /// The geometry in a blob. Fails with the reason.
+    /// Returns the geometry in a blob. Fails with the reason.
     pub(crate) fn geometry(&self, bytes: &[u8]) -> Result<Arc<GeometryArgument>, String> {
         let mut recent = self.recent.lock().recover();
         let place = recent.place(bytes);
@@ -133,7 +135,7 @@ impl ConnectionState {
         Ok(parsed)
     }
 
-    /// Remembers a blob that is no geometry, so that its row can be told, if there is memory for it.
+    /// Stores a blob that is not a geometry, so that an error can name its row, if there is memory for it.
     pub(crate) fn keep_unreadable(&self, bytes: &[u8]) {
         if self.budget().hold(bytes.len()).is_err() {
             return;
@@ -141,53 +143,53 @@ impl ConnectionState {
         *self.unreadable.lock().recover() = Some(bytes.to_vec());
     }
 
-    /// The last blob that was no geometry, which is forgotten.
+    /// Takes the last blob that is not a geometry.
     pub(crate) fn take_unreadable(&self) -> Option<Vec<u8>> {
         self.unreadable.lock().recover().take()
     }
 }
 
-/// A connection and what its functions know.
+/// A connection and the state of its functions.
 pub(crate) struct DatabaseLink {
-    /// The connection.
+    /// SQLite connection.
     pub connection: Connection,
-    /// What its functions know.
+    /// State of its functions.
     pub state: Arc<ConnectionState>,
-    /// Which state of the tables it has seen.
+    /// Generation of the tables that the connection sees.
     pub generation: usize,
-    /// Whether SQLite makes indexes of its own now.
+    /// Current setting of SQLite's automatic indexes, if known.
     makes_indexes: Cell<Option<bool>>,
     files: Vec<AttachedFile>,
-    /// The tables that were made of subqueries without parameters.
+    /// Materialized subqueries without parameters.
     kept: RefCell<BTreeSet<String>>,
 }
 
-/// A file that is read as it is: its name in statements, and the state of it that is read.
+/// A file that is read directly: its schema name in statements, and its state.
 #[derive(Clone)]
 pub(crate) struct AttachedFile {
-    /// Such as `file1`.
+    /// Schema name, such as `file1`.
     pub schema: String,
-    /// The state that all connections see.
+    /// State of the file that all connections see.
     pub state: Arc<PackageState>,
 }
 
-/// A name in statements for a table of a file.
+/// A view in statements for a table of a file.
 #[derive(Debug, Clone)]
 pub(crate) struct TableView {
-    /// The name.
+    /// Name of the view.
     pub name: String,
-    /// The file.
+    /// Schema of the file.
     pub schema: String,
-    /// Its table.
+    /// Table of the file.
     pub table: String,
 }
 
-/// Opens the memory that all connections share.
+/// Opens the in-memory database that all connections share.
 pub(crate) fn open_memory(address: &str, write: bool) -> rusqlite::Result<Connection> {
     let access = if write {
         OpenFlags::SQLITE_OPEN_READ_WRITE | OpenFlags::SQLITE_OPEN_CREATE
     } else {
-        // Views of one's own are made in a place of one's own.
+        // A connection creates its views in its own temporary database, which stays writable.
         OpenFlags::SQLITE_OPEN_READ_ONLY
     };
     Connection::open_with_flags(
@@ -197,7 +199,7 @@ pub(crate) fn open_memory(address: &str, write: bool) -> rusqlite::Result<Connec
 }
 
 impl DatabaseLink {
-    /// A connection that reads `files`, and whose tables there have names of their own where `views` say so.
+    /// Opens a connection that reads `files`, with the `views` as names for their tables.
     pub(crate) fn open(
         address: &str,
         files: &[AttachedFile],
@@ -244,7 +246,7 @@ impl DatabaseLink {
         })
     }
 
-    /// Lets SQLite make indexes of its own for a statement, or not: where rows are looked up by keys they only hinder.
+    /// Enables or disables SQLite's automatic indexes for a statement: they only slow down lookups by key.
     pub(crate) fn set_automatic_index(&self, on: bool) -> rusqlite::Result<()> {
         if self.makes_indexes.get() == Some(on) {
             return Ok(());
@@ -254,7 +256,7 @@ impl DatabaseLink {
         done
     }
 
-    /// Does `work` that statements of scripts may not do.
+    /// Runs `work` with operations that scripts' statements may not perform.
     fn trusted<T>(&self, work: impl FnOnce(&Connection) -> T) -> T {
         *self.state.trusted.lock().recover() = true;
         let done = work(&self.connection);
@@ -262,8 +264,8 @@ impl DatabaseLink {
         done
     }
 
-    /// Makes a table of a subquery, with an index for each of its geometries, unless it is kept. Its parameters are bound by
-    /// `bind`.
+    /// Materializes a subquery as a table with a spatial index for each of its geometries, unless the table is kept.
+    /// `bind` binds its parameters.
     pub(crate) fn make<E: From<rusqlite::Error> + From<burgeon_base::error::Error>>(
         &self,
         made: &MadeTable,
@@ -298,7 +300,7 @@ impl DatabaseLink {
         let budget = self.state.budget();
         for column in &info.geometries {
             budget.check()?;
-            // Its memory goes with the statement.
+            // The memory of the index is freed with the statement, so it is not charged.
             let built = tables::index(&self.connection, info, column, false, &Arc::default());
             let built = built.map_err(|error| match error {
                 TableError::Told(error) => E::from(error),
@@ -310,7 +312,7 @@ impl DatabaseLink {
         Ok(())
     }
 
-    /// Forgets a table that was made of a subquery with parameters.
+    /// Drops a materialized subquery, unless it has no parameters and is kept.
     pub(crate) fn forget(&self, made: &MadeTable) -> rusqlite::Result<()> {
         if self.kept.borrow().contains(&made.info.name) { Ok(()) } else { self.unmake(&made.info.name) }
     }
@@ -323,7 +325,7 @@ impl DatabaseLink {
         })
     }
 
-    /// Begins to read the files that are read in place, each in its state. Fails if one has changed.
+    /// Starts reading the files that are read in place, each in its recorded state. Fails if a file has changed.
     pub(crate) fn pin(&self) -> Result<()> {
         if !self.files.iter().any(|file| file.state.is_locked()) {
             return Ok(());
@@ -335,7 +337,8 @@ impl DatabaseLink {
         })
     }
 
-    /// Ends to read the files, so that the tables in memory can be written again. Fails if a file has changed meanwhile.
+    /// Stops reading the files, so that the tables in memory can be written again. Fails if a file has changed in the
+    /// meantime.
     pub(crate) fn unpin(&self) -> Result<()> {
         if !self.connection.is_autocommit() {
             let ended = self.trusted(|connection| connection.execute_batch("COMMIT"));
@@ -345,11 +348,11 @@ impl DatabaseLink {
     }
 }
 
-/// Lets a connection do nothing but read.
+/// Restricts a connection to reading.
 fn lock(connection: &mut Connection, state: &Arc<ConnectionState>) -> rusqlite::Result<()> {
     connection.set_db_config(DbConfig::SQLITE_DBCONFIG_DEFENSIVE, true)?;
     connection.set_db_config(DbConfig::SQLITE_DBCONFIG_TRUSTED_SCHEMA, false)?;
-    // A misspelt name in quotes is an error, not a text.
+    // A misspelt name in double quotes is an error, and not a string.
     connection.set_db_config(DbConfig::SQLITE_DBCONFIG_DQS_DML, false)?;
     #[allow(clippy::cast_possible_wrap, clippy::cast_possible_truncation, reason = "a constant")]
     for (limit, most) in [
@@ -369,7 +372,7 @@ fn lock(connection: &mut Connection, state: &Arc<ConnectionState>) -> rusqlite::
     connection.authorizer(Some(move |context: AuthContext<'_>| {
         let trusted = || *trust.0.trusted.lock().recover();
         match context.action {
-            // SQLite's own tables tell of its pages, and of files.
+            // SQLite's own tables expose its pages and files.
             AuthAction::Read { table_name, .. }
                 if !trusted()
                     && (table_name.starts_with("sqlite_") || table_name.eq_ignore_ascii_case("dbstat")) =>
@@ -396,7 +399,7 @@ fn lock(connection: &mut Connection, state: &Arc<ConnectionState>) -> rusqlite::
     }))
 }
 
-/// A name as it stands in a statement.
+/// Quotes a name for a statement.
 pub(crate) fn quoted(name: &str) -> String {
     format!("\"{}\"", name.replace('"', "\"\""))
 }

@@ -1,4 +1,4 @@
-//! The database within the program: the tables of a run, and what is asked of them.
+//! The internal database: the tables of a run, and queries of them.
 
 use std::borrow::Cow;
 use std::path::Path;
@@ -22,16 +22,16 @@ use burgeon_base::locks::LockRecovery;
 use burgeon_base::text::shown;
 use burgeon_data::{Layer, ReferenceFrame};
 
-/// How many rewritten statements are kept.
+/// Maximum number of rewritten statements that are kept.
 const STATEMENTS: usize = 500;
 
-/// The number of the next database's memory, which all of the process share.
+/// Number of the next in-memory database, which is unique in the process.
 static MEMORIES: AtomicUsize = AtomicUsize::new(0);
 
-/// Tables of features, and questions that are put to them in SQL.
+/// Tables of features, queried in SQL.
 ///
-/// Threads may ask at the same time. In statements, coordinates are those of the run's projection; what comes in and goes
-/// out is in metres around the run's origin.
+/// Several threads may query at the same time. In statements, coordinates are in the run's projection; parameters and
+/// results are in metres relative to the run's origin.
 ///
 /// ```
 /// use std::sync::Arc;
@@ -50,64 +50,64 @@ pub struct Database {
     frame: Option<ReferenceFrame>,
     tables: RwLock<TableSet>,
     indexes: Arc<Indexes>,
-    /// Held while an index is made, so that nobody makes it twice.
+    /// Lock for building an index, so that it is built only once.
     building: Mutex<()>,
     idle: Mutex<Vec<DatabaseLink>>,
-    /// As they are asked, each with the state of the tables that it was made for.
+    /// Prepared statements by their SQL, each with the generation of the tables for which it was prepared.
     statements: Mutex<FxHashMap<String, (usize, Arc<PreparedStatement>)>>,
-    /// Keeps the memory, and writes into it.
+    /// Connection that keeps the memory alive, and writes to it.
     writer: Mutex<Connection>,
 }
 
-/// What there is.
+/// The tables of the database.
 #[derive(Default)]
 struct TableSet {
     catalogue: Catalogue,
     files: Vec<AttachedFile>,
     views: Vec<TableView>,
-    /// What each table was made of, to tell what is added twice from what has the same name.
+    /// Origin of each table, which distinguishes a table that is added twice from another table of the same name.
     origins: FxHashMap<String, String>,
-    /// The memory (bytes) of each table of rows.
+    /// Memory (bytes) of each table of rows.
     memory: FxHashMap<String, usize>,
-    /// Counts changes.
+    /// Number of changes so far.
     generation: usize,
 }
 
-/// The origin of tables of rows.
+/// Origin of tables of rows.
 const ROWS: &str = "rows";
 
-/// A statement as it is asked.
+/// A statement that is prepared for running.
 pub(crate) struct PreparedStatement {
-    /// As it was written.
+    /// Statement as written.
     pub original: String,
-    /// As it was rewritten, if it could be read.
+    /// Rewritten statement, if the original could be parsed.
     pub rewritten: Option<RewrittenQuery>,
-    /// What is known of its columns and parameters, once it was asked.
+    /// Columns and parameters, computed when the statement first runs.
     pub shape: OnceLock<StatementShape>,
 }
 
-/// What a column holds that SQLite has otherwise.
+/// The type of a column that SQLite stores differently.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum AnswerColumn {
-    /// What SQLite has.
+    /// Value as SQLite stores it.
     Plain,
-    /// What is true or false, as 1 or 0.
+    /// Boolean, stored as 1 or 0.
     Boolean,
-    /// Lists, as JSON.
+    /// List, stored as JSON.
     List,
 }
 
-/// The columns of a statement, and its parameters.
+/// The columns and parameters of a statement.
 pub(crate) struct StatementShape {
-    /// The names of columns.
+    /// Names of the columns.
     pub names: Arc<[String]>,
-    /// What columns hold.
+    /// Types of the columns.
     pub kinds: Vec<AnswerColumn>,
-    /// The names of parameters, by number.
+    /// Names of the parameters, by number.
     pub parameters: Vec<Option<String>>,
 }
 
-/// Whether a statement names a table.
+/// Reports whether a statement names a table.
 pub fn names_table(sql: &str, table: &str) -> bool {
     rewrite::find_word(sql, table).is_some()
 }
@@ -117,8 +117,8 @@ pub fn table_words(sql: &str) -> Vec<String> {
     rewrite::table_words(sql)
 }
 
-/// Returns a statement that reads other tables: each pair is a name as it is written, with its schema if it has one, and the
-/// name of the table that it means. Fails if the statement cannot be read.
+/// Renames the tables of a statement. Each pair is a name as written, with its schema if given, and the new name of the
+/// table. Fails if the statement cannot be parsed.
 pub fn rename_tables(sql: &str, names: &[(&str, Cow<'_, str>)]) -> Result<String> {
     rewrite::rename_tables(sql, names)
 }
@@ -130,11 +130,11 @@ impl std::fmt::Debug for Database {
 }
 
 impl Database {
-    /// One without tables, whose coordinates are those of `frame`'s projection.
+    /// Creates a database without tables, with coordinates in `frame`'s projection.
     pub fn new(frame: Option<ReferenceFrame>) -> Result<Self> {
         let address = format!("file:/burgeon-{}?vfs=memdb", MEMORIES.fetch_add(1, Ordering::Relaxed));
         let writer = open_memory(&address, true).map_err(|error| errors::internal(&error))?;
-        // Memory that nothing was written to has no pages, and those who only read could not open it.
+        // An in-memory database without any writes has no pages, so read-only connections could not open it.
         let begin = "PRAGMA page_size = 4096; PRAGMA journal_mode = OFF; PRAGMA application_id = 1;";
         writer.execute_batch(begin).map_err(|error| errors::internal(&error))?;
         Ok(Self {
@@ -149,7 +149,7 @@ impl Database {
         })
     }
 
-    /// The names of its tables, in the order of the alphabet.
+    /// Returns the names of the tables, in alphabetical order.
     pub fn tables(&self) -> Vec<String> {
         let tables = self.tables.read().recover();
         tables.catalogue.values().map(|table| table.name.clone()).collect()
@@ -157,7 +157,7 @@ impl Database {
 
     /// Adds the features of a layer as the table `name`: their `id`, their attributes, and their geometry as `geom`.
     ///
-    /// Fails if another table is called so, or if there is no memory for it.
+    /// Fails if another table has this name, or if the memory limit is exceeded.
     pub fn add_layer(&self, name: &str, layer: &Layer, budget: &Budget) -> Result<()> {
         let origin = format!("{} {:?} {}", layer.shown, layer.origin, layer.features.len());
         let mut tables = self.tables.write().recover();
@@ -170,10 +170,10 @@ impl Database {
         Ok(())
     }
 
-    /// Adds the layer `layer` of the GeoPackage at `path`, which messages call `shown_name`, as the table `name`. The file
-    /// is read as it is where its coordinates are those of the database, and otherwise copied.
+    /// Adds the layer `layer` of the GeoPackage at `path`, named `shown_name` in messages, as the table `name`. The
+    /// file is read in place if its coordinates are those of the database, and copied otherwise.
     ///
-    /// Fails if another table is called so, if the file cannot be read, and if it has no such layer.
+    /// Fails if another table has this name, if the file cannot be read, or if it has no such layer.
     pub fn add_geopackage(
         &self,
         name: &str,
@@ -204,7 +204,7 @@ impl Database {
                 schema
             }
         };
-        // Another file may have a table of that name, too.
+        // Another file may have a table of the same name.
         let alone = tables.files.len() == 1 && name == layer;
         if !alone {
             tables.views.push(TableView { name: name.to_owned(), schema, table: layer.to_owned() });
@@ -214,9 +214,9 @@ impl Database {
         Ok(())
     }
 
-    /// Adds a table of rows, in the place of the one of that name that was added so before. No statement may be running.
+    /// Adds a table of rows, and replaces the table of rows of the same name. No statement may be running.
     ///
-    /// Fails if a source is called so, or if there is no memory for it.
+    /// Fails if a source has this name, or if the memory limit is exceeded.
     pub fn set_rows(&self, table: &RowTable, budget: &Arc<Budget>) -> Result<()> {
         let mut tables = self.tables.write().recover();
         tables.remove_rows(&table.name, &self.writer.lock().recover(), budget)?;
@@ -230,10 +230,10 @@ impl Database {
         Ok(())
     }
 
-    /// The rows that a statement asks for, with `parameters` in place of the names behind `$`.
+    /// Returns the rows of a statement, with `parameters` in place of the names after `$`.
     ///
-    /// Where it says nothing of their order, they are ordered by `fid`, `id` or `ogc_fid` if there is such a column, and
-    /// by all columns. Fails at what it may not do: anything but reading.
+    /// If the statement does not specify an order, the rows are sorted by `fid`, `id` or `ogc_fid` if there is such a
+    /// column, and then by all columns. Fails if the statement does anything but read.
     pub fn query(
         &self,
         sql: &str,
@@ -245,7 +245,7 @@ impl Database {
         })
     }
 
-    /// The rows of a statement as it was written, whatever time that takes.
+    /// Returns the rows of the original statement, without rewriting, however slow it is.
     #[cfg(test)]
     pub(crate) fn query_plainly(
         &self,
@@ -260,7 +260,7 @@ impl Database {
         })
     }
 
-    /// How SQLite goes about a statement, a line for each step, after it was rewritten.
+    /// Returns SQLite's query plan of the rewritten statement, one line per step.
     pub fn plan(&self, sql: &str, budget: &Arc<Budget>) -> Result<String> {
         self.asked(sql, budget, ask::plan)
     }
@@ -282,10 +282,10 @@ impl Database {
         drop(within);
         link.unpin()?;
         let result = done.map_err(|failure| {
-            // What was interrupted does not say why.
+            // The error of an interrupted statement does not contain the cause.
             budget.check().err().unwrap_or_else(|| self.error(sql, failure, &link))
         });
-        // A set operation that was interrupted has made nothing of its geometries.
+        // An interrupted set operation has returned null for its geometries.
         let result = result.and_then(|done| budget.check().map(|()| done));
         link.state.give(&Arc::default());
         let mut idle = self.idle.lock().recover();
@@ -309,7 +309,7 @@ impl Database {
         }
     }
 
-    /// A connection that sees all tables, and keeps pages in a share of the memory (bytes).
+    /// Returns a connection that sees all tables, with a page cache that is a fraction of `memory` (bytes).
     fn link(&self, memory: usize) -> Result<DatabaseLink> {
         let tables = self.tables.read().recover();
         let mut idle = self.idle.lock().recover();
@@ -325,7 +325,7 @@ impl Database {
             .map_err(|error| errors::internal(&error))
     }
 
-    /// The statement as it is asked, with all indexes that it needs.
+    /// Returns the prepared statement, and builds all indexes that it needs.
     fn prepared(
         &self,
         sql: &str,
@@ -353,7 +353,7 @@ impl Database {
         Ok(prepared)
     }
 
-    /// Makes the index of a table's column, unless it is there.
+    /// Builds the index of a table's column, unless it exists.
     fn index(
         &self,
         name: &str,
@@ -384,7 +384,7 @@ impl Database {
 }
 
 impl TableSet {
-    /// Whether the table is there already. Fails if another one is called so.
+    /// Returns true if the table already exists. Fails if another table has this name.
     fn is_there(&self, name: &str, origin: &str) -> Result<bool> {
         let reserved = ["sqlite_", "burgeon_", "gpkg_", "rtree_"];
         let key = name.to_ascii_lowercase();
@@ -400,7 +400,7 @@ impl TableSet {
         }
     }
 
-    /// Removes a table of rows, if it is there.
+    /// Removes a table of rows, if it exists.
     fn remove_rows(&mut self, name: &str, writer: &Connection, budget: &Budget) -> Result<()> {
         let key = name.to_ascii_lowercase();
         if self.origins.get(&key).is_none_or(|origin| origin != ROWS) {

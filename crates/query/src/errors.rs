@@ -1,4 +1,4 @@
-//! What is told of a statement that cannot be asked: where it is wrong, and what there is.
+//! Errors of statements: the position of the error, and the available names.
 
 use rusqlite::ffi::ErrorCode;
 
@@ -9,16 +9,16 @@ use crate::rewrite::{self, Catalogue};
 use burgeon_base::error::{Error, Limit, Result};
 use burgeon_base::text::{listed, shown};
 
-/// An error of Burgeon's own use of SQLite.
+/// Creates the error for a failure of Burgeon's own use of SQLite.
 pub(crate) fn internal(error: &rusqlite::Error) -> Error {
     Error::internal(format!("the database of the run: {error}"))
 }
 
-/// An error that reading tables meets: Burgeon's own, or SQLite's.
+/// An error while reading tables: of Burgeon or of SQLite.
 pub(crate) enum TableError {
-    /// Burgeon's own.
+    /// Error of Burgeon.
     Told(Error),
-    /// SQLite's.
+    /// Error of SQLite.
     Sqlite(rusqlite::Error),
 }
 
@@ -34,7 +34,7 @@ impl From<rusqlite::Error> for TableError {
     }
 }
 
-/// The error, as `tell` says it where it is SQLite's.
+/// Returns the error of Burgeon, or converts an error of SQLite with `tell`.
 pub(crate) fn or_sqlite(error: TableError, tell: impl FnOnce(&rusqlite::Error) -> Error) -> Error {
     match error {
         TableError::Told(error) => error,
@@ -42,7 +42,7 @@ pub(crate) fn or_sqlite(error: TableError, tell: impl FnOnce(&rusqlite::Error) -
     }
 }
 
-/// Fails if a statement is too long, or more than one.
+/// Fails if a statement is empty or too long, or if there are several statements.
 pub(crate) fn check_length(sql: &str) -> Result<()> {
     if sql.len() > LONGEST_STATEMENT {
         return Err(Error::limit(
@@ -63,7 +63,7 @@ pub(crate) fn check_length(sql: &str) -> Result<()> {
     }
 }
 
-/// `line 1, column 8`.
+/// Describes a position, such as `line 1, column 8`.
 pub(crate) fn at(sql: &str, offset: usize) -> String {
     let before = sql.get(..offset).unwrap_or(sql);
     let line = before.matches('\n').count() + 1;
@@ -71,7 +71,7 @@ pub(crate) fn at(sql: &str, offset: usize) -> String {
     format!("line {line}, column {column}")
 }
 
-/// Whether SQLite could not even read a statement.
+/// Returns true if SQLite could not parse a statement.
 pub(crate) fn is_syntax(error: &rusqlite::Error) -> bool {
     let text = words(error);
     text.contains("syntax error")
@@ -79,7 +79,7 @@ pub(crate) fn is_syntax(error: &rusqlite::Error) -> bool {
         || text.starts_with("incomplete input")
 }
 
-/// What SQLite says, in its own words.
+/// Returns SQLite's message.
 fn words(error: &rusqlite::Error) -> String {
     match error {
         rusqlite::Error::SqliteFailure(_, Some(text)) => text.clone(),
@@ -88,7 +88,7 @@ fn words(error: &rusqlite::Error) -> String {
     }
 }
 
-/// The error of a statement `sql`.
+/// Converts SQLite's error in the statement `sql`.
 pub(crate) fn statement_error(error: &rusqlite::Error, sql: &str, catalogue: &Catalogue) -> Error {
     let text = words(error);
     let code = error.sqlite_error_code();
@@ -142,7 +142,7 @@ pub(crate) fn statement_error(error: &rusqlite::Error, sql: &str, catalogue: &Ca
         return if takes.is_empty() { error } else { error.help(takes) };
     }
     let at_end = text == "incomplete input";
-    // A function says its name first.
+    // Messages of functions start with the function's name.
     let function = text.split_once(": ").filter(|(name, _)| functions::find(name).is_some());
     let what = match function {
         Some((name, _)) => format!("{}{text}", place(sql, offset, name)),
@@ -175,10 +175,10 @@ pub(crate) fn statement_error(error: &rusqlite::Error, sql: &str, catalogue: &Ca
     }
 }
 
-/// What SQLite says before the name of a function that may not be called.
+/// Start of SQLite's message about a function that may not be called.
 const NOT_ALLOWED: &str = "not authorized to use function: ";
 
-/// What SQLite says of a column that may not be read.
+/// Start of SQLite's message about a column that may not be read.
 const NOT_READ: &str = "access to ";
 
 fn refused(text: &str, sql: &str) -> Error {
@@ -199,13 +199,13 @@ fn refused(text: &str, sql: &str) -> Error {
     only_reading()
 }
 
-/// The error of a statement that does not ask for rows.
+/// Creates the error for a statement that does not return rows.
 pub(crate) fn only_reading() -> Error {
     Error::scope("SQL: a question may only read: SELECT, WITH and VALUES are allowed")
         .help("layers are written with exports, not with SQL")
 }
 
-/// Where a name stands in a statement, as far as that is known, and who says so.
+/// Describes the position of a name in a statement, if known, as the start of a message.
 fn place(sql: &str, offset: Option<usize>, name: &str) -> String {
     match offset.or_else(|| rewrite::find_word(sql, name)) {
         Some(offset) => format!("SQL, {}: ", at(sql, offset)),
@@ -217,7 +217,7 @@ fn mentions(sql: &str, table: &str) -> bool {
     rewrite::find_word(sql, table).is_some()
 }
 
-/// The value of a parameter that SQLite knows as `name`.
+/// Returns the value of a parameter that is named `name` in SQLite.
 pub(crate) fn parameter<'a>(sql: &str, name: Option<&str>, given: &'a [(&str, Cell)]) -> Result<&'a Cell> {
     let Some(own) = name.and_then(|name| name.strip_prefix('$')) else {
         let shown = name.unwrap_or("?");

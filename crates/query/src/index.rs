@@ -1,7 +1,7 @@
-//! Which rows of a table lie where: their boxes in a tree, and for what is nearest their lines.
+//! A spatial index of a table: the boxes of its rows in a tree, and for nearest-neighbour searches their lines.
 //!
-//! Comes in: keys and blobs of a column. Goes out: the keys of rows whose boxes meet a box, and of those that are nearest
-//! to a geometry. Rows without a geometry are known too, since they come last where rows are ordered by distance.
+//! Input: keys and blobs of a column. Output: the keys of rows whose boxes intersect a box, and of the rows nearest to
+//! a geometry. Rows without a geometry are included, because they come last when rows are ordered by distance.
 
 use burgeon_geometry::planar::{Point, foot};
 use geo::{BoundingRect, Coord, CoordsIter, Intersects, Line, LinesIter};
@@ -16,7 +16,7 @@ use burgeon_base::error::{Error, Limit, Result};
 /// The box of a row, and its number.
 type RowBox = GeomWithData<Rectangle<[f64; 2]>, u32>;
 
-/// A line of a row's geometry; a point is one without length.
+/// A line of a row's geometry; a point is a line of length 0.
 #[derive(Debug, Clone, Copy)]
 struct RowSegment {
     line: Line<f64>,
@@ -37,33 +37,33 @@ impl PointDistance for RowSegment {
     }
 }
 
-/// The rows of one column of geometries.
+/// The index of one geometry column.
 #[derive(Debug)]
 pub(crate) struct SpatialIndex {
     boxes: RTree<RowBox>,
-    /// The key of each row that has a geometry.
+    /// Key of each row that has a geometry.
     keys: Vec<i64>,
-    /// The keys of rows without a geometry, or with an empty one, in order.
+    /// Keys of rows without a geometry or with an empty one, in order.
     without: Vec<i64>,
-    /// What is asked for the nearest, if it was wanted.
+    /// Lines for nearest-neighbour searches, if requested.
     lines: Option<RowLines>,
-    /// How far coordinates may be off where they are compared.
+    /// Tolerance of comparisons of coordinates.
     slack: f64,
 }
 
 #[derive(Debug)]
 struct RowLines {
     tree: RTree<RowSegment>,
-    /// The geometry of each row that is an area.
+    /// Geometry of each row that is an area.
     areas: Vec<Option<geo::Geometry<f64>>>,
-    /// Whether there is one.
+    /// Set if there is an area.
     has_areas: bool,
 }
 
-/// The lines of all rows, and the geometry of each that is an area.
+/// The lines of all rows, and the geometry of each row that is an area.
 type RowParts = (Vec<RowSegment>, Vec<Option<geo::Geometry<f64>>>);
 
-/// Takes rows in.
+/// The builder of an index, to which rows are added.
 #[derive(Default)]
 pub(crate) struct IndexBuilder {
     boxes: Vec<RowBox>,
@@ -74,12 +74,12 @@ pub(crate) struct IndexBuilder {
 }
 
 impl IndexBuilder {
-    /// One that is asked for the nearest, too, if `nearest`.
+    /// Creates a builder, with lines for nearest-neighbour searches if `nearest`.
     pub(crate) fn new(nearest: bool) -> Self {
         Self { lines: nearest.then(Default::default), ..Self::default() }
     }
 
-    /// Adds a row. What cannot be read is as if it was not there: functions tell of it.
+    /// Adds a row. A geometry that cannot be read counts as missing, because functions report it.
     pub(crate) fn push(&mut self, key: i64, bytes: Option<&[u8]>, budget: &Budget) -> Result<()> {
         budget.tick()?;
         let told = bytes.and_then(blob::told_bounds).filter(|_| self.lines.is_none());
@@ -114,7 +114,7 @@ impl IndexBuilder {
         Ok(())
     }
 
-    /// The index of all that was added.
+    /// Builds the index of all added rows.
     pub(crate) fn build(mut self) -> SpatialIndex {
         self.without.sort_unstable();
         SpatialIndex {
@@ -132,12 +132,13 @@ impl IndexBuilder {
 }
 
 impl SpatialIndex {
-    /// Whether it can be asked for the nearest.
+    /// Returns true if the index supports nearest-neighbour searches.
     pub(crate) fn has_lines(&self) -> bool {
         self.lines.is_some()
     }
 
-    /// The keys of rows whose boxes are at most `distance` from that of a geometry; of those without one, if it has none.
+    /// Returns the keys of rows whose boxes are within `distance` of the box of a geometry, or of the rows without a
+    /// geometry if `bounds` is `None`.
     pub(crate) fn near(&self, bounds: Option<[f64; 4]>, distance: f64) -> Vec<i64> {
         let Some([low_x, low_y, high_x, high_y]) = bounds else { return self.without.clone() };
         let most = distance + 1e-12 * distance.abs() + 4.0 * self.slack;
@@ -154,8 +155,9 @@ impl SpatialIndex {
         keys
     }
 
-    /// The keys of the rows that are nearest to a geometry, and of those as near as the last of them. Rows without a
-    /// geometry are farther than all others; all are as far from nothing.
+    /// Returns the keys of the `count` rows nearest to a geometry, and of the rows at the same distance as the last of
+    /// them. Rows without a geometry are farther than all others. If `from` is empty, all rows are at the same
+    /// distance.
     pub(crate) fn nearest(&self, from: &geo::Geometry<f64>, count: usize) -> Vec<i64> {
         let mut rows = self.measured(from, count);
         rows.sort_by(|a, b| a.1.total_cmp(&b.1).then(a.0.cmp(&b.0)));
@@ -169,7 +171,7 @@ impl SpatialIndex {
         keys
     }
 
-    /// The key of the row that is nearest to a geometry; of equal ones the least.
+    /// Returns the key of the row nearest to a geometry; among equally near rows, the lowest key.
     pub(crate) fn nearest_one(&self, from: &geo::Geometry<f64>) -> Option<i64> {
         let asked = self.lines.as_ref().zip(NearestFrom::new(from));
         let best = asked.and_then(|(lines, from)| {
@@ -193,22 +195,22 @@ impl SpatialIndex {
         best.or_else(|| self.without.first().copied())
     }
 
-    /// The least of all keys.
+    /// Returns the lowest key.
     pub(crate) fn first(&self) -> Option<i64> {
         self.keys.iter().chain(self.without.first()).min().copied()
     }
 
-    /// All keys.
+    /// Returns all keys.
     pub(crate) fn all(&self) -> Vec<i64> {
         let mut keys: Vec<i64> = self.keys.iter().chain(&self.without).copied().collect();
         keys.sort_unstable();
         keys
     }
 
-    /// The rows that can be among the `count` nearest, with their distances.
+    /// Returns the rows that may be among the `count` nearest, with their distances.
     fn measured(&self, from: &geo::Geometry<f64>, count: usize) -> Vec<(i64, f64)> {
         let (Some(lines), Some(from)) = (&self.lines, NearestFrom::new(from)) else { return Vec::new() };
-        // No row is farther than the lines that are nearest to the middle.
+        // The rows nearest to the centre give an upper bound of the distance.
         let mut found: Vec<(u32, f64)> = Vec::new();
         for segment in lines.tree.nearest_neighbor_iter(&from.middle()) {
             let far = from.distance(&segment.line, f64::INFINITY);
@@ -243,7 +245,7 @@ impl SpatialIndex {
         found.into_iter().map(|(row, far)| (self.keys[row as usize], far)).collect()
     }
 
-    /// The rows whose areas reach to a corner of what lies in them.
+    /// Returns the rows whose areas contain the first corner of the geometry.
     fn rows_around<'a>(
         &'a self,
         lines: &'a RowLines,
@@ -264,15 +266,15 @@ impl SpatialIndex {
 /// A geometry from which distances are measured.
 struct NearestFrom<'a> {
     geometry: &'a geo::Geometry<f64>,
-    /// Its lines.
+    /// Lines of the geometry.
     lines: Vec<Line<f64>>,
-    /// Whether what lies within them belongs to it.
+    /// Set if the geometry includes its interior.
     is_area: bool,
     bounds: AABB<[f64; 2]>,
 }
 
 impl<'a> NearestFrom<'a> {
-    /// Nothing if it is empty.
+    /// Prepares a geometry, or returns `None` if it is empty.
     fn new(geometry: &'a geo::Geometry<f64>) -> Option<Self> {
         let bounds = geometry.bounding_rect()?;
         let bounds = AABB::from_corners(bounds.min().into(), bounds.max().into());
@@ -283,20 +285,20 @@ impl<'a> NearestFrom<'a> {
         self.bounds.center()
     }
 
-    /// The box of all that is at most `reach` away.
+    /// Returns the box of all points within `reach`.
     fn around(&self, reach: f64) -> AABB<[f64; 2]> {
         let reach = if reach.is_finite() { reach } else { f64::MAX / 4.0 };
         let ([west, south], [east, north]) = (self.bounds.lower(), self.bounds.upper());
         AABB::from_corners([west - reach, south - reach], [east + reach, north + reach])
     }
 
-    /// How far a line is; where that is more than `most`, any number that is more.
+    /// Returns the distance to a line, or any number above `most` if it is farther.
     fn distance(&self, line: &Line<f64>, most: f64) -> f64 {
         let own = boxed(line);
         if square_box_distance(&self.bounds, &own) > most * most {
             return f64::INFINITY;
         }
-        // What is as far as that counts, too.
+        // A line exactly at the maximum distance counts as well.
         let mut least = most * most * (1.0 + 4.0 * f64::EPSILON);
         let mut found = f64::INFINITY;
         for each in &self.lines {
@@ -334,7 +336,7 @@ fn is_area(geometry: &geo::Geometry<f64>) -> bool {
     }
 }
 
-/// All lines of a geometry; its points as lines without length.
+/// Returns all lines of a geometry, with points as lines of length 0.
 fn lines(geometry: &geo::Geometry<f64>) -> Vec<Line<f64>> {
     let dot = |at: Coord<f64>| Line::new(at, at);
     match geometry {
@@ -353,14 +355,14 @@ fn boxed(line: &Line<f64>) -> AABB<[f64; 2]> {
     AABB::from_corners(line.start.into(), line.end.into())
 }
 
-/// The square of the distance of two boxes.
+/// Returns the square of the distance between two boxes.
 fn square_box_distance(a: &AABB<[f64; 2]>, b: &AABB<[f64; 2]>) -> f64 {
     let apart =
         |axis: usize| (b.lower()[axis] - a.upper()[axis]).max(a.lower()[axis] - b.upper()[axis]).max(0.0);
     apart(0) * apart(0) + apart(1) * apart(1)
 }
 
-/// The square of the distance of a point from a line.
+/// Returns the square of the distance between a point and a line.
 fn square_distance(line: &Line<f64>, at: Coord<f64>) -> f64 {
     let part = foot([line.start, line.end], at.flat());
     let (along, to) = (line.end - line.start, at - line.start);

@@ -1,11 +1,11 @@
-//! SQL over layers of features: questions that are put to a database within the program, or to a PostGIS server.
+//! SQL over layers of features: queries of an internal database, or of a PostGIS server.
 //!
-//! Comes in: layers, GeoPackages as they are, the address of a server; then statements with named parameters. Goes out:
-//! a [`QueryAnswer`] for each, rows of [`Cell`]s in one order. It never writes into a source, and no statement reaches anything
-//! but the tables that it was given.
+//! Input: layers, GeoPackages in place, or the address of a server; then statements with named parameters. Output: a
+//! [`QueryAnswer`] for each statement, with rows of [`Cell`]s in a fixed order. Sources are never written to, and a
+//! statement reads only the tables that were added.
 //!
-//! Functions are those of PostGIS, as far as [`FUNCTIONS`] goes. Spatial joins use an index however they are written:
-//! the statement is rewritten so that SQLite looks rows up by the boxes of their geometries.
+//! The functions are a subset of PostGIS: see [`FUNCTIONS`]. Spatial joins use an index in any notation: the statement
+//! is rewritten so that SQLite finds rows by the boxes of their geometries.
 #![cfg(feature = "data")]
 
 mod ask;

@@ -1,20 +1,20 @@
-//! Moves geometries between the metres around the run's origin and the coordinates that statements have.
+//! Moves geometries between metres relative to the run's origin and the coordinates in statements.
 
 use burgeon_base::error::{Error, Result};
 use burgeon_data::{Crs, ReferenceFrame};
 use burgeon_spatial::Geometry;
 
-/// From the projection's coordinates to the run's.
+/// Converts a geometry from the projection's coordinates to the run's.
 pub(crate) fn enter(geometry: Geometry, frame: Option<&ReferenceFrame>) -> Geometry {
     shifted(geometry, frame, -1.0)
 }
 
-/// From the run's coordinates to the projection's.
+/// Converts a geometry from the run's coordinates to the projection's.
 pub(crate) fn leave(geometry: &Geometry, frame: Option<&ReferenceFrame>) -> Geometry {
     shifted(geometry.clone(), frame, 1.0)
 }
 
-/// From the coordinates of a reference system to the run's. Fails if there is no such place.
+/// Converts a geometry from a reference system to the run's coordinates. Fails if it has no position there.
 pub(crate) fn entered(mut geometry: Geometry, code: u32, frame: &ReferenceFrame) -> Result<Geometry> {
     let crs = Crs::epsg(code)?;
     let passage = frame.passage(&crs)?;
@@ -28,7 +28,8 @@ pub(crate) fn entered(mut geometry: Geometry, code: u32, frame: &ReferenceFrame)
         .help("check its reference system: ST_SetSRID and ST_Transform take EPSG's codes"))
 }
 
-/// A geometry in another reference system; both are the run's where they have no code. Fails if there is no such place.
+/// Transforms a geometry to another reference system. `None` is the run's projection. Fails if it has no position
+/// there.
 pub(crate) fn transformed(
     geometry: &Geometry,
     from: Option<u32>,
@@ -62,28 +63,28 @@ fn shifted(mut geometry: Geometry, frame: Option<&ReferenceFrame>, sign: f64) ->
     geometry
 }
 
-/// The way between a run and the coordinate system of a server.
+/// The transformation between a run and the coordinate system of a server.
 #[cfg(feature = "postgis")]
 pub(crate) struct Move<'a>(Option<burgeon_data::Passage<'a>>);
 
 #[cfg(feature = "postgis")]
 impl<'a> Move<'a> {
-    /// The way that leaves all where it is.
+    /// Returns the identity transformation.
     pub(crate) fn nowhere() -> Self {
         Self(None)
     }
 
-    /// The way between a frame and a coordinate system.
+    /// Returns the transformation between a frame and a coordinate system.
     pub(crate) fn between(frame: &'a ReferenceFrame, crs: &Crs) -> Result<Self> {
         frame.passage(crs).map(|passage| Self(Some(passage)))
     }
 
-    /// A value of the server as the run has it.
+    /// Converts a value from the server's coordinates to the run's.
     pub(crate) fn bring_in(&self, cell: crate::Cell) -> crate::Cell {
         self.moved(cell, |passage, at| passage.enter(at))
     }
 
-    /// A value of the run as the server has it.
+    /// Converts a value from the run's coordinates to the server's.
     pub(crate) fn bring_out(&self, cell: crate::Cell) -> crate::Cell {
         self.moved(cell, |passage, at| passage.leave(at))
     }

@@ -1,11 +1,11 @@
-//! Geometries as `geo` has them, for what is asked of pairs.
+//! Conversion of geometries to the types of `geo`, for relations between two geometries.
 
 use burgeon_geometry::Rings;
 use burgeon_spatial::Geometry;
 use geo::{Coord, LineString, MultiLineString, MultiPoint, MultiPolygon, Point, Polygon};
 use glam::DVec3;
 
-/// A geometry as seen from above, in `geo`'s types. Empty ones keep their kind, but for an empty point.
+/// Converts a geometry to `geo`'s types, without z. Empty geometries keep their type, except an empty point.
 pub(crate) fn flat(geometry: &Geometry) -> geo::Geometry<f64> {
     match geometry {
         Geometry::Point(None) => MultiPoint(Vec::new()).into(),
@@ -34,7 +34,7 @@ fn line(points: &[DVec3]) -> LineString<f64> {
 }
 
 fn polygon(rings: &Rings) -> Polygon<f64> {
-    // Rings are closed as they are taken in.
+    // `Polygon::new` closes the rings.
     let mut rings = rings.iter().map(|ring| line(ring));
     Polygon::new(rings.next().unwrap_or_else(|| LineString(Vec::new())), rings.collect())
 }

@@ -1,4 +1,4 @@
-//! Tables whose rows a program has in memory, and changes from one question to the next.
+//! Tables whose rows are in the program's memory, and change between queries.
 
 use std::sync::Arc;
 
@@ -29,7 +29,7 @@ pub struct RowTable {
 }
 
 impl RowTable {
-    /// Writes the rows as a table, which has no column besides those of the rows.
+    /// Writes the rows as a table, without additional columns.
     pub(crate) fn write(
         &self,
         writer: &Connection,
@@ -45,7 +45,7 @@ impl RowTable {
         let mut declared: Vec<String> =
             names.iter().zip(&kinds).map(|(name, kind)| format!("{} {kind}", quoted(name))).collect();
         if declared.is_empty() {
-            // SQLite has no table without columns.
+            // SQLite requires at least one column.
             declared.push("\"present\" BOOLEAN".to_owned());
             names.push("present".to_owned());
         }
@@ -59,7 +59,7 @@ impl RowTable {
         };
         let count = write(writer, &self.name, &declared, budget, next)
             .map_err(|error| errors::or_sqlite(error, |error| errors::internal(error).about(&self.name)))?;
-        // The number of a row is not a column of its own, so that `SELECT *` gives the rows and nothing else.
+        // The row number is not a column, so that `SELECT *` returns only the columns of the rows.
         let key = ["rowid", "oid", "_rowid_"]
             .into_iter()
             .find(|key| !names.iter().any(|name| name.eq_ignore_ascii_case(key)));
@@ -75,7 +75,7 @@ impl RowTable {
         })
     }
 
-    /// Returns the declared type of a column: that of all its values.
+    /// Returns the declared type of a column: the common type of its values.
     fn kind(&self, column: usize) -> &'static str {
         let mut known = None;
         for cell in self.cells.iter().skip(column).step_by(self.columns.len().max(1)) {
@@ -91,7 +91,7 @@ impl RowTable {
                 None => kind,
                 Some(known) if known == kind => kind,
                 Some("INTEGER" | "REAL") if matches!(kind, "INTEGER" | "REAL") => "REAL",
-                // Each value stays as it is.
+                // Columns with values of different types keep each value unchanged.
                 Some(_) => return "BLOB",
             });
         }
@@ -102,7 +102,7 @@ impl RowTable {
 /// Declared type of a column with geometries.
 const GEOMETRY: &str = "GEOMETRY";
 
-/// Returns a cell as SQLite stores it.
+/// Converts a cell to a value that SQLite stores.
 fn value(cell: &Cell, frame: Option<&ReferenceFrame>) -> Value {
     match cell {
         Cell::Null | Cell::List(_) => Value::Null,

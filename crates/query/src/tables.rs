@@ -1,4 +1,4 @@
-//! Layers as tables: those of GeoPackages as they are, or copied, and those of other files.
+//! Layers as tables: GeoPackage layers in place or copied, and layers of other files.
 
 use std::path::Path;
 use std::sync::Arc;
@@ -19,13 +19,13 @@ use burgeon_data::{Attribute, Crs, GeoPackage, Layer, PackageState, ReferenceFra
 use burgeon_spatial::Geometry;
 use glam::DVec3;
 
-/// How long is waited for those who read while something is written.
+/// Maximum wait for readers before a write.
 const PATIENCE: Duration = Duration::from_secs(10);
 
-/// The most columns of a table.
+/// Maximum number of columns of a table.
 const MOST_COLUMNS: usize = 1900;
 
-/// The index of a table's column.
+/// Builds the index of a table's column.
 pub(crate) fn index(
     connection: &Connection,
     table: &TableInfo,
@@ -46,7 +46,7 @@ pub(crate) fn index(
     Ok(builder.build())
 }
 
-/// The row of a table that holds these bytes as a geometry, in words.
+/// Describes the row of a table that has these bytes as a geometry.
 pub(crate) fn row_of(connection: &Connection, table: &TableInfo, bytes: &[u8]) -> Option<String> {
     let key = table.key.as_deref()?;
     table.geometries.iter().find_map(|column| {
@@ -64,18 +64,18 @@ pub(crate) fn row_of(connection: &Connection, table: &TableInfo, bytes: &[u8]) -
 
 /// A layer of a GeoPackage.
 pub(crate) struct FileLayer {
-    /// What is known of its table, under its own name.
+    /// Description of its table, under its name in the file.
     pub info: TableInfo,
-    /// The state of the file that is read.
+    /// State of the file that is read.
     pub state: Arc<PackageState>,
     crs: Result<Crs>,
     shown: String,
-    /// How columns were declared.
+    /// Declared types of the columns.
     kinds: Vec<(String, String)>,
 }
 
 impl FileLayer {
-    /// Looks a layer up in a file.
+    /// Finds a layer in a file.
     pub(crate) fn find(path: &Path, name: &str, layer: &str, budget: &Arc<Budget>) -> Result<Self> {
         let shape = GeoPackage::shape(path, name, layer, budget)?;
         let info = TableInfo {
@@ -91,14 +91,15 @@ impl FileLayer {
         Ok(Self { info, state, crs: shape.crs, shown: format!("{name}:{layer}"), kinds: shape.columns })
     }
 
-    /// Whether it can be read as it is: its coordinates are those of the frame's projection, and rows have keys.
+    /// Returns true if the layer can be read in place: its coordinates are in the frame's projection, and its rows have
+    /// keys.
     pub(crate) fn stays(&self, frame: Option<&ReferenceFrame>) -> Result<bool> {
         let Some(frame) = frame else { return Ok(self.info.key.is_some()) };
         let crs = self.crs.clone().map_err(|error| error.about(&self.shown))?;
         Ok(self.info.key.is_some() && frame.passage(&crs)?.stays)
     }
 
-    /// Copies it, brought into the frame's projection, as the table `name`.
+    /// Copies the layer as the table `name`, with coordinates in the frame's projection.
     pub(crate) fn copy(
         &self,
         writer: &Connection,
@@ -129,7 +130,7 @@ impl FileLayer {
         let mut read = vec![self.info.key.as_deref().map_or_else(|| "NULL".to_owned(), quoted)];
         let mut names = vec![key.clone()];
         for (column, kind) in self.kinds.iter().filter(|(column, _)| *column != key).take(MOST_COLUMNS) {
-            // A type of somebody's own would change what is compared with what.
+            // A custom type name would change the affinity of the column, and so the comparisons.
             let plain = ["BOOLEAN", "INTEGER", "REAL", "TEXT"]
                 .into_iter()
                 .find(|known| kind.eq_ignore_ascii_case(known));
@@ -161,7 +162,7 @@ impl FileLayer {
                         && let Ok(geometry) = blob::read(bytes, budget)
                     {
                         let placed = place(geometry);
-                        // What has no place there is not there.
+                        // A geometry without a valid position in the projection becomes null.
                         value =
                             if placed.is_sound() { Value::Blob(blob::write(&placed)) } else { Value::Null };
                     }
@@ -191,12 +192,12 @@ impl FileLayer {
     }
 }
 
-/// The type of a column that was declared so, with its name in quotes before it.
+/// Returns the type of a column declaration, which starts with the name in quotes.
 fn kind_of(column: &str) -> SqlType {
     SqlType::declared(column.rsplit('"').next().unwrap_or_default())
 }
 
-/// A name that none of `taken` is, in whatever letters.
+/// Returns a name that is not in `taken`, ignoring case.
 pub(crate) fn free(name: &str, taken: &[String]) -> String {
     let is_free = |name: &str| !taken.iter().any(|known| known.eq_ignore_ascii_case(name));
     if is_free(name) {
@@ -205,7 +206,7 @@ pub(crate) fn free(name: &str, taken: &[String]) -> String {
     (2..).map(|number| format!("{name}_{number}")).find(|name| is_free(name)).unwrap_or_default()
 }
 
-/// Writes a layer, in metres around the run's origin, as the table `name` in the projection's coordinates.
+/// Writes a layer, in metres relative to the run's origin, as the table `name` in the projection's coordinates.
 pub(crate) fn write_layer(
     writer: &Connection,
     name: &str,
@@ -215,7 +216,7 @@ pub(crate) fn write_layer(
     let mut taken: Vec<String> = Vec::new();
     let mut attributes: Vec<Option<String>> = Vec::new();
     for own in &layer.names {
-        // Features whose table has such a column have it as their geometry.
+        // Attributes that cannot be columns are skipped: those without a name, with a NUL in it, or above the limit.
         let kept = taken.len() < MOST_COLUMNS && !own.is_empty() && !own.contains('\0');
         let column = kept.then(|| free(own, &taken));
         taken.extend(column.clone());
@@ -280,7 +281,7 @@ pub(crate) fn write_layer(
     })
 }
 
-/// How the columns of a layer's attributes are declared: as what all of their values are.
+/// Returns the declared types of a layer's attribute columns: the common type of their values.
 fn kinds(layer: &Layer) -> Vec<&'static str> {
     let mut kinds: Vec<Option<&'static str>> = vec![None; layer.names.len()];
     for (index, attribute) in layer.features.iter().flat_map(|feature| feature.attributes.iter()) {
@@ -295,14 +296,14 @@ fn kinds(layer: &Layer) -> Vec<&'static str> {
             None => kind,
             Some(known) if known == kind => kind,
             Some("INTEGER" | "REAL") if matches!(kind, "INTEGER" | "REAL") => "REAL",
-            // Each stays what it is.
+            // Values of different types stay unchanged.
             Some(_) => "BLOB",
         });
     }
     kinds.into_iter().map(|kind| kind.unwrap_or("TEXT")).collect()
 }
 
-/// Makes a table of the rows that `next` gives, and counts them.
+/// Creates a table with the rows that `next` returns, and returns their number.
 pub(crate) fn write(
     writer: &Connection,
     name: &str,

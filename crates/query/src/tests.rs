@@ -1,4 +1,4 @@
-//! Questions put to a small town and to packages that are generated.
+//! Tests of queries of a small town and of generated packages.
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -17,7 +17,7 @@ mod same;
 #[cfg(feature = "postgis")]
 mod silent;
 
-/// A GeoPackage with houses on a lattice, roads between them and lamps, in EPSG:3067.
+/// Writes a GeoPackage with houses on a lattice, roads between them and lamps, in EPSG:3067.
 pub(crate) fn town(folder: &Path, houses: usize) -> PathBuf {
     let path = folder.join("town.gpkg");
     let connection = rusqlite::Connection::open(&path).unwrap();
@@ -50,7 +50,7 @@ pub(crate) fn town(folder: &Path, houses: usize) -> PathBuf {
             ))
             .unwrap();
     }
-    // Deterministic, and of no lattice.
+    // The positions are deterministic, and not on a lattice.
     let mut seed = 7u64;
     let mut next = |most: f64| {
         seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
@@ -93,7 +93,7 @@ pub(crate) fn town(folder: &Path, houses: usize) -> PathBuf {
     path
 }
 
-/// A database with such a town.
+/// Creates a database with such a town.
 pub(crate) fn database(folder: &Path, houses: usize) -> Database {
     let path = town(folder, houses);
     let database = Database::new(None).unwrap();
@@ -182,11 +182,11 @@ fn a_layer_of_another_format_is_a_table() {
     );
     let near: Vec<String> = answer.rows.iter().map(|row| row[5].to_string()).collect();
     assert_eq!(near, ["2", "3", "4", "3", "2"]);
-    // Out in metres around the origin, as the layer has it.
+    // Results are in metres relative to the origin, as in the layer.
     let Cell::Geometry(geometry) = &answer.rows[1][4] else { panic!("a geometry") };
     let known: Vec<_> = layer.features[1].geometry.points().copied().collect();
     assert!(geometry.points().zip(&known).all(|(a, b)| a.distance(*b) < 1e-6), "{geometry:?} {known:?}");
-    // And in so, too.
+    // Parameters are in the same coordinates.
     let at = [("g", Cell::Geometry(Arc::clone(geometry)))];
     let found = database.query("SELECT id FROM huts WHERE ST_Intersects(geom, $g)", &at, &budget()).unwrap();
     assert!(found.rows.contains(&vec![Cell::Text("hut/1".into())]), "{found}");

@@ -1,6 +1,6 @@
 //! Rewriting of L-systems: parallel, parametric, context-sensitive and stochastic, without a scripting language.
 //!
-//! Comes in: modules and patterns as text, and what the functions of rules do, as an implementation of [`Rules`]. Goes out:
+//! Input: modules and patterns as text, and what the functions of rules do, as an implementation of [`Rules`]. Output:
 //! the next [`Chain`], the same for any number of threads. It never knows a virtual machine, an object or a geometry.
 //!
 //! - [`Symbols`] are the declared modules. A [`Pattern`] is the left side of a rule; a [`Grammar`] holds the rules of a system.

@@ -1,12 +1,12 @@
-//! What things are in a city, for formats that tell houses from trees.
+//! Classes of city objects, for formats that distinguish houses from trees.
 
 use burgeon_base::error::{Error, Result};
 
-/// What CityJSON calls things of the first rank.
+/// Class of a top-level city object in CityJSON.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct CityClass(&'static str);
 
-/// The classes that a script may name.
+/// Classes that a script may specify.
 const CLASSES: [&str; 15] = [
     "Bridge",
     "Building",
@@ -26,12 +26,12 @@ const CLASSES: [&str; 15] = [
 ];
 
 impl CityClass {
-    /// A building.
+    /// Class of buildings.
     pub const BUILDING: Self = Self("Building");
-    /// What has no class of its own.
+    /// Class of objects without a more specific class.
     pub const GENERIC: Self = Self("GenericCityObject");
 
-    /// The class called `name`. Fails, and tells which there are, if it is none.
+    /// Returns the class called `name`. Fails if there is none; the error lists the classes.
     pub fn of(name: &str) -> Result<Self> {
         CLASSES.iter().find(|known| **known == name).map(|known| Self(known)).ok_or_else(|| {
             let message = format!("{name:?} is no class of city objects");
@@ -40,34 +40,34 @@ impl CityClass {
         })
     }
 
-    /// Its name.
+    /// Returns the name of the class.
     pub fn name(self) -> &'static str {
         self.0
     }
 
-    /// Whether its surfaces may be told apart as those of buildings.
+    /// Returns true if objects of the class may have semantic surfaces, as buildings do.
     pub fn has_surfaces(self) -> bool {
         ["Building", "Bridge", "Tunnel", "OtherConstruction"].contains(&self.0)
     }
 
-    /// Whether it is one surface.
+    /// Returns true if objects of the class are a single surface.
     pub fn is_relief(self) -> bool {
         self.0 == "TINRelief"
     }
 
-    /// Whether it may be a solid.
+    /// Returns true if objects of the class may be solids.
     pub fn takes_solids(self) -> bool {
         let flat = ["LandUse", "Railway", "Road", "TINRelief", "TransportSquare", "Waterway"];
         !flat.contains(&self.0)
     }
 
-    /// Whether it, or what is fixed to it, may be an instance of a template.
+    /// Returns true if objects of the class, or their installations, may be instances of templates.
     pub fn takes_instances(self) -> bool {
         let alone = ["CityFurniture", "GenericCityObject", "OtherConstruction", "SolitaryVegetationObject"];
         alone.contains(&self.0) || self.installation().is_some()
     }
 
-    /// What is fixed to it, if that is of a class of its own.
+    /// Returns the class of objects that are fixed to an object of this class, if there is such a class.
     pub fn installation(self) -> Option<String> {
         ["Building", "Bridge", "Tunnel"].contains(&self.0).then(|| format!("{}Installation", self.0))
     }

@@ -1,7 +1,7 @@
-//! The scene: what a run has made, ready for an exporter or the renderer.
+//! Scene: the result of a run, ready for an exporter or the renderer.
 //!
-//! Comes in: meshes and instances from objects, in chain order. Goes out: the same, unchanged.
-//! It never builds geometry and never looks at rules.
+//! Input: meshes and instances from objects, in chain order. Output: the same, unchanged. The crate never builds
+//! geometry and never uses rules.
 
 mod city;
 pub mod image;
@@ -25,70 +25,71 @@ pub use upright::Upright;
 use glam::{DAffine3, DVec3};
 use rayon::prelude::*;
 
-/// Everything a run has made, in an order that depends only on the scripts, inputs and seed.
+/// Result of a run, in an order that depends only on the scripts, inputs and seed.
 ///
-/// Metres, z up, right-handed.
+/// Coordinates are in metres, z up, right-handed.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Scene {
     /// Materials without duplicates, in the order of their first use.
     pub materials: Vec<Material>,
     /// Shapes, each in its own coordinates; [`Part::material`] is an index into `materials`.
     pub meshes: Vec<Mesh>,
-    /// Where the meshes stand. A mesh that no instance names is not shown.
+    /// Positions of the meshes. A mesh without an instance is not shown.
     pub instances: Vec<Instance>,
-    /// Which meshes are those of placed models; leave it to [`Default`].
+    /// Meshes of placed models. Initialise the field with [`Default`].
     pub shared: SharedMeshes,
-    /// Up and north for the default camera; z and y if an object does not set them.
+    /// Up and north for the default camera; z and y if no object sets them.
     pub upright: Option<Upright>,
-    /// The packages that it was made with, for files that tell what is needed to make it again.
+    /// Packages that the scene was made with, for files that list the requirements for reproducing it.
     pub packages: Vec<ScenePackage>,
 }
 
-/// A package of scripts that a scene was made with.
+/// Package of scripts that a scene was made with.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct ScenePackage {
-    /// Its name.
+    /// Name of the package.
     pub name: String,
-    /// Its version, of three numbers.
+    /// Version, three numbers.
     pub version: String,
-    /// The hash of its files, with the name of the method before it.
+    /// Hash of its files, with the name of the method as a prefix.
     pub hash: String,
 }
 
-/// A mesh put somewhere.
+/// Placed mesh.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Instance {
     /// Index into [`Scene::meshes`].
     pub mesh: usize,
-    /// From the mesh's coordinates to the world's.
+    /// Transform from the mesh's coordinates to the world's.
     pub transform: DAffine3,
-    /// A name for people, such as the system's; may repeat, may be empty.
+    /// Display name, such as the system's; may repeat, may be empty.
     pub name: String,
-    /// The id of the data record that it came from, if it came from one.
+    /// Id of the data record that it was made from, if any.
     pub feature: Option<String>,
-    /// The chain whose object put it there.
+    /// Chain whose object created the instance.
     pub origin: Option<Origin>,
-    /// Which of the models that the object placed it belongs to, from 0; `None` for what the object drew itself.
+    /// Index of the placed model that it belongs to, from 0, among those that the object placed. `None` for the
+    /// object's own drawing.
     pub placement: Option<usize>,
-    /// What all of it is, if that is known: a model stands in one wall as a window and in another as a door.
+    /// Meaning of the whole instance, if known. The same model can be a window in one wall and a door in another.
     pub meaning: Option<SurfaceMeaning>,
 }
 
-/// A chain, among all that a run has derived.
+/// Chain of a run.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub struct Origin {
-    /// The system's place in the script, from 0.
+    /// Index of the system in the script, from 0.
     pub system: usize,
-    /// The chain's number in the system, from 0.
+    /// Index of the chain in the system, from 0.
     pub chain: usize,
-    /// The number of its feature among those that the system's chains or modules came from, from 0.
+    /// Index of its feature among the features of the system's chains or modules, from 0.
     pub record: Option<usize>,
 }
 
 impl Scene {
-    /// The index of `material`, added if it is new.
+    /// Returns the index of `material`, adding it if it is new.
     pub fn material(&mut self, material: &Material) -> usize {
-        // Colours tell most of them apart at once.
+        // Comparing the colour first distinguishes most materials quickly.
         let same = |known: &Material| known.base_color == material.base_color && known == material;
         match self.materials.iter().position(same) {
             Some(index) => index,
@@ -99,7 +100,7 @@ impl Scene {
         }
     }
 
-    /// The scene with those instances alone that are to be kept, and what they need.
+    /// Returns a scene with only the instances that `keep` accepts, and the meshes and materials that they need.
     #[must_use]
     pub fn only(&self, keep: impl Fn(&Instance) -> bool) -> Self {
         let mut scene = Self { upright: self.upright, ..Self::default() };
@@ -120,8 +121,8 @@ impl Scene {
 
     /// Divides instance number `instance`, whose mesh no other instance shows, into one instance for each owner.
     ///
-    /// `stretches` are parts, ranges of their triangles and owners. `set` gives an instance its owner. The first instance takes
-    /// the place of the old one. Does nothing unless the stretches hold each triangle once.
+    /// `stretches` are parts, ranges of their triangles and owners. `set` assigns an owner to an instance. The first
+    /// instance replaces the original. Does nothing unless the stretches contain each triangle exactly once.
     pub fn divide<K: Ord + Copy>(
         &mut self,
         instance: usize,
@@ -160,17 +161,18 @@ impl Scene {
         }
     }
 
-    /// The number of triangles that are seen, instances counted each.
+    /// Returns the number of visible triangles, counted for each instance.
     pub fn triangles(&self) -> usize {
         self.instances.iter().map(|instance| self.meshes[instance.mesh].triangles()).sum()
     }
 
-    /// The least box (m) around all that is seen, as its lowest and highest corner; `None` if nothing is.
+    /// Returns the minimum and maximum corner (m) of the bounding box of the visible meshes; `None` if nothing is
+    /// visible.
     pub fn bounds(&self) -> Option<(DVec3, DVec3)> {
         self.bounds_of(&self.meshes.par_iter().map(Mesh::bounds).collect::<Vec<_>>())
     }
 
-    /// The same where the boxes (m) around the meshes are known.
+    /// Computes the bounding box as [`bounds`](Self::bounds) does, from the boxes (m) of the meshes.
     pub fn bounds_of(&self, boxes: &[Option<(DVec3, DVec3)>]) -> Option<(DVec3, DVec3)> {
         let mut bounds: Option<(DVec3, DVec3)> = None;
         for instance in &self.instances {

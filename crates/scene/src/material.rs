@@ -1,40 +1,40 @@
-//! How surfaces look, as physically based materials.
+//! Physically based materials.
 
 use std::path::PathBuf;
 use std::sync::Arc;
 
-/// A metallic-roughness material. Colours are linear, 0 to 1.
+/// Metallic-roughness material. Colours are linear, 0 to 1.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Material {
-    /// A name for people; may be empty.
+    /// Display name; may be empty.
     pub name: String,
     /// Red, green, blue and opacity.
     pub base_color: [f32; 4],
-    /// 0 for wood, stone and plaster, 1 for bare metal.
+    /// Metallic fraction: 0 for wood, stone and plaster, 1 for bare metal.
     pub metallic: f32,
-    /// 0 like a mirror, 1 like chalk.
+    /// Roughness: 0 for a mirror, 1 for chalk.
     pub roughness: f32,
-    /// Light that the surface gives off itself.
+    /// Light that the surface emits.
     pub emissive: [f32; 3],
-    /// An image that multiplies the base colour.
+    /// Image that multiplies the base colour.
     pub texture: Option<Texture>,
-    /// Whether both sides are seen, as with leaves.
+    /// Set if both sides are visible, as with leaves.
     pub double_sided: bool,
 }
 
-/// An image laid over a surface at its real size.
+/// Image on a surface at its real size.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Texture {
-    /// A PNG or JPEG file; the name of the image if it has no file of its own.
+    /// Path of a PNG or JPEG file, or the name of an image without a file.
     pub path: PathBuf,
     /// Width and height (m) of one repetition.
     pub size: [f64; 2],
-    /// What the file would hold, if the image came inside another one.
+    /// Content of the file, if the image was embedded in another file.
     pub content: Option<Arc<[u8]>>,
 }
 
 impl Default for Material {
-    /// Light grey, dull, one-sided.
+    /// Returns a light grey, matt, one-sided material.
     fn default() -> Self {
         Self {
             name: String::new(),

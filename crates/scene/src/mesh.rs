@@ -5,21 +5,21 @@ use glam::{DVec3, Vec2, Vec3};
 use super::{Normal, Origin, SurfaceRuns, Triangles};
 use burgeon_base::memory::make_room;
 
-/// A shape: parts that share one coordinate system, one part for each material.
+/// Shape: parts that share one coordinate system, one part for each material.
 ///
-/// Vertices are f32, since that is what every format and graphics card takes; objects compute in f64 and
-/// place the mesh near its own origin, so nothing is lost far from the world's.
+/// Vertices are f32, because every format and graphics card uses f32. Objects compute in f64 and place the mesh near
+/// its own origin, so no precision is lost far from the world's origin.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Mesh {
-    /// A name for people; may repeat, may be empty.
+    /// Display name; may repeat, may be empty.
     pub name: String,
-    /// The chain whose object drew it.
+    /// Chain whose object drew the mesh.
     pub origin: Option<Origin>,
-    /// One for each material, in the order of first use; none is empty.
+    /// Parts, one for each material, in the order of first use; none is empty.
     pub parts: Vec<Part>,
 }
 
-/// The triangles of one material.
+/// Triangles of one material.
 ///
 /// `positions`, `normals` and `uvs` have the same length. Triangles are counter-clockwise seen from outside.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -34,7 +34,7 @@ pub struct Part {
     pub uvs: Vec<Vec2>,
     /// Indices of corners.
     pub triangles: Triangles,
-    /// What they are surfaces of, as far as an object tells.
+    /// Meanings of the surfaces that the triangles belong to, if an object specifies them.
     pub surfaces: SurfaceRuns,
 }
 
@@ -48,7 +48,7 @@ impl Part {
         self.surfaces.clear();
     }
 
-    /// Makes room for more vertices and triangles, on huge pages where they are many.
+    /// Reserves memory for more vertices and triangles, on huge pages if they are many.
     #[inline]
     pub fn make_room(&mut self, vertices: usize, triangles: usize) {
         make_room(&mut self.positions, vertices);
@@ -59,7 +59,7 @@ impl Part {
 }
 
 impl Part {
-    /// The triangles in these ranges, which follow one another, with the vertices that they use.
+    /// Returns a part with the triangles in these consecutive ranges and the vertices that they use.
     #[must_use]
     pub fn piece(&self, ranges: impl IntoIterator<Item = std::ops::Range<usize>>) -> Self {
         let mut piece = Self { material: self.material, ..Self::default() };
@@ -86,12 +86,12 @@ impl Part {
 }
 
 impl Mesh {
-    /// The number of triangles of all parts.
+    /// Returns the number of triangles of all parts.
     pub fn triangles(&self) -> usize {
         self.parts.iter().map(|part| part.triangles.len()).sum()
     }
 
-    /// The lowest and highest corner (m) of the box around all points; `None` without points.
+    /// Returns the minimum and maximum corner (m) of the bounding box of all points; `None` if there are no points.
     pub fn bounds(&self) -> Option<(DVec3, DVec3)> {
         let mut points = self.parts.iter().flat_map(|part| &part.positions);
         let first = *points.next()?;
@@ -100,7 +100,7 @@ impl Mesh {
         Some((low.as_dvec3(), high.as_dvec3()))
     }
 
-    /// The part for `material`, added at the end if there is none.
+    /// Returns the part for `material`, adding it at the end if it does not exist.
     pub fn part(&mut self, material: usize) -> &mut Part {
         let index = match self.parts.iter().position(|part| part.material == material) {
             Some(index) => index,

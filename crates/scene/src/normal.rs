@@ -3,30 +3,30 @@
 use bytemuck::{Pod, Zeroable};
 use glam::{DVec3, Vec3, Vec3A, Vec4};
 
-/// The greatest value of an octahedral coordinate.
+/// Maximum value of an octahedral coordinate.
 const MOST: f32 = i16::MAX as f32;
 
-/// 1.5 x 2^23: what is added to it is rounded to an integer, whose bits are then the lowest of the sum's. Rounding by
-/// itself is a call of a function on processors as old as the oldest that are supported.
+/// 1.5 x 2^23. Adding it to a number rounds the number to an integer, which the lowest bits of the sum contain. A
+/// rounding instruction is not available on the oldest supported processors, so `round` would be a function call.
 const ROUNDING: f32 = 12_582_912.0;
 
-/// A unit vector, within 0.005 degrees: a third of the memory of one in three f32.
+/// Unit vector with a precision of 0.005 degrees, in a third of the memory of three f32.
 ///
-/// The directions are laid on an octahedron, whose lower half is folded outwards into a square around the upper one,
-/// as in Cigolle et al., "A Survey of Efficient Representations for Independent Unit Vectors", 2014. Directions along
-/// the axes are exact.
+/// Directions are projected onto an octahedron, whose lower half is folded outwards into a square around the upper
+/// half, as in Cigolle et al., "A Survey of Efficient Representations for Independent Unit Vectors", 2014. Directions
+/// along the axes are exact.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Pod, Zeroable)]
 #[repr(C)]
 pub struct Normal([i16; 2]);
 
 impl Normal {
-    /// Upwards.
+    /// Upward direction.
     pub const Z: Self = Self([0, 0]);
 
-    /// How far at most (radians) it is from the vector that it was made of.
+    /// Maximum angle (radians) between the stored and the original vector.
     pub const PRECISION: f32 = 8.7e-5;
 
-    /// The vector, of length 1 but for rounding.
+    /// Returns the vector, of length 1 up to rounding.
     #[inline]
     pub fn vector(self) -> Vec3 {
         let [x, y] = self.0.map(|coordinate| f32::from(coordinate) / MOST);
@@ -36,11 +36,12 @@ impl Normal {
         Vec3::new(x, y, z).normalize()
     }
 
-    /// The directions of four vectors of any length, by their x, y and z; upwards where one has none.
+    /// Encodes the directions of four vectors of any length, given by their x, y and z coordinates; upwards for vectors
+    /// without a direction.
     #[inline]
     pub fn four([x, y, z]: [Vec4; 3]) -> [Self; 4] {
         let sum = x.abs() + y.abs() + z.abs();
-        // Neither if it is not a number.
+        // Both comparisons are false for NaN.
         let good = sum.cmpge(Vec4::splat(1e-30)) & sum.cmple(Vec4::splat(1e30));
         let part = sum.recip();
         let [x, y] = [x, y].map(|it| Vec4::select(good, it * part, Vec4::ZERO));
@@ -51,11 +52,11 @@ impl Normal {
         [0, 1, 2, 3].map(|i| Self::from_sums([x[i], y[i]]))
     }
 
-    /// The direction of a vector (x, y, z) of any length; upwards if it has none.
+    /// Encodes the direction of a vector (x, y, z) of any length; upwards if it has none.
     #[inline]
     fn along([x, y, z]: [f32; 3]) -> Self {
         let sum = x.abs() + y.abs() + z.abs();
-        // Neither if it is not a number.
+        // The range does not contain NaN.
         if !(1e-30..=1e30).contains(&sum) {
             return Self::Z;
         }
@@ -66,7 +67,7 @@ impl Normal {
         Self::from_sums(folded.map(|it| it * MOST + ROUNDING))
     }
 
-    /// Coordinates to which [`ROUNDING`] has been added.
+    /// Creates a normal from coordinates to which [`ROUNDING`] has been added.
     #[inline]
     #[allow(clippy::cast_possible_truncation, reason = "the lowest 16 bits are the integer")]
     fn from_sums(sums: [f32; 2]) -> Self {

@@ -1,22 +1,23 @@
-//! Scenes whose meshes other scenes show many times.
+//! Meshes that are shared between scenes.
 
 use std::sync::Arc;
 
 use super::Scene;
 
-/// Where the meshes of other scenes are among a scene's own, so that each is stored once however often it is placed.
+/// Indices of other scenes' meshes in a scene, so that each mesh is stored once regardless of the number of its
+/// instances.
 #[derive(Debug, Clone, Default)]
 pub struct SharedMeshes(Vec<(Arc<Scene>, Vec<Option<usize>>)>);
 
 impl PartialEq for SharedMeshes {
-    /// Scenes that show the same are equal, however they came about.
+    /// Returns true: the origin of meshes does not affect the equality of scenes.
     fn eq(&self, _: &Self) -> bool {
         true
     }
 }
 
 impl Scene {
-    /// The index of mesh `mesh` of `other` in this scene, where it is added the first time.
+    /// Returns the index of mesh `mesh` of `other` in this scene, adding it the first time.
     pub fn share(&mut self, other: &Arc<Self>, mesh: usize) -> usize {
         let known = self.shared.0.iter().position(|(known, _)| Arc::ptr_eq(known, other));
         let known = known.unwrap_or_else(|| {

@@ -1,30 +1,30 @@
-//! What surfaces are, for formats that tell walls from roofs.
+//! Meanings of surfaces, for formats that distinguish walls from roofs.
 
 use std::ops::Range;
 
-/// What a surface of a building is.
+/// Meaning of a surface of a building.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum SurfaceMeaning {
-    /// Where it stands on the ground.
+    /// Bottom of the building.
     Ground,
-    /// A side, gables and groundwork among them.
+    /// Side of the building, including gables and plinths.
     Wall,
-    /// What covers it, with eaves and undersides.
+    /// Roof, including eaves and undersides.
     Roof,
-    /// A window.
+    /// Window.
     Window,
-    /// A door.
+    /// Door.
     Door,
 }
 
-/// What the triangles of a part are, from place to place; nothing is known before the first one.
+/// Meanings of the triangles of a part, run-length encoded; unknown before the first entry.
 ///
-/// It is empty unless an object tells, and has one entry for each change and not for each triangle.
+/// It is empty unless an object specifies meanings, and has one entry for each change instead of each triangle.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct SurfaceRuns(Vec<(usize, Option<SurfaceMeaning>)>);
 
 impl SurfaceRuns {
-    /// From triangle number `first` on, which is not before an earlier one, all are this.
+    /// Sets the meaning of all triangles from number `first` on, which must not decrease between calls.
     #[inline]
     pub fn mark(&mut self, first: usize, meaning: Option<SurfaceMeaning>) {
         if self.0.last().and_then(|(_, known)| *known) == meaning {
@@ -36,23 +36,23 @@ impl SurfaceRuns {
         }
     }
 
-    /// Whether nothing is known of any triangle.
+    /// Returns true if no triangle has a meaning.
     pub fn is_empty(&self) -> bool {
         self.0.is_empty()
     }
 
-    /// Forgets all.
+    /// Removes all meanings.
     pub fn clear(&mut self) {
         self.0.clear();
     }
 
-    /// What triangle number `index` is, if that is known.
+    /// Returns the meaning of triangle number `index`, if known.
     pub fn of(&self, index: usize) -> Option<SurfaceMeaning> {
         let behind = self.0.partition_point(|(first, _)| *first <= index);
         self.0[..behind].last().and_then(|(_, meaning)| *meaning)
     }
 
-    /// The stretches of so many triangles, each with what it is.
+    /// Divides a number of `triangles` into ranges with the same meaning.
     pub fn stretches(
         &self,
         triangles: usize,

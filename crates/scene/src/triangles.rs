@@ -1,4 +1,4 @@
-//! Lists of triangles in which a tube takes the memory of its rings.
+//! Lists of triangles in which a tube is stored as rings.
 
 use std::ops::Range;
 
@@ -6,8 +6,9 @@ use burgeon_base::memory::make_room;
 
 /// Triangles as indices of their corners, counter-clockwise seen from outside.
 ///
-/// Most of what rewriting draws are tubes. Their faces follow from their rings, so a band or a fan is kept as such and
-/// told triangle by triangle: that is a tenth of the memory, whose first touch costs more than the geometry does.
+/// Rewriting draws mostly tubes. Their faces follow from their rings, so a band or a fan is stored as such and expanded
+/// triangle by triangle. That takes a tenth of the memory, whose first access costs more than the computation of the
+/// geometry.
 ///
 /// ```
 /// use burgeon_scene::Triangles;
@@ -23,17 +24,17 @@ pub struct Triangles {
     count: usize,
 }
 
-/// Triangles of one kind, up to the next run; there is at least one.
+/// Consecutive triangles of one pattern; at least one.
 #[derive(Debug, Clone, Copy)]
 struct TriangleSpan {
-    /// How many triangles come before.
+    /// Number of triangles before the run.
     first: u32,
     faces: FacePattern,
 }
 
 #[derive(Debug, Clone, Copy)]
 enum FacePattern {
-    /// Those of the list, from a place on.
+    /// Triangles of the list, from an index on.
     Listed(u32),
     Band {
         from: u32,
@@ -47,21 +48,21 @@ enum FacePattern {
 }
 
 impl Triangles {
-    /// The most triangles that may come before a band or a fan.
+    /// Maximum number of triangles before a band or a fan.
     pub const MOST_BEFORE: usize = u32::MAX as usize;
 
-    /// How many there are.
+    /// Returns the number of triangles.
     #[inline]
     pub fn len(&self) -> usize {
         self.count
     }
 
-    /// Whether there are none.
+    /// Returns true if there are no triangles.
     pub fn is_empty(&self) -> bool {
         self.count == 0
     }
 
-    /// Adds one.
+    /// Adds one triangle.
     #[inline]
     pub fn push(&mut self, corners: [u32; 3]) {
         if !matches!(self.runs.last(), Some(TriangleSpan { faces: FacePattern::Listed(_), .. })) {
@@ -71,8 +72,9 @@ impl Triangles {
         self.count += 1;
     }
 
-    /// Adds those between the rings that begin at the corners `from` and `to`, for `sides` faces with one corner more:
-    /// first the halves with two corners of the one ring, then those with two of the other.
+    /// Adds the triangles between two rings that begin at the corners `from` and `to`. The band has `sides` faces and
+    /// each ring has one corner more. The halves with two corners on the first ring come first, then those with two
+    /// corners on the second.
     #[inline]
     pub fn band(&mut self, from: u32, to: u32, sides: u16) {
         if sides > 0 {
@@ -81,7 +83,8 @@ impl Triangles {
         }
     }
 
-    /// Adds those of a convex face of so many `corners`, which begin at `first`; turned, they look the other way.
+    /// Adds the triangles of a convex face with this number of `corners`, which begin at `first`. With `turned`, they
+    /// face the opposite side.
     #[inline]
     pub fn fan(&mut self, first: u32, corners: u16, turned: bool) {
         if corners > 2 {
@@ -96,17 +99,17 @@ impl Triangles {
         self.runs.push(TriangleSpan { first: short(self.count), faces });
     }
 
-    /// The one at place `index`.
+    /// Returns the triangle at `index`.
     pub fn get(&self, index: usize) -> Option<[u32; 3]> {
         self.range(index..self.count).next()
     }
 
-    /// All of them.
+    /// Iterates over all triangles.
     pub fn iter(&self) -> Iter<'_> {
         self.range(0..self.count)
     }
 
-    /// Those at these places, as far as they are there.
+    /// Iterates over the triangles at these indices, as far as they exist.
     pub fn range(&self, places: Range<usize>) -> Iter<'_> {
         let after = self.runs.partition_point(|run| run.first as usize <= places.start);
         let end = places.end.min(self.count);
@@ -115,7 +118,7 @@ impl Triangles {
         Iter { of: self, next, end, run: after.saturating_sub(1), first: 0, until: next, faces: nothing }
     }
 
-    /// Leaves the first `count` of them.
+    /// Shortens the list to the first `count` triangles.
     pub fn truncate(&mut self, count: usize) {
         if count >= self.count {
             return;
@@ -134,28 +137,28 @@ impl Triangles {
         self.extend(rest);
     }
 
-    /// Removes all, but keeps their memory.
+    /// Removes all triangles but keeps the memory.
     pub fn clear(&mut self) {
         self.runs.clear();
         self.listed.clear();
         self.count = 0;
     }
 
-    /// Makes room for more that are added one by one, on huge pages where they are many.
+    /// Reserves memory for more triangles that are added one by one, on huge pages if they are many.
     #[inline]
     pub fn make_room(&mut self, more: usize) {
         make_room(&mut self.listed, more);
     }
 }
 
-/// A place as it is kept. Beyond [`Triangles::MOST_BEFORE`] there may be only one list, which begins at 0.
+/// Converts an index for storage. Beyond [`Triangles::MOST_BEFORE`] only one list is allowed, which begins at 0.
 #[inline]
 fn short(place: usize) -> u32 {
     u32::try_from(place).unwrap_or(u32::MAX)
 }
 
 impl PartialEq for Triangles {
-    /// The same triangles in the same order are equal, however they are kept.
+    /// Compares the triangles in order, regardless of their storage.
     fn eq(&self, other: &Self) -> bool {
         self.iter().eq(other.iter())
     }
@@ -197,15 +200,15 @@ impl<'a> IntoIterator for &'a Triangles {
     }
 }
 
-/// Triangles one after the other.
+/// Iterator over triangles.
 #[derive(Debug, Clone)]
 pub struct Iter<'a> {
     of: &'a Triangles,
     next: usize,
     end: usize,
-    /// The number of the run after the present one.
+    /// Index of the run after the current one.
     run: usize,
-    /// What the present run is made of, the place where it begins, and the one where the next goes on.
+    /// Pattern of the current run, the index at which it begins, and the index at which the next one begins.
     faces: FacePattern,
     first: usize,
     until: usize,
@@ -254,7 +257,7 @@ mod tests {
 
     use super::*;
 
-    /// What is added to a list of triangles: a few of them, a band or a fan.
+    /// Addition to a list of triangles: listed triangles, a band or a fan.
     #[derive(Debug, Clone)]
     enum TriangleAddition {
         Listed(Vec<[u32; 3]>),

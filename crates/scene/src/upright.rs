@@ -1,8 +1,8 @@
-//! The direction that is up for the default camera.
+//! Up direction of the default camera.
 
 use glam::{DMat3, DVec3};
 
-/// The directions by which a camera is turned where z is not up, as on a planet. They do not move the scene.
+/// Orientation of the default camera if z is not up, as on a planet. It does not move the scene.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Upright {
     up: DVec3,
@@ -10,8 +10,8 @@ pub struct Upright {
 }
 
 impl Upright {
-    /// The directions at a point of a sphere: `up` leads away from its centre, north towards the pole in the direction
-    /// `axis`. At the pole itself, north is the y axis. `None` if `up` has no direction.
+    /// Creates the orientation at a point of a sphere: `up` points away from its centre, north towards the pole in the
+    /// direction `axis`. At the pole itself, north is the y axis. Returns `None` if `up` is zero.
     pub fn new(up: DVec3, axis: DVec3) -> Option<Self> {
         let up = up.try_normalize()?;
         let along = |direction: DVec3| {
@@ -22,12 +22,12 @@ impl Upright {
         Some(Self { up, north })
     }
 
-    /// Unit vector that points up.
+    /// Returns the unit vector that points up.
     pub fn up(&self) -> DVec3 {
         self.up
     }
 
-    /// Returns the rotation that turns up onto z and north onto y.
+    /// Returns the rotation from up to z and from north to y.
     pub fn rotation(&self) -> DMat3 {
         DMat3::from_cols(self.north.cross(self.up), self.north, self.up).transpose()
     }

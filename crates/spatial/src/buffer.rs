@@ -1,4 +1,4 @@
-//! What lies within a distance of a geometry.
+//! Buffers of geometries.
 
 use burgeon_base::error::{Error, Result};
 use burgeon_geometry::overlay::{BufferSource, BufferStyle, Cap, Join, buffer};
@@ -8,38 +8,38 @@ use super::edges::with_heights;
 use super::overlay::{LEAST_EXTENT, Operand, area_of, geometry_of};
 use super::plane::Plane;
 
-/// The border of a buffer at corners.
+/// Style of a buffer's border at corners.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum BufferJoin {
-    /// An arc.
+    /// A circular arc.
     #[default]
     Round,
-    /// A corner, cut off where it is farther than five distances.
+    /// A mitre, cut off at five times the distance.
     Mitre,
     /// A straight cut.
     Bevel,
 }
 
-/// The border of a buffer at the ends of lines.
+/// Style of a buffer's border at the ends of lines.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum BufferCap {
-    /// Half a circle.
+    /// A semicircle.
     #[default]
     Round,
-    /// It ends where the line ends.
+    /// A straight line through the end.
     Flat,
-    /// It goes on as far as the distance.
+    /// A straight line beyond the end by the distance.
     Square,
 }
 
-/// The course of a buffer's border.
+/// Style of a buffer's border.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct BufferOptions {
-    /// At corners.
+    /// Style at corners.
     pub join: BufferJoin,
-    /// At the ends of lines.
+    /// Style at the ends of lines.
     pub cap: BufferCap,
-    /// How many edges stand for a quarter of a circle, 1 to 1000.
+    /// Number of edges per quarter circle, 1 to 1000.
     pub quadrant_segments: u32,
 }
 
@@ -49,15 +49,16 @@ impl Default for BufferOptions {
     }
 }
 
-/// How many distances a mitred corner may be off.
+/// Mitre limit, as a multiple of the distance.
 const MITRE_LIMIT: f64 = 5.0;
 
 impl Geometry {
-    /// The area of all that lies within `distance` (m); of a polygon, a negative one takes as much off. Empty if nothing
-    /// is left. Fails if the distance is not finite, no number of segments is given, or it reaches farther than
-    /// [`FARTHEST`](super::FARTHEST).
+    /// Computes the area within `distance` (m) of the geometry; a negative distance shrinks areas.
     ///
-    /// Arcs are within rounding those of GEOS.
+    /// Empty if no area remains. Fails if the distance is not finite, if the number of segments is invalid,
+    /// or if the result extends beyond [`FARTHEST`](super::FARTHEST).
+    ///
+    /// Arcs are equal to those of GEOS, up to rounding.
     ///
     /// ```
     /// use burgeon_spatial::{BufferCap, BufferJoin, BufferOptions, Geometry};
@@ -104,7 +105,7 @@ impl Geometry {
             quadrant_segments: options.quadrant_segments,
         };
         let source = BufferSource { areas: &areas, lines: &lines, points: &points };
-        // Once the work of this thread is to stop there is nothing, which is not looked at any more.
+        // If the work of this thread is cancelled, the result is empty and not used.
         let made = buffer(source, distance, style).unwrap_or_default();
         with_heights(geometry_of(&made), &[self])
     }

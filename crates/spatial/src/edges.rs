@@ -1,4 +1,4 @@
-//! Edges of geometries, arranged so that the nearest one to a place is found without asking all.
+//! Edges of geometries, in a tree for fast search of the nearest edge.
 
 use burgeon_geometry::planar::foot;
 use glam::{DVec2, DVec3};
@@ -7,7 +7,7 @@ use rstar::{AABB, PointDistance, RTree, RTreeObject};
 use super::Geometry;
 use super::plane::{collect_lines, collect_points, collect_polygons};
 
-/// An edge, or a point as an edge without length, with its number.
+/// A numbered edge, or a point as an edge without length.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Edge {
     pub(crate) ends: [DVec3; 2],
@@ -15,11 +15,11 @@ pub(crate) struct Edge {
 }
 
 impl Edge {
-    /// The point of it that is nearest to a place, with its height.
+    /// Returns the point of the edge that is nearest to a position, with its height.
     pub(crate) fn nearest(&self, place: DVec2) -> DVec3 {
         let [a, b] = self.ends;
         let along = foot(self.ends, place);
-        // Its ends are met exactly.
+        // The ends are returned exactly.
         if along <= 0.0 {
             a
         } else if along >= 1.0 {
@@ -46,7 +46,7 @@ impl PointDistance for Edge {
     }
 }
 
-/// The edges of lines and rings of a geometry, and its points, in their order.
+/// Returns the edges of the lines and rings of a geometry, and its points, in order.
 pub(crate) fn edges(geometry: &Geometry) -> Vec<Edge> {
     let mut found: Vec<[DVec3; 2]> = Vec::new();
     collect_points(geometry, &mut |point| found.push([point; 2]));
@@ -59,7 +59,7 @@ pub(crate) fn edges(geometry: &Geometry) -> Vec<Edge> {
     found.into_iter().enumerate().map(|(number, ends)| Edge { ends, number }).collect()
 }
 
-/// Edges in a tree.
+/// A tree of edges.
 pub(crate) struct EdgeTree(RTree<Edge>);
 
 impl EdgeTree {
@@ -67,12 +67,13 @@ impl EdgeTree {
         Self(RTree::bulk_load(edges))
     }
 
-    /// The point on the edges that is nearest to a place; of several, that on the edge that comes first. None of none.
+    /// Returns the point on the edges that is nearest to a position; of several, the point on the first edge.
+    /// `None` without edges.
     pub(crate) fn nearest(&self, place: DVec2) -> Option<DVec3> {
         self.nearest_edge(place).map(|(_, nearest)| nearest)
     }
 
-    /// The edge that it is on, and that point.
+    /// Returns the nearest edge, and its point nearest to a position.
     pub(crate) fn nearest_edge(&self, place: DVec2) -> Option<(Edge, DVec3)> {
         let place_array = place.to_array();
         let mut near = self.0.nearest_neighbor_iter_with_distance_2(&place_array);
@@ -86,7 +87,8 @@ impl EdgeTree {
     }
 }
 
-/// Gives the points of `made` the heights of the nearest places on lines and borders of what they were made from.
+/// Sets the heights of the points of `made` to the heights of the nearest points on the lines and borders of
+/// its sources.
 pub(crate) fn with_heights(mut made: Geometry, from: &[&Geometry]) -> Geometry {
     if !from.iter().any(|geometry| geometry.has_heights()) {
         return made;

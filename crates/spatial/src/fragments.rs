@@ -1,12 +1,14 @@
-//! Takes a geometry apart, one level at a time.
+//! Decomposition of a geometry, one level at a time.
 
 use super::Geometry;
 use super::parts::closed;
 
 impl Geometry {
-    /// What it is made of: the geometries of a collection, the parts of a multi form, the rings of a polygon as lines that
-    /// end where they begin, the segments of a line, the two points of a segment. `None` for a point, which has no parts.
-    /// Segments without length are left out.
+    /// Returns the components of the geometry; `None` for a point.
+    ///
+    /// The components are the geometries of a collection, the parts of a multi-geometry, the rings of a
+    /// polygon as closed lines, the segments of a line, or the two points of a segment. Segments without
+    /// length are omitted.
     pub fn fragments(&self) -> Option<Vec<Self>> {
         Some(match self {
             Self::Point(Some(_)) => return None,
@@ -29,7 +31,7 @@ impl Geometry {
 mod tests {
     use super::*;
 
-    /// All parts of `geometries`, down to what has none; by level as numbers of geometries and points.
+    /// Decomposes `geometries` level by level; returns the number of geometries and of points of each level.
     fn levels(mut geometries: Vec<Geometry>) -> Vec<(usize, usize)> {
         let mut levels = Vec::new();
         loop {

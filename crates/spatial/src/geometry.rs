@@ -1,4 +1,4 @@
-//! The value that all the rest is about.
+//! The geometry value type.
 
 use burgeon_base::error::{Error, Result};
 use burgeon_base::text::number;
@@ -7,60 +7,62 @@ use glam::{DVec2, DVec3};
 
 use super::GeometryKind;
 
-/// The greatest coordinate: twenty-five times as far as around Earth in metres.
+/// Maximum coordinate (m): twenty-five times the circumference of the Earth.
 ///
-/// Farther away coordinates are rounded to more than a tenth of a micrometre.
+/// Larger coordinates have a rounding error of more than a tenth of a micrometre.
 pub const FARTHEST: f64 = 1e9;
 
-/// A geometry of OGC Simple Features, as somebody gave it: nothing is promised of its points.
+/// An unvalidated geometry of OGC Simple Features.
 ///
-/// Heights go along with places, and what is measured is measured as seen from above. A height of 0 means none.
-/// Operations take what is odd for what it can mean, and a geometry with a coordinate that is no number, or is farther
-/// than [`FARTHEST`], for an empty one; the readers refuse these.
+/// Points keep their heights, and measurements are horizontal. A height of 0 means that the point has none.
+/// Operations interpret irregular geometries as far as possible, and treat a geometry with a coordinate that
+/// is NaN or exceeds [`FARTHEST`] as empty; the readers refuse such geometries.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Geometry {
-    /// Its place; none if it is empty.
+    /// A point; `None` if it is empty.
     Point(Option<DVec3>),
-    /// Its points, at least two unless it is empty.
+    /// The points of a line, at least two unless it is empty.
     Line(Vec<DVec3>),
-    /// Its outer ring and then its holes, each of at least three points, without the first one again at the end; none if
-    /// it is empty.
+    /// The outer ring and then the holes, each with at least three points, without repeating the first point;
+    /// no rings if it is empty.
     Polygon(Rings),
-    /// Its places.
+    /// Several points.
     MultiPoint(Vec<DVec3>),
-    /// The points of each line.
+    /// The points of several lines.
     MultiLine(Vec<Vec<DVec3>>),
-    /// The rings of each polygon.
+    /// The rings of several polygons.
     MultiPolygon(Vec<Rings>),
-    /// Its geometries.
+    /// Geometries of any type.
     Collection(Vec<Geometry>),
 }
 
 impl Default for Geometry {
-    /// The empty collection.
+    /// Returns the empty collection.
     fn default() -> Self {
         Self::Collection(Vec::new())
     }
 }
 
 impl Geometry {
-    /// A place.
+    /// Creates a point.
     pub fn point(place: impl Into<DVec3>) -> Self {
         Self::Point(Some(place.into()))
     }
 
-    /// A line, or nothing if it has fewer than two points.
+    /// Creates a line; `None` if it has fewer than two points.
     pub fn line(points: Vec<DVec3>) -> Option<Self> {
         (points.len() >= 2).then_some(Self::Line(points))
     }
 
-    /// A polygon from rings that may end where they begin; nothing if the outer one has no three points. Holes that
-    /// have not are left out.
+    /// Creates a polygon from rings that may repeat their first point; `None` if the outer ring has fewer
+    /// than three points.
+    ///
+    /// Holes with fewer than three points are omitted.
     pub fn polygon(rings: impl Into<Rings>) -> Option<Self> {
         opened(rings.into()).map(Self::Polygon)
     }
 
-    /// The empty geometry of a dimension: 0 of points, 1 of lines, 2 of areas.
+    /// Returns the empty geometry of a dimension: 0 for points, 1 for lines, 2 for areas.
     pub fn empty(dimension: usize) -> Self {
         match dimension {
             0 => Self::Point(None),
@@ -69,8 +71,8 @@ impl Geometry {
         }
     }
 
-    /// The simplest geometry of `parts`, of which empty ones are left out: one of them as it is, many of one kind as a
-    /// multi form, others as a collection.
+    /// Returns the simplest geometry with all `parts` that are not empty: a single part unchanged, several
+    /// parts of one type as a multi-geometry, other parts as a collection.
     pub fn gathered(parts: Vec<Self>) -> Self {
         let mut parts: Vec<Self> = parts.into_iter().flat_map(Self::into_parts).collect();
         if parts.len() == 1
@@ -99,7 +101,7 @@ impl Geometry {
         }
     }
 
-    /// Its kind.
+    /// Returns the type.
     pub fn kind(&self) -> GeometryKind {
         match self {
             Self::Point(_) => GeometryKind::Point,
@@ -112,12 +114,13 @@ impl Geometry {
         }
     }
 
-    /// Whether it has no points.
+    /// Returns true if the geometry has no points.
     pub fn is_empty(&self) -> bool {
         self.points().next().is_none()
     }
 
-    /// 0 of points, 1 of lines, 2 of areas; the greatest of a collection, whose empty geometries count too.
+    /// Returns the dimension: 0 for points, 1 for lines, 2 for areas, and the maximum of all members for a
+    /// collection, including empty ones.
     pub fn dimension(&self) -> usize {
         match self {
             Self::Point(_) | Self::MultiPoint(_) => 0,
@@ -127,7 +130,7 @@ impl Geometry {
         }
     }
 
-    /// Its lists of points: lines and rings.
+    /// Returns the point lists of all lines and rings.
     pub fn lists(&self) -> Vec<&[DVec3]> {
         let mut lists = Vec::new();
         self.collect_lists(&mut lists);
@@ -147,9 +150,10 @@ impl Geometry {
         }
     }
 
-    /// Gives back the room that its lists have left over, where there are very many geometries.
+    /// Releases the unused capacity of the lists, for very large numbers of geometries.
     ///
-    /// Allocators leave an array that is asked to shrink where it is, so that its room is lost to others; hence a copy.
+    /// The lists are copied because allocators shrink an array in place, where the released memory is not
+    /// reusable.
     pub fn compact(&mut self) {
         fn compact<T: Clone>(list: &mut Vec<T>) {
             if list.capacity() > list.len() {
@@ -173,12 +177,12 @@ impl Geometry {
         }
     }
 
-    /// All of its points.
+    /// Returns all points.
     pub fn points(&self) -> impl Iterator<Item = &DVec3> {
         self.lists().into_iter().flatten()
     }
 
-    /// All of its points, to be moved.
+    /// Returns all points as mutable references.
     pub fn points_mut(&mut self) -> impl Iterator<Item = &mut DVec3> {
         let mut lists = Vec::new();
         self.collect_lists_mut(&mut lists);
@@ -200,12 +204,12 @@ impl Geometry {
         }
     }
 
-    /// Its points, lines and polygons in their order, without empty ones.
+    /// Returns the points, lines and polygons in order, without empty ones.
     pub fn parts(&self) -> Vec<Self> {
         self.clone().into_parts()
     }
 
-    /// The same, of a geometry that nobody needs any more.
+    /// Converts the geometry into its points, lines and polygons, without empty ones.
     pub fn into_parts(self) -> Vec<Self> {
         let mut parts = Vec::new();
         self.collect_parts(&mut parts);
@@ -229,24 +233,24 @@ impl Geometry {
         }
     }
 
-    /// The least and the greatest coordinates as seen from above; none of an empty one.
+    /// Returns the horizontal minimum and maximum coordinates (m); `None` if the geometry is empty.
     pub fn bounds(&self) -> Option<[DVec2; 2]> {
         let mut points = self.points().map(|point| point.truncate());
         let first = points.next()?;
         Some(points.fold([first; 2], |[low, high], point| [low.min(point), high.max(point)]))
     }
 
-    /// Whether a point has a height.
+    /// Returns true if a point has a height.
     pub fn has_heights(&self) -> bool {
         self.points().any(|point| point.z != 0.0)
     }
 
-    /// Whether it can be computed with: all of its coordinates are numbers, none farther than [`FARTHEST`].
+    /// Returns true if operations can use the geometry: no coordinate is NaN or exceeds [`FARTHEST`].
     pub fn is_sound(&self) -> bool {
         self.points().all(|point| point.abs().max_element() <= FARTHEST && !point.is_nan())
     }
 
-    /// Fails unless it is [sound](Self::is_sound), and names the first point that is not.
+    /// Fails with the first invalid point unless the geometry is [sound](Self::is_sound).
     pub fn check(&self) -> Result<()> {
         let wrong = self.points().find(|point| point.is_nan() || point.abs().max_element() > FARTHEST);
         let Some(point) = wrong else { return Ok(()) };
@@ -256,7 +260,7 @@ impl Geometry {
             .help("give coordinates that are finite and at most 1e9"))
     }
 
-    /// Turns its rings the way that they are to run: outer ones counter-clockwise, holes clockwise.
+    /// Orients the rings: outer rings counter-clockwise, holes clockwise.
     pub fn turn(&mut self) {
         match self {
             Self::Polygon(rings) => rings.turn(),
@@ -267,8 +271,8 @@ impl Geometry {
     }
 }
 
-/// Rings without the first point again at the end; nothing if the outer one has no three points. Holes that have not
-/// are left out.
+/// Removes repeated first points from rings; `None` if the outer ring has fewer than three points. Holes with
+/// fewer than three points are omitted.
 pub(crate) fn opened(Rings(mut rings): Rings) -> Option<Rings> {
     for ring in &mut rings {
         while ring.len() > 1 && ring.first() == ring.last() {

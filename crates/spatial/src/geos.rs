@@ -1,8 +1,8 @@
-//! What GEOS makes of the same geometries: `tests/geos/cases.json`, which `tests/geos/cases.py` wrote and says which
-//! version of it.
+//! Comparison with GEOS: `tests/geos/cases.json`, written by `tests/geos/cases.py`, which records the version
+//! of GEOS.
 //!
-//! Relations, predicates and counts are the same without exception. Areas and lengths are the same to 1e-9; buffers to a
-//! hundredth, since GEOS simplifies what it draws them around.
+//! Relations, predicates and counts are equal in all cases. Areas and lengths agree to 1e-9. Buffers agree to
+//! 1 %, because GEOS simplifies their input.
 
 use glam::DVec3;
 use serde_json::Value;
@@ -23,7 +23,7 @@ fn numbers(list: &Value) -> Vec<f64> {
     list.as_array().expect("a list").iter().map(|it| it.as_f64().expect("a number")).collect()
 }
 
-/// The area, the length of lines, the number of single points, and the centre.
+/// Returns the area, the length of lines, the number of single points, and the centroid.
 fn measures(geometry: &Geometry) -> Vec<f64> {
     let points = geometry.parts().iter().filter(|part| part.dimension() == 0).count();
     let centre = geometry.centroid();
@@ -31,7 +31,7 @@ fn measures(geometry: &Geometry) -> Vec<f64> {
     [geometry.area(), geometry.length(), points as f64].into_iter().chain(centre).collect()
 }
 
-/// What differs by more than `near`, told with where it was found.
+/// Differences of more than `near`, with their location.
 struct Differences(Vec<String>);
 
 impl Differences {
@@ -100,7 +100,7 @@ fn one_geometry_is_what_geos_says_of_it() {
             1e-6,
         );
         let on_surface = geometry.point_on_surface();
-        // The middle of a line is as far beside it as it is rounded.
+        // The midpoint of a line is off the line by its rounding error.
         let is_there = match geometry.dimension() {
             1 => geometry.distance(&on_surface).is_some_and(|far| far < 1e-9),
             _ => geometry.covers(&on_surface),

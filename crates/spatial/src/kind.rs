@@ -1,26 +1,26 @@
-//! Kinds of geometry.
+//! Types of geometry.
 
-/// The kinds of geometry.
+/// Type of a geometry.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum GeometryKind {
-    /// A place.
+    /// A point.
     Point,
-    /// A way from place to place.
+    /// A polyline.
     Line,
     /// An area with holes.
     Polygon,
-    /// Places.
+    /// Several points.
     MultiPoint,
-    /// Lines.
+    /// Several lines.
     MultiLine,
-    /// Polygons.
+    /// Several polygons.
     MultiPolygon,
-    /// Geometries of any kinds.
+    /// Geometries of any type.
     Collection,
 }
 
 impl GeometryKind {
-    /// All kinds.
+    /// All types.
     pub const ALL: [Self; 7] = [
         Self::Point,
         Self::Line,
@@ -31,10 +31,10 @@ impl GeometryKind {
         Self::Collection,
     ];
 
-    /// The kinds of one part.
+    /// Types that consist of one part.
     pub const SINGLE: [Self; 3] = [Self::Point, Self::Line, Self::Polygon];
 
-    /// Its name in scripts.
+    /// Returns the name in scripts.
     pub fn name(self) -> &'static str {
         match self {
             Self::Point => "point",
@@ -47,7 +47,7 @@ impl GeometryKind {
         }
     }
 
-    /// Its name in well-known text.
+    /// Returns the name in well-known text.
     pub fn wkt(self) -> &'static str {
         match self {
             Self::Point => "POINT",
@@ -60,7 +60,7 @@ impl GeometryKind {
         }
     }
 
-    /// Its number in well-known binary.
+    /// Returns the number in well-known binary.
     pub fn code(self) -> u32 {
         match self {
             Self::Point => 1,

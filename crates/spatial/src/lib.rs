@@ -1,13 +1,13 @@
-//! Geometries as values: points, lines, polygons, their multi forms and collections, with the operations of OGC Simple
-//! Features.
+//! Geometry values: points, lines, polygons, multi-geometries and collections, with the operations of OGC
+//! Simple Features.
 //!
-//! Comes in: points, well-known text or well-known binary. Goes out: a [`Geometry`], what is measured on it, whether it
-//! meets another, and what is made of it. It never reads a file, draws a random number or looks at a module, and no
-//! operation panics, whatever the geometry.
+//! Input: points, well-known text or well-known binary. Output: a [`Geometry`], its measurements, its
+//! relations to other geometries, and the results of operations. This crate never reads a file, draws a
+//! random number or reads a module, and no operation panics on any geometry.
 //!
-//! What is measured and made is so in the plane, as seen from above, far from the origin as exactly as near to it: each
-//! operation moves what it works on to an origin of its own. Heights go along: a point that an operation makes has the
-//! height of the nearest place on the lines and borders that it comes from.
+//! Operations are horizontal. Their accuracy does not depend on the distance from the origin, because each
+//! operation works relative to a local origin. Points keep their heights; a new point has the height of the
+//! nearest point on the lines and borders of its sources.
 #![recursion_limit = "256"]
 
 mod buffer;
@@ -41,5 +41,5 @@ pub use overlay::union_all;
 pub use relation::Relation;
 pub use topology::PreparedGeometry;
 
-/// The deepest that geometries may be nested in collections.
+/// Maximum nesting depth of collections.
 pub const DEEPEST: usize = 32;

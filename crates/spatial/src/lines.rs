@@ -1,4 +1,4 @@
-//! Places along lines, and lines beside them.
+//! Linear referencing, simplification, and offset lines.
 
 use burgeon_base::error::{Error, Result};
 use burgeon_geometry::Rings;
@@ -12,8 +12,8 @@ use super::plane::collect_polygons;
 use super::{BufferCap, BufferOptions, Geometry};
 
 impl Geometry {
-    /// The way from the first point of a line to its last (degrees), as seen from above: 0 is east, 90 is north. None of
-    /// other kinds, and where both are one place.
+    /// Returns the horizontal direction from the first point of a line to its last (degrees): 0 is east, 90
+    /// is north. `None` for other types, and if both points have the same position.
     ///
     /// ```
     /// use burgeon_spatial::Geometry;
@@ -29,8 +29,9 @@ impl Geometry {
         is_way.then(|| way.y.atan2(way.x).to_degrees().rem_euclid(360.0))
     }
 
-    /// The point of a line at a part of its length as seen from above: 0 is its first point, 1 its last. Heights change
-    /// evenly. Empty of an empty one; fails for other kinds.
+    /// Returns the point at a fraction of a line's horizontal length: 0 is the first point, 1 the last.
+    ///
+    /// Heights are interpolated linearly. Empty for an empty line; fails for other types.
     ///
     /// ```
     /// use burgeon_spatial::Geometry;
@@ -45,8 +46,10 @@ impl Geometry {
         Ok(Self::Point((!line.is_empty()).then(|| along(line, part * length(line)))))
     }
 
-    /// The piece of a line between two parts of its length, the lesser of which comes first; a point where they are one.
-    /// Empty of an empty one; fails for other kinds.
+    /// Returns the part of a line between two fractions of its horizontal length in ascending order; a point
+    /// if both are equal.
+    ///
+    /// Empty for an empty line; fails for other types.
     ///
     /// ```
     /// use burgeon_spatial::Geometry;
@@ -82,8 +85,8 @@ impl Geometry {
         Ok(Self::line(points).unwrap_or_else(|| Self::Point(Some(along(line, begin)))))
     }
 
-    /// At which part of the length of a line the point is that is nearest to another geometry, from 0 to 1. None if one is
-    /// empty; fails for other kinds.
+    /// Returns the fraction (0 to 1) of a line's length at the point nearest to another geometry. `None` if
+    /// either is empty; fails for other types.
     pub fn line_locate(&self, other: &Self) -> Result<Option<f64>> {
         let line = self.as_line("line_locate")?;
         let Some([place, _]) = self.nearest_points(other) else { return Ok(None) };
@@ -101,7 +104,7 @@ impl Geometry {
         Ok(Some(if whole > 0.0 { (best.1 / whole).min(1.0) } else { 0.0 }))
     }
 
-    /// Its points as a line.
+    /// Returns the points of a line; fails for other types.
     fn as_line(&self, method: &str) -> Result<&[DVec3]> {
         match self {
             Self::Line(points) if self.is_sound() => Ok(points),
@@ -111,8 +114,9 @@ impl Geometry {
         }
     }
 
-    /// The same without points that are within `tolerance` (m) of the line between others. What becomes of areas may have
-    /// fewer parts, and rings that come to cross are mended.
+    /// Removes points that are within `tolerance` (m) of the line between others.
+    ///
+    /// Areas may lose parts, and rings that cross afterwards are repaired.
     ///
     /// Method: D. Douglas and T. Peucker, "Algorithms for the reduction of the number of points required to represent
     /// a digitized line or its caricature", 1973.
@@ -147,11 +151,13 @@ impl Geometry {
         }
     }
 
-    /// The line beside it at `distance` (m), to its left, or to its right if that is negative; corners on the outer side
-    /// are as `options` say. It runs as the line does and does not cross itself, so that it may be of several parts, or
-    /// empty. Of areas, the border at that distance outside, or inside if it is negative.
+    /// Returns the parallel line at `distance` (m) to the left, or to the right if it is negative.
     ///
-    /// Method: the part of the border of the area around it that lies on that side.
+    /// `options` define the outer corners. The result has the direction of the line and does not cross
+    /// itself, so it may have several parts or be empty. For areas, it is the border at that distance
+    /// outside, or inside if it is negative. Fails for points.
+    ///
+    /// Method: the part of the buffer's border on that side.
     ///
     /// ```
     /// use burgeon_spatial::{BufferJoin, BufferOptions, Geometry};
@@ -188,7 +194,7 @@ impl Geometry {
     }
 }
 
-/// The parts of the border of the area around a line that lie to its left, or to its right.
+/// Returns the parts of the border of a line's buffer that lie to its left, or to its right.
 fn side(line: &Geometry, around: &Geometry, distance: f64) -> Vec<Geometry> {
     let own = edges(line);
     let tree = EdgeTree::new(own.clone());
@@ -196,7 +202,7 @@ fn side(line: &Geometry, around: &Geometry, distance: f64) -> Vec<Geometry> {
         let middle = ((a + b) / 2.0).truncate();
         let Some((edge, near)) = tree.nearest_edge(middle) else { return false };
         let way = |edge: &Edge| (edge.ends[1] - edge.ends[0]).truncate();
-        // What is nearest to a corner lies on the outer side of its turn.
+        // A point whose nearest point is a corner lies on the outer side of the corner's turn.
         let before = own.get((edge.number + own.len() - 1) % own.len());
         let behind = own.get((edge.number + 1) % own.len());
         let corner = if near == edge.ends[1] {
@@ -208,7 +214,7 @@ fn side(line: &Geometry, around: &Geometry, distance: f64) -> Vec<Geometry> {
         };
         let beside = way(&edge).perp_dot(middle - near.truncate());
         let aside = corner.filter(|turn| *turn != 0.0).map_or(beside, |turn| -turn);
-        // The cuts at its ends lead through them.
+        // The straight cuts at the ends of the buffer pass through the ends of the line.
         near.truncate().distance(middle) > 0.9 * distance.abs() && (aside > 0.0) == (distance > 0.0)
     };
     let mut found = Vec::new();
@@ -216,7 +222,7 @@ fn side(line: &Geometry, around: &Geometry, distance: f64) -> Vec<Geometry> {
         for ring in rings.iter() {
             let edges: Vec<[DVec3; 2]> = burgeon_geometry::planar::edges(ring).collect();
             let kept: Vec<bool> = edges.iter().map(|edge| is_beside(*edge)).collect();
-            // From the first edge on that does not belong to the side.
+            // Start at the first edge that does not belong to the side.
             let Some(begin) = kept.iter().position(|kept| !kept) else {
                 found.push(closed(ring));
                 continue;
@@ -233,7 +239,7 @@ fn side(line: &Geometry, around: &Geometry, distance: f64) -> Vec<Geometry> {
             }
         }
     });
-    // What lies to the left runs the other way around the area.
+    // The border on the left runs against the direction of the line.
     if distance > 0.0 {
         found.iter_mut().for_each(|run| run.reverse());
     }
@@ -248,7 +254,7 @@ fn check_part(method: &str, part: f64) -> Result<()> {
         .help("0 is the first point of the line and 1 the last"))
 }
 
-/// The point of a line with points that lies so far (m) behind its first one, as seen from above.
+/// Returns the point of a non-empty line at a horizontal distance (m) from its first point.
 pub(crate) fn along(line: &[DVec3], mut far: f64) -> DVec3 {
     for pair in line.windows(2) {
         let long = length(pair);
@@ -260,7 +266,7 @@ pub(crate) fn along(line: &[DVec3], mut far: f64) -> DVec3 {
     line.last().copied().unwrap_or_default()
 }
 
-/// How far (m) a point is from the way between two others, as seen from above.
+/// Returns the horizontal distance (m) of a point from the segment between two others.
 fn aside(point: DVec3, ends: [DVec3; 2]) -> f64 {
     let place = point.truncate();
     Edge { ends, number: 0 }.nearest(place).truncate().distance(place)

@@ -1,4 +1,4 @@
-//! What is measured on one geometry, and the simple shapes around it.
+//! Measurements of a geometry, and simple shapes around it.
 
 use burgeon_geometry::Rings;
 use burgeon_geometry::planar::twice_area;
@@ -10,7 +10,7 @@ use super::edges::with_heights;
 use super::plane::{Plane, collect_lines, collect_polygons};
 
 impl Geometry {
-    /// Its area (m²) as seen from above: that inside outer rings, without holes; 0 of lines and points.
+    /// Returns the horizontal area (m²) inside outer rings, without holes; 0 for lines and points.
     ///
     /// ```
     /// use burgeon_spatial::Geometry;
@@ -30,7 +30,8 @@ impl Geometry {
         sum
     }
 
-    /// The length (m) of its lines as seen from above; 0 of areas, whose rings make the [perimeter](Self::perimeter).
+    /// Returns the horizontal length (m) of the lines; 0 for areas, whose rings have a
+    /// [perimeter](Self::perimeter).
     pub fn length(&self) -> f64 {
         let mut sum = 0.0;
         if self.is_sound() {
@@ -39,7 +40,7 @@ impl Geometry {
         sum
     }
 
-    /// The length (m) of its rings as seen from above; 0 of lines and points.
+    /// Returns the horizontal length (m) of the rings; 0 for lines and points.
     pub fn perimeter(&self) -> f64 {
         let mut sum = 0.0;
         if self.is_sound() {
@@ -55,7 +56,7 @@ impl Geometry {
         sum
     }
 
-    /// The rectangle along the axes around it; a line or a point where it has no width or no height.
+    /// Returns the axis-parallel bounding rectangle; a line or a point if its width or height is 0.
     ///
     /// ```
     /// use burgeon_spatial::Geometry;
@@ -73,8 +74,8 @@ impl Geometry {
         shape_of(corners.to_vec())
     }
 
-    /// The centre of mass of its areas; of its lines if it has no area, of its points if it has no lines. Empty of an
-    /// empty one.
+    /// Returns the centroid of the areas, of the lines if it has no area, or of the points if it has no
+    /// lines. Empty for an empty geometry.
     ///
     /// ```
     /// use burgeon_spatial::Geometry;
@@ -93,13 +94,14 @@ impl Geometry {
             let at = at.truncate();
             self.bounds().is_some_and(|[low, high]| low.cmple(at).all() && at.cmple(high).all())
         };
-        // Of rings that cross themselves what they go around one way may weigh against what they go around the other way.
+        // In self-crossing rings, parts with opposite orientations may cancel each other.
         let found =
             centre(self).map(|at| if is_around(&at) { at } else { centre(&self.dissolved()).unwrap_or(at) });
         with_heights(Self::Point(found), &[self])
     }
 
-    /// The smallest convex geometry that it lies in: a line if all is on one, a point if all is in one place.
+    /// Returns the smallest convex geometry that contains it: a line if all points are collinear, a point if
+    /// all are equal.
     ///
     /// Method: quickhull (C. Barber and others, "The quickhull algorithm for convex hulls", 1996), through `geo`.
     ///
@@ -118,7 +120,8 @@ impl Geometry {
         with_heights(if hull.is_empty() { Self::empty(self.dimension()) } else { shape_of(hull) }, &[self])
     }
 
-    /// The corners of the hull, counter-clockwise; two if all is on a line, one if it is in one place.
+    /// Returns the corners of the hull, counter-clockwise; two if all points are collinear, one if all are
+    /// equal.
     pub(crate) fn hull_around(&self, plane: Plane) -> Vec<DVec2> {
         if !self.is_sound() {
             return Vec::new();
@@ -135,10 +138,11 @@ impl Geometry {
         }
     }
 
-    /// The smallest rectangle of any direction around it; a line or a point where it has no width or no height.
+    /// Returns the smallest bounding rectangle of any direction; a line or a point if its width or height is
+    /// 0.
     ///
-    /// Method: one of its sides lies along one of the hull (H. Freeman and R. Shapira, "Determining the
-    /// minimum-area encasing rectangle for an arbitrary closed curve", 1975), through `geo`.
+    /// Method: one side of the rectangle lies along a side of the hull (H. Freeman and R. Shapira,
+    /// "Determining the minimum-area encasing rectangle for an arbitrary closed curve", 1975), through `geo`.
     pub fn oriented_envelope(&self) -> Self {
         let plane = Plane::of(&[self]);
         let hull = self.hull_around(plane);
@@ -152,18 +156,18 @@ impl Geometry {
         with_heights(around, &[self])
     }
 
-    /// How wide it is along x (m); 0 of an empty one.
+    /// Returns the extent along x (m); 0 for an empty geometry.
     pub fn envelope_width(&self) -> f64 {
         self.bounds().map_or(0.0, |[low, high]| high.x - low.x)
     }
 
-    /// How wide it is along y (m); 0 of an empty one.
+    /// Returns the extent along y (m); 0 for an empty geometry.
     pub fn envelope_height(&self) -> f64 {
         self.bounds().map_or(0.0, |[low, high]| high.y - low.y)
     }
 }
 
-/// The polygon with these corners, of which one or two may be all that there are.
+/// Returns the polygon with these corners, or a line or a point if it has only two or one distinct corners.
 fn shape_of(mut corners: Vec<DVec2>) -> Geometry {
     corners.dedup();
     while corners.len() > 1 && corners.first() == corners.last() {
@@ -172,7 +176,7 @@ fn shape_of(mut corners: Vec<DVec2>) -> Geometry {
     let corners: Vec<DVec3> = corners.into_iter().map(|at| at.extend(0.0)).collect();
     match corners[..] {
         [only] => Geometry::Point(Some(only)),
-        // There and back again, of a rectangle without width.
+        // A rectangle without width runs there and back.
         [_, _] | [_, _, _, _]
             if corners.len() == 2 || corners[0] == corners[3] && corners[1] == corners[2] =>
         {
@@ -182,7 +186,7 @@ fn shape_of(mut corners: Vec<DVec2>) -> Geometry {
     }
 }
 
-/// The length (m) of a way from point to point.
+/// Returns the horizontal length (m) of a polyline.
 pub(crate) fn length(points: &[DVec3]) -> f64 {
     points.windows(2).map(|pair| pair[0].truncate().distance(pair[1].truncate())).sum()
 }

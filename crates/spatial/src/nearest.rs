@@ -1,4 +1,4 @@
-//! Distances, and the places where they are measured.
+//! Distances and nearest points.
 
 use geo::Intersects;
 use glam::DVec3;
@@ -8,7 +8,8 @@ use super::edges::{Edge, EdgeTree, edges};
 use super::plane::Plane;
 
 impl Geometry {
-    /// The distance (m) between the nearest points of the two, as seen from above; none if one is empty.
+    /// Returns the horizontal distance (m) between the nearest points of both geometries; `None` if either is
+    /// empty.
     ///
     /// ```
     /// use burgeon_spatial::Geometry;
@@ -24,12 +25,12 @@ impl Geometry {
         Some(a.truncate().distance(b.truncate()))
     }
 
-    /// The point of it that is nearest to another geometry, empty if one is empty.
+    /// Returns the point of this geometry that is nearest to another; empty if either is empty.
     pub fn nearest_point(&self, other: &Self) -> Self {
         Self::Point(self.nearest_points(other).map(|[own, _]| own))
     }
 
-    /// The point of each that is nearest to the other, as seen from above; none if one is empty.
+    /// Returns the horizontally nearest points of both geometries; `None` if either is empty.
     pub fn nearest_points(&self, other: &Self) -> Option<[DVec3; 2]> {
         if !self.is_sound() || !other.is_sound() {
             return None;
@@ -53,7 +54,7 @@ impl Geometry {
     }
 }
 
-/// The end of an edge of the first that is nearest to an edge of the second, and the point there.
+/// Returns the end of an edge of `from` that is nearest to an edge of `to`, and the nearest point there.
 fn least(from: &[Edge], to: &[Edge]) -> Option<[DVec3; 2]> {
     let ends = from.iter().flat_map(|edge| edge.ends);
     let far = |[a, b]: &[DVec3; 2]| a.truncate().distance_squared(b.truncate());
@@ -70,10 +71,10 @@ fn least(from: &[Edge], to: &[Edge]) -> Option<[DVec3; 2]> {
     nearest(&mut ends.filter_map(|end| Some([end, tree.nearest(end.truncate())?])))
 }
 
-/// So many pairs are asked faster than a tree is built.
+/// Maximum number of pairs for which direct comparison is faster than building a tree.
 const FEW: usize = 2000;
 
-/// A point that two geometries have in common, as they meet: an end of an edge, or where edges cross.
+/// Returns a common point of two intersecting geometries: an end of an edge, or the crossing of two edges.
 fn common(one: &Geometry, two: &Geometry, own: &[Edge], others: &[Edge], plane: Plane) -> DVec3 {
     for (from, to) in [(own, two), (others, one)] {
         let to = plane.geo(to);

@@ -1,4 +1,4 @@
-//! What a geometry is made of.
+//! Access to the components of a geometry.
 
 use burgeon_geometry::{Rings, planar};
 use glam::DVec3;
@@ -8,7 +8,8 @@ use super::Geometry;
 use super::plane::{collect_lines, collect_polygons};
 
 impl Geometry {
-    /// Its geometries: those of a multi form or a collection, otherwise itself alone.
+    /// Returns the members of a multi-geometry or collection, otherwise the geometry itself; empty for an
+    /// empty geometry.
     ///
     /// ```
     /// use burgeon_spatial::Geometry;
@@ -29,24 +30,25 @@ impl Geometry {
         }
     }
 
-    /// The outer ring of a polygon as a line that ends where it begins; empty of an empty one, none of another kind.
+    /// Returns the outer ring of a polygon as a closed line; empty for an empty polygon, `None` for other
+    /// types.
     pub fn exterior_ring(&self) -> Option<Self> {
         let Self::Polygon(rings) = self else { return None };
         Some(Self::Line(rings.first().map(|ring| closed(ring)).unwrap_or_default()))
     }
 
-    /// The holes of a polygon as lines that end where they begin; none of another kind.
+    /// Returns the holes of a polygon as closed lines; `None` for other types.
     pub fn interior_rings(&self) -> Option<Vec<Self>> {
         let Self::Polygon(rings) = self else { return None };
         Some(rings.iter().skip(1).map(|ring| Self::Line(closed(ring))).collect())
     }
 
-    /// The points of a line, in their order; none of another kind.
+    /// Returns the points of a line, in order; `None` for other types.
     pub fn line_points(&self) -> Option<&[DVec3]> {
         if let Self::Line(points) = self { Some(points) } else { None }
     }
 
-    /// How many points it has; the first point of a ring counts again at its end.
+    /// Returns the number of points; the first point of a ring counts twice.
     pub fn num_points(&self) -> usize {
         let mut rings = 0;
         collect_polygons(self, &mut |polygon| {
@@ -55,7 +57,7 @@ impl Geometry {
         self.points().count() + rings
     }
 
-    /// How many geometries it has; an empty one has none.
+    /// Returns the number of geometries; 0 for an empty geometry.
     pub fn num_geometries(&self) -> usize {
         match self {
             Self::MultiPoint(points) => points.len(),
@@ -66,7 +68,7 @@ impl Geometry {
         }
     }
 
-    /// The straight pieces of its lines and rings, each a line of two points.
+    /// Returns the straight segments of all lines and rings, each as a line of two points.
     ///
     /// ```
     /// use burgeon_spatial::Geometry;
@@ -84,8 +86,8 @@ impl Geometry {
         found.into_iter().filter(|pair| pair[0] != pair[1]).map(Self::Line).collect()
     }
 
-    /// The combinatorial boundary: the rings of areas, and the ends of lines at which an odd number of them end. Empty of
-    /// points and of lines that end where they begin.
+    /// Returns the combinatorial boundary: the rings of areas, and the points where an odd number of lines
+    /// end. Empty for points and closed lines.
     ///
     /// ```
     /// use burgeon_spatial::Geometry;
@@ -109,7 +111,7 @@ impl Geometry {
                 return;
             }
             for end in [first, last] {
-                // The two zeros are one place.
+                // Adding 0 turns -0 into 0.
                 let key = end.truncate().to_array().map(|number| (number + 0.0).to_bits());
                 let index = *known.entry(key).or_insert_with(|| {
                     ends.push((*end, false));
@@ -133,7 +135,7 @@ impl Geometry {
     }
 }
 
-/// A ring with its first point again at its end.
+/// Returns a ring with its first point repeated at its end.
 pub(crate) fn closed(ring: &[DVec3]) -> Vec<DVec3> {
     ring.iter().chain(ring.first()).copied().collect()
 }

@@ -1,4 +1,4 @@
-//! The plane that operations work in: geometries to and from those of `geo`, around an origin of their own.
+//! Conversion of geometries to and from `geo`, relative to a local origin.
 
 use burgeon_geometry::Rings;
 use burgeon_geometry::planar::is_counter_clockwise;
@@ -6,42 +6,43 @@ use glam::{DVec2, DVec3};
 
 use super::Geometry;
 
-/// An origin near what is worked on.
+/// A local origin near the operands.
 ///
-/// Coordinates in millions of metres have few digits left behind the point; differences between them have all.
+/// Coordinates of millions of metres have few fractional digits; their differences have all.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Plane {
     origin: DVec2,
 }
 
 impl Plane {
-    /// One for all of these. What is near the origin, as seen by its size, keeps it: nothing is to be won there.
+    /// Creates a common local origin for several geometries. Geometries near the global origin, relative to
+    /// their size, keep it, because a local origin would not improve the accuracy.
     pub(crate) fn of(geometries: &[&Geometry]) -> Self {
         let bounds = geometries.iter().filter(|it| it.is_sound()).filter_map(|it| it.bounds());
         let around = bounds.reduce(|[a, b], [c, d]| [a.min(c), b.max(d)]);
         let Some([low, high]) = around else { return Self { origin: DVec2::ZERO } };
         let (size, middle) = ((high - low).max_element(), ((low + high) / 2.0).floor());
-        // On each axis by itself, so that no difference is rounded.
+        // Each axis is tested separately, so that no difference is rounded.
         let far = middle.abs().cmpgt(DVec2::splat(8.0 * size.max(1.0)));
         Self { origin: DVec2::select(far, middle, DVec2::ZERO) }
     }
 
-    /// The plane in which coordinates are as they were given.
+    /// Returns the plane with global coordinates.
     pub(crate) fn absolute() -> Self {
         Self { origin: DVec2::ZERO }
     }
 
-    /// A place around the origin.
+    /// Converts a point to horizontal local coordinates.
     pub(crate) fn flat(self, point: DVec3) -> DVec2 {
         point.truncate() - self.origin
     }
 
-    /// A place as it was given.
+    /// Converts local coordinates back to a point.
     pub(crate) fn back(self, place: DVec2) -> DVec3 {
         (place + self.origin).extend(0.0)
     }
 
-    /// A geometry of `geo`, without what is empty; empty if it is not sound.
+    /// Converts a geometry to `geo`, without empty parts; empty if it is not sound.
     pub(crate) fn geo(self, geometry: &Geometry) -> geo::Geometry {
         if geometry.is_sound() { self.convert(geometry) } else { geo::MultiPoint::new(Vec::new()).into() }
     }
@@ -83,7 +84,7 @@ impl Plane {
         points.iter().map(|point| self.coord(*point)).collect()
     }
 
-    /// A polygon whose rings run as they are to; none if it is empty.
+    /// Converts a polygon with correctly oriented rings; `None` if it is empty.
     pub(crate) fn polygon(self, rings: &Rings) -> Option<geo::Polygon> {
         let turned = |ring: &Vec<DVec3>, is_outer: bool| -> geo::LineString {
             let mut turned = self.string(ring);
@@ -99,7 +100,7 @@ impl Plane {
         Some(geo::Polygon::new(turned(outer, true), holes.collect()))
     }
 
-    /// All polygons of a geometry.
+    /// Converts all polygons of a geometry.
     pub(crate) fn polygons(self, geometry: &Geometry) -> geo::MultiPolygon {
         let mut polygons = Vec::new();
         if geometry.is_sound() {
@@ -108,7 +109,7 @@ impl Plane {
         geo::MultiPolygon::new(polygons)
     }
 
-    /// The rings of a polygon of `geo`.
+    /// Converts the rings of a `geo` polygon back.
     pub(crate) fn rings(self, polygon: &geo::Polygon) -> Rings {
         let open = |ring: &geo::LineString| -> Vec<DVec3> {
             let count = ring.0.len() - usize::from(ring.0.len() > 1 && ring.is_closed());
@@ -141,7 +142,7 @@ pub(crate) fn collect_lines<'a>(geometry: &'a Geometry, each: &mut impl FnMut(&'
     }
 }
 
-/// Calls `each` with every point that stands for itself.
+/// Calls `each` with every point that is not part of a line or ring.
 pub(crate) fn collect_points(geometry: &Geometry, each: &mut impl FnMut(DVec3)) {
     match geometry {
         Geometry::Point(Some(point)) => each(*point),

@@ -1,32 +1,33 @@
-//! What holds of all geometries, whatever they look like.
+//! Properties of all operations for arbitrary geometries.
 
 use glam::DVec3;
 use proptest::prelude::*;
 
 use crate::{BufferCap, BufferOptions, Geometry, union_all};
 
-/// Places on a small grid, so that much touches, and some far from it.
+/// Returns points on a small grid, so that geometries often touch, and some off the grid.
 fn place() -> impl Strategy<Value = DVec3> {
     let number = || prop_oneof![8 => (0..8i32).prop_map(f64::from), 1 => 0.0..8.0f64];
     let height = prop::sample::select(vec![0.0, 0.0, 0.0, 2.5]);
     (number(), number(), height).prop_map(|(x, y, z)| DVec3::new(x, y, z))
 }
 
-/// Rings across one another, whose edges meet hundreds of times.
+/// Returns crossing rings with hundreds of intersections.
 fn tangle() -> impl Strategy<Value = Geometry> {
     let place = (0.0..100.0f64, 0.0..100.0f64).prop_map(|(x, y)| DVec3::new(x, y, 0.0));
     let rings = prop::collection::vec(prop::collection::vec(place, 3..30), 1..5);
     rings.prop_map(|rings| Geometry::polygon(rings).unwrap_or(Geometry::empty(2)))
 }
 
-/// A star around a place: a ring that does not meet itself.
+/// Returns a star-shaped ring around a point, which does not cross itself.
 fn star() -> impl Strategy<Value = Vec<DVec3>> {
     (place(), prop::collection::vec(0.5..4.0f64, 3..9), any::<bool>()).prop_map(|(middle, far, whole)| {
         let count = far.len() as f64;
         let corner = |(index, far): (usize, &f64)| {
             let angle = std::f64::consts::TAU * index as f64 / count;
             let at = middle + DVec3::new(angle.cos(), angle.sin(), 0.0) * *far;
-            // On the grid corners meet edges of others; a star keeps its shape there or is given up.
+            // On the grid, corners lie on edges of other geometries; a star that rounding deforms is
+            // discarded later.
             if whole { DVec3::new(at.x.round(), at.y.round(), at.z) } else { at }
         };
         far.iter().enumerate().map(corner).collect()
@@ -37,7 +38,7 @@ fn polygon() -> impl Strategy<Value = Geometry> {
     star().prop_filter_map("no polygon", |mut ring| {
         ring.dedup_by(|a, b| a.truncate() == b.truncate());
         let polygon = Geometry::polygon(vec![ring])?;
-        // What rounding to the grid made of it may meet itself.
+        // Rounding to the grid may have caused self-intersections.
         (polygon.area() > 0.1 && (polygon.dissolved().area() - polygon.area()).abs() < 1e-9)
             .then_some(polygon)
     })
@@ -57,8 +58,8 @@ fn geometry() -> impl Strategy<Value = Geometry> {
     leaf.prop_recursive(3, 12, 3, |inner| prop::collection::vec(inner, 0..3).prop_map(Geometry::Collection))
 }
 
-/// Whether a ring of areas leads away from what it goes around, and back the same way: then such a part counts where it
-/// is asked whether two meet, and nowhere else.
+/// Returns true if a ring of an area has a spike, which runs outwards and back along the same line. Only the
+/// intersection test takes spikes into account.
 fn has_spike(geometry: &Geometry) -> bool {
     geometry.parts().iter().any(|part| {
         let whole = part.dissolved();
@@ -66,7 +67,7 @@ fn has_spike(geometry: &Geometry) -> bool {
     })
 }
 
-/// Whether no area of it had to be computed, so that relations with it are exact.
+/// Returns true if no area had to be computed, so that relations with the geometry are exact.
 fn has_given_areas(geometry: &Geometry) -> bool {
     crate::overlay::Operand::new(crate::plane::Plane::of(&[geometry]), geometry).are_given
 }

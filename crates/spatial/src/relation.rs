@@ -1,4 +1,4 @@
-//! How two geometries lie to each other.
+//! Topological relations between two geometries.
 
 use burgeon_base::error::{Error, Result};
 use burgeon_base::text::shown;
@@ -9,22 +9,22 @@ use super::Geometry;
 use super::plane::Plane;
 use super::topology::{self, PreparedGeometry};
 
-/// What the dimensionally extended nine-intersection model says of two geometries: the dimensions in which the
-/// interior, the boundary and the exterior of one meet those of the other.
+/// Matrix of the dimensionally extended nine-intersection model: the dimensions in which the interior,
+/// boundary and exterior of one geometry intersect those of the other.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Relation {
-    /// Row by row, of the first geometry: interior, boundary, exterior; `F`, `0`, `1` or `2`.
+    /// Cells by row of the first geometry: interior, boundary, exterior; `F`, `0`, `1` or `2`.
     cells: [u8; 9],
 }
 
 impl Relation {
-    /// Its nine letters.
+    /// Returns the nine characters.
     pub fn text(&self) -> &str {
         std::str::from_utf8(&self.cells).unwrap_or_default()
     }
 
-    /// Whether it is as a pattern says: nine letters, of which `*` is anything, `T` is 0, 1 or 2, and `F`, `0`, `1` and
-    /// `2` are themselves. Fails if that is no pattern.
+    /// Returns true if the relation matches a pattern of nine characters: `*` matches anything, `T` matches
+    /// 0, 1 and 2, and `F`, `0`, `1` and `2` match themselves. Fails if the pattern is invalid.
     pub fn matches(&self, pattern: &str) -> Result<bool> {
         let letters = pattern.as_bytes();
         let known =
@@ -45,8 +45,8 @@ impl Relation {
     }
 }
 
-/// The predicates of OGC Simple Features (06-103r4, clause 6.1.15). Where one geometry is empty, all are false, but for
-/// `disjoint`, and `equals` of two that are.
+/// Predicates of OGC Simple Features (06-103r4, clause 6.1.15). If either geometry is empty, all are false,
+/// except `disjoint`, and `equals` for two empty geometries.
 ///
 /// ```
 /// use burgeon_spatial::Geometry;
@@ -61,12 +61,12 @@ impl Relation {
 /// # Ok::<(), burgeon_base::error::Error>(())
 /// ```
 impl Geometry {
-    /// The dimensions in which interiors, boundaries and exteriors of the two meet.
+    /// Computes the dimensions in which the interiors, boundaries and exteriors of both geometries intersect.
     pub fn relate(&self, other: &Self) -> Relation {
         PreparedGeometry::new(self).relate(&PreparedGeometry::new(other))
     }
 
-    /// Whether they have a point in common.
+    /// Returns true if both geometries have a common point.
     pub fn intersects(&self, other: &Self) -> bool {
         if !self.is_near(other) {
             return false;
@@ -75,50 +75,51 @@ impl Geometry {
         plane.geo(self).intersects(&plane.geo(other))
     }
 
-    /// Whether they have no point in common.
+    /// Returns true if both geometries have no common point.
     pub fn disjoint(&self, other: &Self) -> bool {
         !self.intersects(other)
     }
 
-    /// Whether no point of the other one lies outside, and one lies in the interior.
+    /// Returns true if no point of the other geometry lies outside, and at least one lies in the interior.
     pub fn contains(&self, other: &Self) -> bool {
         self.surrounds(other) && PreparedGeometry::new(self).contains(&PreparedGeometry::new(other))
     }
 
-    /// Whether the other one contains it.
+    /// Returns true if the other geometry contains this one.
     pub fn within(&self, other: &Self) -> bool {
         other.contains(self)
     }
 
-    /// Whether no point of the other one lies outside; borders count.
+    /// Returns true if no point of the other geometry lies outside; borders count as inside.
     pub fn covers(&self, other: &Self) -> bool {
         self.surrounds(other) && PreparedGeometry::new(self).covers(&PreparedGeometry::new(other))
     }
 
-    /// Whether the other one covers it.
+    /// Returns true if the other geometry covers this one.
     pub fn covered_by(&self, other: &Self) -> bool {
         other.covers(self)
     }
 
-    /// Whether they meet, and their interiors do not.
+    /// Returns true if the geometries intersect, but their interiors do not.
     pub fn touches(&self, other: &Self) -> bool {
         self.is_near(other) && PreparedGeometry::new(self).touches(&PreparedGeometry::new(other))
     }
 
-    /// Whether their interiors meet in less than the greater of their dimensions, and each has points outside of the
-    /// other: a line that leads through an area, or lines that cross in points.
+    /// Returns true if the interiors intersect in a lower dimension than the larger of the two, and each
+    /// geometry has points outside the other: a line through an area, or lines that cross in points.
     pub fn crosses(&self, other: &Self) -> bool {
         self.is_near(other) && PreparedGeometry::new(self).crosses(&PreparedGeometry::new(other))
     }
 
-    /// Whether they are of one dimension, their interiors meet in it, and each has points outside of the other.
+    /// Returns true if both have the same dimension, their interiors intersect in that dimension, and each
+    /// has points outside the other.
     pub fn overlaps(&self, other: &Self) -> bool {
         self.is_near(other)
             && self.dimension() == other.dimension()
             && PreparedGeometry::new(self).overlaps(&PreparedGeometry::new(other))
     }
 
-    /// Whether they are the same points, in whatever order and however divided.
+    /// Returns true if both consist of the same points, regardless of their order and division.
     pub fn equals(&self, other: &Self) -> bool {
         match [self, other].map(|it| it.is_empty() || !it.is_sound()) {
             [false, false] => {
@@ -130,35 +131,35 @@ impl Geometry {
         }
     }
 
-    /// Whether both are sound and the rectangles around them meet.
+    /// Returns true if both are sound and their bounding rectangles intersect.
     fn is_near(&self, other: &Self) -> bool {
         meet(self.bounds(), other.bounds()) && self.is_sound() && other.is_sound()
     }
 
-    /// Whether both are sound and the other one's rectangle lies in its own.
+    /// Returns true if both are sound and the other's bounding rectangle lies within this one's.
     fn surrounds(&self, other: &Self) -> bool {
         surrounds(self.bounds(), other.bounds()) && self.is_sound() && other.is_sound()
     }
 }
 
-/// Whether two rectangles meet.
+/// Returns true if two rectangles intersect.
 fn meet(one: Option<[DVec2; 2]>, two: Option<[DVec2; 2]>) -> bool {
     one.zip(two).is_some_and(|([a, b], [c, d])| a.cmple(d).all() && c.cmple(b).all())
 }
 
-/// Whether the second rectangle lies in the first.
+/// Returns true if the second rectangle lies within the first.
 fn surrounds(one: Option<[DVec2; 2]>, two: Option<[DVec2; 2]>) -> bool {
     one.zip(two).is_some_and(|([a, b], [c, d])| a.cmple(c).all() && d.cmple(b).all())
 }
 
-/// The same of geometries that are compared with many.
+/// Predicates for geometries that are compared many times.
 impl PreparedGeometry {
-    /// The dimensions in which interiors, boundaries and exteriors of the two meet.
+    /// Computes the dimensions in which the interiors, boundaries and exteriors of both geometries intersect.
     pub fn relate(&self, other: &Self) -> Relation {
         Relation { cells: topology::relate(self, other, true) }
     }
 
-    /// The same, but for the dimension in which borders that cross each other meet.
+    /// Computes the relation, without the exact dimension of the intersection of crossing borders.
     fn relation(&self, other: &Self) -> Relation {
         Relation { cells: topology::relate(self, other, false) }
     }
@@ -171,17 +172,17 @@ impl PreparedGeometry {
         self.is_sound && other.is_sound && surrounds(self.bounds, other.bounds)
     }
 
-    /// As [`Geometry::contains`].
+    /// Returns the result of [`Geometry::contains`].
     pub fn contains(&self, other: &Self) -> bool {
         self.surrounds(other) && self.relation(other).is("T*****FF*")
     }
 
-    /// As [`Geometry::within`].
+    /// Returns the result of [`Geometry::within`].
     pub fn within(&self, other: &Self) -> bool {
         other.contains(self)
     }
 
-    /// As [`Geometry::covers`].
+    /// Returns the result of [`Geometry::covers`].
     pub fn covers(&self, other: &Self) -> bool {
         if !self.surrounds(other) {
             return false;
@@ -190,12 +191,12 @@ impl PreparedGeometry {
         ["T*****FF*", "*T****FF*", "***T**FF*", "****T*FF*"].iter().any(|pattern| relation.is(pattern))
     }
 
-    /// As [`Geometry::covered_by`].
+    /// Returns the result of [`Geometry::covered_by`].
     pub fn covered_by(&self, other: &Self) -> bool {
         other.covers(self)
     }
 
-    /// As [`Geometry::touches`].
+    /// Returns the result of [`Geometry::touches`].
     pub fn touches(&self, other: &Self) -> bool {
         if !self.is_near(other) {
             return false;
@@ -204,7 +205,7 @@ impl PreparedGeometry {
         ["FT*******", "F**T*****", "F***T****"].iter().any(|pattern| relation.is(pattern))
     }
 
-    /// As [`Geometry::crosses`].
+    /// Returns the result of [`Geometry::crosses`].
     pub fn crosses(&self, other: &Self) -> bool {
         if !self.is_near(other) {
             return false;
@@ -216,7 +217,7 @@ impl PreparedGeometry {
         }
     }
 
-    /// As [`Geometry::overlaps`].
+    /// Returns the result of [`Geometry::overlaps`].
     pub fn overlaps(&self, other: &Self) -> bool {
         if !self.is_near(other) || self.dimension != other.dimension {
             return false;
@@ -225,7 +226,7 @@ impl PreparedGeometry {
         self.relation(other).is(pattern)
     }
 
-    /// As [`Geometry::equals`].
+    /// Returns the result of [`Geometry::equals`].
     pub fn equals(&self, other: &Self) -> bool {
         match [self, other].map(|it| it.bounds.is_none() || !it.is_sound) {
             [false, false] => {

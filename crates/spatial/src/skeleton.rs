@@ -1,4 +1,4 @@
-//! The straight skeleton of areas, and what is left when their borders move inwards.
+//! Straight skeletons and insets of areas.
 
 use burgeon_base::error::{Error, Result};
 use burgeon_geometry::planar::edges;
@@ -11,8 +11,8 @@ use super::edges::with_heights;
 use super::plane::Plane;
 
 impl Geometry {
-    /// The lines inside of its areas on which borders meet that all move inwards alike: the ridges and hips of a roof over
-    /// them. Fails if it has no areas, or their rings touch.
+    /// Computes the lines inside the areas where borders meet that move inwards at equal speed: the ridges
+    /// and hips of a roof over them. Fails if the geometry has no areas, or if their rings touch.
     ///
     /// ```
     /// use burgeon_spatial::Geometry;
@@ -28,10 +28,10 @@ impl Geometry {
             let paces = vec![Pace::default(); polygon.size()];
             let skeleton = Skeleton::new(&polygon, &paces)?;
             for face in &skeleton.faces {
-                // The first is that of the plan.
+                // The first edge of a face is the edge of the plan.
                 for [from, to] in edges(face).skip(1) {
                     let [a, b] = [from, to].map(|peak| skeleton.peaks[peak].at);
-                    // Each line is the border of two faces.
+                    // Each line borders two faces and is added once.
                     if from < to && a != b {
                         lines.push(Self::Line(vec![plane.back(a), plane.back(b)]));
                     }
@@ -41,9 +41,11 @@ impl Geometry {
         Ok(with_heights(Self::gathered(lines), &[self]))
     }
 
-    /// The faces of its straight skeleton, one for each edge of its areas: polygons that begin with the edge and turn left.
-    /// Their heights are how far (m) inwards from that edge they reach, so that they are a hip roof with a slope of 1.
-    /// Fails as [`Geometry::straight_skeleton`] does.
+    /// Computes the faces of the straight skeleton, one for each edge of the areas: polygons that begin with
+    /// the edge and are counter-clockwise.
+    ///
+    /// Their heights are the distances (m) from that edge, so that they form a hip roof with a slope of 1.
+    /// Fails like [`Geometry::straight_skeleton`].
     ///
     /// ```
     /// use burgeon_spatial::Geometry;
@@ -71,9 +73,10 @@ impl Geometry {
         Ok(made)
     }
 
-    /// What is left of its areas when their borders move inwards by `distance` (m), or outwards if that is negative, with
-    /// corners that stay corners as far as they turn by less than 60 degrees; empty if nothing is left. Fails if it has
-    /// no areas, or the distance is not finite.
+    /// Moves the borders of the areas inwards by `distance` (m), or outwards if it is negative.
+    ///
+    /// Corners that turn by less than 60 degrees stay corners. Empty if no area remains. Fails if the
+    /// geometry has no areas, or if the distance is not finite.
     pub fn inset(&self, distance: f64) -> Result<Self> {
         if !distance.is_finite() {
             return Err(Error::argument(format!("inset takes a finite distance, not {distance}"))
@@ -88,7 +91,7 @@ impl Geometry {
         Ok(if made.is_empty() { Self::empty(2) } else { with_heights(made, &[self]) })
     }
 
-    /// Its areas as plans, whose rings neither cross nor overlap.
+    /// Converts the areas to polygons whose rings neither cross nor overlap.
     fn plans(&self, method: &str) -> Result<(Plane, Vec<Polygon>)> {
         let plane = Plane::of(&[self]);
         if self.dimension() < 2 || !self.is_sound() {

@@ -1,4 +1,4 @@
-//! Validity of geometries by OGC Simple Features, and the repair of those that are not valid.
+//! Validity of geometries by OGC Simple Features, and the repair of invalid ones.
 
 use burgeon_geometry::Rings;
 use burgeon_geometry::overlay::Fill;
@@ -14,13 +14,13 @@ use burgeon_base::budget::Budget;
 use burgeon_base::error::Result;
 
 impl Geometry {
-    /// Whether its rings neither cross nor overlap, holes lie inside, the inside of each polygon hangs together, and no line
-    /// is without length.
+    /// Returns true if rings neither cross nor overlap, holes lie inside, the interior of each polygon is
+    /// connected, and every line has a length.
     pub fn is_valid(&self) -> bool {
         self.validity_reason().is_none()
     }
 
-    /// Why it is not valid; none if it is.
+    /// Returns the reason why the geometry is invalid; `None` if it is valid.
     ///
     /// ```
     /// use burgeon_spatial::Geometry;
@@ -34,7 +34,7 @@ impl Geometry {
         self.validity_reason_within(&Budget::default()).ok().flatten()
     }
 
-    /// The same, if finding out takes no longer than a budget allows.
+    /// Returns the reason why the geometry is invalid, if the check does not exceed the budget.
     pub fn validity_reason_within(&self, budget: &Budget) -> Result<Option<String>> {
         if let Err(error) = self.check() {
             return Ok(Some(error.message().to_owned()));
@@ -59,10 +59,11 @@ impl Geometry {
         Ok(area_flaw(&Plane::of(&[self]).geo(self), budget)?.or(flat))
     }
 
-    /// The same where it is valid; else the valid geometry that is most like it: of areas, what its rings go around an odd
-    /// number of times, of lines without length their places.
+    /// Returns the most similar valid geometry: itself if it is valid.
     ///
-    /// An area whose inside hangs together only in points becomes several.
+    /// For invalid areas, it is the area with odd winding numbers. A line without length becomes a point.
+    ///
+    /// An area whose interior is connected only by points becomes several areas.
     #[must_use]
     pub fn make_valid(&self) -> Self {
         if self.is_valid() {
@@ -75,7 +76,7 @@ impl Geometry {
             Self::Polygon(_) | Self::MultiPolygon(_) => {
                 let areas = filled(&Plane::absolute().polygons(self), Fill::EvenOdd);
                 let areas = geometry_of(&area_of(&areas));
-                // Of rings without an area their lines are left.
+                // Rings without area become lines.
                 if areas.is_empty() { self.boundary().dissolved().make_valid() } else { areas }
             }
             Self::Line(line) => Self::Point(line.first().copied()),
@@ -86,7 +87,7 @@ impl Geometry {
     }
 }
 
-/// Why areas of a geometry are not valid; none if they are.
+/// Returns the reason why the areas of a geometry are invalid; `None` if they are valid.
 fn area_flaw(geometry: &geo::Geometry, budget: &Budget) -> Result<Option<String>> {
     match geometry {
         geo::Geometry::Polygon(polygon) => polygon_flaw(polygon, budget),

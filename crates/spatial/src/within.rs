@@ -1,4 +1,4 @@
-//! Points inside of geometries.
+//! Points inside geometries.
 
 use burgeon_base::error::{Error, Result};
 use geo::TriangulateEarcut;
@@ -11,11 +11,11 @@ use super::plane::{Plane, collect_lines};
 use super::{Geometry, GeometryKind, PreparedGeometry};
 
 impl Geometry {
-    /// A point of it that is well inside where it has an area, and none of its ends where it has a length. Empty of an
-    /// empty one.
+    /// Returns a point of the geometry: well inside if it has an area, not an end if it has a length. Empty
+    /// for an empty geometry.
     ///
-    /// Method: the middle of the widest cut along x, half-way between the corners next to the middle of the area's
-    /// height (as JTS has it).
+    /// Method: the midpoint of the widest section along x, halfway between the two corners nearest to the
+    /// middle of the area's y range (as in JTS).
     ///
     /// ```
     /// use burgeon_spatial::Geometry;
@@ -42,7 +42,7 @@ impl Geometry {
         with_heights(Self::Point(found), &[self])
     }
 
-    /// The middle of its longest line; none if it has no lines with a length.
+    /// Returns the midpoint of the longest line; `None` if no line has a length.
     fn middle_of_lines(&self) -> Option<DVec3> {
         let mut longest: Option<(f64, &[DVec3])> = None;
         collect_lines(self, &mut |line| {
@@ -55,8 +55,9 @@ impl Geometry {
         Some(super::lines::along(line, long / 2.0))
     }
 
-    /// The point that two numbers from 0 to 1 choose: with random ones, each place of its areas is as likely as any
-    /// other; of its lines if it has no area, of its points if it has no lines. Empty of an empty one.
+    /// Returns the point selected by two numbers from 0 to 1: random numbers give uniformly distributed
+    /// points of the areas, of the lines if it has no area, or of the points if it has no lines. Empty for an
+    /// empty geometry.
     ///
     /// Fails if one of the numbers is not from 0 to 1.
     ///
@@ -76,7 +77,7 @@ impl Geometry {
 }
 
 impl PreparedGeometry {
-    /// As [`Geometry::random_point`]; its areas are divided into triangles once.
+    /// Returns the result of [`Geometry::random_point`]; the areas are triangulated once.
     pub fn random_point(&self, u: f64, v: f64) -> Result<Geometry> {
         if let Some(wrong) = [u, v].into_iter().find(|number| !(0.0..=1.0).contains(number)) {
             return Err(Error::argument(format!("random_point takes two numbers from 0 to 1, not {wrong}"))
@@ -101,7 +102,7 @@ impl PreparedGeometry {
                 rest -= area(triangle);
             }
             let [a, b, c] = chosen;
-            // What is left of the first number is as random within the triangle.
+            // The remainder of the first number is uniformly distributed within the triangle.
             let across = (rest / area(&chosen).max(f64::MIN_POSITIVE)).clamp(0.0, 1.0).sqrt();
             Some(plane.back(a + (b - a) * (across * (1.0 - v)) + (c - a) * (across * v)))
         } else if whole.length() > 0.0 {
@@ -128,7 +129,7 @@ impl PreparedGeometry {
     }
 }
 
-/// What areas are divided into.
+/// Triangulates the areas of a geometry.
 fn triangles(geometry: &Geometry, plane: Plane) -> Vec<[DVec2; 3]> {
     let place = |at: geo::Coord| DVec2::new(at.x, at.y);
     let areas = dissolved(plane.polygons(geometry));
@@ -136,7 +137,7 @@ fn triangles(geometry: &Geometry, plane: Plane) -> Vec<[DVec2; 3]> {
     triangles.map(|triangle| triangle.to_array().map(place)).collect()
 }
 
-/// How wide a polygon is where it is cut along x, and the middle of the widest piece; none without an area.
+/// Returns the width and the midpoint of the widest section of a polygon along x; `None` without an area.
 fn widest_cut(polygon: &geo::Polygon) -> Option<(f64, DVec2)> {
     let corners = || polygon.exterior().0.iter();
     let low = corners().map(|at| at.y).fold(f64::INFINITY, f64::min);

@@ -1,4 +1,5 @@
-//! Hundreds of cases of each family; `cargo bench -p burgeon-query --bench overlay` has a hundred thousand.
+//! Tests hundreds of cases of each family; `cargo bench -p burgeon-query --bench overlay` tests a hundred
+//! thousand.
 
 mod families;
 

@@ -1,5 +1,5 @@
-//! Growth from 1,000 to 300,000 pieces: time of each proposal, neighbours that the index gave for it, dead ends, faces.
-//! `cargo bench -p burgeon-streets`.
+//! Benchmark of growth from 1,000 to 300,000 segments: time per proposal, neighbours returned by the index, dead ends,
+//! faces. `cargo bench -p burgeon-streets`.
 
 #![allow(
     clippy::print_stdout,

@@ -1,4 +1,4 @@
-//! Lots and sites of networks of 1,000 to 100,000 pieces, and lots of thousands of areas at random.
+//! Benchmark of lots and sites in networks of 1,000 to 100,000 segments, and of lots in thousands of random areas.
 //!
 //! `cargo bench -p burgeon-streets --bench lots`
 
@@ -18,7 +18,8 @@ use burgeon_streets::{
 use glam::DVec2;
 use grown::{Numbers, grown};
 
-/// Whether lots fill their block: areas add up, and every edge has one lot on either side, or is on the border.
+/// Returns true if the lots fill their block: the areas add up, and each edge has a lot on both sides or is on the
+/// border.
 fn check(block: &StreetBlock, lots: &[Lot]) {
     let area = |rings: &Rings<DVec2>| -> f64 {
         rings.iter().map(|ring| twice_area(ring.iter().copied()) / 2.0).sum()

@@ -1,4 +1,4 @@
-//! The areas that streets take of the ground, sidewalks included, where the ground itself is not to be seen.
+//! Ground areas covered by streets and sidewalks, where the terrain itself is hidden.
 
 use glam::{DVec2, DVec3};
 
@@ -8,19 +8,20 @@ use crate::profile::StreetProfiles;
 use crate::shape::{StreetShapes, is_same};
 use crate::surface::{SurfaceOptions, outline};
 
-/// The area of a piece or of a junction, or of a part of a piece before or behind its bridge.
+/// Area of a segment, of a junction, or of the part of a segment before or after its bridge.
 #[derive(Debug, Clone, PartialEq)]
 pub struct StreetArea {
-    /// Its border (m), counter-clockwise: the edges of the sidewalks, and the lines where it meets other areas.
+    /// Outline (m), counter-clockwise: outer edges of the sidewalks, and lines shared with adjacent areas.
     pub outline: Vec<DVec2>,
-    /// The line (m) whose heights it has, level across: the middle of a piece, or one point of a junction.
+    /// Line (m) that defines the heights; the area is level across it. Centreline of a segment, or one point of a
+    /// junction.
     pub line: Vec<DVec3>,
 }
 
 impl StreetNetwork {
-    /// The areas of its streets on the ground: none where a bridge carries a street.
+    /// Returns the areas that streets cover on the ground; the spans carried by bridges are excluded.
     ///
-    /// Areas that meet share the corners of their borders, so that nothing is left open between them.
+    /// Adjacent areas share the corners of their outlines, so there are no gaps between them.
     pub fn ground_areas(&self, options: SurfaceOptions, profiles: &StreetProfiles) -> Vec<StreetArea> {
         let shapes = StreetShapes::new(self, options.turning);
         let mut areas = Vec::new();
@@ -28,7 +29,7 @@ impl StreetNetwork {
             let half = self.attributes(piece).arm(DVec2::ZERO).aside(StreetLine::Edge);
             let (line, length) = (self.profile_line(profiles, piece), self.length(piece));
             let [first, last] = known.ends.map(|end| {
-                // At the right and at the left, as seen from there along the piece.
+                // The right and the left end, as seen from the junction along the segment.
                 [-half, half].map(|aside| shapes.end(end, piece, aside))
             });
             let corners = [first[0], last[1], last[0], first[1]];
@@ -74,7 +75,7 @@ impl StreetNetwork {
         areas
     }
 
-    /// The middle of a piece (m), with the heights of its ends and wherever its slope changes.
+    /// Returns the centreline (m) of a segment, with heights at both ends and at each change of slope.
     pub(crate) fn profile_line(&self, profiles: &StreetProfiles, piece: PieceId) -> Vec<DVec3> {
         let [start, stop] = self.line(piece);
         let way = (stop - start).normalize_or_zero();
@@ -88,7 +89,7 @@ impl StreetNetwork {
     }
 }
 
-/// Whether the part of a piece before or behind a bridge is any: its far side is ahead of its near one.
+/// Returns true if the part of a segment before or after a bridge is not empty: its far side is ahead of its near side.
 fn is_ahead([a, b, c, d]: [DVec2; 4], way: DVec2) -> bool {
     way.dot(b - a).min(way.dot(c - d)) > 1e-3
 }

@@ -1,6 +1,7 @@
-//! The corners of bends: how the kerbs of a street that turns and changes its width there go over from one to the other.
+//! Corners of bends: kerb transitions where a street turns and may change its width.
 //!
-//! Growth asks for no more room than other corners take. What is left of the pieces beside the bend makes it smoother.
+//! Growth reserves no more space for them than for other corners. The free length of the segments next to the bend
+//! makes the transition smoother.
 
 use std::f64::consts::PI;
 
@@ -11,21 +12,22 @@ use crate::corner::{
     Corner, CornerShape, DEVIATION, EVEN, LINES, StreetLine, TAPER_LENGTH, apart, chords, left, meeting,
 };
 
-/// Where on the outside of a bend the wider street begins to taper, as a part of what the corner takes of it.
+/// Start of the wider street's taper on the outside of a bend, as a fraction of the length that the corner takes.
 const TAPERED: f64 = 0.75;
-/// How far (m) from a turn on the outside of a bend its rounding begins, for each metre from the middle of the street to its
-/// kerb: from one on, it would be beyond the junction.
+/// Distance from a turn on the outside of a bend to the start of its rounding, per metre between centreline and kerb.
+/// From 1 on, the rounding would start beyond the junction.
 const ROUNDED: f64 = 0.8;
-/// How much of the lesser of two widths there is at least where one goes over to the other.
+/// Minimum width within a transition, as a fraction of the smaller width.
 const NARROW: f64 = 0.75;
-/// Sidewalks that are narrower (m) end in a point.
+/// Minimum sidewalk width (m); narrower sidewalks end in a point.
 const LEAST_WALK: f64 = 0.1;
 
 impl Corner {
-    /// How far (m) along its two streets the taper of one that turns and changes its width should reach; `None` where one
-    /// does not narrow before the edges meet.
+    /// Returns the desired length (m) of a taper along both streets, for a street that turns and changes its width;
+    /// `None` if neither street narrows before the edges meet.
     ///
-    /// Where the narrower street leaves through the end of the wider one, edges that go on until they meet are a lobe.
+    /// If the narrower street leaves through the end of the wider one, edges extended to their intersection would form
+    /// a lobe.
     pub(crate) fn taper(&self) -> Option<[f64; 2]> {
         let apart = apart(self.arms);
         let meetings = LINES.map(|line| self.meetings(line));
@@ -38,12 +40,14 @@ impl Corner {
         is_lobe.then(|| [0, 1].map(reach))
     }
 
-    /// How far (m) along its two streets the kerb around the outside of a bend should reach, so that it does not turn back.
+    /// Returns the length (m) along both streets that the kerb around the outside of a bend should take, so that it
+    /// does not turn back.
     pub(crate) fn around_bend(&self) -> [f64; 2] {
         self.meetings(StreetLine::Kerb).map(|meeting| meeting.max(0.0) / TAPERED)
     }
 
-    /// The same between streets that begin `reaches` (m) along their ways, where a street turns and may change its width.
+    /// Returns the corner with the streets starting `reaches` (m) from the junction, for a street that turns and may
+    /// change its width.
     pub(crate) fn of_bend(self, reaches: [f64; 2]) -> Self {
         let is_curved = match self.shape {
             CornerShape::Bend => self.is_uneven_bend(),
@@ -61,7 +65,7 @@ impl Corner {
         Self { shape, reaches, ..self }
     }
 
-    /// Whether straight tapers to both sides of a bend would leave less than most of the narrower street.
+    /// Returns true if straight tapers on both sides of a bend would leave less than [`NARROW`] of the narrower street.
     fn is_narrow(&self) -> bool {
         let cut = self.reaches[0].max(self.reaches[1]) * ((self.angle - PI) / 2.0).sin().abs();
         LINES.iter().any(|line| {
@@ -70,13 +74,13 @@ impl Corner {
         })
     }
 
-    /// How far (m) along its two streets a line of both meets.
+    /// Returns the distances (m) along both streets at which their `line`s intersect.
     fn meetings(&self, line: StreetLine) -> [f64; 2] {
         let [a, b] = self.arms.map(|arm| arm.aside(line));
         [meeting(self.angle, a, b), meeting(self.angle, b, a)]
     }
 
-    /// The points (m) of both lines along a curve, of the edge and of the kerb, pair by pair across the sidewalk.
+    /// Returns the points (m) of edge and kerb along a curve, in pairs across the sidewalk.
     pub(crate) fn curve(&self) -> Vec<[DVec2; 2]> {
         let [first, second] = self.arms;
         let is_inside = self.angle < PI;
@@ -87,13 +91,13 @@ impl Corner {
         if is_inside && let Some(kerb) = self.kerb_beside(&places) {
             return places.iter().zip(kerb).map(|(place, kerb)| [place.at, kerb]).collect();
         }
-        // Beside the line that has the tighter bend, by how wide the sidewalk is: so it folds nowhere.
+        // The second line is offset by the sidewalk's width from the line with the tighter bend, so it never folds.
         let length: f64 = places.windows(2).map(|pair| pair[0].at.distance(pair[1].at)).sum();
         let (mut gone, mut last) = (0.0, places[0].at);
         let pair = |place: &CurvePlace| {
             gone += std::mem::replace(&mut last, place.at).distance(place.at);
             let share = gone / length.max(EVEN);
-            // On the inside the sidewalk is that of the narrower street from where the edges of both would meet.
+            // On the inside, the sidewalk has the narrower street's width from the point where both edges would meet.
             let share = match (is_inside, first.half >= second.half) {
                 (false, _) => share,
                 (true, true) => (2.0 * share).min(1.0),
@@ -105,8 +109,8 @@ impl Corner {
         places.iter().map(pair).collect()
     }
 
-    /// The kerb (m) on the inside of a bend, by the parabola that touches those of both streets, as it has the directions of
-    /// places on the edge; `None` where the sidewalk between would be too narrow.
+    /// Returns the kerb (m) on the inside of a bend: the parabola that touches the kerbs of both streets, at the points
+    /// whose directions match the edge's points. `None` if the sidewalk between would be too narrow.
     fn kerb_beside(&self, edge: &[CurvePlace]) -> Option<Vec<DVec2>> {
         let meetings = self.meetings(StreetLine::Kerb);
         let least = self.arms[0].walk.min(self.arms[1].walk) * NARROW;
@@ -121,20 +125,20 @@ impl Corner {
         if has_room { edge.iter().map(beside).collect() } else { None }
     }
 
-    /// The ends of a parabola that touches a line of both streets on the inside of a bend, and where its tangents meet (m).
+    /// Returns the parabola (m) that touches a line of both streets on the inside of a bend.
     fn inside(&self, line: StreetLine) -> Parabola {
         let ([first, second], [a, b]) = (self.arms, self.arms.map(|arm| arm.aside(line)));
         let middle = left(first, self.meetings(line)[0], a);
         [left(first, self.reaches[0], a), middle, left(second, self.reaches[1], -b)]
     }
 
-    /// The kerb on the outside of a bend: straight from the end of one street's kerb, beside the junction, to that of the
-    /// other, with both turns rounded by parabolas. Nothing of it lies outside of what both streets span, nor on the other
-    /// side of the junction.
+    /// Returns the kerb on the outside of a bend: a straight line past the junction from the end of one street's kerb
+    /// to the end of the other's, with both turns rounded by parabolas. The kerb stays inside the convex hull of both
+    /// streets and on its own side of the junction.
     fn outside(&self) -> SmallVec<[Parabola; 2]> {
         let ([first, second], asides) = (self.arms, self.arms.map(|arm| arm.aside(StreetLine::Kerb)));
         let meetings = self.meetings(StreetLine::Kerb);
-        // The wider of two streets tapers before its end if the other one's edge would meet its own there.
+        // The wider street tapers before its end if the other street's edge would intersect its own edge there.
         let turns = [0, 1].map(|side| if meetings[side] > 0.0 { self.reaches[side] * TAPERED } else { 0.0 });
         let corners = [left(first, turns[0], asides[0]), left(second, turns[1], -asides[1])];
         let half = corners[0].distance(corners[1]) / 2.0;
@@ -148,23 +152,24 @@ impl Corner {
     }
 }
 
-/// The ends of a parabola, and between them where its tangents there meet (m).
+/// Parabola: first end, intersection of the tangents at both ends, last end (m).
 type Parabola = [DVec2; 3];
 
-/// A place on a curve.
+/// Point on a curve.
 #[derive(Debug, Clone, Copy)]
 struct CurvePlace {
     at: DVec2,
-    /// The direction from the street to the block there, of length 1.
+    /// Unit vector from the street to the block at this point.
     across: DVec2,
 }
 
-/// The place (m) on a parabola that is a part of the way from its first end to its last.
+/// Returns the point (m) on a parabola at parameter `part`, from 0 at the first end to 1 at the last.
 fn on([from, middle, to]: &Parabola, part: f64) -> DVec2 {
     from.lerp(*middle, part).lerp(middle.lerp(*to, part), part)
 }
 
-/// Places along a parabola, so that chords between them, and between those up to so far (m) beside them, are near it.
+/// Returns points along a parabola, close enough that chords between them, and chords offset by up to `beside` (m),
+/// deviate by at most [`DEVIATION`].
 fn along(parabola: &Parabola, beside: f64) -> impl Iterator<Item = CurvePlace> + use<> {
     let [from, middle, to] = *parabola;
     let (ahead, onward) = (middle - from, to - middle);
@@ -174,7 +179,7 @@ fn along(parabola: &Parabola, beside: f64) -> impl Iterator<Item = CurvePlace> +
     (0..=chords).map(move |index| {
         let part = f64::from(index) / f64::from(chords);
         let way = ahead.lerp(onward, part).try_normalize().unwrap_or((to - from).normalize_or_zero());
-        // The block lies on the left of who comes by the second street, and so on the right of this way.
+        // The block is on the left of the second street as it arrives, so it is on the right in this direction.
         CurvePlace { at: on(&[from, middle, to], part), across: -way.perp() }
     })
 }

@@ -1,4 +1,4 @@
-//! Streets that turn and change their widths where they do.
+//! Tests of streets that turn and change their width at the same junction.
 
 use glam::DVec2;
 
@@ -6,7 +6,7 @@ use super::*;
 use crate::corner::StreetLine;
 use crate::shape::StreetShapes;
 
-/// How many degrees streets turn, and the widths (m) of both and of their sidewalks.
+/// Turns (degrees), and the street and sidewalk widths (m) before and after the turn.
 const BENDS: [f64; 9] = [5.0, 20.0, 30.0, 36.0, 45.0, 60.0, 90.0, 120.0, 140.0];
 const WIDTHS: [[[f64; 2]; 2]; 6] = [
     [[24.0, 3.0], [12.0, 2.0]],
@@ -17,11 +17,11 @@ const WIDTHS: [[[f64; 2]; 2]; 6] = [
     [[20.0, 0.0], [7.0, 1.0]],
 ];
 
-/// How many degrees they turn where a third one leaves on the inside.
+/// Turns (degrees) where a third street leaves on the inside.
 const FORKS: [f64; 6] = [36.0, 45.0, 60.0, 75.0, 90.0, 105.0];
 
-/// A street that comes from the west, turns by `bend` (degrees) to the left at the origin, and is of other widths from there.
-/// There another one of a width (m) may leave, half-way between the two.
+/// Builds a street from the west that turns left by `bend` (degrees) at the origin and changes its widths there. If
+/// `fork` is a width (m), a third street leaves halfway between the two.
 fn bent(bend: f64, widths: [[f64; 2]; 2], fork: Option<f64>) -> StreetNetwork {
     let constraints = Constraints { min_angle: 30.0, snap: 0.0, clearance: 0.1, ..Constraints::default() };
     let mut network = StreetNetwork::new(constraints, Obstacles::default()).expect("constraints");
@@ -39,7 +39,7 @@ fn bent(bend: f64, widths: [[f64; 2]; 2], fork: Option<f64>) -> StreetNetwork {
     network
 }
 
-/// The kerb (m) on the right of that street, as it goes, or that on the left of it where no other one leaves.
+/// Returns the street's right kerb (m) in its direction, or its left kerb if no third street leaves there.
 fn kerb(network: &StreetNetwork, is_left: bool) -> Vec<DVec2> {
     let shapes = StreetShapes::new(network, 0.0);
     let arms = &shapes.junction(1).arms;
@@ -61,29 +61,29 @@ fn kerb(network: &StreetNetwork, is_left: bool) -> Vec<DVec2> {
     kerb
 }
 
-/// The kerbs (m) on the right and on the left of one without another that leaves.
+/// Returns the right and the left kerb (m) of a street without a fork.
 fn kerbs(bend: f64, widths: [[f64; 2]; 2]) -> [Vec<DVec2>; 2] {
     let network = bent(bend, widths, None);
     [false, true].map(|is_left| kerb(&network, is_left))
 }
 
-/// By how much (radians) a line turns to the left in all, and to the right.
+/// Returns the total turn (radians) of a line to the left and to the right.
 fn turns(line: &[DVec2]) -> [f64; 2] {
     let ways: Vec<DVec2> = line.windows(2).map(|pair| pair[1] - pair[0]).collect();
     let turns = ways.windows(2).map(|pair| pair[0].angle_to(pair[1]));
     turns.fold([0.0; 2], |[left, right], turn| [left + turn.max(0.0), right - turn.min(0.0)])
 }
 
-/// How far (m) a place is outside of the hull of some places.
+/// Returns the distance (m) of a point outside the convex hull of `hull`; 0 inside.
 fn outside(hull: &[DVec2], place: DVec2) -> f64 {
     let beyond = |a: DVec2, b: DVec2| (a != b).then(|| (place - a).perp_dot((b - a).normalize()));
     let sides = hull.iter().flat_map(|a| hull.iter().map(move |b| (*a, *b)));
-    // All of it lies on the left of the sides of the hull.
+    // All points are on the left of the hull's sides.
     let is_side = |a: DVec2, b: DVec2| hull.iter().all(|other| (b - a).perp_dot(*other - a) >= -1e-9);
     sides.filter(|(a, b)| is_side(*a, *b)).filter_map(|(a, b)| beyond(a, b)).fold(0.0, f64::max)
 }
 
-/// The corners (m) of both carriageways of a street that turns at the origin.
+/// Returns the corners (m) of both carriageways of a street that turns at the origin.
 fn spanned(bend: f64, widths: [[f64; 2]; 2]) -> Vec<DVec2> {
     let strip = |far: DVec2, [width, sidewalk]: [f64; 2]| {
         let across = far.normalize().perp() * (width / 2.0 - sidewalk);
@@ -111,7 +111,7 @@ fn kerbs_of_bends_turn_only_as_the_street_does() {
     for bend in BENDS {
         for widths in WIDTHS.into_iter().flat_map(|[a, b]| [[a, b], [b, a]]) {
             let back = kerbs(bend, widths).map(|kerb| turns(&kerb)[1].to_degrees());
-            // Of a street that turns a little both kerbs come nearer to its middle, and then go on along it.
+            // At a small turn, both kerbs approach the centreline and then follow it.
             let has_sidewalks = widths.iter().all(|[_, sidewalk]| *sidewalk > 0.0);
             let most = if bend < 34.4 {
                 12.0

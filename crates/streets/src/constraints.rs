@@ -1,31 +1,31 @@
-//! What a network asks of its streets, and what it answers to those that are proposed.
+//! Constraints on the streets of a network, and outcomes of proposed streets.
 
 use std::fmt;
 
 use burgeon_base::error::{Error, Result};
 
-/// What every street of a network keeps to.
+/// Constraints on all streets of a network.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Constraints {
-    /// How near (m) the end of a street comes to a junction or another street before it joins that.
+    /// Snap distance (m): a street that ends closer to a junction or another street joins it.
     pub snap: f64,
-    /// The least angle (degrees) between streets at a junction, to within [0.06 degrees](Self::least_angle).
+    /// Minimum angle (degrees) between streets at a junction, to within [0.06 degrees](Self::least_angle).
     pub min_angle: f64,
-    /// The least length (m) of a street between two junctions.
+    /// Minimum length (m) of a street between two junctions.
     pub min_length: f64,
-    /// The least distance (m) between the edges of streets that do not meet.
+    /// Minimum distance (m) between the edges of streets that do not meet.
     pub clearance: f64,
-    /// The radius (m) of kerbs at corners.
+    /// Radius (m) of kerbs at corners.
     pub corner: f64,
-    /// How far (degrees) a street may turn to pass an obstacle.
+    /// Maximum turn (degrees) to avoid an obstacle.
     pub bend: f64,
-    /// The longest way (m) over an obstacle that a street may bridge.
+    /// Maximum length (m) of a bridge over an obstacle.
     pub bridge: f64,
-    /// Whether a street may end before an obstacle.
+    /// Set if streets may end before an obstacle.
     pub shorten: bool,
-    /// Whether dead ends without a circle are cut off square, in place of round.
+    /// Set if dead ends without a turning circle have square ends instead of round ones.
     pub square_ends: bool,
-    /// The most pieces of streets.
+    /// Maximum number of street segments.
     pub most: usize,
 }
 
@@ -46,19 +46,19 @@ impl Default for Constraints {
     }
 }
 
-/// By how much (degrees) an angle may come out below the least one: places are rounded to the grid, and a street that is
-/// divided turns a little.
+/// Tolerance (degrees) below the minimum angle: positions are rounded to the grid, and a street turns slightly when it
+/// is divided.
 const ANGLE_TOLERANCE: f64 = 0.06;
 
 impl Constraints {
-    /// The angle (degrees) below which no two streets meet: `min_angle` but for what rounding takes.
+    /// Returns the angle (degrees) below which no two streets meet: `min_angle` minus the rounding tolerance.
     ///
-    /// A street that is proposed at exactly `min_angle` to another is built.
+    /// A street proposed at exactly `min_angle` to another street is built.
     pub fn least_angle(&self) -> f64 {
         self.min_angle - ANGLE_TOLERANCE
     }
 
-    /// Fails where they contradict one another, and says how.
+    /// Checks that the values are in range and consistent; the error names the field.
     pub fn check(&self) -> Result<()> {
         let Self { snap, min_angle, min_length, clearance, corner, bend, bridge, .. } = *self;
         let named = [
@@ -88,46 +88,46 @@ impl Constraints {
     }
 }
 
-/// What became of a street that was proposed.
+/// Outcome of a proposed street.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Fate {
-    /// It lies as it was proposed.
+    /// Built as proposed.
     Built,
-    /// It ends at a junction that was there.
+    /// Ends at an existing junction.
     Snapped,
-    /// It ends on another street, which has a junction there now.
+    /// Ends at a new junction on another street.
     Joined,
-    /// It turned to pass an obstacle.
+    /// Turned to avoid an obstacle.
     Bent,
-    /// It ends before an obstacle.
+    /// Ends before an obstacle.
     Shortened,
-    /// It was refused.
+    /// Refused.
     Refused(Refusal),
 }
 
-/// Why a street was refused.
+/// Reason why a street was refused.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Refusal {
-    /// It has no length, or less than the least.
+    /// Shorter than the minimum length.
     TooShort,
-    /// It makes too small an angle with another at one of its ends.
+    /// Angle to another street too small at one of its ends.
     Angle,
-    /// It runs too near a street or a junction that it does not join.
+    /// Too close to a street or junction that it does not join.
     TooNear,
-    /// The corners of a junction would take more than its length, or that of a street there.
+    /// Corners of a junction longer than the street itself or another street there.
     Corners,
-    /// An obstacle is in its way.
+    /// Obstacle in the street's path.
     Obstacle,
-    /// It leads out of the ground that may be built on.
+    /// Outside the area where streets are allowed.
     Outside,
 }
 
 impl Refusal {
-    /// All of them.
+    /// All reasons.
     pub const ALL: [Self; 6] =
         [Self::TooShort, Self::Angle, Self::TooNear, Self::Corners, Self::Obstacle, Self::Outside];
 
-    /// Its name in scripts.
+    /// Returns the name in scripts.
     pub fn name(self) -> &'static str {
         match self {
             Self::TooShort => "too short",
@@ -141,7 +141,7 @@ impl Refusal {
 }
 
 impl Fate {
-    /// Its name in scripts.
+    /// Returns the name in scripts.
     pub fn name(self) -> &'static str {
         match self {
             Self::Built => "built",

@@ -1,35 +1,37 @@
-//! The corners of junctions: where the edges of two neighbouring streets meet, and how much of each that takes.
+//! Corners of junctions: the intersection of the edges of two adjacent streets, and the length that the corner takes
+//! from each.
 
 use std::f64::consts::{PI, TAU};
 
 use glam::DVec2;
 
-/// Up to this angle (radians) from a straight one, streets of one width are mitred.
+/// Maximum deviation (radians) from a straight angle at which streets of one width are mitred.
 const MITRED: f64 = 0.35;
-/// Within this angle (radians) of a straight one, streets of different widths taper.
+/// Maximum deviation (radians) from a straight angle at which streets of different widths taper.
 const TAPER: f64 = 0.6;
-/// Widths that differ by less (m) are one.
+/// Tolerance (m): widths with a smaller difference are equal.
 pub(crate) const EVEN: f64 = 1e-6;
-/// How far (m) streets of different widths reach into a corner at least, so that their ends are no line through its middle.
+/// Minimum length (m) that streets of different widths extend into a corner, so that their ends do not run through its
+/// centre.
 const LEAST: f64 = 0.5;
-/// How long (m) a street tapers for each metre of a difference in half of its width.
+/// Length (m) of a taper per metre of difference in half width.
 pub(crate) const TAPER_LENGTH: f64 = 2.0;
-/// How far (m) an arc may lie from its chords.
+/// Maximum distance (m) between an arc and its chords.
 pub(crate) const DEVIATION: f64 = 0.05;
 
-/// A street as it leaves a junction.
+/// Street as it leaves a junction.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Arm {
-    /// The direction, of length 1.
+    /// Direction (unit vector).
     pub(crate) way: DVec2,
-    /// Half of its width (m) to the outer edges of its sidewalks.
+    /// Half width (m), to the outer edges of the sidewalks.
     pub(crate) half: f64,
-    /// Width (m) of its sidewalks.
+    /// Sidewalk width (m).
     pub(crate) walk: f64,
 }
 
 impl Arm {
-    /// How far (m) one of its lines lies from its middle.
+    /// Returns the distance (m) of a line from the centreline.
     pub(crate) fn aside(self, line: StreetLine) -> f64 {
         match line {
             StreetLine::Kerb => self.half - self.walk,
@@ -38,49 +40,50 @@ impl Arm {
     }
 }
 
-/// The lines along both sides of a street, between which its sidewalks lie.
+/// Lines along both sides of a street; the sidewalk is between them.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum StreetLine {
-    /// Between the carriageway and the sidewalk.
+    /// Line between the carriageway and the sidewalk.
     Kerb,
-    /// Between the sidewalk and the block.
+    /// Line between the sidewalk and the block.
     Edge,
 }
 
-/// Both of them.
+/// Both lines.
 pub(crate) const LINES: [StreetLine; 2] = [StreetLine::Edge, StreetLine::Kerb];
 
-/// What a junction has between two neighbours among its streets, of which the second is the next one counter-clockwise.
+/// Corner of a junction between two adjacent streets; the second is the next one counter-clockwise.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Corner {
     pub(crate) arms: [Arm; 2],
-    /// The angle (radians) from the first to the second.
+    /// Angle (radians) from the first street to the second.
     pub(crate) angle: f64,
     pub(crate) shape: CornerShape,
-    /// How far (m) along the two it reaches.
+    /// Length (m) that the corner takes along each street.
     pub(crate) reaches: [f64; 2],
 }
 
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum CornerShape {
-    /// The two lines turn with these radii (m).
+    /// Arcs of these radii (m).
     Round { edge: f64, kerb: f64 },
-    /// The edges meet.
+    /// Intersection of the edges.
     Sharp,
-    /// The outside of a bend: by circles around the junction, so that nothing is farther from it than the edges are.
+    /// Outside of a bend: arcs around the junction, so no point is farther from it than the edges.
     Bend,
-    /// A side of a bend where the width changes: by parabolas that touch the lines of both streets.
+    /// Side of a bend where the width changes: parabolas that touch the lines of both streets.
     Curve,
-    /// Straight from one width to the other.
+    /// Straight transition from one width to the other.
     Taper,
-    /// Around the end of a street: by a circle of this radius (m) at the outer edges.
+    /// Closed end of a street: a circle of this radius (m) at the outer edges.
     Around(f64),
 }
 
 impl Corner {
-    /// The corner between two arms; `radius` (m) is that of kerbs, at the outer edges of the sidewalks.
+    /// Computes the corner between two arms; `radius` (m) is the kerb radius at the outer edges of the sidewalks.
     ///
-    /// Method: the edges meet at (next + half cos) / sin of the angle; a circle touches them its cotangent farther on.
+    /// Method: the edges meet at (next + half cos) / sin of the angle; a circle touches them at its cotangent beyond
+    /// that point.
     pub(crate) fn new(arms: [Arm; 2], radius: f64) -> Self {
         let angle = turn(arms[0].way, arms[1].way);
         let lines = LINES.map(|line| arms.map(|arm| arm.aside(line)));
@@ -92,7 +95,7 @@ impl Corner {
             return Self { arms, angle, shape: CornerShape::Taper, reaches: [length; 2] };
         }
         if angle < PI && !(is_even && bend < MITRED) {
-            // Kerbs turn the same way as edges do, so what lies between them is nowhere less than the lesser sidewalk.
+            // Kerbs turn in the same direction as edges, so the sidewalk is never narrower than the smaller of the two.
             let kerb = radius + arms[0].walk.min(arms[1].walk);
             let mut reaches = [if is_even { 0.0 } else { LEAST }; 2];
             for ([a, b], radius) in lines.into_iter().zip([radius, kerb]) {
@@ -112,29 +115,29 @@ impl Corner {
         Self { arms, angle, shape: CornerShape::Sharp, reaches }
     }
 
-    /// What a street ends with: by a circle of a `radius` (m), which is no less than half of its width.
+    /// Computes the closed end of a street: a circle of `radius` (m), at least half of the street's width.
     pub(crate) fn around(arm: Arm, radius: f64) -> Self {
         let radius = radius.max(arm.half);
         let reach = (radius * radius - arm.half * arm.half).sqrt();
         Self { arms: [arm; 2], angle: TAU, shape: CornerShape::Around(radius), reaches: [reach; 2] }
     }
 
-    /// Whether it is a single point.
+    /// Returns true if the corner is a single point.
     pub(crate) fn is_sharp(&self) -> bool {
         matches!(self.shape, CornerShape::Sharp)
     }
 
-    /// Whether it goes straight from one width to another.
+    /// Returns true if the corner is a straight transition between widths.
     pub(crate) fn is_taper(&self) -> bool {
         matches!(self.shape, CornerShape::Taper)
     }
 
-    /// Whether it goes around the outside of a bend from one width to another.
+    /// Returns true if the corner is the outside of a bend between different widths.
     pub(crate) fn is_uneven_bend(&self) -> bool {
         matches!(self.shape, CornerShape::Bend) && apart(self.arms) >= EVEN
     }
 
-    /// The same with a taper that is so much shorter (m) along its two streets, as far as that goes.
+    /// Returns the corner with its taper shortened by `less` (m) along both streets, down to the minimum length.
     pub(crate) fn shortened(mut self, less: [f64; 2]) -> Self {
         if self.is_taper() {
             let least = clear(self.arms, (self.angle - PI).abs()) + LEAST;
@@ -143,8 +146,8 @@ impl Corner {
         self
     }
 
-    /// The points (m) of a line around it, from the first arm to the second, as seen from the junction. There are as many
-    /// for both lines.
+    /// Returns the points (m) of a line around the corner, from the first arm to the second, relative to the junction.
+    /// Both lines have the same number of points.
     pub(crate) fn points(&self, line: StreetLine) -> Vec<DVec2> {
         let [first, second] = self.arms;
         let [a, b] = self.arms.map(|arm| arm.aside(line));
@@ -172,7 +175,7 @@ impl Corner {
             }
             CornerShape::Taper => vec![left(first, self.reaches[0], a), left(second, self.reaches[1], -b)],
             CornerShape::Around(radius) => {
-                // The two circles are cut off by the same line.
+                // Both circles are cut off by the same line.
                 let reach = self.reaches[0];
                 let (from, to) = (left(first, reach, a), left(first, reach, -a));
                 let is_circle = radius > first.half + EVEN;
@@ -193,52 +196,53 @@ impl Corner {
     }
 }
 
-/// How far (m) from a bend the ends of two streets could touch.
+/// Returns the distance (m) from a bend within which the ends of both streets could touch.
 fn clear(arms: [Arm; 2], bend: f64) -> f64 {
     arms[0].half.max(arms[1].half) * (bend / 2.0).tan()
 }
 
-/// How many chords an arc of a radius (m) is drawn with.
+/// Returns the number of chords for an arc that sweeps `swept` (radians) at a radius (m).
 pub(crate) fn pieces(swept: f64, radius: f64) -> u32 {
     let step = 2.0 * (1.0 - (DEVIATION / radius.max(0.5)).min(0.9)).acos();
     chords(swept.abs() / step)
 }
 
-/// The least whole number of chords.
+/// Rounds up to a number of chords, from 1 to 256.
 pub(crate) fn chords(least: f64) -> u32 {
     #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "at most some hundreds")]
     let count = least.ceil().clamp(1.0, 256.0) as u32;
     count
 }
 
-/// A place so far (m) along a street that leaves a junction, and so far to the left of its middle.
+/// Returns the point at a distance (m) along a street that leaves a junction and a distance (m) to the left of its
+/// centreline.
 pub(crate) fn left(arm: Arm, along: f64, aside: f64) -> DVec2 {
     arm.way * along + arm.way.perp() * aside
 }
 
-/// By how much (m) the lines of two streets are farther from the middle of one than from that of the other.
+/// Returns the largest difference (m) between the two streets in the distance of a line from the centreline.
 pub(crate) fn apart(arms: [Arm; 2]) -> f64 {
     LINES.map(|line| arms.map(|arm| arm.aside(line))).iter().map(|[a, b]| (a - b).abs()).fold(0.0, f64::max)
 }
 
-/// The points of an arc, one more than it has chords.
+/// Returns the points of an arc, one more than the number of chords.
 fn arc(center: DVec2, radius: f64, from: f64, swept: f64, chords: u32) -> Vec<DVec2> {
     let at =
         |index: u32| center + DVec2::from_angle(from + swept * f64::from(index) / f64::from(chords)) * radius;
     (0..=chords).map(at).collect()
 }
 
-/// How far (m) along the first of two streets its edge meets that of the second.
+/// Returns the distance (m) along the first of two streets at which its edge meets the edge of the second.
 pub(crate) fn meeting(angle: f64, half: f64, next: f64) -> f64 {
     if (half - next).abs() < EVEN {
-        // Also where they lie straight ahead of one another, and the edges are one line.
+        // This also covers streets that are straight ahead of each other, whose edges are collinear.
         return half / (angle / 2.0).tan();
     }
     let (sin, cos) = angle.sin_cos();
     (next + half * cos) / sin
 }
 
-/// The angle (radians, from 0 up to a whole turn) that leads counter-clockwise from one direction to another.
+/// Returns the counter-clockwise angle from one direction to another (radians, from 0 up to a full turn).
 pub(crate) fn turn(from: DVec2, to: DVec2) -> f64 {
     let angle = from.perp_dot(to).atan2(from.dot(to));
     if angle < 0.0 { angle + TAU } else { angle }

@@ -1,4 +1,4 @@
-//! Dead ends, joined to what they can reach.
+//! Dead ends: joining them to nearby streets, and removing them.
 
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;
@@ -11,15 +11,15 @@ use crate::grid::{GridPlace, crossing, foot};
 use crate::grow::StreetEnd;
 use crate::network::{JunctionId, StreetNetwork};
 
-/// By this angle (degrees) a way counts twice its length.
+/// Deviation (degrees) from straight ahead at which a connection counts as twice its length.
 const DEVIATION: f64 = 45.0;
 
-/// How dead ends are joined.
+/// Options for joining dead ends.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct DeadEndOptions {
-    /// How far (m) a dead end looks for a street.
+    /// Search radius (m) around a dead end.
     pub radius: f64,
-    /// How much longer than the new street the way along the network has to be.
+    /// Minimum ratio of the path along the network to the length of the new street.
     pub detour: f64,
 }
 
@@ -30,22 +30,23 @@ impl Default for DeadEndOptions {
 }
 
 impl StreetNetwork {
-    /// The junctions that one piece leads to.
+    /// Returns the junctions with exactly one segment.
     pub fn dead_ends(&self) -> impl Iterator<Item = JunctionId> + '_ {
         (0..).zip(&self.junctions).filter(|(_, junction)| junction.degree() == 1).map(|(id, _)| id)
     }
 
-    /// Joins dead ends to the streets around them until no more can be; gives how many it has joined.
+    /// Joins dead ends to nearby streets until no more can be joined; returns the number of joined dead ends.
     ///
-    /// A dead end tries junctions, the nearest places of streets, and what lies straight ahead, in the order of length,
-    /// in which what turns by 45 degrees counts twice; the first that keeps all constraints and saves a detour is built.
+    /// Candidates for a dead end are junctions, nearest points of streets, and the intersection straight ahead. They
+    /// are tried by increasing length, where a turn of 45 degrees doubles the length. The first candidate that meets
+    /// all constraints and saves a sufficient detour is built.
     pub fn join_dead_ends(&mut self, options: DeadEndOptions) -> usize {
         let mut joined = 0;
         loop {
             let before = joined;
             let ends: Vec<JunctionId> = self.dead_ends().collect();
             for end in ends {
-                // One that was joined before may have taken this one with it.
+                // An earlier connection may have ended at this dead end.
                 if self.junctions[end as usize].degree() == 1 && self.join(end, options) {
                     joined += 1;
                 }
@@ -56,9 +57,8 @@ impl StreetNetwork {
         }
     }
 
-    /// Takes dead ends away, and the streets that thereby become dead ends, but for existing streets; gives how many pieces
-    /// that were.
-    ///
+    /// Removes dead ends, including streets that become dead ends as a result, but no existing streets. Returns the
+    /// number of removed segments.
     /// ```
     /// use burgeon_streets::{Constraints, Obstacles, StreetAttributes, StreetNetwork};
     /// use glam::DVec2;
@@ -79,7 +79,7 @@ impl StreetNetwork {
         let mut removed = 0;
         while let Some(end) = due.pop() {
             let Some(&piece) = self.junctions[end as usize].pieces.first() else { continue };
-            // What existed before stays.
+            // Existing streets are kept.
             if self.pieces[piece as usize].is_existing {
                 continue;
             }
@@ -93,7 +93,7 @@ impl StreetNetwork {
         removed
     }
 
-    /// How many dead ends could be joined that are not.
+    /// Counts the dead ends that could be joined.
     pub fn joinable_dead_ends(&self, options: DeadEndOptions) -> usize {
         let ends = self.dead_ends();
         ends.filter(|end| self.way_out(*end, options).is_some()).count()
@@ -105,7 +105,7 @@ impl StreetNetwork {
         self.connect(from, end, attributes).is_ok()
     }
 
-    /// Where a dead end can be joined to, the best there is.
+    /// Returns the best end of a street from a dead end, if any.
     fn way_out(&self, from: JunctionId, options: DeadEndOptions) -> Option<StreetEnd> {
         let piece =
             *self.junctions[from as usize].pieces.first().filter(|piece| self.is_on_ground(**piece))?;
@@ -154,7 +154,7 @@ impl StreetNetwork {
         found.map(|(_, _, end)| end)
     }
 
-    /// Whether the way along the network is longer than `least` (m).
+    /// Returns true if the path along the network is at least `least` (m) long.
     pub(crate) fn is_detour(&self, from: JunctionId, end: StreetEnd, least: f64) -> bool {
         let goals: SmallVec<[(JunctionId, f64); 2]> = match end {
             StreetEnd::Junction(junction) => SmallVec::from_slice(&[(junction, 0.0)]),
@@ -189,7 +189,7 @@ impl StreetNetwork {
     }
 }
 
-/// A junction that is reached by a length (m); the shortest is the greatest.
+/// Junction with the length (m) of a path to it; the shortest path is the greatest item.
 struct SearchItem(f64, JunctionId);
 
 impl PartialEq for SearchItem {

@@ -1,4 +1,4 @@
-//! The faces that a network divides the plane into.
+//! Faces of the planar subdivision that a network forms.
 
 use rustc_hash::FxHashMap;
 
@@ -6,35 +6,35 @@ use crate::network::{JunctionId, PieceId, StreetNetwork};
 use burgeon_geometry::planar::{contains, twice_area};
 use glam::DVec2;
 
-/// A way along a piece, from one of its junctions to the other.
+/// Directed segment, from one of its junctions to the other.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct Course {
-    /// The piece.
+    /// Segment.
     pub piece: PieceId,
-    /// Where it leaves.
+    /// Start junction.
     pub from: JunctionId,
 }
 
-/// An area that streets enclose, with its boundary on its left.
+/// Area enclosed by streets; the boundary has the area on its left.
 #[derive(Debug, Clone, PartialEq)]
 pub struct StreetFace {
-    /// The way around it, counter-clockwise. A dead end inside of it is walked in both directions.
+    /// Boundary, counter-clockwise. A dead end inside the face is traversed in both directions.
     pub around: Vec<Course>,
-    /// The ways around networks that lie inside of it and are joined to nothing, clockwise.
+    /// Clockwise boundaries of separate networks inside the face.
     pub islands: Vec<Vec<Course>>,
 }
 
 impl StreetNetwork {
-    /// Every closed way with the same area on its left, each once, in the order of the least course of each.
+    /// Returns all closed walks with one area on the left, each once, ordered by their smallest courses.
     pub(crate) fn ways(&self) -> Vec<Vec<Course>> {
         let mut next: FxHashMap<Course, Course> = FxHashMap::default();
         #[allow(clippy::cast_possible_truncation, reason = "pieces are limited far below")]
         for junction in 0..self.junctions.len() as JunctionId {
             let mut arms = self.arms(junction);
-            // What passes over the ground bounds nothing on it.
+            // Streets above or below the ground do not bound areas on it.
             arms.retain(|(piece, _)| self.is_on_ground(*piece));
             for (index, (piece, _)) in arms.iter().enumerate() {
-                // Whoever arrives by an arm leaves by the one before it, counted counter-clockwise.
+                // A walk that arrives by an arm leaves by the previous arm, counted counter-clockwise.
                 let before = arms[(index + arms.len() - 1) % arms.len()].0;
                 let arrives = Course { piece: *piece, from: self.across(*piece, junction) };
                 next.insert(arrives, Course { piece: before, from: junction });
@@ -57,10 +57,10 @@ impl StreetNetwork {
         ways
     }
 
-    /// Returns the way around the area on the left of the street that leaves a junction nearest to a direction; empty if no
-    /// street leaves it.
+    /// Returns the walk around the area on the left of the street whose direction at a junction is nearest to
+    /// `towards`; empty if the junction has no street.
     ///
-    /// The way is counter-clockwise around a face, and clockwise around the network if the area lies outside of it.
+    /// The walk is counter-clockwise around a face, and clockwise around the network if the area lies outside it.
     ///
     /// ```
     /// use burgeon_streets::{Constraints, Obstacles, StreetAttributes, StreetNetwork};
@@ -97,19 +97,19 @@ impl StreetNetwork {
         }
     }
 
-    /// The corners (m) of a way.
+    /// Returns the corners (m) of a walk.
     pub fn corners(&self, way: &[Course]) -> Vec<DVec2> {
         way.iter().map(|course| self.at(course.from)).collect()
     }
 
-    /// The area (m²) on the left of a way; negative if that is what lies outside of a network.
+    /// Returns the area (m²) on the left of a walk; negative if it is the area outside a network.
     pub fn area(&self, way: &[Course]) -> f64 {
         twice_area(way.iter().map(|course| self.at(course.from))) / 2.0
     }
 
-    /// The areas that the streets enclose, in a fixed order.
+    /// Returns the areas that the streets enclose, in a fixed order.
     ///
-    /// What a network without a closed way encloses is nothing. A network inside of a face is one of its islands.
+    /// A network without cycles encloses no area. A network inside a face is an island of that face.
     pub fn faces(&self) -> Vec<StreetFace> {
         let mut faces = Vec::new();
         let mut outsides = Vec::new();
@@ -137,12 +137,13 @@ impl StreetNetwork {
         faces
     }
 
-    /// How many networks there are that are not joined with one another.
+    /// Returns the number of connected components.
     pub fn components(&self) -> usize {
         self.component_of().1
     }
 
-    /// The number of the component of each junction, and how many there are; junctions without streets have none.
+    /// Returns the component of each junction, and the number of components. Junctions without streets have no
+    /// component (`u32::MAX`).
     pub(crate) fn component_of(&self) -> (Vec<u32>, usize) {
         let mut of = vec![u32::MAX; self.junctions.len()];
         let mut count = 0;

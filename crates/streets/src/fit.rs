@@ -1,10 +1,11 @@
-//! Streets laid on the ground, nowhere steeper than a slope.
+//! Fitting of street heights to the terrain, with a maximum slope.
 //!
-//! Junctions are level, and pieces are level across, so only the slope along them is to be bounded. The greatest heights
-//! that keep the slope and lie nowhere above the ground anywhere in reach, and the least that lie nowhere below it,
-//! both keep the slope; so does their mean, which cuts as much as it fills.
+//! Junctions are level, and segments are level across, so only the longitudinal slope must be bounded. Two height
+//! functions keep the slope: the highest that is nowhere above the reachable terrain, and the lowest that is nowhere
+//! below it. Their mean also keeps the slope, and cuts as much as it fills.
 //!
-//! Method: the two Lipschitz extensions of E. J. McShane, "Extension of range of functions", 1934, by Dijkstra's shortest paths.
+//! Method: the two Lipschitz extensions of E. J. McShane, "Extension of range of functions", 1934, by Dijkstra's
+//! shortest paths.
 
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;
@@ -18,47 +19,46 @@ use crate::profile::StreetProfiles;
 use crate::shape::{ArmShape, StreetShapes};
 use crate::surface::SurfaceOptions;
 
-/// How far apart (m) the places along a piece are whose heights are chosen.
+/// Distance (m) between height samples along a segment.
 const STEP: f64 = 20.0;
-/// How often heights are mixed with those beside them before the slope is bounded.
+/// Number of smoothing rounds before the slope is bounded.
 const ROUNDS: usize = 4;
-/// How many places across a street the ground is asked at.
+/// Terrain samples across a street, as fractions of its width.
 const ACROSS: [f64; 3] = [-0.5, 0.0, 0.5];
 
-/// How high (m) a street of one level lies over the ground of the level below.
+/// Height difference (m) between a street and the ground per level.
 const CLEARANCE: f64 = 5.5;
 
-/// How streets are laid on the ground.
+/// Options for fitting streets to the terrain.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SlopeOptions {
-    /// The greatest slope (m/m).
+    /// Maximum slope (m/m).
     pub max_slope: f64,
-    /// The least height (m) of streets on dry land, and of bridges.
+    /// Minimum height (m) of streets on dry land, and of bridges.
     pub least: [Option<f64>; 2],
 }
 
-/// Streets laid on the ground.
+/// Street heights fitted to the terrain.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct StreetFit {
-    /// How high they lie.
+    /// Heights of the streets.
     pub profiles: StreetProfiles,
-    /// How far (m) pieces lie above or below the ground, where that is the most; by piece.
+    /// Maximum distance (m) above or below the terrain, by segment.
     pub depths: Vec<f64>,
 }
 
-/// A place whose height is chosen.
+/// Sample whose height is computed.
 struct FitPlace {
-    /// The height (m) of the ground.
+    /// Height (m) of the terrain.
     ground: f64,
     least: f64,
-    /// The places beside it, and how far (m) they are, as far as the street may slope there.
+    /// Adjacent samples, with their distances (m) over which the street may slope.
     beside: SmallVec<[(u32, f64); 2]>,
 }
 
 impl StreetNetwork {
-    /// Heights of its streets on the ground, which `ground` gives for a place (m); gives the first place without ground if
-    /// there is one.
-    ///
+    /// Computes the heights of the streets on a terrain; `ground` returns the terrain height (m) at a position (m).
+    /// Returns the first position without terrain as the error.
     /// ```
     /// use burgeon_streets::{Constraints, Obstacles, SlopeOptions, StreetAttributes, StreetNetwork, SurfaceOptions};
     /// use glam::DVec2;
@@ -95,7 +95,7 @@ impl StreetNetwork {
             let way = (stop - start).normalize_or_zero();
             let is_merged = self.has_existing();
             let clear = known.ends.map(|end| shapes.arm(end, piece).map_or(0.0, ArmShape::clear));
-            // Where streets lie in one another, the level part of a junction may be all of them.
+            // Where streets overlap, the level part of a junction may cover the whole segment.
             let (clear, room) =
                 if is_merged { ([0.0; 2], self.length(piece)) } else { (clear, shapes.room(piece)) };
             #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "pieces are short")]
@@ -131,7 +131,7 @@ impl StreetNetwork {
                 before = next;
             }
             for (along, height) in self.passed_over(piece, &ground) {
-                // Both places around it, so that all between is as high.
+                // Both adjacent samples are raised, so the whole stretch between them is as high.
                 let after = alongs.partition_point(|at| *at <= along).clamp(1, alongs.len() - 1);
                 for index in [after - 1, after] {
                     let place = match index {
@@ -170,7 +170,8 @@ impl StreetNetwork {
 }
 
 impl StreetNetwork {
-    /// Where along a piece (m) it passes over others of a lower level, and how high (m) it has to be there.
+    /// Returns the positions (m) along a segment at which it passes over segments of a lower level, and its minimum
+    /// heights (m) there.
     fn passed_over(&self, piece: PieceId, ground: &impl Fn(DVec2) -> Option<f64>) -> Vec<(f64, f64)> {
         let level = self.attributes(piece).level;
         if level <= 0 {
@@ -193,7 +194,7 @@ impl StreetNetwork {
     }
 }
 
-/// Heights of `places` whose slope is nowhere more than `slope` (m/m).
+/// Computes heights of `places` with a slope of at most `slope` (m/m).
 fn bounded(places: &[FitPlace], slope: f64) -> Vec<f64> {
     let mut heights: Vec<f64> = places.iter().map(|place| place.ground.max(place.least)).collect();
     for _ in 0..ROUNDS {
@@ -216,13 +217,13 @@ fn bounded(places: &[FitPlace], slope: f64) -> Vec<f64> {
     let turned: Vec<f64> = heights.iter().map(|height| -height).collect();
     let above = spread(places, &turned, slope);
     let mean: Vec<f64> = below.iter().zip(&above).map(|(below, above)| (below - above) / 2.0).collect();
-    // What has to be no lower than something stays so: the higher of two that keep the slope keeps it.
+    // Minimum heights are kept: the maximum of two functions that keep the slope also keeps it.
     let least: Vec<f64> = places.iter().map(|place| -place.least).collect();
     let least = spread(places, &least, slope);
     mean.iter().zip(&least).map(|(mean, least)| mean.max(-least)).collect()
 }
 
-/// For each place the least of all `heights`, each raised by `slope` times the way (m) from where it is.
+/// Computes for each sample the minimum over all `heights`, each raised by `slope` times the path length (m).
 fn spread(places: &[FitPlace], heights: &[f64], slope: f64) -> Vec<f64> {
     let mut best = heights.to_vec();
     let mut due: BinaryHeap<SpreadItem> =
@@ -242,7 +243,7 @@ fn spread(places: &[FitPlace], heights: &[f64], slope: f64) -> Vec<f64> {
     best
 }
 
-/// A place that has been reached at a height (m); the lowest is the greatest.
+/// Sample reached at a height (m); the lowest is the greatest item.
 struct SpreadItem(f64, u32);
 
 impl PartialEq for SpreadItem {

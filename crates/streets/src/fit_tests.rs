@@ -1,4 +1,4 @@
-//! Streets on hills at random: slopes, level junctions, surfaces that still meet.
+//! Tests of streets on random hills: slopes, level junctions, and surfaces without gaps.
 
 use burgeon_geometry::{Polygon, Rings};
 use glam::{DVec2, DVec3};
@@ -7,7 +7,7 @@ use super::*;
 use crate::surface_tests::check_surfaces;
 use crate::tests::{TestNumbers, grown, kinds};
 
-/// Hills of a few waves, of which the steepest slope is given (m/m).
+/// Returns hills of a few waves with the given maximum slope (m/m).
 pub(crate) fn hills(seed: u64, steep: f64) -> impl Fn(DVec2) -> Option<f64> {
     let mut random = TestNumbers(seed * 7 + 3);
     let mut wave = |length: f64| {
@@ -32,7 +32,7 @@ fn no_street_is_steeper_than_it_may_be() {
                 let [a, b, c] = corners.map(|corner| surface.points[corner as usize]);
                 let normal = (b - a).cross(c - a).normalize();
                 steepest = steepest.max(normal.truncate().length() / normal.z);
-                // Level across: the steepest way is along the street.
+                // Segments are level across: the steepest direction is along the street.
                 if let (Some(piece), true) = (surface.piece, normal.z < 0.9999) {
                     let [from, to] = network.line(piece);
                     let across = normal.truncate().normalize().perp_dot((to - from).normalize()).abs();
@@ -103,7 +103,7 @@ fn what_stands_beside_streets_stands_on_sidewalks() {
                 let toward = DVec2::from_angle(found.heading.to_radians());
                 assert!((b - a).normalize().perp_dot(place - a + toward).abs() < aside);
             }
-            // No other street is there.
+            // No other street is nearer.
             for (piece, other) in network.pieces().filter(|(piece, _)| *piece != found.piece) {
                 let (distance, on) = crate::grid::foot(place, network.line(piece));
                 let beside = (0.001..0.999).contains(&on);
@@ -147,7 +147,7 @@ fn bridges_stand_in_the_water_that_they_lead_over() {
         found += bridges;
         let footings = network.footings(options, &StreetProfiles::default());
         for span in spans {
-            // What carries it lies on no ground, which is as wide as that before it and behind it.
+            // The part that a bridge carries has no footing on the ground; the footing is as wide before and after it.
             let of_span = footings.iter().filter(|footing| footing.piece == Some(span.piece));
             let lengths =
                 of_span.clone().map(|footing| footing.line[0].distance(footing.line[footing.line.len() - 1]));
@@ -162,13 +162,13 @@ fn bridges_stand_in_the_water_that_they_lead_over() {
             if area.contains((from + to) / 2.0) {
                 assert_eq!(span.shores.len(), 2, "seed {seed}");
             }
-            // It carries the street over the water, and does not go on beside houses.
+            // The bridge spans the water, and does not continue along houses.
             let along = |at: &DVec3| span.way.dot(at.truncate() - from);
             if let [first, last] = span.shores[..] {
                 for side in &span.sides {
                     let land = [along(&first) - along(&side[0]), along(&side[side.len() - 1]) - along(&last)];
                     assert!(land.iter().all(|land| *land < 10.0), "seed {seed}: {land:?}");
-                    // A junction may lie on the shore.
+                    // A junction may be located on the shore.
                     landed += land.iter().filter(|land| **land >= 3.0 - 1e-9).count();
                 }
             }

@@ -1,4 +1,5 @@
-//! Forms that give grown networks away: zigzags, stubs, small triangles, knots, voids, and how streets thin out.
+//! Artefacts of grown networks: zigzags, stubs, small triangles, knots and voids; and the decrease of density with
+//! distance.
 
 use std::f64::consts::PI;
 
@@ -8,23 +9,22 @@ use rustc_hash::FxHashMap;
 use crate::faces::{Course, StreetFace};
 use crate::network::{JunctionId, StreetNetwork};
 
-/// How far apart (m) the places are by which a street is looked at for zigzags, and how many of them a direction spans.
+/// Distance (m) between samples of a street for zigzags, and the number of samples that a direction spans.
 const STEP: f64 = 10.0;
 const SPAN: usize = 3;
-/// How far (degrees) a street turns one way and then the other to count.
+/// Minimum turn (degrees) of a swing to one side.
 const SWING: f64 = 25.0;
-/// Up to how far (degrees) from straight on one street is the same behind a junction.
+/// Maximum deviation (degrees) from straight ahead at which a street continues beyond a junction.
 const STRAIGHT: f64 = 45.0;
-/// Up to which area (m²) a triangle is small, and a block is one of a knot.
+/// Maximum areas (m²) of a small triangle, and of a block in a knot.
 const TRIANGLE: f64 = 1500.0;
 const KNOT: f64 = 600.0;
-/// Up to which length (m) a dead end is a stub.
+/// Maximum length (m) of a stub.
 const STUB: f64 = 25.0;
 
 impl StreetNetwork {
-    /// The length (m) of streets on each square metre of the rings around a middle, all of the same width and together as far as
-    /// `reach` (m).
-    ///
+    /// Computes the street length per area (m/m²) in rings of equal width around a point, up to the distance `reach`
+    /// (m).
     /// ```
     /// use burgeon_streets::StreetNetwork;
     /// use glam::DVec2;
@@ -62,12 +62,12 @@ impl StreetNetwork {
         lengths.iter().enumerate().map(|(ring, length)| length / area(ring)).collect()
     }
 
-    /// How often streets turn by [`SWING`] to one side and back to the other, over junctions where they go straight on.
+    /// Counts turns by [`SWING`] to one side and back to the other, along streets that continue across junctions.
     pub(crate) fn zigzags(&self) -> usize {
         self.strokes().iter().map(|line| swings(line).saturating_sub(1)).sum()
     }
 
-    /// The share of dead ends that are shorter than [`STUB`] from the last junction.
+    /// Returns the fraction of dead ends that are shorter than [`STUB`], from the last junction.
     pub(crate) fn stubs(&self) -> f64 {
         let (mut ends, mut short) = (0.0_f64, 0.0);
         for way in self.ways_between(|junction| self.junctions[junction as usize].degree() != 2) {
@@ -82,7 +82,7 @@ impl StreetNetwork {
         short / ends.max(1.0)
     }
 
-    /// The share of faces that are triangles of up to [`TRIANGLE`], where they are looked at without their small bends.
+    /// Returns the fraction of faces that are triangles smaller than [`TRIANGLE`], ignoring small bends.
     pub(crate) fn triangles(&self, faces: &[StreetFace]) -> f64 {
         let is_one = |face: &&StreetFace| {
             let area = self.area(&face.around);
@@ -91,7 +91,8 @@ impl StreetNetwork {
         share(faces.iter().filter(is_one).count(), faces.len())
     }
 
-    /// The share of faces of up to [`KNOT`] that have two such faces, or more, on the other side of their streets.
+    /// Returns the fraction of faces smaller than [`KNOT`] that have at least two such faces on the other side of their
+    /// streets.
     pub(crate) fn knots(&self, faces: &[StreetFace]) -> f64 {
         let small: Vec<&StreetFace> = faces.iter().filter(|face| self.area(&face.around) < KNOT).collect();
         let mut of: FxHashMap<Course, usize> = FxHashMap::default();
@@ -111,7 +112,8 @@ impl StreetNetwork {
         share(small.iter().enumerate().filter(is_one).count(), faces.len())
     }
 
-    /// Its streets as people see them: at a junction each goes on by the street that is straightest ahead.
+    /// Returns the strokes of the network: at a junction, each street continues with the street that is most nearly
+    /// straight ahead.
     fn strokes(&self) -> Vec<Vec<DVec2>> {
         let mut onward: FxHashMap<(JunctionId, u32), u32> = FxHashMap::default();
         for (junction, _) in (0..).zip(&self.junctions) {
@@ -135,7 +137,7 @@ impl StreetNetwork {
         }
         let mut seen = vec![false; self.pieces.len()];
         let mut strokes = Vec::new();
-        // Rings, which end nowhere, come last.
+        // Closed strokes have no end and come last.
         for ends in [true, false] {
             for (first, piece) in self.pieces() {
                 for from in piece.ends {
@@ -163,7 +165,7 @@ fn share(part: usize, all: usize) -> f64 {
     share
 }
 
-/// How often a line turns by [`SWING`] to another side than before.
+/// Counts the turns of a line by [`SWING`] that change sides.
 fn swings(line: &[DVec2]) -> usize {
     let mut places = Vec::new();
     let mut rest = 0.0;
@@ -178,7 +180,8 @@ fn swings(line: &[DVec2]) -> usize {
     let mut ways = places.windows(SPAN + 1).map(|span| span[SPAN] - span[0]);
     let Some(mut last) = ways.next() else { return 0 };
     let mut turned = 0.0_f64;
-    // The farthest turned to each side since the last swing; while a street swings to one side, only that side moves on.
+    // Extreme headings on each side since the last swing; during a swing to one side, only that side's extreme is
+    // updated.
     let (mut low, mut high, mut side, mut count) = (0.0_f64, 0.0_f64, 0, 0);
     for way in ways {
         turned += last.angle_to(way).to_degrees();
@@ -196,7 +199,7 @@ fn swings(line: &[DVec2]) -> usize {
     count
 }
 
-/// How many corners a ring has when bends of up to `tolerance` (m) are left out.
+/// Returns the number of corners of a ring, ignoring bends of up to `tolerance` (m).
 fn corner_count(mut ring: Vec<DVec2>, tolerance: f64) -> usize {
     while ring.len() > 3 {
         let count = ring.len();
@@ -236,13 +239,13 @@ mod tests {
 
     #[test]
     fn triangles_stubs_and_knots_are_found() {
-        // A triangle whose sides bend a little, with a stub at a corner.
+        // A triangle whose sides bend slightly, with a stub at a corner.
         let mut lines = vec![line(&[(0.0, 0.0), (20.0, 1.0), (40.0, 0.0), (20.0, 30.0), (0.0, 0.0)])];
         lines.push(line(&[(40.0, 0.0), (60.0, 0.0)]));
         let network = StreetNetwork::survey(&lines).unwrap();
         let of = network.measures();
         assert_eq!((of.triangles, of.stubs, of.knots), (1.0, 1.0, 0.0));
-        // A grid of nine squares of 20 m: all have two or more others beside them.
+        // A grid of nine squares of 20 m: each has at least two neighbours.
         let grid: Vec<Vec<DVec2>> = (0..4)
             .map(|at| 20.0 * f64::from(at))
             .flat_map(|at| [line(&[(at, 0.0), (at, 60.0)]), line(&[(0.0, at), (60.0, at)])])

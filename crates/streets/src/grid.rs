@@ -1,14 +1,14 @@
-//! Places on a grid of whole steps, on which sides and crossings are decided exactly.
+//! Positions on an integer grid, with exact orientation and crossing tests.
 
 use burgeon_geometry::planar;
 use glam::DVec2;
 
-/// How many steps of the grid are a metre.
+/// Number of grid steps per metre.
 pub(crate) const PER_METRE: f64 = 1024.0;
-/// The farthest (m) from the origin that a place may lie: products of two differences fit in 64 bits.
+/// Maximum coordinate (m) of a position: products of two differences fit in 64 bits.
 pub const FARTHEST: f64 = 500_000.0;
 
-/// A place on the grid, whose steps are a 1024th of a metre.
+/// Position on a grid with steps of 1/1024 m.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct GridPlace {
     x: i64,
@@ -16,7 +16,7 @@ pub struct GridPlace {
 }
 
 impl GridPlace {
-    /// The nearest to `place` (m); `None` if that is not finite or farther than [`FARTHEST`].
+    /// Returns the grid position nearest to `place` (m); `None` if a coordinate is not finite or exceeds [`FARTHEST`].
     pub fn nearest(place: DVec2) -> Option<Self> {
         let within = place.is_finite() && place.abs().max_element() <= FARTHEST;
         #[allow(clippy::cast_possible_truncation, reason = "within 2^30 steps")]
@@ -26,27 +26,27 @@ impl GridPlace {
         })
     }
 
-    /// The place at these steps to the east and to the north.
+    /// Returns the position with these steps to the east and to the north.
     pub(crate) fn of_steps([x, y]: [i64; 2]) -> Self {
         Self { x, y }
     }
 
-    /// Where it lies (m), exactly.
+    /// Returns the exact coordinates (m).
     #[allow(clippy::cast_precision_loss, reason = "within 2^30 steps")]
     pub fn metres(self) -> DVec2 {
         DVec2::new(self.x as f64, self.y as f64) / PER_METRE
     }
 }
 
-/// A place in whole steps, whose side of a way is decided exactly.
+/// Position in integer steps with exact orientation tests.
 pub(crate) trait WholePlace: Copy {
-    /// Its steps to the east and to the north.
+    /// Returns the steps to the east and to the north.
     fn steps(self) -> [i64; 2];
 
-    /// On which side of the way from `a` to `b` it lies: 1 on the left, 0 on their line, -1 on the right.
+    /// Returns the side of the directed line from `a` to `b`: 1 on the left, 0 on the line, -1 on the right.
     fn side_of(self, a: Self, b: Self) -> i32;
 
-    /// Whether it is between two others whose line it is on, or is one of them.
+    /// Returns true if a position on the line through two others is between them or equal to one of them.
     fn is_between(self, a: Self, b: Self) -> bool {
         let ([ax, ay], [bx, by], [x, y]) = (a.steps(), b.steps(), self.steps());
         let within = |a: i64, b: i64, at: i64| a.min(b) <= at && at <= a.max(b);
@@ -65,7 +65,7 @@ impl WholePlace for GridPlace {
     }
 }
 
-/// Whether two pieces have a place in common, their ends included.
+/// Returns true if two segments share a point, including their ends.
 pub(crate) fn touch<P: WholePlace>([a, b]: [P; 2], [c, d]: [P; 2]) -> bool {
     let [of_c, of_d] = [c, d].map(|end| end.side_of(a, b));
     let [of_a, of_b] = [a, b].map(|end| end.side_of(c, d));
@@ -78,14 +78,15 @@ pub(crate) fn touch<P: WholePlace>([a, b]: [P; 2], [c, d]: [P; 2]) -> bool {
         || (of_b == 0 && b.is_between(c, d))
 }
 
-/// How far along the way from `a` to `b`, from 0 to 1, it meets the line of `c` and `d`; `None` if they are parallel.
+/// Returns the parameter, from 0 at `a` to 1 at `b`, at which the line through them meets the line through `c` and `d`;
+/// `None` if they are parallel.
 pub(crate) fn crossing([a, b]: [DVec2; 2], [c, d]: [DVec2; 2]) -> Option<f64> {
     let (way, other) = (b - a, d - c);
     let turn = way.perp_dot(other);
     (turn != 0.0).then(|| (c - a).perp_dot(other) / turn)
 }
 
-/// Distance (m) from a place to the nearest of a piece, and how far along it that is, from 0 to 1.
+/// Returns the distance (m) from a point to a segment, and the parameter of the nearest point, from 0 to 1.
 pub(crate) fn foot(place: DVec2, [a, b]: [DVec2; 2]) -> (f64, f64) {
     let along = planar::foot([a, b], place);
     (place.distance(a + (b - a) * along), along)

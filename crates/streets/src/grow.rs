@@ -1,9 +1,9 @@
-//! Growth: what becomes of a street that is proposed.
+//! Growth: decides the outcome of a proposed street.
 //!
-//! In order: obstacles, the first street or junction in its way, a junction near its end, a street near its end, and
-//! its end as proposed. Whatever of these comes first and keeps all constraints is built.
+//! Candidates are tried in this order: obstacles, the first street or junction in the path, a junction near the end, a
+//! street near the end, and the end as proposed. The first candidate that meets all constraints is built.
 //!
-//! After: Y. Parish and P. Müller, "Procedural modeling of cities", 2001.
+//! Source: Y. Parish and P. Müller, "Procedural modeling of cities", 2001.
 
 use glam::DVec2;
 use smallvec::SmallVec;
@@ -13,44 +13,45 @@ use crate::grid::{GridPlace, crossing, foot};
 use crate::network::{JunctionId, PieceId, StreetAttributes, StreetNetwork};
 use burgeon_base::error::{Error, Limit, Result};
 
-/// By how much (degrees) a street turns more at each try to pass an obstacle.
+/// Increment (degrees) of the turn at each attempt to avoid an obstacle.
 const BEND_STEP: f64 = 5.0;
 
-/// What became of a proposal, and the junction that its street ends at.
+/// Outcome of a proposal, and the end junction of the street.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct StreetGrowth {
-    /// What became of it.
+    /// Outcome of the proposal.
     pub fate: Fate,
-    /// Where it ends; where it would have begun if it was refused.
+    /// End junction; the start junction if the street was refused.
     pub end: JunctionId,
 }
 
-/// What would become of a street, if it were proposed now.
+/// Predicted outcome of a street that is not built.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct StreetProspect {
-    /// What would become of it.
+    /// Outcome that a proposal would have.
     pub fate: Fate,
-    /// Where it would end (m); where it would have begun if it would be refused.
+    /// End position (m); the start position if the street would be refused.
     pub place: DVec2,
-    /// The junction that it would end at, if that is there already.
+    /// End junction, if it already exists.
     pub junction: Option<JunctionId>,
 }
 
-/// Where a street could end.
+/// Possible end of a street.
 #[derive(Debug, Clone, Copy)]
 pub(crate) enum StreetEnd {
-    /// At a junction that is there.
+    /// Existing junction.
     Junction(JunctionId),
-    /// On a piece, at this place.
+    /// Position on a segment.
     On(PieceId, GridPlace),
-    /// At a place where nothing is.
+    /// Position without a junction or street.
     Free(GridPlace),
 }
 
 impl StreetNetwork {
-    /// A place for a street to begin: a junction that is there, one on a street within half a metre, or a new one.
+    /// Returns a junction to start a street from: an existing junction, a junction on a street within 0.5 m, or a new
+    /// one.
     ///
-    /// Fails if the place is not finite, too far away, or lies in an obstacle.
+    /// Fails if the position is not finite, too far from the origin, or in an obstacle.
     pub fn begin(&mut self, place: DVec2) -> Result<JunctionId> {
         let Some(on_grid) = GridPlace::nearest(place) else {
             return Err(Error::argument(format!("{place} is no place for a street"))
@@ -93,9 +94,9 @@ impl StreetNetwork {
         }
     }
 
-    /// Proposes a street from a junction to a place, and builds what the constraints leave of it.
+    /// Proposes a street from a junction to a position, and builds it as far as the constraints allow.
     ///
-    /// Fails if the network has as many pieces as it may have.
+    /// Fails if the network already has the maximum number of segments.
     pub fn grow(
         &mut self,
         from: JunctionId,
@@ -118,7 +119,7 @@ impl StreetNetwork {
         })
     }
 
-    /// What would become of a street from a junction to a place, without building it.
+    /// Predicts the outcome of a street from a junction to a position, without building it.
     pub fn probe(&self, from: JunctionId, to: DVec2, attributes: StreetAttributes) -> StreetProspect {
         match self.plan(from, to, attributes, &mut 0) {
             Ok(PlannedStreet { end, fate, .. }) => {
@@ -131,7 +132,7 @@ impl StreetNetwork {
         }
     }
 
-    /// What the constraints leave of a street; counts in `looked_at` the neighbours that were asked about.
+    /// Plans a street within the constraints; adds the number of examined neighbours to `looked_at`.
     fn plan(
         &self,
         from: JunctionId,
@@ -153,7 +154,7 @@ impl StreetNetwork {
                 }
             };
             for (end, of_end) in candidates {
-                // What it is snapped to may lie behind an obstacle, even where the way as proposed is free.
+                // The snap target may be behind an obstacle even if the proposed path is free.
                 let planned =
                     self.passes_obstacles(from, end, attributes.width, may_bridge).and_then(|is_bridge| {
                         self.test(from, end, attributes, looked_at)?;
@@ -171,7 +172,7 @@ impl StreetNetwork {
         Err(first.unwrap_or(Refusal::TooShort))
     }
 
-    /// Whether a street keeps out of all obstacles (`false`), or bridges what lies in its way (`true`); fails if neither.
+    /// Returns `false` if a street avoids all obstacles and `true` if it must bridge one; fails if neither is possible.
     fn passes_obstacles(
         &self,
         from: JunctionId,
@@ -189,7 +190,8 @@ impl StreetNetwork {
         Err(if obstacle.is_limit { Refusal::Outside } else { Refusal::Obstacle })
     }
 
-    /// Joins two ends without looking for others; tells why not if a constraint is broken.
+    /// Builds a street between two ends without searching for other ends; returns the refusal if a constraint is
+    /// violated.
     pub(crate) fn connect(
         &mut self,
         from: JunctionId,
@@ -219,7 +221,8 @@ impl StreetNetwork {
         end
     }
 
-    /// Where a street may lead that obstacles let through: straight, over a bridge, beside them, or up to them.
+    /// Returns possible targets with respect to obstacles: straight ahead, over a bridge, past the obstacle, or up to
+    /// it.
     fn around_obstacles(&self, from: DVec2, to: DVec2, width: f64) -> SmallVec<[ProposedWay; 4]> {
         let mut ways = SmallVec::new();
         let Some((along, obstacle)) = self.obstacles.first_on([from, to], width) else {
@@ -258,7 +261,7 @@ impl StreetNetwork {
         ways
     }
 
-    /// Where a street to `to` could end, the best first.
+    /// Returns possible ends of a street to `to`, best first.
     fn candidates(
         &self,
         from: JunctionId,
@@ -275,7 +278,7 @@ impl StreetNetwork {
         }
         let ahead = to + way / length * snap;
         let near: SmallVec<[PieceId; 16]> = self.ground_near([start, ahead], snap).collect();
-        // The first street in the way, and a little beyond the end.
+        // The first street in the path, up to a short distance beyond the end.
         let crossed = near.iter().filter_map(|&piece| {
             let ends = self.ends(piece);
             if ends.contains(&from) {
@@ -289,7 +292,7 @@ impl StreetNetwork {
         });
         let crossed = crossed.min_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
         let reach = crossed.map_or(1.0, |(along, _)| along * (length + snap) / length);
-        // Junctions that it would pass too near, or that are near its end.
+        // Junctions that the street would pass too closely, or that are near its end.
         let half = attributes.width / 2.0;
         let until = start + way * reach.min(1.0);
         let mut junctions: SmallVec<[(f64, JunctionId); 8]> = SmallVec::new();
@@ -342,7 +345,7 @@ impl StreetNetwork {
         ends
     }
 
-    /// The width (m) of the widest street at a junction.
+    /// Returns the width (m) of the widest street at a junction.
     pub(crate) fn widest_at(&self, junction: JunctionId) -> f64 {
         let pieces = &self.junctions[junction as usize].pieces;
         pieces.iter().map(|piece| self.pieces[*piece as usize].attributes.width).fold(0.0, f64::max)
@@ -356,7 +359,7 @@ impl StreetNetwork {
     }
 }
 
-/// A street that keeps all constraints.
+/// Street that meets all constraints.
 #[derive(Debug, Clone, Copy)]
 struct PlannedStreet {
     end: StreetEnd,
@@ -364,5 +367,5 @@ struct PlannedStreet {
     is_bridge: bool,
 }
 
-/// Where a street may lead, what that makes of it, and whether it may be a bridge.
+/// Target of a proposed street, its outcome, and whether a bridge is allowed.
 type ProposedWay = (std::result::Result<DVec2, Refusal>, Fate, bool);

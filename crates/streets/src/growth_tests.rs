@@ -1,4 +1,4 @@
-//! What growth promises beside obstacles, on streets that are there, and before anything is built.
+//! Tests of the guarantees of growth: next to obstacles, on existing streets, and in predictions.
 
 use glam::DVec2;
 
@@ -6,7 +6,7 @@ use crate::tests::{TestNumbers, check, grown};
 use crate::*;
 use burgeon_geometry::{Polygon, Rings};
 
-/// Obstacles at random: boxes, triangles and stars at any angle, away from the origin; some may be bridged.
+/// Returns random obstacles away from the origin: boxes, triangles and stars at any angle; some can be bridged.
 fn obstacles(seed: u64, count: usize) -> (Vec<Obstacle>, Obstacles) {
     let mut random = TestNumbers(seed.wrapping_mul(0x9E37_79B9_7F4A_7C15) + 7);
     let mut areas = Vec::new();
@@ -28,7 +28,7 @@ fn obstacles(seed: u64, count: usize) -> (Vec<Obstacle>, Obstacles) {
     (areas.clone(), Obstacles::new(areas))
 }
 
-/// The distance (m) of two pieces.
+/// Returns the distance (m) between two segments.
 fn apart([a, b]: [DVec2; 2], [c, d]: [DVec2; 2]) -> f64 {
     let aside = |place: DVec2, [from, to]: [DVec2; 2]| {
         let way = to - from;
@@ -41,7 +41,7 @@ fn apart([a, b]: [DVec2; 2], [c, d]: [DVec2; 2]) -> f64 {
     if crosses { 0.0 } else { least.into_iter().fold(f64::INFINITY, f64::min) }
 }
 
-/// Asserts that every piece but bridges keeps half of its width from every edge of every area, and is in none.
+/// Asserts that each segment except bridges keeps half of its width from all edges of all areas, and is inside none.
 fn check_obstacles(network: &StreetNetwork, areas: &[Obstacle]) {
     for (id, piece) in network.pieces() {
         let line = network.line(id);
@@ -50,7 +50,7 @@ fn check_obstacles(network: &StreetNetwork, areas: &[Obstacle]) {
             assert!(line.iter().all(|end| !obstacle.area.contains(*end)), "{line:?} ends in an obstacle");
             for edge in obstacle.area.edges() {
                 let apart = apart(line, edge);
-                // Pieces that were divided turned by half a step of the grid.
+                // Segments that were divided turned by half a grid step.
                 assert!(is_bridge || apart >= piece.attributes.width / 2.0 - 0.002, "{apart} from {edge:?}");
             }
         }

@@ -1,4 +1,4 @@
-//! Whether a street from one place to another keeps all constraints: distances, angles, room for corners.
+//! Constraint checks for a street between two positions: distances, angles, space for corners.
 
 use smallvec::SmallVec;
 
@@ -8,13 +8,13 @@ use crate::grid::{GridPlace, foot, touch};
 use crate::grow::StreetEnd;
 use crate::network::{JunctionId, PieceId, StreetAttributes, StreetNetwork};
 
-/// Tolerance (degrees) of the least angle for a new street: both ends are rounded to the grid.
+/// Tolerance (degrees) of the minimum angle for a new street: both ends are rounded to the grid.
 const ROUNDING: f64 = 0.01;
-/// By how much (m) corners may take more of a street than they did before a new one came.
+/// Tolerance (m) for corners that take more of a street than before a new street was added.
 const EVEN: f64 = 1e-6;
 
 impl StreetNetwork {
-    /// Whether a street from a junction to an end keeps all constraints; counts the neighbours that it asks about.
+    /// Tests whether a street from a junction to an end meets all constraints; counts the examined neighbours.
     pub(crate) fn test(
         &self,
         from: JunctionId,
@@ -67,7 +67,7 @@ impl StreetNetwork {
         if here_reach + there_reach > length { Err(Refusal::Corners) } else { Ok(()) }
     }
 
-    /// Whether nothing that the street does not join is too near it.
+    /// Fails if a street that is not joined is too close.
     fn test_distances(
         &self,
         from: JunctionId,
@@ -85,7 +85,7 @@ impl StreetNetwork {
             let ends = self.ends(piece);
             let of_end = to.is_some_and(|to| ends.contains(&to));
             if ends.contains(&from) || of_end {
-                // Streets of one junction part by their angle; two do not lead to the same two junctions.
+                // Streets at one junction are separated by their angle; no two streets join the same two junctions.
                 if ends.contains(&from) && of_end {
                     return Err(Refusal::Angle);
                 }
@@ -113,7 +113,7 @@ impl StreetNetwork {
         Ok(())
     }
 
-    /// The streets at a junction.
+    /// Returns the streets at a junction, with their lengths and the space taken at their far ends.
     fn measured_arms(&self, junction: JunctionId) -> Arms {
         let arms = self.corner_arms(junction).into_iter();
         let measured = arms.map(|(piece, arm)| {
@@ -123,7 +123,7 @@ impl StreetNetwork {
         measured.collect()
     }
 
-    /// How much of a piece (m) the corners of one of its junctions take.
+    /// Returns the length (m) of a segment that the corners at one of its junctions take.
     pub(crate) fn reach_at(&self, junction: JunctionId, piece: PieceId) -> f64 {
         let arms = self.corner_arms(junction);
         let index = arms.iter().position(|(arm, _)| *arm == piece);
@@ -131,7 +131,8 @@ impl StreetNetwork {
         index.map_or(0.0, |index| self.reaches(&arms)[index])
     }
 
-    /// Tests the angles and the corners of a junction to which an arm comes; gives how much of that its corners take.
+    /// Tests the angles and corners of a junction after adding an arm; returns the length (m) of that arm that its
+    /// corners take.
     fn test_corners(&self, mut arms: Arms, new: Arm) -> std::result::Result<f64, Refusal> {
         let least = (self.constraints.min_angle - ROUNDING).to_radians();
         let too_sharp = |known: &MeasuredArm| {
@@ -151,7 +152,7 @@ impl StreetNetwork {
         let of_others =
             after.iter().enumerate().filter(|(index, _)| *index != place).map(|(_, reach)| *reach);
         for ((known, before), after) in arms.iter().zip(before).zip(of_others) {
-            // A street that was given, and had no room for its corners before, has to lose no more.
+            // An existing street without space for its corners may not lose more than before.
             if after + known.far > known.length && after > before + EVEN {
                 return Err(Refusal::Corners);
             }
@@ -159,8 +160,8 @@ impl StreetNetwork {
         Ok(after[place])
     }
 
-    /// Whether both halves of a piece that is divided there are long enough, also for the corners at its ends, and turn so little that all angles at its
-    /// ends stay, and nothing comes to lie on them.
+    /// Returns true if a segment can be divided at a position: both halves are long enough, including the corners at
+    /// their ends; all angles at the ends are kept; and no other street crosses the halves.
     pub(crate) fn can_divide(&self, piece: PieceId, place: GridPlace) -> bool {
         let ends = self.ends(piece);
         if self.junction_at(place).is_some() {
@@ -190,12 +191,12 @@ impl StreetNetwork {
 
 type Arms = SmallVec<[MeasuredArm; 6]>;
 
-/// A street at a junction.
+/// Street at a junction.
 #[derive(Debug, Clone, Copy)]
 struct MeasuredArm {
     arm: Arm,
-    /// Its length (m) to the next junction.
+    /// Length (m) to the next junction.
     length: f64,
-    /// How much of that (m) the corners at the other end take.
+    /// Length (m) that the corners at the far end take.
     far: f64,
 }

@@ -1,34 +1,34 @@
-//! Kinds of streets: what lies across them, in metres.
+//! Street types: cross-sections in metres.
 
 use burgeon_base::error::{Error, Result};
 
 use crate::network::StreetAttributes;
 
-/// The least width (m) of a lane.
+/// Minimum width (m) of a lane.
 const LEAST_LANE: f64 = 2.0;
-/// Up to this width (m) a carriageway has one lane, if it is not told.
+/// Maximum width (m) of a carriageway that has one lane by default.
 const ONE_LANE: f64 = 4.6;
-/// The width (m) that two or more lanes get, if their number is not told.
+/// Width (m) of a lane when the number of lanes is chosen automatically.
 const USUAL_LANE: f64 = 3.2;
-/// The least width (m) of a sidewalk that trees or lamps stand on.
+/// Minimum width (m) of a sidewalk with trees or lamps.
 const LEAST_VERGE: f64 = 1.0;
 
-/// What a street is made of.
+/// Street type: a cross-section and the objects along it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct StreetKind {
-    /// Width (m) from one outer edge of the sidewalks to the other.
+    /// Width (m) between the outer edges of the sidewalks.
     pub width: f64,
     /// Width (m) of the sidewalk on each side.
     pub sidewalk: f64,
-    /// The number of lanes for both directions; as many as fit, if it is not given.
+    /// Number of lanes in both directions; by default, as many as fit.
     pub lanes: Option<u32>,
-    /// Width (m) of the raised strip between the two directions; 0 for none.
+    /// Width (m) of the raised median; 0 for none.
     pub median: f64,
     /// Width (m) of the parking strip on each side; 0 for none.
     pub parking: f64,
-    /// Distance (m) of trees along each side; 0 for none.
+    /// Distance (m) between trees along each side; 0 for none.
     pub trees: f64,
-    /// Distance (m) of lamps along each side; 0 for none.
+    /// Distance (m) between lamps along each side; 0 for none.
     pub lamps: f64,
 }
 
@@ -39,20 +39,20 @@ impl Default for StreetKind {
 }
 
 impl StreetKind {
-    /// The kind of streets of a depth: the last one holds for all that are deeper.
+    /// Returns the type for streets of a depth; the last type also applies to all greater depths.
     pub fn of(kinds: &[Self], depth: u32) -> Self {
         let last = kinds.len().saturating_sub(1);
         kinds.get((depth as usize).min(last)).copied().unwrap_or_default()
     }
 
-    /// What streets of this kind are in a network.
+    /// Returns the attributes of streets of this type.
     pub fn attributes(&self, depth: u32) -> StreetAttributes {
         let Self { width, sidewalk, median, .. } = *self;
         StreetAttributes { width, sidewalk, median, lanes: 0, depth, level: 0 }
     }
 
-    /// The kind as a street of these attributes has it: what the street sets itself counts, and what then has no room is
-    /// left out.
+    /// Returns the type adapted to a street's attributes: the attributes of the street take precedence, and parts that
+    /// then do not fit are removed.
     #[must_use]
     pub fn adapted(self, attributes: StreetAttributes) -> Self {
         let StreetAttributes { width, sidewalk, median, lanes, .. } = attributes;
@@ -82,17 +82,17 @@ impl StreetKind {
         })
     }
 
-    /// Width (m) between the kerbs.
+    /// Returns the width (m) between the kerbs.
     pub fn carriageway(&self) -> f64 {
         self.width - 2.0 * self.sidewalk
     }
 
-    /// Width (m) that lanes have together.
+    /// Returns the total width (m) of the lanes.
     fn driven(&self) -> f64 {
         self.carriageway() - self.median - 2.0 * self.parking
     }
 
-    /// The number of lanes for both directions.
+    /// Returns the number of lanes in both directions.
     pub fn lanes(&self) -> u32 {
         self.lanes.unwrap_or_else(|| {
             let driven = self.driven();
@@ -105,7 +105,7 @@ impl StreetKind {
         })
     }
 
-    /// Fails if its parts do not fit, and names the field.
+    /// Checks that the parts fit into the width; the error names the field.
     pub fn check(&self) -> Result<()> {
         let named = [
             ("width", self.width, 2.0, 200.0),
@@ -174,7 +174,7 @@ impl StreetKind {
         Ok(())
     }
 
-    /// The lines along a street.
+    /// Returns the painted lines along a street.
     pub(crate) fn lines(&self) -> Vec<LaneLine> {
         let mut lines = Vec::new();
         let mut line =
@@ -205,24 +205,24 @@ impl StreetKind {
         lines
     }
 
-    /// How far (m) to the left of its middle, on the side of those who come, the lanes begin and end.
+    /// Returns the distances (m) to the left of the centreline at which the lanes of oncoming traffic begin and end.
     pub(crate) fn left_lanes(&self) -> [f64; 2] {
         let curb = self.carriageway() / 2.0 - self.parking;
         let lanes = self.lanes();
         let wide = self.driven() / f64::from(lanes);
-        // With an odd number the greater part goes out, to the right.
+        // With an odd number of lanes, the larger part is on the right, in the outgoing direction.
         let begin = if self.median > 0.0 { self.median / 2.0 } else { curb - wide * f64::from(lanes / 2) };
         [begin, curb]
     }
 }
 
-/// A painted line along a street.
+/// Painted line along a street.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct LaneLine {
-    /// How far (m) to the left of the middle it is.
+    /// Distance (m) to the left of the centreline.
     pub(crate) aside: f64,
-    /// m.
+    /// Width (m).
     pub(crate) width: f64,
-    /// The lengths (m) of its dashes and of the gaps between; none if it is solid.
+    /// Lengths (m) of dashes and gaps; `None` for a solid line.
     pub(crate) dash: Option<[f64; 2]>,
 }

@@ -1,8 +1,9 @@
-//! Street networks, without rules or scripts: growth by proposals, faces, dead ends and what real networks are measured
-//! by.
+//! Street networks, independent of rules and scripts: growth by proposals, faces, dead ends, and measures for
+//! comparison with real networks.
 //!
-//! Comes in: streets that are proposed, obstacles, [`Constraints`]. Goes out: a planar [`StreetNetwork`] whose streets
-//! meet only at junctions, and what became of each proposal. It never draws a random number: who proposes decides.
+//! Input: proposed streets, obstacles, [`Constraints`]. Output: a planar [`StreetNetwork`] whose streets meet only at
+//! junctions, and the outcome of each proposal. The crate never draws random numbers: the caller decides. A straight
+//! segment of a street between two junctions is a "piece" in names.
 //!
 //! ```
 //! use burgeon_streets::{Constraints, Fate, Obstacles, StreetAttributes, StreetNetwork};

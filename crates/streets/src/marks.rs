@@ -1,6 +1,6 @@
-//! What is painted on streets: lines along lanes, crossings, and where vehicles stop before them.
+//! Road markings: lines along lanes, crossings, and stop lines.
 //!
-//! Markings lie on the carriageways of pieces, behind the corners of junctions, and never on one another.
+//! Markings are on the carriageways of segments, beyond the corners of junctions, and never overlap.
 
 use glam::{DVec2, DVec3};
 
@@ -11,43 +11,43 @@ use crate::rows::{MEDIAN_MARGIN, median_of};
 use crate::shape::StreetShapes;
 use crate::surface::SurfaceOptions;
 
-/// From where behind a junction (m) a crossing leads to where, and where vehicles stop before it.
+/// Start and end (m) of a crossing beyond a junction, and of the stop line before it.
 const CROSSING: [f64; 2] = [0.6, 3.6];
 const STOP: [f64; 2] = [4.5, 4.9];
-/// Where lines begin (m) behind a crossing, and behind a junction without one.
+/// Distance (m) from a crossing to the start of lines, and from a junction without one.
 const LINES: f64 = 5.3;
 const LINES_ALONE: f64 = 0.6;
-/// How long (m) lines are at least.
+/// Minimum length (m) of lines.
 const LEAST_LINES: f64 = 5.0;
-/// Width (m) of a stripe of a crossing, and of the gap beside it.
+/// Width (m) of a stripe of a crossing, and of the gap next to it.
 const STRIPE: f64 = 0.5;
-/// The length (m) of a place to park, and the width of the line between two.
+/// Length (m) of a parking space, and width of the line between two.
 const PARKED: f64 = 5.6;
 const PARKED_LINE: f64 = 0.1;
 
-/// Something painted.
+/// Painted area.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Marking {
-    /// Its corners (m), counter-clockwise, at the height of the street.
+    /// Corners (m), counter-clockwise, at the height of the street.
     pub corners: [DVec3; 4],
-    /// The piece that it lies on.
+    /// Segment that the marking is on.
     pub piece: PieceId,
 }
 
-/// What lies at an end of a piece.
+/// Objects at one end of a segment.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(crate) struct PieceEnd {
-    /// Behind how far (m) from the junction the piece begins with all of its width.
+    /// Distance (m) from the junction beyond which the segment has its full width.
     pub(crate) clear: f64,
-    /// Whether people cross it there.
+    /// Marks a pedestrian crossing.
     pub(crate) is_crossed: bool,
-    /// Whether the street only turns there, so that its lines go on.
+    /// Marks a mere turn of the street, at which its lines continue.
     pub(crate) goes_on: bool,
-    /// How far (m) from the junction lines begin.
+    /// Distance (m) from the junction at which lines begin.
     pub(crate) lines: f64,
 }
 
-/// What lies at the ends of a piece.
+/// Returns the objects at both ends of a segment.
 pub(crate) fn piece_ends(shapes: &StreetShapes<'_>, piece: PieceId) -> [PieceEnd; 2] {
     let network = shapes.network;
     let ends = network.ends(piece);
@@ -74,7 +74,7 @@ pub(crate) fn piece_ends(shapes: &StreetShapes<'_>, piece: PieceId) -> [PieceEnd
 }
 
 impl StreetNetwork {
-    /// What is painted on its streets, which are of these kinds by depth.
+    /// Returns the markings of the streets; `kinds` contains the street types by depth.
     pub fn markings(
         &self,
         options: SurfaceOptions,
@@ -143,7 +143,7 @@ impl<'a> Painter<'a> {
         }
     }
 
-    /// The crossing at an end, and the line before which those who come stop.
+    /// Paints the crossing at an end, and the stop line for oncoming traffic.
     fn crossing(&mut self, side: usize) {
         let clear = self.ends[side].clear;
         let along = |at: f64| if side == 0 { clear + at } else { self.length - clear - at };
@@ -156,14 +156,14 @@ impl<'a> Painter<'a> {
             self.rectangle(stripes, [aside - STRIPE / 2.0, aside + STRIPE / 2.0]);
         }
         if self.kind.lanes() > 1 {
-            // On the left of those who leave the junction.
+            // The stop line is on the left in the direction away from the junction.
             let [begin, end] = self.kind.left_lanes();
             let sign = if side == 0 { 1.0 } else { -1.0 };
             self.rectangle(stop, [begin + 0.2, end - 0.2].map(|aside| aside * sign));
         }
     }
 
-    /// Dashes that lie evenly between two places, with half of a gap at each end.
+    /// Paints evenly spaced dashes between two positions, with half a gap at each end.
     fn dashes(&mut self, line: LaneLine, [dash, gap]: [f64; 2], [from, to]: [f64; 2]) {
         let count = ((to - from) / (dash + gap)).round().max(1.0);
         let period = (to - from) / count;
@@ -179,7 +179,7 @@ impl<'a> Painter<'a> {
         [line.aside - line.width / 2.0, line.aside + line.width / 2.0]
     }
 
-    /// A line without gaps; where the street only turns, up to the next piece.
+    /// Paints a solid line; where the street only turns, the line extends to the next segment.
     fn solid(&mut self, line: LaneLine, [from, to]: [f64; 2]) {
         let across = self.across(line);
         let ends = self.shapes.network.ends(self.piece);
@@ -194,7 +194,7 @@ impl<'a> Painter<'a> {
         self.strip([at(0, from), at(1, to)], [from, to], across);
     }
 
-    /// The lines between places to park, on both sides.
+    /// Paints the lines between parking spaces on both sides.
     fn parking(&mut self, [from, to]: [f64; 2]) {
         let outer = self.kind.carriageway() / 2.0;
         let inner = outer - self.kind.parking + PARKED_LINE;
@@ -223,7 +223,7 @@ impl<'a> Painter<'a> {
         self.strip(ends, along, across);
     }
 
-    /// Paints from one pair of places to another, divided wherever the slope changes.
+    /// Paints from one pair of points to another, divided at each change of slope.
     fn strip(&mut self, [first, last]: [[DVec2; 2]; 2], [from, to]: [f64; 2], across: [f64; 2]) {
         let stations = self.profiles.stations(self.piece);
         let between = stations.iter().filter(|[at, _]| *at > from + 1e-3 && *at < to - 1e-3);

@@ -1,4 +1,4 @@
-//! What networks are compared by.
+//! Measures for comparing networks.
 
 use std::f64::consts::PI;
 
@@ -6,50 +6,50 @@ use glam::DVec2;
 
 use crate::network::StreetNetwork;
 
-/// Up to which area (m²) a face is a traffic island, not a block.
+/// Maximum area (m²) of a face that counts as a traffic island and not as a block.
 const ISLAND: f64 = 150.0;
 
-/// The measures of a network, as they are taken of real cities.
+/// Measures of a network, as used for real cities.
 ///
-/// After: G. Boeing, "Urban spatial order: street network orientation, configuration, and entropy", 2019.
+/// Source: G. Boeing, "Urban spatial order: street network orientation, configuration, and entropy", 2019.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Measures {
-    /// Length (m) of all streets.
+    /// Total length (m) of the streets.
     pub length: f64,
-    /// The mean of how many streets meet at a junction, where one only turns left out.
+    /// Mean number of streets at a junction, excluding mere turns.
     pub degree: f64,
-    /// The shares of dead ends, and of junctions of 3 and of 4 or more streets.
+    /// Fractions of dead ends, of junctions of 3 streets, and of junctions of 4 or more streets.
     pub shares: [f64; 3],
-    /// The length of the streets over the straight distance between the junctions that they join, which is 1 at least.
+    /// Ratio of the length of the streets to the straight distance between their junctions; at least 1.
     pub circuity: f64,
-    /// How many of the faces that it could have it has, from 0 for a tree to about 1.
+    /// Ratio of the number of faces to the maximum possible number, from 0 for a tree to about 1.
     pub meshedness: f64,
-    /// How far its streets share directions, from 0 for none to 1 for a grid.
+    /// Similarity of street directions, from 0 for none to 1 for a grid.
     pub orientation_order: f64,
-    /// The median area (m²) of the blocks: the faces, without traffic islands of up to 150 m².
+    /// Median area (m²) of the blocks: the faces without traffic islands of up to 150 m².
     pub block: f64,
-    /// The standard deviation of the logarithm, to the base of 10, of the areas of the blocks.
+    /// Standard deviation of the base-10 logarithm of the block areas.
     pub block_spread: f64,
-    /// The median of the areas of the faces over those of the smallest circles around them, from 0 to 1.
+    /// Median ratio of the area of a face to the area of its smallest enclosing circle, from 0 to 1.
     pub block_shape: f64,
-    /// The median length (m) of the streets between junctions.
+    /// Median length (m) of the streets between junctions.
     pub segment: f64,
-    /// The length of all streets (km) on each square kilometre of the faces.
+    /// Street length per area of the faces (km/km²).
     pub density: f64,
-    /// The area (m²) of the largest face.
+    /// Area (m²) of the largest face.
     pub largest: f64,
-    /// How often a street turns by 25° to one side and back to the other, on each kilometre.
+    /// Number of turns by 25° to one side and back to the other, per kilometre.
     pub zigzags: f64,
-    /// The share of dead ends that are shorter than 25 m.
+    /// Fraction of dead ends that are shorter than 25 m.
     pub stubs: f64,
-    /// The share of faces that are triangles of less than 1,500 m².
+    /// Fraction of faces that are triangles smaller than 1,500 m².
     pub triangles: f64,
-    /// The share of faces of less than 600 m² that lie beside two others of that size or more.
+    /// Fraction of faces smaller than 600 m² that have at least two neighbours smaller than 600 m².
     pub knots: f64,
 }
 
 impl StreetNetwork {
-    /// Its measures. Junctions where a street only turns are a part of it, not junctions.
+    /// Computes the measures. A junction where a street only turns counts as part of the street.
     ///
     /// ```
     /// use burgeon_streets::{Constraints, Obstacles, StreetAttributes, StreetNetwork};
@@ -87,7 +87,7 @@ impl StreetNetwork {
         };
         #[allow(clippy::cast_precision_loss, reason = "counts far below 2^53")]
         let degree = degrees.iter().sum::<usize>() as f64 / all;
-        // Turns are neither vertices nor do they make edges.
+        // Turns are not vertices and add no edges.
         #[allow(clippy::cast_precision_loss, reason = "counts far below 2^53")]
         let turns = self.junctions.iter().filter(|junction| junction.degree() == 2).count() as f64;
         let meshedness = (edges - vertices + parts) / (2.0 * (vertices - turns) - 5.0).max(1.0);
@@ -129,7 +129,7 @@ impl StreetNetwork {
         }
     }
 
-    /// Its streets from junction to junction.
+    /// Returns the streets between junctions.
     fn runs(&self) -> StreetRuns {
         let (mut lengths, mut straight, mut bins) = (Vec::new(), 0.0, [0.0; 36]);
         for way in self.ways_between(|junction| self.junctions[junction as usize].degree() != 2) {
@@ -155,7 +155,8 @@ impl StreetNetwork {
     }
 }
 
-/// The orientation order of bins: 1 less the share of the entropy between that of a grid and of all directions.
+/// Computes the orientation order of direction bins: 1 minus the squared share of the entropy between a grid and
+/// uniform directions.
 fn order(bins: &[f64; 36]) -> f64 {
     let all: f64 = bins.iter().sum();
     if all == 0.0 {
@@ -166,17 +167,17 @@ fn order(bins: &[f64; 36]) -> f64 {
     1.0 - ((entropy - grid) / (most - grid)).max(0.0).powi(2)
 }
 
-/// The streets of a network from one junction to the next.
+/// Streets of a network between junctions.
 struct StreetRuns {
-    /// How long (m) each is.
+    /// Length (m) of each street.
     lengths: Vec<f64>,
-    /// The sum (m) of the straight ways between their ends.
+    /// Sum (m) of the straight distances between their ends.
     straight: f64,
-    /// How many lead where, in 36 directions.
+    /// Number of streets in each of 36 directions.
     bins: [f64; 36],
 }
 
-/// The middle one of some numbers; 0 of none.
+/// Returns the median; 0 for no numbers.
 fn median(mut numbers: Vec<f64>) -> f64 {
     numbers.sort_by(f64::total_cmp);
     let upper = numbers.len() / 2;
@@ -184,9 +185,9 @@ fn median(mut numbers: Vec<f64>) -> f64 {
     numbers.get(lower).zip(numbers.get(upper)).map_or(0.0, |(lower, upper)| lower.midpoint(*upper))
 }
 
-/// The middle and the radius (m) of the smallest circle around some places.
+/// Computes the centre and the radius (m) of the smallest circle around some positions.
 ///
-/// Method: E. Welzl, "Smallest enclosing disks (balls and ellipsoids)", 1991, by loops.
+/// Method: E. Welzl, "Smallest enclosing disks (balls and ellipsoids)", 1991, with loops instead of recursion.
 fn circle_around(places: &[DVec2]) -> (DVec2, f64) {
     let outside =
         |(middle, radius): (DVec2, f64), place: DVec2| middle.distance(place) > radius * (1.0 + 1e-12);
@@ -211,7 +212,7 @@ fn circle_around(places: &[DVec2]) -> (DVec2, f64) {
     circle
 }
 
-/// The circle through three places; `None` if they lie on a line.
+/// Returns the circle through three positions; `None` if they are collinear.
 fn circle_through(a: DVec2, b: DVec2, c: DVec2) -> Option<(DVec2, f64)> {
     let (b, c) = (b - a, c - a);
     let twice = 2.0 * b.perp_dot(c);

@@ -1,4 +1,4 @@
-//! The network: junctions and the pieces of streets between them.
+//! Network of junctions and the street segments between them.
 
 use glam::DVec2;
 use rstar::primitives::{GeomWithData, Line as IndexLine};
@@ -12,80 +12,81 @@ use crate::merged::MergeCache;
 use crate::obstacles::Obstacles;
 use burgeon_base::error::Result;
 
-/// The number of a junction.
+/// Index of a junction.
 pub type JunctionId = u32;
-/// The number of a piece.
+/// Index of a street segment.
 pub type PieceId = u32;
 
-/// What a street is, the same all along.
+/// Attributes of a street, constant along it.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct StreetAttributes {
-    /// Width (m) from one outer edge of the sidewalks to the other.
+    /// Width (m) between the outer edges of the sidewalks.
     pub width: f64,
     /// Width (m) of the sidewalk on each side.
     pub sidewalk: f64,
-    /// Width (m) of the raised strip in its middle; 0 for none.
+    /// Width (m) of the raised median; 0 for none.
     pub median: f64,
-    /// The number of lanes for both directions; 0 for as many as its kind has.
+    /// Number of lanes in both directions; 0 for the number of its street type.
     pub lanes: u32,
-    /// How many times its way branched off: 0 for a main street.
+    /// Number of branchings from a main street; 0 for a main street.
     pub depth: u32,
-    /// 0 on the ground, 1 on a bridge, -1 in a tunnel, and so on: streets of different levels cross without a junction.
+    /// Vertical level: 0 on the ground, 1 on a bridge, -1 in a tunnel, and so on. Streets of different levels cross
+    /// without a junction.
     pub level: i32,
 }
 
-/// Where streets meet, turn or end.
+/// Point at which streets meet, turn or end.
 #[derive(Debug, Clone)]
 pub struct Junction {
     pub(crate) place: GridPlace,
-    /// The pieces that end here.
+    /// Segments that end at this junction.
     pub(crate) pieces: SmallVec<[PieceId; 4]>,
 }
 
 impl StreetAttributes {
-    /// As it leaves a junction in a direction.
+    /// Returns the street as it leaves a junction in a direction.
     pub(crate) fn arm(self, way: DVec2) -> Arm {
         Arm { way, half: self.width / 2.0, walk: self.sidewalk }
     }
 
-    /// Width (m) of the carriageway.
+    /// Returns the width (m) of the carriageway.
     pub fn carriageway(&self) -> f64 {
         self.width - 2.0 * self.sidewalk
     }
 }
 
 impl Junction {
-    /// Where it is (m).
+    /// Returns the position (m).
     pub fn place(&self) -> DVec2 {
         self.place.metres()
     }
 
-    /// How many pieces end here.
+    /// Returns the number of street segments at this junction.
     pub fn degree(&self) -> usize {
         self.pieces.len()
     }
 }
 
-/// A piece of a street, straight from one junction to another.
+/// Straight segment of a street between two junctions.
 #[derive(Debug, Clone, Copy)]
 pub struct StreetPiece {
     pub(crate) ends: [JunctionId; 2],
-    /// What it is a piece of.
+    /// Attributes of the street.
     pub attributes: StreetAttributes,
-    /// Whether it is still there: a piece that was divided is not.
+    /// Cleared if the segment was removed or divided.
     pub(crate) is_there: bool,
-    /// Whether it leads over an obstacle.
+    /// Marks a bridge over an obstacle.
     pub is_bridge: bool,
-    /// Whether it existed before the network grew, so that it stays.
+    /// Marks a street that existed before the network grew, and is kept.
     pub is_existing: bool,
 }
 
 type IndexItem<G> = GeomWithData<G, u32>;
 
-/// A network of streets, which meet only at junctions.
+/// Network of streets that meet only at junctions.
 ///
-/// No two of its pieces of one level have a place in common but a junction. Each that grew keeps its distance from what it
-/// does not join, and meets others at no angle smaller than the least one. All of it is decided on a grid, exactly.
+/// Two segments of the same level share at most a junction. A segment that grew keeps the minimum distance from streets
+/// that it does not join, and meets others at no less than the minimum angle. All tests are exact, on a grid.
 #[derive(Clone)]
 pub struct StreetNetwork {
     pub(crate) constraints: Constraints,
@@ -96,16 +97,16 @@ pub struct StreetNetwork {
     junction_index: RTree<IndexItem<[f64; 2]>>,
     widest: f64,
     pub(crate) has_existing: bool,
-    /// Surfaces that were asked for last.
+    /// Most recent merged surfaces.
     pub(crate) merge_cache: MergeCache,
-    /// How often pieces were added or taken away.
+    /// Number of additions and removals of segments.
     version: u64,
-    /// How many neighbours were looked at, to show what the index saves.
+    /// Number of neighbours examined, to measure the benefit of the index.
     pub(crate) looked_at: u64,
 }
 
 impl StreetNetwork {
-    /// A network without streets; fails if the constraints contradict one another.
+    /// Creates a network without streets; fails if the constraints are invalid.
     pub fn new(constraints: Constraints, obstacles: Obstacles) -> Result<Self> {
         constraints.check()?;
         Ok(Self {
@@ -123,68 +124,68 @@ impl StreetNetwork {
         })
     }
 
-    /// What its streets keep to.
+    /// Returns the constraints.
     pub fn constraints(&self) -> &Constraints {
         &self.constraints
     }
 
-    /// What its streets do not run through.
+    /// Returns the obstacles.
     pub fn obstacles(&self) -> &Obstacles {
         &self.obstacles
     }
 
-    /// Its junctions, by number. Those without a piece are of no street any more.
+    /// Returns all junctions by index. Junctions without segments are unused.
     pub fn junctions(&self) -> &[Junction] {
         &self.junctions
     }
 
-    /// The pieces of its streets with their numbers.
+    /// Returns the segments with their indices.
     pub fn pieces(&self) -> impl Iterator<Item = (PieceId, &StreetPiece)> {
         (0..).zip(&self.pieces).filter(|(_, piece)| piece.is_there)
     }
 
-    /// How many pieces there are.
+    /// Returns the number of segments.
     pub fn size(&self) -> usize {
         self.piece_index.size()
     }
 
-    /// How many neighbours its index gave for all that was asked so far.
+    /// Returns the number of neighbours that the index has returned so far.
     pub fn looked_at(&self) -> u64 {
         self.looked_at
     }
 
-    /// The two ends (m) of a piece.
+    /// Returns the two ends (m) of a segment.
     pub fn line(&self, piece: PieceId) -> [DVec2; 2] {
         self.pieces[piece as usize].ends.map(|end| self.at(end))
     }
 
-    /// The junctions that a piece leads from and to.
+    /// Returns the start and end junctions of a segment.
     pub fn ends(&self, piece: PieceId) -> [JunctionId; 2] {
         self.pieces[piece as usize].ends
     }
 
-    /// What a piece is a piece of.
+    /// Returns the attributes of a segment's street.
     pub fn attributes(&self, piece: PieceId) -> StreetAttributes {
         self.pieces[piece as usize].attributes
     }
 
-    /// Whether a piece leads over an obstacle.
+    /// Returns true if a segment is a bridge over an obstacle.
     pub fn is_bridge(&self, piece: PieceId) -> bool {
         self.pieces[piece as usize].is_bridge
     }
 
-    /// A number that changes whenever pieces are added or taken away.
+    /// Returns a number that changes whenever segments are added or removed.
     pub fn version(&self) -> u64 {
         self.version
     }
 
-    /// The length (m) of a piece.
+    /// Returns the length (m) of a segment.
     pub fn length(&self, piece: PieceId) -> f64 {
         let [a, b] = self.line(piece);
         a.distance(b)
     }
 
-    /// Where a junction is (m).
+    /// Returns the position (m) of a junction.
     pub fn at(&self, junction: JunctionId) -> DVec2 {
         self.junctions[junction as usize].place()
     }
@@ -193,18 +194,18 @@ impl StreetNetwork {
         self.pieces[piece as usize].ends.map(|end| self.junctions[end as usize].place)
     }
 
-    /// The junction at the other end of a piece.
+    /// Returns the junction at the other end of a segment.
     pub fn across(&self, piece: PieceId, from: JunctionId) -> JunctionId {
         let [a, b] = self.pieces[piece as usize].ends;
         if a == from { b } else { a }
     }
 
-    /// The direction in which a piece leaves a junction.
+    /// Returns the direction in which a segment leaves a junction.
     pub(crate) fn leaves(&self, piece: PieceId, from: JunctionId) -> DVec2 {
         (self.at(self.across(piece, from)) - self.at(from)).normalize_or_zero()
     }
 
-    /// The pieces at a junction, counter-clockwise, each with the direction in which it leaves.
+    /// Returns the segments at a junction, counter-clockwise, each with its direction.
     pub fn arms(&self, junction: JunctionId) -> SmallVec<[(PieceId, DVec2); 6]> {
         let pieces = &self.junctions[junction as usize].pieces;
         let mut arms: SmallVec<[(PieceId, DVec2); 6]> =
@@ -213,7 +214,7 @@ impl StreetNetwork {
         arms
     }
 
-    /// How far (m) from a junction each of its arms begins, where its corners end.
+    /// Returns the distance (m) from a junction at which each arm begins, beyond its corners.
     pub(crate) fn reaches(&self, arms: &[Arm]) -> SmallVec<[f64; 6]> {
         let mut reaches: SmallVec<[f64; 6]> = SmallVec::from_elem(0.0, arms.len());
         if arms.len() < 2 {
@@ -228,18 +229,18 @@ impl StreetNetwork {
         reaches
     }
 
-    /// The pieces at a junction, counter-clockwise, as its corners see them.
+    /// Returns the segments at a junction, counter-clockwise, as arms for its corners.
     pub(crate) fn corner_arms(&self, junction: JunctionId) -> SmallVec<[(PieceId, Arm); 6]> {
         let arms = self.arms(junction).into_iter();
         arms.map(|(piece, way)| (piece, self.attributes(piece).arm(way))).collect()
     }
 
-    /// Half of the width (m) of a piece.
+    /// Returns half the width (m) of a segment.
     pub(crate) fn half(&self, piece: PieceId) -> f64 {
         self.attributes(piece).width / 2.0
     }
 
-    /// Adds a junction, or finds the one that is there.
+    /// Returns the junction at a position; adds it if missing.
     pub(crate) fn junction(&mut self, place: GridPlace) -> JunctionId {
         let metres = place.metres().to_array();
         if let Some(found) = self.junction_index.locate_at_point(&metres) {
@@ -256,7 +257,7 @@ impl StreetNetwork {
         self.junction_index.locate_at_point(&place.metres().to_array()).map(|found| found.data)
     }
 
-    /// Adds a piece without asking anything.
+    /// Adds a segment without checking constraints.
     pub(crate) fn add(
         &mut self,
         ends: [JunctionId; 2],
@@ -275,7 +276,7 @@ impl StreetNetwork {
         id
     }
 
-    /// Takes a piece away; a junction that nothing leads to any more goes with it.
+    /// Removes a segment, and its junctions if no other segment uses them.
     pub fn remove(&mut self, piece: PieceId) {
         if !std::mem::replace(&mut self.pieces[piece as usize].is_there, false) {
             return;
@@ -297,12 +298,12 @@ impl StreetNetwork {
         GeomWithData::new(IndexLine::new(a.to_array(), b.to_array()), piece)
     }
 
-    /// Divides a piece at a place near it; gives the junction there.
+    /// Divides a segment at a position near it; returns the new junction.
     pub(crate) fn divide(&mut self, piece: PieceId, place: GridPlace) -> JunctionId {
         let StreetPiece { ends: [a, b], attributes, is_bridge, is_existing, .. } =
             self.pieces[piece as usize];
         let middle = self.junction(place);
-        // The junctions of its ends stay, for a half of it leads to each.
+        // Both halves are added first, so the end junctions are never empty and stay.
         for ends in [[a, middle], [middle, b]] {
             let half = self.add(ends, attributes, is_bridge);
             self.pieces[half as usize].is_existing = is_existing;
@@ -311,7 +312,7 @@ impl StreetNetwork {
         middle
     }
 
-    /// Takes a piece out, whose junctions stay.
+    /// Removes a segment but keeps its junctions.
     pub(crate) fn take_out(&mut self, piece: usize) {
         #[allow(clippy::cast_possible_truncation, reason = "pieces are limited far below")]
         let id = piece as PieceId;
@@ -325,7 +326,7 @@ impl StreetNetwork {
         }
     }
 
-    /// Moves a junction without streets to a place.
+    /// Moves a junction without streets to a position.
     pub(crate) fn relocate(&mut self, junction: JunctionId, place: GridPlace) {
         let known = &mut self.junctions[junction as usize];
         let before = std::mem::replace(&mut known.place, place);
@@ -333,7 +334,7 @@ impl StreetNetwork {
         self.junction_index.insert(GeomWithData::new(place.metres().to_array(), junction));
     }
 
-    /// Gives the streets of one junction to another one, which has none and takes its place.
+    /// Moves the streets of junction `of` to junction `bare`, which has no streets and takes its position.
     pub(crate) fn replace_junction(&mut self, bare: JunctionId, of: JunctionId) {
         let place = self.junctions[of as usize].place;
         self.junction_index.remove(&GeomWithData::new(place.metres().to_array(), of));
@@ -350,32 +351,32 @@ impl StreetNetwork {
         self.version += 1;
     }
 
-    /// Tells if some of its streets existed before it grew.
+    /// Returns true if some streets existed before the network grew.
     pub fn has_existing(&self) -> bool {
         self.has_existing
     }
 
-    /// Tells if a piece lies on the ground, neither on a bridge over other streets nor in a tunnel.
+    /// Returns true if a segment is on the ground, neither on a bridge over other streets nor in a tunnel.
     pub fn is_on_ground(&self, piece: PieceId) -> bool {
         self.pieces[piece as usize].attributes.level == 0
     }
 
-    /// Tells if a street on the ground leads to a junction.
+    /// Returns true if a street on the ground ends at a junction.
     pub(crate) fn has_ground(&self, junction: JunctionId) -> bool {
         self.junctions[junction as usize].pieces.iter().any(|piece| self.is_on_ground(*piece))
     }
 
-    /// The pieces on the ground whose boxes come within `margin` (m) of a box around `line`.
+    /// Returns the segments on the ground whose bounding boxes are within `margin` (m) of the bounding box of `line`.
     pub(crate) fn ground_near(&self, line: [DVec2; 2], margin: f64) -> impl Iterator<Item = PieceId> + '_ {
         self.pieces_near(line, margin).filter(|piece| self.is_on_ground(*piece))
     }
 
-    /// The nearest piece on the ground to a place and its distance (m); `None` without any.
+    /// Returns the segment on the ground nearest to a position, and its distance (m); `None` if there is none.
     pub fn nearest_on_ground(&self, place: DVec2) -> Option<(PieceId, f64)> {
         self.nearest_of_level(place, 0)
     }
 
-    /// The nearest piece of a level to a place and its distance (m); `None` without any.
+    /// Returns the segment of a level nearest to a position, and its distance (m); `None` if there is none.
     pub(crate) fn nearest_of_level(&self, place: DVec2, level: i32) -> Option<(PieceId, f64)> {
         let place = place.to_array();
         let mut near = self.piece_index.nearest_neighbor_iter(&place);
@@ -383,18 +384,18 @@ impl StreetNetwork {
         Some((found.data, found.distance_2(&place).sqrt()))
     }
 
-    /// The widest street (m) so far.
+    /// Returns the width (m) of the widest street so far.
     pub(crate) fn widest(&self) -> f64 {
         self.widest
     }
 
-    /// The pieces whose boxes come within `margin` (m) of a box around `line`.
+    /// Returns the segments whose bounding boxes are within `margin` (m) of the bounding box of `line`.
     pub(crate) fn pieces_near(&self, [a, b]: [DVec2; 2], margin: f64) -> impl Iterator<Item = PieceId> + '_ {
         let around = AABB::from_corners((a.min(b) - margin).to_array(), (a.max(b) + margin).to_array());
         self.piece_index.locate_in_envelope_intersecting(&around).map(|found| found.data)
     }
 
-    /// The junctions within `margin` (m) of a box around `line`.
+    /// Returns the junctions within `margin` (m) of the bounding box of `line`.
     pub(crate) fn junctions_near(
         &self,
         [a, b]: [DVec2; 2],
@@ -404,7 +405,7 @@ impl StreetNetwork {
         self.junction_index.locate_in_envelope(&around).map(|found| found.data)
     }
 
-    /// The nearest piece to a place and its distance (m); `None` without any.
+    /// Returns the segment nearest to a position, and its distance (m); `None` if there is none.
     pub fn nearest(&self, place: DVec2) -> Option<(PieceId, f64)> {
         let place = place.to_array();
         let found = self.piece_index.nearest_neighbor(&place)?;

@@ -1,4 +1,4 @@
-//! Where streets cannot run: water, steep ground, buildings, and what lies outside of the ground they may take.
+//! Obstacles to streets: water, steep terrain, buildings, and the area outside a limit.
 
 use std::sync::Arc;
 
@@ -12,28 +12,28 @@ use burgeon_geometry::{Polygon, planar};
 
 type ObstacleEdge = GeomWithData<IndexLine<[f64; 2]>, u32>;
 
-/// Areas (m) that streets keep out of.
+/// Areas (m) that streets avoid.
 #[derive(Clone, Default)]
 pub struct Obstacles {
     areas: Arc<[Obstacle]>,
-    /// The boxes of the areas that are no limits.
+    /// Bounding boxes of the areas that are not limits.
     boxes: Arc<RTree<GeomWithData<Rectangle<[f64; 2]>, u32>>>,
     edges: Arc<RTree<ObstacleEdge>>,
 }
 
-/// One area.
+/// Area that streets avoid, or a limit that they stay within.
 #[derive(Debug, Clone)]
 pub struct Obstacle {
-    /// Its outline.
+    /// Outline.
     pub area: Polygon,
-    /// Whether streets stay inside of it instead of outside.
+    /// Marks a limit: streets stay inside the area instead of outside.
     pub is_limit: bool,
-    /// Whether a bridge may lead over it.
+    /// Set if bridges may cross the area.
     pub can_be_bridged: bool,
 }
 
 impl Obstacles {
-    /// These areas.
+    /// Creates an index of the areas.
     pub fn new(areas: Vec<Obstacle>) -> Self {
         let edges = (0..).zip(&areas).flat_map(|(number, obstacle): (u32, &Obstacle)| {
             let pieces = obstacle.area.edges();
@@ -51,12 +51,12 @@ impl Obstacles {
         Self { areas: areas.into(), boxes: Arc::new(boxes), edges: Arc::new(edges) }
     }
 
-    /// Whether there are none.
+    /// Returns true if there are no areas.
     pub fn is_empty(&self) -> bool {
         self.areas.is_empty()
     }
 
-    /// The obstacle that a place lies in, or that it lies outside of if it is a limit.
+    /// Returns the obstacle that contains a position, or the limit that does not contain it.
     pub fn at(&self, place: DVec2) -> Option<&Obstacle> {
         let around = self.boxes.locate_all_at_point(&place.to_array()).map(|found| found.data);
         let inside = around.filter(|number| self.areas[*number as usize].area.contains(place)).min();
@@ -65,7 +65,7 @@ impl Obstacles {
         })
     }
 
-    /// Whether an area inside of a ring (m) has a place in common with an obstacle, or leaves a limit.
+    /// Returns true if the area inside a ring (m) intersects an obstacle or extends beyond a limit.
     pub fn reach_into(&self, ring: &[DVec2]) -> bool {
         let Some(first) = ring.first().filter(|_| !self.is_empty()) else { return false };
         if self.at(*first).is_some() {
@@ -80,7 +80,8 @@ impl Obstacles {
         })
     }
 
-    /// Where a way of a `width` (m) first comes to an obstacle: how far along it is, from 0 to 1, and what it is.
+    /// Returns the first obstacle in the path of a street of a `width` (m), with its position along the path, from 0 to
+    /// 1.
     pub(crate) fn first_on(&self, [a, b]: [DVec2; 2], width: f64) -> Option<(f64, &Obstacle)> {
         if self.is_empty() {
             return None;
@@ -101,7 +102,8 @@ impl Obstacles {
         }
     }
 
-    /// How far along a way it has left all obstacles behind that may be bridged, from 0 to 1; `None` if it never has.
+    /// Returns the position along a path, from 0 to 1, at which it has passed all bridgeable obstacles; `None` if it
+    /// ends in an obstacle or meets one that cannot be bridged.
     pub(crate) fn beyond(&self, [a, b]: [DVec2; 2], width: f64) -> Option<f64> {
         let half = width / 2.0;
         let around = AABB::from_corners((a.min(b) - half).to_array(), (a.max(b) + half).to_array());
@@ -120,7 +122,7 @@ impl Obstacles {
     }
 }
 
-/// How far along the way from `a` to `b`, from 0 to 1, it first comes within `distance` (m) of an edge.
+/// Returns the first position along the path from `a` to `b`, from 0 to 1, within `distance` (m) of an edge.
 fn first_within([a, b]: [DVec2; 2], [c, d]: [DVec2; 2], distance: f64) -> Option<f64> {
     let length = a.distance(b);
     if length == 0.0 || foot(a, [c, d]).0 <= distance {
@@ -132,7 +134,7 @@ fn first_within([a, b]: [DVec2; 2], [c, d]: [DVec2; 2], distance: f64) -> Option
             first = first.min(along);
         }
     };
-    // The band around the edge: two lines beside it, and a circle at each end.
+    // The region within `distance` of the edge is bounded by two parallel lines and a circle at each end.
     if let Some(normal) = (d - c).try_normalize().map(DVec2::perp) {
         for side in [-distance, distance] {
             let beside = [c + normal * side, d + normal * side];
@@ -171,7 +173,7 @@ mod tests {
         let (along, _) = pond.first_on(way, 4.0).expect("the pond");
         assert!((along * 40.0 - 8.0).abs() < 1e-9);
         assert!((pond.beyond(way, 4.0).expect("the other side") * 40.0 - 22.0).abs() < 1e-9);
-        // It passes 1 m beside it.
+        // The path passes the pond at a distance of 1 m.
         let way = [DVec2::new(-10.0, 11.0), DVec2::new(30.0, 11.0)];
         assert!(pond.first_on(way, 1.8).is_none());
         assert!(pond.first_on(way, 2.2).is_some());

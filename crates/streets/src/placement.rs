@@ -1,7 +1,7 @@
-//! Sites for buildings beside streets: places in a grid along both sides of each piece, where there is room.
+//! Sites for buildings along streets: positions in a grid on both sides of each segment where there is space.
 //!
-//! Method: V. Vlaanderen Oldenzeel, "Procedural city generation using an L-system", 2020: every place of the grid is held
-//! against streets and against what was placed before, each by an index; here all tests are exact.
+//! Method: V. Vlaanderen Oldenzeel, "Procedural city generation using an L-system", 2020: each grid position is tested
+//! against streets and against earlier sites, each with a spatial index. Here, all tests are exact.
 
 use glam::DVec2;
 use rstar::primitives::{GeomWithData, Line as IndexLine, Rectangle};
@@ -14,30 +14,31 @@ use crate::surface::SurfaceOptions;
 use burgeon_base::error::{Error, Result};
 use burgeon_geometry::planar::edges;
 
-/// The most places that are looked at.
+/// Maximum number of tested positions.
 const MOST_PLACES: f64 = 20_000_000.0;
 
-/// Where sites are tried.
+/// Options for sites.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SiteOptions {
-    /// Width along the street and depth (m) of sites, by the depth of the street; the last one holds for all deeper ones.
+    /// Width along the street and depth (m) of sites, by the depth of the street in the hierarchy; the last size
+    /// applies to all greater depths.
     pub sizes: Vec<DVec2>,
-    /// From one place to the next along a street (m).
+    /// Distance (m) between positions along a street.
     pub along: f64,
-    /// From one row of places to the next one behind it (m).
+    /// Distance (m) between rows of positions.
     pub away: f64,
-    /// From the edge of the street to the farthest front (m).
+    /// Distance (m) from the edge of the street to the farthest front.
     pub distance: f64,
-    /// From the edge of the street to the nearest front (m).
+    /// Distance (m) from the edge of the street to the nearest front.
     pub setback: f64,
-    /// The least distance (m) between sites.
+    /// Minimum distance (m) between sites.
     pub gap: f64,
-    /// The least share that is left of one side, which is as much shorter at random, except for the smallest size.
+    /// Minimum factor for shortening one side at random; the smallest size is not shortened.
     pub shrink: f64,
 }
 
 impl SiteOptions {
-    /// Fails if no site could be like that, and says why.
+    /// Checks that the values are in range and consistent; the error names the field.
     pub fn check(&self) -> Result<()> {
         let sides = self.sizes.iter().flat_map(|size| size.to_array());
         if self.sizes.is_empty() || !sides.into_iter().all(|side| (1.0..=500.0).contains(&side)) {
@@ -68,39 +69,39 @@ impl SiteOptions {
     }
 }
 
-/// A place for a building.
+/// Site for a building.
 #[derive(Debug, Clone, PartialEq)]
 pub struct StreetSite {
-    /// What it is called: the middle of its piece of a street, its side, its row and its place in it.
+    /// Identifier: the midpoint of the street segment, the side, the row, and the number within the row.
     pub id: String,
-    /// Its corners (m), counter-clockwise, those of its front first.
+    /// Corners (m), counter-clockwise, the front first.
     pub corners: [DVec2; 4],
-    /// The piece of a street that it is beside.
+    /// Street segment that the site faces.
     pub piece: PieceId,
-    /// The row behind the street, from 0.
+    /// Row behind the street, from 0.
     pub row: u32,
-    /// Its width and depth (m).
+    /// Width and depth (m).
     pub size: DVec2,
-    /// The direction from its front to the street.
+    /// Direction from the front to the street.
     pub facing: DVec2,
 }
 
-/// Sites, and what it took to find them.
+/// Sites, with search statistics.
 #[derive(Debug, Clone, Default)]
 pub struct StreetSites {
-    /// In the order in which they were placed.
+    /// Sites in order of placement.
     pub sites: Vec<StreetSite>,
-    /// How many places were tried.
+    /// Number of tested positions.
     pub tried: u64,
-    /// How many of them met a street, how many another site, and how many an obstacle.
+    /// Numbers of positions refused because of a street, another site, and an obstacle.
     pub refused: [u64; 3],
-    /// How many edges of streets and sites the indices gave for all of them.
+    /// Number of edges of streets and sites that the indices returned.
     pub looked_at: u64,
 }
 
 type Corners = [FinePlace; 4];
 
-/// What has been placed so far, and the edges of streets.
+/// Placed sites, and the edges of streets.
 struct SiteIndex {
     edges: RTree<IndexLine<[f64; 2]>>,
     placed: RTree<GeomWithData<Rectangle<[f64; 2]>, usize>>,
@@ -109,8 +110,10 @@ struct SiteIndex {
 }
 
 impl StreetNetwork {
-    /// Sites beside its streets: those of the least depth first. `stream` gives the random numbers, from 0 to 1, of the
-    /// piece with a name, so that they depend on nothing else.
+    /// Returns sites along the streets, those at streets of the smallest depth first. `stream` returns random numbers
+    /// from 0 to 1 for a segment's name, so the sites of a segment depend on nothing else.
+    ///
+    /// Fails if the options are invalid, or if too many positions would be tested.
     pub fn sites(
         &self,
         surface: SurfaceOptions,
@@ -163,7 +166,7 @@ impl StreetNetwork {
         let known = options.sizes[depth.min(options.sizes.len() - 1)];
         let smallest = options.sizes.iter().map(|size| size.element_product()).fold(f64::INFINITY, f64::min);
         let may_shrink = known.element_product() > smallest;
-        // The same for both directions of a piece, which nobody sees.
+        // The same for both directions of a segment, because the direction is not visible.
         let way = (to - from).normalize_or_zero();
         let way = if way.x < 0.0 || (way.x == 0.0 && way.y < 0.0) { -way } else { way };
         #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "places are limited")]
@@ -183,7 +186,7 @@ impl StreetNetwork {
                     let front = foot + aside * edge;
                     found.tried += 1;
                     let half = way * side * (size.x / 2.0);
-                    // With the site on the left of its front.
+                    // The site is on the left of its front.
                     let corners = [
                         front - half,
                         front + half,
@@ -236,7 +239,8 @@ impl SiteIndex {
         }
     }
 
-    /// Whether no edge of a street comes into a site, and only the one that it is beside lies between it and its street.
+    /// Returns true if no street edge enters a site, and if only the edge of its own street is between it and the
+    /// centreline.
     fn is_off_streets(&mut self, corners: &Corners, way: [DVec2; 2]) -> bool {
         let [low, high] = around(corners);
         let envelope = AABB::from_corners(low.min(way[0]).to_array(), high.max(way[0]).to_array());
@@ -256,7 +260,7 @@ impl SiteIndex {
         between == 1
     }
 
-    /// Whether a site keeps its distance from all that were placed.
+    /// Returns true if a site keeps its distance from all placed sites.
     fn is_apart(&mut self, corners: &Corners, gap: f64) -> bool {
         let wide = if gap > 0.0 { widened(corners, gap) } else { Some(*corners) };
         let Some(wide) = wide else { return false };
@@ -284,7 +288,7 @@ fn around(corners: &Corners) -> [DVec2; 2] {
     corners.iter().fold([first; 2], |[low, high], at| [low.min(at.metres()), high.max(at.metres())])
 }
 
-/// A rectangle with so much more (m) on every side.
+/// Returns the rectangle extended by `gap` (m) on each side.
 fn widened(corners: &Corners, gap: f64) -> Option<Corners> {
     let [a, b, c, d] = corners.map(FinePlace::metres);
     let (x, y) = ((b - a).normalize_or_zero() * gap, (d - a).normalize_or_zero() * gap);
@@ -297,16 +301,17 @@ fn sides(corners: &Corners) -> [[FinePlace; 2]; 4] {
     std::array::from_fn(|index| [corners[index], corners[(index + 1) % 4]])
 }
 
-/// Whether an edge has a place in common with what is inside of corners that are counter-clockwise and convex, or with its border.
+/// Returns true if an edge intersects a convex area with counter-clockwise corners, including its border.
 fn reaches(edge: [FinePlace; 2], corners: &Corners) -> bool {
     let outside = sides(corners).into_iter().any(|[a, b]| edge.iter().all(|end| fine_side(a, b, *end) < 0));
     let beside = |sign: i32| corners.iter().all(|corner| fine_side(edge[0], edge[1], *corner) == sign);
     !outside && !beside(1) && !beside(-1)
 }
 
-/// Whether two convex areas, counter-clockwise, have a place in common that is not on the border of both.
+/// Returns true if two convex areas, counter-clockwise, share a point that is not on the border of both.
 ///
-/// Method: if not, a side of one of them has all of the other on its outer side (separating axes), exactly.
+/// Method: separating axes. The areas do not overlap if a side of one has the whole other area on its outer side. The
+/// test is exact.
 pub(crate) fn overlap(a: &[FinePlace], b: &[FinePlace]) -> bool {
     let separates = |one: &[FinePlace], other: &[FinePlace]| {
         edges(one).any(|[from, to]| other.iter().all(|place| fine_side(from, to, *place) <= 0))

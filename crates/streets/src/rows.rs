@@ -1,4 +1,4 @@
-//! The carriageway and the median of a piece: rows of places across it, and triangles from row to row.
+//! Carriageway and median of a segment: rows of points across it, and triangles between rows.
 
 use std::f64::consts::FRAC_PI_2;
 
@@ -11,16 +11,16 @@ use crate::shape::{ArmShape, SAME, StreetShapes};
 use crate::surface::{Median, StreetSurface};
 use burgeon_geometry::Line;
 
-/// The chords of a quarter of the round end of a median.
+/// Number of chords in a quarter circle at the round end of a median.
 const NOSE: u32 = 4;
-/// How long (m) a median is at least, besides its round ends.
+/// Minimum length (m) of a median, excluding its round ends.
 const LEAST_MEDIAN: f64 = 4.0;
-/// How long (m) it is, with half of its width, where it comes from the next piece.
+/// Minimum length (m) of a median, in addition to half of its width, if it continues from the next segment.
 const LEAST_NOSE: f64 = 0.6;
-/// How far (m) from the end of a piece a median ends, at a junction where people cross the street.
+/// Distance (m) of a median from the end of a segment at a junction where pedestrians cross the street.
 pub(crate) const MEDIAN_MARGIN: f64 = 6.0;
 
-/// A piece as it lies between its junctions.
+/// Segment as rows between its junctions.
 pub(crate) struct PieceRows<'a> {
     profiles: &'a StreetProfiles,
     piece: PieceId,
@@ -30,25 +30,25 @@ pub(crate) struct PieceRows<'a> {
     rows: Vec<PieceRow>,
 }
 
-/// Places (m) across a piece, on its right and on its left.
+/// Points (m) across a segment, on its right and on its left.
 #[derive(Debug, Clone, Copy)]
 struct PieceRow {
     sides: [DVec2; 2],
-    /// Those of the median, if there is one.
+    /// Points of the median, if any.
     median: Option<[DVec2; 2]>,
     height: f64,
 }
 
-/// Where the median of a piece begins or ends.
+/// Start or end of the median of a segment.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum MedianEnd {
-    /// It goes on in the next piece.
+    /// Continues in the next segment.
     Through,
-    /// So far (m) along the way, round.
+    /// Round end at this distance (m) along the segment.
     Round(f64),
 }
 
-/// From where to where there is a median in a piece; `None` without one.
+/// Returns the start and end of the median of a segment; `None` if there is none.
 pub(crate) fn median_of(shapes: &StreetShapes<'_>, piece: PieceId) -> Option<[MedianEnd; 2]> {
     let network = shapes.network;
     let median = network.attributes(piece).median;
@@ -59,11 +59,11 @@ pub(crate) fn median_of(shapes: &StreetShapes<'_>, piece: PieceId) -> Option<[Me
     let goes_on = ends.map(|end| {
         let shape = shapes.junction(end);
         let same = |piece| (network.attributes(piece).median - median).abs() < 1e-9;
-        // Both of the pieces or none, so each has to have room for the other end.
+        // Either both segments continue the median or neither, so each must have space for the other end.
         let fits = |piece| shapes.room(piece) >= median / 2.0 + LEAST_NOSE;
         shape.is_mitred && shape.arms.iter().all(|arm| same(arm.piece) && fits(arm.piece))
     });
-    // One that comes from the next piece ends where there is room for its end, however near the junction that is.
+    // A median that continues from the next segment ends where its round end fits, even close to the junction.
     let room = match goes_on {
         [false, false] => f64::INFINITY,
         _ => shapes.room(piece) - median / 2.0 - LEAST_NOSE / 2.0,
@@ -82,7 +82,8 @@ pub(crate) fn median_of(shapes: &StreetShapes<'_>, piece: PieceId) -> Option<[Me
     }))
 }
 
-/// Where along a piece (m) its rows lie, besides its ends, and from where to where its median has its full width.
+/// Returns the positions (m) of rows along a segment, excluding its ends, and the range in which its median has full
+/// width.
 pub(crate) fn alongs_of(
     shapes: &StreetShapes<'_>,
     profiles: &StreetProfiles,
@@ -91,7 +92,7 @@ pub(crate) fn alongs_of(
     let network = shapes.network;
     let (length, aside) = (network.length(piece), network.attributes(piece).median / 2.0);
     let mut alongs: Vec<f64> = profiles.stations(piece).iter().map(|[along, _]| *along).collect();
-    // Where a median has its full width.
+    // Range in which the median has full width.
     let mut stretch = [f64::INFINITY, f64::NEG_INFINITY];
     if let Some(ends) = median_of(shapes, piece) {
         stretch = [f64::NEG_INFINITY, f64::INFINITY];
@@ -99,7 +100,7 @@ pub(crate) fn alongs_of(
             if let MedianEnd::Round(tip) = end {
                 stretch[side] = if side == 0 { tip + aside } else { tip - aside };
                 alongs.push(stretch[side]);
-                // No station lies within the round end.
+                // No row is within the round end.
                 alongs.retain(|along| {
                     let into = if side == 0 { along - tip } else { tip - along };
                     *along == stretch[side] || !(-SAME..aside + SAME).contains(&into)
@@ -152,12 +153,12 @@ impl<'a> PieceRows<'a> {
         Self { profiles, piece, depth: attributes.depth, start, way, rows }
     }
 
-    /// A surface of it without any points.
+    /// Returns an empty surface for the segment.
     fn surface(&self) -> StreetSurface {
         StreetSurface { piece: Some(self.piece), depth: self.depth, ..StreetSurface::default() }
     }
 
-    /// Where vehicles are.
+    /// Returns the carriageway.
     pub(crate) fn carriageway(&self) -> StreetSurface {
         let mut into = self.surface();
         for pair in self.rows.windows(2) {
@@ -199,7 +200,7 @@ impl<'a> PieceRows<'a> {
         into
     }
 
-    /// The strip in the middle.
+    /// Returns the median.
     pub(crate) fn median(&self) -> Option<Median> {
         let mut median = Median { top: self.surface(), kerbs: vec![] };
         let mut lines = [Vec::new(), Vec::new()];
@@ -240,7 +241,8 @@ impl<'a> PieceRows<'a> {
         if median.top.triangles.is_empty() {
             return None;
         }
-        // Around it counter-clockwise: along its right, around the far end, back along its left, around the near end.
+        // Counter-clockwise around the median: along its right side, around the far end, back along its left side,
+        // around the near end.
         let [right, mut left] = lines;
         left.reverse();
         let [near, far] = noses;
@@ -257,7 +259,7 @@ impl<'a> PieceRows<'a> {
         } else {
             ring.extend(near);
             match open.first_mut() {
-                // It began in the middle of what the near end leads on to.
+                // The ring began in the middle of the line that the near end continues.
                 Some(first) => {
                     ring.append(first);
                     *first = ring;
@@ -277,8 +279,8 @@ impl<'a> PieceRows<'a> {
         Some(median)
     }
 
-    /// The round end of a median whose full width two places are the ends of, from the right to the left; `ahead` tells to
-    /// which side it reaches.
+    /// Returns the round end of a median, from right to left; the two points bound its full width. The sign of `ahead`
+    /// gives the direction in which the end extends.
     fn nose(&self, [right, left]: [DVec2; 2], ahead: f64, into: &mut StreetSurface) -> Vec<u32> {
         let (middle, radius) = ((right + left) / 2.0, right.distance(left) / 2.0);
         let count = 2 * NOSE;
@@ -302,7 +304,7 @@ impl<'a> PieceRows<'a> {
 
 fn add(into: &mut StreetSurface, at: DVec2, height: f64) -> u32 {
     let at = at.extend(height);
-    // Rows share their places with the row before.
+    // A row shares its points with the previous row.
     let from = into.points.len().saturating_sub(2 * (2 * NOSE as usize + 1) + 8);
     if let Some(known) = into.points[from..].iter().position(|known| *known == at) {
         return u32::try_from(from + known).unwrap_or(u32::MAX);
@@ -312,7 +314,7 @@ fn add(into: &mut StreetSurface, at: DVec2, height: f64) -> u32 {
 }
 
 fn quad(into: &mut StreetSurface, [a, b, c, d]: [u32; 4]) {
-    // Beside a bend a side may be a single place.
+    // Next to a bend, a side may collapse to a single point.
     let triangles = [[a, b, c], [a, c, d]];
     into.triangles.extend(triangles.into_iter().filter(|[a, b, c]| a != b && b != c && c != a));
 }

@@ -1,4 +1,4 @@
-//! What streets look like at their junctions, found out once for all surfaces: corners, and where each street begins.
+//! Shapes of streets at junctions, computed once for all surfaces: corners, and the start of each street.
 
 use glam::DVec2;
 use smallvec::SmallVec;
@@ -8,66 +8,66 @@ use crate::grid::foot;
 use crate::merged::goes_on;
 use crate::network::{JunctionId, PieceId, StreetNetwork};
 
-/// Places (m) that are nearer are one: what lies between them would be a sliver.
+/// Distance (m) below which points are merged, because the area between them would be a sliver.
 pub(crate) const SAME: f64 = 0.02;
-/// Corners of a smaller radius (m) are sharp.
+/// Radius (m) below which corners are sharp.
 const LEAST_RADIUS: f64 = 0.1;
-/// How far (m) the circle around a dead end stays from what is beside it.
+/// Distance (m) between the circle around a dead end and adjacent streets.
 const BESIDE_CIRCLE: f64 = 0.5;
 
-/// All junctions of a network, by number.
+/// Shapes of all junctions of a network, by index.
 pub(crate) struct StreetShapes<'a> {
     pub(crate) network: &'a StreetNetwork,
     junctions: Vec<JunctionShape>,
 }
 
-/// A junction.
+/// Shape of a junction.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct JunctionShape {
     at: DVec2,
-    /// The streets that it joins, counter-clockwise.
+    /// Streets at the junction, counter-clockwise.
     pub(crate) arms: SmallVec<[ArmShape; 4]>,
-    /// Whether a street only turns a little here, or ends square: there is no surface between its pieces or behind it.
+    /// Set if a street only turns slightly or has a square end: there is no surface between its segments or beyond it.
     pub(crate) is_mitred: bool,
 }
 
-/// A street at a junction.
+/// Street at a junction.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct ArmShape {
     pub(crate) piece: PieceId,
     pub(crate) arm: Arm,
-    /// What lies between it and the next one counter-clockwise.
+    /// Corner between this street and the next one counter-clockwise.
     pub(crate) corner: Corner,
-    /// How far (m) from the junction it begins, behind its corners.
+    /// Distance (m) from the junction at which the street begins, beyond its corners.
     pub(crate) reach: f64,
-    /// How much farther (m) it begins for each metre to its left.
+    /// Additional distance (m) of the start per metre to the left.
     skew: f64,
 }
 
 impl ArmShape {
-    /// Behind how far (m) from the junction all of it begins.
+    /// Returns the distance (m) from the junction at which the street has its full width.
     pub(crate) fn clear(&self) -> f64 {
         if self.skew == 0.0 { self.reach } else { self.reach + self.skew.abs() * self.arm.half + BEHIND_SKEW }
     }
 }
 
-/// How far (m) behind a skew end all of a piece counts as begun.
+/// Distance (m) beyond a skew end at which a segment counts as having its full width.
 const BEHIND_SKEW: f64 = 0.05;
-/// How much of what room a piece has each of its ends may take.
+/// Maximum fraction of the free length of a segment that each of its ends may take.
 const SHARE: f64 = 0.45;
-/// How far (m) before the end of a skew piece a row may lie.
+/// Maximum distance (m) of a row before the end of a skew segment.
 const BEFORE_CLEAR: f64 = 1e-6;
 
 impl ArmShape {
-    /// From how far (m) from the junction on it may have rows across, besides that of its end.
+    /// Returns the minimum distance (m) from the junction for rows across the street, excluding the row at its end.
     pub(crate) fn first_row(&self) -> f64 {
-        // A skew end is not yet the first of them.
+        // A skew end is not perpendicular, so it does not count as the first row.
         if self.skew == 0.0 { self.reach + SAME } else { self.clear() - BEFORE_CLEAR }
     }
 }
 
 impl<'a> StreetShapes<'a> {
-    /// The shapes of `network`; dead ends get a circle of the radius `turning` (m) as far as there is room.
+    /// Computes the shapes of `network`; dead ends get a circle of the radius `turning` (m) as far as there is space.
     pub(crate) fn new(network: &'a StreetNetwork, turning: f64) -> Self {
         #[allow(clippy::cast_possible_truncation, reason = "pieces are limited far below")]
         let count = network.junctions.len() as JunctionId;
@@ -85,8 +85,8 @@ impl<'a> StreetShapes<'a> {
         shapes
     }
 
-    /// Changes some of the junctions by how much more (m) they may take of their pieces than they do: less than nothing
-    /// where both ends of one need more than there is.
+    /// Changes the selected junctions. `changed` receives the additional length (m) that they may take of each segment;
+    /// it is negative if both ends of a segment need more than its length.
     fn change(
         &mut self,
         which: impl Fn(&JunctionShape) -> bool,
@@ -110,26 +110,26 @@ impl<'a> StreetShapes<'a> {
         &self.junctions[junction as usize]
     }
 
-    /// A piece as it leaves a junction.
+    /// Returns a segment as it leaves a junction.
     pub(crate) fn arm(&self, junction: JunctionId, piece: PieceId) -> Option<&ArmShape> {
         self.junction(junction).arms.iter().find(|arm| arm.piece == piece)
     }
 
-    /// How long (m) a piece is with all of its width; 0 where its ends are one.
+    /// Returns the length (m) of a segment with full width; 0 if its ends coincide.
     pub(crate) fn room(&self, piece: PieceId) -> f64 {
         let room = self.between(piece);
         if room < SAME { 0.0 } else { room }
     }
 
-    /// From one end of a piece to the other (m); less than nothing where one is beyond the other.
+    /// Returns the distance (m) between the ends of a segment; negative if they overlap.
     fn between(&self, piece: PieceId) -> f64 {
         let clear = |end| self.arm(end, piece).map_or(0.0, ArmShape::clear);
         self.network.length(piece) - self.network.ends(piece).map(clear).iter().sum::<f64>()
     }
 
-    /// Where a line of a piece ends at a junction (m), `aside` (m) to the left of its middle as it leaves.
+    /// Returns the end of a segment's line at a junction (m), `aside` (m) to the left of the centreline as it leaves.
     pub(crate) fn end(&self, junction: JunctionId, piece: PieceId, aside: f64) -> DVec2 {
-        // Where the corners at both of its ends take all of a piece, these are one.
+        // If the corners at both ends take the whole segment, the ends coincide.
         let ends = self.network.ends(piece);
         let aside = if ends[0] == junction { aside } else { -aside };
         let both =
@@ -144,15 +144,15 @@ impl<'a> StreetShapes<'a> {
         }
     }
 
-    /// The two lines of the corner behind an arm of a junction, from that to the next one counter-clockwise: the edge and the
-    /// kerb, with as many places (m).
+    /// Returns the edge and the kerb of the corner between an arm of a junction and the next one counter-clockwise,
+    /// with the same number of points (m).
     ///
-    /// Places that are nearly one are the same, to the last digit, and those at the ends of streets are these ends.
+    /// Points that are almost equal are made exactly equal, and points at the ends of streets are exactly these ends.
     pub(crate) fn corner(&self, junction: JunctionId, index: usize) -> [Vec<DVec2>; 2] {
         let shape = self.junction(junction);
         let (arm, next) = (&shape.arms[index], &shape.arms[(index + 1) % shape.arms.len()]);
         let [mut edge, mut kerb] = LINES.map(|line| arm.corner.points(line));
-        // Where a street has no sidewalk, its lines are one, and so are their places.
+        // A street without a sidewalk has a single line, so the points of both lines coincide.
         let farther = |arm: Arm, a: DVec2, b: DVec2| if arm.way.dot(a) >= arm.way.dot(b) { a } else { b };
         if arm.arm.walk < SAME {
             let begin = farther(arm.arm, edge[0], kerb[0]);
@@ -177,7 +177,7 @@ impl<'a> StreetShapes<'a> {
             merge(self.end(junction, arm.piece, arm.arm.aside(line)), points.iter_mut());
             merge(self.end(junction, next.piece, -next.arm.aside(line)), points.iter_mut().rev());
         }
-        // A place of one line may have become another one than that of the other.
+        // Merging may have moved a point of one line away from the same point of the other.
         for index in 0..edge.len() {
             let (a, b) = (edge[index], kerb[index]);
             if a != b && is_same(a, b) {
@@ -188,7 +188,7 @@ impl<'a> StreetShapes<'a> {
     }
 }
 
-/// Makes one of the places that are nearly the same as the one before, of which `first` is the first.
+/// Merges each point with the previous one if they are almost equal; `first` precedes the points.
 fn merge<'a>(first: DVec2, points: impl Iterator<Item = &'a mut DVec2>) {
     let mut before = first;
     for point in points {
@@ -199,7 +199,8 @@ fn merge<'a>(first: DVec2, points: impl Iterator<Item = &'a mut DVec2>) {
     }
 }
 
-/// The greatest radius (m), up to `turning`, of a circle around a dead end that meets neither other streets nor their circles.
+/// Returns the maximum radius (m), up to `turning`, of a circle around a dead end that touches neither other streets
+/// nor their circles.
 pub(crate) fn room_around(network: &StreetNetwork, dead_end: JunctionId, turning: f64) -> f64 {
     let at = network.at(dead_end);
     let streets = network.pieces_near([at; 2], turning + network.widest() / 2.0);
@@ -218,7 +219,7 @@ impl JunctionShape {
         let at = network.at(junction);
         let arms = network.corner_arms(junction);
         if let [(piece, arm)] = arms[..] {
-            // The circle leaves the other end of the piece its corners, and its own circle.
+            // The circle leaves space for the corners at the other end of the segment, or for the circle there.
             let far = network.across(piece, junction);
             let room = match network.junctions[far as usize].degree() {
                 1 => network.length(piece) * 0.45,
@@ -249,8 +250,8 @@ impl JunctionShape {
         Self { at, arms: shapes.collect(), is_mitred }
     }
 
-    /// A junction of a network with existing streets: each piece begins where it is free of others, without a corner of its
-    /// own.
+    /// Computes a junction of a network with existing streets: each segment begins beyond the overlap with others,
+    /// without its own corner.
     fn beside(network: &StreetNetwork, junction: JunctionId, clear: &[[f64; 2]]) -> Self {
         let at = network.at(junction);
         let arms = network.corner_arms(junction);
@@ -275,7 +276,7 @@ impl JunctionShape {
         Self { at, arms: shapes.collect(), is_mitred }
     }
 
-    /// The same with shorter tapers where there is less than no room for `more` (m) of its pieces.
+    /// Returns the shape with shorter tapers where `more` (m) is negative.
     fn shortened(&self, more: &[f64]) -> Self {
         let mut shorter = self.clone();
         let count = self.arms.len();
@@ -290,11 +291,12 @@ impl JunctionShape {
         shorter
     }
 
-    /// The same where a street turns, with up to `more` (m) of its two pieces: its kerbs go over from one width to the other.
+    /// Returns the shape of a turning street, with up to `more` (m) of both segments for the transition of its kerbs
+    /// between widths.
     fn bent(&self, more: &[f64]) -> Self {
         let mut reaches = [0, 1].map(|arm| self.arms[arm].reach);
         for arm in 0..2 {
-            // The second corner leads from the second arm to the first.
+            // The second corner is between the second arm and the first.
             if let Some(mut taper) = self.arms[arm].corner.taper() {
                 taper.rotate_left(arm);
                 reaches =
@@ -309,13 +311,13 @@ impl JunctionShape {
         bent
     }
 
-    /// Whether more than two streets meet, of which two have no other on the outside of a bend and are of different widths.
+    /// Returns true if more than two streets meet, and two of them with different widths enclose the outside of a bend.
     fn has_uneven_bend(&self) -> bool {
         self.arms.len() > 2 && self.arms.iter().any(|arm| arm.corner.is_uneven_bend())
     }
 
-    /// The same where more than two streets meet, with up to `more` (m) of their pieces: around the outside of two of them the
-    /// kerb goes over from one width to the other as it does where a street turns.
+    /// Returns the shape of a junction of more than two streets, with up to `more` (m) of their segments for kerb
+    /// transitions around the outside of bends.
     fn curved(&self, more: &[f64]) -> Self {
         let mut curved = self.clone();
         let bends = || (0..self.arms.len()).filter(|index| self.arms[*index].corner.is_uneven_bend());
@@ -333,12 +335,12 @@ impl JunctionShape {
         curved
     }
 
-    /// Where a line of a piece ends (m), and whether another piece begins there too.
+    /// Returns the end of a segment's line (m), and true if another segment begins there too.
     fn end(&self, piece: PieceId, aside: f64) -> (DVec2, bool) {
         let place = |arm: &ArmShape, aside: f64| {
             self.at + arm.arm.way * (arm.reach + aside * arm.skew) + arm.arm.way.perp() * aside
         };
-        // Both pieces of a mitre ask the first, so that they agree to the last digit.
+        // Both segments of a mitre use the first one's computation, so their ends are exactly equal.
         if let [first, second] = &self.arms[..]
             && self.is_mitred
         {
@@ -348,7 +350,7 @@ impl JunctionShape {
             return (self.at, false);
         };
         let at = place(&self.arms[index], aside);
-        // Where a corner takes nothing, two streets begin at one place, which is that of the first.
+        // If a corner takes no length, two streets begin at one point, which is taken from the first.
         let (count, is_first) = (self.arms.len(), aside > 0.0);
         let beside = &self.arms[(index + if is_first { 1 } else { count - 1 }) % count];
         let of_beside = LINES.map(|line| place(beside, beside.arm.aside(line) * -aside.signum()));
@@ -359,7 +361,7 @@ impl JunctionShape {
     }
 }
 
-/// Takes away points that repeat the one before, also across the end.
+/// Removes points that repeat the previous one, including across the end of the ring.
 pub(crate) fn without_repeats<T: Copy>(ring: &mut Vec<T>, is_same: impl Fn(T, T) -> bool) {
     ring.dedup_by(|a, b| is_same(*a, *b));
     while ring.len() > 1 && is_same(ring[0], ring[ring.len() - 1]) {
@@ -367,7 +369,7 @@ pub(crate) fn without_repeats<T: Copy>(ring: &mut Vec<T>, is_same: impl Fn(T, T)
     }
 }
 
-/// Whether two places are one.
+/// Returns true if two points are almost equal.
 pub(crate) fn is_same(a: DVec2, b: DVec2) -> bool {
     a.distance(b) < SAME
 }

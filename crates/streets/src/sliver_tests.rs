@@ -1,4 +1,4 @@
-//! Surfaces of networks at random, of all that constraints allow: no slivers, and nothing open between them.
+//! Tests of the surfaces of random networks with all constraints: no slivers, and no gaps between surfaces.
 
 use glam::{DVec2, DVec3};
 
@@ -7,13 +7,13 @@ use crate::fit_tests::hills;
 use crate::surface_tests::check_surfaces;
 use crate::tests::TestNumbers;
 
-/// What a drawn face has at least: its area (m²), its height over its longest edge (m), and its shortest edge (m).
+/// Minimum size of a drawn face: area (m²), height over the longest edge (m), and shortest edge (m).
 const LEAST: [f64; 3] = [1e-8, 1e-3, 1e-3];
 
-/// A network of stars, of which the arms turn, change their widths and meet others.
+/// Returns a network of stars whose arms turn, change their widths, and meet others.
 ///
-/// Angles are nearly those of a grid as often as not: streets that are meant to be straight or square are so only as
-/// far as the grid goes, and their corners end nearly at one place.
+/// About half of the angles are nearly those of a grid: streets meant to be straight or perpendicular are so only up to
+/// the grid resolution, and their corners end at almost the same point.
 fn stars(seed: u64) -> StreetNetwork {
     let mut random = TestNumbers(seed.wrapping_mul(0x9E37_79B9_7F4A_7C15) + 11);
     let mut pick = |of: &[f64]| of[random.below(of.len() as f64) as usize];
@@ -34,7 +34,7 @@ fn stars(seed: u64) -> StreetNetwork {
     });
     let mut network = StreetNetwork::new(constraints, Obstacles::default()).expect("constraints");
     let near = |random: &mut TestNumbers| {
-        // From nothing up to some degrees, evenly by how small it is.
+        // From zero to a few degrees, uniform in the logarithm.
         if random.below(1.0) < 0.2 {
             0.0
         } else {
@@ -85,7 +85,7 @@ fn stars(seed: u64) -> StreetNetwork {
     network
 }
 
-/// The faces of surfaces as they are drawn (m): those of carriageways and medians, and of sidewalks.
+/// Returns the drawn faces of surfaces (m): carriageways, medians, and sidewalks.
 fn faces(surfaces: &StreetSurfaces) -> Vec<(&'static str, [DVec3; 3])> {
     let mut faces = Vec::new();
     let tops = surfaces.medians.iter().map(|median| ("median", &median.top));
@@ -113,7 +113,7 @@ fn faces(surfaces: &StreetSurfaces) -> Vec<(&'static str, [DVec3; 3])> {
     faces
 }
 
-/// The area (m²) of a face, its height over its longest edge (m) and its shortest edge (m).
+/// Returns the area (m²) of a face, its height over its longest edge (m), and its shortest edge (m).
 fn figures([a, b, c]: [DVec3; 3]) -> [f64; 3] {
     let edges = [a.distance(b), b.distance(c), c.distance(a)];
     let area = (b - a).cross(c - a).length() / 2.0;

@@ -1,4 +1,4 @@
-//! Bridges: where a street is carried over what lies below it.
+//! Bridges that carry a street over an obstacle.
 
 use glam::{DVec2, DVec3};
 
@@ -8,31 +8,31 @@ use crate::rows::alongs_of;
 use crate::shape::{ArmShape, StreetShapes};
 use crate::surface::SurfaceOptions;
 
-/// How far apart (m) what carries a bridge stands at most.
+/// Maximum distance (m) between piers of a bridge.
 const BAY: f64 = 24.0;
-/// How closely (m) the shore is looked for.
+/// Sampling distance (m) for finding the shore.
 const LOOK: f64 = 0.5;
-/// How far (m) before the shore a bridge begins.
+/// Distance (m) before the shore at which a bridge begins.
 const LANDING: f64 = 3.0;
 
-/// A street that leads over an obstacle.
+/// Street that crosses an obstacle on a bridge.
 #[derive(Debug, Clone, PartialEq)]
 pub struct StreetSpan {
-    /// The piece that it is.
+    /// Street segment.
     pub piece: PieceId,
-    /// The direction of its way, of length 1.
+    /// Direction (unit vector).
     pub way: DVec2,
-    /// Its outer edges (m) on the right and on the left, from a little before what it leads over to a little behind that, at
-    /// the height of the street.
+    /// Outer edges (m) on the right and on the left, from a little before the obstacle to a little beyond it, at the
+    /// height of the street.
     pub sides: [Vec<DVec3>; 2],
-    /// Where it comes to what it leads over, and where it leaves that: the middles (m), at the height of the street.
+    /// Points of the centreline (m) at both shores of the obstacle, at the height of the street.
     pub shores: Vec<DVec3>,
-    /// The middles (m) of what carries it between, at the height of the street.
+    /// Centres (m) of the piers between the shores, at the height of the street.
     pub piers: Vec<DVec3>,
 }
 
 impl StreetNetwork {
-    /// The bridges of its streets on the ground; those over other streets are decks of its surfaces.
+    /// Returns the bridges of streets on the ground; bridges over other streets are decks of the surfaces.
     pub fn spans(&self, options: SurfaceOptions, profiles: &StreetProfiles) -> Vec<StreetSpan> {
         let shapes = StreetShapes::new(self, options.turning);
         let bridges = self.pieces().filter(|(_, piece)| piece.is_bridge && piece.attributes.level == 0);
@@ -47,7 +47,7 @@ impl StreetNetwork {
         let over = self.over(piece);
         let carried = carried(over, length);
         let clear = ends.map(|end| shapes.arm(end, piece).map_or(0.0, ArmShape::clear));
-        // Where there is little land between, it begins where the junction ends.
+        // If there is little land in between, the bridge begins at the end of the junction.
         let [from, to] = [0, 1].map(|side| {
             let along = if side == 0 { carried[0] } else { length - carried[1] };
             (along > clear[side] + LANDING).then_some(carried[side])
@@ -83,12 +83,12 @@ impl StreetNetwork {
         StreetSpan { piece, way, sides, shores, piers }
     }
 
-    /// From where to where (m) along it a piece leads over obstacles, as far as it does.
+    /// Returns the range (m) along a segment that is over obstacles, if any.
     fn over(&self, piece: PieceId) -> Option<[f64; 2]> {
         let [start, stop] = self.line(piece);
         let (way, length, half) =
             ((stop - start).normalize_or_zero(), start.distance(stop), self.half(piece));
-        // Over it where any of the three lines along the street is.
+        // A position is over an obstacle if any of three lines along the street is.
         let is_over = |along: &f64| {
             let at = |aside: f64| start + way * *along + way.perp() * aside;
             [-half, 0.0, half].into_iter().any(|aside| self.obstacles.at(at(aside)).is_some())
@@ -100,14 +100,14 @@ impl StreetNetwork {
         Some([first, over.next_back().unwrap_or(first)])
     }
 
-    /// From where to where (m) along it a bridge carries a piece; `None` of one that lies on the ground.
+    /// Returns the range (m) along a segment that a bridge carries; `None` if it is not a bridge.
     pub(crate) fn carried(&self, piece: PieceId) -> Option<[f64; 2]> {
         self.is_bridge(piece).then(|| carried(self.over(piece), self.length(piece)))
     }
 }
 
-/// From where to where (m) along a street of a length (m) it is carried, of which so much leads over obstacles: all of it if
-/// what it leads over is not known.
+/// Returns the range (m) that a bridge carries of a street of a length (m), from the range over obstacles; the whole
+/// street if that range is unknown.
 fn carried(over: Option<[f64; 2]>, length: f64) -> [f64; 2] {
     over.map_or([0.0, length], |[first, last]| [(first - LANDING).max(0.0), (last + LANDING).min(length)])
 }

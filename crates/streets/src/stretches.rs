@@ -1,32 +1,32 @@
-//! Streets from one junction to the next, over the turns between.
+//! Streets between junctions, including the turns in between.
 
 use glam::DVec2;
 
 use crate::faces::Course;
 use crate::network::{JunctionId, PieceId, StreetAttributes, StreetNetwork};
 
-/// A street from one junction, or end, to the next, which is of one kind all along.
+/// Street between two junctions or ends, with constant attributes.
 #[derive(Debug, Clone, PartialEq)]
 pub struct StreetStretch {
-    /// What it leads from and to; the same where it is a ring.
+    /// Start and end junctions; equal for a ring.
     pub junctions: [JunctionId; 2],
-    /// Its line (m): the places of both junctions, and of its turns between.
+    /// Line (m): the positions of both junctions, and of the turns in between.
     pub line: Vec<DVec2>,
-    /// What it is.
+    /// Attributes of the street.
     pub attributes: StreetAttributes,
-    /// Whether it leads over an obstacle.
+    /// Marks a bridge over an obstacle.
     pub is_bridge: bool,
 }
 
 impl StreetStretch {
-    /// Its length (m).
+    /// Returns the length (m).
     pub fn length(&self) -> f64 {
         self.line.windows(2).map(|pair| pair[0].distance(pair[1])).sum()
     }
 }
 
 impl StreetNetwork {
-    /// Its streets from junction to junction, each once. A junction of two pieces of one kind is a turn.
+    /// Returns the streets between junctions, each once. A junction of two segments with equal attributes is a turn.
     pub fn stretches(&self) -> Vec<StreetStretch> {
         let kind = |piece: PieceId| (self.attributes(piece), self.is_bridge(piece));
         let ways = self.ways_between(|junction| {
@@ -44,7 +44,8 @@ impl StreetNetwork {
         ways.into_iter().filter_map(stretch).collect()
     }
 
-    /// The ways from one junction that is an `end` to the next, each once; then the rings without any.
+    /// Returns the paths between junctions for which `is_end` returns true, each once, followed by the rings without
+    /// such a junction.
     pub(crate) fn ways_between(&self, is_end: impl Fn(JunctionId) -> bool) -> Vec<Vec<Course>> {
         let mut ways = Vec::new();
         let mut seen = vec![false; self.pieces.len()];

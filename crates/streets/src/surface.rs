@@ -1,7 +1,7 @@
-//! The surfaces of streets: carriageways, sidewalks with kerbs, medians, and the blocks between them.
+//! Surfaces of streets: carriageways, sidewalks with kerbs, medians, and the blocks between them.
 //!
-//! All of them share their corners, so nothing overlaps and nothing is left open: a sidewalk is the band between two
-//! lines with as many points, of which the inner one is the kerb of the carriageway and the outer one bounds the block.
+//! All surfaces share their corners, so there are no overlaps and no gaps. A sidewalk is the band between two lines
+//! with the same number of points: the inner line is the kerb of the carriageway, and the outer line bounds the block.
 
 use glam::{DVec2, DVec3};
 
@@ -14,91 +14,92 @@ use crate::shape::{StreetShapes, is_same, without_repeats};
 use burgeon_geometry::planar::edges;
 use burgeon_geometry::{Line, Polygon, Rings};
 
-/// How streets are made of their lines.
+/// Options for the surfaces of streets.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct SurfaceOptions {
-    /// The radius (m) of the circle to turn in at a dead end; none if it is less than half of the street.
+    /// Radius (m) of the turning circle at a dead end; no circle if it is less than half of the street's width.
     pub turning: f64,
 }
 
-/// A band along the streets around a face, or around the outside.
+/// Band along the streets around a face, or around the outside of the network.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Sidewalk {
-    /// The edge of the carriageway (m), with the face on its left.
+    /// Edge of the carriageway (m), with the face on its left.
     pub kerb: Vec<DVec3>,
-    /// The edge of the block (m): a point for each of the kerb.
+    /// Edge of the block (m), with one point for each point of the kerb.
     pub edge: Vec<DVec3>,
-    /// Whether it goes around an area that streets enclose, counter-clockwise.
+    /// Set if the sidewalk surrounds an area enclosed by streets, counter-clockwise.
     pub is_around_block: bool,
 }
 
-/// A surface out of triangles: the carriageway of a piece between its junctions or that of a junction, or a median.
+/// Triangulated surface: the carriageway of a segment between its junctions, the carriageway of a junction, or a
+/// median.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct StreetSurface {
-    /// Its corners (m).
+    /// Vertices (m).
     pub points: Vec<DVec3>,
-    /// Three of them each, counter-clockwise.
+    /// Triangles of vertex indices, counter-clockwise.
     pub triangles: Vec<[u32; 3]>,
-    /// The piece that it is of; none of a junction.
+    /// Street segment; `None` for a junction.
     pub piece: Option<PieceId>,
-    /// How many times the way of its street branched off; of a junction, the least of its streets.
+    /// Depth of the street in the hierarchy; for a junction, the minimum of its streets.
     pub depth: u32,
 }
 
-/// The raised strip in the middle of a piece.
+/// Raised median of a segment.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Median {
-    /// Its top, at the height of the street.
+    /// Top surface, at the height of the street.
     pub top: StreetSurface,
-    /// Its kerb (m), with the median on its left; one that goes on in the next piece is open there.
+    /// Kerb (m), with the median on its left; open where the median continues in the next segment.
     pub kerbs: Vec<Line<DVec3>>,
 }
 
 /// All surfaces of a network.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct StreetSurfaces {
-    /// Where vehicles are.
+    /// Carriageways.
     pub carriageways: Vec<StreetSurface>,
-    /// Where people walk.
+    /// Sidewalks.
     pub sidewalks: Vec<Sidewalk>,
-    /// Between the two directions.
+    /// Medians between the two directions.
     pub medians: Vec<Median>,
-    /// What streets that lie in one another have in place of [sidewalks](Self::sidewalks).
+    /// Surfaces that replace the [sidewalks](Self::sidewalks) of overlapping streets.
     pub merged: MergedSurfaces,
 }
 
-/// The sidewalks of a network with existing streets, and its bridges over other streets.
+/// Sidewalks of a network with existing streets, and its bridges over other streets.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct MergedSurfaces {
-    /// Where people walk.
+    /// Sidewalks.
     pub walks: Vec<StreetSurface>,
-    /// Edges (m) of carriageways, which are on their right.
+    /// Edges (m) of carriageways, with the carriageway on the right.
     pub kerbs: Vec<[DVec3; 2]>,
-    /// Edges (m) of streets on the ground, which are on their right.
+    /// Edges (m) of streets on the ground, with the street on the right.
     pub edges: Vec<[DVec3; 2]>,
-    /// What carries streets over others.
+    /// Decks that carry streets over others.
     pub decks: Vec<StreetDeck>,
 }
 
-/// What carries the streets of a level over those of lower ones.
+/// Deck that carries the streets of a level over those of lower levels.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct StreetDeck {
-    /// All that it carries, carriageways and sidewalks.
+    /// Top surface: carriageways and sidewalks.
     pub surface: StreetSurface,
-    /// Its edges (m), with the deck on their right, and whether a railing stands there: none does where it ends.
+    /// Edges (m), with the deck on their right, and true if the edge has a railing; there is none where the deck ends.
     pub sides: Vec<([DVec3; 2], bool)>,
-    /// Where piers stand below it (m), at the height of the street, with the direction of the street there.
+    /// Positions of piers (m) at the height of the street, with the direction of the street.
     pub piers: Vec<(DVec3, DVec2)>,
 }
 
 impl StreetNetwork {
-    /// The surfaces of its streets, at the heights of `profiles`.
+    /// Returns the surfaces of the streets, at the heights of `profiles`.
     pub fn surfaces(&self, options: SurfaceOptions, profiles: &StreetProfiles) -> StreetSurfaces {
         let shapes = StreetShapes::new(self, options.turning);
         let mut surfaces = StreetSurfaces::default();
         for (piece, known) in self.pieces().filter(|(_, piece)| piece.attributes.level >= 0) {
             let rows = PieceRows::new(&shapes, profiles, piece);
-            // The medians of merged streets lie on the carriageway.
+            // The medians of merged streets are on top of the carriageway.
             surfaces.medians.extend(rows.median());
             if !self.has_existing() {
                 surfaces.carriageways.push(rows.carriageway());
@@ -121,7 +122,7 @@ impl StreetNetwork {
         surfaces
     }
 
-    /// The blocks: for each face its rings (m), the outer one counter-clockwise first, inside of the sidewalks.
+    /// Returns the blocks: for each face its rings (m) inside the sidewalks, the outer one first, counter-clockwise.
     ///
     /// ```
     /// use burgeon_geometry::Polygon;
@@ -143,7 +144,7 @@ impl StreetNetwork {
         self.blocks_at(options, &StreetProfiles::default()).iter().map(Rings::flat).collect()
     }
 
-    /// The same, at the heights of `profiles`.
+    /// Returns the blocks at the heights of `profiles`.
     pub fn blocks_at(&self, options: SurfaceOptions, profiles: &StreetProfiles) -> Vec<Rings> {
         if let Some(merged) = self.merged(self.merge_options(options, profiles)) {
             return self.merged_blocks(&merged, profiles);
@@ -162,21 +163,21 @@ impl StreetNetwork {
     }
 }
 
-/// What part of the ground a piece or a junction lies on, or a part of a piece before or behind its bridge.
+/// Ground area below a segment, below a junction, or below the part of a segment before or after its bridge.
 #[derive(Debug, Clone, PartialEq)]
 pub struct StreetFooting {
-    /// The middle of a piece (m), or the outline of a junction.
+    /// Centreline of a segment (m), or outline of a junction.
     pub line: Vec<DVec3>,
-    /// The width (m) of a piece; 0 of a junction.
+    /// Width (m) of a segment; 0 for a junction.
     pub width: f64,
-    /// The piece that it is of; none of a junction.
+    /// Street segment; `None` for a junction.
     pub piece: Option<PieceId>,
-    /// Whether a bridge carries the street over it.
+    /// Set if a bridge carries the street over this area.
     pub is_below: bool,
 }
 
 impl StreetNetwork {
-    /// What its streets lie on, their sidewalks included.
+    /// Returns the footings of the streets, including their sidewalks.
     pub fn footings(&self, options: SurfaceOptions, profiles: &StreetProfiles) -> Vec<StreetFooting> {
         let shapes = StreetShapes::new(self, options.turning);
         let mut footings = Vec::new();
@@ -189,7 +190,7 @@ impl StreetNetwork {
             line.extend(between.map(|[along, height]| (*along, (start + way * *along).extend(*height))));
             line.push((length, stop.extend(last)));
             line.dedup_by(|a, b| is_same(a.1.truncate(), b.1.truncate()));
-            // The ground before a bridge ends as round as the street is wide.
+            // The footing before a bridge ends with a semicircle of the street's width.
             let half = known.attributes.width / 2.0;
             let carried = self
                 .carried(piece)
@@ -232,10 +233,10 @@ impl StreetNetwork {
     }
 }
 
-/// Parts of pieces that are shorter (m) have no footing of their own.
+/// Minimum length (m) of a part of a segment with its own footing.
 const LEAST_FOOTING: f64 = 0.1;
 
-/// The line around a junction (m), counter-clockwise.
+/// Returns the line around a junction (m), counter-clockwise.
 pub(crate) fn outline(shapes: &StreetShapes<'_>, junction: JunctionId, line: StreetLine) -> Vec<DVec2> {
     let mut outline = Vec::new();
     for (index, arm) in shapes.junction(junction).arms.iter().enumerate() {
@@ -248,7 +249,7 @@ pub(crate) fn outline(shapes: &StreetShapes<'_>, junction: JunctionId, line: Str
     outline
 }
 
-/// What lies between the ends of the streets at a junction: triangles around its middle.
+/// Returns the surface between the ends of the streets at a junction.
 fn junction_surface(
     shapes: &StreetShapes<'_>,
     profiles: &StreetProfiles,
@@ -260,7 +261,7 @@ fn junction_surface(
     }
     let outline = outline(shapes, junction, StreetLine::Kerb);
     let middle = match &shape.arms[..] {
-        // The end of a street is half a circle, whose center lies on its edge.
+        // The end of a street is a semicircle, whose centre is on its edge.
         [arm] => shapes.network.at(junction) - arm.arm.way * (arm.arm.aside(StreetLine::Kerb) / 4.0),
         _ => shapes.network.at(junction),
     };
@@ -273,10 +274,10 @@ fn junction_surface(
     Some(StreetSurface { points, triangles, piece: None, depth: depths.min().unwrap_or_default() })
 }
 
-/// Places (m) and triangles between them, counter-clockwise.
+/// Points (m) and triangles, counter-clockwise.
 type PlaneTriangles = (Vec<DVec2>, Vec<[u32; 3]>);
 
-/// Triangles from a place (m) to the outline around it.
+/// Returns the triangles between a point (m) and the outline around it.
 fn fan(middle: DVec2, outline: Vec<DVec2>) -> PlaneTriangles {
     #[allow(clippy::cast_possible_truncation, reason = "some dozens of points")]
     let count = outline.len() as u32;
@@ -284,7 +285,7 @@ fn fan(middle: DVec2, outline: Vec<DVec2>) -> PlaneTriangles {
     (std::iter::once(middle).chain(outline).collect(), triangles)
 }
 
-/// Triangles from corner to corner of an outline (m); `None` if it meets itself.
+/// Triangulates an outline (m); `None` if it intersects itself.
 fn divided(outline: &[DVec2]) -> Option<PlaneTriangles> {
     let polygon = Polygon::new(Rings(vec![outline.to_vec()])).ok()?;
     #[allow(clippy::cast_possible_truncation, reason = "some dozens of points")]
@@ -292,7 +293,7 @@ fn divided(outline: &[DVec2]) -> Option<PlaneTriangles> {
     Some((polygon.points().collect(), triangles.collect()))
 }
 
-/// The kerb around a way and the edge of what lies on its left, place by place.
+/// Returns the kerb along a walk and the edge of the area on its left, as pairs of points.
 fn sides(shapes: &StreetShapes<'_>, profiles: &StreetProfiles, way: &[Course]) -> Vec<(DVec3, DVec3)> {
     let network = shapes.network;
     let mut pairs: Vec<(DVec2, DVec2, f64)> = Vec::new();
@@ -319,7 +320,7 @@ fn sides(shapes: &StreetShapes<'_>, profiles: &StreetProfiles, way: &[Course]) -
             pairs.extend(rows.iter().rev().map(between));
         }
         pairs.push(end(to, -1.0));
-        // The corner at its end leads from the next course to it.
+        // The corner at the end of the course is between the next course and this one.
         let arms = &shapes.junction(to).arms;
         if let (Some(index), false) =
             (arms.iter().position(|arm| arm.piece == piece), shapes.junction(to).is_mitred)
@@ -330,7 +331,7 @@ fn sides(shapes: &StreetShapes<'_>, profiles: &StreetProfiles, way: &[Course]) -
             pairs.extend(kerb.into_iter().zip(edge).rev().map(|(kerb, edge)| (kerb, edge, height)));
         }
     }
-    // A pair is left out where both of its places repeat the pair before.
+    // A pair is omitted if both of its points repeat the previous pair.
     without_repeats(&mut pairs, |a, b| a.0 == b.0 && a.1 == b.1);
     pairs.into_iter().map(|(kerb, edge, height)| (kerb.extend(height), edge.extend(height))).collect()
 }

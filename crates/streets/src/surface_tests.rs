@@ -1,4 +1,4 @@
-//! Surfaces of networks at random: areas that add up, nothing twice, nothing open.
+//! Tests of the surfaces of random networks: areas add up, without overlaps or gaps.
 
 use std::collections::BTreeMap;
 
@@ -9,7 +9,7 @@ use rustc_hash::FxHashMap;
 use super::*;
 use crate::tests::{grown, kinds};
 
-/// The area (m²) of a surface, whose triangles all look up.
+/// Returns the area (m²) of a surface; asserts that all triangles face upwards.
 fn area(surface: &StreetSurface) -> f64 {
     let twice = surface.triangles.iter().map(|corners| {
         let corners = corners.map(|corner| surface.points[corner as usize]);
@@ -20,8 +20,8 @@ fn area(surface: &StreetSurface) -> f64 {
     twice.sum::<f64>() / 2.0
 }
 
-/// Asserts that surfaces neither overlap nor leave anything open: their areas add up to those of the faces, no triangle
-/// turns the other way, and every edge is that of another surface too.
+/// Asserts that surfaces have no overlaps and no gaps: their areas add up to those of the faces, no triangle is
+/// inverted, and each edge is shared with another surface.
 pub(crate) fn check_surfaces(network: &StreetNetwork, options: SurfaceOptions, profiles: &StreetProfiles) {
     let surfaces = network.surfaces(options, profiles);
     let streets: f64 = surfaces.carriageways.iter().map(area).sum();
@@ -43,15 +43,15 @@ pub(crate) fn check_surfaces(network: &StreetNetwork, options: SurfaceOptions, p
         assert!(!walk.is_around_block || area > 0.0, "a block of {area}");
         inside += area;
     }
-    // Blocks count with their areas, and what lies around networks with that of the networks, negative.
+    // Blocks count with their areas, and the outer boundaries of networks with negative areas.
     let all = streets + medians + walks + inside;
     assert!(all.abs() < 1e-6 * streets.max(1.0), "{streets} + {medians} + {walks} + {inside} = {all}");
     check_edges(&surfaces);
 }
 
-/// Asserts that each edge of a carriageway or a median is walked once in each direction, or is a kerb.
+/// Asserts that each edge of a carriageway or a median occurs once in each direction, or is a kerb.
 fn check_edges(surfaces: &StreetSurfaces) {
-    // Not a multiple of the steps of the grid, so that no place lies on a border between two numbers.
+    // Not a multiple of the grid steps, so no point is on the border between two keys.
     let key = |at: DVec3| (at * 9871.3).round().as_i64vec3();
     let mut balance: FxHashMap<_, i32> = FxHashMap::default();
     let mut walk = |from: DVec3, to: DVec3| {
@@ -137,7 +137,7 @@ fn kerbs_of_medians_go_around_them() {
     }
 }
 
-/// How far (m) along a piece a place is, and how far to its left.
+/// Returns the position (m) of a point along a segment, and its distance (m) to the left.
 fn on_piece(network: &StreetNetwork, piece: PieceId, place: DVec2) -> DVec2 {
     let [a, b] = network.line(piece);
     let way = (b - a).normalize();
@@ -169,7 +169,7 @@ fn markings_lie_on_carriageways_and_never_on_one_another() {
             by_piece.entry(piece).or_default().push([low, high]);
             let half = network.attributes(piece).carriageway() / 2.0;
             assert!(low.y >= -half && high.y <= half, "{low} {high}");
-            // Nothing is painted on a junction or a median.
+            // No marking overlaps a junction or a median.
             let is_in = |surface: &StreetSurface| {
                 surface.triangles.iter().any(|corners| {
                     let corners = corners.map(|corner| surface.points[corner as usize].truncate());

@@ -1,4 +1,4 @@
-//! Surveys: networks of lines as they are, to be measured beside those that grow.
+//! Surveys: networks of unchanged lines, to compare with grown networks.
 
 use glam::DVec2;
 use rstar::primitives::{GeomWithData, Line as IndexLine};
@@ -11,13 +11,14 @@ use crate::network::{StreetAttributes, StreetNetwork};
 use crate::obstacles::Obstacles;
 use burgeon_base::error::Result;
 
-/// How near (m) a line ends to another to be joined with it.
+/// Maximum distance (m) between the end of a line and another line that it joins.
 const TOUCH: f64 = 0.05;
 
 impl StreetNetwork {
-    /// A network of lines (m) without any width: junctions are where they meet or cross, and nothing is refused or moved.
+    /// Creates a network of lines (m) without width: junctions are the points where lines meet or cross, and no line is
+    /// refused or moved.
     ///
-    /// It is for measures of real streets; lines that are not finite or too far away are left out.
+    /// Intended for measures of real streets. Lines that are not finite or too far away are skipped.
     ///
     /// ```
     /// use burgeon_streets::StreetNetwork;
@@ -73,7 +74,7 @@ impl StreetNetwork {
         Ok(network)
     }
 
-    /// The junction at a place or within [`TOUCH`] of it, or a new one.
+    /// Returns the junction within [`TOUCH`] of a position, or a new one.
     fn corner_near(&mut self, place: GridPlace) -> u32 {
         let at = place.metres();
         let near = self.junctions_near([at; 2], TOUCH);
@@ -94,7 +95,7 @@ mod tests {
         let line = |points: &[(f64, f64)]| points.iter().map(|point| DVec2::from(*point)).collect::<Vec<_>>();
         let network = StreetNetwork::survey(&[
             line(&[(0.0, 0.0), (100.0, 0.0), (100.0, 100.0)]),
-            // One that ends on the first, one along a part of it, and one that is given twice.
+            // A line that ends on the first, one that overlaps a part of it, and one that occurs twice.
             line(&[(50.0, 80.0), (50.0, 0.01)]),
             line(&[(20.0, 0.0), (100.0, 0.0)]),
             line(&[(0.0, 60.0), (100.0, 60.0)]),

@@ -1,11 +1,11 @@
-//! Networks at random, held against all that they promise by looking at every pair.
+//! Tests of random networks against all guarantees, by examining all pairs of segments.
 
 use glam::DVec2;
 
 use super::*;
 use crate::grid::touch;
 
-/// A generator of numbers: xorshift.
+/// Random number generator (xorshift).
 pub(crate) struct TestNumbers(pub(crate) u64);
 
 impl TestNumbers {
@@ -17,12 +17,12 @@ impl TestNumbers {
     }
 }
 
-/// The kinds of streets of a network that is grown from a seed.
+/// Returns the street type of a depth in a network grown from a seed.
 pub(crate) fn kind_of(seed: u64, depth: u32) -> StreetKind {
     StreetKind::of(&kinds(seed), depth)
 }
 
-/// By depth.
+/// Returns the street types by depth.
 pub(crate) fn kinds(seed: u64) -> [StreetKind; 2] {
     let kind = |width, sidewalk, median| StreetKind { width, sidewalk, median, ..StreetKind::default() };
     match seed % 4 {
@@ -33,7 +33,7 @@ pub(crate) fn kinds(seed: u64) -> [StreetKind; 2] {
     }
 }
 
-/// A network that grows from its tips, with side streets, until `size` pieces.
+/// Grows a network from its dead ends, with side streets, up to `size` segments.
 pub(crate) fn grown(seed: u64, size: usize, constraints: Constraints, obstacles: Obstacles) -> StreetNetwork {
     let mut random = TestNumbers(seed.wrapping_mul(0x9E37_79B9_7F4A_7C15) + 1);
     let mut network = StreetNetwork::new(constraints, obstacles).expect("constraints");
@@ -60,7 +60,7 @@ pub(crate) fn grown(seed: u64, size: usize, constraints: Constraints, obstacles:
     network
 }
 
-/// Asserts all that a network promises, by looking at every pair of pieces.
+/// Asserts all guarantees of a network, by examining all pairs of segments.
 pub(crate) fn check(network: &StreetNetwork) {
     let pieces: Vec<u32> = network.pieces().map(|(id, _)| id).collect();
     let least = network.constraints().least_angle();
@@ -83,7 +83,7 @@ pub(crate) fn check(network: &StreetNetwork) {
         let both: f64 = network.ends(piece).into_iter().map(|end| network.reach_at(end, piece)).sum();
         assert!(both <= network.length(piece) + 0.01, "corners take {both} of {}", network.length(piece));
     }
-    // Euler: faces and the outside.
+    // Euler's formula: faces and the outside.
     let there = network.junctions().iter().filter(|junction| junction.degree() > 0).count();
     let faces = network.faces();
     assert_eq!(there + faces.len() + 1, network.size() + 1 + network.components());

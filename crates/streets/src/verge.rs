@@ -1,4 +1,4 @@
-//! What stands along streets: places for trees and lamps, behind the kerbs and off junctions and crossings.
+//! Objects along streets: positions of trees and lamps, behind the kerbs and away from junctions and crossings.
 
 use glam::DVec3;
 
@@ -10,39 +10,39 @@ use crate::rows::{MedianEnd, median_of};
 use crate::shape::StreetShapes;
 use crate::surface::SurfaceOptions;
 
-/// How far (m) from the end of a piece the first thing stands, and from a crossing.
+/// Distance (m) of the first object from the end of a segment, and from a crossing.
 const MARGIN: f64 = 3.0;
-/// How far (m) behind the kerb trees and lamps stand at most, and as a part of the sidewalk.
+/// Maximum distance (m) of trees and lamps behind the kerb, and the maximum as a fraction of the sidewalk.
 const TREE: [f64; 2] = [1.1, 0.4];
 const LAMP: [f64; 2] = [0.5, 0.25];
-/// A median of less (m) has no trees.
+/// Minimum width (m) of a median with trees.
 const LEAST_MEDIAN: f64 = 1.5;
-/// How near (m) a tree comes to a lamp.
+/// Minimum distance (m) between a tree and a lamp.
 const APART: f64 = 2.0;
 
-/// What stands along streets.
+/// Object along a street.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum VergeKind {
-    /// A tree.
+    /// Tree.
     Tree,
-    /// A lamp.
+    /// Lamp.
     Lamp,
 }
 
-/// A place beside a street.
+/// Position of an object along a street.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct VergePlace {
-    /// Where it is (m), at the height of the carriageway.
+    /// Position (m), at the height of the carriageway.
     pub place: DVec3,
-    /// The direction (degrees from east, counter-clockwise) from there to the middle of the street; of those in the
-    /// middle, the one along it.
+    /// Direction (degrees counter-clockwise from east) to the centre of the street; on the median, the direction along
+    /// the street.
     pub heading: f64,
-    /// The piece that it is beside.
+    /// Street segment.
     pub piece: PieceId,
 }
 
 impl StreetNetwork {
-    /// The places of trees or lamps along its streets, which are of these kinds by depth.
+    /// Returns the positions of trees or lamps along the streets; `kinds` contains the street types by depth.
     pub fn verge(
         &self,
         options: SurfaceOptions,
@@ -54,7 +54,7 @@ impl StreetNetwork {
         let mut places = Vec::new();
         for (piece, known) in self.pieces().filter(|(_, piece)| piece.attributes.level == 0) {
             let kind = StreetKind::of(kinds, known.attributes.depth).adapted(known.attributes);
-            // No tree grows on what carries a street.
+            // No trees are placed on a bridge.
             let carried = self.carried(piece).filter(|_| thing == VergeKind::Tree);
             let is_carried = |along: f64| carried.is_some_and(|[from, to]| (from..=to).contains(&along));
             let [start, stop] = self.line(piece);
@@ -104,7 +104,8 @@ impl StreetNetwork {
     }
 }
 
-/// Places between two, evenly and about so far apart (m), with half of that at each end; none for 0.
+/// Returns evenly spaced positions between two limits, about `apart` (m) apart, with half of the distance at each end;
+/// empty if `apart` is 0.
 fn evenly([from, to]: [f64; 2], apart: f64) -> Vec<f64> {
     if apart <= 0.0 || to - from < apart / 2.0 {
         return Vec::new();

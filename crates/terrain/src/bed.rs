@@ -1,4 +1,4 @@
-//! What something that lies on the ground asks of it: to be level with its bed, and beside it no steeper than earth stays.
+//! Beds: constraints of objects on the ground, which is level with the bed and limited in slope next to it.
 
 use burgeon_geometry::planar::contains;
 use glam::DVec2;
@@ -6,19 +6,19 @@ use serde::{Deserialize, Serialize};
 
 use super::edits::{mix, to_line};
 
-/// The bed of a street, or of something else that is narrow or flat.
+/// The bed of a street, or of another narrow or flat object.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct GroundBed {
-    /// Its middle (m), with heights; of an area its outline.
+    /// Centreline (m) with heights; for an area, its outline.
     pub line: Vec<[f64; 3]>,
-    /// How wide (m) it is; an area reaches half of that beyond its outline.
+    /// Width (m); an area extends beyond its outline by half of it.
     pub width: f64,
-    /// Whether the line is the outline of an area.
+    /// Set if the line is the outline of an area.
     pub is_area: bool,
-    /// How steep (m/m) the ground beside it is at most.
+    /// Maximum slope (m/m) of the ground next to the bed.
     pub slope: f64,
-    /// Up to which distance (m) beside it the ground changes.
+    /// Distance (m) from the bed within which the ground changes.
     pub margin: f64,
 }
 
@@ -27,7 +27,8 @@ impl GroundBed {
         self.width / 2.0 + self.margin
     }
 
-    /// The distance (m) of a place from it, and its height (m) where it is nearest; `None` farther than its margin.
+    /// Returns the distance (m) of a point from the bed and the bed's height (m) at its nearest point; `None`
+    /// beyond the margin.
     pub(super) fn beside(&self, place: DVec2) -> Option<(f64, f64)> {
         let flat: Vec<[f64; 2]> = self.line.iter().map(|[x, y, _]| [*x, *y]).collect();
         let (mut distance, piece, along) = to_line(&flat, place, self.is_area);
@@ -52,7 +53,7 @@ mod tests {
     use super::super::local_edits::LocalEdits;
     use super::*;
 
-    /// Beds of paths and of areas at random, within 200 m of the origin.
+    /// Returns random beds of paths and areas within 200 m of the origin.
     fn beds(stream: &mut Stream) -> Vec<GroundBed> {
         let mut bed = |index: u32| {
             let mut number = |reach: f64| (stream.uniform() * 2.0 - 1.0) * reach;

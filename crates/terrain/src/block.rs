@@ -1,13 +1,13 @@
-//! A rectangle of cells of one level, in columns.
+//! A rectangle of cells of one level, as a structure of arrays.
 
 use burgeon_rewriting::{ModuleKey, Symbol};
 
 /// A rectangle of cells, by column from the west and row from the north.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Area {
-    /// Column of its first cell.
+    /// Column of the first cell.
     pub x: i64,
-    /// Row of its first cell.
+    /// Row of the first cell.
     pub y: i64,
     /// Number of columns.
     pub columns: usize,
@@ -16,18 +16,18 @@ pub struct Area {
 }
 
 impl Area {
-    /// The number of cells.
+    /// Returns the number of cells.
     pub fn len(self) -> usize {
         self.columns * self.rows
     }
 
-    /// Whether it has no cells.
+    /// Returns true if the area has no cells.
     pub fn is_empty(self) -> bool {
         self.len() == 0
     }
 
-    /// The cells whose quadrants cover this area, and `margin` more on each side; none outside a world of `across`
-    /// cells.
+    /// Returns the parent cells of this area, expanded by `margin` cells per side and clipped to a world of
+    /// `across` cells.
     #[must_use]
     pub fn parents(self, margin: i64, across: i64) -> Self {
         let span = |first: i64, count: usize| {
@@ -40,7 +40,7 @@ impl Area {
         Self { x, y, columns, rows }
     }
 
-    /// The area with `margin` cells more on each side; none outside a world of `across` cells.
+    /// Returns the area expanded by `margin` cells per side and clipped to a world of `across` cells.
     #[must_use]
     pub fn widened(self, margin: i64, across: i64) -> Self {
         let span = |first: i64, count: usize| {
@@ -52,7 +52,7 @@ impl Area {
         Self { x, y, columns, rows }
     }
 
-    /// The cells whose quadrants cover this area, and `margin` more on each side, also outside the world.
+    /// Returns the parent cells of this area, expanded by `margin` cells per side, also beyond the world.
     #[must_use]
     pub fn above(self, margin: i64) -> Self {
         let span = |first: i64, count: usize| {
@@ -67,14 +67,14 @@ impl Area {
         Self { x, y, columns, rows }
     }
 
-    /// The area with `margin` cells more on each side, also outside the world.
+    /// Returns the area expanded by `margin` cells per side, also beyond the world.
     #[must_use]
     pub fn grown(self, margin: u32) -> Self {
         let (less, more) = (i64::from(margin), 2 * margin as usize);
         Self { x: self.x - less, y: self.y - less, columns: self.columns + more, rows: self.rows + more }
     }
 
-    /// The smallest area that holds this one and another.
+    /// Returns the smallest area that contains both areas.
     #[must_use]
     pub fn joined(self, other: Self) -> Self {
         match (self.is_empty(), other.is_empty()) {
@@ -84,31 +84,31 @@ impl Area {
         }
     }
 
-    /// The quadrants of its cells.
+    /// Returns the area of the quadrants of all cells.
     #[must_use]
     pub fn quadrants(self) -> Self {
         Self { x: self.x * 2, y: self.y * 2, columns: self.columns * 2, rows: self.rows * 2 }
     }
 
-    /// Its cells, row by row.
+    /// Returns the cells, row by row.
     pub fn cells(self) -> impl Iterator<Item = (i64, i64)> {
         (0..self.len()).map(move |index| self.at(index))
     }
 
-    /// The cell with this number, row by row.
+    /// Returns the cell with this index, row by row.
     pub fn at(self, index: usize) -> (i64, i64) {
         let columns = self.columns.max(1);
         (self.x + count_of(index % columns), self.y + count_of(index / columns))
     }
 
-    /// Whether it holds a cell.
+    /// Returns true if the area contains a cell.
     #[inline]
     pub fn contains(self, x: i64, y: i64) -> bool {
         (self.x..self.x + count_of(self.columns)).contains(&x)
             && (self.y..self.y + count_of(self.rows)).contains(&y)
     }
 
-    /// The smallest area that holds all of `cells`; empty without any.
+    /// Returns the smallest area that contains all `cells`; empty without cells.
     pub fn around(cells: impl Iterator<Item = (i64, i64)>) -> Self {
         let spans = cells.fold(None, |spans: Option<[i64; 4]>, (x, y)| {
             let [west, north, east, south] = spans.unwrap_or([x, y, x, y]);
@@ -123,7 +123,8 @@ impl Area {
         })
     }
 
-    /// Where the cell at `x`, `y` is among its cells, row by row; the nearest one for a cell outside.
+    /// Returns the index of the cell at `x`, `y`, row by row; for a cell outside, the index of the nearest
+    /// cell.
     #[inline]
     pub fn index(self, x: i64, y: i64) -> usize {
         let within = |at: i64, first: i64, count: usize| {
@@ -138,32 +139,33 @@ fn count_of(count: usize) -> i64 {
     count as i64
 }
 
-/// The cells of an area at one level of the tree, row by row.
+/// Cells of an area at one level of the tree, row by row.
 #[derive(Debug, Clone)]
 pub struct Block {
-    /// How often the world has been divided.
+    /// Level: number of divisions of the world.
     pub level: u32,
-    /// Which cells they are.
+    /// Area of the cells.
     pub area: Area,
-    /// The symbol of each.
+    /// Symbol of each cell.
     pub symbols: Vec<Symbol>,
-    /// The height (m) of each.
+    /// Height (m) of each cell.
     pub heights: Vec<f64>,
-    /// The other parameters of each, `stride` for every cell: of a rule table its decay. Empty for cells that nobody
-    /// divides any more.
+    /// Other parameters of each cell, `stride` per cell: for a rule table, the decay. Empty for cells that
+    /// are not divided further.
     pub rest: Vec<f64>,
-    /// How many other parameters each has.
+    /// Number of other parameters per cell.
     pub stride: usize,
-    /// The random key of each; empty where no rule draws.
+    /// Random key of each cell; empty if no rule uses random numbers.
     pub keys: Vec<ModuleKey>,
-    /// What is added to the height (m) of each as it is, without smoothing; empty for nothing.
+    /// Addition to the height (m) of each cell, without smoothing; empty if there is none.
     pub forms: Vec<f64>,
-    /// The height (m) of the smooth surface at the middle of each; empty for the cells' own heights.
+    /// Height (m) of the smooth surface at the centre of each cell; empty if the surface has the cells' own
+    /// heights.
     pub smooth: Vec<f64>,
 }
 
 impl Block {
-    /// The height (m) of the surface at the middle of each cell.
+    /// Returns the height (m) of the surface at the centre of each cell.
     pub fn surface(&self) -> &[f64] {
         if self.smooth.is_empty() { &self.heights } else { &self.smooth }
     }

@@ -1,5 +1,5 @@
-//! Divides the cells of a terrain by the rules of a system: a level of cells is a chain, and a step of its derivation
-//! replaces each cell by its four quadrants.
+//! Division of the cells of a terrain by the rules of a system: a level of cells is a chain, and a derivation
+//! step replaces each cell by its four quadrants.
 
 use std::cell::RefCell;
 use std::sync::Arc;
@@ -13,15 +13,15 @@ use burgeon_base::memory::zeroed;
 use burgeon_kit::{RewriteOutcome, Rewriter, RuleSet};
 use burgeon_rewriting::{Chain, ColumnValue, END, FIRST_SYMBOL, Mark, ModuleKey, NO_RULE, module_brief};
 
-/// The parameter of a module that is its cell's height.
+/// Name of the parameter for the cell's height.
 const HEIGHT: &str = "height";
-/// The parameter of a module that is added to its cell's height as it is, without smoothing.
+/// Name of the parameter for an addition to the cell's height without smoothing.
 const FORM: &str = "form";
 
-/// Cells that are divided at a time.
+/// Number of cells that are divided at a time.
 const STRIP: usize = 1 << 17;
 
-/// Divides cells by the rules of the systems of a script.
+/// Division of cells by the rules of a script's systems.
 pub struct Cells<'a> {
     rewriter: &'a dyn Rewriter,
     systems: RefCell<FxHashMap<usize, Arc<CellSystem>>>,
@@ -32,19 +32,19 @@ struct CellSystem {
     index: usize,
     rules: Arc<RuleSet>,
     begin: Begin,
-    /// By symbol: which of its parameters is the height.
+    /// Index of the height parameter of each symbol.
     heights: Vec<Option<usize>>,
-    /// By symbol: which of its parameters is its form, if it has one.
+    /// Index of the form parameter of each symbol, if it has one.
     forms: Vec<Option<usize>>,
 }
 
 impl<'a> Cells<'a> {
-    /// Divides by the rules that `rewriter` applies.
+    /// Creates a division by the rules that `rewriter` applies.
     pub fn new(rewriter: &'a dyn Rewriter) -> Self {
         Self { rewriter, systems: RefCell::default() }
     }
 
-    /// System `index`, which is made ready the first time.
+    /// Returns system `index`, and prepares it the first time. Fails if its rules cannot divide cells.
     fn system(&self, index: usize) -> Result<Arc<CellSystem>> {
         if let Some(system) = self.systems.borrow().get(&index) {
             return Ok(Arc::clone(system));
@@ -140,7 +140,7 @@ impl CellSystem {
         Ok(block)
     }
 
-    /// Divides the cells of some rows, and puts the quadrants where they belong.
+    /// Divides the cells of some rows, and stores the quadrants in `block`.
     fn strip(&self, rewriter: &dyn Rewriter, cells: &Block, area: Area, block: &mut Block) -> Result<()> {
         let grammar = &self.rules.grammar;
         let arities = grammar.arities();
@@ -223,7 +223,7 @@ impl CellSystem {
         Ok(())
     }
 
-    /// The error of a cell that did not become four.
+    /// Creates the error for a cell that was not replaced by four cells.
     fn not_four(&self, cells: &Block, from: usize, (rule, count): (u16, u32), step: usize) -> Error {
         let grammar = &self.rules.grammar;
         let symbol = cells.symbols[from];

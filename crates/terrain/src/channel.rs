@@ -1,26 +1,27 @@
-//! The channel of a river: its path sunk so far that the ground on both banks is above the water.
+//! River channels: the path of a river, lowered until the ground on both banks is above the water.
 
 use glam::{DVec2, DVec3};
 
-/// How far across a channel heights are sampled, as multiples of half of its width: a little beyond both banks.
+/// Positions across a channel at which heights are sampled, as multiples of half of its width: up to a little
+/// beyond both banks.
 const ACROSS: [f64; 7] = [-1.15, -0.8, -0.4, 0.0, 0.4, 0.8, 1.15];
 
 /// Maximum number of points of a channel.
 const MOST_POINTS: usize = 20_000;
 
-/// A river's path and how deep it is cut into the ground.
+/// A river's path, lowered into the ground.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Channel {
-    /// The path (m) from the source down, with heights that never rise and are nowhere above the ground.
+    /// Path (m) from the source downstream, with heights that never rise and are never above the ground.
     pub path: Vec<DVec3>,
-    /// The place (m) where it lies deepest below the ground, and how deep (m).
+    /// Point (m) of the maximum depth below the ground, and that depth (m).
     pub deepest: (DVec2, f64),
 }
 
 impl Channel {
-    /// The channel of `width` (m) along `path` (m) in the ground that `height` (m) describes.
+    /// Computes the channel of `width` (m) along `path` (m) in ground with the heights (m) `height`.
     ///
-    /// Points are added, so that the ground between them cannot be lower than the water by much.
+    /// Points are added so that the ground between them cannot be much lower than the water.
     pub fn new(path: &[DVec3], width: f64, height: impl Fn(DVec2) -> Option<f64>) -> Self {
         let path = dense(path, width / 2.0);
         let last = path.len().saturating_sub(1);
@@ -43,7 +44,8 @@ impl Channel {
     }
 }
 
-/// A path with points at most `step` (m) apart, or as near as their number allows.
+/// Adds points to a path so that they are at most `step` (m) apart, or as close as their maximum number
+/// allows.
 fn dense(path: &[DVec3], step: f64) -> Vec<DVec3> {
     let length: f64 = path.windows(2).map(|pair| pair[0].truncate().distance(pair[1].truncate())).sum();
     #[allow(clippy::cast_precision_loss, reason = "a small number")]
@@ -69,7 +71,7 @@ mod tests {
 
     #[test]
     fn water_on_a_slope_lies_below_both_banks() {
-        // Along the contour of a slope, and over a ridge that it has to cut.
+        // Along the contour of a slope, and through a ridge.
         let ground = |at: DVec2| Some(0.5 * at.y + 30.0 * (-((at.x - 200.0) / 20.0).powi(2)).exp());
         let path = [DVec3::new(0.0, 0.0, 9.0), DVec3::new(400.0, 0.0, 9.0)];
         let channel = Channel::new(&path, 12.0, ground);

@@ -1,4 +1,5 @@
-//! Areas that lie on the ground instead of it: its triangles end at their borders, at the heights of these.
+//! Areas that replace the ground: the triangles of the ground end at their borders, at the heights of the
+//! areas.
 
 use burgeon_geometry::Polygon;
 use burgeon_geometry::planar::{contains, distance, foot};
@@ -6,26 +7,26 @@ use glam::{DVec2, DVec3};
 use rustc_hash::FxHashMap;
 use smallvec::SmallVec;
 
-/// The length (m) of the sides of the squares by which areas are found.
+/// Side length (m) of the squares of the spatial index.
 const SQUARE: f64 = 32.0;
-/// How far (m) from the border of an area a place may lie to be on it.
+/// Maximum distance (m) of a point on the border of an area.
 const ON: f64 = 1e-4;
-/// Triangles that are smaller (m²) are left out.
+/// Minimum area (m²) of a triangle.
 const LEAST: f64 = 1e-6;
-/// Where a part of a triangle differs less (m²) from the whole, it is the whole.
+/// Difference (m²) below which the remaining part of a triangle is the whole triangle.
 const SAME: f64 = 1e-7;
 
-/// An area on the ground.
+/// An area that replaces the ground.
 #[derive(Debug, Clone, PartialEq)]
 pub struct GroundCut {
-    /// Its border (m).
+    /// Border (m).
     pub outline: Polygon,
-    /// The line (m) whose heights it has, level across.
+    /// Line (m) that defines the heights, level across.
     pub line: Vec<DVec3>,
 }
 
 impl GroundCut {
-    /// The height (m) of the area at the nearest place of its line.
+    /// Returns the height (m) of the area at the nearest point of its line.
     fn height(&self, at: DVec2) -> f64 {
         let mut best = (f64::INFINITY, self.line.first().map_or(0.0, |first| first.z));
         for pair in self.line.windows(2) {
@@ -39,20 +40,20 @@ impl GroundCut {
         best.1
     }
 
-    /// How far (m) a place is from its border.
+    /// Returns the distance (m) of a point from the border.
     fn distance(&self, at: DVec2) -> f64 {
         self.outline.edges().map(|edge| distance(edge, at)).fold(f64::INFINITY, f64::min)
     }
 }
 
-/// Areas on the ground, found by place.
+/// Areas that replace the ground, with a spatial index.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct GroundCuts {
     cuts: Vec<GroundCut>,
     squares: FxHashMap<[i64; 2], Vec<u32>>,
 }
 
-/// A corner of a part of a triangle: one of its own, or a place on a border, with its height.
+/// A corner of a part of a triangle: a corner of the triangle, or a point on a border with its height.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum PartCorner {
     Own(usize),
@@ -60,7 +61,7 @@ pub(super) enum PartCorner {
 }
 
 impl GroundCuts {
-    /// The areas, in the order in which their heights count where their borders meet.
+    /// Creates an index of areas; the height of the first area applies where borders meet.
     pub fn new(cuts: Vec<GroundCut>) -> Self {
         let mut squares: FxHashMap<[i64; 2], Vec<u32>> = FxHashMap::default();
         for (number, cut) in (0u32..).zip(&cuts) {
@@ -72,12 +73,12 @@ impl GroundCuts {
         Self { cuts, squares }
     }
 
-    /// Whether there are none.
+    /// Returns true if there are no areas.
     pub fn is_empty(&self) -> bool {
         self.cuts.is_empty()
     }
 
-    /// The areas that may meet the box from `low` to `high` (m), in order.
+    /// Returns the areas that may intersect the box from `low` to `high` (m), in order.
     fn near(&self, low: DVec2, high: DVec2) -> SmallVec<[u32; 8]> {
         let mut found: SmallVec<[u32; 8]> = SmallVec::new();
         for square in squares_of(low, high) {
@@ -91,14 +92,15 @@ impl GroundCuts {
         found
     }
 
-    /// The height (m) of the area at whose border a place is; of several the nearest one's.
+    /// Returns the height (m) of the nearest area whose border contains a point.
     fn border(&self, near: &[u32], at: DVec2) -> Option<f64> {
         let far = |number: &u32| (self.cuts[*number as usize].distance(at), *number);
         let nearest = near.iter().map(far).reduce(|best, next| if next.0 < best.0 { next } else { best });
         nearest.filter(|(far, _)| *far <= ON).map(|(_, number)| self.cuts[number as usize].height(at))
     }
 
-    /// The parts of a triangle, counter-clockwise from above, that lie outside of all areas; `None` if it meets none.
+    /// Returns the parts of a counter-clockwise triangle that lie outside all areas; `None` if it intersects
+    /// none.
     pub(super) fn outside(&self, corners: [DVec2; 3]) -> Option<Vec<[PartCorner; 3]>> {
         let [low, high] =
             corners[1..].iter().fold([corners[0]; 2], |[low, high], at| [low.min(*at), high.max(*at)]);
@@ -111,7 +113,7 @@ impl GroundCuts {
             near.iter().map(|number| self.cuts[*number as usize].outline.clone()).collect();
         let is_within =
             |of: &Polygon| of.len() == 1 && corners.iter().all(|at| contains(&of[0], *at)) && is_convex(of);
-        // Most that an area meets lies in one that is convex.
+        // Fast path: most affected triangles lie within a convex area.
         if others.iter().any(is_within) {
             return Some(Vec::new());
         }
@@ -148,7 +150,7 @@ fn is_convex(polygon: &Polygon) -> bool {
     (0..ring.len()).all(|index| (at(index + 1) - at(index)).perp_dot(at(index + 2) - at(index + 1)) >= 0.0)
 }
 
-/// The squares that a box from `low` to `high` (m) meets.
+/// Returns the squares that intersect a box from `low` to `high` (m).
 #[allow(clippy::cast_possible_truncation, reason = "places are within 1e9 m")]
 fn squares_of(low: DVec2, high: DVec2) -> impl Iterator<Item = [i64; 2]> {
     let [from, to] = [low, high].map(|at| [(at.x / SQUARE).floor() as i64, (at.y / SQUARE).floor() as i64]);

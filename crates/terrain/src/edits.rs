@@ -1,8 +1,8 @@
-//! Changes of the ground that are kept apart from what the rules give: flattened places, cuttings and ditches.
+//! Terrain edits, stored separately from the terrain of the rules: level areas, cuttings and ditches.
 //!
-//! Each change is kept with the smallest cell that holds all it reaches, and is applied wherever cells are expanded.
-//! Changes act in the order in which they were made: where two of them meet, the later one acts on what the earlier
-//! one has left.
+//! Each edit is stored with the smallest cell that contains its extent, and is applied whenever cells are
+//! expanded. Edits are applied in the order of their creation: where two overlap, the later edit changes the
+//! result of the earlier one.
 
 use std::collections::BTreeMap;
 use std::hash::{Hash, Hasher};
@@ -20,60 +20,60 @@ use burgeon_base::error::{Error, Result};
 use burgeon_base::text::number;
 use burgeon_geometry::planar::{contains, foot};
 
-/// A change of the ground.
+/// A terrain edit.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(tag = "kind", rename_all = "lowercase", deny_unknown_fields)]
 pub enum Edit {
-    /// The ground within an outline is level.
+    /// Levels the ground within an outline.
     Flatten {
-        /// The outline (m).
+        /// Outline (m).
         outline: Vec<[f64; 2]>,
-        /// The height (m) that it gets.
+        /// New height (m).
         height: f64,
-        /// Over which distance (m) around it the ground changes less and less.
+        /// Distance (m) around the outline over which the effect fades.
         margin: f64,
     },
-    /// The ground along a path is as high as the path.
+    /// Sets the ground along a path to the height of the path.
     Cut {
-        /// The path (m), with heights.
+        /// Path (m) with heights.
         path: Vec<[f64; 3]>,
-        /// How wide (m) it is.
+        /// Width (m).
         width: f64,
-        /// Over which distance (m) beside it the ground changes less and less.
+        /// Distance (m) on each side over which the effect fades.
         margin: f64,
     },
-    /// The ground along a path is nowhere higher than the path.
+    /// Lowers the ground along a path to at most the height of the path.
     Carve {
-        /// The path (m), with heights.
+        /// Path (m) with heights.
         path: Vec<[f64; 3]>,
         /// Width (m) of the bed.
         width: f64,
-        /// Width (m) of the slope on each side, over which the ground changes less and less.
+        /// Width (m) of the slope on each side, over which the effect fades.
         margin: f64,
     },
-    /// The ground along a path is lower than it was; higher, if the depth is below 0.
+    /// Lowers the ground along a path, or raises it if the depth is negative.
     Dig {
-        /// The path (m).
+        /// Path (m).
         path: Vec<[f64; 2]>,
-        /// How wide (m) it is.
+        /// Width (m).
         width: f64,
-        /// How deep (m) it is in the middle.
+        /// Depth (m) at the centreline.
         depth: f64,
     },
-    /// The ground is nowhere lower than a bed, and rises towards it from beside.
+    /// Raises the ground to at least the height of a bed, with slopes next to it.
     Embank {
-        /// What lies on it.
+        /// Bed on the embankment.
         bed: GroundBed,
     },
-    /// The ground is nowhere higher than a bed, and falls towards it from beside.
+    /// Lowers the ground to at most the height of a bed, with slopes next to it.
     Excavate {
-        /// What lies in it.
+        /// Bed in the excavation.
         bed: GroundBed,
     },
 }
 
 impl Edit {
-    /// The same, higher by `lift` (m).
+    /// Raises the edit by `lift` (m).
     #[must_use]
     pub fn raised(mut self, lift: f64) -> Self {
         match &mut self {
@@ -87,7 +87,7 @@ impl Edit {
         self
     }
 
-    /// The corners (m) of the box that it reaches.
+    /// Returns the corners (m) of the bounding box of the edit's extent.
     pub(super) fn bounds(&self) -> (DVec2, DVec2) {
         let (points, reach): (Vec<DVec2>, f64) = match self {
             Self::Flatten { outline, margin, .. } => {
@@ -106,7 +106,7 @@ impl Edit {
         (low - reach, high + reach)
     }
 
-    /// The height (m) at `place` (m), where it was `height` (m).
+    /// Returns the new height (m) at `place` (m), given the previous height (m).
     pub(super) fn change(&self, place: DVec2, height: f64) -> f64 {
         match self {
             Self::Flatten { outline, height: level, margin } => {
@@ -131,7 +131,7 @@ impl Edit {
         }
     }
 
-    /// What is wrong with it, if anything is.
+    /// Returns the reason why the edit is invalid, if it is.
     fn fault(&self) -> Option<&'static str> {
         let (points, least, sizes): (Vec<f64>, usize, Vec<f64>) = match self {
             Self::Flatten { outline, height, margin } => {
@@ -171,7 +171,8 @@ impl Edit {
     }
 }
 
-/// The height (m) at `place` (m), where it was `height` (m), once the ground follows a path of `width` (m).
+/// Returns the height (m) at `place` (m) after adapting the ground to a path of `width` (m), given the
+/// previous height (m).
 fn along_path(path: &[[f64; 3]], width: f64, margin: f64, place: DVec2, height: f64) -> f64 {
     let flat: Vec<[f64; 2]> = path.iter().map(|[x, y, _]| [*x, *y]).collect();
     let (distance, piece, along) = to_line(&flat, place, false);
@@ -182,31 +183,31 @@ fn along_path(path: &[[f64; 3]], width: f64, margin: f64, place: DVec2, height: 
     mix(height, level, fade(distance - width / 2.0, margin))
 }
 
-/// The smallest cell that holds what an edit reaches: level, row and column.
+/// Smallest cell that contains the extent of an edit: level, row and column.
 type EditCell = (u32, i64, i64);
 
-/// Changes of the ground, by cell.
+/// Terrain edits, by cell.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Edits {
     cells: BTreeMap<EditCell, Vec<EditRecord>>,
     count: usize,
 }
 
-/// An edit and when it was made.
+/// An edit with its position in the order.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 struct EditRecord {
     order: usize,
-    /// A number for what it is.
+    /// Hash of the edit.
     #[serde(skip)]
     mark: u64,
-    /// The corners (m) of the box that it reaches.
+    /// Corners (m) of the bounding box of its extent.
     #[serde(skip)]
     bounds: (DVec2, DVec2),
     #[serde(flatten)]
     edit: Edit,
 }
 
-/// A file of edits.
+/// File format of edits.
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct EditsFile {
@@ -215,30 +216,30 @@ struct EditsFile {
     cells: BTreeMap<String, Vec<EditRecord>>,
 }
 
-/// What tells the world that edits are of.
+/// Identification of the world of edits.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct WorldStamp {
     corner: [f64; 2],
     size: f64,
-    /// The key that all that is drawn comes from, in hexadecimal; none where nothing is.
+    /// Random key of the world in hexadecimal; `None` if it uses no random numbers.
     key: Option<String>,
 }
 
 const FORMAT: &str = "burgeon edits 1";
 
 impl Edits {
-    /// Whether there are none.
+    /// Returns true if there are no edits.
     pub fn is_empty(&self) -> bool {
         self.count == 0
     }
 
-    /// The number of edits.
+    /// Returns the number of edits.
     pub fn len(&self) -> usize {
         self.count
     }
 
-    /// Adds an edit after all others. Fails for one that cannot be, or that reaches nothing of the world.
+    /// Appends an edit. Fails if the edit is invalid or its extent is outside the world.
     pub fn add(&mut self, world: &World, edit: Edit) -> Result<()> {
         if let Some(fault) = edit.fault() {
             return Err(Error::argument(format!("the ground cannot be changed so: {fault}")));
@@ -262,7 +263,7 @@ impl Edits {
         Ok(())
     }
 
-    /// Changes the heights (m) of the cells of `area` at `level`.
+    /// Applies the edits to the heights (m) of the cells of `area` at `level`.
     pub(super) fn apply(&self, world: &World, level: u32, area: Area, heights: &mut [f64]) {
         let local = self.reaching(world, level, area);
         if local.is_empty() {
@@ -273,19 +274,19 @@ impl Edits {
         }
     }
 
-    /// What changes the cells of `area` at `level`.
+    /// Returns the edits that affect the cells of `area` at `level`.
     pub(super) fn reaching(&self, world: &World, level: u32, area: Area) -> LocalEdits {
         let (low, high) = bounds(world, level, area);
         LocalEdits::new(self.met(world, level, area).into_iter().map(|kept| kept.edit.clone()), low, high)
     }
 
-    /// A number for all that changes the cells of `area` at `level`; 0 where nothing does.
+    /// Returns a hash of all edits that affect the cells of `area` at `level`; 0 if there are none.
     pub(super) fn mark(&self, world: &World, level: u32, area: Area) -> u64 {
         let met = self.met(world, level, area);
         met.iter().fold(0, |mark: u64, kept| mark.rotate_left(7) ^ kept.mark)
     }
 
-    /// The edits that reach cells of `area` at `level`, in their order.
+    /// Returns the edits whose extent intersects the cells of `area` at `level`, in order.
     fn met(&self, world: &World, level: u32, area: Area) -> Vec<&EditRecord> {
         if self.is_empty() || area.is_empty() {
             return Vec::new();
@@ -300,14 +301,15 @@ impl Edits {
         met
     }
 
-    /// The text of a file that holds them.
+    /// Returns the edits as the JSON text of a file.
     pub fn to_json(&self, world: &World) -> String {
         let cells = self.cells.iter().map(|((level, y, x), kept)| (format!("{level}/{x}/{y}"), kept.clone()));
         let file = EditsFile { format: FORMAT.into(), world: WorldStamp::of(world), cells: cells.collect() };
         serde_json::to_string_pretty(&file).unwrap_or_default() + "\n"
     }
 
-    /// Reads the text of a file called `name`, which holds edits of `world`.
+    /// Reads edits of `world` from the JSON text of the file `name`. Fails if the text is invalid or belongs
+    /// to another world.
     pub fn from_json(text: &str, name: &str, world: &World) -> Result<Self> {
         let file: EditsFile = serde_json::from_str(text).map_err(|error| {
             Error::data(format!("{name} holds no edits of a terrain: {error}"))
@@ -335,7 +337,7 @@ impl Edits {
     }
 }
 
-/// The corners (m) of the box around the cells of `area` at `level`.
+/// Returns the corners (m) of the bounding box of the cells of `area` at `level`.
 fn bounds(world: &World, level: u32, area: Area) -> (DVec2, DVec2) {
     if area.is_empty() {
         return (world.corner, world.corner);
@@ -354,7 +356,8 @@ impl WorldStamp {
     }
 }
 
-/// The smallest cell of `world` that holds the box from `low` to `high` (m); the whole where it reaches outside.
+/// Returns the smallest cell of `world` that contains the box from `low` to `high` (m); the root cell if the
+/// box extends beyond the world.
 #[allow(clippy::cast_possible_truncation, reason = "columns are below 2^31")]
 fn smallest(world: &World, low: DVec2, high: DVec2) -> EditCell {
     let north = world.corner.y + world.size;
@@ -374,7 +377,7 @@ fn smallest(world: &World, low: DVec2, high: DVec2) -> EditCell {
     found
 }
 
-/// How much (1 to 0) a change acts at a distance (m) from where it acts fully.
+/// Returns the strength (1 to 0) of an edit at a distance (m) from its full effect.
 fn fade(distance: f64, margin: f64) -> f64 {
     if distance <= 0.0 {
         return 1.0;
@@ -387,11 +390,12 @@ fn fade(distance: f64, margin: f64) -> f64 {
 }
 
 pub(super) fn mix(a: f64, b: f64, part: f64) -> f64 {
-    // What acts fully leaves exactly its own height.
+    // At full strength the result is exactly the new height.
     if part >= 1.0 { b } else { a + (b - a) * part }
 }
 
-/// The distance (m) of `place` from a line, the piece of it that is nearest, and how far (0 to 1) along that piece.
+/// Returns the distance (m) of `place` from a line, the index of the nearest segment, and the position (0 to
+/// 1) along it.
 pub(super) fn to_line(points: &[[f64; 2]], place: DVec2, closed: bool) -> (f64, usize, f64) {
     let count = if closed { points.len() } else { points.len().saturating_sub(1) };
     let mut best = (f64::INFINITY, 0, 0.0);

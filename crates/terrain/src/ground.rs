@@ -1,9 +1,10 @@
-//! The part of a world that is expanded: tiles around a place, and the surface over them.
+//! The expanded part of a world: tiles around a point, and the surface over them.
 //!
-//! The surface runs through the corners of cells, whose heights are the means of the cells around them, and is flat
-//! over the two halves of each cell. Measured ground is exact at its samples in cells of any size, and what these add
-//! to it lies in between. Where tiles of different detail meet, the finer one follows the coarser one, so
-//! there is no gap. Corners are numbered in the grid of the smallest cells of any tile, from the north-west.
+//! The surface passes through the corners of cells, whose heights are the means of the adjacent cells, and is
+//! flat over the two halves of each cell. Measured ground is exact at its samples for cells of any size, and
+//! the rules add detail between them. Where tiles of different detail meet, the finer tile follows the
+//! coarser one, so there is no gap. Corners are numbered in the grid of the smallest cells of any tile, from
+//! the north-west.
 
 use std::sync::Arc;
 
@@ -18,7 +19,7 @@ use super::world::{Divide, Tables, World};
 use burgeon_base::MemoryOwner;
 use burgeon_base::error::Result;
 
-/// A world and the tiles of it that are expanded.
+/// A world and its expanded tiles.
 ///
 /// ```
 /// use std::sync::Arc;
@@ -56,58 +57,58 @@ use burgeon_base::error::Result;
 pub struct Ground {
     world: Arc<World>,
     edits: Arc<Edits>,
-    /// The level of the tiles.
+    /// Level of the tiles.
     level: u32,
-    /// The cells of that level that are tiles.
+    /// Cells of that level that are tiles.
     window: Area,
-    /// By cell of the window.
+    /// Tile of each cell of the window.
     tiles: Vec<Arc<Tile>>,
-    /// The level of the smallest cells of any tile.
+    /// Level of the smallest cells of any tile.
     finest: u32,
 }
 
-/// Heights in the middle of cells of one size.
+/// Heights at the centres of cells of one size.
 #[derive(Debug, Clone, PartialEq)]
 pub struct GroundMap {
-    /// Cells from west to east.
+    /// Number of cells from west to east.
     pub columns: usize,
-    /// Cells from north to south.
+    /// Number of cells from north to south.
     pub rows: usize,
-    /// The south-west corner (m) of all cells.
+    /// South-west corner (m) of all cells.
     pub corner: DVec2,
-    /// The length (m) of the sides of a cell.
+    /// Side length (m) of a cell.
     pub step: f64,
-    /// The heights (m), row by row from the north.
+    /// Heights (m), row by row from the north.
     pub heights: Vec<f64>,
 }
 
 impl Ground {
-    /// The world with nothing expanded.
+    /// Creates the ground of a world, without expanded tiles.
     pub fn new(world: Arc<World>) -> Self {
         let window = Area { x: 0, y: 0, columns: 0, rows: 0 };
         Self { world, edits: Arc::default(), level: 0, window, tiles: Vec::new(), finest: 0 }
     }
 
-    /// The world.
+    /// Returns the world.
     pub fn world(&self) -> &World {
         &self.world
     }
 
-    /// What has been changed of it.
+    /// Returns the terrain edits.
     pub fn edits(&self) -> &Arc<Edits> {
         &self.edits
     }
 
-    /// Expands what `view` shows of the world from `eye` (m), and contracts everything else.
+    /// Expands the part of the world that `view` shows from `eye` (m), and contracts everything else.
     ///
-    /// The result depends on the world, its edits, the eye and the view, and not on what was expanded before. Fails
-    /// outside the world.
+    /// The result depends only on the world, its edits, the eye and the view, not on earlier expansions.
+    /// Fails if the eye is outside the world or if the view has too many heights.
     pub fn focus(&mut self, eye: DVec2, view: &View, divide: &dyn Divide) -> Result<()> {
         let fit = view.fit(&self.world, eye)?;
         self.expand(&fit, divide)
     }
 
-    /// Has `edits` in place of those that it had, from the next focus on.
+    /// Replaces the edits, with effect from the next focus.
     pub fn edit(&mut self, edits: &Arc<Edits>) {
         self.edits = Arc::clone(edits);
     }
@@ -123,7 +124,7 @@ impl Ground {
                 None => missing.push((index, place, detail)),
             }
         }
-        // All of them come from one block of cells, with what lies around them.
+        // All missing tiles are derived from one block of cells and its surroundings.
         let window = Area::around(missing.iter().map(|(_, place, _)| (place.x, place.y)));
         let wanted = window.widened(2, World::across(fit.level));
         let made = if missing.is_empty() {
@@ -146,7 +147,7 @@ impl Ground {
         Ok(())
     }
 
-    /// The tile `place`, divided `detail` times, out of `coarse`, and its number.
+    /// Creates the tile `place`, divided `detail` times, from `coarse`, and returns it with its index.
     fn make(
         &self,
         coarse: &Block,
@@ -183,8 +184,8 @@ impl Ground {
         Ok((index, tile))
     }
 
-    /// The heights of the surface in the middle of the smallest cells of all that is expanded. Where tiles have larger
-    /// cells, heights lie between theirs. Fails if there are too many.
+    /// Returns the heights of the surface at the centres of the smallest cells of the expanded area. Heights
+    /// within larger cells are interpolated. Fails if there are too many.
     pub fn map(&self) -> Result<GroundMap> {
         let [[west, north], [east, south]] = self.rim();
         let count = |low: i64, high: i64| usize::try_from(high - low).unwrap_or(0);
@@ -210,22 +211,22 @@ impl Ground {
         })
     }
 
-    /// The tiles, row by row from the north-west.
+    /// Returns the tiles, row by row from the north-west.
     pub fn tiles(&self) -> &[Arc<Tile>] {
         &self.tiles
     }
 
-    /// The number of heights that are expanded.
+    /// Returns the number of expanded heights.
     pub fn heights(&self) -> usize {
         self.tiles.iter().map(|tile| tile.heights()).sum()
     }
 
-    /// The bytes that its tiles take.
+    /// Returns the memory of the tiles (bytes).
     pub fn bytes(&self) -> usize {
         self.tiles.iter().map(|tile| tile.bytes()).sum()
     }
 
-    /// The level of the smallest cells.
+    /// Returns the level of the smallest cells.
     pub fn finest(&self) -> u32 {
         self.finest
     }
@@ -235,7 +236,7 @@ impl Ground {
         known.then(|| self.tiles.get(self.window.index(place.x, place.y))).flatten()
     }
 
-    /// The number of the tile that holds one of the smallest cells.
+    /// Returns the index of the tile that contains one of the smallest cells.
     #[inline]
     pub(super) fn holder(&self, x: i64, y: i64) -> Option<usize> {
         let down = self.finest - self.level;
@@ -243,7 +244,7 @@ impl Ground {
         (!self.tiles.is_empty() && self.window.contains(x, y)).then(|| self.window.index(x, y))
     }
 
-    /// The tile with the largest cells of those that touch a corner.
+    /// Returns the tile with the largest cells among the tiles at a corner.
     #[inline]
     fn coarsest(&self, x: i64, y: i64) -> Option<&Arc<Tile>> {
         let down = self.finest - self.level;
@@ -256,7 +257,8 @@ impl Ground {
         tiles.min_by_key(|tile| tile.detail)
     }
 
-    /// The height (m) of the ground at a corner of the smallest cells; `None` where nothing is expanded.
+    /// Returns the height (m) of the ground at a corner of the smallest cells; `None` outside the expanded
+    /// area.
     pub(super) fn corner(&self, x: i64, y: i64) -> Option<f64> {
         if self.world.measured.is_none() {
             return self.laid(x, y);
@@ -268,13 +270,14 @@ impl Ground {
         }
     }
 
-    /// The height (m) of the surface of the cells at a corner of the smallest; `None` where nothing is expanded.
+    /// Returns the height (m) of the cells' surface at a corner of the smallest cells; `None` outside the
+    /// expanded area.
     fn laid(&self, x: i64, y: i64) -> Option<f64> {
         let tile = self.coarsest(x, y)?;
         if let Some((x, y)) = tile.on_grid(self.finest, x, y) {
             return Some(tile.corner(x, y));
         }
-        // Between the corners of larger cells.
+        // The corner lies between the corners of larger cells.
         let shift = self.finest - tile.level();
         let mask = (1i64 << shift) - 1;
         let part = |at: i64| fraction(at & mask, shift);
@@ -282,8 +285,8 @@ impl Ground {
         self.between(tile, (x >> shift, y >> shift), DVec2::new(part(x), part(y)), laid)
     }
 
-    /// The height (m) within a cell of `tile`, at `part` of the way to the east and to the south, of the surface that
-    /// has the heights (m) `corner` at corners of the smallest cells.
+    /// Interpolates a surface with the heights (m) `corner` at corners of the smallest cells; returns its
+    /// height (m) within a cell of `tile`, at the fraction `part` to the east and to the south.
     fn between(
         &self,
         tile: &Tile,
@@ -294,7 +297,7 @@ impl Ground {
         let shift = self.finest - tile.level();
         let at = |right: i64, down: i64| corner((x + right) << shift, (y + down) << shift);
         let (east, south) = (part.x, part.y);
-        // Along an edge of the cell, its ends alone count.
+        // Along an edge of the cell, only the ends of the edge matter.
         if east == 0.0 {
             return Some(if south == 0.0 { at(0, 0)? } else { mix(at(0, 0)?, at(0, 1)?, south) });
         }
@@ -322,27 +325,28 @@ impl Ground {
         })
     }
 
-    /// The height (m) of the ground at `place` (m), exactly as it was measured at each sample; `None` where nothing is
-    /// expanded.
+    /// Returns the height (m) of the ground at `place` (m), which is exactly the measured height at each
+    /// sample; `None` outside the expanded area.
     pub fn height(&self, place: DVec2) -> Option<f64> {
         let (tile, cell, part) = self.find(place)?;
         let laid = self.between(tile, cell, part, |x, y| self.laid(x, y))?;
         Some(if self.world.measured.is_some() { tile.changed(place, &self.world, laid) } else { laid })
     }
 
-    /// The height (m) at `place` (m) of the surface that the cells show: of measured ground only the corners of cells are
-    /// on it. `None` where nothing is expanded.
+    /// Returns the height (m) at `place` (m) of the surface that the cells show; `None` outside the expanded
+    /// area. On measured ground, only the corners of cells are exact.
     pub fn shown(&self, place: DVec2) -> Option<f64> {
         let (tile, cell, part) = self.find(place)?;
         self.between(tile, cell, part, |x, y| self.corner(x, y))
     }
 
-    /// The tile at `place` (m), the cell of it, and how far (0 to 1) to the east and to the south in that cell.
+    /// Returns the tile at `place` (m), its cell, and the position (0 to 1) to the east and to the south
+    /// within the cell.
     #[allow(clippy::cast_possible_truncation, clippy::cast_precision_loss, reason = "columns are below 2^31")]
     fn find(&self, place: DVec2) -> Option<(&Arc<Tile>, (i64, i64), DVec2)> {
         let world = &self.world;
         let along = DVec2::new(place.x - world.corner.x, world.corner.y + world.size - place.y);
-        // A place on the rim may be outside by what its coordinates are rounded.
+        // A point on the boundary may be outside by its rounding error.
         let slack = (world.corner.abs().max_element() + world.size) * 4.0 * f64::EPSILON;
         if !along.cmpge(DVec2::splat(-slack)).all() || !along.cmple(DVec2::splat(world.size + slack)).all() {
             return None;
@@ -353,7 +357,7 @@ impl Ground {
         let of = |at: f64, first: i64, count: usize| {
             let cell = (at / size).floor() as i64;
             let behind = first + i64::try_from(count).unwrap_or(0);
-            // The far rim of the last tile belongs to it.
+            // The far boundary of the last tile belongs to the tile.
             if cell == behind && at <= behind as f64 * size { cell - 1 } else { cell }
         };
         let x = of(along.x, window.x, window.columns);
@@ -368,7 +372,7 @@ impl Ground {
         Some((tile, (column, row), part.clamp(DVec2::ZERO, DVec2::ONE)))
     }
 
-    /// The way up (a unit vector) at a corner of the smallest cells.
+    /// Returns the surface normal (a unit vector) at a corner of the smallest cells.
     pub(super) fn normal(&self, x: i64, y: i64) -> DVec3 {
         let Some(tile) = self.coarsest(x, y) else { return DVec3::Z };
         let step = 1i64 << (self.finest - tile.level());
@@ -385,8 +389,8 @@ impl Ground {
         DVec3::new(-east, -north, 1.0).normalize()
     }
 
-    /// The way up (a unit vector) at `place` (m), smoothly between the corners of cells; `None` where nothing is
-    /// expanded.
+    /// Returns the surface normal (a unit vector) at `place` (m), interpolated between the corners of cells;
+    /// `None` outside the expanded area.
     pub fn way_up(&self, place: DVec2) -> Option<DVec3> {
         let (tile, (x, y), part) = self.find(place)?;
         let shift = self.finest - tile.level();
@@ -396,13 +400,13 @@ impl Ground {
         Some(north.lerp(south, part.y).normalize())
     }
 
-    /// The name of the symbol of the cell at `place` (m); `None` where nothing is expanded.
+    /// Returns the name of the symbol of the cell at `place` (m); `None` outside the expanded area.
     pub fn symbol(&self, place: DVec2) -> Option<&str> {
         let (tile, (x, y), _) = self.find(place)?;
         Some(self.world.name(tile.level(), tile.symbol(x, y)))
     }
 
-    /// The first and the last corner of the smallest cells of the square that is expanded.
+    /// Returns the first and the last corner of the expanded square, in the grid of the smallest cells.
     pub(super) fn rim(&self) -> [[i64; 2]; 2] {
         let down = self.finest - self.level;
         let end = |first: i64, count: usize| (first + i64::try_from(count).unwrap_or(0)) << down;
@@ -410,7 +414,7 @@ impl Ground {
         [[x << down, y << down], [end(x, columns), end(y, rows)]]
     }
 
-    /// Where a corner of the smallest cells is (m).
+    /// Returns the position (m) of a corner of the smallest cells.
     pub(super) fn place(&self, x: i64, y: i64) -> DVec2 {
         self.world.corner_of(self.finest, x, y)
     }

@@ -1,7 +1,8 @@
-//! Terrain: quadtrees of cells by rewriting, expanded where someone looks, and the surface over them.
+//! Terrain: quadtrees of cells, expanded by rewriting around a focus, and the surface over them.
 //!
-//! Comes in: a [`World`] with its rules, and what a [`View`] shows of it. Goes out: [`Ground`] with heights at any
-//! place, and a [`GroundMesh`] of it. A cell's height depends on the world and its place alone, never on the way to it.
+//! Input: a [`World`] with its rules, and a [`View`] of it. Output: [`Ground`] with heights at any point, and
+//! a [`GroundMesh`]. A cell's height depends only on the world and the cell's position, never on the order of
+//! expansion.
 //!
 //! Source: Fitzpatrick, "Procedurally Generated Surfaces Using L-Systems".
 

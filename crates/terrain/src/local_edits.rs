@@ -1,18 +1,18 @@
-//! The changes of a part of the ground, found by place.
+//! Terrain edits of a part of the ground, with a spatial index.
 
 use glam::DVec2;
 
 use super::edits::Edit;
 
-/// Changes in order, and by square of the part that they change.
+/// Edits in order, with the squares that they affect.
 #[derive(Debug, Clone, Default)]
 pub(super) struct LocalEdits {
     edits: Vec<LocalEdit>,
     low: DVec2,
-    /// The length (m) of the sides of a square, and how many there are along a side of the part.
+    /// Side lengths (m) of a square, and the number of squares per side of the part.
     step: DVec2,
     across: usize,
-    /// By square, row by row from the south: the numbers of what reaches it.
+    /// Indices of the edits that affect each square, row by row from the south.
     squares: Vec<Vec<u32>>,
 }
 
@@ -22,11 +22,11 @@ struct LocalEdit {
     bounds: (DVec2, DVec2),
 }
 
-/// The most squares along a side.
+/// Maximum number of squares per side.
 const MOST_ACROSS: usize = 128;
 
 impl LocalEdits {
-    /// Those of `edits` for the box from `low` to `high` (m).
+    /// Creates an index of `edits` for the box from `low` to `high` (m).
     pub(super) fn new(edits: impl IntoIterator<Item = Edit>, low: DVec2, high: DVec2) -> Self {
         let edits: Vec<LocalEdit> =
             edits.into_iter().map(|edit| LocalEdit { bounds: edit.bounds(), edit }).collect();
@@ -48,12 +48,12 @@ impl LocalEdits {
         local
     }
 
-    /// Whether nothing is changed.
+    /// Returns true if there are no edits.
     pub(super) fn is_empty(&self) -> bool {
         self.edits.is_empty()
     }
 
-    /// The height (m) that a place gets where it was `height` (m).
+    /// Returns the new height (m) of a point, given the previous height (m).
     pub(super) fn at(&self, place: DVec2, height: f64) -> f64 {
         if self.squares.is_empty() {
             return height;
@@ -66,7 +66,7 @@ impl LocalEdits {
         })
     }
 
-    /// The column and the row of the square at a place; of the nearest one outside of the part.
+    /// Returns the column and the row of the square at a point, or of the nearest square.
     #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a cast saturates")]
     fn square(&self, place: DVec2) -> [usize; 2] {
         let at = (place - self.low) / self.step;

@@ -1,8 +1,9 @@
-//! Triangles over expanded ground, few where it is even, within a stated error and without gaps.
+//! Triangulation of expanded ground, coarse where it is even, within an error limit and without gaps.
 //!
-//! Each square of cells is two right triangles, and each triangle is halved at the middle of its longest side as long
-//! as the ground is farther from it than the error allows. A side is halved for both triangles at it or for none; so
-//! halving one may halve others first, also in tiles whose own cells are larger.
+//! Each square of cells consists of two right triangles, and each triangle is halved at the midpoint of its
+//! longest side as long as the ground is farther from it than the error limit. A side is halved for both
+//! adjacent triangles, so halving one triangle may require others to be halved first, also in tiles with
+//! larger cells.
 //!
 //! Method: Evans, Kirkpatrick and Townsend, "Right-triangulated irregular networks", 2001.
 
@@ -29,7 +30,7 @@ pub(super) struct RightTriangle {
 }
 
 impl RightTriangle {
-    /// The middle of its longest side, where it is halved; `None` for one that cannot be halved.
+    /// Returns the midpoint of its longest side, where it is halved; `None` if it cannot be halved.
     pub(super) fn middle(&self) -> Option<GridCorner> {
         let sum = [self.a[0] + self.b[0], self.a[1] + self.b[1]];
         (sum[0] & 1 == 0 && sum[1] & 1 == 0).then(|| [sum[0] >> 1, sum[1] >> 1])
@@ -40,14 +41,14 @@ impl RightTriangle {
     }
 }
 
-/// The heights (m) at all corners of the cells of a tile.
+/// Heights (m) at all corners of the cells of a tile.
 pub(super) struct HeightGrid {
     pub heights: Vec<f64>,
-    /// Corners along a side.
+    /// Number of corners per side.
     pub across: usize,
-    /// The first of its corners.
+    /// First corner.
     pub first: GridCorner,
-    /// How many times its cells are as large as the smallest: this power of two.
+    /// Size of its cells relative to the smallest cells, as an exponent of two.
     pub shift: u32,
 }
 
@@ -73,7 +74,8 @@ impl HeightGrid {
         self.heights[row * self.across + column]
     }
 
-    /// Whether the ground is anywhere farther than `error` (m) from a triangle, all of whose corners are its own.
+    /// Returns true if the ground is farther than `error` (m) from a triangle whose corners all belong to the
+    /// grid.
     #[allow(clippy::cast_precision_loss, reason = "columns are below 2^31")]
     pub(super) fn is_far(&self, triangle: &RightTriangle, error: f64) -> bool {
         let own = |corner: GridCorner| {
@@ -82,13 +84,13 @@ impl HeightGrid {
         };
         let [a, b, c] = [triangle.a, triangle.b, triangle.apex].map(own);
         let [p, q, r] = [a, b, c].map(|(x, y)| (DVec2::new(x as f64, y as f64), self.at(x, y)));
-        // The plane through its corners: the sides at the right angle have the same length.
+        // The plane through its corners: both legs have the same length.
         let (u, v) = (p.0 - r.0, q.0 - r.0);
         let length = u.length_squared();
         let gradient = (u * (p.1 - r.1) + v * (q.1 - r.1)) / length;
         let (top, bottom) = (a.1.min(b.1).min(c.1), a.1.max(b.1).max(c.1));
         for row in top..=bottom {
-            // Where the row crosses the sides.
+            // Intersections of the row with the sides.
             let (mut left, mut right) = (usize::MAX, 0);
             for (from, to) in [(a, b), (b, c), (c, a)] {
                 let (from, to) = if from.1 <= to.1 { (from, to) } else { (to, from) };
@@ -125,11 +127,11 @@ impl HeightGrid {
 /// A triangulation of expanded ground.
 pub struct GroundMesh<'a> {
     ground: &'a Ground,
-    /// One for each tile.
+    /// Height grid of each tile.
     grids: Vec<HeightGrid>,
-    /// What was measured on each tile.
+    /// Samples of each tile.
     samples: Vec<TileSamples>,
-    /// The corners where triangles are halved.
+    /// Corners where triangles are halved.
     halved: FxHashSet<u64>,
     error: f64,
 }
@@ -139,8 +141,8 @@ fn key([x, y]: GridCorner) -> u64 {
 }
 
 impl<'a> GroundMesh<'a> {
-    /// The fewest triangles from which the ground is nowhere farther than `error` (m) at a corner of its cells, nor at a
-    /// sample of measured ground where its cells are not larger than the distance of these.
+    /// Computes the coarsest triangulation within `error` (m) of the ground at all corners of its cells, and
+    /// at all samples of measured ground if cells are not larger than the sample distance.
     pub fn new(ground: &'a Ground, error: f64) -> Self {
         let owner = MemoryOwner::current();
         let grid = |tile| owner.charge(|| HeightGrid::new(ground, tile));
@@ -161,17 +163,18 @@ impl<'a> GroundMesh<'a> {
         mesh
     }
 
-    /// Where a triangle has to be halved, if it has.
+    /// Returns the point where a triangle must be halved, if necessary.
     fn want(&self, triangle: &RightTriangle) -> Option<GridCorner> {
         let middle = triangle.middle()?;
         let inside = |at: GridCorner, to: GridCorner| [at[0] * 2 + to[0], at[1] * 2 + to[1]];
-        // A point within it, in thirds, tells whose it is.
+        // The tile of the triangle is determined by an inner point, in thirds of a cell.
         let [x, y] = inside(middle, triangle.apex);
         let holder = self.ground.holder(x.div_euclid(3), y.div_euclid(3))?;
         let (tile, grid) = (&self.ground.tiles()[holder], &self.grids[holder]);
         let legs = (triangle.a[0] - triangle.apex[0]).abs().max((triangle.a[1] - triangle.apex[1]).abs());
         let whole = 1i64 << (self.ground.finest() - tile.place.level);
-        // What is larger than a tile is divided anyway; what is as small as its cells lies on its surface.
+        // Triangles larger than a tile are divided anyway; triangles as small as its cells lie on its
+        // surface.
         if legs > whole
             || legs >> grid.shift == 0
             || middle.iter().any(|at| at & ((1 << grid.shift) - 1) != 0)
@@ -186,12 +189,13 @@ impl<'a> GroundMesh<'a> {
         (grid.is_far(triangle, self.error) || !samples.is_empty() && passes()).then_some(middle)
     }
 
-    /// The heights (m) at the corners of a triangle.
+    /// Returns the heights (m) at the corners of a triangle.
     fn heights(&self, triangle: &RightTriangle) -> [f64; 3] {
         [triangle.a, triangle.b, triangle.apex].map(|[x, y]| self.ground.corner(x, y).unwrap_or(0.0))
     }
 
-    /// Halves the triangles at `corner`; adds to `wanted` where others have to be halved for it, or because of it.
+    /// Halves the triangles at `corner`, and adds the points to `wanted` where others must be halved before
+    /// or because of it.
     fn halve(&mut self, corner: GridCorner, wanted: &mut Vec<GridCorner>) {
         if !self.halved.insert(key(corner)) {
             return;
@@ -206,7 +210,7 @@ impl<'a> GroundMesh<'a> {
         }
     }
 
-    /// The triangles over a tile with this number, as numbers of its vertices.
+    /// Returns the triangles over the tile `number` as indices of its vertices.
     fn triangles(&self, number: usize) -> (Vec<Vertex>, Vec<[u32; 3]>) {
         let tile = &self.ground.tiles()[number];
         let mut vertices = Vec::new();
@@ -241,7 +245,7 @@ impl<'a> GroundMesh<'a> {
         (vertices, triangles)
     }
 
-    /// Where a vertex over a tile with this number is (m).
+    /// Returns the position (m) of a vertex over the tile `number`.
     fn point(&self, number: usize, vertex: Vertex) -> DVec3 {
         match vertex {
             Vertex::Corner([x, y]) => self.ground.place(x, y).extend(self.ground.corner(x, y).unwrap_or(0.0)),
@@ -252,9 +256,10 @@ impl<'a> GroundMesh<'a> {
         }
     }
 
-    /// Adds the triangles over the tile with this number to `part`, with points relative to `origin` (m), outside of the
-    /// areas that lie on the ground. The tile's south-west corner gets the texture coordinates `begin` (m), from where
-    /// they count.
+    /// Adds the triangles over the tile `number` to `part`, relative to `origin` (m), outside the areas of
+    /// `cuts`.
+    ///
+    /// Texture coordinates (m) begin at `begin` in the tile's south-west corner.
     pub fn write(&self, number: usize, origin: DVec3, begin: f64, cuts: &GroundCuts, part: &mut Part) {
         let (vertices, triangles) = self.triangles(number);
         let base = u32::try_from(part.positions.len()).unwrap_or(u32::MAX);
@@ -308,7 +313,8 @@ impl<'a> GroundMesh<'a> {
         part.triangles.extend(left);
     }
 
-    /// The edges of triangles on the rim of what is expanded, in no order: their ends (m), with the ground on their left.
+    /// Returns the edges of triangles on the boundary of the expanded area, unordered: their ends (m), with
+    /// the ground on the left.
     pub fn rim(&self) -> Vec<[DVec3; 2]> {
         let [low, high] = self.ground.rim();
         let mut edges = Vec::new();
@@ -333,7 +339,7 @@ impl<'a> GroundMesh<'a> {
     }
 }
 
-/// Drops the vertices from number `base` on that none of the triangles has.
+/// Removes the vertices from index `base` on that no triangle uses.
 fn drop_unused(part: &mut Part, base: usize, triangles: &mut [[u32; 3]]) {
     let mut numbers = vec![u32::MAX; part.positions.len() - base];
     let mut next = base;
@@ -356,8 +362,8 @@ fn drop_unused(part: &mut Part, base: usize, triangles: &mut [[u32; 3]]) {
     }
 }
 
-/// The two corners at the right angles of the triangles that are halved at a corner, and the ends of their longest side;
-/// `None` for the corners of a world of `across` smallest cells.
+/// Returns the right-angled corners of the two triangles that are halved at a corner, and the ends of their
+/// common longest side; `None` for the corners of a world of `across` smallest cells.
 pub(super) fn diamond([x, y]: GridCorner, across: i64) -> Option<([GridCorner; 2], [GridCorner; 2])> {
     let step = (x | y) & -(x | y);
     if step == 0 || step >= across {
@@ -377,14 +383,15 @@ pub(super) fn diamond([x, y]: GridCorner, across: i64) -> Option<([GridCorner; 2
     })
 }
 
-/// The corners of a tile, in cells of the level `finest`: north-west, north-east, south-west and south-east.
+/// Returns the corners of a tile, in cells of the level `finest`: north-west, north-east, south-west and
+/// south-east.
 pub(super) fn corners(place: TilePlace, finest: u32) -> [GridCorner; 4] {
     let size = 1i64 << (finest - place.level);
     let [x, y] = [place.x * size, place.y * size];
     [[x, y], [x + size, y], [x, y + size], [x + size, y + size]]
 }
 
-/// The two triangles that a tile begins with, counter-clockwise from above.
+/// Returns the two root triangles of a tile, counter-clockwise from above.
 pub(super) fn roots(place: TilePlace, finest: u32) -> [RightTriangle; 2] {
     let [a, b, c, d] = corners(place, finest);
     if (place.x + place.y) & 1 == 0 {
@@ -394,7 +401,7 @@ pub(super) fn roots(place: TilePlace, finest: u32) -> [RightTriangle; 2] {
     }
 }
 
-/// The triangle counter-clockwise as seen from above, where rows run to the south.
+/// Orients a triangle counter-clockwise as seen from above, where rows run to the south.
 fn turned(triangle: RightTriangle) -> RightTriangle {
     let RightTriangle { a, b, apex } = triangle;
     let [u, v] = [[b[0] - a[0], b[1] - a[1]], [apex[0] - a[0], apex[1] - a[1]]];

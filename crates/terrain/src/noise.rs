@@ -1,12 +1,12 @@
-//! Noise by place: smooth, between -1 and 1, the same everywhere at all times.
+//! Deterministic smooth noise between -1 and 1.
 
 use glam::{DVec2, DVec3};
 
-/// Value noise at `place`, which changes over a distance of 1.
+/// Returns value noise at `place`, with a feature size of 1.
 fn noise(place: DVec2, seed: u64) -> f64 {
     let cell = place.floor();
     let part = place - cell;
-    // Quintic steps have no bend at the borders of cells.
+    // Quintic interpolation has continuous curvature at the borders of cells.
     let ease = part * part * part * (part * (part * 6.0 - 15.0) + 10.0);
     let at = |right: f64, down: f64| corner(cell.x + right, cell.y + down, seed);
     let near = at(0.0, 0.0) + (at(1.0, 0.0) - at(0.0, 0.0)) * ease.x;
@@ -14,9 +14,9 @@ fn noise(place: DVec2, seed: u64) -> f64 {
     near + (far - near) * ease.y
 }
 
-/// Noise of `octaves` sizes, each half as large and half as strong as the one before.
+/// Returns noise of `octaves` octaves, each half as large and half as strong as the previous one.
 ///
-/// Method: value noise with quintic steps (K. Perlin, "Improving noise", 2002).
+/// Method: value noise with quintic interpolation (K. Perlin, "Improving noise", 2002).
 ///
 /// ```
 /// use burgeon_terrain::octaves;
@@ -40,13 +40,13 @@ pub fn octaves(place: DVec2, octaves: u32, seed: u64) -> f64 {
     if whole > 0.0 { sum / whole } else { 0.0 }
 }
 
-/// Value noise at `place` in space, which changes over a distance of 1.
+/// Returns value noise at `place` in space, with a feature size of 1.
 fn noise_around(place: DVec3, seed: u64) -> f64 {
     let cell = place.floor();
     let part = place - cell;
     let ease = part * part * part * (part * (part * 6.0 - 15.0) + 10.0);
     let level = |up: f64| {
-        // Each level of corners has numbers of its own.
+        // Each level of corners has a different seed.
         let seed = seed ^ (cell.z + up + 0.0).to_bits().wrapping_mul(0xD6E8_FEB8_6659_FD93);
         let at = |right: f64, down: f64| corner(cell.x + right, cell.y + down, seed);
         let near = at(0.0, 0.0) + (at(1.0, 0.0) - at(0.0, 0.0)) * ease.x;
@@ -57,7 +57,7 @@ fn noise_around(place: DVec3, seed: u64) -> f64 {
     below + (level(1.0) - below) * ease.z
 }
 
-/// As [`octaves`], at a place in space; without those that are smaller than `finest`, which nobody would see.
+/// Returns noise like [`octaves`] at a point in space, without the octaves that are smaller than `finest`.
 pub fn octaves_around(place: DVec3, octaves: u32, seed: u64, finest: f64) -> f64 {
     let (mut sum, mut whole, mut strength, mut scale) = (0.0, 0.0, 1.0, 1.0);
     for octave in 0..octaves {
@@ -70,7 +70,7 @@ pub fn octaves_around(place: DVec3, octaves: u32, seed: u64, finest: f64) -> f64
     if whole > 0.0 { sum / whole } else { 0.0 }
 }
 
-/// A number between -1 and 1 for a corner.
+/// Returns a pseudo-random number between -1 and 1 for a corner.
 #[allow(clippy::cast_precision_loss, reason = "53 bits fit an f64 exactly")]
 fn corner(x: f64, y: f64, seed: u64) -> f64 {
     let mut bits = x.to_bits().wrapping_mul(0x9E37_79B9_7F4A_7C15) ^ y.to_bits().rotate_left(31) ^ seed;

@@ -1,7 +1,8 @@
-//! Rivers: where water runs from a place, down to the standing water or over the rim.
+//! Rivers: flow paths from a point down to standing water or over the boundary.
 //!
-//! Method: Barnes, Lehman and Mulla, "Priority-flood", 2014: from the outlets on, the lowest cell that is reached next
-//! tells its neighbours the way down, so that every cell has one, through hollows as well.
+//! Method: Barnes, Lehman and Mulla, "Priority-flood", 2014. Starting at the outlets, the lowest open cell
+//! becomes the downstream cell of its neighbours, so that every cell has a flow direction, also through
+//! hollows.
 
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
@@ -10,7 +11,7 @@ use glam::{DVec2, DVec3};
 
 use super::ground::GroundMap;
 
-/// The cells of a map and the way down from each.
+/// The cells of a map, with their flow directions.
 #[derive(Clone)]
 pub struct Drainage {
     columns: usize,
@@ -18,29 +19,29 @@ pub struct Drainage {
     corner: DVec2,
     step: f64,
     heights: Vec<f64>,
-    /// The cell that water runs to; itself for an outlet.
+    /// Downstream cell of each cell; the cell itself for an outlet.
     next: Vec<u32>,
-    /// The cells where a river runs already.
+    /// Marks cells with an existing river.
     wet: Vec<bool>,
 }
 
-/// Why no river runs from a place.
+/// Reason why no river starts at a point.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Dry {
-    /// It is at the rim, at the shore or in standing water, or outside.
+    /// The point is on the boundary, at the shore, in standing water, or outside.
     Outlet,
-    /// It is in an earlier river, or beside one: water runs there already.
+    /// The point is in or next to an earlier river.
     River,
 }
 
-/// The most cells along a side that are looked at.
+/// Maximum number of cells per side of the flow map.
 const MOST: usize = 1024;
 
-/// As many cells as this are no river.
+/// Maximum number of cells of a path that is too short for a river.
 const SHORTEST: usize = 2;
 
 impl Drainage {
-    /// The ways down on `map`, to its rim and to all ground below `water` (m).
+    /// Computes the flow directions on `map`, to its boundary and to all ground below `water` (m).
     pub fn new(map: &GroundMap, water: Option<f64>) -> Self {
         let every = map.columns.max(map.rows).div_ceil(MOST).max(1);
         let (columns, rows) = (map.columns.div_ceil(every), map.rows.div_ceil(every));
@@ -67,7 +68,7 @@ impl Drainage {
     }
 
     fn flood(&mut self, water: Option<f64>) {
-        // Heights from 0 on have the order of their bits; those below 0 are turned around.
+        // The bits of non-negative numbers are in ascending order; the bits of negative numbers are inverted.
         let key = |height: f64| {
             let bits = height.to_bits();
             if bits >> 63 == 1 { !bits } else { bits | 1 << 63 }
@@ -103,7 +104,7 @@ impl Drainage {
         }
     }
 
-    /// Lets a river run: its [`course`](Self::course), where later rivers end.
+    /// Adds a river along its [`course`](Self::course), where later rivers end.
     pub fn river(&mut self, source: DVec2) -> Result<Vec<DVec3>, Dry> {
         let course = self.course(source)?;
         let cells: Vec<usize> = self.cell(source).into_iter().flat_map(|cell| self.way(cell)).collect();
@@ -111,8 +112,8 @@ impl Drainage {
         Ok(course)
     }
 
-    /// Path (m) of a river from `source` (m) to an outlet or into an earlier river, never rising. Fails if it is shorter than
-    /// two cells.
+    /// Returns the path (m) of a river from `source` (m) to an outlet or into an earlier river, never rising.
+    /// Fails if it has at most two cells.
     pub fn course(&self, source: DVec2) -> Result<Vec<DVec3>, Dry> {
         let cells: Vec<usize> = self.cell(source).into_iter().flat_map(|cell| self.way(cell)).collect();
         if cells.len() <= SHORTEST {
@@ -127,12 +128,12 @@ impl Drainage {
         Ok(rounded(rounded(path.collect())))
     }
 
-    /// Whether a river has a way from `source` (m).
+    /// Returns true if a river can start at `source` (m).
     pub fn is_source(&self, source: DVec2) -> bool {
         self.cell(source).is_some_and(|cell| self.way(cell).nth(SHORTEST).is_some())
     }
 
-    /// The cells that water runs through from one, until an outlet or an earlier river.
+    /// Returns the cells downstream of a cell, up to an outlet or an earlier river.
     fn way(&self, cell: usize) -> impl Iterator<Item = usize> + '_ {
         std::iter::successors(Some(cell), move |cell| {
             let next = self.next[*cell] as usize;
@@ -140,7 +141,7 @@ impl Drainage {
         })
     }
 
-    /// The cell that a place (m) is in.
+    /// Returns the cell that contains a point (m).
     fn cell(&self, place: DVec2) -> Option<usize> {
         let along = DVec2::new(place.x - self.corner.x, self.corner.y - place.y) / self.step;
         if along.min_element() < 0.0 {
@@ -162,7 +163,7 @@ fn narrow(cell: usize) -> u32 {
     u32::try_from(cell).unwrap_or(u32::MAX)
 }
 
-/// A way whose corners are cut, with the same ends.
+/// Returns a path with rounded corners and the same ends.
 ///
 /// Method: Chaikin, "An algorithm for high-speed curve generation", 1974.
 fn rounded(way: Vec<DVec3>) -> Vec<DVec3> {

@@ -1,7 +1,7 @@
-//! The samples of measured ground as corners of triangles, where these would pass them by.
+//! Samples of measured ground as vertices of triangles.
 //!
-//! A triangle that cannot be halved any more is divided at the samples in it that are farther from it than the error
-//! allows. Whether a side is divided depends on its ends and on the sample alone, so both triangles at it agree.
+//! A triangle that cannot be halved further is divided at its samples that exceed the error limit. The
+//! division of a side depends only on its ends and on the sample, so both adjacent triangles agree.
 
 use glam::DVec2;
 use rayon::prelude::*;
@@ -10,37 +10,38 @@ use super::ground::Ground;
 use super::mesh::{GridCorner, RightTriangle};
 use super::tile::Tile;
 
-/// The least distance (m) between a sample and the triangles that is worth a corner.
+/// Minimum distance (m) between a sample and a triangle that requires a vertex.
 const LEAST: f64 = 2e-4;
 
-/// How near (m) to a side of a triangle a sample counts as on it, in small and in large tiles: places are told in f32.
+/// Maximum distance (m) of a sample on a side of a triangle, absolute and relative to the tile size:
+/// positions are stored in f32.
 const NEAR: f64 = 1e-4;
 const NEAR_PART: f64 = 3e-7;
 
-/// A sample, where it is in the grid of the smallest cells, from the north-west.
+/// A sample, positioned in the grid of the smallest cells, from the north-west.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Sample {
     pub at: DVec2,
-    /// Where it is (m).
+    /// Position (m).
     pub place: DVec2,
-    /// How high (m) the ground is there.
+    /// Height (m) of the ground.
     pub height: f64,
 }
 
-/// The samples on a tile, by the rows of its cells.
+/// Samples of a tile, by the rows of its cells.
 #[derive(Default)]
 pub(super) struct TileSamples {
     all: Vec<Sample>,
-    /// Where each row begins among all; from west to east in a row.
+    /// Start index of each row in `all`; rows are sorted from west to east.
     rows: Vec<usize>,
-    /// The first row, in the smallest cells, and how many of these a row has.
+    /// First row, in the smallest cells, and the height of a row in these cells.
     top: f64,
     row: f64,
-    /// How near (smallest cells) a sample is to what it counts as on.
+    /// Tolerance (smallest cells) of incidence.
     near: f64,
 }
 
-/// A corner of a triangle: of cells, or a sample of its tile.
+/// A vertex of a triangle: a corner of cells, or a sample of its tile.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub(super) enum Vertex {
     Corner(GridCorner),
@@ -48,7 +49,8 @@ pub(super) enum Vertex {
 }
 
 impl TileSamples {
-    /// Those that the cells of `tile` can show; none where these are too large, or where no ground was measured.
+    /// Collects the samples that the cells of `tile` can show; none if the cells are too large or if the
+    /// ground is not measured.
     pub(super) fn new(ground: &Ground, tile: &Tile) -> Self {
         let world = ground.world();
         let (Some(measured), true) = (&world.measured, world.shows_samples(tile.level())) else {
@@ -73,7 +75,7 @@ impl TileSamples {
         let near = near / cell;
         let mut rows: Vec<Vec<Sample>> = vec![Vec::new(); own.rows];
         for sample in found {
-            // A tile beside this one that cannot show the sample would leave a gap.
+            // A sample next to a tile that cannot show it would cause a gap.
             if !is_shown(ground, sample.at, near) {
                 continue;
             }
@@ -90,22 +92,24 @@ impl TileSamples {
         samples
     }
 
-    /// Whether there are none.
+    /// Returns true if there are no samples.
     pub(super) fn is_empty(&self) -> bool {
         self.all.is_empty()
     }
 
-    /// Whether a sample is on the column (axis 0) or the row (axis 1) of the grid of the smallest cells.
+    /// Returns true if a sample lies on a column (axis 0) or a row (axis 1) of the grid of the smallest
+    /// cells.
     pub(super) fn is_on(&self, index: usize, axis: usize, line: i64) -> bool {
         (self.get(index).at[axis] - number(line)).abs() <= self.near
     }
 
-    /// A sample by its number.
+    /// Returns a sample by its index.
     pub(super) fn get(&self, index: usize) -> &Sample {
         &self.all[index]
     }
 
-    /// Whether one in `triangle`, whose corners have the heights (m) `heights`, is farther than `error` (m) from it.
+    /// Returns true if a sample in `triangle`, with the heights (m) `heights` at its corners, is farther than
+    /// `error` (m) from it.
     pub(super) fn is_far(&self, triangle: &RightTriangle, heights: [f64; 3], error: f64) -> bool {
         let error = error.max(LEAST);
         let mut far = false;
@@ -116,8 +120,7 @@ impl TileSamples {
         far
     }
 
-    /// The triangles that `triangle` becomes where samples in it are farther than `error` (m) from it; none if there
-    /// is none.
+    /// Divides `triangle` at the samples that are farther than `error` (m) from it; empty if there are none.
     pub(super) fn divide(&self, triangle: &RightTriangle, heights: [f64; 3], error: f64) -> Vec<[Vertex; 3]> {
         let error = error.max(LEAST);
         let mut within = Vec::new();
@@ -141,7 +144,7 @@ impl TileSamples {
                 if distances.iter().any(|distance| *distance < -self.near) {
                     next.push(piece);
                 } else {
-                    // One piece for each side that it is not on.
+                    // Each side that does not contain the sample makes one piece.
                     let sides = [[a, b], [b, c], [c, a]].into_iter().zip(distances);
                     let sides = sides.filter(|(_, distance)| *distance > self.near);
                     next.extend(sides.map(|([from, to], _)| [from, to, new]));
@@ -152,7 +155,8 @@ impl TileSamples {
         pieces
     }
 
-    /// How far (smallest cells) `at` is within each side of a piece: from the first corner to the second, and so on.
+    /// Returns the distances (smallest cells) of `at` from the sides of a piece, positive inside: from the
+    /// first corner to the second, and so on.
     fn distances(&self, piece: [Vertex; 3], at: DVec2) -> [f64; 3] {
         let [a, b, c] = piece.map(|vertex| match vertex {
             Vertex::Corner(corner) => spot(corner),
@@ -161,8 +165,11 @@ impl TileSamples {
         [[a, b], [b, c], [c, a]].map(|[from, to]| distance(from, to, at))
     }
 
-    /// Tells those in a triangle, its rim included but not its corners, where the ground is as it was measured, with
-    /// their distances from its sides, until `tell` has enough.
+    /// Calls `tell` with the samples in a triangle and their distances from its sides, until `tell` returns
+    /// false.
+    ///
+    /// Samples on its sides are included, but not those at its corners, where the ground has the measured
+    /// height.
     fn each(&self, triangle: &RightTriangle, mut tell: impl FnMut(usize, &Sample, [f64; 3]) -> bool) {
         if self.all.is_empty() {
             return;
@@ -191,20 +198,21 @@ impl TileSamples {
     }
 }
 
-/// How far (m) above or below a triangle a sample is; on one of its sides only the ends of that count.
+/// Returns the vertical distance (m) of a sample from a triangle; on a side, only the ends of the side
+/// matter.
 fn off(triangle: &RightTriangle, heights: [f64; 3], sample: &Sample, distances: [f64; 3], near: f64) -> f64 {
     let corners = [triangle.a, triangle.b, triangle.apex];
     let height = match distances.iter().position(|distance| *distance <= near) {
         Some(side) => {
             let ends = [side, (side + 1) % 3];
-            // In the same order for the triangle at the other side.
+            // The order of the ends is the same for the triangle on the other side.
             let [one, other] = if corners[ends[0]] <= corners[ends[1]] { ends } else { [ends[1], ends[0]] };
             let [from, to] = [one, other].map(|end| spot(corners[end]));
             let along = (sample.at - from).dot(to - from) / (to - from).length_squared();
             heights[one] + (heights[other] - heights[one]) * along
         }
         None => {
-            // Each corner counts by the area of the triangle opposite to it.
+            // Barycentric coordinates: each corner is weighted by the area of the opposite triangle.
             let [a, b, c] = corners.map(spot);
             let share = |side: usize, from: DVec2, to: DVec2| distances[side] * (to - from).length();
             let parts = [share(1, b, c), share(2, c, a), share(0, a, b)];
@@ -215,7 +223,7 @@ fn off(triangle: &RightTriangle, heights: [f64; 3], sample: &Sample, distances: 
     (height - sample.height).abs()
 }
 
-/// Whether the cells around a place of the grid are all small enough to show samples, those of other tiles as well.
+/// Returns true if all cells around a point of the grid can show samples, including those of other tiles.
 fn is_shown(ground: &Ground, at: DVec2, near: f64) -> bool {
     let reach = 2.0 * near;
     [(-reach, -reach), (reach, -reach), (-reach, reach), (reach, reach)].into_iter().all(|(x, y)| {
@@ -226,8 +234,8 @@ fn is_shown(ground: &Ground, at: DVec2, near: f64) -> bool {
     })
 }
 
-/// How far `at` is to the inner side of the line through two corners of a triangle, which are counter-clockwise as
-/// seen from above, where rows run to the south.
+/// Returns the distance of `at` to the inner side of the line through two consecutive corners of a
+/// counter-clockwise triangle, as seen from above, where rows run to the south.
 fn distance(from: DVec2, to: DVec2, at: DVec2) -> f64 {
     let way = to - from;
     -way.perp_dot(at - from) / way.length()

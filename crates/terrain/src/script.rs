@@ -1,4 +1,4 @@
-//! How scripts write what is seen from a place.
+//! Script values of views.
 
 use std::sync::Arc;
 

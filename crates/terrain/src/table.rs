@@ -1,4 +1,4 @@
-//! Rule tables: what a cell of each symbol becomes, without a script.
+//! Rule tables: successors of each symbol without a script.
 
 use rayon::prelude::*;
 
@@ -7,17 +7,17 @@ use burgeon_base::memory::zeroed;
 use burgeon_base::random::Stream;
 use burgeon_rewriting::{ModuleKey, Symbol};
 
-/// A number, or the range that it is drawn from.
+/// A number, or the range of a random number.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct NumberRange {
-    /// The least.
+    /// Minimum.
     pub low: f64,
-    /// The greatest; the same for a number that is not drawn.
+    /// Maximum; equal to the minimum for a fixed number.
     pub high: f64,
 }
 
 impl NumberRange {
-    /// A number that is not drawn.
+    /// Creates a fixed number.
     pub fn exactly(number: f64) -> Self {
         Self { low: number, high: number }
     }
@@ -35,39 +35,39 @@ impl NumberRange {
 /// The four quadrants that replace a cell: north-west, north-east, south-west, south-east.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Quadrants {
-    /// How likely it is among the rules of its symbol.
+    /// Weight of the rule among the rules of its symbol.
     pub weight: f64,
-    /// The symbol of each.
+    /// Symbol of each quadrant.
     pub symbols: [Symbol; 4],
-    /// What is added to the cell's height, as a multiple of its decay.
+    /// Addition to the cell's height, as a multiple of its decay.
     pub change: [NumberRange; 4],
-    /// What the cell's decay is multiplied by.
+    /// Factor of the cell's decay.
     pub decay: [NumberRange; 4],
 }
 
-/// The rules of all symbols, by number.
+/// Rules of all symbols, by index.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RuleTable {
-    /// The names of the symbols.
+    /// Names of the symbols.
     pub names: Vec<String>,
-    /// The rules of each symbol, of which one is drawn.
+    /// Rules of each symbol; one of them is chosen at random.
     pub rules: Vec<Vec<Quadrants>>,
 }
 
 impl RuleTable {
-    /// Whether it draws random numbers.
+    /// Returns true if the table uses random numbers.
     pub fn is_random(&self) -> bool {
         let drawn = |rule: &Quadrants| rule.change.iter().chain(&rule.decay).any(|draw| draw.is_drawn());
         self.rules.iter().any(|rules| rules.len() > 1 || rules.iter().any(drawn))
     }
 
-    /// The greatest factor of a decay.
+    /// Returns the maximum absolute factor of a decay.
     pub fn greatest_decay(&self) -> f64 {
         let rules = self.rules.iter().flatten();
         rules.flat_map(|rule| rule.decay).map(|draw| draw.low.abs().max(draw.high.abs())).fold(0.0, f64::max)
     }
 
-    /// The quadrants of the cells of `area`; without decays and keys if they are the `last`.
+    /// Returns the quadrants of the cells of `area`, without decays and keys if they are the `last`.
     pub fn divide(&self, cells: &Block, area: Area, last: bool) -> Block {
         let made = area.quadrants();
         let count = made.len();
@@ -87,7 +87,7 @@ impl RuleTable {
         if two == 0 {
             return block;
         }
-        // Empty columns have no rows, which must not end the others.
+        // Empty arrays have no chunks, which must not end the iteration over the others.
         let rows = (area.y..).zip(block.symbols.chunks_mut(two).zip(block.heights.chunks_mut(two)));
         let mut decays = block.rest.chunks_mut(two);
         let mut keys = block.keys.chunks_mut(two);
@@ -152,7 +152,7 @@ struct QuadrantRows<'a> {
     heights: &'a mut [f64],
     decays: Option<&'a mut [f64]>,
     keys: Option<&'a mut [ModuleKey]>,
-    /// The length of one row.
+    /// Length of one row.
     across: usize,
 }
 

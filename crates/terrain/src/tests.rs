@@ -1,4 +1,4 @@
-//! Worlds of random rules, looked at from random places.
+//! Tests of worlds with random rules, seen from random points.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -10,7 +10,7 @@ use burgeon_base::random::Stream;
 use burgeon_rewriting::{ModuleKey, Symbol};
 use burgeon_scene::Part;
 
-/// A rule table of four symbols.
+/// Returns a rule table of four symbols.
 fn table(seed: u64, drawn: bool) -> RuleTable {
     let mut stream = Stream::new(seed);
     let mut rule = || {
@@ -50,7 +50,7 @@ fn world(seed: u64, drawn: bool, smooth: bool) -> World {
     }
 }
 
-/// Tiles of 512 m: 4 x 4 of 5 levels, 8 x 8 of 3, 12 x 12 of 2 and 16 x 16 of 1.
+/// Returns a view with tiles of 512 m: 4 x 4 of 5 levels, 8 x 8 of 3, 12 x 12 of 2 and 16 x 16 of 1.
 fn view() -> View {
     let ring = |(across, levels)| TileRing { across, levels };
     View { cell: 512.0, rings: [(4, 5), (8, 3), (12, 2), (16, 1)].map(ring).to_vec() }
@@ -111,7 +111,7 @@ fn a_part_of_the_tree_is_as_the_whole_one() {
 
 #[test]
 fn a_rule_table_gives_what_its_text_says() {
-    // The same, one cell at a time and by recursion.
+    // Recursive reference implementation for single cells.
     fn naive(
         table: &RuleTable,
         (symbol, height, decay): (Symbol, f64, f64),
@@ -157,7 +157,7 @@ fn the_reference_view_has_the_heights_of_the_paper() {
     assert_eq!(ground.heights(), 1_267_456);
 }
 
-/// The edges of triangles that have no other at their other side, as pairs of points.
+/// Returns the edges of triangles without an adjacent triangle, as pairs of points.
 fn open_edges(part: &Part) -> Vec<[DVec3; 2]> {
     let mut edges: BTreeMap<[[u32; 3]; 2], i32> = BTreeMap::new();
     let bits = |at: u32| part.positions[at as usize].to_array().map(f32::to_bits);
@@ -296,12 +296,12 @@ fn edits_act_in_their_order_whatever_is_expanded_and_come_back_from_a_file() {
     ground.focus(middle, &view(), &Tables).unwrap();
     let beside = middle + DVec2::new(200.0, -200.0);
     assert_eq!(ground.height(beside), Some(700.0));
-    // The ditch was dug into what had been made level.
+    // The ditch was dug into the level area.
     let bottom = ground.height(middle).unwrap();
     assert!((669.0..675.0).contains(&bottom), "{bottom}");
     let before: Vec<Option<f64>> =
         ground.tiles().iter().map(|tile| ground.height(tile.bounds(&world).0)).collect();
-    // Away, so that all of it is contracted, and back.
+    // Away, so that all tiles are contracted, and back.
     ground.focus(world.corner + 1.0, &view(), &Tables).unwrap();
     assert_eq!(ground.height(beside), None);
     ground.focus(middle, &view(), &Tables).unwrap();
@@ -314,7 +314,7 @@ fn edits_act_in_their_order_whatever_is_expanded_and_come_back_from_a_file() {
     assert_eq!(read.to_json(&world), text);
     let elsewhere = World { size: 1000.0, ..(*world).clone() };
     assert!(Edits::from_json(&text, "ground.json", &elsewhere).is_err());
-    // Without edits the tiles that they reached are as they were.
+    // Without edits the affected tiles have their original heights.
     ground.edit(&Arc::default());
     ground.focus(middle, &view(), &Tables).unwrap();
     let mut plain = Ground::new(Arc::clone(&world));
@@ -335,7 +335,7 @@ fn cells_are_called_as_the_rules_of_their_level_call_them() {
     let view = View { cell: 512.0, rings: [(2, 3), (4, 1)].map(ring).to_vec() };
     let eye = ground.world().corner + 20_000.0;
     ground.focus(eye, &view, &Tables).unwrap();
-    // Tiles are of level 7: the outer ones end at level 8, before the other rules begin.
+    // Tiles are of level 7: the outer tiles end at level 8, before the other rules begin.
     let name = |away: f64| ground.symbol(eye + DVec2::new(away, 0.0)).unwrap();
     assert!("EFGH".contains(name(0.0)) && "ABCD".contains(name(900.0)), "{} {}", name(0.0), name(900.0));
     assert!(!name(0.0).is_empty() && !name(900.0).is_empty());

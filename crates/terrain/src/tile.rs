@@ -1,4 +1,4 @@
-//! A tile: a cell of the world that is expanded to one level, with the heights of its smallest cells.
+//! Tiles: cells of the world that are expanded to one level, with the heights of their smallest cells.
 
 use glam::DVec2;
 use rayon::prelude::*;
@@ -9,51 +9,51 @@ use super::world::World;
 use burgeon_base::MemoryOwner;
 use burgeon_rewriting::Symbol;
 
-/// Which cell of the world a tile is.
+/// Position of a tile in the world.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct TilePlace {
-    /// How often the world is divided.
+    /// Level: number of divisions of the world.
     pub level: u32,
-    /// Its row from the north.
+    /// Row from the north.
     pub y: i64,
-    /// Its column from the west.
+    /// Column from the west.
     pub x: i64,
 }
 
-/// A cell of the world and the smallest cells that it is expanded to.
+/// A cell of the world, expanded to its smallest cells.
 #[derive(Debug, Clone)]
 pub struct Tile {
-    /// Which cell it is.
+    /// Position of the tile.
     pub place: TilePlace,
-    /// How often it is divided.
+    /// Number of divisions of the tile.
     pub detail: u32,
-    /// A number for the edits that it has; 0 without any.
+    /// Hash of its edits; 0 without edits.
     pub(super) mark: u64,
-    /// The cells whose heights are known: its own, and one more on each side within the world.
+    /// Cells with known heights: the tile's own cells, and one more on each side within the world.
     area: Area,
     heights: Vec<f64>,
     symbols: Vec<Symbol>,
-    /// The heights (m) of the ground at the corners of its cells, where it was measured; empty where it is the surface
-    /// of the cells.
+    /// Heights (m) of measured ground at the corners of its cells; empty if the ground is the surface of the
+    /// cells.
     corners: Vec<f64>,
-    /// What has been changed of measured ground, in order.
+    /// Edits of measured ground, in order.
     changes: LocalEdits,
 }
 
 impl Tile {
-    /// Its own cells at `detail` levels below it.
+    /// Returns the cells of a tile at `detail` levels below it.
     pub fn own(place: TilePlace, detail: u32) -> Area {
         let across = 1usize << detail;
         Area { x: place.x << detail, y: place.y << detail, columns: across, rows: across }
     }
 
-    /// The cells that a tile has to know.
+    /// Returns the cells whose heights a tile needs.
     pub fn wanted(place: TilePlace, detail: u32) -> Area {
         Self::own(place, detail).widened(1, World::across(place.level + detail))
     }
 
-    /// The tile at `place` out of `cells`, which are those that it has to know; `heights` (m) are those of the surface
-    /// of the cells.
+    /// Creates the tile at `place` from `cells`, which contain the `wanted` cells; `heights` (m) are the
+    /// heights of the wanted cells' surface.
     pub fn new(place: TilePlace, detail: u32, cells: &Block, wanted: Area, heights: Vec<f64>) -> Self {
         let own = Self::own(place, detail);
         let mut symbols = Vec::with_capacity(own.len());
@@ -65,7 +65,7 @@ impl Tile {
         Self { place, detail, mark: 0, area: wanted, heights, symbols, corners, changes }
     }
 
-    /// Lays its cells over what was measured, and changes what comes out.
+    /// Adds the surface of the cells to the measured ground, and applies the edits.
     pub(super) fn lay(&mut self, world: &World, changes: LocalEdits) {
         self.changes = changes;
         let own = Self::own(self.place, self.detail);
@@ -81,49 +81,50 @@ impl Tile {
             (0..rows).into_par_iter().map(|number| owner.charge(|| row(number))).collect::<Vec<_>>().concat();
     }
 
-    /// The height (m) of measured ground at `place` (m), where the surface of the cells is `laid` (m) high.
+    /// Returns the height (m) of edited measured ground at `place` (m), where the surface of the cells has
+    /// the height `laid` (m).
     pub(super) fn changed(&self, place: DVec2, world: &World, laid: f64) -> f64 {
         let ground = world.ground(place, laid);
         self.changes.at(place, ground)
     }
 
-    /// The number of heights that it was expanded for.
+    /// Returns the number of expanded heights.
     pub fn heights(&self) -> usize {
         1 << (2 * self.detail)
     }
 
-    /// The level of its smallest cells.
+    /// Returns the level of the smallest cells.
     pub fn level(&self) -> u32 {
         self.place.level + self.detail
     }
 
-    /// The bytes that it takes.
+    /// Returns the memory of the tile (bytes).
     pub fn bytes(&self) -> usize {
         let heights = self.heights.len() + self.corners.len();
         size_of::<Self>() + heights * size_of::<f64>() + self.symbols.len() * size_of::<Symbol>()
     }
 
-    /// The height (m) of the surface of the cells at the middle of one of its level; of the nearest one it knows, for
-    /// others.
+    /// Returns the height (m) of the surface at the centre of a cell of the tile's level; for unknown cells,
+    /// the height of the nearest known cell.
     #[inline]
     pub fn cell(&self, x: i64, y: i64) -> f64 {
         self.heights[self.area.index(x, y)]
     }
 
-    /// The symbol of a cell of its own.
+    /// Returns the symbol of one of the tile's own cells.
     pub fn symbol(&self, x: i64, y: i64) -> Symbol {
         self.symbols[Self::own(self.place, self.detail).index(x, y)]
     }
 
-    /// The height (m) of the surface of the cells at the north-west corner of one of its level: the mean of the four
-    /// cells around it.
+    /// Returns the height (m) of the surface at the north-west corner of a cell of the tile's level: the mean
+    /// of the four adjacent cells.
     #[inline]
     pub fn corner(&self, x: i64, y: i64) -> f64 {
         let [north, south] = [y - 1, y].map(|y| self.cell(x - 1, y) + self.cell(x, y));
         (north + south) * 0.25
     }
 
-    /// The height (m) of the ground at a corner of its own cells.
+    /// Returns the height (m) of the ground at a corner of the tile's own cells.
     #[inline]
     pub(super) fn ground(&self, x: i64, y: i64) -> f64 {
         if self.corners.is_empty() {
@@ -134,7 +135,8 @@ impl Tile {
         self.corners[part(y, own.y) * (own.columns + 1) + part(x, own.x)]
     }
 
-    /// Whether the grid of its level has a corner of cells at a corner of the cells of `level`, and which.
+    /// Converts a corner of the cells of `level` to the grid of the tile's level; `None` if that grid has no
+    /// corner there.
     #[inline]
     pub fn on_grid(&self, level: u32, x: i64, y: i64) -> Option<(i64, i64)> {
         let own = self.level();
@@ -145,7 +147,7 @@ impl Tile {
         ((x | y) & step == 0).then(|| (x >> (level - own), y >> (level - own)))
     }
 
-    /// Where it lies: its south-west corner (m) and the length (m) of its sides.
+    /// Returns the south-west corner (m) and the side length (m).
     #[allow(clippy::cast_precision_loss, reason = "columns and rows are below 2^53")]
     pub fn bounds(&self, world: &World) -> (DVec2, f64) {
         let size = world.cell(self.place.level);

@@ -1,4 +1,4 @@
-//! What is seen of a world from a place: which cells are tiles, and how far each is expanded.
+//! Views of a world from a point: the cells that become tiles, and the detail of each tile.
 
 use glam::DVec2;
 
@@ -8,47 +8,48 @@ use super::world::World;
 use burgeon_base::error::{Error, Limit, Result};
 use burgeon_base::text::number;
 
-/// The most heights that may be expanded at once.
+/// Maximum number of heights that are expanded at once.
 pub const MOST_HEIGHTS: u64 = 1 << 26;
 
 /// A square of tiles around the eye.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct TileRing {
-    /// How many tiles it has along a side, those of smaller rings among them.
+    /// Number of tiles per side, including those of smaller rings.
     pub across: u32,
-    /// How often each of its tiles is divided.
+    /// Number of divisions of each tile.
     pub levels: u32,
 }
 
-/// Tiles of one size around an eye: the nearest of them are divided most.
+/// Tiles of one size around an eye; the nearest tiles are divided most often.
 #[derive(Debug, Clone, PartialEq)]
 pub struct View {
-    /// The length (m) of the sides of tiles.
+    /// Side length (m) of the tiles.
     pub cell: f64,
-    /// From the smallest ring to the largest.
+    /// Rings, from the smallest to the largest.
     pub rings: Vec<TileRing>,
 }
 
-/// The cells of a world that a view makes tiles.
+/// The cells of a world that are the tiles of a view.
 pub(super) struct ViewCells {
     pub level: u32,
     pub window: Area,
-    /// By cell of the window: how often it is divided.
+    /// Number of divisions of each cell of the window.
     pub details: Vec<u32>,
 }
 
 impl View {
-    /// All of a world as one tile that is divided `levels` times.
+    /// Returns a view of the whole world as one tile that is divided `levels` times.
     pub fn whole(world: &World, levels: u32) -> Self {
         Self { cell: world.size, rings: vec![TileRing { across: 1, levels }] }
     }
 
-    /// Fails if it cannot be seen of `world` from `eye` (m): outside, or where it would be too much.
+    /// Fails if the view of `world` from `eye` (m) is invalid: outside the world, or with too many heights.
     pub fn check(&self, world: &World, eye: DVec2) -> Result<()> {
         self.fit(world, eye).map(|_| ())
     }
 
-    /// The cells that are tiles when seen from `eye` (m). At the rim of the world there are fewer.
+    /// Returns the cells that are tiles for an eye at `eye` (m). At the boundary of the world there are
+    /// fewer.
     #[allow(clippy::cast_precision_loss, clippy::cast_possible_truncation, reason = "columns are below 2^40")]
     pub(super) fn fit(&self, world: &World, eye: DVec2) -> Result<ViewCells> {
         let to = eye - world.corner;
@@ -89,13 +90,13 @@ impl View {
         Ok(ViewCells { level, window, details })
     }
 
-    /// The length (m) of the sides of the smallest cells that it shows of `world`.
+    /// Returns the side length (m) of the smallest cells of the view in `world`.
     pub fn smallest(&self, world: &World) -> Result<f64> {
         let deepest = self.rings.iter().map(|ring| ring.levels).max().unwrap_or(0);
         Ok(world.cell(self.level(world)? + deepest))
     }
 
-    /// The level of its tiles.
+    /// Returns the level of the tiles.
     #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "the range is checked")]
     fn level(&self, world: &World) -> Result<u32> {
         let level = (world.size / self.cell).log2();
@@ -120,10 +121,10 @@ impl View {
     }
 }
 
-/// How often a world may be divided: its finest columns and rows are numbered in 31 bits.
+/// Maximum number of divisions of a world: its finest columns and rows are numbered in 31 bits.
 pub const DEEPEST: u32 = 30;
 
-/// The error for more heights than there may be.
+/// Creates the error for too many heights.
 pub(super) fn too_many(heights: u64) -> Error {
     #[allow(clippy::cast_precision_loss, reason = "a size for people")]
     let bytes = heights as f64 * 8.0;
@@ -137,7 +138,7 @@ pub(super) fn too_many(heights: u64) -> Error {
 }
 
 impl ViewCells {
-    /// Which tile the cell with this number in the window is.
+    /// Returns the position of the tile with this index in the window.
     pub(super) fn place(&self, index: usize) -> TilePlace {
         let (x, y) = self.window.at(index);
         TilePlace { level: self.level, y, x }

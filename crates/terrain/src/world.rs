@@ -1,4 +1,4 @@
-//! A world: how its cells are divided, level by level, and what that gives anywhere in it.
+//! Worlds: the rules for each level of cells, and the expansion of any part.
 
 use std::sync::Arc;
 
@@ -16,58 +16,58 @@ use burgeon_rewriting::{ModuleKey, Symbol};
 /// Memory (bytes) of the quadrants of a cell: symbols, heights and a parameter.
 const DIVIDED: usize = 4 * 18;
 
-/// What divides cells.
+/// Rules that divide cells.
 #[derive(Clone)]
 pub enum Rules {
-    /// Nothing does: quadrants are as their cell.
+    /// No rules: quadrants are equal to their cell.
     None,
     /// A rule table.
     Table(Arc<RuleTable>),
-    /// The rules of a system of the script, by its number.
+    /// Rules of a system of the script, by its index.
     System(usize),
 }
 
-/// The rules from one level on.
+/// Rules from one level on.
 #[derive(Clone)]
 pub struct LevelRules {
-    /// The level of the cells that are divided first.
+    /// Level of the first cells that are divided.
     pub from: u32,
-    /// What divides them.
+    /// Rules.
     pub rules: Rules,
-    /// The symbol that all cells of that level get.
+    /// Symbol of all cells of that level.
     pub start: Symbol,
-    /// What is added to the height (m) of each.
+    /// Addition to the height (m) of each cell.
     pub height: f64,
-    /// The other parameters that each gets.
+    /// Other parameters of each cell.
     pub rest: Vec<f64>,
-    /// The names of the symbols of its cells, by number; of a system only once it is known what that begins with.
+    /// Names of the symbols of the cells, by index; for a system, empty until its first cell is known.
     pub names: Arc<Vec<String>>,
 }
 
-/// The cell that a system begins with.
+/// First cell of a system.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Begin {
-    /// Its symbol.
+    /// Symbol.
     pub symbol: Symbol,
-    /// Its height (m).
+    /// Height (m).
     pub height: f64,
-    /// Its other parameters, as many as any cell of the system has.
+    /// Other parameters, as many as the maximum of any cell of the system.
     pub rest: Vec<f64>,
-    /// The names of all symbols, by number.
+    /// Names of all symbols, by index.
     pub names: Vec<String>,
 }
 
-/// Divides cells by the rules of a system.
+/// Division of cells by the rules of a system.
 pub trait Divide {
-    /// The cell that system `system` begins with.
+    /// Returns the first cell of system `system`.
     fn begin(&self, system: usize) -> Result<Begin>;
 
-    /// The quadrants of the cells of `area` by the rules of system `system`; other parameters and keys may be left out
-    /// if they are the `last`.
+    /// Returns the quadrants of the cells of `area` by the rules of system `system`; if they are the `last`,
+    /// other parameters and keys may be omitted.
     fn divide(&self, system: usize, cells: &Block, area: Area, last: bool) -> Result<Block>;
 }
 
-/// Where there are only rule tables.
+/// Division without systems, for worlds that only use rule tables.
 pub struct Tables;
 
 impl Divide for Tables {
@@ -80,40 +80,40 @@ impl Divide for Tables {
     }
 }
 
-/// A square of ground that is divided into four quadrants again and again.
+/// A square of ground that is repeatedly divided into four quadrants.
 #[derive(Clone)]
 pub struct World {
-    /// Its south-west corner (m).
+    /// South-west corner (m).
     pub corner: DVec2,
-    /// The length (m) of its sides.
+    /// Side length (m).
     pub size: f64,
-    /// What divides its cells, by level; the first is from level 0.
+    /// Rules by level; the first begin at level 0.
     pub layers: Vec<LevelRules>,
-    /// Whether the surface runs smoothly through the cells.
+    /// Smooth surface through the cells.
     pub smooth: bool,
-    /// The key of the whole world's cell, if anything is drawn.
+    /// Random key of the root cell, if any rule uses random numbers.
     pub key: Option<ModuleKey>,
-    /// What the heights (m) of the surface are changed to: pairs of heights, in order, with straight lines in between.
-    /// Empty for no change.
+    /// Mapping of the heights (m) of the surface: sorted pairs of an old and a new height, with linear
+    /// interpolation. Empty for no change.
     pub remap: Vec<[f64; 2]>,
-    /// What the heights of the rules are added to.
+    /// Measured heights, to which the heights of the rules are added.
     pub measured: Option<Arc<dyn HeightSource>>,
 }
 
 impl World {
-    /// How many cells there are along a side at `level`.
+    /// Returns the number of cells per side at `level`.
     pub fn across(level: u32) -> i64 {
         1 << level
     }
 
-    /// The length (m) of the sides of cells at `level`.
+    /// Returns the side length (m) of cells at `level`.
     pub fn cell(&self, level: u32) -> f64 {
         #[allow(clippy::cast_precision_loss, reason = "a power of two")]
         let across = Self::across(level) as f64;
         self.size / across
     }
 
-    /// The middle (m) of a cell.
+    /// Returns the centre (m) of a cell.
     #[allow(clippy::cast_precision_loss, reason = "columns and rows are below 2^53")]
     pub fn middle(&self, level: u32, x: i64, y: i64) -> DVec2 {
         let cell = self.cell(level);
@@ -121,20 +121,19 @@ impl World {
         DVec2::new(self.corner.x + (x as f64 + 0.5) * cell, north - (y as f64 + 0.5) * cell)
     }
 
-    /// The north-west corner (m) of a cell.
+    /// Returns the north-west corner (m) of a cell.
     #[allow(clippy::cast_precision_loss, reason = "columns and rows are below 2^53")]
     pub(super) fn corner_of(&self, level: u32, x: i64, y: i64) -> DVec2 {
         let cell = self.cell(level);
         DVec2::new(self.corner.x + x as f64 * cell, self.corner.y + self.size - y as f64 * cell)
     }
 
-    /// Whether the rules of a script divide any of its cells.
+    /// Returns true if the rules of a script divide any of its cells.
     pub fn has_systems(&self) -> bool {
         self.layers.iter().any(|layer| matches!(layer.rules, Rules::System(_)))
     }
 
-    /// The world once it is known what the systems begin with that divide its cells; `None` where there is nothing to
-    /// learn.
+    /// Returns the world with the first cells of its systems; `None` if they are already known or not needed.
     pub fn begun(&self, divide: &dyn Divide) -> Result<Option<Self>> {
         let unknown = |layer: &LevelRules| matches!(layer.rules, Rules::System(_)) && layer.names.is_empty();
         if !self.layers.iter().any(unknown) {
@@ -153,17 +152,17 @@ impl World {
         Ok(Some(world))
     }
 
-    /// The name of a symbol among those of the cells of `level`; empty where nothing has divided them.
+    /// Returns the name of a symbol of the cells of `level`; empty if no rules divide them.
     pub fn name(&self, level: u32, symbol: Symbol) -> &str {
         self.layer(level).names.get(usize::from(symbol)).map_or("", String::as_str)
     }
 
-    /// The cells of `area` at `level`. They depend on the world and their places alone.
+    /// Returns the cells of `area` at `level`, which depend only on the world and their positions.
     pub fn cells(&self, level: u32, area: Area, divide: &dyn Divide) -> Result<Block> {
         self.descend(&self.root(), level, area, false, divide)
     }
 
-    /// The cell that is the whole world.
+    /// Returns the root cell, which covers the whole world.
     pub fn root(&self) -> Block {
         let mut root = Block {
             level: 0,
@@ -183,8 +182,8 @@ impl World {
         root
     }
 
-    /// The cells of `area` at `level` out of `from`, which holds all that they come from; without what dividing them
-    /// would need, if they are the `last`.
+    /// Returns the cells of `area` at `level`, derived from `from`, which contains all their ancestors; if
+    /// they are the `last`, the data for further divisions are omitted.
     pub fn descend(
         &self,
         from: &Block,
@@ -216,12 +215,12 @@ impl World {
         Ok(block.unwrap_or_else(|| from.clone()))
     }
 
-    /// Whether heights are changed.
+    /// Returns true if heights are mapped.
     pub(super) fn is_remapped(&self) -> bool {
         !self.remap.is_empty()
     }
 
-    /// What `height` (m) is changed to.
+    /// Returns the mapped height (m).
     pub(super) fn remapped(&self, height: f64) -> f64 {
         let (Some(first), Some(last)) = (self.remap.first(), self.remap.last()) else { return height };
         let above = self.remap.partition_point(|pair| pair[0] <= height);
@@ -232,7 +231,7 @@ impl World {
         }
     }
 
-    /// The quadrants of the cells of `area`, by the rules alone.
+    /// Returns the quadrants of the cells of `area`, by the rules alone.
     pub(super) fn quarter(
         &self,
         cells: &Block,
@@ -252,7 +251,7 @@ impl World {
         known.unwrap_or(&self.layers[0])
     }
 
-    /// Gives the cells what the rules from their level on begin with.
+    /// Initializes the cells with the symbol, height and parameters of the rules that begin at their level.
     pub(super) fn begin_layer(&self, block: &mut Block) {
         let Some(layer) = self.layers.iter().find(|layer| layer.from == block.level) else { return };
         block.symbols.fill(layer.start);
@@ -265,7 +264,7 @@ impl World {
     }
 }
 
-/// The quadrants of cells that nothing divides.
+/// Returns the quadrants of cells without rules.
 fn undivided(cells: &Block, area: Area) -> Block {
     let made = area.quadrants();
     let mut block = Block {
@@ -293,8 +292,8 @@ fn undivided(cells: &Block, area: Area) -> Block {
     block
 }
 
-/// Gives `made`, the quadrants of `cells`, a smooth surface: the surface of the cells, as the biquadratic B-spline
-/// runs through it, and what their own heights add to those of the cells.
+/// Computes the smooth surface of `made`, the quadrants of `cells`: the biquadratic B-spline surface of the
+/// cells, plus the difference of the quadrants' own heights to those of the cells.
 ///
 /// Method: Doo and Sabin, "Behaviour of recursive division surfaces near extraordinary points", 1978, on a grid.
 pub(super) fn smooth(cells: &Block, made: &mut Block) {

@@ -1,27 +1,27 @@
-//! What changes from one variation to the next, and how it is written: `1..16`, `twist=0..90:10`, `kind=a,b`.
+//! Axis of variations, and its notation: `1..16`, `twist=0..90:10`, `kind=a,b`.
 
 use burgeon_base::error::{Error, Limit, Result};
 use burgeon_kit::Value;
 
-/// The most variations that are made at once.
+/// Maximum number of variations.
 pub const MOST: usize = 256;
 
-/// What changes from one variation to the next.
+/// Property that changes from one variation to the next.
 #[derive(Debug, Clone, PartialEq)]
 pub enum VariationAxis {
-    /// The seed of all random numbers.
+    /// Seed of all random numbers.
     Seeds(Vec<u64>),
-    /// A parameter of the script.
+    /// Parameter of the script.
     Param {
-        /// Its name.
+        /// Name of the parameter.
         name: String,
-        /// Its values as text; every choice, or both positions of a switch, if empty.
+        /// Values as text. If empty, all choices of the parameter, or both values of a boolean.
         values: Vec<String>,
     },
 }
 
 impl VariationAxis {
-    /// Reads seeds: numbers and ranges such as `1..16`, both ends included, with commas between.
+    /// Parses seeds: numbers and inclusive ranges such as `1..16`, separated by commas.
     pub fn seeds(text: &str) -> Result<Self> {
         let help = "write a range such as 1..16, or numbers such as 3,7,12";
         let number = |text: &str| {
@@ -44,8 +44,8 @@ impl VariationAxis {
         Ok(Self::Seeds(seeds))
     }
 
-    /// Reads a parameter and its values: `NAME=LOW..HIGH:STEP`, both ends included, `NAME=A,B,C`, or `NAME` alone
-    /// for every choice. The step is 1 unless given.
+    /// Parses a parameter and its values: `NAME=LOW..HIGH:STEP`, an inclusive range, `NAME=A,B,C`, or `NAME` for every
+    /// choice. The default step is 1.
     ///
     /// ```
     /// use burgeon_variations::VariationAxis;
@@ -96,7 +96,7 @@ fn is_number(text: &str) -> bool {
     text.trim().parse::<f64>().is_ok_and(f64::is_finite)
 }
 
-/// The numbers from `low` to `high`, which holds the step behind a colon.
+/// Returns the numbers from `low` to `high`; `high` also contains the step after a colon.
 fn range(low: &str, high: &str) -> Result<Vec<String>> {
     let (high, step) = high.split_once(':').unwrap_or((high, "1"));
     let number = |text: &str, what: &str| match text.trim().parse::<f64>() {
@@ -114,7 +114,7 @@ fn range(low: &str, high: &str) -> Result<Vec<String>> {
             Error::argument(format!("the range {low}..{high} is empty")).help(format!("write {high}..{low}"))
         );
     }
-    // The last value counts although it may be a rounding error away.
+    // Include the last value even if a rounding error exceeds the range.
     let count = ((high - low) / step + 1e-9).floor() + 1.0;
     check_count(count, "take a larger step: LOW..HIGH:STEP")?;
     #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "at most 256")]
@@ -122,12 +122,12 @@ fn range(low: &str, high: &str) -> Result<Vec<String>> {
     Ok((0..count).map(|i| Value::Number(rounded(low + i as f64 * step)).to_string()).collect())
 }
 
-/// `number` without what adding decimal fractions leaves behind the twelfth digit.
+/// Rounds `number` to 13 significant digits, which removes the error of adding decimal fractions.
 fn rounded(number: f64) -> f64 {
     format!("{number:.12e}").parse().unwrap_or(number)
 }
 
-/// Refuses no variations at all, and too many.
+/// Fails if there are no variations, or too many.
 pub(super) fn check_count(count: f64, help: &str) -> Result<()> {
     if count > MOST as f64 {
         let many = if count < 1e9 { format!("{count} variations") } else { "so many variations".to_owned() };

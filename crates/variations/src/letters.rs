@@ -1,26 +1,26 @@
-//! Short texts in a picture, drawn with the strokes of a pen.
+//! Draws short texts in an image with the strokes of a pen.
 //!
-//! The shapes of the letters are the simplex sans of the Hershey fonts, which Dr. A. V. Hershey digitized at the U.S.
-//! National Bureau of Standards and which may be used freely with this acknowledgement ("Calligraphy for computers",
-//! 1967; in the format that James Hurt made for the Usenet Font Consortium).
+//! The glyphs are the simplex sans of the Hershey fonts, which Dr. A. V. Hershey digitized at the U.S. National Bureau
+//! of Standards and which may be used freely with this acknowledgement ("Calligraphy for computers", 1967; in the
+//! format that James Hurt made for the Usenet Font Consortium).
 
 use burgeon_scene::image::Image;
 
-/// From the top of the capitals to the bottom of letters such as g, in units of the capitals' height.
+/// Distance from the top of the capitals to the bottom of descenders, in units of the capitals' height.
 pub(super) const LINE: f32 = 28.0 / CAPITAL;
-/// The height of capitals in the glyphs' units.
+/// Height of capitals in the glyphs' units.
 const CAPITAL: f32 = 21.0;
-/// The top of the capitals in the glyphs' units.
+/// Top of the capitals in the glyphs' units.
 const TOP: f32 = -12.0;
 /// Thickness of the pen in units of the capitals' height.
 const PEN: f32 = 0.105;
 
-/// The width (pixels) of `text` with capitals of `height` (pixels).
+/// Returns the width (pixels) of `text` with capitals of `height` (pixels).
 pub(super) fn width(text: &str, height: f32) -> f32 {
     text.chars().map(|letter| advance(glyph(letter))).sum::<f32>() * height / CAPITAL
 }
 
-/// The beginning of `text` that fits into `room` (pixels), with an ellipsis where something is left out.
+/// Shortens `text` to fit into `room` (pixels), with an ellipsis if characters are removed.
 pub(super) fn fitted(text: &str, height: f32, room: f32) -> String {
     if width(text, height) <= room {
         return text.to_owned();
@@ -35,7 +35,7 @@ pub(super) fn fitted(text: &str, height: f32, room: f32) -> String {
     }
 }
 
-/// `text` in lines that fit into `room` (pixels), broken at spaces where there are any.
+/// Breaks `text` at spaces into lines that fit into `room` (pixels). A longer word is not broken.
 pub(super) fn wrapped(text: &str, height: f32, room: f32) -> Vec<String> {
     let mut lines = vec![String::new()];
     for word in text.split_whitespace() {
@@ -64,7 +64,7 @@ pub(super) fn draw(image: &mut Image, text: &str, place: [f32; 2], height: f32, 
     }
 }
 
-/// Colours the pixels that are within `reach` of a stroke.
+/// Colours the pixels within the distance `reach` (pixels) of a stroke.
 fn ink(image: &mut Image, strokes: &[[[f32; 2]; 2]], reach: f32, color: [u8; 3]) {
     let ends = || strokes.iter().flatten();
     let low = |axis: usize| ends().map(|end| end[axis]).fold(f32::INFINITY, f32::min) - reach - 1.0;
@@ -91,7 +91,7 @@ fn ink(image: &mut Image, strokes: &[[[f32; 2]; 2]], reach: f32, color: [u8; 3])
     }
 }
 
-/// `pixel` with `color` over it, `cover` of it opaque.
+/// Blends `color` over `pixel` with the opacity `cover`.
 fn over(pixel: [u8; 4], color: [u8; 3], cover: f32) -> [u8; 4] {
     let below = f32::from(pixel[3]) / 255.0;
     let opacity = cover + below * (1.0 - cover);
@@ -111,7 +111,7 @@ fn distance(point: [f32; 2], [from, to]: [[f32; 2]; 2]) -> f32 {
     (gap[0] - share * along[0]).hypot(gap[1] - share * along[1])
 }
 
-/// The shape of `letter`, a box for one that has none.
+/// Returns the glyph of `letter`, or a box if there is none.
 fn glyph(letter: char) -> &'static str {
     const BOX: &str = "I[KFYFY[K[KF";
     let index = (letter as usize).checked_sub(' ' as usize);
@@ -122,7 +122,7 @@ fn advance(glyph: &str) -> f32 {
     coordinate(glyph.as_bytes()[1]) - coordinate(glyph.as_bytes()[0])
 }
 
-/// The segments of a shape, in its units.
+/// Returns the line segments of a glyph, in its units.
 fn strokes(glyph: &str) -> impl Iterator<Item = [[f32; 2]; 2]> {
     glyph[2..].split(' ').flat_map(|stroke| {
         let points: Vec<[f32; 2]> = stroke
@@ -138,8 +138,8 @@ fn coordinate(byte: u8) -> f32 {
     f32::from(byte) - f32::from(b'R')
 }
 
-/// The shapes of the letters from the space to the tilde: left and right side, then strokes with spaces between;
-/// each point is two letters, x and y downwards, as many units from R as they are in the alphabet.
+/// Glyphs of the characters from the space to the tilde: left and right side, then strokes separated by spaces. Each
+/// point is two characters, x and y downwards, coded as the distance from R in the alphabet.
 #[rustfmt::skip]
 const GLYPHS: [&str; 95] = [
     r"JZ", r"MWRFRT RYQZR[SZRY", r"JZNFNM VFVM", r"H]SBLb YBRb LOZO KUYU",

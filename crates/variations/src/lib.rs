@@ -1,8 +1,8 @@
-//! Variations of a script: many runs that differ in the seed or in one parameter, as thumbnails to choose from.
+//! Variations of a script: runs that differ in the seed or in one parameter, as thumbnails for comparison.
 //!
-//! Comes in: a script and what changes from run to run ([`VariationAxis`]). Goes out: a [`Variation`] for each, in order, with
-//! its picture or its error; [`sheet`] puts the pictures side by side. The same input gives the same bytes for
-//! any number of threads. An error in one run never touches the others.
+//! Input: a script, and the property that changes from run to run ([`VariationAxis`]). Output: a [`Variation`] for each
+//! run, in order, with its render or its error; [`sheet`] combines the renders. The same input results in the same
+//! bytes for any number of threads. An error in one run never affects the others.
 
 mod axis;
 mod letters;
@@ -27,53 +27,53 @@ use burgeon_picture::{Extent, Picture, Quality, render_within};
 use burgeon_scene::Scene;
 use burgeon_scene::image::{self, Image};
 
-/// What finished scenes may take (bytes) while they wait for a common camera; further ones are made anew.
+/// Memory limit (bytes) for completed scenes that wait for a common camera. Scenes beyond it are computed again.
 const HELD: usize = 1 << 30;
 
-/// How the cameras of the cells go together.
+/// Relation between the cameras of the cells.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub enum Framing {
-    /// One camera for all, from which each model is seen whole: what looks larger is larger. No cell is given
-    /// away before all scripts have run.
+    /// Common camera of all cells, which shows each model completely, so that sizes can be compared. No cell is
+    /// delivered before all scripts have run.
     #[default]
     Together,
-    /// Each model fills its cell, seen from where it is seen best.
+    /// Separate cameras: each model fills its cell, from its best viewpoint.
     Each,
 }
 
-/// One variation.
+/// Variation of a script.
 #[derive(Debug)]
 pub struct Variation {
-    /// Its number, from 0.
+    /// Index of the variation, from 0.
     pub index: usize,
-    /// What it is, for people: `seed 7`, `twist 30 deg`.
+    /// Display label: `seed 7`, `twist 30 deg`.
     pub label: String,
-    /// Its seed.
+    /// Seed of the run.
     pub seed: u64,
-    /// The parameter that is varied, and the value it has here.
+    /// Varied parameter and its value.
     pub set: Option<(String, String)>,
-    /// What it has become.
+    /// Result of the run.
     pub made: Result<Thumbnail>,
 }
 
-/// What a variation has become.
+/// Result of a variation.
 #[derive(Debug)]
 pub struct Thumbnail {
-    /// How it looks.
+    /// Render of the model.
     pub picture: Image,
-    /// All parameters of the script, with their values here.
+    /// Parameters of the script, with their values.
     pub params: Vec<Param>,
-    /// Modules of all chains.
+    /// Number of modules of all chains.
     pub modules: usize,
-    /// Triangles, instances counted each.
+    /// Number of triangles, counted for each instance.
     pub triangles: usize,
-    /// What people should know of it, in the order of files and lines.
+    /// Warnings, in the order of files and lines.
     pub warnings: Vec<Warning>,
 }
 
-/// Variations of a script that can be made.
+/// Set of variations of a script.
 pub struct Variations {
-    /// Asks for an end: no further cells are given.
+    /// Cancellation signal. After cancellation no further cells are delivered.
     pub stop: Arc<Stop>,
     script: PathBuf,
     options: RunOptions,
@@ -81,14 +81,14 @@ pub struct Variations {
     ran: AtomicUsize,
 }
 
-/// A cell before it is made.
+/// Cell before its run.
 struct VariationPlan {
     label: String,
     seed: u64,
     set: Option<(String, String)>,
 }
 
-/// A script that has run, before its picture is made.
+/// Completed run, before rendering.
 struct VariationRun {
     scene: Option<Scene>,
     extent: Extent,
@@ -99,10 +99,10 @@ struct VariationRun {
 }
 
 impl Variations {
-    /// Variations of `script`, otherwise run with `options`, whose limits are those of each run.
+    /// Plans the variations of `script`, otherwise run with `options`, whose limits apply to each run.
     ///
     /// Fails if there are none or more than [`MOST`], without the feature `pictures`, and if the script has no such
-    /// parameter or refuses one of the values. A script that fails is told by its cells.
+    /// parameter or rejects one of the values. If the script itself fails, the cells report the error.
     pub fn new(script: &Path, options: &RunOptions, over: &VariationAxis) -> Result<Self> {
         image::check()?;
         let mut options = options.clone();
@@ -128,22 +128,21 @@ impl Variations {
         Ok(Self { stop: Arc::default(), script, options, plans, ran: AtomicUsize::new(0) })
     }
 
-    /// How many there are.
+    /// Returns the number of variations.
     #[allow(clippy::len_without_is_empty, reason = "there is always one")]
     pub fn len(&self) -> usize {
         self.plans.len()
     }
 
-    /// How many scripts have run so far.
+    /// Returns the number of scripts that have run so far.
     pub fn ran(&self) -> usize {
         self.ran.load(Ordering::Relaxed).min(self.plans.len())
     }
 
-    /// Makes all variations and gives each to `take` in order, as soon as it and those before it are finished.
+    /// Computes all variations and passes each to `take` in order, as soon as it and all previous ones are finished.
     ///
-    /// `picture` is what is asked of each cell; a draft is rendered at twice the size, so that its edges are smooth.
-    /// Fails if a stop was asked for, with its reason, and if `picture`
-    /// cannot be.
+    /// `picture` contains the settings of each cell; a draft is rendered at twice the size, so that its edges are
+    /// smooth. Fails if cancellation is requested, with its reason, or if `picture` is invalid.
     pub fn make(&self, picture: &Picture, framing: Framing, mut take: impl FnMut(Variation)) -> Result<()> {
         picture.check()?;
         self.ran.store(0, Ordering::Relaxed);
@@ -186,7 +185,7 @@ impl Variations {
         Variation { index, label: label.clone(), seed: *seed, set: set.clone(), made }
     }
 
-    /// Runs the script for a cell. Keeps the scene unless those that are `held` take too much memory.
+    /// Runs the script for a cell. Keeps the scene unless the `held` scenes take too much memory.
     fn run(&self, number: usize, held: Option<&AtomicUsize>) -> Result<VariationRun> {
         let plan = &self.plans[number];
         let mut options = self.options.clone();
@@ -233,7 +232,7 @@ impl Variations {
         self.options.worker_threads().min(self.plans.len())
     }
 
-    /// Does `work` for every cell, in several threads, and gives the results to `take` in order.
+    /// Calls `work` for every cell, in several threads, and passes the results to `take` in order.
     fn each<T: Send>(
         &self,
         work: impl Fn(usize) -> Result<T> + Sync,
@@ -285,7 +284,7 @@ fn thumbnail(scene: &Scene, extent: &Extent, picture: &Picture, stop: &Stop) -> 
     }))
 }
 
-/// The mean colour of pixels that differ in opacity.
+/// Computes the mean colour of pixels with different opacities.
 fn mean(pixels: [[u8; 4]; 4]) -> [u8; 4] {
     let opacity: u32 = pixels.iter().map(|pixel| u32::from(pixel[3])).sum();
     let color = |i: usize| {
@@ -295,13 +294,13 @@ fn mean(pixels: [[u8; 4]; 4]) -> [u8; 4] {
     [color(0), color(1), color(2), ((opacity + 2) / 4) as u8]
 }
 
-/// The parameter `name` of `script`.
+/// Returns the parameter `name` of `script`.
 fn find(script: &Path, options: &RunOptions, name: &str) -> Result<Param> {
     let mut options = RunOptions { check: true, ..options.clone() };
     let short = name.rsplit('.').next().unwrap_or(name);
     options.params.set.retain(|(known, _)| known != name && known != short);
     let session = Session::new(script, options)?;
-    // A script that fails may have declared the parameter all the same; each cell tells the failure.
+    // A script that fails may have declared the parameter before; each cell reports the failure.
     let ran = declare(&session);
     let params = session.params();
     match Param::find(&params, name)? {
@@ -313,7 +312,7 @@ fn find(script: &Path, options: &RunOptions, name: &str) -> Result<Param> {
     }
 }
 
-/// All values of a parameter that has few.
+/// Returns all values of a parameter with a list of choices.
 fn every_value(param: &Param) -> Result<Vec<String>> {
     match &param.control {
         Control::Choice(choices) => Ok(choices.clone()),
@@ -328,7 +327,7 @@ fn label(param: &Param, value: &Setting) -> String {
     format!("{} {value}{unit}", param.name)
 }
 
-/// About how much memory (bytes) `scene` takes.
+/// Estimates the memory (bytes) of `scene`.
 fn bytes(scene: &Scene) -> usize {
     let parts = scene.meshes.iter().flat_map(|mesh| &mesh.parts);
     let meshes: usize = parts.map(|part| part.positions.len() * 32 + part.triangles.len() * 12).sum();

@@ -1,32 +1,33 @@
-//! A contact sheet: pictures side by side, each with its label.
+//! Contact sheet: renders in a grid, each with its label.
 
 use super::letters::{LINE, draw, fitted, width, wrapped};
 use burgeon_base::error::{Error, Limit, Result};
 use burgeon_picture::{Background, Picture};
 use burgeon_scene::image::Image;
 
-/// What a sheet shows when it is not much wider than high.
+/// Preferred ratio of a sheet's width to its height.
 const ASPECT: f64 = 1.5;
 
-/// How a sheet is divided.
+/// Division of a sheet into cells.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SheetLayout {
-    /// Cells in a row.
+    /// Number of cells in a row.
     pub columns: usize,
-    /// Rows of cells.
+    /// Number of rows.
     pub rows: usize,
-    /// Width and height of a cell's picture (pixels).
+    /// Width and height of a cell's render (pixels).
     pub cell: [u32; 2],
-    /// The sheet's width and height (pixels).
+    /// Width and height of the sheet (pixels).
     pub size: [u32; 2],
     margin: u32,
     letters: f32,
 }
 
 impl SheetLayout {
-    /// A sheet for `count` cells of the size of `picture`, in so many `columns` or in as many as look well.
+    /// Divides a sheet for `count` cells with the size of `picture` into `columns`, or into a suitable number of
+    /// columns.
     ///
-    /// Fails if it would be wider or higher than a picture can be.
+    /// Fails if the sheet would exceed the maximum size of an image.
     pub fn new(count: usize, columns: Option<usize>, picture: &Picture) -> Result<Self> {
         let cell = [picture.width, picture.height];
         let margin = (cell[0].min(cell[1]) / 24).clamp(4, 40);
@@ -65,7 +66,7 @@ impl SheetLayout {
         Ok(Self { columns, rows, cell, size, margin, letters })
     }
 
-    /// The upper left corner of cell `number`.
+    /// Returns the upper left corner of cell `number`.
     fn corner(&self, number: usize) -> [u32; 2] {
         let (column, row) = ((number % self.columns) as u32, (number / self.columns) as u32);
         let high = (self.size[1] - 2 * self.margin) / self.rows.max(1) as u32;
@@ -73,7 +74,7 @@ impl SheetLayout {
     }
 }
 
-/// The `cells` on one sheet: labels, and pictures or what is told in the place of one.
+/// Combines the `cells` in one sheet: labels, and renders or error messages.
 pub fn sheet<'a>(
     layout: &SheetLayout,
     background: Background,

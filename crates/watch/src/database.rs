@@ -1,7 +1,7 @@
-//! The committed content of an SQLite database, wherever it stands: in the file, or in the log beside it.
+//! Committed content of an SQLite database, from the file and the log next to it.
 //!
-//! A program that keeps a database open in WAL mode writes its changes into the log, and brings them home at some other
-//! time. The content is the same before and after that.
+//! A program that keeps a database open in WAL mode writes its changes into the log, and transfers them to the file
+//! later (checkpoint). The content is the same before and after a checkpoint.
 //!
 //! Source: SQLite's document "Database File Format", section 4.
 
@@ -10,38 +10,38 @@ use std::ffi::OsString;
 use std::io::Read;
 use std::path::{Path, PathBuf};
 
-/// The bytes that a database begins with.
+/// Signature at the beginning of a database.
 const MAGIC: &[u8] = b"SQLite format 3\0";
 
-/// The bytes of a log's header, and of a frame's.
+/// Length (bytes) of a log's header, and of a frame's header.
 const HEADS: [usize; 2] = [32, 24];
 
-/// The endings of the names of files that stand beside a database.
+/// File name suffixes of the files next to a database.
 pub(super) const SUFFIXES: [&str; 2] = ["-wal", "-journal"];
 
-/// Reports whether `bytes` are a database.
+/// Returns true if `bytes` are a database.
 pub(super) fn is_one(bytes: &[u8]) -> bool {
     bytes.starts_with(MAGIC)
 }
 
-/// Returns the path of the file beside `path` whose name ends in `suffix`.
+/// Returns the path of the file next to `path` with the additional `suffix`.
 pub(super) fn beside(path: &Path, suffix: &str) -> PathBuf {
     let mut name: OsString = path.as_os_str().to_owned();
     name.push(suffix);
     name.into()
 }
 
-/// Reports whether the database at `path` is in the middle of a change that a journal can take back.
+/// Returns true if the database at `path` is in the middle of a transaction that a journal can roll back.
 pub(super) fn is_changing(path: &Path) -> bool {
     let mut first = [0; 1];
     let read = std::fs::File::open(beside(path, "-journal")).and_then(|mut file| file.read_exact(&mut first));
-    // A journal that is kept for the next change begins with zeros.
+    // A journal that is kept for the next transaction begins with zeros.
     read.is_ok() && first != [0]
 }
 
-/// Returns the hash of what has been committed to a database, whose file and log hold these bytes.
+/// Returns the hash of the committed content of a database, whose file and log contain these bytes.
 ///
-/// Numbers that count commits and name the version of SQLite are no content.
+/// Commit counters and the version number of SQLite are excluded.
 pub(super) fn content(file: &[u8], log: &[u8]) -> blake3::Hash {
     let mut hasher = blake3::Hasher::new();
     let Some(pages) = LogPages::read(log) else {
@@ -70,13 +70,13 @@ fn hash_page(hasher: &mut blake3::Hasher, number: u32, page: &[u8]) {
     hasher.update(&page[100..]);
 }
 
-/// The pages that a log has committed.
+/// Pages that a log has committed.
 struct LogPages {
-    /// The size of a page (bytes).
+    /// Size of a page (bytes).
     size: usize,
-    /// How many pages the database has.
+    /// Number of pages of the database.
     count: u32,
-    /// Where the last version of each page stands (bytes).
+    /// Offset of the last version of each page (bytes).
     places: BTreeMap<u32, usize>,
 }
 

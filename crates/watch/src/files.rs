@@ -1,4 +1,4 @@
-//! What watched files hold, and whether that has changed.
+//! Content of watched files, and detection of changes.
 
 use std::collections::BTreeMap;
 use std::fs::{self, Metadata};
@@ -9,23 +9,23 @@ use std::time::{Duration, Instant, SystemTime};
 use super::database;
 use burgeon_base::files::{identity, read_unlocked};
 
-/// Larger files (bytes) are told apart by their size and time alone.
+/// Size (bytes) beyond which files are compared by size and time only.
 const LARGE: u64 = 64 << 20;
 
-/// The most names in a folder that are looked at.
+/// Maximum number of names in a folder that are compared.
 const MOST_NAMES: usize = 20_000;
 
-/// How far behind the clock the times of files may be: they are taken from the system's last tick, which is late on a
-/// busy machine. A change that is told for nothing costs a run, one that is missed shows the wrong model.
+/// Maximum delay of file times relative to the clock: they are taken from the system's last tick, which is late on a
+/// busy machine. An unnecessary report costs a run, whereas a missed change shows the wrong model.
 const GRAIN: Duration = Duration::from_millis(100);
 
-/// Watched files with what they held when last seen.
+/// Watched files with their last known content.
 #[derive(Default)]
 pub(super) struct WatchedFiles {
     known: BTreeMap<PathBuf, FileState>,
     /// Every path whose change may matter: the files, and the links that lead to them.
     spellings: Vec<PathBuf>,
-    /// The same of folders: what is put into them matters.
+    /// Watched folders, in which added or removed names matter.
     folders: Vec<PathBuf>,
 }
 
@@ -37,29 +37,29 @@ struct FileState {
 
 #[derive(Debug, Clone)]
 enum FileContent {
-    /// Never looked at, so any look finds a change.
+    /// File that has not been looked at yet, so that every look finds a change.
     Unknown,
-    /// Not there, or not to be read.
+    /// Missing or unreadable file.
     Missing,
-    /// A pipe, a device or the like.
+    /// Pipe, device or similar.
     NoFile,
-    /// A folder, by the place that links lead to and the hash of the names in it, but those that begin with a point.
+    /// Folder: its path with links resolved, and the hash of the names in it except those that begin with a dot.
     Folder { place: PathBuf, names: blake3::Hash },
-    /// A regular file, by the place that links lead to and the hash of its content.
+    /// Regular file: its path with links resolved, and the hash of its content.
     File { place: PathBuf, hash: blake3::Hash, empty: bool },
-    /// A database, by what has been committed to it.
+    /// Database: its path with links resolved, and the hash of its committed content.
     Database { place: PathBuf, hash: blake3::Hash },
-    /// A regular file that is too large to be read again and again.
+    /// Regular file that is too large to be read repeatedly.
     Large { place: PathBuf, stamp: FileStamp },
 }
 
-/// What tells most changes of a file without reading it.
+/// File metadata that shows most changes without reading the file.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct FileStamp {
     length: u64,
     modified: Option<SystemTime>,
     file: u64,
-    /// The length and the time of the log beside a database.
+    /// Length (bytes) and time of the log next to a database.
     log: Option<(u64, Option<SystemTime>)>,
 }
 
@@ -78,7 +78,7 @@ impl PartialEq for FileContent {
                 (place, names) == (other, now)
             }
             (Self::Large { place, stamp }, Self::Large { place: other, stamp: now }) => {
-                // What changes while the log stays is brought home from there.
+                // A change of the file without a change of the log is a checkpoint.
                 let same = stamp.log.is_some_and(|(length, _)| length > 0) && stamp.log == now.log;
                 place == other && (same && stamp.file == now.file || stamp == now)
             }
@@ -88,37 +88,37 @@ impl PartialEq for FileContent {
 }
 
 impl FileStamp {
-    /// Whether the file may have been written again since, in the same moment as far as times of files tell.
+    /// Returns true if the file may have been written again since, within the resolution of file times.
     fn is_new(&self) -> bool {
         self.last_write().is_some_and(|modified| modified + GRAIN > SystemTime::now())
     }
 
-    /// The time of the last write into the file, or into the log beside it.
+    /// Returns the time of the last write to the file or to the log next to it.
     fn last_write(&self) -> Option<SystemTime> {
         self.modified.max(self.log.and_then(|(_, modified)| modified))
     }
 }
 
-/// A file that holds something else than before.
+/// File whose content has changed.
 pub(super) struct FileChange {
     path: PathBuf,
     now: FileState,
-    /// Whether it held something before.
+    /// Set if the file had content before.
     was_there: bool,
 }
 
 impl FileChange {
-    /// The file.
+    /// Returns the path of the file.
     pub(super) fn path(&self) -> &Path {
         &self.path
     }
 
-    /// Reports whether it is a database, of which only commits count.
+    /// Returns true if the file is a database, of which only commits matter.
     pub(super) fn is_database(&self) -> bool {
         matches!(self.now.content, FileContent::Database { .. })
     }
 
-    /// Whether it has become missing or empty, as in the middle of a save.
+    /// Returns true if the file has become missing or empty, as during a save.
     pub(super) fn looks_unfinished(&self) -> bool {
         let nothing = matches!(
             self.now.content,
@@ -132,7 +132,7 @@ impl FileChange {
 }
 
 impl FileState {
-    /// Where a regular file or a folder lies.
+    /// Returns the path of a regular file or a folder with links resolved.
     fn place(&self) -> Option<&PathBuf> {
         match &self.content {
             FileContent::File { place, .. }
@@ -143,7 +143,7 @@ impl FileState {
         }
     }
 
-    /// Whether it is probably not what someone found at the time `since`, when it was there or not.
+    /// Returns true if the file has probably changed since the time `since`, when it existed if `there` is set.
     fn is_newer(&self, since: SystemTime, there: bool) -> bool {
         let modified = self.stamp.and_then(|stamp| stamp.last_write());
         let written = self.place().is_some() && modified.is_some_and(|modified| modified + GRAIN > since);
@@ -152,12 +152,12 @@ impl FileState {
 }
 
 impl WatchedFiles {
-    /// Watches `files` from now on. Returns whether one that is new has changed since someone looked at it, at the
-    /// time `since`, when it was there or not.
+    /// Watches `files` instead of the previous ones. Returns true if a new one has changed since the time `since`, when
+    /// it existed if its flag is set.
     pub(super) fn follow(&mut self, files: Vec<(PathBuf, bool)>, since: Option<SystemTime>) -> bool {
         let mut late = false;
         let mut known = BTreeMap::new();
-        // The same file by another name is no new one.
+        // The same file under another name is not new.
         let places: BTreeMap<PathBuf, FileState> =
             self.known.values().filter_map(|seen| Some((seen.place()?.clone(), seen.clone()))).collect();
         for (path, there) in files {
@@ -187,8 +187,8 @@ impl WatchedFiles {
         late
     }
 
-    /// The files that hold something else than before; `by_stamp` trusts times and sizes where they are the same, unless
-    /// they are so new that the next save may have the same ones.
+    /// Returns the files whose content has changed. With `by_stamp`, equal times and sizes are trusted, unless they are
+    /// so recent that the next save may have the same ones.
     pub(super) fn changed(&self, by_stamp: bool) -> Vec<FileChange> {
         let mut found = Vec::new();
         for (path, seen) in &self.known {
@@ -197,7 +197,7 @@ impl WatchedFiles {
             if by_stamp && settled && stamp_of(path) == seen.stamp {
                 continue;
             }
-            // A database that is in the middle of a change still holds what it held.
+            // A database in the middle of a transaction still has its previous content.
             let Some(now) = look(path) else { continue };
             if now.content != seen.content {
                 let was_there = matches!(
@@ -213,7 +213,7 @@ impl WatchedFiles {
         found
     }
 
-    /// Takes what was found for known. Returns the paths.
+    /// Stores the found changes as known. Returns the paths.
     pub(super) fn accept(&mut self, found: Vec<FileChange>) -> Vec<PathBuf> {
         let paths = found.iter().map(|found| found.path.clone()).collect();
         for FileChange { path, now, .. } in found {
@@ -223,7 +223,7 @@ impl WatchedFiles {
         paths
     }
 
-    /// Whether what happened to `paths`, or to anything if there are none, may have changed a file.
+    /// Returns true if an event at `paths`, or at unknown paths if the list is empty, may have changed a file.
     pub(super) fn concerned_by(&self, paths: &[PathBuf]) -> bool {
         let is_in = |path: &PathBuf| self.folders.iter().any(|folder| path.parent() == Some(folder));
         paths.is_empty()
@@ -231,12 +231,12 @@ impl WatchedFiles {
             || paths.iter().any(is_in)
     }
 
-    /// The folders themselves among what is watched, by every path that leads to them.
+    /// Returns the watched folders, by every path that leads to them.
     pub(super) fn folders(&self) -> &[PathBuf] {
         &self.folders
     }
 
-    /// Every path whose change may matter, in no folder twice.
+    /// Returns every path whose change may matter, each folder resolved and listed once.
     pub(super) fn spellings(&self) -> &[PathBuf] {
         &self.spellings
     }
@@ -262,11 +262,11 @@ impl WatchedFiles {
     }
 }
 
-/// `path` and where it leads, link by link, each also as the system spells its folder.
+/// Returns `path` and its link targets, link by link, each also with its folder resolved.
 pub(super) fn hops(path: &Path) -> Vec<PathBuf> {
     let mut hops = Vec::new();
     let mut at = std::path::absolute(path).unwrap_or_else(|_| path.to_path_buf());
-    // Links may lead in a circle.
+    // Links may be circular.
     for _ in 0..16 {
         if let (Some(Ok(folder)), Some(name)) = (at.parent().map(Path::canonicalize), at.file_name()) {
             hops.push(folder.join(name));
@@ -281,20 +281,20 @@ pub(super) fn hops(path: &Path) -> Vec<PathBuf> {
     hops
 }
 
-/// Looks at a file. `None` if it is a database that is in the middle of a change.
+/// Examines a file. Returns `None` if it is a database in the middle of a transaction.
 fn look(path: &Path) -> Option<FileState> {
     let begin = Instant::now();
     loop {
         match try_look(path) {
             Ok(state) => return state,
-            // Its own process reads it, or its log was written meanwhile.
+            // Another thread of this process is reading the file, or its log was written in the meantime.
             Err(Again) if begin.elapsed() < GRAIN => std::thread::sleep(GRAIN / 20),
             Err(Again) => return None,
         }
     }
 }
 
-/// Says that a file could not be read as it is.
+/// Marker error: the file could not be read in a consistent state.
 struct Again;
 
 fn try_look(path: &Path) -> Result<Option<FileState>, Again> {
@@ -315,7 +315,7 @@ fn try_look(path: &Path) -> Result<Option<FileState>, Again> {
         };
     }
     let log_path = database::beside(&place(path), "-wal");
-    // The log comes first: what it has brought home meanwhile is in the file, too.
+    // Read the log first: changes that a checkpoint transfers in the meantime are then also in the file.
     let log = fs::read(&log_path).unwrap_or_default();
     let mut bytes = Vec::new();
     match read_unlocked(path, |mut file, _| file.read_to_end(&mut bytes)) {
@@ -336,7 +336,7 @@ fn try_look(path: &Path) -> Result<Option<FileState>, Again> {
     state(FileContent::Database { hash: database::content(&bytes, &log), place })
 }
 
-/// The hash of the names in a folder. One that has more than so many is told from others by the first of them alone.
+/// Computes the hash of the names in a folder, limited to the first [`MOST_NAMES`] names.
 fn names(folder: &Path) -> blake3::Hash {
     let entries = fs::read_dir(folder).into_iter().flatten().take(MOST_NAMES).flatten();
     let mut names: Vec<_> = entries
@@ -351,7 +351,7 @@ fn names(folder: &Path) -> blake3::Hash {
     hasher.finalize()
 }
 
-/// Where `path` leads; a link that leads elsewhere is a change, since what lies beside the file changes too.
+/// Resolves the links of `path`. A changed target counts as a change, because the neighbours of the file change too.
 fn place(path: &Path) -> PathBuf {
     path.canonicalize().unwrap_or_else(|_| path.to_path_buf())
 }
@@ -435,7 +435,7 @@ mod tests {
         let later = Some(SystemTime::now() + Duration::from_secs(1));
         let none = folder.path().join("none");
         assert!(!files.follow(vec![(path.clone(), true), (none.clone(), false)], later));
-        // Whatever their times are, one that came and one that went have changed.
+        // Regardless of their times, a created and a deleted file have changed.
         assert!(WatchedFiles::default().follow(vec![(path, false)], later));
         assert!(WatchedFiles::default().follow(vec![(none, true)], later));
     }

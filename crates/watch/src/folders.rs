@@ -1,4 +1,4 @@
-//! The folders that are watched so that every change of some files is seen.
+//! Folders that must be watched to observe every change of some files.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs::{self, Metadata};
@@ -10,39 +10,39 @@ use notify::{Event, EventKind, RecursiveMode, Watcher};
 use super::files::WatchedFiles;
 use burgeon_base::files::identity;
 
-/// What an event tells of a file.
+/// Meaning of an event for a file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Sign {
-    /// Someone has written into it, and may write more.
+    /// Write to the file, which may continue.
     Write,
-    /// It comes when a file has been written: it is closed, or gets its name.
+    /// End of a write: the file is closed or renamed to its final name.
     End,
-    /// Anything else.
+    /// Any other event.
     Other,
 }
 
-/// Takes what a watcher tells.
+/// Handler of a watcher's events.
 pub(super) type Handler = Box<dyn FnMut(notify::Result<Event>) + Send>;
 
-/// A watcher of some kind.
+/// Watcher of any type.
 pub(super) type AnyWatcher = Box<dyn Watcher + Send>;
 
-/// The watcher that suits the system best.
+/// Creates the watcher that suits the system best.
 pub(super) fn recommended(handler: Handler) -> notify::Result<AnyWatcher> {
     Ok(Box::new(notify::recommended_watcher(handler)?))
 }
 
-/// Watches the folders of files, and the folders above, where a deleted folder appears again.
+/// Watches the folders of files, and their parents, in which a deleted folder may be created again.
 pub(super) struct Folders {
     watcher: Result<AnyWatcher, String>,
-    /// The watched folders. Another one of the same name is not watched yet.
+    /// Watched folders with their identities. A new folder of the same name is not watched yet.
     watched: BTreeMap<PathBuf, u64>,
     failure: Option<String>,
 }
 
 impl Folders {
-    /// Watches no folder yet, by what `make` makes. `seen` gets the paths that something has happened to, none if any may
-    /// be meant, and what it was.
+    /// Creates the watcher with `make`; no folder is watched yet. `seen` is called with the paths of each event, or no
+    /// paths if any file may be affected, and the meaning of the event.
     pub(super) fn new(
         make: impl FnOnce(Handler) -> notify::Result<AnyWatcher>,
         seen: impl Fn(Vec<PathBuf>, Sign) + Send + 'static,
@@ -54,7 +54,7 @@ impl Folders {
                 seen(event.paths, sign);
             }
             Ok(_) => {}
-            // Something was lost.
+            // Events were lost.
             Err(_) => seen(Vec::new(), Sign::Other),
         };
         let watcher = make(Box::new(handle)).map_err(|error| error.to_string());
@@ -62,12 +62,12 @@ impl Folders {
         Self { watcher, watched: BTreeMap::new(), failure }
     }
 
-    /// Why changes may go unseen, if so.
+    /// Returns the reason that changes may be missed, if any.
     pub(super) fn failure(&self) -> Option<&str> {
         self.failure.as_deref()
     }
 
-    /// Watches what `files` need, and nothing else.
+    /// Watches exactly the folders that `files` require.
     pub(super) fn cover(&mut self, files: &WatchedFiles) {
         let Ok(watcher) = &mut self.watcher else { return };
         let mut wanted: BTreeSet<PathBuf> = files.spellings().iter().flat_map(|path| around(path)).collect();
@@ -75,7 +75,7 @@ impl Folders {
         self.watched.retain(|folder, known| {
             let keep = wanted.contains(folder) && identity_of(folder) == Some(*known);
             if !keep {
-                // The system may have stopped watching it by itself, with the folder.
+                // The system stops watching a folder that is deleted, so an error is ignored.
                 let _ = watcher.unwatch(folder);
             }
             keep
@@ -90,7 +90,7 @@ impl Folders {
                 Ok(()) => {
                     self.watched.insert(folder, identity);
                 }
-                // It has gone since.
+                // The folder has been deleted in the meantime.
                 Err(_) if identity_of(&folder).is_none() => {}
                 Err(error) => failure = Some(error.to_string()),
             }
@@ -99,7 +99,7 @@ impl Folders {
     }
 }
 
-/// Whether something of this kind can change a file; that it was read cannot.
+/// Returns true if an event of this type can change a file; a read access cannot.
 fn matters(kind: EventKind) -> bool {
     match kind {
         EventKind::Access(kind) => kind == AccessKind::Close(AccessMode::Write),
@@ -116,7 +116,7 @@ fn sign(kind: EventKind) -> Sign {
     }
 }
 
-/// The folder of the file at `path` and the one above it, or the nearest one that is there.
+/// Returns the folder of the file at `path` and its parent, or the nearest existing folder.
 fn around(path: &Path) -> Vec<PathBuf> {
     let above = path.ancestors().skip(1).filter(|folder| folder.is_dir());
     let mut folders: Vec<PathBuf> = above.take(2).map(Path::to_path_buf).collect();

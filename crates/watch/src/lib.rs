@@ -1,10 +1,11 @@
-//! Watching: tells when files that decide what a run makes hold something else than before.
+//! Watches the files that determine the result of a run, and reports changes of their content.
 //!
-//! Comes in: paths, of files and folders that are there or not. Goes out: a [`Change`] soon after one of them holds something
-//! else, appears or goes; a folder holds the names in it. It never tells of a save that changes nothing, and it never opens what is no regular file.
+//! Input: paths of files and folders, which need not exist. Output: a [`Change`] soon after the content of one of them
+//! changes, or after it is created or deleted. The content of a folder is the names in it. A save that changes nothing
+//! is never reported, and only regular files are opened.
 //!
-//! Folders are watched, not files, since most editors save by renaming a new file over the old one (`folders`).
-//! What an event means is decided by comparing contents (`files`).
+//! Folders are watched instead of files, because most editors save by renaming a new file over the old one (`folders`).
+//! The effect of an event is determined by comparing contents (`files`).
 
 mod database;
 mod files;
@@ -20,44 +21,43 @@ use burgeon_base::error::{Error, Result};
 use files::WatchedFiles;
 use folders::{AnyWatcher, Folders, Handler, Sign};
 
-/// How long it must be quiet after an event until files are compared, unless it is what comes at the end of a save:
-/// editors save in several steps.
+/// Quiet time after an event before files are compared, unless the event marks the end of a save. Editors save in
+/// several steps.
 const QUIET: Duration = Duration::from_millis(10);
 
-/// The longest time from an event to a comparison, however busy the folder is.
+/// Maximum time from an event to a comparison, even in a busy folder.
 const LONGEST: Duration = Duration::from_millis(100);
 
-/// How long a file may be missing or empty until that is believed: some editors delete a file or cut it to
-/// nothing before they write it.
+/// Time after which a missing or empty file is accepted. Some editors delete or truncate a file before they write it.
 const PATIENCE: Duration = Duration::from_millis(150);
 
-/// How long a file that someone writes into may stay open until what it holds is believed.
+/// Time after which the content of a file that a program keeps open for writing is accepted.
 const SAVE: Duration = Duration::from_secs(1);
 
-/// Whether the system tells when a file that was written is closed.
+/// Set if the system reports when a written file is closed.
 const TELLS_ENDS: bool = cfg!(any(target_os = "linux", target_os = "android"));
 
-/// How many events are taken before files are compared that should have been by now.
+/// Maximum number of events that are processed before an overdue comparison.
 const AT_ONCE: usize = 1000;
 
-/// How often files are compared without an event: some disks, such as those of other machines, tell of none.
+/// Interval of comparisons without an event. Some file systems, such as network drives, report no events.
 const ROUND: Duration = Duration::from_secs(1);
 
-/// As [`ROUND`], where the system cannot watch folders.
+/// Interval of comparisons if the system cannot watch folders, instead of [`ROUND`].
 const SHORT_ROUND: Duration = Duration::from_millis(100);
 
-/// Files that hold something else than before.
+/// Files whose content has changed.
 #[derive(Debug, Clone)]
 pub struct Change {
-    /// The files as they were named to [`Watch`].
+    /// Changed files, as named to [`Watch`].
     pub files: Vec<PathBuf>,
-    /// When the first sign of it was seen.
+    /// Time of the first sign of the change.
     pub at: Instant,
 }
 
-/// How long to wait until `files` have been as they are for a while; `None` if they have.
+/// Returns the remaining wait until `files` are stable, or `None` if they are.
 ///
-/// What has just been written in place may be the half of what is to come: who cannot read it tries again first.
+/// A file that has just been written in place may be incomplete. A caller that cannot read it should try again.
 pub fn unsettled<'a>(files: impl IntoIterator<Item = &'a Path>) -> Option<Duration> {
     let now = SystemTime::now();
     let young = files.into_iter().filter_map(|path| {
@@ -67,7 +67,7 @@ pub fn unsettled<'a>(files: impl IntoIterator<Item = &'a Path>) -> Option<Durati
     young.filter(|left| !left.is_zero()).max()
 }
 
-/// What `read` makes of the file at `path`; tried again while it fails and the file has only just been written.
+/// Calls `read` for the file at `path`, and repeats it while it fails and the file has just been written.
 pub fn settled<T>(path: &Path, read: impl Fn() -> Result<T>) -> Result<T> {
     let begin = Instant::now();
     loop {
@@ -81,39 +81,39 @@ pub fn settled<T>(path: &Path, read: impl Fn() -> Result<T>) -> Result<T> {
     }
 }
 
-/// Watches files in a thread of its own until it is dropped.
+/// Watches files in a separate thread until it is dropped.
 pub struct Watch {
     signals: Sender<Signal>,
     thread: Option<JoinHandle<()>>,
 }
 
-/// What the thread waits for.
+/// Message to the thread.
 enum Signal {
-    /// Something happened to these paths; none if the system lost count.
+    /// Event at these paths, or at unknown paths if the list is empty.
     Event(Vec<PathBuf>, Instant, Sign),
     Follow(Vec<(PathBuf, bool)>, SystemTime),
-    /// Someone waits until all that has changed by now has been told.
+    /// Request to confirm that all changes up to now have been reported.
     CatchUp(Sender<()>),
     Over,
 }
 
-/// What is told why only polling is left.
+/// Handler that receives the reason for the fallback to polling.
 type ComplaintHandler = dyn FnOnce(&str) + Send;
 
 struct Watcher {
     files: WatchedFiles,
     folders: Folders,
-    /// Is told once that only polling is left.
+    /// Handler that is called once if only polling is possible.
     complain: Option<Box<ComplaintHandler>>,
-    /// When the first sign of a change was seen that has not been looked into.
+    /// Time of the first sign of a change that has not been examined yet.
     first: Option<Instant>,
-    /// What someone has written into since the last look, and whether it has not been closed yet, where the system tells
-    /// of that.
+    /// Files that have been written to since the last comparison. The flag is set while the file is still open, if the
+    /// system reports that.
     open: BTreeMap<PathBuf, bool>,
 }
 
 impl Watch {
-    /// Watches `files` and calls `changed` in a thread of its own; `complain` is told if only polling is left.
+    /// Watches `files` and calls `changed` in a separate thread; `complain` is called if only polling is possible.
     pub fn new(
         files: Vec<PathBuf>,
         changed: impl Fn(Change) + Send + 'static,
@@ -122,7 +122,7 @@ impl Watch {
         Self::by(folders::recommended, files, changed, complain)
     }
 
-    /// As [`Watch::new`], by the watcher that `make` makes.
+    /// Watches `files` as [`Watch::new`] does, with the watcher that `make` creates.
     fn by(
         make: impl FnOnce(Handler) -> notify::Result<AnyWatcher>,
         files: Vec<PathBuf>,
@@ -132,7 +132,7 @@ impl Watch {
         let (signals, inbox) = channel();
         let events = signals.clone();
         let seen = move |paths, sign| {
-            // The watcher may be over already.
+            // The thread may have ended already.
             let _ = events.send(Signal::Event(paths, Instant::now(), sign));
         };
         let mut watcher = Watcher {
@@ -154,18 +154,18 @@ impl Watch {
         Ok(Self { signals, thread: Some(thread) })
     }
 
-    /// Watches `files` and no others from now on. Each comes with whether it was there when someone last looked, not
-    /// before `since`; those that are new to the watch and have changed by now are told as changed.
+    /// Watches `files` instead of the previous ones. The flag of each file is set if the file existed at the caller's
+    /// last look, which was not before `since`. New files that have changed since are reported as changed.
     pub fn follow(&self, files: Vec<(PathBuf, bool)>, since: SystemTime) {
-        // The thread ends only when this is dropped.
+        // The thread ends only when this value is dropped.
         let _ = self.signals.send(Signal::Follow(files, since));
     }
 
-    /// Waits until all that has changed by now has been told, but not for ever.
+    /// Waits until all changes up to now have been reported, for a limited time.
     pub fn catch_up(&self) {
         let (done, all) = channel();
         if self.signals.send(Signal::CatchUp(done)).is_ok() {
-            // Whether it was in time or not, nothing more can be known.
+            // The wait ends after the time limit in any case.
             let _ = all.recv_timeout(SAVE * 2);
         }
     }
@@ -175,14 +175,14 @@ impl Drop for Watch {
     fn drop(&mut self) {
         let _ = self.signals.send(Signal::Over);
         if let Some(thread) = self.thread.take() {
-            // What it would have told does not matter any more.
+            // Its remaining reports are no longer needed.
             let _ = thread.join();
         }
     }
 }
 
 impl Watcher {
-    /// Watches the folders that the files need.
+    /// Watches the folders that the files require.
     fn cover(&mut self) {
         self.folders.cover(&self.files);
         if let Some(why) = self.folders.failure()
@@ -193,13 +193,13 @@ impl Watcher {
     }
 
     fn work(mut self, inbox: &Receiver<Signal>, changed: &dyn Fn(Change)) {
-        // Before the folders were watched nothing was told of them.
+        // Changes before the folders were watched caused no event.
         let mut due = Some(Instant::now());
         let mut looked = Instant::now();
         let mut asked: Vec<Sender<()>> = Vec::new();
         let mut overdue = 0;
         loop {
-            // Events of other files, of which there may be many, put off no round.
+            // Frequent events of other files must not delay a round.
             let round = looked + if self.folders.failure().is_some() { SHORT_ROUND } else { ROUND };
             let wait = due.unwrap_or(round).saturating_duration_since(Instant::now());
             overdue = if wait.is_zero() { overdue + 1 } else { 0 };
@@ -223,7 +223,7 @@ impl Watcher {
                         self.first.get_or_insert_with(Instant::now);
                     }
                     self.cover();
-                    // What has changed before its folder was watched was not told.
+                    // Changes before the new folders were watched caused no event.
                     due = Some(Instant::now());
                 }
                 Ok(Signal::CatchUp(done)) => {
@@ -231,12 +231,12 @@ impl Watcher {
                     due.get_or_insert_with(Instant::now);
                 }
                 Err(RecvTimeoutError::Timeout) => {
-                    // Events that come while files are read lead to another look.
+                    // Events that arrive while files are read cause another comparison.
                     self.cover();
                     due = self.look(changed);
                     (looked, overdue) = (Instant::now(), 0);
                     if due.is_none() {
-                        // Who asked may have given up.
+                        // The requester may have stopped waiting.
                         for done in asked.drain(..) {
                             let _ = done.send(());
                         }
@@ -247,7 +247,7 @@ impl Watcher {
         }
     }
 
-    /// Compares the files and tells of a change. Returns when to look again, if what is there looks unfinished.
+    /// Compares the files and reports a change. Returns the time of the next comparison if a file looks unfinished.
     fn look(&mut self, changed: &dyn Fn(Change)) -> Option<Instant> {
         let found = self.files.changed(self.first.is_none());
         if found.is_empty() {
@@ -264,10 +264,11 @@ impl Watcher {
                 files::hops(it.path()).iter().find_map(|path| self.open.get(path)).copied()
             };
             if found.iter().any(|it| !it.is_database() && open(it) == Some(true)) {
-                // That it is closed comes as an event.
+                // Closing the file will cause an event.
                 return Some(first + SAVE);
             }
-            // It was seen before its events have come. A program may keep a database open for as long as it runs.
+            // The change was found before its events arrived. A program may keep a database open for as long as it
+            // runs.
             let early = |it: &files::FileChange| it.is_database() || open(it).is_none();
             if found.iter().any(|it| early(it) && unsettled([it.path()]).is_some()) {
                 return Some(Instant::now() + QUIET);
@@ -276,7 +277,7 @@ impl Watcher {
         self.first = None;
         self.open.clear();
         let files = self.files.accept(found);
-        // What has just been named may lie elsewhere than before, if it is a link.
+        // A changed link may lead to another folder.
         self.cover();
         changed(Change { files, at: first });
         None

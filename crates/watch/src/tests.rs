@@ -1,4 +1,4 @@
-//! Saves of all kinds, as the watcher tells of them.
+//! Tests of the watcher with all types of saves.
 
 use std::fs;
 use std::path::Path;
@@ -6,14 +6,14 @@ use std::sync::mpsc::{Receiver, channel};
 
 use super::*;
 
-/// A watch of `a.lua` in a new folder `sub`, and what it tells.
+/// Watch of `a.lua` in a new folder `sub`, and its reports.
 struct Trial {
     folder: tempfile::TempDir,
     told: Receiver<Change>,
     watch: Watch,
 }
 
-/// A system that has no more folders to watch.
+/// System whose limit of watched folders is reached.
 struct FullSystem;
 
 impl notify::Watcher for FullSystem {
@@ -47,7 +47,7 @@ impl Trial {
         let files = vec![folder.path().join("sub/a.lua")];
         let changed = move |change| teller.send(change).unwrap();
         let watch = Watch::by(make, files, changed, complain).unwrap();
-        // The first folders are watched when this has been answered.
+        // The first folders are watched before this is answered.
         watch.follow(vec![(folder.path().join("sub/a.lua"), true)], SystemTime::now());
         std::thread::sleep(Duration::from_millis(20));
         Self { folder, told, watch }
@@ -61,7 +61,7 @@ impl Trial {
         fs::write(self.at(name), text).unwrap();
     }
 
-    /// How long it took until the change was told.
+    /// Returns the time until the change is reported.
     #[track_caller]
     fn tells(&self, name: &str) -> Duration {
         let begin = Instant::now();
@@ -236,7 +236,7 @@ fn what_was_just_written_in_part_is_read_again() {
     assert_eq!(settled(&path, read).unwrap_err().message(), "[");
 }
 
-/// A watch of a database that is written through one connection, which stays open.
+/// Creates a watch of a database that is written through one connection, which stays open.
 fn database(mode: &str) -> (Trial, rusqlite::Connection) {
     let trial = Trial::new();
     let path = trial.at("sub/town.gpkg");
@@ -262,7 +262,7 @@ fn every_commit_to_a_database_that_stays_open_is_told_once() {
             assert!(trial.tells("sub/town.gpkg") < Duration::from_millis(900), "{mode}");
             trial.tells_nothing();
         }
-        // What is not committed is no change, and neither is what is taken back.
+        // Neither an uncommitted nor a rolled-back change is reported.
         for end in ["COMMIT", "ROLLBACK"] {
             writer.execute_batch("BEGIN; UPDATE a SET x = x + 1").unwrap();
             trial.tells_nothing();
@@ -272,7 +272,7 @@ fn every_commit_to_a_database_that_stays_open_is_told_once() {
                 _ => trial.tells_nothing(),
             }
         }
-        // What a log brings home was told before.
+        // The changes that a checkpoint transfers have been reported before.
         if mode == "wal" {
             for kind in ["PASSIVE", "TRUNCATE"] {
                 writer.execute("UPDATE a SET x = x + 1", []).unwrap();

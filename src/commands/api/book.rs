@@ -1,4 +1,4 @@
-//! The pages of the reference, as mdBook takes them.
+//! Pages of the reference in the format of mdBook.
 
 use std::fmt::Write as _;
 
@@ -7,13 +7,13 @@ use super::pictures::{example_of, file_of};
 use burgeon::kit::ScriptExample;
 use burgeon::objects::PLAIN_EXAMPLES;
 
-/// The types in whose pictures the axes are.
+/// Types whose pictures show the axes.
 const AXES: [&str; 2] = ["extruder", "turtle"];
 
-/// A page: its file, from the book's sources, and its text.
+/// Page: its file, relative to the book's sources, and its text.
 pub(super) type Page = (String, String);
 
-/// The chapters that are written by hand: their titles and files.
+/// Chapters that are written by hand: their titles and files.
 const CHAPTERS: [(&str, &str); 16] = [
     ("Burgeon", "introduction"),
     ("Contexts and features", "rules"),
@@ -33,7 +33,7 @@ const CHAPTERS: [(&str, &str); 16] = [
     ("Speed", "speed"),
 ];
 
-/// The pages that follow from what scripts can use, and the list of all pages.
+/// Returns the generated pages of the scripting API, and the list of all pages.
 pub(super) fn pages(entries: &[Entry]) -> Vec<Page> {
     let mut summary = "# Summary\n\n".to_owned();
     for (title, file) in CHAPTERS {
@@ -65,7 +65,7 @@ pub(super) fn pages(entries: &[Entry]) -> Vec<Page> {
     pages
 }
 
-/// What stands before each page.
+/// Header of each page.
 const MADE: &str = "<!-- Written by burgeon api --book: change the declaration in Rust instead. -->\n\n";
 
 fn page(entry: &Entry) -> String {
@@ -109,12 +109,12 @@ fn body(text: &mut String, entry: &Entry, level: usize) {
     }
 }
 
-/// What a script that shows an entry is to mdBook: what needs a file runs only beside one.
+/// Returns the language of an entry's example for mdBook. Scripts that need a file cannot run there.
 fn language_of(entry: &Entry) -> &'static str {
     if entry.usage.contains("(file") || entry.name == "require" { "text" } else { "lua" }
 }
 
-/// A list of fields, each followed by those of the table that it is; `indent` stands before each line.
+/// Writes a list of fields, each followed by the fields of its table. Each line begins with `indent`.
 fn fields(text: &mut String, owner: &str, members: &[&Member], indent: &str) {
     let mut rows = Vec::new();
     members.iter().for_each(|member| collect(&mut rows, "", member));
@@ -146,7 +146,7 @@ fn method(text: &mut String, entry: &Entry, member: &Member) {
         Some(example) => {
             let _ = writeln!(text, "  ([Picture]({}).)", file_of(example));
         }
-        // A script that shows several methods stands with the first of them.
+        // A script that shows several methods is printed with the first of them.
         None if PLAIN_EXAMPLES.iter().any(|example| shows_first(&example)) => {
             text.push('\n');
             script(text, language_of(entry), &member.example);
@@ -159,10 +159,10 @@ fn method(text: &mut String, entry: &Entry, member: &Member) {
     }
 }
 
-/// What an example draws, and its script, within an item of a list.
+/// Writes the picture of an example and its script, within a list item.
 fn picture(text: &mut String, name: &str, example: &ScriptExample) {
     let _ = writeln!(text, "\n  ![{name}]({})  ", file_of(example));
-    // The first line of the script says what there is to see.
+    // The first line of the script describes the picture.
     if let Some(caption) = example.script.strip_prefix("-- ").and_then(|rest| rest.lines().next()) {
         let _ = writeln!(text, "  *{}*", plain(caption));
     }
@@ -170,7 +170,7 @@ fn picture(text: &mut String, name: &str, example: &ScriptExample) {
     script(text, "lua", example.script);
 }
 
-/// A script within an item of a list.
+/// Writes a script within a list item.
 fn script(text: &mut String, language: &str, script: &str) {
     let _ = writeln!(text, "  <details><summary>Script</summary>\n\n  ```{language}");
     for line in script.trim_end().lines() {
@@ -180,9 +180,9 @@ fn script(text: &mut String, language: &str, script: &str) {
     text.push_str("  ```\n\n  </details>\n\n");
 }
 
-/// A doc in one line.
+/// Converts a doc to one line.
 fn plain(doc: &str) -> String {
     let text = doc.split_whitespace().collect::<Vec<_>>().join(" ");
-    // What stands in angle brackets is no HTML, and nothing is a link.
+    // Angle brackets are not HTML, and square brackets are not links.
     text.replace('<', "&lt;").replace('[', "\\[")
 }

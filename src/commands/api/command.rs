@@ -1,4 +1,4 @@
-//! The command `api`.
+//! Command `api`.
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -17,18 +17,18 @@ use serde_json::json;
 /// Tells what scripts can use: types of objects with their fields and methods, functions and modules
 #[derive(Args)]
 pub(crate) struct ApiCommand {
-    /// One of them, such as extruder, extruder:extrude or extruder.sides; a list of all if left out
+    /// Item to describe, such as extruder, extruder:extrude or extruder.sides [default: list all]
     name: Option<String>,
 
-    /// Tells of the types of objects that this script declares, and of what it adds to others
+    /// Includes the object types that this script declares, and the methods that it adds to others
     #[arg(long, value_name = "FILE")]
     script: Option<PathBuf>,
 
-    /// Uses the packages in this folder, or the one that it is, besides those in mods beside the script; may be repeated
+    /// Adds a folder of packages, or one package; may be repeated
     #[arg(long, value_name = "FOLDER", requires = "script")]
     mods: Vec<PathBuf>,
 
-    /// Prints the definition file that luau-lsp takes, for editors
+    /// Prints the definition file for luau-lsp, for editors
     #[arg(long, conflicts_with_all = ["name", "json"])]
     luau: bool,
 
@@ -36,11 +36,11 @@ pub(crate) struct ApiCommand {
     #[arg(long, value_name = "FOLDER", conflicts_with_all = ["name", "json", "luau", "script"])]
     book: Option<PathBuf>,
 
-    /// Draws the pictures of the reference besides, those whose examples have changed
+    /// Also draws the pictures of the reference whose examples have changed
     #[arg(long, requires = "book")]
     pictures: bool,
 
-    /// Prints one JSON document, for machines, in place of text for people
+    /// Prints machine-readable JSON instead of text
     #[arg(long)]
     json: bool,
 }
@@ -93,7 +93,7 @@ impl ApiCommand {
 }
 
 impl ApiCommand {
-    /// The types of objects that `script` declares, and those that it adds to.
+    /// Returns the object types that `script` declares, and the types that it extends.
     fn declared(&self, script: &Path) -> Result<Vec<Arc<Kind>>> {
         let inputs = RunInputs { mods: self.mods.clone(), user_mods: user_mods(), ..RunInputs::default() };
         let options = RunOptions { inputs, ..burgeon::options() };
@@ -101,7 +101,7 @@ impl ApiCommand {
     }
 }
 
-/// Writes the pages of the reference that are not as they should be.
+/// Writes the pages of the reference that have changed.
 fn write_book(folder: &Path, entries: &[Entry]) -> Result<()> {
     for (file, text) in book::pages(entries) {
         let path = folder.join("src").join(file);
@@ -121,7 +121,7 @@ fn write_book(folder: &Path, entries: &[Entry]) -> Result<()> {
     Ok(())
 }
 
-/// All that scripts can use, by name.
+/// Returns everything that scripts can use, sorted by group and name.
 pub(super) fn entries(registry: &Registry) -> Vec<Entry> {
     let types = registry.kinds().map(|kind| Entry::of_kind(kind));
     let mut entries: Vec<Entry> =
@@ -130,19 +130,19 @@ pub(super) fn entries(registry: &Registry) -> Vec<Entry> {
     entries
 }
 
-/// What is told of.
+/// Item to describe.
 enum ApiSubject<'a> {
     Entry(&'a Entry),
-    /// A field or a method, and the full name of what has it.
+    /// Field or method, with the full name of its owner.
     Member((String, &'a Member)),
 }
 
-/// What is called `name`.
+/// Finds the item called `name`.
 fn find<'a>(entries: &'a [Entry], name: &str) -> Result<ApiSubject<'a>> {
     if let Some(entry) = entries.iter().find(|entry| entry.name == name) {
         return Ok(ApiSubject::Entry(entry));
     }
-    // The name of a package's type has a point in it, too.
+    // The name of a package's type also contains a dot.
     let ends = name.match_indices([':', '.']).map(|(end, _)| end);
     for end in ends {
         if let Some(entry) = entries.iter().find(|entry| entry.name == name[..end]) {
@@ -150,7 +150,7 @@ fn find<'a>(entries: &'a [Entry], name: &str) -> Result<ApiSubject<'a>> {
         }
     }
     let message = format!("scripts have nothing called {name}");
-    // Whoever gives a method's name alone wants to know whose it is.
+    // A user who enters only the name of a method wants to know its owner.
     let owners: Vec<String> = entries
         .iter()
         .flat_map(|entry| entry.members.iter().map(move |member| (entry, member)))
@@ -170,13 +170,13 @@ fn find<'a>(entries: &'a [Entry], name: &str) -> Result<ApiSubject<'a>> {
     Err(Error::not_found("name", name, known, message).help("burgeon api lists all names"))
 }
 
-/// The one of `members` that `path` leads to, such as `:roof.details`, and the full name of what has it.
+/// Finds the member of `members` at `path`, such as `:roof.details`, and the full name of its owner.
 fn within<'a>(owner: &str, members: &'a [Member], path: &str) -> Result<(String, &'a Member)> {
     let (separator, path) = path.split_at(1);
     let (inner, rest) = path.split_at(path.find([':', '.']).unwrap_or(path.len()));
     let mut called = members.iter().filter(|member| member.name == inner);
     let full = format!("{owner}{separator}{inner}");
-    // A field and a method may have one name; one of them alone is meant, whatever stands before it.
+    // A field and a method may have the same name. If there is only one of them, the separator is ignored.
     let found = called.clone().find(|member| member.full_name(owner) == full).or_else(|| called.next());
     match found {
         Some(member) if rest.is_empty() => Ok((owner.to_owned(), member)),
@@ -201,7 +201,7 @@ mod tests {
     use super::super::entry;
     use super::*;
 
-    /// Counts the members that there are, within one another.
+    /// Counts the members, including nested ones.
     fn check(entries: &[Entry], owner: &str, members: &[Member]) -> usize {
         let mut count = 0;
         for member in members {

@@ -1,75 +1,75 @@
-//! What there is to tell of a name that scripts can use.
+//! Descriptions of the names that scripts can use.
 
 use burgeon::kit::{Construct, Deprecation, Field, Kind, Method, Registry, ScriptExample};
 use burgeon::language::{self, CallForm, Name, NameKind, module_form};
 use burgeon::objects;
 use serde_json::{Value, json};
 
-/// A name that scripts can use.
+/// Name that scripts can use.
 pub(super) struct Entry {
     pub name: String,
     pub group: EntryGroup,
-    /// How it is written, each way in a line; empty where scripts cannot make it.
+    /// Notation, one form per line; empty if scripts cannot create it.
     pub usage: String,
-    /// How it is called, if it is a function of the language.
+    /// Signatures, if it is a function of the language.
     pub forms: Vec<CallForm>,
     pub doc: String,
-    /// Its fields, then its methods.
+    /// Fields, followed by methods.
     pub members: Vec<Member>,
-    /// A script that uses it.
+    /// Example script.
     pub example: String,
 }
 
-/// What a name is, in the order in which people are told.
+/// Group of a name, in the order of the list.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum EntryGroup {
-    /// A type of object.
+    /// Object type.
     Type,
-    /// A function or a value.
+    /// Function or value.
     Global,
-    /// The constructor of modules.
+    /// Constructor of modules.
     Module,
-    /// What others give.
+    /// Type of values that other functions return.
     Given,
-    /// A function or a library of Luau itself.
+    /// Function or library of Luau itself.
     Luau,
 }
 
-/// A field or a method.
+/// Field or method.
 pub(super) struct Member {
     pub name: String,
     pub what: MemberKind,
-    /// The type of what is not called.
+    /// Type of a field or value that cannot be called.
     pub luau: String,
-    /// How it is called.
+    /// Signatures.
     pub forms: Vec<CallForm>,
-    /// The value of a field that is left out.
+    /// Default value of a field.
     pub default: String,
     pub unit: Option<String>,
     pub doc: String,
-    /// What the table may have that it is or takes.
+    /// Fields of its table type or table argument.
     pub fields: Vec<Member>,
-    /// A script that uses it; empty where there is none.
+    /// Example script; empty if there is none.
     pub example: String,
 }
 
-/// What a member is.
+/// Type of a member.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(super) enum MemberKind {
-    /// A field of the table that its owner is made of.
+    /// Field of the table that creates its owner.
     Field,
-    /// A method that only reads.
+    /// Read method.
     Reads,
-    /// A method that changes its owner.
+    /// Write method.
     Changes,
-    /// A method of what is no object.
+    /// Method of a value that is not an object.
     Declares,
-    /// A function of a library, or a value.
+    /// Function of a library, or a value.
     Function,
 }
 
 impl Entry {
-    /// A type of object.
+    /// Describes an object type.
     pub(super) fn of_kind(kind: &Kind) -> Self {
         let usage = match (&kind.construct, &kind.first) {
             (Construct::Fields(_), Some(first)) => format!("{}({first}, {{ ... }})", kind.name),
@@ -97,7 +97,8 @@ impl Entry {
         }
     }
 
-    /// A name that every script has; a module does what the method of a type of object does.
+    /// Describes a name that every script has. The description of a module is that of the corresponding method of an
+    /// object type.
     pub(super) fn of_name(name: &Name, registry: &Registry) -> Self {
         let group = match name.sort {
             NameKind::Global => EntryGroup::Global,
@@ -129,7 +130,7 @@ impl Entry {
         Self { name: name.name.to_string(), group, usage, forms, doc, members, example }
     }
 
-    /// Those of its members that are `what`.
+    /// Returns the members of type `what`.
     pub(super) fn members(&self, what: MemberKind) -> impl Iterator<Item = &Member> {
         self.members.iter().filter(move |member| member.what == what)
     }
@@ -153,13 +154,13 @@ impl Entry {
     }
 }
 
-/// The script in a list that shows `name`; empty if none does.
+/// Returns the script in a list that shows `name`; empty if there is none.
 fn example_in(list: &[ScriptExample], name: &str) -> String {
     let found = list.iter().find(|example| example.shows.contains(&name));
     found.map_or_else(String::new, |example| example.script.to_owned())
 }
 
-/// The script that shows a field or a method of a type: its own, or the type's if that calls the method.
+/// Returns the script that shows a field or a method of a type: its own, or the type's if it calls the method.
 fn example_of_member(kind: &Kind, member: &Member) -> String {
     let name = member.full_name(&kind.name);
     let lists = [objects::EXAMPLES, objects::PLAIN_EXAMPLES];
@@ -168,7 +169,7 @@ fn example_of_member(kind: &Kind, member: &Member) -> String {
     own.unwrap_or_else(|| if calls { kind.example.to_string() } else { String::new() })
 }
 
-/// What is told of a name that will go, behind what it does.
+/// Returns the deprecation notice of a name, which follows its description.
 fn deprecation(found: Option<&Deprecation>) -> String {
     found.map_or_else(String::new, |it| format!(" Deprecated since {}: use {}.", it.since, it.instead))
 }
@@ -217,18 +218,18 @@ impl Member {
         }
     }
 
-    /// Its name after that of its `owner`, as `burgeon api` takes it.
+    /// Returns the name qualified by its `owner`, as `burgeon api` accepts it.
     pub(super) fn full_name(&self, owner: &str) -> String {
         let separator = self.what.separator();
         format!("{owner}{separator}{}", self.name)
     }
 
-    /// How it is written, without the owner.
+    /// Returns the notation without the owner.
     pub(super) fn usage(&self) -> String {
         self.usage_as(&self.name)
     }
 
-    /// How it is written if it is called `name`.
+    /// Returns the notation with `name` instead of its own name.
     pub(super) fn usage_as(&self, name: &str) -> String {
         let Self { luau, default, .. } = self;
         match self.what {
@@ -239,7 +240,7 @@ impl Member {
         }
     }
 
-    /// What machines are told; `owner` is what has it.
+    /// Describes the member as JSON; `owner` is the name of its owner.
     pub(super) fn to_json(&self, owner: &str) -> Value {
         let fields: Vec<_> = self.fields.iter().map(|field| field.to_json(&self.full_name(owner))).collect();
         if self.what == MemberKind::Field {
@@ -264,13 +265,13 @@ impl Member {
 }
 
 impl MemberKind {
-    /// What stands between an owner's name and a member's.
+    /// Returns the separator between an owner's name and a member's.
     pub(super) fn separator(self) -> char {
         if matches!(self, Self::Field | Self::Function) { '.' } else { ':' }
     }
 }
 
-/// How something is called, each way in a line.
+/// Returns the signatures, one per line.
 fn written(name: &str, forms: &[CallForm]) -> String {
     let forms: Vec<String> = forms.iter().map(|form| format!("{name}{form}")).collect();
     forms.join("\n")

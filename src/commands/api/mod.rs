@@ -1,6 +1,6 @@
-//! `burgeon api`: what scripts can use, from the same declarations that install it.
+//! `burgeon api`: the scripting API, from the same declarations that install it.
 //!
-//! Comes in: a name, or none. Goes out: text or JSON. Nothing of what is told is written here.
+//! Input: a name, or none. Output: text or JSON. The descriptions are not written here.
 
 mod book;
 mod command;

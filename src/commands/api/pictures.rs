@@ -1,4 +1,4 @@
-//! The pictures of the reference: what the examples of types, methods and fields draw.
+//! Pictures of the reference: renders of the examples of types, methods and fields.
 
 use std::fmt::Write as _;
 use std::path::Path;
@@ -15,24 +15,24 @@ use glam::{DAffine3, DVec3};
 
 /// Width and height (pixels).
 const SIZE: (u32, u32) = (480, 300);
-/// Colours of a picture.
+/// Number of colours of a picture.
 const COLORS: usize = 96;
-/// The file that says which script each picture shows.
+/// File that lists the hash of each picture's script.
 const LIST: &str = "pictures.txt";
-/// Changes when all pictures are to be drawn anew.
+/// Version of the appearance. Change it to draw all pictures again.
 const LOOK: &str = "1";
 
-/// The example that shows what is called `name`.
+/// Returns the example that shows the item called `name`.
 pub(super) fn example_of(name: &str) -> Option<&'static ScriptExample> {
     EXAMPLES.iter().find(|example| example.shows.contains(&name))
 }
 
-/// The picture of an example, from the folder of the pages.
+/// Returns the path of an example's picture, relative to the folder of the pages.
 pub(super) fn file_of(example: &ScriptExample) -> String {
     format!("pictures/{}.png", example.name.replace('/', "-"))
 }
 
-/// Draws the pictures in `folder`, that of the pages, which are not there or show another script by now.
+/// Draws the pictures in `folder`, the folder of the pages, that are missing or whose scripts have changed.
 pub(super) fn draw(folder: &Path) -> Result<()> {
     let pictures = folder.join("pictures");
     std::fs::create_dir_all(&pictures)
@@ -52,7 +52,7 @@ pub(super) fn draw(folder: &Path) -> Result<()> {
         // Writing into a string cannot fail.
         let _ = writeln!(text, "{line}");
     }
-    // What shows nothing any more goes.
+    // Pictures without an example are deleted.
     for entry in std::fs::read_dir(&pictures).into_iter().flatten().flatten() {
         let name = entry.file_name().to_string_lossy().into_owned();
         if name.ends_with(".png")
@@ -69,7 +69,7 @@ pub(super) fn draw(folder: &Path) -> Result<()> {
     Ok(())
 }
 
-/// A number that tells a script from others.
+/// Returns the hash of a script.
 ///
 /// Method: Fowler, Noll and Vo, FNV-1a, 64 bits.
 fn mark(script: &str) -> u64 {
@@ -87,7 +87,7 @@ fn picture(example: &ScriptExample) -> Result<Vec<u8>> {
     let reports = RunReports { print: Some(Print::new(|_: &str| ())), ..RunReports::default() };
     let options = RunOptions { reports, ..burgeon::options() };
     let run = burgeon::run(&path, options);
-    // A folder that stays behind is of no consequence.
+    // An error is ignored, because a remaining folder does no harm.
     let _ = std::fs::remove_dir_all(&folder);
     let mut scene = run?.scene;
     if example.name.starts_with("extruder") || example.name.starts_with("turtle") {
@@ -124,7 +124,7 @@ fn add_axes(scene: &mut Scene) -> Result<()> {
     Ok(())
 }
 
-/// An arrow of 1 m from the origin.
+/// Adds an arrow of 1 m from the origin in the direction `along`.
 fn arrow(part: &mut Part, along: DVec3) -> Result<()> {
     let side = DVec3::new(along.y, along.z, along.x);
     let up = along.cross(side);

@@ -1,14 +1,14 @@
-//! What `burgeon api` prints for people.
+//! Human-readable output of `burgeon api`.
 
 use std::fmt::Write as _;
 use std::path::Path;
 
 use super::entry::{Entry, EntryGroup, Member, MemberKind};
 
-/// The longest line of a doc.
+/// Maximum length of a line.
 const WIDTH: usize = 100;
 
-/// All names, each with the first sentence of its doc; with a `script`, those that it declares.
+/// Lists all names, each with the first sentence of its doc; with a `script`, the names that it declares.
 pub(super) fn list(entries: &[Entry], script: Option<&Path>) -> String {
     let mut text = String::new();
     for (group, title) in [
@@ -45,7 +45,7 @@ pub(super) fn list(entries: &[Entry], script: Option<&Path>) -> String {
     text
 }
 
-/// All of one name.
+/// Describes one name completely.
 pub(super) fn entry(entry: &Entry) -> String {
     let mut text = String::new();
     let _ = writeln!(text, "{}", if entry.usage.is_empty() { &entry.name } else { &entry.usage });
@@ -68,7 +68,7 @@ pub(super) fn entry(entry: &Entry) -> String {
     text
 }
 
-/// A script that uses what is told of, if there is one.
+/// Writes an example script, if there is one.
 fn example(text: &mut String, script: &str) {
     if !script.is_empty() {
         text.push_str("\nExample\n");
@@ -79,7 +79,7 @@ fn example(text: &mut String, script: &str) {
     }
 }
 
-/// A field or a method by itself; `owner` is what has it.
+/// Describes a field or a method; `owner` is the name of its owner.
 pub(super) fn member(owner: &str, member: &Member) -> String {
     let separator = member.what.separator();
     let usage = member.usage();
@@ -100,7 +100,7 @@ pub(super) fn member(owner: &str, member: &Member) -> String {
     text
 }
 
-/// A member among others, and how to be told what its table may have.
+/// Writes a member in a list, with a command that describes the fields of its table.
 fn brief(text: &mut String, owner: &str, member: &Member) {
     for line in member.usage().lines() {
         let _ = writeln!(text, "  {line}");
@@ -111,13 +111,13 @@ fn brief(text: &mut String, owner: &str, member: &Member) {
     }
 }
 
-/// The first sentence of a doc.
+/// Returns the first sentence of a doc.
 fn summary(doc: &str) -> String {
     let text = doc.lines().map(str::trim).collect::<Vec<_>>().join(" ");
     text.split_once(". ").map_or(text.clone(), |(first, _)| format!("{first}."))
 }
 
-/// Adds a doc in lines that begin with `indent` spaces.
+/// Appends a doc, wrapped into lines that begin with `indent` spaces.
 fn wrap(text: &mut String, doc: &str, indent: usize) {
     let mut line = String::new();
     for word in doc.split_whitespace() {

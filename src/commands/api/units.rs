@@ -1,11 +1,11 @@
-//! The numbers that scripts give or read and that have no unit: a new number has one in its doc, or stands here.
+//! Numbers without a unit in the scripting API. A new number must have a unit in its doc, or be listed here.
 
 use std::collections::BTreeSet;
 
 use super::entry::{Entry, EntryGroup, Member, MemberKind};
 use burgeon::language::CallForm;
 
-/// How many.
+/// Counts.
 const COUNTS: [&str; 30] = [
     "derived.modules",
     "derived.steps",
@@ -39,7 +39,7 @@ const COUNTS: [&str; 30] = [
     "turtle.sides",
 ];
 
-/// Parts of something, chances, weights, and what sizes are multiplied by.
+/// Fractions, probabilities, weights and factors.
 const FACTORS: [&str; 50] = [
     ".amount",
     ".metallic",
@@ -93,7 +93,7 @@ const FACTORS: [&str; 50] = [
     "vector:lerp t",
 ];
 
-/// Which one: numbers of things, codes and seeds.
+/// Indices, codes and seeds.
 const NUMBERS: [&str; 31] = [
     ".seed",
     "Paint number",
@@ -128,7 +128,7 @@ const NUMBERS: [&str; 31] = [
     "universe:star index",
 ];
 
-/// Whatever the script, or the file, measures them in.
+/// Values in any unit that the script or the file uses.
 const ANY: [&str; 15] = [
     "elevation.bounds",
     "lerp a",
@@ -147,7 +147,7 @@ const ANY: [&str; 15] = [
     "source.within",
 ];
 
-/// Whether a value of this type is a number, or holds some.
+/// Returns true if a value of this type is a number or contains numbers.
 fn is_number(luau: &str) -> bool {
     luau.replace(": number", "").replace("[number]", "").contains("number")
 }
@@ -171,7 +171,7 @@ fn of_members(found: &mut BTreeSet<String>, owner: &str, members: &[Member]) {
     }
 }
 
-/// The numbers without a unit in `entries`, as `burgeon api` names their owners.
+/// Returns the numbers without a unit in `entries`, qualified as `burgeon api` names them.
 fn without_unit(entries: &[Entry]) -> BTreeSet<String> {
     let mut found = BTreeSet::new();
     for entry in entries.iter().filter(|entry| entry.group != EntryGroup::Luau) {
@@ -185,7 +185,7 @@ fn without_unit(entries: &[Entry]) -> BTreeSet<String> {
 fn every_number_has_a_unit_or_a_reason_to_have_none() {
     let found = without_unit(&super::command::entries(&burgeon::objects::registry()));
     let listed: Vec<&str> = [&COUNTS[..], &FACTORS, &NUMBERS, &ANY].concat();
-    // What many tables have is listed by its own name.
+    // Numbers of many tables are listed by their own name only.
     let matches = |name: &str, known: &str| name == known || known.starts_with('.') && name.ends_with(known);
     let new: Vec<&String> = found.iter().filter(|name| !listed.iter().any(|it| matches(name, it))).collect();
     assert_eq!(new, [""; 0], "tell the unit of each in round brackets in its doc, or list it here");

@@ -1,4 +1,4 @@
-//! `burgeon mods` and its parts: `check`, `explain`, `new`, `add`, `disable` and `enable`.
+//! `burgeon mods` and its subcommands: `check`, `explain`, `new`, `add`, `disable` and `enable`.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
@@ -21,58 +21,58 @@ pub(crate) struct ModsCommand {
     #[command(subcommand)]
     command: Option<ModsAction>,
 
-    /// The script whose packages are meant, which are in mods/ beside it [default: those in ./mods]
+    /// Script whose packages to use (mods/ next to it) [default: packages in ./mods]
     #[arg(long, value_name = "SCRIPT", global = true)]
     script: Option<PathBuf>,
 
-    /// Another folder of packages, or a package; may be repeated
+    /// Adds a folder of packages, or one package; may be repeated
     #[arg(long, value_name = "FOLDER", global = true)]
     mods: Vec<PathBuf>,
 
-    /// Prints one JSON document, for machines, in place of text for people
+    /// Prints machine-readable JSON instead of text
     #[arg(long, global = true)]
     json: bool,
 }
 
 #[derive(Subcommand)]
 enum ModsAction {
-    /// Reports what is wrong with packages: their mod.toml, their scripts, and files that are missing
+    /// Reports the problems of packages: in mod.toml, in scripts, and missing files
     Check {
-        /// The folder of one; all that are found if left out
+        /// Folder of a package [default: all packages]
         folder: Option<PathBuf>,
     },
-    /// Tells why a package is there, in which order it comes, and what it replaces
+    /// Explains where a package comes from, its load order and its replacements
     Explain {
-        /// Its name
+        /// Name of the package
         name: String,
     },
-    /// Makes a package to begin with, in mods beside the script, or here
+    /// Creates a starter package, in mods next to the script or in ./mods
     New {
-        /// Its name
+        /// Name of the package
         name: String,
     },
     /// Copies a package from a folder or a zip
     Add {
-        /// The folder that has the mod.toml, or a zip of it
+        /// Folder that contains the mod.toml, or a zip of it
         #[arg(value_name = "FOLDER|ZIP")]
         from: PathBuf,
 
-        /// The folder of packages that it becomes a part of [default: mods beside the script, or here]
+        /// Packages folder to install into [default: mods next to the script, or ./mods]
         #[arg(long, value_name = "FOLDER")]
         into: Option<PathBuf>,
 
-        /// Puts it in the place of a package of that name
+        /// Replaces an installed package of that name
         #[arg(long)]
         replace: bool,
     },
-    /// Switches a package off for the scripts of the folder, wherever it is
+    /// Disables a package for the scripts of the folder, wherever the package is
     Disable {
-        /// Its name
+        /// Name of the package
         name: String,
     },
-    /// Switches a package on again
+    /// Enables a disabled package
     Enable {
-        /// Its name
+        /// Name of the package
         name: String,
     },
 }
@@ -94,7 +94,7 @@ impl ModsCommand {
         }
     }
 
-    /// The folder that the script is in.
+    /// Returns the folder of the script.
     fn beside(&self) -> Result<PathBuf> {
         let Some(script) = &self.script else { return Ok(PathBuf::new()) };
         if !script.is_file() {
@@ -169,11 +169,11 @@ impl ModsCommand {
                 Error::not_found("package", &shown, [], format!("{shown} has no package that is used"));
             problems.push(problem.help("name the folder that has the mod.toml; burgeon mods lists all"));
         }
-        // What is wrong with one package is wrong with those that need it, too.
+        // A problem of one package is also a problem of the packages that require it.
         let mut known: BTreeSet<String> = problems.iter().map(ToString::to_string).collect();
         let of_packages = meant.iter().flat_map(|package| &package.problems);
         problems.extend(of_packages.filter(|problem| known.insert(problem.to_string())).cloned());
-        // What cannot be used together cannot be run.
+        // Packages that conflict cannot be run.
         if problems.is_empty() {
             for package in &meant {
                 let checked = self.declared(package, &search, &mut declared);
@@ -205,7 +205,7 @@ impl ModsCommand {
         Ok(())
     }
 
-    /// Checks the scripts of a package, and keeps the parameters that they declare.
+    /// Checks the scripts of a package, and stores the parameters that they declare.
     fn declared(
         &self,
         package: &Package,
@@ -214,7 +214,7 @@ impl ModsCommand {
     ) -> Result<Vec<Warning>> {
         let mut mods = search.given.clone();
         mods.extend(search.script.as_ref().map(|script| script.join("mods")).filter(|mods| mods.is_dir()));
-        // What the folder of a package is called by is how its files are told of.
+        // The displayed path of a package determines how its files are named in messages.
         mods.insert(0, package.shown.clone());
         let inputs = RunInputs { mods, user_mods: search.user.clone(), ..RunInputs::default() };
         let options = RunOptions { inputs, ..burgeon::options() };
@@ -223,7 +223,8 @@ impl ModsCommand {
         Ok(warnings)
     }
 
-    /// The errors for defaults of parameters that the other package does not declare, or that cannot have them.
+    /// Returns the errors of default values for parameters that the other package does not declare, or that do not
+    /// accept them.
     fn check_params(
         &self,
         packages: &Packages,
@@ -234,7 +235,7 @@ impl ModsCommand {
         let mut problems = Vec::new();
         for default in &package.manifest.params {
             let Some(other) = packages.get(&default.package) else { continue };
-            // What is wrong with the other package is told of that.
+            // Problems of the other package are reported for that package.
             if !declared.contains_key(&default.package) && self.declared(other, search, declared).is_err() {
                 continue;
             }
@@ -253,14 +254,14 @@ impl ModsCommand {
         problems
     }
 
-    /// Switches the package `name` on or off for the scripts of the folder.
+    /// Enables or disables the package `name` for the scripts of the folder.
     fn switch(&self, name: &str, on: bool) -> Result<()> {
         let name = name.trim_start_matches('@');
         let packages = self.packages()?;
         let known = packages.order().iter().map(|package| package.manifest.name.as_str());
         let known = known.chain(packages.disabled.iter().map(|package| package.name.as_str()));
         let known: Vec<&str> = known.collect();
-        // One that has gone may still be switched off.
+        // A deleted package can still be disabled.
         if !known.contains(&name) && (!on || !is_name(name)) {
             let error = Error::not_found("package", name, known, format!("there is no package {name}"));
             return Err(error.help("burgeon mods lists those that there are"));
@@ -293,7 +294,7 @@ impl ModsCommand {
             given: self.mods.iter().cloned().chain(into.is_dir().then(|| into.clone())).collect(),
             user: user_mods(),
         };
-        // What it needs may be in another folder than the one that it is added to.
+        // Required packages may be in other folders than the one that the package is added to.
         let available = Packages::find(&search, &api_version());
         let added = packages::install(from, &into, replace, |manifest| available.check_needs(manifest))?;
         let (name, version) = (&added.manifest.name, &added.manifest.version);

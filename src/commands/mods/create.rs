@@ -1,4 +1,4 @@
-//! `burgeon mods new`: a package to begin with.
+//! `burgeon mods new`: creates a starter package.
 
 use std::path::{Path, PathBuf};
 
@@ -6,11 +6,11 @@ use burgeon::packages::{MANIFEST, is_name};
 use burgeon::script::api_version;
 use burgeon::{Error, Result};
 
-/// The file that `require("@NAME")` runs.
+/// File that `require("@NAME")` runs.
 const INIT: &str = "init.lua";
 
-/// Makes the package `name` in the folder of packages `into`, with a manifest and a script. Fails if there is something of that
-/// name already. Returns its folder.
+/// Creates the package `name` in the packages folder `into`, with a manifest and a script. Returns its folder. Fails if
+/// the path exists already.
 pub(super) fn create(into: &Path, name: &str) -> Result<PathBuf> {
     if !is_name(name) {
         return Err(Error::argument(format!("{name:?} is no name for a package"))

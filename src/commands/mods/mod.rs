@@ -1,7 +1,7 @@
 //! `burgeon mods`: the packages that scripts can use.
 //!
-//! Comes in: folders of packages. Goes out: what they are, what is wrong with them, and one more of them. What packages
-//! mean is decided by the library; here it is only told.
+//! Input: folders of packages. Output: descriptions and problems of packages, and new packages. The library implements
+//! packages; this module only reports them.
 
 mod command;
 mod create;

@@ -1,11 +1,11 @@
-//! What `burgeon mods` tells of packages.
+//! Output of `burgeon mods`.
 
 use std::fmt::Write as _;
 
 use burgeon::packages::{Dependency, Package, PackageOrigin, Packages};
 use serde_json::{Value, json};
 
-/// All packages, for people.
+/// Lists all packages as text.
 pub(super) fn list(packages: &Packages) -> String {
     let mut text = String::new();
     for package in packages.order() {
@@ -50,7 +50,7 @@ pub(super) fn list(packages: &Packages) -> String {
     text
 }
 
-/// One package and its relations to others, for people.
+/// Describes one package and its relations to others as text.
 pub(super) fn explain(packages: &Packages, package: &Package) -> String {
     let manifest = &package.manifest;
     let mut text = format!("{} {} in {}\n", manifest.name, manifest.version, package.shown.display());
@@ -91,7 +91,7 @@ pub(super) fn explain(packages: &Packages, package: &Package) -> String {
     text
 }
 
-/// What a package replaces, and what others replace of it, for people.
+/// Describes the replacements by and of a package as text.
 fn replaced(packages: &Packages, package: &Package) -> String {
     let mut text = String::new();
     for one in &package.manifest.replaces {
@@ -126,13 +126,13 @@ fn wanted(list: &[Dependency]) -> String {
     list.join(", ")
 }
 
-/// The packages that depend on one or may use it.
+/// Returns the packages that depend on a package, required or optional.
 fn users<'a>(packages: &'a Packages, package: &Package) -> Vec<&'a str> {
     let uses = |other: &&Package| other.manifest.wanted().any(|wanted| wanted.name == package.manifest.name);
     packages.order().iter().filter(uses).map(|other| other.manifest.name.as_str()).collect()
 }
 
-/// All packages, for machines.
+/// Lists all packages as JSON.
 pub(super) fn list_json(packages: &Packages) -> Value {
     let all: Vec<Value> = packages.order().iter().map(|package| package_json(packages, package)).collect();
     let hidden: Vec<Value> = packages
@@ -153,7 +153,7 @@ pub(super) fn list_json(packages: &Packages) -> Value {
     })
 }
 
-/// One package, for machines.
+/// Describes one package as JSON.
 pub(super) fn package_json(packages: &Packages, package: &Package) -> Value {
     let manifest = &package.manifest;
     let list = |list: &[Dependency]| -> Value {

@@ -1,4 +1,4 @@
-//! The command `run`.
+//! Command `run`.
 
 use std::path::PathBuf;
 use std::sync::{Arc, LazyLock};
@@ -67,7 +67,7 @@ pub(crate) struct RunCommand {
     save_preset: Option<String>,
 }
 
-/// What `--output` does, with the formats that there are.
+/// Returns the help of `--output`, with the available formats.
 fn output_help() -> &'static str {
     static HELP: LazyLock<String> = LazyLock::new(|| {
         let formats = Format::listed("or");
@@ -94,12 +94,12 @@ impl RunCommand {
         let begin = Instant::now();
         let session = self.session()?;
         let made = self.make(&session, begin, &|| false)?;
-        // The process ends and gives back all its memory at once, which is faster than piece by piece.
+        // Exiting the process frees all memory at once, which is faster than dropping the values.
         std::mem::forget((made, session));
         Ok(())
     }
 
-    /// The script as it was named, and how it is run.
+    /// Creates the session of the script, with its options.
     pub(super) fn session(&self) -> Result<Arc<Session>> {
         let records = self.metadata.is_some() || self.writes(|format| format == Format::CityJson);
         let mut options = self.script.options()?;
@@ -108,7 +108,7 @@ impl RunCommand {
         Session::new(&self.script.script, options)
     }
 
-    /// Runs `session`, writes everything, and says what came of it, unless it is `stale` before anything is written.
+    /// Runs `session`, writes all outputs and reports the result, unless the run is `stale` before anything is written.
     pub(super) fn make(
         &self,
         session: &Arc<Session>,
@@ -145,7 +145,7 @@ impl RunCommand {
         Ok(Some(run))
     }
 
-    /// Warns of files without a model in them; such a run fails if it is to be strict.
+    /// Adds warnings about files without content. In strict mode such a run fails.
     fn warn_of_nothing(&self, session: &Session, run: &mut burgeon::Run) -> Result<()> {
         let is_bare = || layers(session, &run.systems).iter().all(|layer| layer.records.is_empty());
         if self.writes(Format::has_layers) && is_bare() {
@@ -180,17 +180,17 @@ impl RunCommand {
         Ok(())
     }
 
-    /// Whether it writes a file of such a format.
+    /// Returns true if the command writes a file of a matching format.
     pub(super) fn writes(&self, is_such: impl Fn(Format) -> bool) -> bool {
         self.output.iter().any(|output| Format::of(output).is_ok_and(&is_such))
     }
 
-    /// Saves what this run was given.
+    /// Saves the parameters and the seed of this run as a preset.
     fn save(&self, name: &str, session: &Session, params: &[Param]) -> Result<()> {
         let options = &session.options;
         let preset = options.params.preset.iter().flat_map(|preset| &preset.params).map(|(name, _)| name);
         let given = preset.chain(options.params.set.iter().map(|(name, _)| name));
-        // Those that a plain name meant are saved under their full one.
+        // Parameters that were set by a short name are saved under their full name.
         let given: Vec<&str> = given
             .filter_map(|name| Param::find(params, name).ok().flatten())
             .map(|param| &*param.name)

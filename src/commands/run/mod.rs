@@ -1,6 +1,6 @@
-//! `burgeon run`: from a script to files.
+//! `burgeon run`: writes files from a script.
 //!
-//! Comes in: a script and the names of files. Goes out: the files, all or none of them. Nothing is modelled here.
+//! Input: a script and the names of files. Output: the files, all or none of them. Modelling happens in the library.
 
 mod command;
 mod outputs;

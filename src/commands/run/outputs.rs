@@ -1,4 +1,4 @@
-//! What `burgeon run` writes: checked before the run, written in one act after it.
+//! Outputs of `burgeon run`: checked before the run, and written together after it.
 
 use std::path::Path;
 use std::sync::Arc;
@@ -15,11 +15,11 @@ use burgeon::{Error, Result};
 use super::super::report;
 use super::RunCommand;
 
-/// Standard output.
+/// File name that represents standard output.
 const STANDARD: &str = "-";
 
 impl RunCommand {
-    /// Refuses, before any work, files that could not be written when it is done.
+    /// Fails, before any work, if an output file could not be written.
     pub(super) fn check_files(&self) -> Result<()> {
         self.output.iter().try_for_each(|output| Format::of(output)?.check())?;
         self.check_text(self.chain.as_deref(), "chain", "the chains", "chains.txt")?;
@@ -44,13 +44,13 @@ impl RunCommand {
         all.chain(self.named()).try_for_each(|path| files.write(path, |_| Ok(())))
     }
 
-    /// The files besides models that are named.
+    /// Returns the named files other than models.
     fn named(&self) -> impl Iterator<Item = &Path> {
         let texts = [&self.chain, &self.report, &self.heights, &self.edits];
         texts.into_iter().flatten().map(|path| path.as_path()).filter(|path| *path != Path::new(STANDARD))
     }
 
-    /// Refuses a file that text could not be written to; - is standard output.
+    /// Fails if a text file could not be written; - is standard output.
     fn check_text(&self, path: Option<&Path>, flag: &str, what: &str, example: &str) -> Result<()> {
         let Some(path) = path.filter(|path| *path != Path::new(STANDARD)) else { return Ok(()) };
         let same =
@@ -67,7 +67,8 @@ impl RunCommand {
         Ok(())
     }
 
-    /// Refuses to write over what the run has read. The changes of the ground may come from where they go to.
+    /// Fails if an output would overwrite an input of the run. Terrain edits may be written to the file from which they
+    /// were read.
     fn check_inputs(&self, session: &Session) -> Result<()> {
         let read = session.sought().into_iter().filter(|(path, there)| *there && path.is_file());
         let read: Vec<_> = read.filter_map(|(path, _)| path.canonicalize().ok()).collect();
@@ -82,7 +83,7 @@ impl RunCommand {
         }
     }
 
-    /// Writes everything that a run of `session` is to leave. All files appear together, or none does.
+    /// Writes all outputs of a run of `session`. Either all files are published, or none.
     pub(super) fn write(&self, run: &burgeon::Run, session: &Session) -> Result<()> {
         if run.systems.is_empty() && !self.output.is_empty() {
             let script = self.script.script.display();
@@ -114,7 +115,7 @@ impl RunCommand {
             layers: &layers,
             metadata: metadata.as_deref(),
         };
-        // Copies of textures find names that nothing else has if they come last.
+        // Copies of textures are written last, so that their names differ from all other names.
         let has_copies = |output: &&std::path::PathBuf| {
             matches!(Format::of(output), Ok(Format::Gltf | Format::Obj | Format::X3d))
         };
@@ -134,13 +135,13 @@ impl RunCommand {
         files.publish()
     }
 
-    /// Whether the chains go to standard output as a part of the JSON document.
+    /// Returns true if the chains are part of the JSON document on standard output.
     pub(super) fn chain_in_json(&self) -> bool {
         self.script.json && self.chain.as_deref() == Some(Path::new(STANDARD))
     }
 }
 
-/// What is known of the systems of a run, where something is.
+/// Returns the facts about the systems of a run, if there are any.
 fn systems(run: &burgeon::Run) -> Vec<SystemFacts> {
     let known = run.systems.iter().filter_map(|system| {
         let records = system.records();
@@ -151,8 +152,8 @@ fn systems(run: &burgeon::Run) -> Vec<SystemFacts> {
     known.collect()
 }
 
-/// The attributes that `--metadata` asks for: those of its `names`, all of `*`, and those that the script names if there are
-/// none. Fails if no feature has one of the names.
+/// Returns the attributes that `--metadata` selects: its `names`, all for `*`, or without names the attributes that the
+/// script specifies. Fails if no feature has one of the names.
 fn attributes(session: &Session, names: &[String], systems: &[SystemFacts]) -> Result<Vec<String>> {
     let known = || systems.iter().flat_map(|system| &system.records.columns);
     let names: Vec<&String> = names.iter().filter(|name| !name.is_empty()).collect();
@@ -171,7 +172,7 @@ fn attributes(session: &Session, names: &[String], systems: &[SystemFacts]) -> R
     Ok(known().filter(is_wanted).cloned().collect())
 }
 
-/// Writes each tile of the terrain as a file of its own, called by level, column and row.
+/// Writes each tile of the terrain to a separate file, named by level, column and row.
 fn write_tiles(run: &burgeon::Run, folder: &Path, files: &mut Files) -> Result<()> {
     let tiles = terrain(run)?.ground().tiles();
     files.folder(folder)?;
@@ -184,7 +185,7 @@ fn write_tiles(run: &burgeon::Run, folder: &Path, files: &mut Files) -> Result<(
     Ok(())
 }
 
-/// The terrain of a run; there has to be one.
+/// Returns the terrain of a run. Fails unless there is exactly one.
 fn terrain(run: &burgeon::Run) -> Result<&Terrain> {
     let objects = run.systems.iter().flat_map(|system| &system.objects);
     let mut terrains = objects.filter_map(|object| as_ref::<Terrain>(&**object));
@@ -197,7 +198,7 @@ fn terrain(run: &burgeon::Run) -> Result<&Terrain> {
     }
 }
 
-/// Writes what was skipped or simplified.
+/// Writes the report of skipped and simplified features.
 fn write_report(path: &Path, report: &FeatureReport, files: &mut Files) -> Result<()> {
     if path == Path::new(STANDARD) {
         return report::print_all(|out| report.write_json(out));
@@ -205,7 +206,7 @@ fn write_report(path: &Path, report: &FeatureReport, files: &mut Files) -> Resul
     files.write(path, |out| report.write_json(out))
 }
 
-/// Writes the chains of all systems, in the order in which they were derived.
+/// Writes the chains of all systems, in the order of their derivation.
 fn write_chains(path: &Path, systems: &[Arc<DerivedSystem>], files: &mut Files) -> Result<()> {
     if path == Path::new(STANDARD) {
         return report::print_all(|out| systems.iter().try_for_each(|system| system.write_chains(out)));

@@ -1,4 +1,4 @@
-//! `burgeon run --watch`: the outputs follow the script.
+//! `burgeon run --watch`: writes the outputs again when the script changes.
 
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -15,26 +15,26 @@ use super::super::report;
 use super::super::shared::on_interrupt;
 use super::RunCommand;
 
-/// How long failures may be kept back because files change.
+/// Maximum time for which failures are withheld because files are changing.
 const DOUBT: Duration = Duration::from_secs(2);
 
-/// What the watcher and the interrupt share with the run that is under way.
+/// State that the watcher and the interrupt handler share with the current run.
 #[derive(Clone, Default)]
 struct WatchState {
     session: Arc<Mutex<Option<Arc<Session>>>>,
-    /// Whether files have changed since the run read them.
+    /// Set if files have changed since the run read them.
     stale: Arc<AtomicBool>,
     over: Arc<AtomicBool>,
 }
 
 impl WatchState {
-    /// Stops the run that is under way, and wakes whoever waits for the next one.
+    /// Cancels the current run, and wakes the loop that waits for the next one.
     fn stop(&self, wake: &Sender<()>) {
         self.stale.store(true, Ordering::Release);
         if let Some(session) = &*self.session.lock().recover() {
             session.stop.stop(Error::stopped("there is something newer"));
         }
-        // Nobody waits any more at the end.
+        // An error means that the loop has ended.
         let _ = wake.send(());
     }
 
@@ -43,9 +43,9 @@ impl WatchState {
     }
 }
 
-/// Runs, writes and says what came of it, and again after every change, until interrupted.
+/// Runs, writes and reports the result, and repeats that after every change until interrupted.
 ///
-/// A run that fails says so and leaves what an earlier one wrote.
+/// A failed run reports its error and keeps the files of earlier runs.
 pub(super) fn again_and_again(command: &RunCommand) -> Result<()> {
     let now = WatchState::default();
     let (wake, changes) = channel();
@@ -78,10 +78,10 @@ pub(super) fn again_and_again(command: &RunCommand) -> Result<()> {
         };
         now.session.lock().recover().take();
         let mut sought = session.map(|session| session.sought()).unwrap_or_default();
-        // These are watched from the beginning.
+        // These files are watched from the start.
         sought.extend(command.script.files().into_iter().map(|path| (path, true)));
         let stale = now.is_stale();
-        // A run that was stopped has not come to all of its files.
+        // A cancelled run has not reached all of its files.
         if stale {
             files.extend(sought);
         } else {
@@ -91,7 +91,7 @@ pub(super) fn again_and_again(command: &RunCommand) -> Result<()> {
         if let Err(error) = made
             && !stale
         {
-            // It may have read the half of what was being written.
+            // The run may have read a file that was only half written.
             let young = unsettled(files.iter().map(|(path, _)| path.as_path()));
             let patient = doubts.get_or_insert_with(Instant::now).elapsed() < DOUBT;
             let newer = patient && {

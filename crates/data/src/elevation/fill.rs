@@ -1,4 +1,4 @@
-//! Fills holes in heights smoothly from their rims.
+//! Smooth filling of holes in heights from their boundaries.
 
 use rayon::prelude::*;
 
@@ -7,12 +7,13 @@ use super::spline::SplinePatch;
 use burgeon_base::budget::Budget;
 use burgeon_base::error::Result;
 
-/// Gives each height that is missing (NaN) one that lies smoothly between those around its hole, and returns how many
-/// these were. Does nothing where all are missing. None leaves the range of the heights that are known.
+/// Replaces missing heights (NaN) by a smooth surface, and returns their number. Does nothing if all heights are
+/// missing. Filled heights stay within the range of the known heights.
 ///
-/// Each hole is filled by the surface of least bending and tension over its rim, which goes on with the slopes that it has there.
+/// Each hole is filled by the surface of minimum bending and tension energy that continues the heights and slopes at
+/// the hole's boundary.
 ///
-/// Fails if it takes more than the `budget`.
+/// Fails if the `budget` is exceeded.
 pub(super) fn fill(columns: usize, rows: usize, heights: &mut [f32], budget: &Budget) -> Result<usize> {
     let missing = heights.iter().filter(|height| height.is_nan()).count();
     if missing == 0 || missing == heights.len() {
@@ -39,7 +40,7 @@ pub(super) fn fill(columns: usize, rows: usize, heights: &mut [f32], budget: &Bu
     Ok(missing)
 }
 
-/// The heights in a hole, run by run.
+/// Returns the heights in a hole, run by run.
 fn surface(columns: usize, heights: &[f32], hole: &Hole, budget: &Budget) -> Result<Vec<f32>> {
     let ([left, top], [right, bottom]) = (hole.low, hole.high);
     let mut patch = SplinePatch::new(right - left, bottom - top, budget, |row| {
@@ -58,7 +59,7 @@ mod tests {
     use super::*;
     use crate::heights::{count, narrow};
 
-    /// A sloping plane of 200 by 120 samples.
+    /// Returns a sloping plane of 200 by 120 samples.
     fn plane() -> Vec<f32> {
         let slope = |index: usize| 0.5 * count(index % 200) - 0.2 * count(index / 200) + 300.0;
         (0..200 * 120).map(|index| narrow(slope(index))).collect()
@@ -91,7 +92,7 @@ mod tests {
         assert_eq!(fill(2, 2, &mut none, &Budget::default()).unwrap(), 0);
     }
 
-    /// The ground of mountains: many waves of different lengths, and the higher the longer.
+    /// Returns mountainous terrain: a sum of waves of different lengths, whose amplitude grows with their length.
     fn mountains(side: usize) -> Vec<f32> {
         let height = |x: f64, y: f64| {
             (0..9).map(move |octave| {

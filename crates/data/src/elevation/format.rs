@@ -1,4 +1,4 @@
-//! Which format a file of heights is in, and its reader.
+//! Detection of the format of a height file, and dispatch to its reader.
 
 use std::path::Path;
 
@@ -6,13 +6,13 @@ use crate::formats::{geotiff, png, zipped};
 use crate::heights::{HeightOptions, RasterHeader, ascii, hgt, raw};
 use burgeon_base::error::{Error, Result};
 
-/// The formats that are read.
+/// Supported formats.
 const KNOWN: &str = "heights are read from .hgt (also zipped), GeoTIFF (.tif), ESRI ASCII grids (.asc), PNG, \
                      and raw floats (.r32, .r64)";
 
 /// Reads `bytes`, the content of the file called `name`.
 ///
-/// What begins as a zip, a TIFF, a PNG or an ASCII grid is read as that; the extension tells the others.
+/// Zip, TIFF, PNG and ASCII grid files are detected from their content, other formats from the extension.
 pub(super) fn read<'a>(
     bytes: &'a [u8],
     name: &'a str,
@@ -43,7 +43,7 @@ pub(super) fn read<'a>(
     }
 }
 
-/// Whether the first word of a text is `word`, in upper or lower case.
+/// Returns true if the first word of a text is `word`, ignoring case.
 fn begins_with(bytes: &[u8], word: &[u8]) -> bool {
     let text = bytes.trim_ascii_start();
     text.get(..word.len()).is_some_and(|start| start.eq_ignore_ascii_case(word))

@@ -1,36 +1,36 @@
-//! Holes in a raster: the samples that are missing, in groups that lie apart from one another.
+//! Holes in a raster: separate groups of missing samples.
 
 use burgeon_base::budget::Budget;
 use burgeon_base::error::Result;
 
-/// Missing samples that lie beside one another in a row.
+/// Consecutive missing samples in a row.
 #[derive(Clone, Copy)]
 pub(super) struct HoleRun {
     pub(super) row: u32,
     pub(super) first: u32,
-    /// The column behind the last sample.
+    /// Column after the last sample.
     pub(super) end: u32,
 }
 
-/// Missing samples, of which none is within [`REACH`] of those of another hole.
+/// Group of missing samples, more than [`REACH`] samples away from any other group.
 pub(super) struct Hole {
     pub(super) runs: Vec<HoleRun>,
-    /// The least column and row, and those behind the greatest, with a margin of [`REACH`] within the raster.
+    /// Minimum column and row, and end column and row, extended by a margin of [`REACH`] within the raster.
     pub(super) low: [usize; 2],
     pub(super) high: [usize; 2],
 }
 
-/// How far (samples) the heights that a hole is filled from lie from it.
+/// Maximum distance (samples) of the known heights that contribute to filling a hole.
 pub(super) const REACH: usize = 3;
 
-/// The most runs that are told apart.
+/// Maximum number of runs that are grouped.
 const MOST_RUNS: usize = 4_000_000;
 
-/// The holes of a raster, in the order of their first samples. If there are too many, or their boxes overlap too much, they are
-/// one hole.
+/// Finds the holes of a raster, ordered by their first samples. Returns a single hole if there are too many runs, or if
+/// the boxes of the holes overlap too much.
 pub(super) fn find(columns: usize, rows: usize, heights: &[f32], budget: &Budget) -> Result<Vec<Hole>> {
     let mut runs: Vec<HoleRun> = Vec::new();
-    // Where the runs of each row begin.
+    // Index of the first run of each row.
     let mut begins = Vec::with_capacity(rows + 1);
     for (row, line) in (0u32..).zip(heights.chunks_exact(columns)) {
         begins.push(runs.len());
@@ -77,7 +77,7 @@ pub(super) fn find(columns: usize, rows: usize, heights: &[f32], budget: &Budget
         }
     }
     let mut holes: Vec<Hole> = Vec::new();
-    // The number of the hole that begins with a run.
+    // Index of the hole that begins with a run.
     let mut numbers = vec![usize::MAX; runs.len()];
     for (index, run) in runs.iter().enumerate() {
         let first = groups.first(index);
@@ -99,7 +99,7 @@ pub(super) fn find(columns: usize, rows: usize, heights: &[f32], budget: &Budget
     Ok(holes)
 }
 
-/// Which runs belong together; each group is named after its first run.
+/// Union-find structure over runs; the first run of each group is its representative.
 struct Groups(Vec<usize>);
 
 impl Groups {
@@ -130,11 +130,11 @@ mod tests {
             }
         };
         cut(2..5, 2..4);
-        // Two samples between them: too near.
+        // Two samples between them, which is too close.
         cut(7..9, 3..9);
         cut(20..30, 10..11);
         cut(22..23, 15..20);
-        // A ring within which there is another hole.
+        // A ring that contains another hole.
         cut(10..11, 20..30);
         cut(0..11, 20..21);
         cut(3..4, 26..27);

@@ -1,4 +1,4 @@
-//! Files that say they hold more than they do, or hold more than they say.
+//! Tests of files that declare more data than they contain, or contain more than they declare.
 
 use std::io::{Cursor, Write};
 use std::time::{Duration, Instant};
@@ -10,7 +10,7 @@ use super::tests::{SCALE, TIE, read, samples, wanted};
 use super::*;
 use burgeon_base::budget::Budget;
 
-/// A budget of some megabytes.
+/// Returns a budget of a few megabytes.
 fn small(megabytes: usize) -> std::sync::Arc<Budget> {
     Budget::within(Duration::from_secs(60), megabytes * 1_000_000)
 }
@@ -25,7 +25,7 @@ fn a_zip_bomb_is_refused_before_it_is_unpacked() {
     let begin = Instant::now();
     let error = read(&bomb, "b.zip").unwrap_err();
     assert!(error.message().contains("is not square"), "{error}");
-    // The same that says it has a tile's size, in all places that tell it.
+    // The same file, with the size of a tile declared everywhere instead of its real size.
     let [told, real] = [1201 * 1201 * 2u32, 420 << 20].map(u32::to_le_bytes);
     for at in 0..bomb.len() - 4 {
         if bomb[at..at + 4] == real {
@@ -37,11 +37,11 @@ fn a_zip_bomb_is_refused_before_it_is_unpacked() {
     assert!(bomb.len() < 1 << 20 && begin.elapsed() < Duration::from_secs(5));
 }
 
-/// A TIFF without heights that says it has some: tags of whole numbers, then its place.
+/// Returns a TIFF without heights that declares some: integer tags, optionally followed by its position.
 fn claiming(tags: &[(u16, u32)], place: bool) -> Vec<u8> {
     let mut tags = tags.to_vec();
     if place {
-        // Behind the directory.
+        // After the directory.
         tags.extend([(33550, 0), (33922, 0)]);
     }
     let after = 8 + 2 + 12 * tags.len() as u32 + 4;
@@ -118,7 +118,7 @@ fn the_place_is_asked_for_and_memory_taken_before_heights_are_unpacked() {
     assert!(without.len() < 200_000);
     let packing = begin.elapsed();
     let begin = Instant::now();
-    // No room for anything: it is not asked for.
+    // There is no memory budget, but no memory is needed yet.
     let error = Raster::read(&without, "a.tif", &HeightOptions::default(), &small(0)).unwrap_err();
     assert_eq!(error.message(), "a.tif does not tell where it lies");
     let error = Raster::read(&with, "a.tif", &HeightOptions::default(), &small(30)).unwrap_err();
@@ -126,7 +126,7 @@ fn the_place_is_asked_for_and_memory_taken_before_heights_are_unpacked() {
     assert!(begin.elapsed() < packing.max(Duration::from_millis(200)));
     let raster = Raster::read(&with, "a.tif", &HeightOptions::default(), &small(90)).unwrap();
     assert!(raster.heights.len() == 9_000_000 && raster.heights.iter().all(|height| *height == 7.0));
-    // And no time.
+    // The same with no time.
     let over = Budget::new(usize::MAX, || {
         Err(burgeon_base::error::Error::limit(burgeon_base::error::Limit::Time, "the time is over"))
     });

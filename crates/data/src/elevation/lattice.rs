@@ -1,33 +1,34 @@
-//! A mapping between planes, computed at the knots of a lattice and fast in between.
+//! Mapping between planes, computed exactly at lattice nodes and interpolated in between.
 
 use glam::DVec2;
 
 use crate::heights::count;
 
-/// The side (m) of a cell of the first, coarsest lattice.
+/// Side (m) of a cell of the first, coarsest lattice.
 const COARSEST: f64 = 50_000.0;
-/// The most knots of a lattice.
+/// Maximum number of nodes of a lattice.
 const MOST: usize = 2_000_000;
-/// The farthest (m) that a place is moved by the lattice.
+/// Maximum error (m) of interpolated positions.
 const TOLERANCE: f64 = 2e-4;
 
-/// Maps places of a box to other coordinates, by polynomials of the third degree in each direction, cell by cell.
+/// Maps positions in a box to other coordinates by cubic polynomials in both directions, cell by cell.
 ///
-/// A projection is so smooth that cells of tens of kilometres do, where straight lines would need cells of 150 m.
+/// A projection is so smooth that cells of tens of kilometres suffice; linear interpolation would need cells of 150 m.
 pub(super) struct Lattice {
     low: DVec2,
     cell: DVec2,
     across: usize,
     up: usize,
-    /// Four by four for each cell, of which neighbours share the outer ones.
+    /// Four by four nodes per cell; adjacent cells share their outer nodes.
     knots: Vec<DVec2>,
 }
 
 impl Lattice {
-    /// The lattice over the box from `low` to `high` (m) that follows `exact` well enough. `unit` (m) is how long each
-    /// of the coordinates that `exact` gives is. NaN where `exact` gives NaN.
+    /// Computes a lattice over the box from `low` to `high` (m) that approximates `exact` to within the tolerance.
+    /// `unit` (m) is the length of one unit of each coordinate that `exact` returns. The result is NaN where `exact` is
+    /// NaN.
     ///
-    /// `None` if `exact` is too rough.
+    /// Returns `None` if `exact` is not smooth enough.
     pub(super) fn over(low: DVec2, high: DVec2, unit: DVec2, exact: impl Fn(DVec2) -> DVec2) -> Option<Self> {
         let mut side = COARSEST;
         loop {
@@ -44,10 +45,10 @@ impl Lattice {
             }
             let middles = (0..across * up).flat_map(|index| {
                 let corner = DVec2::new(count(index % across), count(index / across));
-                // Between knots, where the error is greatest.
+                // Points between nodes, where the error is largest.
                 [1.0, 3.0, 5.0].map(|part| low + (corner + DVec2::splat(part / 6.0)) * cell)
             });
-            // Where one of them is no number, nothing is wrong.
+            // NaN values are not errors, and `f64::max` ignores them.
             let worst = middles.map(|at| ((lattice.at(at) - exact(at)) * unit).length()).fold(0.0, f64::max);
             if worst <= TOLERANCE {
                 return Some(lattice);
@@ -56,7 +57,7 @@ impl Lattice {
         }
     }
 
-    /// The coordinates of `place` (m).
+    /// Returns the coordinates of `place` (m).
     #[inline]
     #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a cast saturates")]
     pub(super) fn at(&self, place: DVec2) -> DVec2 {
@@ -72,13 +73,13 @@ impl Lattice {
     }
 }
 
-/// How many cells it takes, at least one.
+/// Returns the number of cells, at least one.
 #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a cast saturates")]
 fn cells(length: f64) -> usize {
     (length.ceil() as usize).max(1)
 }
 
-/// How much each of four knots at 0, 1/3, 2/3 and 1 counts at `s` in between: Lagrange's polynomials.
+/// Returns the weights of four nodes at 0, 1/3, 2/3 and 1 for the position `s` (Lagrange polynomials).
 #[inline]
 fn weights(s: f64) -> [f64; 4] {
     let [a, b, c] = [s - 1.0 / 3.0, s - 2.0 / 3.0, s - 1.0];

@@ -1,47 +1,47 @@
-//! Heights that stand for missing ones, though the file does not say so.
+//! Detection of heights that mark missing values although the file does not declare them.
 
 use crate::heights::marks::MARKS;
 use burgeon_base::error::{Error, Result};
 
-/// The heights of the earth (m), with some room: the deepest trench lies at -10,935, the highest summit at 8,849.
+/// Range of heights on Earth (m), with a margin: the deepest trench is at -10,935, the highest summit at 8,849.
 const OF_EARTH: [f32; 2] = [-11_500.0, 9_000.0];
-/// No height on a planet is as far (m) from its zero.
+/// Maximum absolute height (m) on any planet.
 const HIGHEST: f32 = 100_000.0;
-/// A mark is a height after all if another height is as near (m) to it.
+/// Distance (m) to another height within which a marker value counts as a real height.
 const NEAR: f32 = 500.0;
-/// Numbers from here on are marks of programs that know floats, as -3.4e38 is.
+/// Absolute value from which a number is a marker of programs that use floats, such as -3.4e38.
 const HUGE: f32 = 1e30;
 
-/// The most different marks that are remembered.
+/// Maximum number of distinct marker values that are recorded.
 const MOST: usize = 3;
 
-/// Heights that were taken for marks of missing ones.
+/// Heights that were treated as markers of missing values.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct UndeclaredMarks {
-    /// How many there are.
+    /// Number of heights.
     pub count: usize,
-    /// The first different values.
+    /// First distinct values.
     pub values: Vec<f32>,
 }
 
 impl UndeclaredMarks {
     fn add(&mut self, value: f32) {
         self.count += 1;
-        // Equal to the bit, for none is NaN.
+        // Bitwise comparison suffices, because no value is NaN.
         let is_new = !self.values.iter().any(|known| known.to_bits() == value.to_bits());
         if is_new && self.values.len() < MOST {
             self.values.push(value);
         }
     }
 
-    /// Adds those of another file.
+    /// Adds the markers of another file.
     pub(super) fn join(&mut self, other: Self) {
         let count = self.count + other.count;
         other.values.into_iter().for_each(|value| self.add(value));
         self.count = count;
     }
 
-    /// The values in words.
+    /// Formats the values for messages.
     pub(super) fn shown(&self) -> String {
         let shown = |value: &f32| if value.abs() < HUGE { value.to_string() } else { format!("{value:e}") };
         let values: Vec<String> = self.values.iter().map(shown).collect();
@@ -49,10 +49,10 @@ impl UndeclaredMarks {
     }
 }
 
-/// Makes heights that mark missing ones missing (NaN), in a file of so many `columns`; `is_of_earth` tells whether it lies in a
-/// coordinate system of the earth, `is_told` whether the lowest and the highest height were given.
+/// Replaces marker values by NaN, in a file with `columns` columns. `is_of_earth` states that the file has a coordinate
+/// system of the Earth, `is_told` that the lowest and highest heights were given.
 ///
-/// Fails if no heights are left, or if most lie beyond all heights of the earth.
+/// Fails if no heights remain, or if most heights are outside the possible range.
 pub(super) fn take_out(
     name: &str,
     columns: usize,
@@ -62,7 +62,7 @@ pub(super) fn take_out(
 ) -> Result<UndeclaredMarks> {
     let [low, high] = if is_of_earth && !is_told { OF_EARTH } else { [-HIGHEST, HIGHEST] };
     let possible = |height: f32| (low..=high).contains(&height);
-    // A mark is one unless other heights lead up to it.
+    // A marker value is a marker unless other heights are close to it.
     let mut is_mark = MARKS.map(|mark| possible(mark) && !is_told);
     for height in &*heights {
         for (mark, is_mark) in MARKS.iter().zip(&mut is_mark) {
@@ -132,7 +132,7 @@ mod tests {
         ] {
             assert_eq!(taken(&[100.0, mark, 300.0, mark, 8848.0], true), (2, vec![mark]), "{mark}");
         }
-        // On another planet there may be such heights.
+        // Such heights may occur on another planet.
         assert_eq!(taken(&[100.0, 9_500.0, 21_000.0], false), (0, vec![]));
         assert_eq!(taken(&[100.0, -9999.0, 200_000.0, 7.0], false), (2, vec![-9999.0, 200_000.0]));
     }

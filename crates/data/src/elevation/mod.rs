@@ -1,9 +1,9 @@
-//! Measured elevation: rasters of heights, in the formats that surveys publish and that programs exchange.
+//! Measured elevation: rasters of heights, in the formats that surveys publish and programs exchange.
 //!
-//! Comes in: a file, and what it cannot tell ([`HeightOptions`]). Goes out: a [`Raster`] without holes, in the coordinates of
-//! the file, and a [`Relief`] of it, which knows the height of each place in the metres of a run. Readers
-//! (`heights`, and those of `formats`, which a program may be built without) only read; holes, bad heights and places are
-//! looked after once, in `raster`.
+//! Input: a file, and information that it does not contain ([`HeightOptions`]). Output: a [`Raster`] without holes in
+//! the file's coordinates, and a [`Relief`] that returns the height at each position in the metres of a run. Readers
+//! (in `heights`, and in `formats`, which may be excluded from a build) only read. Holes, invalid heights and positions
+//! are processed in one place, `raster`.
 
 mod fill;
 mod format;

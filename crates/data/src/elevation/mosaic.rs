@@ -1,4 +1,4 @@
-//! Several rasters as one, where their samples lie on one grid.
+//! Mosaic of several rasters whose samples are on one grid.
 
 use super::raster::Raster;
 use crate::Crs;
@@ -6,15 +6,16 @@ use crate::heights::{MOST, SampleGrid, count};
 use burgeon_base::budget::Budget;
 use burgeon_base::error::{Error, Limit, Result};
 
-/// How far (samples) a sample may lie from the grid of the others.
+/// Tolerance (samples) for the alignment of samples with the grid.
 const TOLERANCE: f64 = 0.02;
 
-/// Heights that differ by no more (m) are the same.
+/// Difference (m) up to which heights are equal.
 const SAME: f32 = 0.01;
 
-/// Joins rasters, whose holes are not filled. Their order does not matter.
+/// Joins rasters before their holes are filled. The result does not depend on their order.
 ///
-/// Fails if their coordinate systems, their steps or the places of their samples differ, or if they are too large together.
+/// Fails if the rasters differ in coordinate system or step, if their samples are not aligned, or if the mosaic is too
+/// large.
 pub(super) fn join(mut tiles: Vec<Raster>, budget: &Budget) -> Result<Raster> {
     unwrap_longitudes(&mut tiles);
     tiles.sort_by(|a, b| {
@@ -77,7 +78,7 @@ pub(super) fn join(mut tiles: Vec<Raster>, budget: &Budget) -> Result<Raster> {
     Ok(raster)
 }
 
-/// A name for messages.
+/// Returns a name for messages.
 fn shown(tiles: &[Raster]) -> String {
     match tiles {
         [one] => one.name.clone(),
@@ -87,7 +88,7 @@ fn shown(tiles: &[Raster]) -> String {
     }
 }
 
-/// Counts longitudes on where rasters lie on both sides of the date line.
+/// Makes longitudes continuous for rasters on both sides of the date line.
 fn unwrap_longitudes(tiles: &mut [Raster]) {
     let longitudes = || tiles.iter().map(|tile| tile.grid.first[0]);
     let span = longitudes().fold(f64::NEG_INFINITY, f64::max) - longitudes().fold(f64::INFINITY, f64::min);
@@ -97,7 +98,7 @@ fn unwrap_longitudes(tiles: &mut [Raster]) {
     }
 }
 
-/// Refuses a raster that another one cannot be joined with.
+/// Fails if a raster cannot be joined with another one.
 fn check_same(first: &Raster, other: &Raster) -> Result<()> {
     let [a, b] =
         [first, other].map(|tile| tile.crs.as_ref().map_or("metres of the run".to_owned(), Crs::name));
@@ -122,7 +123,7 @@ fn check_same(first: &Raster, other: &Raster) -> Result<()> {
     Ok(())
 }
 
-/// The columns and rows of a grid that a raster has. Fails if its samples lie between those of the grid.
+/// Returns the columns and rows of the grid that a raster covers. Fails if its samples are not aligned with the grid.
 #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "the range is checked")]
 fn place(grid: &SampleGrid, tile: &Raster, first: &str) -> Result<[usize; 4]> {
     let [x, y] = tile.grid.first;
@@ -141,7 +142,7 @@ fn place(grid: &SampleGrid, tile: &Raster, first: &str) -> Result<[usize; 4]> {
     Ok([left, top, left + tile.columns, top + tile.rows])
 }
 
-/// How many samples of its parts are missing.
+/// Counts the missing samples within the parts.
 pub(super) fn count_missing(raster: &Raster) -> usize {
     let missing = raster.heights.iter().enumerate().filter(|(_, height)| height.is_nan());
     missing.filter(|(index, _)| raster.parts.is_empty() || is_covered(raster, *index)).count()
@@ -155,8 +156,8 @@ fn is_covered(raster: &Raster, index: usize) -> bool {
         .any(|[left, top, right, bottom]| (*left..*right).contains(&column) && (*top..*bottom).contains(&row))
 }
 
-/// Goes on with the heights of the parts through the gaps, where nobody asks for them, so that the edges of parts are as those of
-/// rasters.
+/// Extends the heights of the parts into the gaps, so interpolation at the edges of parts works as at the edges of
+/// rasters. The heights in gaps are never queried.
 pub(super) fn extend(raster: &mut Raster) {
     if raster.parts.is_empty() {
         return;
@@ -172,7 +173,7 @@ pub(super) fn extend(raster: &mut Raster) {
             .collect();
         let line = &mut raster.heights[row * columns..][..columns];
         let inside = |column: usize| spans.iter().any(|(left, right)| (*left..*right).contains(&column));
-        // The columns of gaps, and the nearest known height to the west and to the east of each.
+        // Columns in gaps, and the nearest known heights to the west and to the east of each column.
         let mut west: Option<(usize, f32)> = None;
         let mut from_west = vec![None; columns];
         for column in 0..columns {
@@ -227,12 +228,12 @@ mod tests {
     use glam::DVec2;
     use std::sync::Arc;
 
-    /// A smooth ground.
+    /// Returns the height of a smooth terrain.
     fn ground(x: f64, y: f64) -> f64 {
         500.0 + 200.0 * (x * 9.0).sin() + 100.0 * (y * 7.0).cos()
     }
 
-    /// A tile of a degree with so many samples a side, whose south-west corner is at a degree.
+    /// Returns a tile of one degree with `side` by `side` samples; its south-west corner is at whole degrees.
     fn tile([x, y]: [f64; 2], side: usize) -> Raster {
         let step = 1.0 / count(side - 1);
         let at = |index: usize| {
@@ -265,7 +266,7 @@ mod tests {
         let raster = joined(corners.map(|corner| tile(corner, side)).to_vec());
         assert_eq!((raster.columns, raster.rows, raster.filled, raster.seam), (241, 241, 0, 0.0));
         assert!(raster.parts.is_empty());
-        // Any order of the files gives the same.
+        // The order of the files does not matter.
         let [a, b, c, d] = corners.map(|corner| tile(corner, side));
         assert_eq!(joined(vec![d, b, a, c]).heights, raster.heights);
         let step = 1.0 / 120.0;
@@ -275,7 +276,7 @@ mod tests {
         let whole = Raster::new("a", [241, 241], whole.collect(), grid, Some(Crs::epsg(4326).unwrap()));
         let frame = || Some(ReferenceFrame::around(&Crs::epsg(4326).unwrap(), [8.0, 44.0], "a").unwrap());
         let [one, many] = [whole, raster].map(|raster| Relief::new(Arc::new(raster), &mut frame()).unwrap());
-        // Across the seam, which runs through the origin, places are a metre apart.
+        // Across the seam, which passes through the origin, positions are one metre apart.
         let (mut worst, mut jump): (f64, f64) = (0.0, 0.0);
         for along in -400..400 {
             let mut last: Option<f64> = None;
@@ -295,7 +296,7 @@ mod tests {
         let side = 61;
         let mut east = tile([8.0, 43.0], side);
         let west = tile([7.0, 43.0], side);
-        // A hole at the common border, and one in the border of which the other tile knows the heights.
+        // A hole at the common border, and a hole in the border whose heights the other tile contains.
         for row in 20..40 {
             for column in 1..8 {
                 east.heights[row * side + column] = f32::NAN;

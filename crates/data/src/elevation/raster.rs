@@ -1,4 +1,4 @@
-//! A raster of heights in the coordinates of its file.
+//! Raster of heights in the coordinates of its file.
 
 use std::fs::File;
 use std::io::Read;
@@ -13,60 +13,61 @@ use burgeon_base::error::{Error, Limit, Result};
 use burgeon_base::text::{grouped, number};
 use burgeon_base::warning::{Warning, WarningKind};
 
-/// The largest file (bytes).
+/// Maximum file size (bytes).
 const LARGEST: u64 = 2_000_000_000;
-/// The least distance (m) of samples whose coordinates are metres.
+/// Minimum sample distance (m) for coordinates in metres.
 const FINEST: f64 = 1e-3;
 
-/// Heights in rows from the north, without holes.
+/// Heights without holes, in rows from north to south.
 #[derive(Debug, Clone)]
 pub struct Raster {
-    /// What it is called in messages.
+    /// Name in messages.
     pub name: String,
-    /// The number of samples from west to east.
+    /// Number of samples from west to east.
     pub columns: usize,
-    /// The number of samples from north to south.
+    /// Number of samples from north to south.
     pub rows: usize,
-    /// The heights (m), row by row, each from the west.
+    /// Heights (m), row by row, each from west to east.
     pub heights: Vec<f32>,
-    /// Where the samples lie.
+    /// Positions of the samples.
     pub grid: SampleGrid,
-    /// Its coordinate system; without one, its coordinates are metres of the run.
+    /// Coordinate system; without one, the coordinates are metres of the run.
     pub crs: Option<Crs>,
-    /// How many heights were missing and were filled from the rims of their holes.
+    /// Number of missing heights that were filled from the boundaries of their holes.
     pub filled: usize,
-    /// How many more heights the file has than its header says; they are left out.
+    /// Number of heights beyond the number in the header; they are ignored.
     pub surplus: usize,
-    /// Heights that mark missing ones, though the file does not say so. They are among those that were filled.
+    /// Heights treated as markers of missing values although the file does not declare them. They are included in
+    /// `filled`.
     pub marks: UndeclaredMarks,
-    /// The parts that have heights, if it was joined of several files that leave gaps: the first column and row, and those behind
-    /// the last.
+    /// Parts with heights, if the raster was joined from several files with gaps: first column and row, end column and
+    /// row.
     pub parts: Vec<[usize; 4]>,
-    /// The greatest difference (m) where files have different heights for one place.
+    /// Maximum difference (m) between files at the same position.
     pub seam: f32,
 }
 
 impl Raster {
-    /// Reads the file at `path`, which messages call `name`. Its content and its extension tell the format.
+    /// Reads the file at `path`, called `name` in messages. The format is detected from the content and the extension.
     ///
-    /// Fails if it cannot be read, is in no known format, is cut short or too large, or has no heights; if it does not
-    /// tell where it lies and `wanted` does not either, which is known before any heights are read; and if reading takes
-    /// more than the `budget`.
+    /// Fails if the file cannot be read, has an unknown format, is truncated or too large, or has no heights. Fails,
+    /// before any heights are read, if neither the file nor `wanted` contains its position. Fails if reading exceeds
+    /// the `budget`.
     pub fn open(path: &Path, name: &str, wanted: &HeightOptions, budget: &Budget) -> Result<Self> {
         with_bytes(path, name, budget, |bytes| Self::read(bytes, name, wanted, budget))
     }
 
-    /// Reads `bytes`, the content of a file called `name`. Fails as [`Raster::open`] does.
+    /// Reads `bytes`, the content of a file called `name`. Fails like [`Raster::open`].
     pub fn read(bytes: &[u8], name: &str, wanted: &HeightOptions, budget: &Budget) -> Result<Self> {
         let mut raster = Self::read_unfilled(bytes, name, wanted, budget)?;
         raster.fill(budget)?;
         Ok(raster)
     }
 
-    /// Reads several files as one ground; each has a name for messages, and a path. Fails as [`Raster::open`] does, and if their
-    /// samples do not lie on one grid.
+    /// Reads several files as one terrain; each has a name for messages and a path. Fails like [`Raster::open`], and if
+    /// the samples are not on one grid.
     ///
-    /// Where files overlap, and on the borders that they share, a height that one of them lacks comes from another one.
+    /// In overlaps and on shared borders, a height missing in one file is taken from another file.
     pub fn open_all(files: &[(String, PathBuf)], wanted: &HeightOptions, budget: &Budget) -> Result<Self> {
         if let [(name, path)] = files {
             return Self::open(path, name, wanted, budget);
@@ -83,7 +84,7 @@ impl Raster {
         Ok(raster)
     }
 
-    /// Fills its holes.
+    /// Fills the holes.
     fn fill(&mut self, budget: &Budget) -> Result<()> {
         self.filled = mosaic::count_missing(self);
         mosaic::extend(self);
@@ -91,7 +92,7 @@ impl Raster {
         Ok(())
     }
 
-    /// Reads `bytes`, and leaves its holes (NaN).
+    /// Reads `bytes` without filling holes (NaN).
     fn read_unfilled(bytes: &[u8], name: &str, wanted: &HeightOptions, budget: &Budget) -> Result<Self> {
         let RasterHeader { columns, rows, grid, crs, is_told, heights } = format::read(bytes, name, wanted)?;
         let crs = match wanted.crs {
@@ -122,7 +123,7 @@ impl Raster {
         Ok(Self { surplus, marks, ..Self::new(name, [columns, rows], heights, grid, crs) })
     }
 
-    /// A raster without holes, of `heights` that lie on `grid`.
+    /// Creates a raster without holes from `heights` on `grid`.
     pub fn new(
         name: &str,
         [columns, rows]: [usize; 2],
@@ -147,14 +148,14 @@ impl Raster {
         }
     }
 
-    /// Its outer edges: west, south, east and north. A sample stands for the area half a step around it.
+    /// Returns the outer edges: west, south, east and north. A sample represents the area up to half a step around it.
     pub fn bounds(&self) -> [f64; 4] {
         let SampleGrid { first, step } = self.grid;
         let (west, north) = (first[0] - step[0] / 2.0, first[1] + step[1] / 2.0);
         [west, north - step[1] * count(self.rows), west + step[0] * count(self.columns), north]
     }
 
-    /// The warnings about how it was read.
+    /// Returns the warnings about reading the raster.
     pub fn warnings(&self) -> Vec<Warning> {
         let Self { name, columns, rows, surplus, seam, .. } = self;
         let warning = |text: String, help: &str| Warning::new(WarningKind::Data, text).help(help);
@@ -171,7 +172,7 @@ impl Raster {
         surplus.into_iter().chain(seam).collect()
     }
 
-    /// The warnings about heights that were missing, if any were.
+    /// Returns the warnings about missing heights, if any.
     pub fn missing_warnings(&self) -> Vec<Warning> {
         let Self { name, columns, rows, filled, marks, .. } = self;
         let warning = |text: String, help: &str| Warning::new(WarningKind::Data, text).help(help);
@@ -193,8 +194,9 @@ impl Raster {
         filled.into_iter().chain(marks).collect()
     }
 
-    /// Whether it has heights at a column and a row, counted from the centre of the first sample: it has none outside of its samples'
-    /// areas, nor in gaps between the files that it was joined of. A place `margin` (samples) outside counts as inside.
+    /// Returns true if the raster has heights at a column and a row, counted from the centre of the first sample. The
+    /// areas outside the samples and the gaps between joined files have no heights. Positions up to `margin` (samples)
+    /// outside also count.
     pub(super) fn covers(&self, column: f64, row: f64, margin: f64) -> bool {
         let covers = |[left, top, right, bottom]: [usize; 4]| {
             let margin = 0.5 + margin;
@@ -209,14 +211,14 @@ impl Raster {
         }
     }
 
-    /// Its lowest and its highest height (m).
+    /// Returns the lowest and the highest height (m).
     pub fn range(&self) -> [f32; 2] {
         let low = self.heights.iter().copied().fold(f32::INFINITY, f32::min);
         [low, self.heights.iter().copied().fold(f32::NEG_INFINITY, f32::max)]
     }
 }
 
-/// Has `read` read the content of the file at `path`.
+/// Calls `read` with the content of the file at `path`.
 fn with_bytes<T>(
     path: &Path,
     name: &str,
@@ -238,12 +240,12 @@ fn with_bytes<T>(
     }
     let _held = budget.hold(usize::try_from(meta.len()).unwrap_or(usize::MAX))?;
     let mut bytes = Vec::new();
-    // It may grow while it is read.
+    // The file may grow while it is read.
     File::open(path).and_then(|file| file.take(meta.len()).read_to_end(&mut bytes)).map_err(cannot)?;
     read(&bytes)
 }
 
-/// Refuses bounds that enclose nothing.
+/// Fails if bounds enclose no area.
 fn check_bounds(bounds: [f64; 4]) -> Result<[f64; 4]> {
     let [west, south, east, north] = bounds;
     if bounds.iter().all(|edge| edge.is_finite()) && west < east && south < north {
@@ -255,7 +257,7 @@ fn check_bounds(bounds: [f64; 4]) -> Result<[f64; 4]> {
     .help("write { west, south, east, north }, with west below east and south below north"))
 }
 
-/// Refuses coordinates that cannot be.
+/// Fails if coordinates are impossible.
 fn check_grid(name: &str, grid: &SampleGrid, columns: usize, rows: usize, crs: Option<&Crs>) -> Result<()> {
     let [x, y] = grid.first;
     let [dx, dy] = grid.step;

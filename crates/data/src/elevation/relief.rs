@@ -1,4 +1,4 @@
-//! A raster in the metres of a run: the height of each place.
+//! Raster in the metres of a run, with the height at each position.
 
 use std::fmt;
 use std::sync::Arc;
@@ -12,30 +12,30 @@ use super::raster::Raster;
 use crate::heights::{SampleGrid, count};
 use burgeon_base::error::{Error, Result};
 
-/// Into how many pieces each edge is divided to find the box around it.
+/// Number of parts into which each edge is divided to compute the bounding box.
 const PIECES: usize = 256;
-/// How far (samples) beyond the edge a place still counts as on it, since projecting rounds.
+/// Tolerance (samples) for positions beyond the edge, because projecting rounds.
 const ROUNDING: f64 = 1e-6;
-/// How near (samples) the place of a sample is found, and after how many steps at most.
+/// Tolerance (samples) for finding the position of a sample, and maximum number of iterations.
 const CLOSE: f64 = 1e-9;
 const MOST_STEPS: usize = 12;
 
-/// Measured heights over the ground of a run. It never changes.
+/// Measured heights over the terrain of a run; immutable.
 pub struct Relief {
     raster: Arc<Raster>,
     way: RasterMapping,
     low: DVec3,
     high: DVec3,
     step: f64,
-    /// The distances (m) of neighbouring samples in the middle, from west to east and from south to north.
+    /// Distances (m) between adjacent samples at the centre, from west to east and from south to north.
     unit: DVec2,
 }
 
-/// From places (m) to columns and rows of the raster, counted from the centre of the first sample.
+/// Mapping from positions (m) to columns and rows of the raster, counted from the centre of the first sample.
 enum RasterMapping {
-    /// Where both have the same axes.
+    /// Mapping between parallel axes.
     Straight { first: DVec2, step: DVec2 },
-    /// Where a projection is in between.
+    /// Mapping through a projection.
     Bent(Lattice),
 }
 
@@ -46,10 +46,10 @@ impl fmt::Debug for Relief {
 }
 
 impl Relief {
-    /// Brings `raster` into `frame`, which is made for it unless there is one already. A raster without a coordinate
-    /// system lies in the metres of the run as it is, and makes no frame.
+    /// Transforms `raster` into `frame`; creates the frame if there is none. A raster without a coordinate system is in
+    /// the metres of the run, and creates no frame.
     ///
-    /// Fails if it cannot be projected, or lies too far away.
+    /// Fails if the raster cannot be projected, or is too far away.
     pub fn new(raster: Arc<Raster>, frame: &mut Option<ReferenceFrame>) -> Result<Self> {
         let Some(crs) = &raster.crs else {
             let SampleGrid { first, step } = raster.grid;
@@ -81,7 +81,7 @@ impl Relief {
             let exact = |place: DVec2| {
                 let [mut x, y] = passage.leave(place.into());
                 if crs.is_geographic() {
-                    // Across the date line, longitudes are counted on.
+                    // Across the date line, longitudes continue.
                     x = middle[0] + (x - middle[0] + 180.0).rem_euclid(360.0) - 180.0;
                 }
                 DVec2::new((x - first[0]) / step[0], (first[1] - y) / step[1])
@@ -99,7 +99,7 @@ impl Relief {
         Self::along(Arc::clone(&raster), way, edge, unit)
     }
 
-    /// A raster whose edge (m) and way are known.
+    /// Creates a relief from a raster with a known edge (m) and mapping.
     fn along(raster: Arc<Raster>, way: RasterMapping, edge: Vec<DVec2>, unit: DVec2) -> Result<Self> {
         let (low, high) = around(&edge);
         check_near(&raster, low, high)?;
@@ -108,40 +108,40 @@ impl Relief {
         Ok(Self { raster, way, low, high, step: unit.min_element(), unit })
     }
 
-    /// The raster itself.
+    /// Returns the raster.
     pub fn raster(&self) -> &Raster {
         &self.raster
     }
 
-    /// The lowest corner of the box around it (m).
+    /// Returns the minimum corner of the bounding box (m).
     pub fn low(&self) -> DVec3 {
         self.low
     }
 
-    /// The highest corner of the box around it (m).
+    /// Returns the maximum corner of the bounding box (m).
     pub fn high(&self) -> DVec3 {
         self.high
     }
 
-    /// The distance (m) of neighbouring samples in the middle, in the direction where they are closer.
+    /// Returns the distance (m) between adjacent samples at the centre, in the direction where it is smaller.
     pub fn step(&self) -> f64 {
         self.step
     }
 
-    /// The height (m) at `place` (m), between the samples around it; `None` outside of the raster.
+    /// Returns the height (m) at `place` (m), interpolated between the surrounding samples; `None` outside the raster.
     ///
-    /// It passes through the samples with a continuous slope, and never leaves the range of the 16 around the place.
-    /// Method: Catmull and Rom, "A class of local interpolating splines", 1974, in both directions.
+    /// The surface passes through the samples with a continuous slope, and stays within the range of the 16 surrounding
+    /// samples. Method: Catmull and Rom, "A class of local interpolating splines", 1974, in both directions.
     pub fn height(&self, place: DVec2) -> Option<f64> {
         let at = self.find(place)?;
         self.raster.covers(at.x, at.y, ROUNDING).then(|| self.around(at).0)
     }
 
-    /// The height (m) at `place` (m) and the slope (m/m) there, also a little outside of the raster; `None` far away.
-    /// Straight between the samples, if it is not to be `smooth`.
+    /// Returns the height (m) and the slope (m/m) at `place` (m), also slightly outside the raster; `None` far away.
+    /// The height is linear between samples unless `smooth` is set.
     pub fn ground(&self, place: DVec2, smooth: bool) -> Option<(f64, f64)> {
         let at = self.find(place).filter(|at| at.is_finite())?;
-        // Outside of all parts the ground goes on for a sample.
+        // Outside all parts, the terrain continues for one sample.
         if !self.raster.parts.is_empty() && !self.raster.covers(at.x, at.y, 1.0) {
             return None;
         }
@@ -149,12 +149,13 @@ impl Relief {
         Some((if smooth { height } else { self.straight(at) }, slope))
     }
 
-    /// The column and the row of the last sample.
+    /// Returns the column and the row of the last sample.
     fn last(&self) -> DVec2 {
         DVec2::new(count(self.raster.columns - 1), count(self.raster.rows - 1))
     }
 
-    /// The smooth height (m) and the slope (m/m) at a column and a row; beyond the outermost samples the ground is level.
+    /// Returns the smooth height (m) and the slope (m/m) at a column and a row; the terrain is level beyond the
+    /// outermost samples.
     #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "clamped to the samples")]
     fn around(&self, at: DVec2) -> (f64, f64) {
         let at = at.clamp(DVec2::ZERO, self.last());
@@ -179,7 +180,7 @@ impl Relief {
         (sum.clamp(low, high), (slope / self.unit).length())
     }
 
-    /// The height (m) at a column and a row, straight from sample to sample.
+    /// Returns the height (m) at a column and a row, interpolated linearly between samples.
     #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "clamped to the samples")]
     fn straight(&self, at: DVec2) -> f64 {
         let at = at.clamp(DVec2::ZERO, self.last());
@@ -193,10 +194,10 @@ impl Relief {
         along(north) * (1.0 - part.y) + along(south) * part.y
     }
 
-    /// The places (m) of the samples in the box from `low` to `high` (m), row by row.
+    /// Returns the positions (m) of the samples in the box from `low` to `high` (m), row by row.
     pub fn samples(&self, low: DVec2, high: DVec2) -> Vec<DVec2> {
         let corners = [low, DVec2::new(high.x, low.y), high, DVec2::new(low.x, high.y)];
-        // A bent raster may bulge over the box between its corners, by less than a sample for each 16 of its sides.
+        // A projected raster may bulge beyond the box between its corners, by less than one sample per 1/16 of a side.
         let along = (0..4).flat_map(|side| (0..16).map(move |part| (side, f64::from(part) / 16.0)));
         let rim: Vec<DVec2> = along
             .filter_map(|(side, part)| self.find(corners[side].lerp(corners[(side + 1) % 4], part)))
@@ -224,14 +225,14 @@ impl Relief {
         places
     }
 
-    /// Where (m) a column and a row are, which is found from a place (m) that is near.
+    /// Returns the position (m) of a column and a row, starting the search at the nearby position `near` (m).
     fn place(&self, at: DVec2, near: DVec2) -> DVec2 {
         match &self.way {
             RasterMapping::Straight { first, step } => {
                 DVec2::new(first.x + at.x * step.x, first.y - at.y * step.y)
             }
             RasterMapping::Bent(lattice) => {
-                // By Newton's steps: the lattice is nearly straight.
+                // Newton's method: the lattice is nearly linear.
                 let mut place = near;
                 for _ in 0..MOST_STEPS {
                     let off = at - lattice.at(place);
@@ -239,7 +240,7 @@ impl Relief {
                         .map(|way| lattice.at(place + way * self.step) - lattice.at(place));
                     let by = DMat2::from_cols(east, north).inverse() * off * self.step;
                     place += by;
-                    // What is not a number comes no nearer either.
+                    // A step that is not a number does not improve the position either.
                     if by.length() <= self.step * CLOSE || by.is_nan() {
                         break;
                     }
@@ -249,15 +250,15 @@ impl Relief {
         }
     }
 
-    /// How far (0 to 1) a place (m) is from the nearest samples: 0 where a height was measured, 1 in the middle between
-    /// two or four of them; smoothly in between.
+    /// Returns the relative distance of a position (m) from the nearest samples: 0 at a measured height, 1 halfway
+    /// between two or four samples, smooth in between.
     pub fn between(&self, place: DVec2) -> f64 {
         let Some(at) = self.find(place) else { return 0.0 };
         let [x, y] = at.to_array().map(|at| (at * std::f64::consts::PI).cos().powi(2));
         1.0 - x * y
     }
 
-    /// The column and the row of a place (m); `None` far outside, where the lattice knows nothing.
+    /// Returns the column and the row of a position (m); `None` far outside, where the lattice is not defined.
     fn find(&self, place: DVec2) -> Option<DVec2> {
         match &self.way {
             RasterMapping::Straight { first, step } => {
@@ -271,7 +272,7 @@ impl Relief {
     }
 }
 
-/// Points along the edge of a raster, in its own coordinates, each side in `pieces`.
+/// Returns points along the edge of a raster in its own coordinates, `pieces` per side.
 fn corners(raster: &Raster, pieces: usize) -> Vec<DVec2> {
     let [west, south, east, north] = raster.bounds();
     let corners = [(west, south), (east, south), (east, north), (west, north)].map(DVec2::from);
@@ -282,14 +283,14 @@ fn corners(raster: &Raster, pieces: usize) -> Vec<DVec2> {
     sides.flat_map(along).collect()
 }
 
-/// The corners of the box around points; NaN is passed over.
+/// Returns the corners of the bounding box of points, ignoring NaN.
 fn around(points: &[DVec2]) -> (DVec2, DVec2) {
     let known = || points.iter().filter(|point| point.is_finite());
     let low = known().fold(DVec2::INFINITY, |low, point| low.min(*point));
     (low, known().fold(DVec2::NEG_INFINITY, |high, point| high.max(*point)))
 }
 
-/// Refuses what lies too far from the origin, or nowhere.
+/// Fails if the raster is too far from the origin, or has no finite position.
 fn check_near(raster: &Raster, low: DVec2, high: DVec2) -> Result<()> {
     let corners = [low.x, low.y, high.x, high.y];
     if corners.iter().all(|value| value.abs() <= FARTHEST) {
@@ -303,20 +304,20 @@ fn check_near(raster: &Raster, low: DVec2, high: DVec2) -> Result<()> {
     .help("all sources of a run share one model; check the coordinates and the coordinate system, or cut out a part"))
 }
 
-/// The indices of the samples before, at and twice after `index`, within `number`.
+/// Returns the indices of the samples before, at, and the two after `index`, limited to `number`.
 #[inline]
 fn around_index(index: usize, number: usize) -> [usize; 4] {
     [index.saturating_sub(1), index, (index + 1).min(number - 1), (index + 2).min(number - 1)]
 }
 
-/// How much each of four samples in a row counts at `t` between the middle ones.
+/// Returns the weights of four consecutive samples at `t` between the middle ones.
 #[inline]
 fn weights(t: f64) -> [f64; 4] {
     let (a, b) = (t * t, t * t * t);
     [(2.0 * a - b - t) / 2.0, (2.0 - 5.0 * a + 3.0 * b) / 2.0, (t + 4.0 * a - 3.0 * b) / 2.0, (b - a) / 2.0]
 }
 
-/// How much the weights change with `t`, for each sample.
+/// Returns the derivatives of the weights with respect to `t`.
 #[inline]
 fn changes(t: f64) -> [f64; 4] {
     let a = t * t;
@@ -333,7 +334,7 @@ mod tests {
     use super::super::super::Crs;
     use super::*;
 
-    /// A raster of `columns` by `rows` heights, at `first` with `step`, of which `height` gives each.
+    /// Returns a raster of `columns` by `rows` heights at `first` with `step`, computed by `height`.
     fn raster(
         (columns, rows): (usize, usize),
         grid: SampleGrid,
@@ -374,7 +375,7 @@ mod tests {
         assert_eq!(relief.height(DVec2::new(4.5, -4.0)), Some(50.0));
     }
 
-    /// The greatest distance (m) between where a relief finds places and where they are.
+    /// Returns the maximum distance (m) between the positions in a relief and the exact positions.
     fn worst(relief: &Relief, frame: &ReferenceFrame) -> f64 {
         let crs = relief.raster.crs.clone().unwrap();
         let passage = frame.passage(&crs).unwrap();
@@ -398,7 +399,7 @@ mod tests {
             let grid = SampleGrid { first: [x, y + step * count(side - 1)], step: [step; 2] };
             raster((side, side), grid, Some(4326), |x, _| x)
         };
-        // A tile in the middle, one beside it, one far north, and one across the date line.
+        // A central tile, an adjacent one, one far north, and one across the date line.
         let mut frame = None;
         for corner in [[7.0, 43.0], [8.0, 44.0], [6.0, 43.0]] {
             let relief = Relief::new(tile(corner, 1201), &mut frame).unwrap();

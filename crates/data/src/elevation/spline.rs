@@ -1,30 +1,30 @@
-//! The surface over a hole: a thin plate under tension.
+//! Surface over a hole: a thin plate under tension.
 //!
-//! Source: Smith and Wessel, "Gridding with continuous curvature splines in tension", 1990. Method: conjugate gradients on each
-//! level of a pyramid of halves, each of which begins with what the level above it found; a cascade as in Bornemann and Deuflhard,
-//! "The cascadic multigrid method for elliptic problems", 1996.
+//! Source: Smith and Wessel, "Gridding with continuous curvature splines in tension", 1990. Method: conjugate gradients
+//! on each level of a pyramid of halves; each level starts from the result of the next coarser level. This is a cascade
+//! as in Bornemann and Deuflhard, "The cascadic multigrid method for elliptic problems", 1996.
 
 use crate::heights::count;
 use burgeon_base::budget::Budget;
 use burgeon_base::error::Result;
 
-/// How much the surface resists to being longer, beside its resistance to bending, where samples are one apart.
+/// Resistance of the surface to stretching, relative to its resistance to bending, for samples at distance 1.
 const TENSION: f32 = 0.03;
 
-/// Larger patches are only smoothed on their finest levels.
+/// Maximum size of a patch; larger patches are only smoothed on their finest levels.
 const MOST: usize = 16_000_000;
 
-/// How often they are.
+/// Number of smoothing sweeps.
 const SWEEPS: usize = 6;
 
-/// How many heights are computed in all rounds of a level, about, and the least and the most rounds.
+/// Approximate number of heights computed in all rounds of a level, and the minimum and maximum number of rounds.
 const WORK: usize = 40_000_000;
 const ROUNDS: [usize; 2] = [30, 4000];
 
-/// What is left of the residual's square when a level ends.
+/// Reduction of the squared residual at which a level ends.
 const ACCURACY: f64 = 1e-11;
 
-/// A part of a raster with holes (NaN).
+/// Part of a raster with holes (NaN).
 pub(super) struct SplinePatch {
     columns: usize,
     rows: usize,
@@ -33,7 +33,7 @@ pub(super) struct SplinePatch {
 }
 
 impl SplinePatch {
-    /// A patch whose rows `line` gives.
+    /// Creates a patch; `line` returns its rows.
     pub(super) fn new<'h>(
         columns: usize,
         rows: usize,
@@ -45,7 +45,7 @@ impl SplinePatch {
         Ok(Self { columns, rows, heights, tension: TENSION })
     }
 
-    /// Fills its holes. There must be a height that is known.
+    /// Fills the holes. At least one height must be known.
     pub(super) fn fill(&mut self, budget: &Budget) -> Result<()> {
         let missing = self.heights.iter().filter(|height| height.is_nan()).count();
         if missing == 0 {
@@ -65,8 +65,8 @@ impl SplinePatch {
         if self.heights.len() <= MOST { self.bend(&holes, budget) } else { self.smooth(&holes, budget) }
     }
 
-    /// The means of heights, two by two; NaN where none of the four is known. Those of the four that are missing are
-    /// [continued](Self::continued), so that a slope keeps its place.
+    /// Returns the means of two by two heights; NaN if none of the four is known. Missing heights among the four are
+    /// [extrapolated](Self::continued), so slopes keep their position.
     fn halve(&self) -> Self {
         let (columns, rows) = (self.columns.div_ceil(2), self.rows.div_ceil(2));
         let mut heights = Vec::with_capacity(columns * rows);
@@ -93,8 +93,8 @@ impl SplinePatch {
         Self { columns, rows, heights, tension: self.tension * 4.0 }
     }
 
-    /// The height of a sample; if it is missing, the mean of those that the slopes of its row and its column lead to on each
-    /// side, and NaN if none does.
+    /// Returns the height of a sample. If it is missing, returns the mean of the linear extrapolations of its row and
+    /// its column from each side, or NaN if there is none.
     fn continued(&self, x: usize, y: usize) -> f32 {
         let height = self.heights[y * self.columns + x];
         if !height.is_nan() {
@@ -116,7 +116,7 @@ impl SplinePatch {
         sum / count
     }
 
-    /// The height between the four samples around a place in columns and rows, which may lie outside.
+    /// Interpolates the height between the four samples around a position in columns and rows, which may be outside.
     #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "clamped to the samples")]
     fn between(&self, x: f64, y: f64) -> f32 {
         let (x, y) = (x.clamp(0.0, count(self.columns - 1)), y.clamp(0.0, count(self.rows - 1)));
@@ -131,7 +131,7 @@ impl SplinePatch {
         a + (b - a) * v
     }
 
-    /// The up to four neighbours of a sample.
+    /// Returns the up to four neighbours of a sample.
     #[inline]
     fn around(&self, index: usize) -> impl Iterator<Item = usize> + use<> {
         let (column, row) = (index % self.columns, index / self.columns);
@@ -147,17 +147,17 @@ impl SplinePatch {
         .flatten()
     }
 
-    /// How far the neighbours of a sample lie above it, in sum.
+    /// Returns the sum of the height differences between a sample's neighbours and the sample.
     #[inline]
     fn rise(&self, values: &[f32], index: usize) -> f32 {
         self.around(index).map(|near| values[near] - values[index]).sum()
     }
 
-    /// Moves the heights in `holes` towards the surface of least energy.
+    /// Moves the heights in `holes` towards the surface of minimum energy.
     fn bend(&mut self, holes: &[u32], budget: &Budget) -> Result<()> {
         let size = self.heights.len();
         let _held = budget.hold(size * (2 * size_of::<f32>() + 1) + holes.len() * 4 * size_of::<f32>())?;
-        // The samples whose bending depends on the holes.
+        // Samples whose bending depends on the holes.
         let mut bends = vec![false; size];
         for hole in holes.iter().map(|hole| *hole as usize) {
             bends[hole] = true;
@@ -220,7 +220,7 @@ impl SplinePatch {
                 let hole = *hole as usize;
                 self.heights[hole] += self.rise(&self.heights, hole) / count_around(self.around(hole));
             };
-            // Back and forth, so that nothing drifts one way.
+            // Alternating directions avoid a drift in one direction.
             if sweep % 2 == 0 {
                 holes.iter().for_each(&mut relax);
             } else {

@@ -1,4 +1,4 @@
-//! Readers against files that are well, and against files that are not.
+//! Tests of readers with valid and invalid files.
 
 use std::io::{Cursor, Write};
 use std::time::{Duration, Instant};
@@ -11,12 +11,12 @@ use zip::write::SimpleFileOptions;
 use super::*;
 use burgeon_base::budget::Budget;
 
-/// A tile of `side` by `side` heights, of which the first is `first` and each next one is greater by 1.
+/// Returns a tile of `side` by `side` heights; the first is `first`, and each next one is greater by 1.
 fn tile(side: i16, first: i16) -> Vec<u8> {
     (0..side * side).flat_map(|at| (first + at).to_be_bytes()).collect()
 }
 
-/// A tile of so many columns and rows, each height of which tells where it is.
+/// Returns a tile of some columns and rows, whose heights encode their positions.
 fn wide([columns, rows]: [usize; 2]) -> Vec<u8> {
     let height = |at: usize| i16::try_from(at % columns * 4 + at / columns % 4).unwrap();
     (0..columns * rows).flat_map(|at| height(at).to_be_bytes()).collect()
@@ -31,12 +31,12 @@ fn zipped(files: &[(&str, &[u8])]) -> Vec<u8> {
     zip.finish().unwrap().into_inner()
 }
 
-/// A TIFF of 6 by 4 samples, and what its tags say.
+/// Returns a TIFF of 6 by 4 samples with the given tags.
 fn geotiff(keys: &[u16], place: &[(Tag, &[f64])], missing: Option<&str>) -> Vec<u8> {
     geotiff_saying(keys, place, missing, None)
 }
 
-/// The same, with what GDAL tells of its band.
+/// Returns the same TIFF with GDAL metadata of its band.
 fn geotiff_saying(
     keys: &[u16],
     place: &[(Tag, &[f64])],
@@ -68,7 +68,7 @@ pub(super) fn read(bytes: &[u8], name: &str) -> Result<Raster, burgeon_base::err
     Raster::read(bytes, name, &HeightOptions::default(), &Budget::default())
 }
 
-/// Reads what does not tell where it lies.
+/// Reads a file that does not contain its position.
 fn read_square(bytes: &[u8], name: &str) -> Result<Raster, burgeon_base::error::Error> {
     let wanted =
         HeightOptions { bounds: Some([7.0, 43.0, 8.0, 44.0]), crs: Some(4326), ..HeightOptions::default() };
@@ -147,7 +147,7 @@ fn tags_tell_where_a_geotiff_lies() {
     point[11] = 2;
     let raster = read(&geotiff(&point, &[SCALE, TIE], None), "a.tif").unwrap();
     assert_eq!(raster.grid.first, [385_000.0, 6_671_000.0]);
-    // The same by a matrix, and one whose rows come from the south.
+    // The same position given by a matrix, and a file with rows from the south.
     let matrix = |dy: f64| {
         [10.0, 0.0, 0.0, 385_000.0, 0.0, dy, 0.0, 6_671_000.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0]
     };
@@ -181,7 +181,7 @@ fn scale_and_offset_of_the_band_make_heights_of_its_samples() {
         read(&bytes, "a.tif").map(|raster| (raster.filled, raster.heights[5], raster.heights[20]))
     };
     let both = metadata(&[item("OFFSET", "5"), item("SCALE", "0.1")]);
-    // The mark of what is missing is a sample, not a height.
+    // The marker of missing values applies to samples, not to heights.
     assert_eq!(heights(&both).unwrap(), (1, 5.5, 7.0));
     assert_eq!(heights(&metadata(&[item("SCALE", "2")])).unwrap(), (1, 10.0, 40.0));
     assert_eq!(heights(&metadata(&[item("OFFSET", "-100")])).unwrap(), (1, -95.0, -80.0));
@@ -224,9 +224,9 @@ fn options_win_over_what_a_file_says() {
     assert_eq!(raster.crs.and_then(|crs| crs.code), Some(3067));
 }
 
-/// Files of 50 by 40 heights that GDAL 3.10 wrote, and where it says that they lie.
+/// Files of 50 by 40 heights written by GDAL 3.10, with their EPSG codes and bounds according to GDAL.
 const BY_GDAL: [(&[u8], u16, [f64; 4]); 5] = [
-    // Tiles, deflated, predictor 2, with holes.
+    // Tiles, Deflate, predictor 2, with holes.
     (
         include_bytes!("../../../../tests/elevation/tiles_i16.tif"),
         32632,
@@ -238,7 +238,7 @@ const BY_GDAL: [(&[u8], u16, [f64; 4]); 5] = [
         4326,
         [7.1, 43.9 - 1.0 / 30.0, 7.1 + 1.0 / 24.0, 43.9],
     ),
-    // Tiles, deflated, predictor 3.
+    // Tiles, Deflate, predictor 3.
     (
         include_bytes!("../../../../tests/elevation/floats_f32.tif"),
         2154,
@@ -270,7 +270,7 @@ fn what_gdal_writes_is_read_as_gdal_reads_it() {
         let scale = if code == 3857 { 10.0 } else { 1.0 };
         for (row, column, height) in [(0, 0, 200.0), (7, 33, 285.784), (39, 49, 268.916), (12, 22, 247.8)] {
             let found = raster.heights[row * 50 + column] / scale;
-            // Whole numbers, and a hole that was filled.
+            // Integers, and a hole that was filled.
             let tolerance = if row == 12 { 4.0 } else { 0.5 };
             assert!((found - height).abs() <= tolerance, "{code}: {found} {height}");
         }
@@ -287,7 +287,7 @@ fn a_text_that_is_longer_than_the_file_is_refused_before_it_is_read() {
     assert_eq!(error.message(), "a.tif has a strip or a tag that is too large");
 }
 
-/// A PNG of 3 by 2 samples.
+/// Returns a PNG of 3 by 2 samples.
 fn picture(color: ::png::ColorType, depth: ::png::BitDepth, content: &[u8]) -> Vec<u8> {
     let mut bytes = Vec::new();
     let mut encoder = ::png::Encoder::new(&mut bytes, 3, 2);
@@ -324,7 +324,7 @@ fn grey_and_colours_become_heights() {
     assert!(read(&bytes, "a.png").unwrap_err().message().contains("256 levels"));
 }
 
-/// One whole file of each format, with its name.
+/// Returns one complete file of each format, with its name.
 pub(super) fn samples() -> Vec<(&'static str, Vec<u8>)> {
     let area = [1, 1, 0, 3, 1024, 0, 1, 1, 1025, 0, 1, 1, 3072, 0, 1, 3067];
     let grey = picture(::png::ColorType::Grayscale, ::png::BitDepth::Sixteen, &[7; 12]);
@@ -341,7 +341,7 @@ pub(super) fn samples() -> Vec<(&'static str, Vec<u8>)> {
     ]
 }
 
-/// What makes each of them readable.
+/// Returns the options that make a file readable.
 pub(super) fn wanted(name: &str) -> HeightOptions {
     let bounds = Some([0.0, 0.0, 30.0, 20.0]);
     match name {
@@ -358,7 +358,7 @@ fn whole_files_are_read_and_cut_ones_are_told() {
     for (name, bytes) in samples() {
         Raster::read(&bytes, name, &wanted(name), &Budget::default()).unwrap();
         for length in 0..bytes.len() {
-            // A part of a square may be a square, and behind its last height a file may end.
+            // A part of a square may be a square, and a file may end after its last height.
             if let Err(error) = Raster::read(&bytes[..length], name, &wanted(name), &Budget::default()) {
                 assert!(
                     error.remedy().is_some() && error.message().contains(name),

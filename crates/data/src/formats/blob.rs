@@ -1,18 +1,18 @@
-//! Geometries as GeoPackages store them: a header before well-known binary.
+//! Geometries in the encoding of GeoPackages: a header followed by well-known binary.
 
 use burgeon_base::budget::Budget;
 use burgeon_spatial::{Geometry, wkb};
 
-/// Reads one blob of a GeoPackage: its geometry's parts, none if it is empty. Fails with the reason.
+/// Reads a GeoPackage blob; returns the parts of its geometry, none if it is empty. Fails with the reason.
 ///
-/// Arcs become lines that are at most `near` (in its own units) from them.
+/// Arcs are approximated by lines with a maximum distance of `near` (in units of the geometry).
 ///
 /// Source: OGC 12-128r18, GeoPackage Encoding Standard, clause 2.1.3.
 pub(super) fn read_blob(bytes: &[u8], near: f64, budget: &Budget) -> Result<Vec<Geometry>, String> {
     wkb::read(body(bytes)?, near, budget).map(Geometry::into_parts)
 }
 
-/// The well-known binary behind the header of a blob.
+/// Returns the well-known binary after the header of a blob.
 fn body(bytes: &[u8]) -> Result<&[u8], String> {
     if !bytes.starts_with(b"GP") || bytes.len() < 8 {
         return Err("is no geometry of a GeoPackage".into());
@@ -28,11 +28,11 @@ fn body(bytes: &[u8]) -> Result<&[u8], String> {
         4 => 64,
         _ => return Err("has an envelope that is not known".into()),
     };
-    // The flag of an empty geometry says nothing that its content does not say.
+    // The flag for empty geometries is redundant with the content.
     bytes.get(8 + envelope..).ok_or_else(|| "ends too early".into())
 }
 
-/// The bounds (west, south, east, north) that the header of a blob tells.
+/// Returns the bounds (west, south, east, north) in the header of a blob.
 pub(super) fn envelope(bytes: &[u8]) -> Option<[f64; 4]> {
     if !bytes.starts_with(b"GP") || (bytes.get(3)? >> 1) & 7 == 0 {
         return None;

@@ -1,5 +1,5 @@
-//! Which features meet an SQL condition, where their file is no database: their attributes become rows of a table in
-//! memory. GeoPackages answer conditions themselves.
+//! SQL conditions on features of files that are not databases: their attributes become rows of a table in memory.
+//! GeoPackages evaluate conditions themselves.
 
 use std::sync::Arc;
 
@@ -11,16 +11,16 @@ use crate::table::{Attribute, FeatureTable};
 use crate::{Feature, SourceOptions};
 use burgeon_base::error::{Error, Result};
 
-/// The numbers of the features that meet the condition that is `wanted`, in their order.
+/// Returns the indices of the features that satisfy `condition`, in their order.
 ///
-/// Its columns are the attributes, and `id`. Fails as a GeoPackage's condition does: at what is no condition, and at
-/// anything but reading.
+/// The columns are the attributes and `id`. Fails like a condition on a GeoPackage: if the condition is invalid, or
+/// does anything but read.
 pub(crate) fn meeting(table: &FeatureTable, condition: &str, wanted: &SourceOptions) -> Result<Vec<usize>> {
     let fail = |error: rusqlite::Error| refused(&table.shown, wanted, &error);
     let connection = Connection::open_in_memory().map_err(fail)?;
     let columns = columns(table, condition);
     let names: String = columns.iter().map(|(name, _)| format!(", {}", quoted(name))).collect();
-    // The features' own number has a name that no attribute has.
+    // The column for the index of a feature has a name that no attribute has.
     let key = "burgeon feature";
     connection
         .execute_batch(&format!("CREATE TABLE features({} INTEGER PRIMARY KEY{names}); BEGIN", quoted(key)))
@@ -36,7 +36,7 @@ pub(crate) fn meeting(table: &FeatureTable, condition: &str, wanted: &SourceOpti
     }
     drop(insert);
     connection.execute_batch("COMMIT").map_err(fail)?;
-    // The line's end ends a comment.
+    // The line break ends a comment in the condition.
     let sql = format!("SELECT {0} FROM features WHERE (\n{condition}\n) ORDER BY {0}", quoted(key));
     let (shown, asked, budget) = (table.shown.clone(), wanted.clone(), Arc::clone(&wanted.budget));
     watched(connection, &wanted.budget, move |mut connection| {
@@ -53,8 +53,8 @@ pub(crate) fn meeting(table: &FeatureTable, condition: &str, wanted: &SourceOpti
     })
 }
 
-/// The attributes that a condition names, with their numbers, and what stands for the id. Names mean the same in whatever
-/// letters; of such, the first counts.
+/// Returns the attributes that a condition may name, with their indices, and the id. Names are case-insensitive; of
+/// equal names, the first one counts.
 fn columns(table: &FeatureTable, condition: &str) -> Vec<(String, Option<usize>)> {
     let condition = condition.to_lowercase();
     let mut columns: Vec<(String, Option<usize>)> = Vec::new();
@@ -66,7 +66,7 @@ fn columns(table: &FeatureTable, condition: &str) -> Vec<(String, Option<usize>)
             columns.push((name.to_owned(), number));
         }
     }
-    // SQLite has no more columns than this.
+    // Maximum number of columns used.
     columns.truncate(1000);
     columns
 }

@@ -1,8 +1,9 @@
-//! Reads delimited text (`.csv`, `.tsv`) with a column of well-known text, or columns of coordinates.
+//! Reader of delimited text (`.csv`, `.tsv`) with a column of well-known text or with coordinate columns.
 //!
-//! Comes in: a text with a line of names first. Goes out: a [`FeatureTable`](crate::FeatureTable) of a feature for each line after it.
+//! Input: text whose first line contains the column names. Output: a [`FeatureTable`](crate::FeatureTable) with one
+//! feature for each following line.
 //!
-//! Source: RFC 4180; delimiters and names of columns as programs write them.
+//! Source: RFC 4180; delimiters and column names as programs write them.
 
 use std::io::{BufRead, BufReader};
 
@@ -14,18 +15,17 @@ use burgeon_base::error::{Error, Result};
 use burgeon_base::text::{listed, shown};
 use glam::DVec3;
 
-/// The longest record (bytes).
+/// Maximum length of a record (bytes).
 const LONGEST: usize = 100_000_000;
 
-/// The most columns.
+/// Maximum number of columns.
 const MOST_COLUMNS: usize = 10_000;
 
-/// The names of columns of geometries, in small letters.
+/// Names of geometry columns, in lower case.
 const SHAPES: [&str; 9] =
     ["wkt", "geometry", "geom", "the_geom", "wkt_geom", "wkb_geometry", "shape", "geojson", "geo_shape"];
 
-/// The names of columns of coordinates, which come in pairs; the first pair that is there counts. The flag tells whether they are
-/// longitude and latitude.
+/// Names of coordinate columns, in pairs; the first pair found is used. The flag is true for longitude and latitude.
 const PAIRS: [(&str, &str, bool); 15] = [
     ("lon", "lat", true),
     ("longitude", "latitude", true),
@@ -44,23 +44,23 @@ const PAIRS: [(&str, &str, bool); 15] = [
     ("point_x", "point_y", false),
 ];
 
-/// The names of columns of heights.
+/// Names of height columns.
 const HEIGHTS: [&str; 5] = ["z", "alt", "altitude", "elevation", "ele"];
 
-/// A file of delimited text.
+/// Delimited text file.
 pub(crate) struct CsvFile {
     file: DataFile,
     layer: String,
 }
 
-/// The columns that tell the place of a feature.
+/// Columns that contain the position of a feature.
 enum PlaceColumns {
     Shape(usize),
     Pair { x: usize, y: usize, z: Option<usize>, is_degrees: bool },
 }
 
 impl CsvFile {
-    /// Whether the name of a file says that it is delimited text.
+    /// Returns true if the extension of a file is one of delimited text.
     pub(crate) fn is_named_so(file: &DataFile) -> bool {
         matches!(&*file.extension(), "csv" | "tsv" | "tab" | "psv")
     }
@@ -109,7 +109,7 @@ impl LayeredFile for CsvFile {
             if table.is_full() {
                 break;
             }
-            // A line without anything is none.
+            // An empty line is not a record.
             if fields.len() == 1 && fields[0].is_empty() {
                 continue;
             }
@@ -152,7 +152,7 @@ impl LayeredFile for CsvFile {
     }
 }
 
-/// The geometry of a line, in parts. Fails with the reason.
+/// Returns the geometry of a line, in parts. Fails with the reason.
 fn parts(
     place: &PlaceColumns,
     fields: &[String],
@@ -183,7 +183,7 @@ fn parts(
     }
 }
 
-/// The parts of a geometry in well-known text, in well-known binary as digits, or in GeoJSON.
+/// Returns the parts of a geometry in well-known text, hexadecimal well-known binary, or GeoJSON.
 fn shape(
     text: &str,
     srid: &mut Option<u32>,
@@ -219,7 +219,7 @@ fn shape(
     read.map_err(|error| format!("has a geometry that cannot be read: {}", error.message()))
 }
 
-/// The columns that tell where features are. Fails with what to do if there are none.
+/// Returns the columns that contain the positions of features. Fails with a remedy if there are none.
 fn place_columns(names: &[String], file: &str) -> Result<PlaceColumns> {
     let plain: Vec<String> = names.iter().map(|name| name.trim().to_lowercase()).collect();
     let find = |wanted: &str| plain.iter().position(|name| name == wanted);
@@ -236,7 +236,7 @@ fn place_columns(names: &[String], file: &str) -> Result<PlaceColumns> {
     Ok(PlaceColumns::Pair { x, y, z: HEIGHTS.iter().find_map(|name| find(name)), is_degrees })
 }
 
-/// Names of columns, each of which is another one.
+/// Makes column names unique.
 fn unique(names: Vec<String>) -> Vec<String> {
     let mut known: Vec<String> = Vec::with_capacity(names.len());
     for (number, name) in names.into_iter().enumerate() {
@@ -255,18 +255,18 @@ fn unique(names: Vec<String>) -> Vec<String> {
     known
 }
 
-/// The records of a file, from the front.
+/// Records of a file, from the beginning.
 struct CsvRecords {
     file: BufReader<ContentReader>,
     name: String,
     delimiter: u8,
-    /// Whether numbers may have a comma, as the delimiter is another.
+    /// Set if numbers may have a decimal comma, because the delimiter is another character.
     comma_is_decimal: bool,
-    /// The line at which the last record begins, and the one that is next.
+    /// First line of the last record, and the next line.
     begin: usize,
     line: usize,
     bytes: Vec<u8>,
-    /// Whether bytes were no UTF-8.
+    /// Set if the bytes were not UTF-8.
     guessed: bool,
 }
 
@@ -294,7 +294,7 @@ impl CsvRecords {
         if head.starts_with(b"\xef\xbb\xbf") {
             records.file.consume(3);
         }
-        // Excel may say first what the delimiter is.
+        // Excel may declare the delimiter in the first line.
         let head = records.file.fill_buf().map_err(cannot)?;
         if head.starts_with(b"sep=") && head.len() > 5 {
             records.delimiter = head[4];
@@ -308,7 +308,7 @@ impl CsvRecords {
         Ok(records)
     }
 
-    /// The fields of the next record; none at the end.
+    /// Returns the fields of the next record; `None` at the end.
     fn next(&mut self, wanted: &SourceOptions) -> Result<Option<Vec<String>>> {
         wanted.budget.tick()?;
         self.bytes.clear();
@@ -323,7 +323,7 @@ impl CsvRecords {
             if count == 0 && before == 0 {
                 return Ok(None);
             }
-            // Within quotes a line may end without an end of the record.
+            // A line break within quotes does not end the record.
             if !quotes.inside {
                 break;
             }
@@ -349,7 +349,7 @@ impl CsvRecords {
         Ok(Some(fields(text.trim_end_matches(['\r', '\n']), char::from(self.delimiter))))
     }
 
-    /// Reads on to the end of a line, and returns how many bytes that are.
+    /// Reads up to the end of a line; returns the number of bytes read.
     fn line(&mut self, limit: usize) -> Result<usize> {
         let mut count = 0;
         loop {
@@ -378,11 +378,11 @@ impl CsvRecords {
     }
 }
 
-/// Whether a text goes on within quotes. Only a quote at the beginning of a field opens them.
+/// State of quotes in a record. Only a quote at the beginning of a field opens a quoted text.
 #[derive(Default)]
 struct QuoteState {
     inside: bool,
-    /// Whether the field has begun, and whether the last byte closed quotes.
+    /// Set if the field has begun, and if the last byte closed a quoted text.
     begun: bool,
     closed: bool,
 }
@@ -401,7 +401,7 @@ impl QuoteState {
     }
 }
 
-/// The delimiter of a text: the one of which the first line has most outside of quotes.
+/// Returns the delimiter of a text: the candidate that occurs most often in the first line, outside quotes.
 fn delimiter(head: &[u8], extension: &str) -> u8 {
     if matches!(extension, "tsv" | "tab") {
         return b'\t';
@@ -415,11 +415,11 @@ fn delimiter(head: &[u8], extension: &str) -> u8 {
         });
         counted.count()
     };
-    // Of equally many, the first counts.
+    // `max_by_key` returns the last maximum, so later candidates take precedence.
     [b'|', b'\t', b';', b','].into_iter().max_by_key(|delimiter| count(*delimiter)).unwrap_or(b',')
 }
 
-/// The fields of a record.
+/// Splits a record into fields.
 fn fields(text: &str, delimiter: char) -> Vec<String> {
     let mut fields = Vec::new();
     let mut rest = text;
@@ -431,7 +431,7 @@ fn fields(text: &str, delimiter: char) -> Vec<String> {
                 match quoted.split_once('"') {
                     Some((part, after)) => {
                         field.push_str(part);
-                        // Two quotes in a text are one.
+                        // Two quotes in a quoted text stand for one.
                         match after.strip_prefix('"') {
                             Some(more) => {
                                 field.push('"');

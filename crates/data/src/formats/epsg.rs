@@ -1,4 +1,4 @@
-//! The EPSG's registry of coordinate systems, packed as `build.rs` leaves it: a line for each, in blocks.
+//! EPSG registry of coordinate systems, compressed by `build.rs` in blocks, with one line per system.
 
 use std::io::Read;
 use std::ops::Range;
@@ -7,23 +7,23 @@ use flate2::read::DeflateDecoder;
 
 use burgeon_base::error::{Error, Result};
 
-/// The blocks, each behind the other.
+/// Compressed blocks, in sequence.
 static PACKED: &[u8] = include_bytes!(concat!(env!("OUT_DIR"), "/epsg.deflate"));
 
-/// The first number in each block, and where that is.
+/// First code in each block, and the block's byte range.
 static BLOCKS: &[(u16, Range<usize>)] = include!(concat!(env!("OUT_DIR"), "/epsg.rs"));
 
-/// A coordinate system of the registry.
+/// Coordinate system in the registry.
 pub(super) struct EpsgEntry {
-    /// Its number.
+    /// EPSG code.
     pub(super) code: u16,
-    /// Its definition in PROJ's words.
+    /// PROJ definition.
     pub(super) proj: String,
-    /// Its definition in well-known text.
+    /// Definition in well-known text.
     pub(super) text: String,
 }
 
-/// The coordinate system with a number, if the registry has it.
+/// Returns the coordinate system with a code, if the registry contains it.
 pub(super) fn entry(code: u32) -> Result<Option<EpsgEntry>> {
     let Ok(code) = u16::try_from(code) else { return Ok(None) };
     let behind = BLOCKS.partition_point(|(first, _)| *first <= code);
@@ -36,7 +36,7 @@ pub(super) fn entry(code: u32) -> Result<Option<EpsgEntry>> {
     }))
 }
 
-/// Hands the number and the well-known text of each coordinate system to `each`, in the order of their numbers.
+/// Calls `each` with the code and the well-known text of each coordinate system, by increasing code.
 pub(super) fn each(mut each: impl FnMut(u16, &str)) -> Result<()> {
     for (_, place) in BLOCKS {
         for line in block(place)?.lines() {
@@ -50,7 +50,7 @@ pub(super) fn each(mut each: impl FnMut(u16, &str)) -> Result<()> {
     Ok(())
 }
 
-/// The lines of a block.
+/// Returns the lines of a block.
 fn block(place: &Range<usize>) -> Result<String> {
     let mut lines = String::new();
     DeflateDecoder::new(&PACKED[place.clone()]).read_to_string(&mut lines).map_err(|error| {
@@ -68,7 +68,7 @@ mod tests {
         let mut count = 0;
         for code in 0..=u16::MAX {
             let published = crs_definitions::from_code(code);
-            // Each block is opened for each of its numbers, so a part of them has to do.
+            // Each lookup unpacks a block, so only a sample of the codes is tested.
             if published.is_none() && code % 64 != 0 {
                 continue;
             }

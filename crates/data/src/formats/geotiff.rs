@@ -1,4 +1,4 @@
-//! GeoTIFF: whole numbers or floats in strips or tiles, and tags that tell where they lie.
+//! Reader of GeoTIFF: integers or floats in strips or tiles, with tags for their position.
 
 use std::io::Cursor;
 
@@ -14,21 +14,21 @@ use crate::heights::{RasterHeader, SampleGrid, check_size, count};
 use burgeon_base::budget::Budget;
 use burgeon_base::error::{Error, Limit, Result};
 
-/// The most bytes that one becomes which is packed by LZW: a code of 12 bits stands for less than 4,096; and by any
-/// other way.
+/// Maximum compression ratio of LZW, whose 12-bit codes represent fewer than 4,096 bytes each, and of any other
+/// compression.
 const LZW: usize = 2_800;
 const PACKED: usize = 100_000;
 
-/// The most room (bytes) for one strip or tile, and for the values of one tag.
+/// Maximum memory (bytes) for one strip or tile, and for the values of one tag.
 const LARGEST_PART: usize = 1_000_000_000;
 const LARGEST_TAG: usize = 64_000_000;
 
-/// A TIFF in memory that is being read.
+/// TIFF in memory that is being read.
 pub(super) type Tiff<'a> = Decoder<Cursor<&'a [u8]>>;
 
 /// Reads a file called `name`.
 ///
-/// Fails if it is damaged or cut short, has bytes or several bands instead of heights, or is turned.
+/// Fails if the file is damaged or truncated, has 8-bit samples or several bands instead of heights, or is rotated.
 pub(crate) fn read<'a>(bytes: &'a [u8], name: &'a str) -> Result<RasterHeader<'a>> {
     let damaged = |error: TiffError| damaged(name, &error);
     if !texts_fit(bytes) {
@@ -68,7 +68,8 @@ pub(crate) fn read<'a>(bytes: &'a [u8], name: &'a str) -> Result<RasterHeader<'a
     Ok(RasterHeader { columns, rows, grid, crs: keys.crs(name), is_told: false, heights: Box::new(heights) })
 }
 
-/// Whether no text in the first directory is longer than the file: the decoder writes to the terminal where one is.
+/// Returns true if no text in the first directory is longer than the file; otherwise the decoder would print to the
+/// terminal.
 fn texts_fit(bytes: &[u8]) -> bool {
     const TEXT: usize = 2;
     let number = |at: usize, size: usize| {
@@ -77,7 +78,7 @@ fn texts_fit(bytes: &[u8]) -> bool {
         let sum = if bytes[0] == b'M' { part.iter().fold(0, add) } else { part.iter().rev().fold(0, add) };
         usize::try_from(sum).ok()
     };
-    // Where the directory begins, and the sizes (bytes) of its number of entries, of an entry, and of a count in it.
+    // Offset of the directory, and the sizes (bytes) of its entry count, of an entry, and of the count in an entry.
     let (begin, [head, entry, count]) = match number(2, 2) {
         Some(43) => (number(8, 8), [8, 20, 8]),
         _ => (number(4, 4), [2, 12, 4]),
@@ -90,7 +91,7 @@ fn texts_fit(bytes: &[u8]) -> bool {
     })
 }
 
-/// Refuses a file that ends before its last strip or tile.
+/// Fails if the file ends before its last strip or tile.
 fn check_whole(tiff: &mut Tiff<'_>, bytes: &[u8], name: &str) -> Result<()> {
     for [offsets, sizes] in
         [[Tag::StripOffsets, Tag::StripByteCounts], [Tag::TileOffsets, Tag::TileByteCounts]]
@@ -108,7 +109,7 @@ fn check_whole(tiff: &mut Tiff<'_>, bytes: &[u8], name: &str) -> Result<()> {
     Ok(())
 }
 
-/// Refuses strips and tiles that say they have more than their bytes can hold.
+/// Fails if strips or tiles declare more samples than their bytes can contain.
 fn check_parts(tiff: &mut Tiff<'_>, bytes: &[u8], name: &str, sample: usize) -> Result<()> {
     let (columns, rows) = tiff.dimensions().map_err(|error| damaged(name, &error))?;
     let [columns, rows] = [columns, rows].map(|side| side as usize);
@@ -121,7 +122,7 @@ fn check_parts(tiff: &mut Tiff<'_>, bytes: &[u8], name: &str, sample: usize) -> 
         ChunkType::Strip => Tag::StripByteCounts,
         ChunkType::Tile => Tag::TileByteCounts,
     };
-    // Without packing the sizes may be left out.
+    // Without compression, the sizes may be missing.
     let Ok(sizes) = tiff.get_tag_u64_vec(tag) else { return Ok(()) };
     let most = match tiff.get_tag_u32(Tag::Compression).unwrap_or(1) {
         1 => 1,
@@ -132,7 +133,7 @@ fn check_parts(tiff: &mut Tiff<'_>, bytes: &[u8], name: &str, sample: usize) -> 
     let is_strip = matches!(tiff.get_chunk_type(), ChunkType::Strip);
     let parts = columns.div_ceil(width) * rows.div_ceil(height);
     for (part, size) in sizes.into_iter().enumerate().take(parts) {
-        // The last strip ends with the picture, while tiles are whole.
+        // The last strip ends with the image, whereas tiles are complete.
         let down = if is_strip { height.min(rows.saturating_sub(part * height)) } else { height };
         let whole = width.saturating_mul(down).saturating_mul(sample);
         if !can_hold(usize::try_from(size).unwrap_or(usize::MAX), most, whole) {
@@ -142,7 +143,7 @@ fn check_parts(tiff: &mut Tiff<'_>, bytes: &[u8], name: &str, sample: usize) -> 
     Ok(())
 }
 
-/// All heights, strip by strip or tile by tile.
+/// Returns all heights, read strip by strip or tile by tile.
 fn samples(
     tiff: &mut Tiff<'_>,
     name: &str,
@@ -155,11 +156,11 @@ fn samples(
     let across = columns.div_ceil(width);
     let mut heights = Vec::new();
     for top in (0..rows).step_by(height) {
-        // No more room than for what was found.
+        // Memory is allocated only for the rows found so far.
         heights.resize(columns * rows.min(top + height), f32::NAN);
         for column in 0..across {
             budget.check()?;
-            // The unpacked bytes, and heights of them.
+            // The unpacked bytes, and their heights.
             let _held = budget.hold(width.saturating_mul(height).saturating_mul(12))?;
             let number = u32::try_from(top / height * across + column)
                 .map_err(|_| Error::data(format!("{name} has too many strips")))?;
@@ -177,7 +178,7 @@ fn samples(
     Ok(heights)
 }
 
-/// Samples as heights (m). Fails on types of which no heights are made.
+/// Converts samples to heights (m). Fails for sample types that cannot be heights.
 fn numbers(values: DecodingResult, meaning: &Meaning, name: &str) -> Result<Vec<f32>> {
     fn all<T: Copy + Into<f64>>(values: &[T], meaning: &Meaning) -> Vec<f32> {
         values.iter().map(|value| meaning.height((*value).into())).collect()
@@ -202,14 +203,15 @@ fn numbers(values: DecodingResult, meaning: &Meaning, name: &str) -> Result<Vec<
     })
 }
 
-/// Where the samples lie; `None` if no tag tells. The step to the south is negative where rows come from the south.
+/// Returns the positions of the samples; `None` if no tag contains them. The step is negative if rows are ordered from
+/// south to north.
 ///
-/// Fails if the raster is turned.
+/// Fails if the raster is rotated.
 fn grid(tiff: &mut Tiff<'_>, name: &str, is_point: bool) -> Result<Option<SampleGrid>> {
     let scale = tiff.get_tag_f64_vec(Tag::ModelPixelScaleTag).unwrap_or_default();
     let tie = tiff.get_tag_f64_vec(Tag::ModelTiepointTag).unwrap_or_default();
     let matrix = tiff.get_tag_f64_vec(Tag::ModelTransformationTag).unwrap_or_default();
-    // The corner of the first sample's area, or its centre, and the steps.
+    // Corner of the first sample's area, or its centre, and the steps.
     let (corner, step) = match (scale.as_slice(), tie.as_slice(), matrix.as_slice()) {
         ([dx, dy, ..], [column, row, _, x, y, ..], _) => ([x - column * dx, y + row * dy], [*dx, *dy]),
         (_, _, [a, b, _, x, c, d, _, y, ..]) => {
@@ -225,19 +227,20 @@ fn grid(tiff: &mut Tiff<'_>, name: &str, is_point: bool) -> Result<Option<Sample
     Ok(Some(SampleGrid { first: [corner[0] + half * step[0], corner[1] - half * step[1]], step }))
 }
 
-/// The keys of a GeoTIFF that are numbers.
+/// Numeric GeoTIFF keys.
 pub(super) struct Keys {
     short: Vec<(u16, u16)>,
     double: Vec<(u16, f64)>,
 }
 
 impl Keys {
-    /// None where the file is a plain TIFF.
+    /// Reads the keys; there are none in a plain TIFF.
     fn read(tiff: &mut Tiff<'_>) -> Self {
         let directory = tiff.get_tag_u16_vec(Tag::GeoKeyDirectoryTag).unwrap_or_default();
         let doubles = tiff.get_tag_f64_vec(Tag::GeoDoubleParamsTag).unwrap_or_default();
         let mut keys = Self { short: Vec::new(), double: Vec::new() };
-        // Four numbers of a header, then four for each key: its number, where its value stands, how many, and which.
+        // The directory has four header numbers, then four numbers per key: key, location of the value, count, and
+        // index or value.
         for key in directory.chunks_exact(4).skip(1) {
             if key[1] == 0 {
                 keys.short.push((key[0], key[3]));
@@ -252,7 +255,7 @@ impl Keys {
         self.short.iter().find(|(known, _)| *known == key).map(|(_, value)| *value)
     }
 
-    /// The coordinate system, if the file has one.
+    /// Returns the coordinate system, if the file has one.
     fn crs(&self, name: &str) -> Result<Option<Crs>> {
         let code = self.get(keys::PROJECTED).or_else(|| self.get(keys::GEOGRAPHIC)).filter(|code| *code != 0);
         match (code, self.middle()) {
@@ -268,7 +271,8 @@ impl Keys {
         }
     }
 
-    /// The longitude and the latitude (degrees) that a transverse Mercator projection of a run is around.
+    /// Returns the centre (longitude and latitude in degrees) of a run's transverse Mercator projection, if the file
+    /// uses one.
     fn middle(&self) -> Option<[f64; 2]> {
         let double = |key: u16| self.double.iter().find(|(known, _)| *known == key).map(|(_, value)| *value);
         let [longitude, latitude, x, y, scale] = keys::MIDDLE.map(double);
@@ -281,7 +285,7 @@ impl Keys {
     }
 }
 
-/// What to do about a coordinate system that cannot be used.
+/// Remedy for a coordinate system that cannot be used.
 const NAME_IT: &str = "name its EPSG code: elevation(file, { crs = 3067 }), or convert the file: \
                        gdalwarp -t_srs EPSG:4326 IN OUT.tif";
 

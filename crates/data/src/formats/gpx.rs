@@ -1,4 +1,4 @@
-//! Reads GPX: waypoints are points, routes and tracks are lines.
+//! Reader of GPX: waypoints become points, routes and tracks become lines.
 //!
 //! Source: Topografix, GPX 1.1 Schema Documentation.
 
@@ -11,17 +11,17 @@ use crate::{Crs, FeatureTable, Geometry, SourceOptions};
 use burgeon_base::error::{Error, Result};
 use burgeon_base::text::shown;
 
-/// The layers, each with the element of its features.
+/// Layers, with the element names of their features.
 const LAYERS: [(&str, &str); 3] = [("waypoints", "wpt"), ("routes", "rte"), ("tracks", "trk")];
 
-/// A file of GPX.
+/// GPX file.
 pub(crate) struct GpxFile {
     file: DataFile,
     layers: Vec<&'static str>,
 }
 
 impl GpxFile {
-    /// Whether a file of XML whose outermost element is called `root` is GPX.
+    /// Returns true if an XML file with the root element `root` is GPX.
     pub(crate) fn is_one(root: &str) -> bool {
         root == "gpx"
     }
@@ -48,7 +48,7 @@ impl GpxFile {
         Ok(found)
     }
 
-    /// Has `each` read the elements of the file, until it says that it has enough.
+    /// Calls `each` with the elements of the file until it returns false.
     fn each(
         &self,
         wanted: &SourceOptions,
@@ -112,7 +112,7 @@ impl LayeredFile for GpxFile {
     }
 }
 
-/// What was found of a waypoint, a route or a track.
+/// Content of a waypoint, a route or a track.
 #[derive(Default)]
 struct GpxFeature {
     segments: Vec<Vec<DVec3>>,

@@ -1,4 +1,4 @@
-//! Reads KML, and KMZ, which is KML in a zip: the placemarks of all folders are one layer.
+//! Reader of KML, and of KMZ, which is zipped KML: the placemarks of all folders form one layer.
 //!
 //! Source: OGC 12-007r2, KML 2.3.
 
@@ -14,13 +14,13 @@ use burgeon_base::budget::Budget;
 use burgeon_base::error::{Error, Result};
 use burgeon_base::text::shown;
 
-/// A file of KML.
+/// KML file.
 pub(crate) struct KmlFile {
     file: DataFile,
     layer: String,
 }
 
-/// Elements of a placemark that say how it looks, which no attribute tells.
+/// Elements of a placemark that define its appearance; they yield no attributes.
 const ASIDE: [&str; 14] = [
     "Style",
     "StyleMap",
@@ -39,7 +39,7 @@ const ASIDE: [&str; 14] = [
 ];
 
 impl KmlFile {
-    /// Whether a file of XML whose outermost element is called `root` is KML.
+    /// Returns true if an XML file with the root element `root` is KML.
     pub(crate) fn is_one(root: &str) -> bool {
         root == "kml"
     }
@@ -65,7 +65,7 @@ impl LayeredFile for KmlFile {
         let table = FeatureTable::new(layer, name, Crs::epsg(4326), wanted);
         let budget = Arc::clone(&wanted.budget);
         let mut reader = PlacemarkReader { table, types: TextTypes::default(), number: 0, budget };
-        // The names of the folders that are open, each with the depth of its element.
+        // Names of the open folders, each with the depth of its element.
         let mut folders: Vec<(usize, String)> = Vec::new();
         let mut links = 0;
         loop {
@@ -115,7 +115,7 @@ impl LayeredFile for KmlFile {
     }
 }
 
-/// What was found of a placemark.
+/// Content of a placemark.
 #[derive(Default)]
 struct Placemark {
     parts: Vec<Geometry>,
@@ -198,7 +198,7 @@ impl PlacemarkReader {
                     }
                 }
             }
-            // A value of a schema is called by an attribute of its element.
+            // A schema value is named by an attribute of its element.
             "SimpleData" => {
                 let name = element.attribute("name").unwrap_or_default().to_owned();
                 let value = xml.inner_text()?;
@@ -212,7 +212,7 @@ impl PlacemarkReader {
         }
     }
 
-    /// Adds the parts of the geometry that `element` begins; the reason, if it cannot be read.
+    /// Adds the parts of the geometry that `element` begins; returns the reason if it cannot be read.
     fn geometry(
         &mut self,
         xml: &mut Xml,
@@ -285,7 +285,7 @@ impl PlacemarkReader {
                                 Err(why) => return Ok(Err(why)),
                             }
                         }
-                        // A track has a place to an element, whose numbers stand between blanks.
+                        // A track has one position per element, with numbers separated by white space.
                         XmlPiece::Start(inner) if inner.name == "coord" => {
                             let text = xml.inner_text()?.split_whitespace().collect::<Vec<_>>().join(",");
                             match places(&text, &self.budget)? {
@@ -310,7 +310,7 @@ impl PlacemarkReader {
 }
 
 impl Placemark {
-    /// Adds a value, unless it is empty.
+    /// Adds a value unless it is empty.
     fn add(&mut self, name: &str, value: String, budget: &Budget) -> Result<()> {
         if value.is_empty() || name.is_empty() {
             return Ok(());
@@ -335,7 +335,7 @@ fn is_geometry(name: &str) -> bool {
     )
 }
 
-/// The places of a list: numbers between commas, places between blanks.
+/// Parses a list of positions: commas separate numbers, white space separates positions.
 fn places(text: &str, budget: &Budget) -> Result<std::result::Result<Vec<DVec3>, String>> {
     budget.take(text.len())?;
     let mut places = Vec::new();

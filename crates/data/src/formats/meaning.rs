@@ -1,4 +1,4 @@
-//! What the samples of a GeoTIFF mean: the height of 0 and of a step, their unit, and what marks missing ones.
+//! Interpretation of GeoTIFF samples: scale, offset, unit, and the marker of missing values.
 
 use tiff::tags::Tag;
 
@@ -8,19 +8,20 @@ use crate::heights::names::tiff_key as keys;
 use crate::heights::narrow;
 use burgeon_base::error::{Error, Result};
 
-/// What GDAL tells of a file and its bands, as XML.
+/// GDAL metadata of a file and its bands, as XML.
 const METADATA: Tag = Tag::Unknown(42112);
 
-/// How samples become heights.
+/// Conversion of samples to heights.
 pub(super) struct Meaning {
     missing: Option<f64>,
-    /// What they are multiplied by, and what is added then (m).
+    /// Factor of the samples, and offset added to the result (m).
     scale: f64,
     offset: f64,
 }
 
 impl Meaning {
-    /// What the tags of a file called `name` tell. Fails if its unit is not known, or if nothing comes of the scale.
+    /// Reads the conversion from the tags of a file called `name`. Fails if the unit is unknown, or if the scale is
+    /// unusable.
     pub(super) fn read(tiff: &mut Tiff<'_>, keys: &Keys, name: &str) -> Result<Self> {
         let missing = tiff.get_tag_ascii_string(Tag::GdalNodata).ok();
         let missing = missing.and_then(|text| text.trim_matches(['\0', ' ']).parse::<f64>().ok());
@@ -43,15 +44,16 @@ impl Meaning {
         Ok(Self { missing, scale: scale * unit, offset: offset * unit })
     }
 
-    /// Whether heights are other numbers than samples.
+    /// Returns true if heights differ from samples.
     fn is_scaled(&self) -> bool {
         self.scale.to_bits() != 1.0_f64.to_bits() || self.offset != 0.0
     }
 
-    /// The height (m) of a sample; NaN for a missing one, and the least number for what marks one undeclared.
+    /// Returns the height (m) of a sample; NaN if it is declared missing, and the minimum number if it is an undeclared
+    /// marker.
     #[inline]
     pub(super) fn height(&self, sample: f64) -> f32 {
-        // Floats mark what is missing with the nearest of theirs.
+        // Files of floats mark missing values with the nearest float.
         if self.missing.is_some_and(|mark| narrow(sample) == narrow(mark)) {
             return f32::NAN;
         }
@@ -62,8 +64,8 @@ impl Meaning {
     }
 }
 
-/// The scale and the offset of heights that place them in space; only where the file says that they are heights there,
-/// since others write what they like.
+/// Returns the scale and the offset of heights from the georeferencing tags, but only if the file declares vertical
+/// coordinates, because other files contain arbitrary values there.
 fn vertical(tiff: &mut Tiff<'_>, keys: &Keys) -> (f64, f64) {
     let plain = (1.0, 0.0);
     if keys.get(keys::VERTICAL).or_else(|| keys.get(keys::VERTICAL_UNIT)).is_none() {
@@ -79,7 +81,7 @@ fn vertical(tiff: &mut Tiff<'_>, keys: &Keys) -> (f64, f64) {
     }
 }
 
-/// The text of the item of the first band, or of the file, that has this role.
+/// Returns the text of the metadata item with this role, for the first band or for the file.
 fn item<'a>(metadata: &'a str, role: &str) -> Option<&'a str> {
     metadata.split("<Item").skip(1).find_map(|rest| {
         let (tag, rest) = rest.split_once('>')?;
@@ -89,7 +91,7 @@ fn item<'a>(metadata: &'a str, role: &str) -> Option<&'a str> {
     })
 }
 
-/// The value of an attribute in a tag.
+/// Returns the value of an attribute in a tag.
 fn attribute<'a>(tag: &'a str, name: &str) -> Option<&'a str> {
     tag.split_whitespace().find_map(|part| {
         let value = part.strip_prefix(name)?.strip_prefix('=')?;
@@ -97,7 +99,7 @@ fn attribute<'a>(tag: &'a str, name: &str) -> Option<&'a str> {
     })
 }
 
-/// How many metres a unit has, by its number among EPSG's.
+/// Returns the length (m) of a unit with an EPSG code.
 fn coded(unit: u16, name: &str) -> Result<f64> {
     match unit {
         0 | keys::METRE | keys::OWN => Ok(1.0),
@@ -107,7 +109,7 @@ fn coded(unit: u16, name: &str) -> Result<f64> {
     }
 }
 
-/// How many metres a unit has, by what GDAL calls it.
+/// Returns the length (m) of a unit with a GDAL name.
 fn named(unit: &str, name: &str) -> Result<f64> {
     match unit.to_ascii_lowercase().as_str() {
         "" | "m" | "metre" | "metres" | "meter" | "meters" => Ok(1.0),

@@ -1,6 +1,7 @@
-//! What takes other programs' code to read: databases, packed bytes, XML, coordinate systems, and heights that are packed.
+//! Readers and writers that need external crates: databases, compressed data, XML, coordinate systems, and compressed
+//! heights.
 //!
-//! A program that is built without the feature `data` has `absent` in its place, which says so.
+//! A program built without the feature `data` contains `absent` instead, which returns errors.
 
 mod blob;
 mod city;

@@ -1,4 +1,4 @@
-//! Tells formats apart by what a file begins with, and opens it.
+//! Detection of the format from the first bytes of a file, and opening of the file.
 
 use super::city::CityJson;
 use super::csv::CsvFile;
@@ -13,7 +13,7 @@ use crate::content::{DataFile, LayeredFile};
 use crate::source::Source;
 use burgeon_base::error::{Error, Result};
 
-/// What a file with layers is, where its format is one of these; or the file, if it is another.
+/// Open file with layers, or the file itself if its format is another.
 pub(crate) type OpenResult = std::result::Result<Source, DataFile>;
 
 fn layered_source(file: impl LayeredFile + 'static) -> OpenResult {
@@ -54,7 +54,7 @@ pub(crate) fn layered(file: DataFile, head: &[u8], wanted: &SourceOptions) -> Re
     Ok(Err(file))
 }
 
-/// A file that is packed: what it holds, if that is a shapefile, or the data file in it, unpacked; or the file itself.
+/// Opens a compressed file: returns the shapefiles in it, or the unpacked data file. Returns other files unchanged.
 pub(crate) fn unpacked(file: DataFile, head: &[u8], wanted: &SourceOptions) -> Result<OpenResult> {
     if head.starts_with(b"\x1f\x8b") {
         return Ok(Err(gunzip(file, wanted)?));
@@ -69,8 +69,8 @@ pub(crate) fn unpacked(file: DataFile, head: &[u8], wanted: &SourceOptions) -> R
     Ok(Err(file))
 }
 
-/// The name of the outermost element of a file of XML that begins with `head`, without what stands before a colon; empty where it
-/// begins later. None for what is no XML.
+/// Returns the local name of the root element of an XML file that begins with `head`; empty if the root begins later.
+/// Returns `None` if the file is not XML.
 fn root(head: &[u8]) -> Option<String> {
     let text = String::from_utf8_lossy(head.strip_prefix(b"\xef\xbb\xbf").unwrap_or(head));
     let mut rest = text.trim_start();

@@ -1,4 +1,4 @@
-//! Writes GeoPackages: SQLite databases of layers, as OGC 12-128r18 has them, with R-trees.
+//! Writer of GeoPackages: SQLite databases of layers according to OGC 12-128r18, with R-trees.
 
 use glam::DVec3;
 use rusqlite::types::Value as Cell;
@@ -12,7 +12,7 @@ use burgeon_base::error::{Error, Result};
 use burgeon_base::stop::Stop;
 use burgeon_spatial::Geometry;
 
-/// What every GeoPackage has. There is no time of the change: the same layers give the same bytes.
+/// Tables of every GeoPackage. The time of change is constant, so the same layers yield the same bytes.
 const SCHEMA: &str = "
 PRAGMA application_id = 1196444487;
 PRAGMA user_version = 10300;
@@ -38,21 +38,21 @@ INSERT INTO gpkg_spatial_ref_sys VALUES
   ('Undefined geographic SRS', 0, 'NONE', 0, 'undefined', 'undefined geographic coordinate reference system');
 ";
 
-/// When every layer was changed last.
+/// Time of the last change of every layer.
 const CHANGED: &str = "1970-01-01T00:00:00.000Z";
 
-/// The column of geometries.
+/// Geometry column.
 const GEOMETRY: &str = "geom";
 
-/// Refuses GeoPackages where the program is built without them.
+/// Accepts GeoPackages; fails in programs built without them.
 pub fn check_geopackage() -> Result<()> {
     Ok(())
 }
 
-/// A GeoPackage with a layer for each of `tables`, in the projection of `frame`, or in degrees if that is one of the
-/// run's own.
+/// Returns a GeoPackage with a layer for each of `tables`, in the projection of `frame`; in degrees if that projection
+/// is specific to the run.
 ///
-/// Fails if a place cannot be brought there, and if a `stop` was asked for.
+/// Fails if a position cannot be transformed, and if `stop` was requested.
 pub fn write_geopackage(
     tables: &[RecordTable],
     frame: Option<&ReferenceFrame>,
@@ -75,20 +75,20 @@ fn failed(error: rusqlite::Error) -> Error {
     Error::internal(format!("cannot write the GeoPackage: {error}"))
 }
 
-/// A GeoPackage that is being written.
+/// GeoPackage that is being written.
 struct PackageWriter<'a> {
     database: Connection,
     outward: OutputPlacement<'a>,
     names: Vec<String>,
 }
 
-/// The least box around places: the least x and y, then the greatest.
+/// Bounding box: minimum x and y, then maximum x and y.
 type LayerBox = [f64; 4];
 
 const NOWHERE: LayerBox = [f64::INFINITY, f64::INFINITY, f64::NEG_INFINITY, f64::NEG_INFINITY];
 
 impl PackageWriter<'_> {
-    /// The number of the coordinate system: -1 stands for metres from anywhere.
+    /// Returns the code of the coordinate system; -1 for undefined Cartesian coordinates.
     fn system(&self) -> i32 {
         self.outward.code.map_or(-1, i32::from)
     }
@@ -139,7 +139,7 @@ impl PackageWriter<'_> {
         self.database.execute_batch(&format!("{} COMMIT", triggers(&name))).map_err(failed)
     }
 
-    /// Writes the records and their R-tree. Returns the box around all of them.
+    /// Writes the records and their R-tree. Returns the bounding box of all records.
     fn write_records(
         &self,
         table: &RecordTable,
@@ -178,7 +178,7 @@ impl PackageWriter<'_> {
         Ok(all)
     }
 
-    /// What the table of a layer called `name` is called: some names mean something.
+    /// Returns the table name of a layer called `name`, because some names are reserved.
     fn table_name(&mut self, name: &str) -> String {
         let lower = name.to_lowercase();
         let means = ["gpkg_", "rtree_", "sqlite_"].iter().any(|prefix| lower.starts_with(prefix));
@@ -211,7 +211,7 @@ fn cell(value: Option<&Attribute>, kind: ColumnKind) -> Cell {
     }
 }
 
-/// The names of the columns behind that of geometries: the id, then those of the attributes.
+/// Returns the names of the columns after the geometry column: the id, then the attributes.
 fn column_names(table: &RecordTable) -> Vec<String> {
     let mut names = vec!["fid".to_owned(), GEOMETRY.to_owned(), "id".to_owned()];
     for column in &table.columns {
@@ -222,7 +222,7 @@ fn column_names(table: &RecordTable) -> Vec<String> {
     names.split_off(2)
 }
 
-/// What GeoPackages call the kind of all geometries of a table.
+/// Returns the GeoPackage name of the common geometry type of a table.
 fn kind_name(table: &RecordTable) -> &'static str {
     let mut kinds =
         table.records.iter().filter_map(|record| record.geometry.as_ref()).map(|geometry| match geometry {
@@ -238,7 +238,7 @@ fn kind_name(table: &RecordTable) -> &'static str {
     if kinds.all(|kind| kind == first) { first } else { "GEOMETRY" }
 }
 
-/// `name`, or with a number behind it if one of `taken` is called so: databases do not tell small letters from capitals.
+/// Returns `name`, with a number appended if it is in `taken`; database names are case-insensitive.
 fn apart(name: &str, taken: &[String]) -> String {
     let is_taken = |name: &str| taken.iter().any(|known| known.to_lowercase() == name.to_lowercase());
     let mut free = name.to_owned();
@@ -254,12 +254,12 @@ fn joined(a: LayerBox, b: LayerBox) -> LayerBox {
     [a[0].min(b[0]), a[1].min(b[1]), a[2].max(b[2]), a[3].max(b[3])]
 }
 
-/// A name in SQL.
+/// Quotes a name for SQL.
 fn quoted(name: &str) -> String {
     format!("\"{}\"", name.replace('"', "\"\""))
 }
 
-/// What keeps the R-tree of a layer up to date while other programs change it, as the standard has it.
+/// Returns the triggers that update the R-tree of a layer when other programs change it, as the standard requires.
 fn triggers(name: &str) -> String {
     let (table, tree) = (quoted(name), quoted(&format!("rtree_{name}_{GEOMETRY}")));
     let geometry = GEOMETRY;
@@ -298,23 +298,24 @@ fn triggers(name: &str) -> String {
     .join(" ")
 }
 
-/// Writes the geometries of a layer.
+/// Writer of the geometries of a layer.
 struct BlobWriter<'a> {
     outward: &'a OutputPlacement<'a>,
-    /// Whether the layer has heights.
+    /// Set if the layer has heights.
     high: bool,
-    /// The box around what was written.
+    /// Bounding box of the written geometry.
     bounds: LayerBox,
 }
 
 impl BlobWriter<'_> {
-    /// A geometry as GeoPackages hold it: a header with its box, and well-known binary. None if it has no place.
+    /// Encodes a geometry as a GeoPackage blob: a header with its bounding box, and well-known binary. Returns `None`
+    /// if it cannot be transformed.
     fn blob(&mut self, geometry: &Geometry, system: i32) -> Option<Vec<u8>> {
         let mut body = Vec::new();
         self.geometry(geometry, &mut body)?;
         let empty = self.bounds[0] > self.bounds[2];
         let is_point = matches!(geometry, Geometry::Point(_));
-        // Little-endian, with a box in x and y unless it would be that of a point.
+        // Little-endian, with a bounding box in x and y except for points.
         let flags = 1 | if empty { 1 << 4 } else { 0 } | if empty || is_point { 0 } else { 1 << 1 };
         let mut blob = vec![b'G', b'P', 0, flags];
         blob.extend(system.to_le_bytes());
@@ -357,7 +358,7 @@ impl BlobWriter<'_> {
     fn one(&mut self, point: Option<DVec3>, out: &mut Vec<u8>) -> Option<()> {
         self.head(1, out);
         let Some(point) = point else {
-            // An empty point has no numbers.
+            // An empty point has NaN coordinates.
             (0..if self.high { 3 } else { 2 }).for_each(|_| out.extend(f64::NAN.to_le_bytes()));
             return Some(());
         };

@@ -1,4 +1,4 @@
-//! PNG: grey of 16 bits between two heights, or colours that are heights.
+//! Reader of PNG heights: 16-bit grey between two heights, or colours that encode heights.
 
 use std::io::Cursor;
 
@@ -10,13 +10,13 @@ use crate::heights::{HeightOptions, MOST, RasterHeader, check_size, narrow};
 use burgeon_base::budget::Budget;
 use burgeon_base::error::{Error, Limit, Result};
 
-/// A PNG in memory that is being read.
+/// PNG in memory that is being read.
 type PngDecoder<'a> = Decoder<Cursor<&'a [u8]>>;
 
-/// Reads a picture called `name`.
+/// Reads an image called `name`.
 ///
-/// Fails on 8 bits of grey, and on colours unless `wanted` says what they mean; if the heights of black and white are
-/// neither in the file nor in `wanted`; if it is damaged or cut short.
+/// Fails for 8-bit grey, and for colours unless `wanted` specifies their encoding; if the heights of black and white
+/// are neither in the file nor in `wanted`; and if the file is damaged or truncated.
 pub(crate) fn read<'a>(
     bytes: &'a [u8],
     name: &'a str,
@@ -43,15 +43,15 @@ pub(crate) fn read<'a>(
     Ok(RasterHeader { columns, rows, grid: None, crs: Ok(None), is_told: true, heights: Box::new(heights) })
 }
 
-/// How samples stand in a row.
+/// Layout of the samples.
 struct Samples {
-    /// Bytes of each.
+    /// Bytes per sample.
     parts: usize,
     terrain_rgb: bool,
 }
 
 impl Samples {
-    /// Those of all rows, and of grey the height (m) of black and that of a step.
+    /// Reads all samples; for grey, also returns the height (m) of black and the height of one step.
     fn read(
         &self,
         decoder: PngDecoder<'_>,
@@ -64,7 +64,7 @@ impl Samples {
         let mut reader = decoder.read_info().map_err(failed)?;
         let mut heights = Vec::new();
         if reader.info().interlaced {
-            // Rows come in no order: all of them are unpacked first.
+            // Interlaced rows are not in order, so all rows are decompressed first.
             let size = count * self.parts;
             let _held = budget.hold(size)?;
             let mut content = vec![0; size];
@@ -79,7 +79,7 @@ impl Samples {
         if self.terrain_rgb {
             return Ok((heights, None));
         }
-        // Texts may stand behind the picture.
+        // Text chunks may follow the image.
         match reader.finish() {
             Ok(()) | Err(DecodingError::Parameter(_)) => {}
             Err(error) => return Err(failed(error)),
@@ -101,7 +101,7 @@ impl Samples {
         Ok((heights, Some([low, (high - low) / 65535.0])))
     }
 
-    /// The height (m) of a sample; of grey, how many steps above black.
+    /// Returns the height (m) of a sample; for grey, the number of steps above black.
     fn height(&self, sample: &[u8]) -> f32 {
         match sample {
             _ if self.terrain_rgb => rgb(sample),
@@ -112,7 +112,7 @@ impl Samples {
     }
 }
 
-/// The number of bytes of a sample. Fails if they are not as `wanted` needs them.
+/// Returns the number of bytes per sample. Fails if the format does not match `wanted`.
 fn parts(name: &str, form: (ColorType, BitDepth), wanted: &HeightOptions) -> Result<usize> {
     let colored = matches!(form.0, ColorType::Rgb | ColorType::Rgba | ColorType::Indexed);
     match (wanted.terrain_rgb, form) {
@@ -133,7 +133,7 @@ fn parts(name: &str, form: (ColorType, BitDepth), wanted: &HeightOptions) -> Res
     }
 }
 
-/// The height (m) of a colour: a tenth of a metre for each step. Method: Mapbox, "Terrain-RGB v1".
+/// Returns the height (m) of a colour, in steps of 0.1 m. Method: Mapbox, "Terrain-RGB v1".
 fn rgb(sample: &[u8]) -> f32 {
     match *sample {
         [_, _, _, 0] => f32::NAN,

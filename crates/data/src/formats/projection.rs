@@ -1,4 +1,4 @@
-//! Projections, and the coordinate systems of the EPSG's registry.
+//! Projections, and the coordinate systems of the EPSG registry.
 
 use proj4rs::Proj;
 use proj4rs::transform::transform;
@@ -6,28 +6,29 @@ use proj4rs::transform::transform;
 use super::epsg::entry;
 use burgeon_base::error::{Error, Result};
 
-/// A projection, or longitude and latitude.
+/// Projection, or longitude and latitude.
 #[derive(Clone)]
 pub(crate) struct Projection(Proj);
 
 impl Projection {
-    /// That of a definition in PROJ's words; what `cannot` makes of the reason, if it cannot be used.
+    /// Creates a projection from a PROJ definition. If it is unusable, fails with the error that `cannot` makes of the
+    /// reason.
     pub(crate) fn new(definition: &str, cannot: impl Fn(String) -> Error) -> Result<Self> {
         Proj::from_proj_string(definition).map(Self).map_err(|error| cannot(error.to_string()))
     }
 
-    /// Brings a point (m, or radians) into another projection; the reason, if it cannot be.
+    /// Transforms a point (m, or radians) into another projection. Fails with the reason.
     pub(crate) fn bring(&self, into: &Self, point: &mut (f64, f64, f64)) -> Result<(), String> {
         transform(&self.0, &into.0, point).map_err(|error| error.to_string())
     }
 }
 
-/// The number and the definition of a coordinate system, if the registry has it.
+/// Returns the code and the PROJ definition of a coordinate system, if the registry contains it.
 pub(crate) fn known(code: u32) -> Result<Option<(u16, String)>> {
     Ok(entry(code)?.map(|found| (found.code, found.proj)))
 }
 
-/// The definition of a coordinate system in well-known text, if the registry has it.
+/// Returns the definition of a coordinate system in well-known text, if the registry contains it.
 pub(crate) fn definition(code: u16) -> Result<Option<String>> {
     Ok(entry(u32::from(code))?.map(|found| found.text))
 }

@@ -1,4 +1,4 @@
-//! Files of all formats that are damaged: none makes a reader panic, and all are read or refused within bounds.
+//! Tests of damaged files in all formats: no reader panics, and all files are read or refused within bounds.
 
 use std::path::Path;
 use std::time::Duration;
@@ -7,7 +7,7 @@ use crate::{Layer, Listing, Source, SourceOptions};
 use burgeon_base::budget::Budget;
 use burgeon_base::random::Stream;
 
-/// Reads a file in every way there is; returns whether a layer of it was read.
+/// Reads a file in every possible way; returns true if a layer was read.
 fn read(path: &Path) -> bool {
     let budget = Budget::within(Duration::from_secs(20), 200_000_000);
     let _ = Listing::read(path, &budget).map(|listing| (listing.text(), listing.to_json()));
@@ -22,7 +22,7 @@ fn read(path: &Path) -> bool {
     })
 }
 
-/// The good files of the corpus that are `of` a reader, each under the name that it has as a data file.
+/// Returns the valid files of the fuzzing corpus, with their names as data files.
 fn samples() -> Vec<(String, Vec<u8>)> {
     let corpus = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../fuzz/corpus");
     let mut samples = Vec::new();

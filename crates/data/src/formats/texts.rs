@@ -1,4 +1,4 @@
-//! Delimited text, KML and GPX that are made here.
+//! Tests of generated delimited text, KML and GPX.
 
 use crate::{Attribute, FeatureTable, Source, SourceOptions};
 use burgeon_base::error::Result;

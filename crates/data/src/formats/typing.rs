@@ -1,25 +1,26 @@
-//! Attributes that a file holds as texts: those whose values are all numbers, or all true or false, become these.
+//! Type detection for attributes stored as text: attributes whose values are all numbers, or all `true` or `false`, are
+//! converted.
 
 use std::sync::Arc;
 
 use crate::{Attribute, FeatureTable};
 use burgeon_base::error::Result;
 
-/// The kinds of value that all texts of an attribute have been so far.
+/// Types that fit all texts of an attribute so far.
 #[derive(Clone, Copy)]
 struct ValueKinds {
     numbers: bool,
     booleans: bool,
 }
 
-/// The kinds of value of all attributes.
+/// Possible types of all attributes.
 #[derive(Default)]
 pub(in crate::formats) struct TextTypes {
     kinds: Vec<ValueKinds>,
 }
 
 impl TextTypes {
-    /// The attribute called `name`, with the text `value`, in `table`.
+    /// Returns the attribute called `name` with the text `value`, and updates the possible types.
     pub(in crate::formats) fn attribute(
         &mut self,
         table: &mut FeatureTable,
@@ -33,7 +34,7 @@ impl TextTypes {
         (number, table.text(value))
     }
 
-    /// The same for an attribute whose values are told to be texts.
+    /// Returns an attribute whose values are declared to be texts.
     pub(in crate::formats) fn text(
         &mut self,
         table: &mut FeatureTable,
@@ -52,7 +53,7 @@ impl TextTypes {
         &mut self.kinds[number]
     }
 
-    /// Makes numbers and booleans of the texts of attributes that have no others.
+    /// Converts texts to numbers and booleans, for attributes with only such values.
     pub(in crate::formats) fn finish(self, table: &mut FeatureTable) -> Result<()> {
         if !self.kinds.iter().any(|kind| kind.numbers || kind.booleans) {
             return Ok(());
@@ -75,7 +76,7 @@ impl TextTypes {
     }
 }
 
-/// The number that a text is, if it means nothing else: with a zero before it, it is a code.
+/// Returns the number in a text if it has no other meaning; a number with a leading zero is a code.
 pub(in crate::formats) fn as_number(text: &str) -> Option<f64> {
     let digits = text.strip_prefix('-').unwrap_or(text);
     let is_code = digits.starts_with('0') && digits[1..].starts_with(|letter: char| letter.is_ascii_digit());

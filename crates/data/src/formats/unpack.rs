@@ -1,4 +1,4 @@
-//! Files that are packed: `.gz`, and the data files in a `.zip`.
+//! Decompression of `.gz` files and of data files in `.zip` files.
 
 use std::io::{Cursor, Read};
 use std::path::{Path, PathBuf};
@@ -13,26 +13,26 @@ use burgeon_base::budget::Budget;
 use burgeon_base::error::{Error, Limit, Result};
 use burgeon_base::text::{listed, shown};
 
-/// The most bytes of a file, packed and unpacked.
+/// Maximum size (bytes) of a file, compressed and decompressed.
 const LARGEST_PACKED: u64 = 1_000_000_000;
 const LARGEST: usize = 2_000_000_000;
 
-/// How many bytes are unpacked at a time.
+/// Number of bytes that are decompressed at a time.
 const PIECE: usize = 1 << 20;
 
-/// The most files of a zip that are looked at.
+/// Maximum number of files in a zip file.
 const MOST_FILES: usize = 100_000;
 
 fn damaged(name: &str) -> Error {
     Error::data(format!("{name} cannot be unpacked")).help("the file is damaged or cut short; get it again")
 }
 
-/// Unpacks what `packed` gives, and takes memory for it.
+/// Decompresses the data from `packed`, counted in the memory budget.
 fn unpack(mut packed: impl Read, name: &str, budget: &Budget) -> Result<Arc<[u8]>> {
     let mut bytes = Vec::new();
     loop {
         budget.check()?;
-        // Room is asked for before it is made; a vector may have twice as much as it needs.
+        // Memory is reserved before it is allocated; a vector may allocate twice its length.
         let held = budget.hold(2 * (bytes.len() + PIECE))?;
         let count = (&mut packed).take(PIECE as u64).read_to_end(&mut bytes).map_err(|_| damaged(name))?;
         if bytes.len() > LARGEST {
@@ -47,7 +47,7 @@ fn unpack(mut packed: impl Read, name: &str, budget: &Budget) -> Result<Arc<[u8]
     }
 }
 
-/// Unpacks a file that was packed by gzip.
+/// Decompresses a gzip file.
 pub(crate) fn gunzip(file: DataFile, wanted: &SourceOptions) -> Result<DataFile> {
     let cannot =
         |error: std::io::Error| Error::file(&file.path, format!("cannot read {}: {error}", file.name));
@@ -62,7 +62,7 @@ pub(crate) fn gunzip(file: DataFile, wanted: &SourceOptions) -> Result<DataFile>
     Ok(DataFile { content: Content::Memory(bytes), path, name: file.name })
 }
 
-/// A zip, and the names of its files.
+/// Zip file, with the names of its files.
 pub(crate) struct ZippedFiles {
     bytes: Arc<[u8]>,
     name: String,
@@ -79,13 +79,13 @@ impl ZippedFiles {
                 .help("unpack it, and name the file of data itself"));
         }
         let mut names: Vec<String> = archive.file_names().map(str::to_owned).collect();
-        // Finders of macOS leave shadows of files behind.
+        // The macOS Finder adds resource fork files.
         names.retain(|name| !name.ends_with('/') && !name.starts_with("__MACOSX/"));
         names.sort();
         Ok(Self { bytes, name: file.name.clone(), path: file.path.clone(), names })
     }
 
-    /// The names that end in one of some extensions, in whatever letters.
+    /// Returns the names with one of some extensions, ignoring case.
     pub(crate) fn with_extensions(&self, extensions: &[&str]) -> Vec<&str> {
         let ends = |name: &&str| {
             let extension =
@@ -95,7 +95,7 @@ impl ZippedFiles {
         self.names.iter().map(String::as_str).filter(ends).collect()
     }
 
-    /// Unpacks one of its files.
+    /// Unpacks one of the files.
     pub(crate) fn file(&self, name: &str, budget: &Budget) -> Result<DataFile> {
         let shown = format!("{} in {}", shown(name), self.name);
         let mut archive = zip::ZipArchive::new(Cursor::new(&self.bytes)).map_err(|_| damaged(&self.name))?;
@@ -110,7 +110,7 @@ impl ZippedFiles {
         Ok(DataFile { content: Content::Memory(bytes), path, name: self.name.clone() })
     }
 
-    /// The one data file that it holds, which is no shapefile. Fails if there is none, or if there are several.
+    /// Unpacks the only data file, which is not a shapefile. Fails if there is none, or if there are several.
     pub(crate) fn only(&self, budget: &Budget) -> Result<DataFile> {
         if self.names.iter().any(|name| name.contains(".gdb/")) {
             return Err(Error::data(format!(
@@ -129,12 +129,12 @@ impl ZippedFiles {
                 "save its table as .csv, with columns of longitude and latitude or of well-known text",
             ));
         }
-        // A KMZ begins with this one, whatever else is in it.
+        // The main file of a KMZ file, whatever else it contains.
         let main = self.names.iter().find(|name| name.eq_ignore_ascii_case("doc.kml"));
         let found = match main {
             Some(main) => vec![main.as_str()],
             None => {
-                // Beside data there may be descriptions of them.
+                // Data files may be accompanied by descriptions.
                 let (descriptions, data): (Vec<&str>, Vec<&str>) = crate::EXTENSIONS
                     .into_iter()
                     .filter(|extension| !matches!(*extension, "zip" | "gz" | "kmz"))

@@ -1,4 +1,4 @@
-//! A file of XML, element by element, within bounds.
+//! Streaming XML reader with limits.
 
 use std::cell::Cell;
 use std::io::{BufRead, BufReader, Read};
@@ -14,43 +14,43 @@ use burgeon_base::budget::Budget;
 use burgeon_base::error::{Error, Result};
 use burgeon_base::text::shown;
 
-/// The deepest that elements may be nested.
+/// Maximum nesting depth of elements.
 const DEEPEST: usize = 100;
 
-/// The longest text, comment or tag (bytes).
+/// Maximum length of a text, comment or tag (bytes).
 const LONGEST: usize = 100_000_000;
 
-/// A piece of a file.
+/// Event in a file.
 pub(in crate::formats) enum XmlPiece {
-    /// An element begins.
+    /// Start of an element.
     Start(Element),
-    /// The element that began last ends.
+    /// End of the current element.
     End,
-    /// The file ends.
+    /// End of the file.
     Eof,
 }
 
-/// The beginning of an element.
+/// Start of an element.
 pub(in crate::formats) struct Element {
-    /// Its name without what stands before a colon.
+    /// Local name, without the prefix.
     pub(in crate::formats) name: String,
     attributes: Vec<(String, String)>,
 }
 
 impl Element {
-    /// The attribute called `name`, whatever stands before a colon.
+    /// Returns the attribute with the local name `name`.
     pub(in crate::formats) fn attribute(&self, name: &str) -> Option<&str> {
         self.attributes.iter().find(|(known, _)| known == name).map(|(_, value)| value.as_str())
     }
 }
 
-/// A file that is read from the front to the end.
+/// File that is read from the beginning to the end.
 pub(in crate::formats) struct Xml {
     reader: Reader<BoundedReader<BufReader<XmlText>>>,
     buffer: Vec<u8>,
-    /// The text since an element began or ended.
+    /// Text since the last start or end of an element.
     text: String,
-    /// How many elements have begun and not ended.
+    /// Number of open elements.
     pub(in crate::formats) depth: usize,
     name: String,
     budget: Arc<Budget>,
@@ -58,7 +58,7 @@ pub(in crate::formats) struct Xml {
 }
 
 impl Xml {
-    /// Begins at the front of a file's `content`.
+    /// Creates a reader at the beginning of a file's `content`.
     pub(in crate::formats) fn new(content: &Content, name: &str, budget: &Arc<Budget>) -> Result<Self> {
         let cannot = |error: std::io::Error| broken(name, &error.to_string());
         let head = content.head(256).map_err(cannot)?;
@@ -77,12 +77,12 @@ impl Xml {
         Ok(Self { reader, buffer: Vec::new(), text: String::new(), depth: 0, name, budget, unread })
     }
 
-    /// The text since the last element began or ended.
+    /// Returns the text since the last start or end of an element.
     pub(in crate::formats) fn text(&self) -> &str {
         self.text.trim()
     }
 
-    /// The next beginning or end. Text, of which [`Xml::text`] tells, begins anew where an element begins.
+    /// Returns the next start or end. The text in [`Xml::text`] is reset at each call.
     pub(in crate::formats) fn next(&mut self) -> Result<XmlPiece> {
         self.text.clear();
         loop {
@@ -138,7 +138,7 @@ impl Xml {
         }
     }
 
-    /// Goes to the end of the element that began last, and returns the text in it, without that of elements within it.
+    /// Reads to the end of the current element; returns its text, without the text of nested elements.
     pub(in crate::formats) fn inner_text(&mut self) -> Result<String> {
         let depth = self.depth;
         let mut all = String::new();
@@ -157,7 +157,7 @@ impl Xml {
         }
     }
 
-    /// Passes over what is left of the elements that are deeper than `depth`.
+    /// Skips the rest of the elements deeper than `depth`.
     pub(in crate::formats) fn leave(&mut self, depth: usize) -> Result<()> {
         while self.depth > depth {
             if matches!(self.next()?, XmlPiece::Eof) {
@@ -168,7 +168,7 @@ impl Xml {
     }
 }
 
-/// The name and the attributes of an element.
+/// Returns the name and the attributes of an element.
 fn element(start: &BytesStart<'_>) -> std::result::Result<Element, String> {
     let name = start.local_name().as_ref().to_owned();
     let mut attributes = Vec::new();
@@ -191,7 +191,8 @@ fn wrong(name: &str, why: &str, at: u64) -> Error {
     broken(name, &format!("at byte {at}: {}", shown(why)))
 }
 
-/// Whether the head of a file says that each of its bytes is a letter of Latin; fails if it is of neither this nor UTF-8.
+/// Returns true if a file declares a Latin encoding with one byte per character; fails for encodings other than these
+/// and UTF-8.
 fn is_latin(head: &[u8], name: &str) -> Result<bool> {
     let head = String::from_utf8_lossy(head);
     let declared = head.split_once("?>").map_or("", |(declared, _)| declared);
@@ -206,11 +207,11 @@ fn is_latin(head: &[u8], name: &str) -> Result<bool> {
     }
 }
 
-/// A file as UTF-8.
+/// File as UTF-8.
 struct XmlText {
     file: ContentReader,
     is_latin: bool,
-    /// What did not fit last time.
+    /// Bytes that did not fit into the last buffer.
     held: Vec<u8>,
 }
 
@@ -232,7 +233,7 @@ impl Read for XmlText {
     }
 }
 
-/// Bytes of which no more than so many are read for one piece.
+/// Reader that limits the number of bytes per event.
 struct BoundedReader<R> {
     inner: R,
     unread: Rc<Cell<usize>>,

@@ -1,4 +1,4 @@
-//! SRTM tiles in a zip.
+//! Reader of zipped SRTM tiles.
 
 use std::io::{Cursor, Read};
 
@@ -8,9 +8,10 @@ use crate::heights::{HeightOptions, RasterHeader};
 use burgeon_base::budget::Budget;
 use burgeon_base::error::{Error, Result};
 
-/// Reads the one tile in a zip, and unpacks nothing else.
+/// Reads the only tile in a zip file; other files are not unpacked.
 ///
-/// Fails if it is damaged, holds no tile or several, and as [`read`](crate::heights::hgt::read) does.
+/// Fails if the zip file is damaged, or contains no tile or several tiles, and in the same cases as
+/// [`read`](crate::heights::hgt::read).
 pub(crate) fn read<'a>(bytes: &'a [u8], name: &'a str, wanted: &HeightOptions) -> Result<RasterHeader<'a>> {
     let damaged = move || {
         Error::data(format!("{name} cannot be unpacked"))
@@ -50,7 +51,7 @@ pub(crate) fn read<'a>(bytes: &'a [u8], name: &'a str, wanted: &HeightOptions) -
             entry.read_exact(&mut row).map_err(|_| damaged())?;
             heights.extend(row.chunks_exact(2).map(height));
         }
-        // What an entry says of its size need not be true.
+        // The declared size of an entry may be wrong.
         match entry.read(&mut [0]) {
             Ok(0) => Ok(heights),
             _ => Err(damaged()),

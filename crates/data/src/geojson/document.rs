@@ -1,4 +1,4 @@
-//! One text of GeoJSON: its members, with the features of a collection handed on one by one.
+//! GeoJSON document: its members, with the features of a collection passed on one by one.
 
 use std::fmt;
 
@@ -8,16 +8,16 @@ use serde_json::value::RawValue;
 
 use super::reader::FeatureReader;
 
-/// What a text says besides the features of its collection.
+/// Members of a document, excluding the features of its collection.
 #[derive(Default)]
 pub(super) struct DocumentHeader<'t> {
-    /// Its type, whatever stands there.
+    /// Member `type`, of any JSON type.
     pub kind: Option<Value>,
-    /// Whether it has a list of features, which the reader has taken.
+    /// Set if there is a list of features, which the reader has already processed.
     pub features: bool,
     pub crs: Option<Value>,
     pub name: Option<Value>,
-    // The text may be a single feature or a geometry.
+    // Members of a single feature or geometry.
     pub id: Option<&'t RawValue>,
     pub properties: Option<&'t RawValue>,
     pub geometry: Option<&'t RawValue>,
@@ -25,7 +25,7 @@ pub(super) struct DocumentHeader<'t> {
     pub geometries: Option<&'t RawValue>,
 }
 
-/// Reads the text that `text` begins with; gives what it says and what follows it.
+/// Reads the document at the start of `text`; returns its members and the rest of the text.
 pub(super) fn document<'t>(
     reader: &mut FeatureReader<'_>,
     text: &'t str,
@@ -79,7 +79,7 @@ impl<'t> Visitor<'t> for DocumentMembers<'_, '_> {
     }
 }
 
-/// The list of a collection's features.
+/// List of a collection's features.
 struct FeatureList<'r, 'a>(&'r mut FeatureReader<'a>);
 
 impl<'t> DeserializeSeed<'t> for FeatureList<'_, '_> {

@@ -1,4 +1,4 @@
-//! The geometries of GeoJSON: coordinates are read straight into points, as their type says.
+//! GeoJSON geometries: coordinates are decoded directly to points according to the type.
 
 use std::fmt;
 
@@ -23,7 +23,7 @@ struct RawGeometry<'a> {
     geometries: Option<&'a RawValue>,
 }
 
-/// What a visitor of lists says of anything else.
+/// Defines the errors of a list visitor for other JSON values.
 macro_rules! no_list {
     ($life:lifetime, $value:ty) => {
         fn visit_f64<E: serde::de::Error>(self, _: f64) -> Result<$value, E> {
@@ -56,7 +56,7 @@ macro_rules! no_list {
     };
 }
 
-/// Whether there is a type of geometry called `kind`.
+/// Returns true if `kind` is a geometry type.
 pub(super) fn is_known(kind: &str) -> bool {
     matches!(
         kind,
@@ -70,14 +70,14 @@ pub(super) fn is_known(kind: &str) -> bool {
     )
 }
 
-/// The parts of the geometry in `text`. Fails with the reason.
+/// Returns the parts of the geometry in `text`. Fails with the reason.
 pub(super) fn read(text: &RawValue, wanted: &SourceOptions) -> Result<Vec<Geometry>, String> {
     let mut parts = Vec::new();
     geometry(text, wanted, 0, &mut parts)?;
     Ok(parts)
 }
 
-/// The parts of the geometry in a text that stands alone. Fails with the reason.
+/// Returns the parts of the geometry in a separate text. Fails with the reason.
 #[cfg(feature = "data")]
 pub(crate) fn geometry_of(text: &str, wanted: &SourceOptions) -> Result<Vec<Geometry>, String> {
     let text: &RawValue = serde_json::from_str(text)
@@ -85,7 +85,7 @@ pub(crate) fn geometry_of(text: &str, wanted: &SourceOptions) -> Result<Vec<Geom
     read(text, wanted)
 }
 
-/// The parts of the geometry of the type `kind` with these members.
+/// Returns the parts of a geometry of the type `kind` with these members.
 pub(super) fn of_members(
     kind: &str,
     coordinates: Option<&RawValue>,
@@ -135,10 +135,10 @@ fn members(
     if !is_known(kind) {
         return Err(format!("has a geometry of type \"{}\", which is not known", shown(kind)));
     }
-    // Some programs write an empty list where a feature has no place.
+    // Some programs write an empty list for a feature without a position.
     let Some(text) = coordinates.map(RawValue::get).filter(|text| !is_empty(text)) else { return Ok(()) };
     let budget = &*wanted.budget;
-    // A point takes 24 bytes, and its text 6 or more.
+    // A point needs 24 bytes, and its text at least 6.
     let _held = (text.len() > LARGE)
         .then(|| budget.hold(text.len().saturating_mul(4)))
         .transpose()
@@ -163,7 +163,7 @@ fn members(
     Ok(())
 }
 
-/// Whether a text is a list of nothing.
+/// Returns true if a text is an empty list.
 fn is_empty(text: &str) -> bool {
     text.strip_prefix('[')
         .and_then(|rest| rest.strip_suffix(']'))
@@ -178,7 +178,7 @@ fn read_as<'t, S: DeserializeSeed<'t>>(text: &'t str, seed: S) -> Result<S::Valu
     })
 }
 
-/// One point.
+/// Point.
 #[derive(Clone, Copy)]
 struct PointSeed<'b>(&'b Budget);
 
@@ -217,7 +217,7 @@ impl<'t> Visitor<'t> for PointSeed<'_> {
     no_list!('t, DVec3);
 }
 
-/// A number of a point.
+/// Coordinate of a point.
 struct Number(f64);
 
 impl<'t> Deserialize<'t> for Number {
@@ -270,7 +270,7 @@ impl<'t> Visitor<'t> for NumberVisitor {
     }
 }
 
-/// A list of what `S` reads.
+/// List of items that `S` reads.
 #[derive(Clone, Copy)]
 struct ListOf<S>(S);
 

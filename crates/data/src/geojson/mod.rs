@@ -1,7 +1,7 @@
-//! Reads GeoJSON: a document, or a sequence of them.
+//! Reader of GeoJSON: a document, or a sequence of documents.
 //!
-//! Source: RFC 7946; the `crs` member is that of the GeoJSON of 2008, which programs still write. Sequences: RFC 8142,
-//! and documents one to a line. Each feature is read by itself, so that what is wrong with one is said of that one.
+//! Source: RFC 7946; the `crs` member is from the 2008 GeoJSON format, which programs still write. Sequences: RFC 8142,
+//! and one document per line. Each feature is parsed separately, so an error refers to that feature.
 
 mod document;
 mod geometry;

@@ -1,4 +1,4 @@
-//! Reads GeoJSON, feature by feature.
+//! Reader of GeoJSON, feature by feature.
 
 use std::borrow::Cow;
 use std::path::Path;
@@ -14,13 +14,13 @@ use serde::Deserialize;
 use serde_json::value::RawValue;
 use serde_json::{Map, Value};
 
-/// The largest file (bytes) that is read.
+/// Maximum file size (bytes).
 pub(crate) const LARGEST: u64 = 500_000_000;
 
-/// What stands before each text of a sequence.
+/// Separator before each text of a sequence.
 pub(super) const RECORD: char = '\u{1e}';
 
-/// Properties of a feature from this length (bytes) on are asked for before they are read.
+/// Length (bytes) from which memory is reserved before the properties of a feature are parsed.
 pub(super) const LARGE: usize = 1 << 20;
 
 #[derive(Deserialize)]
@@ -33,16 +33,16 @@ struct RawFeature<'a> {
     geometry: Option<&'a RawValue>,
 }
 
-/// Whether the name of a file says that it holds a document to a line.
+/// Returns true if the extension of a file is one of document sequences.
 pub(super) fn is_sequence(path: &Path) -> bool {
     let extension = path.extension().unwrap_or_default().to_string_lossy().to_ascii_lowercase();
     crate::SEQUENCES.contains(&&*extension)
 }
 
-/// Reads all of a file, which messages call `name`.
+/// Reads a whole file, called `name` in messages.
 pub(crate) fn read(bytes: &[u8], path: &Path, name: &str, wanted: &SourceOptions) -> Result<FeatureTable> {
     let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
-    // A text of another encoding becomes another text, of up to three bytes for each of its own.
+    // Text in another encoding is converted, with up to three bytes for each byte.
     let _held =
         std::str::from_utf8(bytes).is_err().then(|| wanted.budget.hold(bytes.len() * 3)).transpose()?;
     let (text, encoding) = match guess(bytes) {
@@ -71,19 +71,19 @@ pub(crate) fn read(bytes: &[u8], path: &Path, name: &str, wanted: &SourceOptions
     Ok(reader.table)
 }
 
-/// What has been read of a file.
+/// State of the reader.
 pub(super) struct FeatureReader<'a> {
     table: FeatureTable,
     name: &'a str,
     wanted: &'a SourceOptions,
-    /// How many features there have been.
+    /// Number of features so far.
     records: usize,
-    /// Why reading has to end, where the parser cannot tell.
+    /// Error that must end the reading, because the parser cannot pass it on.
     pub(super) failure: Option<Error>,
 }
 
 impl<'a> FeatureReader<'a> {
-    /// A reader of the file at `path`, which messages call `name`.
+    /// Creates a reader of the file at `path`, called `name` in messages.
     pub(super) fn new(path: &Path, name: &'a str, wanted: &'a SourceOptions) -> Self {
         let stem =
             path.file_stem().map_or_else(|| name.to_owned(), |stem| stem.to_string_lossy().into_owned());
@@ -91,7 +91,7 @@ impl<'a> FeatureReader<'a> {
         Self { table, name, wanted, records: 0, failure: None }
     }
 
-    /// What has been read.
+    /// Returns the table of features.
     pub(super) fn into_table(self) -> FeatureTable {
         self.table
     }
@@ -112,7 +112,7 @@ impl<'a> FeatureReader<'a> {
         Ok(())
     }
 
-    /// Reads one document, or several that follow one another.
+    /// Reads one document, or several consecutive documents.
     fn documents(&mut self, text: &str, is_sequence: bool) -> Result<()> {
         let (mut rest, mut line, mut first) = (text, 1, !is_sequence);
         loop {
@@ -123,7 +123,7 @@ impl<'a> FeatureReader<'a> {
                 return Ok(());
             }
             match self.text(rest) {
-                // Only a document that stands alone may name the layer.
+                // Only a single document may name the layer.
                 Ok((head, after)) if first && after.trim().is_empty() => return self.alone(head),
                 Ok((head, after)) => {
                     self.member(head)?;
@@ -140,7 +140,7 @@ impl<'a> FeatureReader<'a> {
         }
     }
 
-    /// Reads one text, whose features are added at once; gives what else it says, and what follows it.
+    /// Reads one text, and adds the features of its collection; returns its other members and the rest of the text.
     pub(super) fn text<'t>(
         &mut self,
         text: &'t str,
@@ -148,7 +148,7 @@ impl<'a> FeatureReader<'a> {
         document(self, text)
     }
 
-    /// Takes the document that is the whole file.
+    /// Processes a document that is the whole file.
     pub(super) fn alone(&mut self, head: DocumentHeader<'_>) -> Result<()> {
         self.stop()?;
         self.table.crs = system(head.crs.as_ref());
@@ -158,7 +158,7 @@ impl<'a> FeatureReader<'a> {
         self.take(head, true)
     }
 
-    /// Takes a text of a sequence, which may name the coordinate system of all.
+    /// Processes a text of a sequence, which may specify the coordinate system of all.
     pub(super) fn member(&mut self, head: DocumentHeader<'_>) -> Result<()> {
         self.stop()?;
         if head.crs.is_some() {
@@ -167,7 +167,7 @@ impl<'a> FeatureReader<'a> {
         self.take(head, false)
     }
 
-    /// Adds what a text is: a feature, a geometry, or the features that were added already.
+    /// Adds the content of a text: a feature or a geometry; the features of a collection were already added.
     fn take(&mut self, head: DocumentHeader<'_>, alone: bool) -> Result<()> {
         let name = self.name;
         let kind = head.kind.as_ref().and_then(Value::as_str).unwrap_or_default();
@@ -199,21 +199,21 @@ impl<'a> FeatureReader<'a> {
         self.refuse(number.to_string(), "is JSON, but no feature and no geometry")
     }
 
-    /// Why reading has to end, if it has.
+    /// Returns the error that must end the reading, if any.
     fn stop(&mut self) -> Result<()> {
         self.failure.take().map_or_else(|| self.wanted.budget.check(), Err)
     }
 
-    /// The number of the next feature, from 1.
+    /// Returns the number of the next feature, from 1.
     fn number(&mut self) -> usize {
         self.records += 1;
         self.records
     }
 
-    /// Reads the text of one feature of a list.
+    /// Reads the text of one feature in a list.
     pub(super) fn raw_feature(&mut self, text: &str) -> Result<()> {
         self.wanted.budget.tick()?;
-        // What follows may still tell the coordinate system.
+        // A later member may still specify the coordinate system.
         if self.table.is_full() {
             return Ok(());
         }
@@ -230,7 +230,7 @@ impl<'a> FeatureReader<'a> {
         let number = self.number();
         let own = feature.id.and_then(id_of);
         let length = feature.properties.map_or(0, |properties| properties.get().len());
-        // A value takes up to 40 bytes, and its text 2 or more.
+        // A value needs up to 40 bytes, and its text at least 2.
         let _held =
             (length > LARGE).then(|| self.wanted.budget.hold(length.saturating_mul(20))).transpose()?;
         let properties =
@@ -258,7 +258,7 @@ impl<'a> FeatureReader<'a> {
         self.add((number, id), parts, attributes, bounds)
     }
 
-    /// The bounds of the points that can be found in the text of a geometry that cannot be read.
+    /// Returns the bounds of the points found in the text of a geometry that cannot be read.
     fn bounds(&self, text: &RawValue) -> Option<[f64; 4]> {
         let _held = self.wanted.budget.hold(text.get().len().saturating_mul(20)).ok()?;
         let value: Value = serde_json::from_str(text.get()).ok()?;
@@ -283,8 +283,8 @@ impl<'a> FeatureReader<'a> {
         bounds
     }
 
-    /// Adds the feature with a number, and with an id if it has one, or refuses it with the reason. `bounds` are those of the points
-    /// of one that has no geometry.
+    /// Adds the feature with a number and an optional id, or refuses it with the reason. `bounds` are the bounds of the
+    /// points of a feature without a valid geometry.
     fn add(
         &mut self,
         (number, id): (usize, Option<String>),
@@ -301,7 +301,7 @@ impl<'a> FeatureReader<'a> {
             (Ok(parts), Some(id)) => self.table.push(&id, parts, attributes),
             (Ok(parts), None) => self.table.push_unnamed(parts, attributes),
             (Err(why), id) => {
-                // It may be that the time is over, and not the geometry's fault.
+                // The error may be an exceeded time limit instead of an invalid geometry.
                 self.wanted.budget.check()?;
                 self.refuse_at(id.unwrap_or_else(|| number.to_string()), &why, bounds)
             }
@@ -318,7 +318,7 @@ impl<'a> FeatureReader<'a> {
         self.table.refuse_at(id, error, bounds)
     }
 
-    /// Refuses a text of a sequence that is not JSON, unless reading has to end.
+    /// Refuses a text of a sequence that is not JSON, unless the reading must end.
     fn refuse_text(&mut self, line: usize, error: &serde_json::Error) -> Result<()> {
         self.stop()?;
         self.refuse_line(line, &format!("is not JSON: {}", words(error)))
@@ -332,12 +332,12 @@ impl<'a> FeatureReader<'a> {
     }
 }
 
-/// How many lines end in `text`.
+/// Counts the line breaks in `text`.
 fn lines(text: &str) -> usize {
     text.bytes().filter(|byte| *byte == b'\n').count()
 }
 
-/// What the parser says, without the place within a part of the text.
+/// Returns the parser's message, without the position within a part of the text.
 pub(super) fn words(error: &serde_json::Error) -> String {
     let text = error.to_string();
     let why = text.rsplit_once(" at line ").map_or(text.as_str(), |(why, _)| why);
@@ -346,7 +346,7 @@ pub(super) fn words(error: &serde_json::Error) -> String {
     shown(&why).into_owned()
 }
 
-/// The error for text that cannot be read, with line and column.
+/// Returns the error for text that cannot be parsed, with line and column.
 fn not_json(name: &str, text: &str, error: &serde_json::Error) -> Error {
     let at = format!("line {}, column {}", error.line(), error.column());
     if error.is_eof() {
@@ -358,7 +358,7 @@ fn not_json(name: &str, text: &str, error: &serde_json::Error) -> Error {
         .help("GeoJSON is described in RFC 7946")
 }
 
-/// The coordinate system that a `crs` member names; WGS 84 without one.
+/// Returns the coordinate system that a `crs` member names; WGS 84 without one.
 fn system(crs: Option<&Value>) -> Result<Crs> {
     let Some(crs) = crs.filter(|crs| !crs.is_null()) else { return Crs::epsg(4326) };
     let name = crs.pointer("/properties/name").and_then(Value::as_str).unwrap_or_default();
@@ -375,7 +375,7 @@ fn system(crs: Option<&Value>) -> Result<Crs> {
     }
 }
 
-/// The id in a text; none where it cannot be one.
+/// Returns the id in a text; `None` if it is not a valid id.
 fn id_of(text: &RawValue) -> Option<String> {
     id_text(&serde_json::from_str(text.get()).ok()?)
 }

@@ -1,6 +1,7 @@
-//! Reads large GeoJSON a part at a time, so that the text need not be held.
+//! Reader of large GeoJSON files in parts, so the text is not kept in memory.
 //!
-//! What is not as it should be ends this at once: the file is then read whole, and what is wrong is told of its text.
+//! At any irregularity, the streaming ends: the whole file is then read by [`read`](super::read), which reports errors
+//! with positions in the text.
 
 use std::io::{self, Read};
 use std::path::Path;
@@ -13,11 +14,11 @@ use crate::{FeatureTable, SourceOptions};
 use burgeon_base::budget::{Budget, MemoryReservation};
 use burgeon_base::error::{Error, Result};
 
-/// How much of a file (bytes) is looked at, unless a single feature is larger.
+/// Size of the window (bytes), unless a single feature is larger.
 pub(crate) const WINDOW: usize = 4 << 20;
 
-/// Reads all of `file`, which messages call `name`, through a window of so many bytes. None where [`read`](super::read) has to
-/// tell what is wrong with it.
+/// Reads all of `file`, called `name` in messages, through a window of `window` bytes. Returns `None` if
+/// [`read`](super::read) must report what is wrong with the file.
 pub(crate) fn stream(
     file: impl Read,
     path: &Path,
@@ -38,11 +39,11 @@ pub(crate) fn stream(
     }
 }
 
-/// Why a file is not read on.
+/// Reason why the reading of a file ends.
 enum Halt {
-    /// It is not what it should be.
+    /// Irregularity in the file.
     Irregular,
-    /// Reading has to end.
+    /// Error that must end the reading.
     Failed(Error),
 }
 
@@ -54,19 +55,19 @@ impl From<Error> for Halt {
 
 impl From<io::Error> for Halt {
     fn from(_: io::Error) -> Self {
-        // It comes again when the file is read whole.
+        // The error occurs again when the whole file is read.
         Self::Irregular
     }
 }
 
-/// The part of a file that is being read.
+/// Window of a file.
 struct TextWindow<'b, R> {
     file: R,
     budget: &'b Budget,
-    /// The memory of `bytes`.
+    /// Memory reserved for `bytes`.
     held: Option<MemoryReservation<'b>>,
     bytes: Vec<u8>,
-    /// Where what has not been read begins.
+    /// Offset of the first byte that was not yet read.
     start: usize,
     size: usize,
     ended: bool,
@@ -74,7 +75,7 @@ struct TextWindow<'b, R> {
 
 impl<'b, R: Read> TextWindow<'b, R> {
     fn new(file: R, size: usize, budget: &'b Budget) -> Self {
-        // No shorter than a byte order mark.
+        // At least as long as a byte order mark.
         Self { file, budget, held: None, bytes: Vec::new(), start: 0, size: size.max(3), ended: false }
     }
 
@@ -82,7 +83,7 @@ impl<'b, R: Read> TextWindow<'b, R> {
         &self.bytes[self.start..]
     }
 
-    /// Reads on behind what has not been read; false if there is no more.
+    /// Reads more bytes after those not yet consumed; returns false at the end of the file.
     fn fill(&mut self) -> Result<bool, Halt> {
         self.bytes.drain(..self.start);
         self.start = 0;
@@ -101,7 +102,7 @@ impl<'b, R: Read> TextWindow<'b, R> {
         Ok(self.bytes.len() > before)
     }
 
-    /// The next byte that is no blank.
+    /// Returns the next byte that is not white space.
     fn peek(&mut self) -> Result<Option<u8>, Halt> {
         loop {
             let blank = |byte: &u8| matches!(byte, b' ' | b'\t' | b'\n' | b'\r');
@@ -118,29 +119,29 @@ impl<'b, R: Read> TextWindow<'b, R> {
         }
     }
 
-    /// Reads `byte`, if it comes next.
+    /// Consumes `byte` if it comes next.
     fn take_if(&mut self, byte: u8) -> Result<bool, Halt> {
         let comes = self.peek()? == Some(byte);
         self.start += usize::from(comes);
         Ok(comes)
     }
 
-    /// Reads `byte`, which has to come next.
+    /// Consumes `byte`, which must come next.
     fn expect(&mut self, byte: u8) -> Result<(), Halt> {
         if self.take_if(byte)? { Ok(()) } else { Err(Halt::Irregular) }
     }
 
-    /// The text of the next value.
+    /// Returns the text of the next value.
     fn value(&mut self) -> Result<&str, Halt> {
         self.peek()?;
         let length = loop {
             let mut values = Deserializer::from_slice(self.rest()).into_iter::<&RawValue>();
             match values.next() {
-                // A number that ends with the window may go on behind it.
+                // A number at the end of the window may continue beyond it.
                 Some(Ok(_)) if self.ended || values.byte_offset() < self.rest().len() => {
                     break values.byte_offset();
                 }
-                // To the parser a number that is cut off is none.
+                // The parser rejects a truncated number.
                 Some(Err(error)) if !error.is_eof() && !self.rest().last().is_some_and(is_of_number) => {
                     return Err(Halt::Irregular);
                 }
@@ -154,7 +155,7 @@ impl<'b, R: Read> TextWindow<'b, R> {
     }
 }
 
-/// Whether a number may end with `byte` where it is cut off.
+/// Returns true if a truncated number may end with `byte`.
 fn is_of_number(byte: &u8) -> bool {
     matches!(byte, b'-' | b'+' | b'.' | b'e' | b'E' | b'0'..=b'9')
 }
@@ -188,7 +189,7 @@ impl FeatureReader<'_> {
         }
     }
 
-    /// Reads an object, whose features are added at once; what else it says is put into `object`.
+    /// Reads an object, and adds the features of its collection; its other members are written to `object`.
     fn stream_object<R: Read>(
         &mut self,
         text: &mut TextWindow<'_, R>,

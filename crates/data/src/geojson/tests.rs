@@ -1,4 +1,4 @@
-//! Documents, sequences, and features that are wrong among others that are not.
+//! Tests of documents, sequences, and invalid features among valid ones.
 
 use super::super::{Geometry, GeometryKind};
 use super::*;
@@ -203,7 +203,7 @@ fn changed_bytes_never_make_it_panic() {
     assert!(good > 500 && bad > 500, "{good} {bad}");
 }
 
-/// All that a table tells.
+/// Returns the complete content of a table as text.
 fn content(table: &FeatureTable) -> String {
     let FeatureTable { layer, crs, names, features, records, empty, refused, notes, .. } = table;
     format!("{layer} {crs:?} {names:?} {features:?} {records} {empty} {refused:?} {notes:?}")

@@ -1,31 +1,31 @@
-//! ESRI ASCII grids (`.asc`): a header of names and numbers, then heights as text.
+//! Reader of ESRI ASCII grids (`.asc`): a header of names and numbers, then heights as text.
 
 use super::{RasterHeader, SampleGrid, check_size, count, narrow};
 use burgeon_base::budget::Budget;
 use burgeon_base::error::{Error, Result};
 
-/// What to do about a text that is no grid.
+/// Remedy for a text that is not a grid.
 const REMEDY: &str = "a grid begins with ncols, nrows, xllcorner, yllcorner and cellsize; convert the file: \
                       gdal_translate -of AAIGrid IN OUT.asc";
 
-/// More heights than the header says are not counted beyond this.
+/// Maximum number of surplus heights that are counted.
 const SURPLUS: usize = 1_000_000;
 
-/// What a header says.
+/// Header of a grid.
 #[derive(Default)]
 struct Header {
     columns: Option<f64>,
     rows: Option<f64>,
-    /// The south-west corner, and whether it is the centre of the sample there.
+    /// Coordinates of the south-west corner; true if they refer to the centre of the sample there.
     x: Option<(f64, bool)>,
     y: Option<(f64, bool)>,
-    /// The steps to the east and to the north.
+    /// Steps to the east and to the north.
     step: [Option<f64>; 2],
     missing: Option<f64>,
 }
 
 impl Header {
-    /// Takes a value; `None` if no header has this name.
+    /// Stores a value; returns `None` if the header name is unknown.
     fn set(&mut self, name: &str, value: f64) -> Option<()> {
         match name {
             "ncols" => self.columns = Some(value),
@@ -46,8 +46,8 @@ impl Header {
 
 /// Reads a grid called `name`.
 ///
-/// Fails if its header lacks something, if a height is no number, and if there are fewer than it says; those that are too
-/// many come last.
+/// Fails if the header is incomplete, if a height is not a number, and if there are fewer heights than declared.
+/// Surplus heights are at the end of the result.
 pub(crate) fn read<'a>(bytes: &'a [u8], name: &'a str) -> Result<RasterHeader<'a>> {
     let text = std::str::from_utf8(bytes).map_err(|_| {
         Error::data(format!("{name} is no ASCII grid: it has bytes that are no text")).help(REMEDY)
@@ -87,7 +87,7 @@ pub(crate) fn read<'a>(bytes: &'a [u8], name: &'a str) -> Result<RasterHeader<'a
             Some(SampleGrid { first: [x + half(x_centre, dx), north], step: [dx, dy] })
         }
         (_, _, [None, _] | [_, None]) => return Err(lacks("cellsize")),
-        // Where it lies may be given.
+        // The options may contain the position.
         _ => None,
     };
     let (expected, length, missing) = (columns * rows, bytes.len(), header.missing);
@@ -95,7 +95,7 @@ pub(crate) fn read<'a>(bytes: &'a [u8], name: &'a str) -> Result<RasterHeader<'a
     Ok(RasterHeader { columns, rows, grid, crs: Ok(None), is_told: false, heights: Box::new(heights) })
 }
 
-/// The heights in `lines`, numbered from 0, of a file of so many heights and bytes.
+/// Reads the heights in `lines`, numbered from 0, of a file with `expected` heights and `length` bytes.
 fn heights<'a>(
     lines: impl Iterator<Item = (usize, &'a str)>,
     name: &str,
@@ -104,7 +104,7 @@ fn heights<'a>(
     budget: &Budget,
 ) -> Result<Vec<f32>> {
     let mut heights = Vec::new();
-    // A few too many are counted; of a file that is another than its header says, not all are read.
+    // A few surplus heights are counted; if the header is that of another file, not all heights are read.
     let most = expected + SURPLUS;
     for (number, line) in lines {
         for word in line.split_whitespace() {
@@ -129,7 +129,7 @@ fn heights<'a>(
     }
 }
 
-/// A number of columns or rows.
+/// Converts a number of columns or rows.
 #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "the range is checked")]
 fn whole(name: &str, what: &str, value: f64) -> Result<usize> {
     if value.fract() == 0.0 && (0.0..1e15).contains(&value) {
@@ -138,7 +138,7 @@ fn whole(name: &str, what: &str, value: f64) -> Result<usize> {
     Err(Error::data(format!("{name} has {what} {value}, which is no number of heights")).help(REMEDY))
 }
 
-/// The beginning of a text that may be long.
+/// Returns the beginning of a text that may be long.
 fn shorten(text: &str) -> String {
     text.chars().take(30).collect()
 }

@@ -1,51 +1,53 @@
-//! What a file of heights says of them in its beginning.
+//! Header of a file of heights.
 
 use super::MOST;
 use crate::Crs;
 use burgeon_base::budget::Budget;
 use burgeon_base::error::{Error, Limit, Result};
 
-/// Where samples lie, in the units of a coordinate system.
+/// Positions of samples, in the units of a coordinate system.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SampleGrid {
-    /// The centre of the sample in the north-west.
+    /// Centre of the north-west sample.
     pub first: [f64; 2],
-    /// The distances of samples towards the east and the south; both are positive.
+    /// Distances between samples towards the east and the south; both are positive.
     pub step: [f64; 2],
 }
 
 impl SampleGrid {
-    /// That of `columns` by `rows` samples between outer edges: west, south, east and north.
+    /// Returns the grid of `columns` by `rows` samples between outer edges: west, south, east and north.
     pub(crate) fn between([west, south, east, north]: [f64; 4], columns: usize, rows: usize) -> Self {
         let step = [(east - west) / count(columns), (north - south) / count(rows)];
         Self { first: [west + step[0] / 2.0, north - step[1] / 2.0], step }
     }
 }
 
-/// A number of samples as a factor.
+/// Converts a number of samples to a factor.
 #[allow(clippy::cast_precision_loss, reason = "counts are far below 2^53")]
 pub(crate) fn count(number: usize) -> f64 {
     number as f64
 }
 
-/// What a reader found in the beginning of a file, and how to read the rest.
+/// Header that a reader found, and the function that reads the heights.
 pub(crate) struct RasterHeader<'a> {
     pub columns: usize,
     pub rows: usize,
-    /// Where the heights lie.
+    /// Positions of the heights, if known.
     pub grid: Option<SampleGrid>,
-    /// An error if it names a coordinate system that is not known, for which options can stand in.
+    /// Coordinate system; an error if it is unknown, which options can override.
     pub crs: Result<Option<Crs>>,
-    /// Whether the file, or who reads it, says how low and how high the heights are: then none of them marks a missing one.
+    /// Set if the file or the options define the lowest and highest height; then no height is a marker of missing
+    /// values.
     pub is_told: bool,
-    /// Reads the heights, of which some may be missing (NaN). Nobody asks before all else is known to be right.
+    /// Function that reads the heights, some of which may be missing (NaN). Called only after all other checks have
+    /// succeeded.
     pub heights: ReadHeights<'a>,
 }
 
-/// Reads all heights of a file, row by row.
+/// Function that reads all heights of a file, row by row.
 pub(crate) type ReadHeights<'a> = Box<dyn FnOnce(&Budget) -> Result<Vec<f32>> + 'a>;
 
-/// Refuses sizes that cannot be meant, before room is made for them.
+/// Fails for impossible sizes, before memory is allocated.
 pub(crate) fn check_size(name: &str, columns: usize, rows: usize) -> Result<()> {
     if columns < 2 || rows < 2 {
         return Err(Error::data(format!("{name} has {columns} x {rows} heights"))
@@ -61,7 +63,7 @@ pub(crate) fn check_size(name: &str, columns: usize, rows: usize) -> Result<()> 
     Ok(())
 }
 
-/// A height (m) as rasters hold it: to a millimetre below 16 km.
+/// Converts a height (m) to the precision of rasters: one millimetre below 16 km.
 #[allow(clippy::cast_possible_truncation, reason = "heights are f32")]
 pub(crate) fn narrow(height: f64) -> f32 {
     height as f32

@@ -1,20 +1,20 @@
-//! SRTM tiles (`.hgt`): a square of big-endian 16-bit heights of a degree, named after its corner; zipped or not.
+//! Reader of SRTM tiles (`.hgt`): a square degree of big-endian 16-bit heights, named after its south-west corner.
 
 use super::{HeightOptions, RasterHeader, SampleGrid, check_size, count};
 use crate::Crs;
 use burgeon_base::budget::Budget;
 use burgeon_base::error::{Error, Result};
 
-/// What stands for a height that is not known.
+/// Marker of an unknown height.
 const MISSING: i16 = -32768;
-/// How many heights the published tiles have, from west to east and from north to south: of three seconds, of one, of
-/// two by one where the north is, and of a half.
+/// Numbers of heights of the published tiles, from west to east and from north to south: three arc seconds, one, two by
+/// one in the north, and half.
 const SIZES: [[usize; 2]; 4] = [[1201, 1201], [3601, 3601], [1801, 3601], [7201, 7201]];
 
-/// Reads a tile called `name`. Its samples lie on the degrees, the first and the last included.
+/// Reads a tile called `name`. Its first and last samples are on whole degrees.
 ///
-/// Fails if neither its name nor `wanted` tells where it lies, and if it has another size than tiles have: a square of
-/// any, where `wanted` tells.
+/// Fails if neither its name nor `wanted` contains its position, and if its size is not that of a tile; with `bounds`
+/// in `wanted`, any square size is allowed.
 pub(crate) fn read<'a>(bytes: &'a [u8], name: &str, wanted: &HeightOptions) -> Result<RasterHeader<'a>> {
     let [columns, rows] = size(bytes.len(), name, wanted)?;
     let (grid, crs) = place(name, wanted, [columns, rows])?;
@@ -22,7 +22,7 @@ pub(crate) fn read<'a>(bytes: &'a [u8], name: &str, wanted: &HeightOptions) -> R
     Ok(RasterHeader { columns, rows, grid, crs, is_told: false, heights: Box::new(heights) })
 }
 
-/// The height (m) in two bytes.
+/// Returns the height (m) in two bytes.
 pub(crate) fn height(pair: &[u8]) -> f32 {
     match i16::from_be_bytes([pair[0], pair[1]]) {
         MISSING => f32::NAN,
@@ -30,7 +30,7 @@ pub(crate) fn height(pair: &[u8]) -> f32 {
     }
 }
 
-/// The columns and rows of so many bytes of heights.
+/// Returns the columns and rows of a file of heights with this number of bytes.
 pub(crate) fn size(bytes: usize, name: &str, wanted: &HeightOptions) -> Result<[usize; 2]> {
     if let Some(size) = SIZES.into_iter().find(|[columns, rows]| columns * rows * 2 == bytes) {
         return Ok(size);
@@ -49,7 +49,7 @@ pub(crate) fn size(bytes: usize, name: &str, wanted: &HeightOptions) -> Result<[
     Ok([side, side])
 }
 
-/// Where a tile lies, whose samples go from degree to degree, and in which coordinates.
+/// Returns the position and the coordinate system of a tile, whose samples extend from degree to degree.
 pub(crate) fn place(
     name: &str,
     wanted: &HeightOptions,
@@ -79,7 +79,7 @@ fn not_square(bytes: usize, name: &str) -> Error {
     }
 }
 
-/// The south-west corner (degrees) in a name such as `N43E007.hgt`.
+/// Returns the south-west corner (degrees) in a name such as `N43E007.hgt`.
 fn corner(name: &str) -> Option<[f64; 2]> {
     let angle = |text: &[u8], signs: [u8; 2], most: f64| {
         let (sign, digits) = text.split_first()?;

@@ -1,7 +1,7 @@
-//! What every file of heights has in common, and the formats that need no other program's code to be read.
+//! Common parts of all height formats, and the formats that need no external crates.
 //!
-//! Comes in: bytes. Goes out: a [`RasterHeader`], which says how many heights there are and where they lie, and reads them.
-//! Nothing is filled or mended here.
+//! Input: bytes. Output: a [`RasterHeader`] with the number and the positions of the heights, and a function that reads
+//! them. Heights are not filled or repaired here.
 
 pub(crate) mod ascii;
 mod header;

@@ -1,4 +1,4 @@
-//! Raw squares of little-endian floats, of 4 bytes (`.r32`, `.f32`) or of 8 (`.r64`, `.f64`).
+//! Reader of raw squares of little-endian floats, of 4 bytes (`.r32`, `.f32`) or 8 bytes (`.r64`, `.f64`).
 
 use super::{RasterHeader, check_size, narrow};
 use burgeon_base::budget::Budget;

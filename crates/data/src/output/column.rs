@@ -1,25 +1,25 @@
-//! What a column holds, as its values tell.
+//! Types of columns, determined from their values.
 
 use super::RecordTable;
 use crate::Attribute;
 
-/// What the values of a column are.
+/// Type of the values in a column.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum ColumnKind {
-    /// All are `true` or `false`.
+    /// All values are `true` or `false`.
     Boolean,
-    /// All are whole numbers.
+    /// All values are integers.
     Integer,
-    /// All are numbers.
+    /// All values are numbers.
     Number,
-    /// Some are texts, or they are of several kinds; what is no text is written as one.
+    /// Some values are texts, or the types differ; other values are written as text.
     Text,
 }
 
-/// The largest whole number below which all are numbers of a script.
+/// Largest integer (2^53) up to which a script's numbers represent all integers.
 const LARGEST: f64 = 9_007_199_254_740_992.0;
 
-/// What each column of `table` holds; one without values holds texts.
+/// Returns the type of each column in `table`; a column without values is text.
 pub fn column_kinds(table: &RecordTable) -> Vec<ColumnKind> {
     let mut kinds: Vec<Option<ColumnKind>> = vec![None; table.columns.len()];
     for record in &table.records {
@@ -49,7 +49,7 @@ pub fn column_kinds(table: &RecordTable) -> Vec<ColumnKind> {
 }
 
 impl Attribute {
-    /// The value as text; lists and tables as JSON.
+    /// Returns the value as text; lists and tables as JSON.
     pub fn text(&self) -> String {
         match self {
             Self::Boolean(value) => value.to_string(),

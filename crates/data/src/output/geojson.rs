@@ -1,4 +1,4 @@
-//! GeoJSON as RFC 7946 has it: degrees of WGS 84, outer rings counter-clockwise.
+//! Writer of GeoJSON according to RFC 7946: degrees of WGS 84, outer rings counter-clockwise.
 
 use std::io::{self, Write};
 
@@ -11,11 +11,11 @@ use crate::frame::ReferenceFrame;
 use burgeon_base::error::{Error, Result};
 use burgeon_spatial::Geometry;
 
-/// Writes `tables` as one collection of features; the name of its table is in the property `layer` of each if there are
-/// several tables.
+/// Writes `tables` as one feature collection. If there are several tables, the property `layer` of each feature
+/// contains the name of its table.
 ///
-/// Longitudes of a geometry across the antimeridian go on beyond 180. Fails if there are places and no `frame` that
-/// says where on the earth they are, and if one has no place there.
+/// Longitudes of a geometry across the antimeridian continue beyond 180. Fails if there are geometries but no `frame`
+/// with a position on Earth, and if a position has no longitude and latitude.
 pub fn write_geojson(
     tables: &[RecordTable],
     frame: Option<&ReferenceFrame>,
@@ -61,7 +61,7 @@ fn feature(
         let value = match record.value(column) {
             None => Json::Null,
             Some(Attribute::Boolean(value)) => Json::Bool(*value),
-            // What scripts count with is written without a point.
+            // Integers are written without a decimal point.
             #[allow(clippy::cast_possible_truncation, reason = "whole and small")]
             Some(Attribute::Number(number)) if number.fract() == 0.0 && number.abs() < 1e15 => {
                 Json::from(*number as i64)
@@ -83,7 +83,7 @@ fn feature(
     Ok(json!({ "type": "Feature", "id": record.id, "geometry": geometry, "properties": properties }))
 }
 
-/// Brings the geometry of a record to degrees.
+/// Converter of a record's geometry to degrees.
 struct DegreeWriter<'a> {
     outward: &'a OutputPlacement<'a>,
     record: &'a Record,
@@ -125,7 +125,7 @@ impl DegreeWriter<'_> {
             let Some(DVec3 { x, y, z }) = self.outward.place(*point) else { return Err(self.nowhere()) };
             let beyond = last.map_or(0.0, |last| ((last - x) / 360.0).round() * 360.0);
             last = Some(x + beyond);
-            // A tenth of a millimetre.
+            // Rounded to 0.1 mm.
             let round = |degrees: f64| (degrees * 1e9).round() / 1e9 + 0.0;
             Ok(if high {
                 json!([round(x + beyond), round(y), z])

@@ -1,7 +1,7 @@
-//! Tables of records on their way out: as layers of a GeoPackage or as GeoJSON.
+//! Output of tables of records as layers of a GeoPackage or as GeoJSON.
 //!
-//! Comes in: a [`RecordTable`] for each layer, in metres of a run's frame. Goes out: the same where the earth has it, in a
-//! coordinate system that other programs know. The same tables give the same bytes.
+//! Input: a [`RecordTable`] for each layer, in metres of a run's frame. Output: the same records georeferenced in a
+//! coordinate system that other programs support. The same tables yield the same bytes.
 
 mod column;
 mod geojson;

@@ -1,34 +1,34 @@
-//! From the metres of a run to where the earth has its places.
+//! Transformation of a run's coordinates to georeferenced coordinates.
 
 use glam::DVec3;
 
 use crate::frame::{Crs, Passage, ReferenceFrame};
 use burgeon_base::error::Result;
 
-/// The way of a run's places into a coordinate system that other programs know.
+/// Transformation of a run's coordinates to a coordinate system that other programs support.
 pub struct OutputPlacement<'a> {
-    /// Its EPSG code; none where the run's places are nowhere on the earth.
+    /// EPSG code; `None` if the run has no position on Earth.
     pub code: Option<u16>,
     passage: Option<Passage<'a>>,
 }
 
-/// Longitude and latitude of WGS 84.
+/// EPSG code of longitude and latitude of WGS 84.
 const DEGREES: u32 = 4326;
 
 impl<'a> OutputPlacement<'a> {
-    /// Into the projection of the run's data, or into degrees if it has one of its own; metres stay as they are without a
-    /// frame.
+    /// Returns the transformation to the projection of the run's data, or to degrees if that projection is specific to
+    /// the run; without a frame, metres are unchanged.
     pub fn native(frame: Option<&'a ReferenceFrame>) -> Result<Self> {
         Self::of(frame, |_| DEGREES)
     }
 
-    /// Into the projection of the run's data, or into the UTM zone of the run's middle if it has one of its own: lengths
-    /// are those of the ground but for a thousandth.
+    /// Returns the transformation to the projection of the run's data, or to the UTM zone of the run's centre if that
+    /// projection is specific to the run. Lengths are true to within a thousandth.
     pub fn metric(frame: Option<&'a ReferenceFrame>) -> Result<Self> {
         Self::of(frame, |frame| frame.middle.map_or(DEGREES, zone))
     }
 
-    /// Into longitude and latitude (degrees).
+    /// Returns the transformation to longitude and latitude (degrees).
     pub fn degrees(frame: &'a ReferenceFrame) -> Result<Self> {
         let crs = Crs::epsg(DEGREES)?;
         Ok(Self { code: crs.code, passage: Some(frame.passage(&crs)?) })
@@ -40,7 +40,7 @@ impl<'a> OutputPlacement<'a> {
         Ok(Self { code: crs.code, passage: Some(frame.passage(&crs)?) })
     }
 
-    /// Where a place (m) of the run is; none if it has no place there.
+    /// Returns the transformed position of a point (m) of the run; `None` if it cannot be projected.
     pub fn place(&self, at: DVec3) -> Option<DVec3> {
         let Some(passage) = &self.passage else { return Some(at) };
         let [x, y] = passage.leave([at.x, at.y]);
@@ -48,7 +48,7 @@ impl<'a> OutputPlacement<'a> {
     }
 }
 
-/// The EPSG code of the UTM zone around a longitude and a latitude (degrees).
+/// Returns the EPSG code of the UTM zone at a longitude and a latitude (degrees).
 fn zone([longitude, latitude]: [f64; 2]) -> u32 {
     #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "bounded before")]
     let number = (((longitude + 180.0) / 6.0).floor().rem_euclid(60.0)) as u32 + 1;

@@ -1,4 +1,4 @@
-//! A table of records.
+//! Table of records.
 
 use crate::Attribute;
 use burgeon_spatial::Geometry;
@@ -6,27 +6,27 @@ use burgeon_spatial::Geometry;
 /// Records with the same attributes.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct RecordTable {
-    /// What it is called; tables of one file may not have the same name.
+    /// Name, unique among the tables of a file.
     pub name: String,
-    /// The names of attributes, which may not repeat.
+    /// Attribute names, without duplicates.
     pub columns: Vec<String>,
-    /// The records.
+    /// Records.
     pub records: Vec<Record>,
 }
 
-/// What is known of one thing.
+/// Record of one object.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Record {
-    /// Tells it from all others of its table.
+    /// Id, unique within its table.
     pub id: String,
-    /// Where it is, in metres of a frame, if it is anywhere.
+    /// Geometry in metres of a frame, if any.
     pub geometry: Option<Geometry>,
-    /// The number of the column, and the value; in the order of the columns.
+    /// Column indices and values, in the order of the columns.
     pub values: Vec<(usize, Attribute)>,
 }
 
 impl RecordTable {
-    /// A copy with those columns alone whose names are among `names`.
+    /// Returns a copy with only the columns whose names are in `names`.
     #[must_use]
     pub fn with_columns(&self, names: &[String]) -> Self {
         let is_kept = |name: &&String| names.contains(name);
@@ -45,7 +45,7 @@ impl RecordTable {
 }
 
 impl Record {
-    /// Its value in column number `column`; numbers that are not finite are none.
+    /// Returns the value in the column with the index `column`; `None` for numbers that are not finite.
     pub fn value(&self, column: usize) -> Option<&Attribute> {
         let (_, value) = self.values.iter().find(|(known, _)| *known == column)?;
         match value {

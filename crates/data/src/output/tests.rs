@@ -7,7 +7,7 @@ use burgeon_base::stop::Stop;
 use burgeon_geometry::Rings;
 use burgeon_spatial::Geometry;
 
-/// The frame of a place of a coordinate system.
+/// Returns the frame at a position in a coordinate system.
 fn frame(code: u32, [x, y]: [f64; 2]) -> ReferenceFrame {
     ReferenceFrame::around(&Crs::epsg(code).unwrap(), [x, y], "a place").unwrap()
 }
@@ -53,7 +53,7 @@ fn lots() -> RecordTable {
     }
 }
 
-/// The layer called `layer` in what was written, in metres around its own origin.
+/// Reads back the layer called `layer` from written bytes, in metres relative to its own origin.
 fn read(bytes: &[u8], extension: &str, layer: Option<&str>) -> (FeatureTable, Vec<String>) {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join(format!("a.{extension}"));
@@ -241,7 +241,7 @@ proptest! {
     }
 }
 
-/// The files go to the folder `BURGEON_SAMPLES` if it is set, where other programs can look at them.
+/// Writes the files to the folder `BURGEON_SAMPLES` if it is set, for inspection with other programs.
 #[test]
 fn samples_are_written_for_other_programs() {
     let temporary = tempfile::tempdir().unwrap();
@@ -290,7 +290,7 @@ fn every_kind_of_geometry_is_written_and_mixed_kinds_are_told() {
     let bytes = write_geopackage(std::slice::from_ref(&table), Some(&frame), &Stop::default()).unwrap();
     assert!(bytes.windows(8).any(|found| found == b"GEOMETRY"));
     let (read, _) = read(&bytes, "gpkg", None);
-    // Features are of one part each.
+    // Each feature has one part.
     assert_eq!((read.features.len(), read.empty), (1 + 1 + 1 + 2 + 2 + 2 + 2 + 1, 1));
     let written = json(&[table], Some(&frame));
     let kinds: Vec<&str> = written["features"]

@@ -1,6 +1,6 @@
 //! What a run is told and what its script declares, without a virtual machine.
 //!
-//! Comes in: the options of a run and the text of its files. Goes out: a [`Session`] that all virtual machines of the run
+//! Input: the options of a run and the text of its files. Output: a [`Session`] that all virtual machines of the run
 //! share, with the parameters, the data and the analysis of every file. It never runs Lua.
 
 mod api;

@@ -1,6 +1,6 @@
 //! Derivation: rewrites the chains of a system step by step, in parallel, and has them interpreted in between.
 //!
-//! Comes in: a system as a script declared it. Goes out: a [`DerivedSystem`](crate::results::DerivedSystem). The chain of a
+//! Input: a system as a script declared it. Output: a [`DerivedSystem`](crate::results::DerivedSystem). The chain of a
 //! step is read-only while the next one is made, so a batch never sees what another batch does. It never knows what type
 //! an object is.
 //!

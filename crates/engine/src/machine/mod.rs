@@ -1,6 +1,6 @@
 //! A virtual machine: a sandboxed Luau with the hot path's Lua side, one in each thread.
 //!
-//! Comes in: a script and a session. Goes out: the systems that the script declares, and what their rules return. Nothing
+//! Input: a script and a session. Output: the systems that the script declares, and what their rules return. Nothing
 //! is rewritten here, and nothing of a script reaches files or the system but through the session.
 
 mod blank;

@@ -1,6 +1,6 @@
 //! Questions to data: what scripts ask in SQL, and the rows that answer them.
 //!
-//! Comes in: a text of SQL with the values of its parameters, and something that can answer it, a [`RowSource`]. Goes
+//! Input: a text of SQL with the values of its parameters, and something that can answer it, a [`RowSource`]. Goes
 //! out: [`Rows`], the same for the same question for as long as they are kept, and which of their columns fits which
 //! parameter of a module. It never runs Lua, and knows no database. A question that names modules is about a state of the
 //! chains, a [`ChainView`].

@@ -1,6 +1,6 @@
 //! What a derivation gives: the derived system, what could not be built of it, and which rules made what.
 //!
-//! Comes in: what the derivation hands over. Goes out: the same, to be asked by scripts, by commands and by the page.
+//! Input: what the derivation hands over. Output: the same, to be asked by scripts, by commands and by the page.
 //! It never runs a rule.
 
 mod derived_system;

@@ -1,4 +1,4 @@
-//! Puts a document together.
+//! Assembles a CityJSON document.
 
 use std::io::{self, Write as _};
 use std::path::Path;
@@ -20,7 +20,7 @@ use super::object::{CityObject, ObjectShape, Quantiser, STEPS, objects, placed};
 use super::templates::ShapeTemplates;
 use crate::Export;
 
-/// Objects whose shapes are found at a time.
+/// Number of objects whose shapes are computed at a time.
 const CHUNK: usize = 512;
 
 /// Writes a `.city.json` file to `path`.
@@ -61,7 +61,7 @@ pub(crate) fn write(export: &Export<'_>, path: &Path, files: &mut Files) -> Resu
     failed
 }
 
-/// An object that is described, by its id, with those that belong to it.
+/// Described object and the objects that belong to it, each with its id.
 type CityEntries = Vec<(String, Json)>;
 
 fn write_object(described: CityEntries, first: &mut bool, out: &mut Out) -> io::Result<()> {
@@ -75,7 +75,7 @@ fn write_object(described: CityEntries, first: &mut bool, out: &mut Out) -> io::
     Ok(())
 }
 
-/// A document that is being written.
+/// State of a document during writing.
 struct CityWriter<'a> {
     export: &'a Export<'a>,
     quantiser: &'a Quantiser<'a>,
@@ -92,7 +92,7 @@ impl CityWriter<'_> {
         })
     }
 
-    /// What there is to say of an object, and of what is fixed to it.
+    /// Returns the entries of an object and of the objects that are fixed to it.
     fn object(&mut self, object: &CityObject<'_>, shape: &ObjectShape) -> Result<CityEntries> {
         let detail = self.export.facts.detail;
         let numbers: Vec<u32> = shape.points.iter().map(|at| self.vertex(*at)).collect();
@@ -144,7 +144,7 @@ impl CityWriter<'_> {
         Ok(std::iter::once((object.id.clone(), described.into())).chain(fixed).collect())
     }
 
-    /// Writes what comes behind the objects.
+    /// Writes the rest of the document after the objects.
     fn write_rest(self, title: &str, origin: DVec3, out: &mut Out) -> io::Result<()> {
         let mut metadata = Map::new();
         metadata.insert("title".into(), title.into());
@@ -181,7 +181,7 @@ impl CityWriter<'_> {
     }
 }
 
-/// The attributes of an object's feature.
+/// Returns the attributes of an object's feature.
 fn attributes(object: &CityObject<'_>) -> Map<String, Json> {
     let Some((columns, record)) = object.record else { return Map::new() };
     let value = |column: usize| {
@@ -195,13 +195,13 @@ fn attributes(object: &CityObject<'_>) -> Map<String, Json> {
     columns.iter().enumerate().filter_map(|(column, name)| Some((name.clone(), value(column)?))).collect()
 }
 
-/// The rings of faces, by the numbers of vertices.
+/// Returns the rings of `faces` as numbers of vertices.
 pub(super) fn boundaries(faces: &[Face], number: impl Fn(u32) -> u32) -> Json {
     let ring = |ring: &Vec<u32>| ring.iter().map(|point| number(*point)).collect::<Json>();
     faces.iter().map(|face| face.rings.iter().map(ring).collect::<Json>()).collect()
 }
 
-/// What faces are; nothing if nothing is known of them.
+/// Returns the semantic surfaces of `faces`, or `None` if no face has a meaning.
 pub(super) fn semantics(faces: &[Face], in_solid: bool) -> Option<Json> {
     let mut meanings: Vec<SurfaceMeaning> = Vec::new();
     let mut values = Vec::new();

@@ -1,25 +1,25 @@
-//! Polygons of triangles: those that touch and lie in one plane.
+//! Polygons of adjacent coplanar triangles.
 
 use burgeon_scene::SurfaceMeaning;
 use glam::DVec3;
 use rustc_hash::FxHashMap;
 
-/// A polygon: its outer ring and its holes, by the numbers of points.
+/// Polygon: its outer ring and its holes, as numbers of points.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) struct Face {
     pub(super) rings: Vec<Vec<u32>>,
     pub(super) meaning: Option<SurfaceMeaning>,
 }
 
-/// A triangle with three different corners.
+/// Triangle with three different corners.
 pub(super) type Triangle = ([u32; 3], Option<SurfaceMeaning>);
 
-/// The cosine of the angle between faces that are one.
+/// Minimum cosine of the angle between the normals of triangles in one polygon.
 const SAME_WAY: f64 = 0.999;
-/// An edge that more than one triangle has in this direction.
+/// Marker of an edge that several triangles have in the same direction.
 const MANY: u32 = u32::MAX;
 
-/// The triangles on each side of an edge, by the edge's ends in the order of the triangle.
+/// Triangles on each side of an edge, by the edge's ends in the order of the triangle.
 pub(super) struct TriangleEdges(FxHashMap<(u32, u32), u32>);
 
 impl TriangleEdges {
@@ -33,12 +33,12 @@ impl TriangleEdges {
         Self(edges)
     }
 
-    /// Whether each edge has one triangle on each side.
+    /// Returns true if each edge has exactly one triangle on each side.
     pub(super) fn are_closed(&self) -> bool {
         !self.0.is_empty() && self.0.iter().all(|((a, b), of)| *of != MANY && self.0.contains_key(&(*b, *a)))
     }
 
-    /// The triangle on the other side of the edge from `a` to `b`.
+    /// Returns the triangle on the other side of the edge from `a` to `b`.
     fn beyond(&self, (a, b): (u32, u32)) -> Option<u32> {
         let there = self.0.get(&(a, b)).is_some_and(|of| *of != MANY);
         self.0.get(&(b, a)).copied().filter(|of| there && *of != MANY)
@@ -49,15 +49,15 @@ fn sides([a, b, c]: [u32; 3]) -> [(u32, u32); 3] {
     [(a, b), (b, c), (c, a)]
 }
 
-/// The volume (m³) that triangles enclose.
+/// Computes the volume (m³) that triangles enclose.
 pub(super) fn volume(points: &[DVec3], triangles: &[Triangle]) -> f64 {
     let Some(origin) = points.first() else { return 0.0 };
     let corner = |index: u32| points[index as usize] - *origin;
     triangles.iter().map(|([a, b, c], _)| corner(*a).dot(corner(*b).cross(corner(*c))) / 6.0).sum()
 }
 
-/// The polygons that `triangles` make up; points within `near` (m) of a plane lie in it. What has no area is left out
-/// unless it is a part of a polygon.
+/// Merges `triangles` into polygons. Points within `near` (m) of a plane belong to it. Triangles without area are
+/// omitted unless they are part of a polygon.
 pub(super) fn faces(points: &[DVec3], triangles: &[Triangle], edges: &TriangleEdges, near: f64) -> Vec<Face> {
     let mut finder = FaceFinder { points, triangles, edges, near, group_of: vec![None; triangles.len()] };
     let mut faces = Vec::new();
@@ -79,7 +79,7 @@ struct FaceFinder<'a> {
     triangles: &'a [Triangle],
     edges: &'a TriangleEdges,
     near: f64,
-    /// For each triangle, the first one of its polygon.
+    /// For each triangle, the first triangle of its polygon.
     group_of: Vec<Option<usize>>,
 }
 
@@ -94,7 +94,7 @@ impl FaceFinder<'_> {
         self.triangles[number].0.map(|corner| self.points[corner as usize])
     }
 
-    /// The direction of a triangle; none if it is as thin as what is `near`.
+    /// Returns the normal of a triangle, or `None` if the triangle is thinner than `near` (m).
     fn normal(&self, number: usize) -> Option<DVec3> {
         let [a, b, c] = self.corners(number);
         let across = (b - a).cross(c - a);
@@ -102,8 +102,8 @@ impl FaceFinder<'_> {
         (across.length() > longest * self.near).then(|| across.normalize_or_zero())
     }
 
-    /// The triangles that lie in the plane of the one with this `number` and touch it or one another; none if that has no
-    /// plane.
+    /// Collects triangle `number` and the triangles in its plane that are connected to it. Returns `None` if that
+    /// triangle has no plane.
     fn gather(&mut self, number: usize) -> Option<(FacePlane, Vec<usize>)> {
         let normal = self.normal(number)?;
         let plane = FacePlane { normal, distance: normal.dot(self.corners(number)[0]) };
@@ -132,7 +132,7 @@ impl FaceFinder<'_> {
             && self.normal(number).is_none_or(|normal| normal.dot(plane.normal) > SAME_WAY)
     }
 
-    /// The polygon of a group; none where its border meets itself or it has several parts.
+    /// Returns the polygon of a group, or `None` if its border touches itself or has several outer rings.
     fn polygon(&self, group: &[usize], normal: DVec3) -> Option<Face> {
         let first = self.group_of[*group.first()?];
         let mut next: FxHashMap<u32, u32> = FxHashMap::default();
@@ -178,7 +178,7 @@ impl FaceFinder<'_> {
         pairs.map(|(a, b)| point(*a).cross(point(*b)).dot(normal) / 2.0).sum()
     }
 
-    /// A triangle as a polygon of its own.
+    /// Returns a triangle as a separate polygon.
     fn alone(&self, number: usize) -> Option<Face> {
         let (corners, meaning) = self.triangles[number];
         self.normal(number).map(|_| Face { rings: vec![corners.to_vec()], meaning })

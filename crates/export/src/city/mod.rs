@@ -1,9 +1,9 @@
 //! CityJSON 2.0 (OGC 20-072r5), the exchange format of city models.
 //!
-//! Each chain becomes a city object: a building where its object tells walls from roofs, otherwise what its system says
-//! that it is, and else a `GenericCityObject`. What a chain has drawn is one solid where it is closed, with semantic
-//! surfaces; triangles in one plane are one polygon. Models that it placed are instances of templates. Coordinates are
-//! those of the data's projection, to a millimetre. How things look is not told.
+//! Each chain becomes a city object: a building if its object distinguishes walls from roofs, otherwise the class that
+//! its system specifies, otherwise a `GenericCityObject`. Closed drawings of a chain become one solid with semantic
+//! surfaces; coplanar triangles are merged into one polygon. Models that the chain placed are instances of templates.
+//! Coordinates are in the projection of the data, rounded to a millimetre. Materials and textures are not written.
 
 mod document;
 mod faces;

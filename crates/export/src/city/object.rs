@@ -1,4 +1,4 @@
-//! The city objects: which there are, what they are called, and what they are made of.
+//! City objects: their ids, classes and shapes.
 
 use burgeon_base::error::{Error, Result};
 use burgeon_data::output::{OutputPlacement, Record};
@@ -10,39 +10,39 @@ use super::super::check::{SceneCheck, shown};
 use super::faces::{Face, Triangle, TriangleEdges, faces, volume};
 use crate::SceneFacts;
 
-/// All that a chain has put into the scene.
+/// City object with all instances that its chain has added to the scene.
 pub(super) struct CityObject<'a> {
     pub(super) id: String,
     pub(super) class: CityClass,
     pub(super) record: Option<(&'a [String], &'a Record)>,
-    /// What it has drawn itself.
+    /// Instances that the chain has drawn itself.
     drawn: Vec<&'a Instance>,
-    /// The models that it has placed.
+    /// Instances of models that the chain has placed.
     pub(super) placed: Vec<&'a Instance>,
 }
 
-/// What a city object has drawn, in quantised coordinates.
+/// Drawn shape of a city object, in quantised coordinates.
 pub(super) struct ObjectShape {
     pub(super) points: Vec<[i64; 3]>,
     pub(super) faces: Vec<Face>,
-    /// Whether the faces enclose it.
+    /// Set if the faces enclose a volume.
     pub(super) closed: bool,
 }
 
-/// Where points of the scene are in the file.
+/// Conversion of points of the scene to the integer coordinates of the file.
 pub(super) struct Quantiser<'a> {
     pub(super) outward: &'a OutputPlacement<'a>,
-    /// Where the numbers are counted from.
+    /// Origin of the integer coordinates.
     pub(super) origin: DVec3,
 }
 
-/// Numbers in a metre.
+/// Quantisation steps per metre.
 pub(super) const STEPS: f64 = 1000.0;
-/// How far (m) from a plane a point may be that lies in it: twice what rounding moves it.
+/// Maximum distance (m) of a point from a plane that contains it: twice the rounding error.
 const NEAR: f64 = 2e-3;
 
 impl Quantiser<'_> {
-    /// Where a point (m) is. Fails if it has no place in the projection.
+    /// Returns the quantised coordinates of a point (m). Fails if the point is outside the projection's domain.
     pub(super) fn place(&self, at: DVec3) -> Result<[i64; 3]> {
         let place = self.outward.place(at).ok_or_else(|| nowhere(at))?;
         let steps = ((place - self.origin) * STEPS).round();
@@ -50,7 +50,7 @@ impl Quantiser<'_> {
         Ok(steps.to_array().map(|step| step as i64))
     }
 
-    /// How the projection turns what lies around a point (m).
+    /// Returns the rotation that the projection applies near a point (m).
     pub(super) fn turn(&self, at: DVec3) -> DMat3 {
         let east = self.outward.place(at + DVec3::X).zip(self.outward.place(at)).map(|(to, from)| to - from);
         let angle = east.map_or(0.0, |east| east.y.atan2(east.x));
@@ -66,7 +66,7 @@ fn nowhere(at: DVec3) -> Error {
     .help("leave it out, or read the data in a projection that reaches that far")
 }
 
-/// The city objects of a scene, in the order of their first instances.
+/// Returns the city objects of a scene, in the order of their first instances.
 pub(super) fn objects<'a>(checked: &SceneCheck<'a>, facts: &SceneFacts<'a>) -> Vec<CityObject<'a>> {
     let scene = checked.scene;
     let mut known: FxHashMap<Option<Origin>, usize> = FxHashMap::default();
@@ -108,13 +108,13 @@ pub(super) fn objects<'a>(checked: &SceneCheck<'a>, facts: &SceneFacts<'a>) -> V
     objects
 }
 
-/// Whether something of an instance is known to be a surface of a building.
+/// Returns true if a part of an instance is marked as a surface of a building.
 fn is_building(scene: &Scene, instance: &Instance) -> bool {
     let parts = &scene.meshes[instance.mesh].parts;
     instance.placement.is_none() && parts.iter().any(|part| !part.surfaces.is_empty())
 }
 
-/// Ids that are taken, each with the number that was tried last behind it.
+/// Ids that are in use, each with the last number that was appended to it.
 #[derive(Default)]
 pub(super) struct Identifiers(FxHashMap<String, usize>);
 
@@ -133,7 +133,7 @@ impl Identifiers {
 }
 
 impl CityObject<'_> {
-    /// What it has drawn.
+    /// Returns the drawn shape.
     pub(super) fn shape(&self, scene: &Scene, quantiser: &Quantiser<'_>) -> Result<ObjectShape> {
         let mut builder = ShapeBuilder::default();
         for instance in &self.drawn {
@@ -158,7 +158,7 @@ impl CityObject<'_> {
     }
 }
 
-/// Points without repeats, and triangles.
+/// Distinct points, and triangles between them.
 #[derive(Default)]
 struct ShapeBuilder {
     points: Vec<[i64; 3]>,
@@ -188,7 +188,7 @@ impl ShapeBuilder {
         let edges = TriangleEdges::of(&self.triangles);
         let closed = edges.are_closed() && volume(&near, &self.triangles) > 0.0;
         let mut faces = faces(&near, &self.triangles, &edges, NEAR);
-        // Those that nothing uses are left out.
+        // Points that no face uses are removed.
         let mut numbers: Vec<Option<u32>> = vec![None; self.points.len()];
         let mut points = Vec::new();
         for point in faces.iter_mut().flat_map(|face| face.rings.iter_mut().flatten()) {
@@ -201,7 +201,7 @@ impl ShapeBuilder {
     }
 }
 
-/// The transform of a placed model: turned as the projection turns, and where it stands.
+/// Returns the transform of a placed model: its matrix, rotated with the projection, and its position.
 pub(super) fn placed(instance: &Instance, quantiser: &Quantiser<'_>) -> Result<(DMat3, [i64; 3])> {
     let DAffine3 { matrix3, translation } = instance.transform;
     Ok((quantiser.turn(translation) * matrix3, quantiser.place(translation)?))

@@ -1,4 +1,4 @@
-//! ShapeTemplates: the shapes of models that are placed, each once.
+//! Templates: the shapes of placed models, each stored once.
 
 use burgeon_scene::{Instance, Scene, SurfaceMeaning};
 use rustc_hash::FxHashMap;
@@ -8,10 +8,10 @@ use super::super::check::shown;
 use super::document::{boundaries, semantics};
 use super::faces::{Triangle, TriangleEdges, faces};
 
-/// How far (m) from a plane a point of a model may be that lies in it.
+/// Maximum distance (m) of a point of a model from a plane that contains it.
 const NEAR: f64 = 1e-5;
 
-/// The templates that are used, in the order of their first use.
+/// Templates in use, in the order of their first use.
 #[derive(Default)]
 pub(super) struct ShapeTemplates {
     numbers: FxHashMap<(usize, Option<SurfaceMeaning>), usize>,
@@ -20,7 +20,7 @@ pub(super) struct ShapeTemplates {
 }
 
 impl ShapeTemplates {
-    /// The number of the template that an instance shows.
+    /// Returns the number of the template that an instance shows.
     pub(super) fn number(
         &mut self,
         scene: &Scene,
@@ -68,7 +68,7 @@ impl ShapeTemplates {
         self.templates.len() - 1
     }
 
-    /// What the file says of them; nothing without any.
+    /// Returns the templates as JSON, or `None` if there are none.
     pub(super) fn finish(self) -> Option<Json> {
         let Self { templates, points, .. } = self;
         (!templates.is_empty()).then(|| json!({ "templates": templates, "vertices-templates": points }))

@@ -20,7 +20,8 @@ fn written(scene: &Scene, facts: SceneFacts<'_>) -> Json {
     serde_json::from_slice(&std::fs::read(path).unwrap()).unwrap()
 }
 
-/// The boxes of a row as buildings: each is of a chain of its own, and its sides are walls, a roof and what it stands on.
+/// Returns the boxes of a row as buildings: each has a separate chain, and its sides are walls, a roof and a ground
+/// surface.
 fn buildings(count: usize) -> Scene {
     let mut scene = samples::boxes(count);
     let part = &mut scene.meshes[0].parts[0];
@@ -53,14 +54,14 @@ fn records(count: usize) -> SystemFacts {
     }
 }
 
-/// The vertices (m) that a file has.
+/// Returns the vertices (m) of a file.
 fn vertices(city: &Json) -> Vec<DVec3> {
     let vector = |value: &Json| DVec3::from([0, 1, 2].map(|axis| value[axis].as_f64().unwrap()));
     let (scale, origin) = (vector(&city["transform"]["scale"]), vector(&city["transform"]["translate"]));
     city["vertices"].as_array().unwrap().iter().map(|at| vector(at) * scale + origin).collect()
 }
 
-/// The volume (m³) inside a shell.
+/// Computes the volume (m³) inside a shell.
 fn volume(shell: &Json, vertices: &[DVec3]) -> f64 {
     let mut sum = 0.0;
     for ring in shell.as_array().unwrap().iter().flat_map(|face| face.as_array().unwrap()) {
@@ -170,7 +171,7 @@ fn levels_of_detail_and_classes_are_as_they_were_asked_for() {
     assert_eq!(road["geometry"][0].get("semantics"), None);
 }
 
-/// The samples go to the folder `BURGEON_SAMPLES` if it is set, where validators can look at them.
+/// Samples are kept in the folder `BURGEON_SAMPLES` if it is set, so that validators can check them.
 #[test]
 fn every_sample_is_written_and_nothing_is_lost_in_rounding() {
     let folder = tempfile::tempdir().unwrap();

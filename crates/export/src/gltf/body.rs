@@ -1,4 +1,4 @@
-//! The binary part of a glTF: planned first, so that its description can be written, then written piece by piece.
+//! Binary part of a glTF file. It is planned first, so that its description can be written, and then written in chunks.
 
 use super::super::check::shown;
 use super::corners::FaceCorners;
@@ -19,26 +19,26 @@ use std::sync::Arc;
 #[cfg(target_endian = "big")]
 compile_error!("glTF is little-endian and its arrays are written as they lie in memory");
 
-/// Items (vertices, triangles, numbers) that are put together at a time: what stays in a processor's own memory.
+/// Number of items (vertices, triangles, numbers) per chunk. A chunk fits into the cache of a processor core.
 const STRETCH: usize = 1 << 14;
 
-/// Corners of a batch of meshes, about.
+/// Approximate number of corners in a batch of meshes.
 const BATCH: usize = 1 << 18;
 
-/// Stretches that are put together while those before them are written.
+/// Number of chunks that are prepared while the previous ones are written.
 const AHEAD: usize = 16;
 
-/// Arrays that share a buffer view, since thousands of small views make a file slow to open.
+/// Type of arrays that share a buffer view. Thousands of small views make a file slow to open.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum ArrayKind {
     Positions,
     Normals,
-    /// Normals as four i8, of which the last is nothing.
+    /// Normals as four i8; the last is padding.
     ByteNormals,
-    /// Normals as four i16, of which the last is nothing.
+    /// Normals as four i16; the last is padding.
     ShortNormals,
     TexCoords,
-    /// Numbers of features.
+    /// Feature numbers.
     Features,
     /// Indices as u16.
     Short,
@@ -46,75 +46,75 @@ pub(super) enum ArrayKind {
     Long,
 }
 
-/// An array of the body.
+/// Array of the body.
 pub(super) enum BodyArray<'a> {
     Positions(&'a Part),
     Normals(&'a Part),
     ByteNormals(&'a Part),
     ShortNormals(&'a Part),
-    /// The texture coordinates of a part whose texture has this width and height (m).
+    /// Texture coordinates of a part, with the width and height (m) of its texture.
     TexCoords(&'a Part, [f64; 2]),
-    /// The indices of a part with this many triangles to be written, whose vertices begin with this number, as u16.
+    /// Indices of a part as u16, with the number of triangles to write and the number of its first vertex.
     Short(&'a Part, usize, u16),
     Long(&'a Part, usize),
-    /// The positions of a welded part.
+    /// Positions of a welded part.
     Places(Arc<FlatPart>),
-    /// The normals of a welded part as four i8.
+    /// Normals of a welded part as four i8.
     FaceNormals(Arc<FlatPart>),
-    /// The indices of a welded part whose vertices begin with this number, as u16.
+    /// Indices of a welded part as u16, with the number of its first vertex.
     ShortCorners(Arc<FlatPart>, u16),
     LongCorners(Arc<FlatPart>),
-    /// The positions of corners.
+    /// Positions of corners.
     CornerPlaces(Arc<FaceCorners<'a>>),
-    /// The texture coordinates of corners.
+    /// Texture coordinates of corners.
     CornerTexCoords(Arc<FaceCorners<'a>>),
-    /// The normals of corners.
+    /// Normals of corners.
     CornerNormals(Arc<FaceCorners<'a>>),
-    /// The indices of faces among corners, by their number, with this many triangles to be written, as u16.
+    /// Indices of faces among corners as u16, with the index of the faces and the number of triangles to write.
     ShortFaces(Arc<FaceCorners<'a>>, usize, usize),
     LongFaces(Arc<FaceCorners<'a>>, usize, usize),
     Floats(Vec<f32>),
-    /// The same number so many times.
+    /// Number that is repeated a number of times.
     Same(f32, usize),
     Shorts(Vec<i16>),
-    /// What is no array of numbers, such as text.
+    /// Data that is not an array of numbers, such as text.
     Blob(Vec<u8>),
     Bytes(&'a [u8]),
 }
 
-/// What the buffer views of a document show, in order.
+/// Contents of the buffer views of a document, in order.
 #[derive(Default)]
 pub(super) struct Body<'a> {
     sections: Vec<BufferSection<'a>>,
-    /// The corners that the sections of each batch show, and how many there are in the last one.
+    /// Corners that the sections of each batch use, and the number of corners in the last batch.
     batches: Vec<Vec<Arc<FaceCorners<'a>>>>,
     corners: usize,
 }
 
-/// What one buffer view shows.
+/// Content of one buffer view.
 struct BufferSection<'a> {
     shared: Option<ArrayKind>,
-    /// The number of its batch.
+    /// Number of its batch.
     batch: usize,
     blocks: Vec<BodyArray<'a>>,
     length: u64,
-    /// Its end is at a multiple of this (bytes).
+    /// Alignment of its end (bytes).
     alignment: u64,
 }
 
-/// Some blocks, or a part of one.
+/// Several blocks, or a part of one.
 struct Stretch<'a> {
     blocks: &'a [BodyArray<'a>],
-    /// What is taken of each block.
+    /// Range of items to take from each block.
     items: Range<usize>,
-    /// Zeros behind it (bytes).
+    /// Zeros after the items (bytes).
     padding: usize,
-    /// The number of its batch.
+    /// Number of its batch.
     batch: usize,
 }
 
 impl<'a> Body<'a> {
-    /// Adds `block` to the view of its kind. Returns the view and the offset in it (bytes).
+    /// Adds `block` to the shared view of type `kind`. Returns the view and the offset in it (bytes).
     pub(super) fn share(&mut self, kind: ArrayKind, block: BodyArray<'a>) -> (u32, u64) {
         let batch = self.batches.len();
         let mut sections = self.sections.iter().enumerate().rev().take_while(|(_, it)| it.batch == batch);
@@ -129,14 +129,15 @@ impl<'a> Body<'a> {
         (index as u32, offset)
     }
 
-    /// Adds `block` as a view of its own that begins at a multiple of 8, if there are only such before it.
+    /// Adds `block` as a separate view that begins at a multiple of 8, provided that all views before it are aligned
+    /// too.
     pub(super) fn add_aligned(&mut self, block: BodyArray<'a>) -> u32 {
         let index = self.add(block);
         self.sections[index as usize].alignment = 8;
         index
     }
 
-    /// Adds `block` as a view of its own.
+    /// Adds `block` as a separate view.
     pub(super) fn add(&mut self, block: BodyArray<'a>) -> u32 {
         let index = self.section(None);
         self.sections[index].length = block.length();
@@ -144,8 +145,8 @@ impl<'a> Body<'a> {
         index as u32
     }
 
-    /// From now on views are those of another batch if the present one has many corners: they are found once more when
-    /// they are written, and are in memory for as long as their batch is.
+    /// Starts a new batch of views if the current one has many corners. Corners are computed again when they are
+    /// written, and stay in memory while their batch is written.
     pub(super) fn begin_mesh(&mut self) {
         if self.corners > BATCH {
             self.batches.push(Vec::new());
@@ -153,7 +154,7 @@ impl<'a> Body<'a> {
         }
     }
 
-    /// Takes notice of corners that blocks of this batch will show.
+    /// Registers corners that blocks of this batch will use.
     pub(super) fn show(&mut self, corners: &Arc<FaceCorners<'a>>) {
         if self.batches.is_empty() {
             self.batches.push(Vec::new());
@@ -170,12 +171,12 @@ impl<'a> Body<'a> {
         self.sections.len() - 1
     }
 
-    /// Length (bytes) with padding; each view begins at a multiple of 4.
+    /// Returns the length (bytes) with padding; each view begins at a multiple of 4.
     pub(super) fn length(&self) -> u64 {
         self.sections.iter().map(BufferSection::end).sum()
     }
 
-    /// Adds the buffer and its views to `root`. Fails beyond 4 GiB.
+    /// Adds the buffer and its views to `root`. Fails if the body exceeds 4 GiB.
     pub(super) fn describe(&self, root: &mut json::Root) -> Result<()> {
         let length = self.length();
         within_limit(length)?;
@@ -206,8 +207,8 @@ impl<'a> Body<'a> {
         Ok(())
     }
 
-    /// Writes `head` and exactly [`length`](Self::length) bytes. While something is written, what comes next is put
-    /// together. Ends early if a `stop` was asked for.
+    /// Writes `head` and exactly [`length`](Self::length) bytes. While one chunk is written, the next ones are
+    /// prepared. Fails early if `stop` requests cancellation.
     pub(super) fn write(
         &self,
         head: Vec<Vec<u8>>,
@@ -222,7 +223,7 @@ impl<'a> Body<'a> {
                 return Ok(());
             }
             let present = next.first().map_or(0, |stretch| stretch.batch);
-            // Sections count batches from 1, for what comes before them is of none.
+            // Sections count batches from 1, because sections before the first batch belong to none.
             while released + 1 < present {
                 self.batches[released].iter().for_each(|corners| corners.release());
                 released += 1;
@@ -232,13 +233,13 @@ impl<'a> Body<'a> {
             let put = || next.par_iter().zip(&mut spare).for_each(|(stretch, bytes)| stretch.put(bytes));
             let (written, ()) = rayon::join(write, put);
             written?;
-            // Memory that has been written is used again, since fresh pages cost more than what is put into them.
+            // Buffers are reused after writing, because allocating fresh memory pages costs more than filling them.
             std::mem::swap(&mut ready, &mut spare);
         }
         ready.iter().try_for_each(|bytes| out.write_all(bytes))
     }
 
-    /// All of it, in order.
+    /// Divides the body into chunks, in order.
     fn stretches(&self) -> Vec<Stretch<'_>> {
         let mut stretches = Vec::new();
         for section in &self.sections {
@@ -271,7 +272,7 @@ impl<'a> Body<'a> {
 }
 
 impl Stretch<'_> {
-    /// Puts it into `bytes`, in the place of what is there.
+    /// Replaces the content of `bytes` by the chunk.
     fn put(&self, bytes: &mut Vec<u8>) {
         bytes.clear();
         for block in self.blocks {
@@ -282,7 +283,7 @@ impl Stretch<'_> {
 }
 
 impl BufferSection<'_> {
-    /// Its length (bytes) with padding.
+    /// Returns the length (bytes) with padding.
     fn end(&self) -> u64 {
         self.length.next_multiple_of(self.alignment)
     }
@@ -294,7 +295,7 @@ impl BufferSection<'_> {
         })
     }
 
-    /// Bytes from one vertex to the next; several accessors may share a view only if it says so.
+    /// Returns the distance (bytes) between vertices, which several accessors that share a view require.
     fn stride(&self) -> Option<usize> {
         match self.shared? {
             ArrayKind::Positions | ArrayKind::Normals => Some(12),
@@ -330,7 +331,7 @@ impl BodyArray<'_> {
         bytes as u64
     }
 
-    /// What it has before any of it is left out.
+    /// Returns the number of items before degenerate ones are skipped.
     fn items(&self) -> usize {
         match self {
             Self::Positions(part)
@@ -354,7 +355,7 @@ impl BodyArray<'_> {
         }
     }
 
-    /// Writes those `items` that are there.
+    /// Writes the `items` that exist.
     fn write(&self, items: Range<usize>, out: &mut Vec<u8>) {
         let range = items.start..items.end.min(self.items());
         match self {
@@ -405,7 +406,7 @@ impl BodyArray<'_> {
     }
 }
 
-/// Adds items as they lie in memory; how many there are at most has to be known.
+/// Appends items as they are stored in memory. The iterator must have an upper bound of its length.
 fn put<T: bytemuck::NoUninit>(out: &mut Vec<u8>, items: impl Iterator<Item = T>) {
     let begin = out.len();
     out.resize(begin + items.size_hint().1.unwrap_or(0) * size_of::<T>(), 0);
@@ -417,42 +418,42 @@ fn put<T: bytemuck::NoUninit>(out: &mut Vec<u8>, items: impl Iterator<Item = T>)
     out.truncate(end);
 }
 
-/// A vector of the scene, z up, in glTF's coordinates, y up. Adding zero turns -0 into 0.
+/// Converts a vector of the scene, z up, to glTF's coordinates, y up. Adding zero turns -0 into 0.
 pub(super) fn y_up(vector: Vec3) -> Vec3 {
     Vec3::new(vector.x, vector.z, -vector.y) + 0.0
 }
 
-/// The nearest integer. `round` is a function of the system's library for processors of every age.
+/// Returns the nearest integer. `round` is a library call on the baseline processor and therefore slower.
 #[allow(clippy::cast_possible_truncation, reason = "that is what it is for")]
 fn nearest(number: f32) -> i32 {
     (number + 0.5f32.copysign(number)) as i32
 }
 
-/// A unit vector as parts of 127, and a zero.
+/// Converts a unit vector to multiples of 1/127, followed by a zero.
 #[allow(clippy::cast_possible_truncation, reason = "bounded before")]
 fn byte_normal(normal: Normal) -> [i8; 4] {
     let [x, y, z] = y_up(normal.vector()).to_array().map(|it| nearest(it * 127.0));
     [x as i8, y as i8, z as i8, 0]
 }
 
-/// A unit vector as parts of 32767, and a zero.
+/// Converts a unit vector to multiples of 1/32767, followed by a zero.
 fn short_normal(normal: Normal) -> [i16; 4] {
     let [x, y, z] = y_up(normal.vector()).to_array().map(short);
     [x, y, z, 0]
 }
 
-/// A number from -1 to 1 as a part of 32767.
+/// Converts a number from -1 to 1 to a multiple of 1/32767.
 #[allow(clippy::cast_possible_truncation, reason = "bounded before")]
 pub(super) fn short(number: f32) -> i16 {
     nearest(number * 32767.0) as i16
 }
 
-/// Texture coordinates in metres, v upwards, as parts of the image, v downwards.
+/// Converts texture coordinates in metres, v upwards, to fractions of the image, v downwards.
 pub(super) fn tex_coord(uv: glam::Vec2, size: [f64; 2]) -> [f32; 2] {
     [(f64::from(uv.x) / size[0]) as f32, (1.0 - f64::from(uv.y) / size[1]) as f32]
 }
 
-/// `bytes` as the u32 that glTF's headers have, or what to do about it.
+/// Converts `bytes` to the u32 of glTF's headers. Fails if the length exceeds it.
 pub(super) fn within_limit(bytes: u64) -> Result<u32> {
     u32::try_from(bytes).map_err(|_| {
         let gigabytes = bytes as f64 / f64::from(1 << 30);

@@ -1,9 +1,9 @@
-//! The corners of a mesh's flat faces, each stored once.
+//! Corners of a mesh's flat faces, each stored once.
 //!
-//! In the scene every face has vertices of its own, for the sake of its normal, and those of neighbours lie at the same
-//! places. Where a glTF file gives no normals, faces are flat ("glTF 2.0 Specification", 3.7.2.1), so a corner is its
-//! place, and its texture coordinates if there are any. Of a city with facades that is a third of what the faces have.
-//! The few faces of such parts that are shaded otherwise than they lie are written by themselves, with normals.
+//! In the scene every face has separate vertices, because each has a normal, so adjacent faces repeat the same
+//! positions. A glTF file without normals has flat faces ("glTF 2.0 Specification", 3.7.2.1), so a corner consists of
+//! its position, and its texture coordinates if there are any. For a city with facades this leaves a third of the
+//! vertices. The few faces of such parts whose normals differ from their planes are written separately, with normals.
 
 use super::super::check::{shown, triangles};
 use super::body::{tex_coord, y_up};
@@ -14,49 +14,49 @@ use glam::Vec3;
 use std::ops::Range;
 use std::sync::{Arc, Mutex};
 
-/// No corner.
+/// Placeholder for a missing corner.
 const NONE: u32 = u32::MAX;
 
-/// The most vertices of parts that are looked through at a time, which bounds the memory.
+/// Maximum number of vertices of parts that are processed at a time; bounds the memory.
 pub(super) const MOST: usize = 1 << 22;
 
-/// Thinner triangles (m) have no normal that could be relied on, and are not seen.
+/// Minimum thickness (m) of a triangle with a reliable normal. Thinner triangles are not visible.
 const THIN: f32 = 1e-3;
 
-/// The cosine of the angle (a degree) that a normal may be off its face.
+/// Minimum cosine of the angle between a normal and the normal of its face (1 degree).
 const FLAT: f32 = 0.999_85;
 
-/// Faces of a part.
+/// Selected faces of a part.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct PartFaces<'a> {
     pub(super) part: &'a Part,
-    /// The width and height (m) of the part's texture, if it has texture coordinates.
+    /// Width and height (m) of the part's texture, if it has texture coordinates.
     pub(super) texture: Option<[f64; 2]>,
     pub(super) which: FaceChoice,
 }
 
-/// Which of the faces of a part are meant.
+/// Selection of faces of a part.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum FaceChoice {
-    /// All, which are flat.
+    /// Every face; all of them are flat.
     All,
-    /// Those that are flat.
+    /// Only flat faces.
     Flat,
-    /// The others.
+    /// Only faces that are not flat.
     Shaded,
 }
 
-/// The corners of faces of some parts of a mesh.
+/// Corners of selected faces of some parts of a mesh.
 pub(super) struct FaceCorners<'a> {
-    /// The faces; those with texture coordinates come first.
+    /// Selected faces; faces with texture coordinates come first.
     faces: Vec<PartFaces<'a>>,
     textured: CornerRange,
     all: CornerRange,
-    /// They themselves, while they are needed: what a city has is too much to be kept.
+    /// Computed corners while they are needed. The corners of a whole city would take too much memory.
     list: Mutex<Option<Arc<CornerList>>>,
 }
 
-/// How many corners there are from the first one on, and the box around them, in glTF's coordinates.
+/// Number of corners from the first one on, and their bounding box, in glTF's coordinates.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct CornerRange {
     pub(super) count: usize,
@@ -64,25 +64,25 @@ pub(super) struct CornerRange {
     pub(super) high: Vec3,
 }
 
-/// Corners, and where those of the parts have come to.
+/// Corners, and the mapping from the vertices of parts to corners.
 #[derive(Default)]
 pub(super) struct CornerList {
-    /// In glTF's coordinates.
+    /// Positions in glTF's coordinates.
     pub(super) positions: Vec<Vec3>,
-    /// Of the first ones.
+    /// Texture coordinates of the first corners.
     pub(super) tex_coords: Vec<[f32; 2]>,
-    /// Of faces that are shaded.
+    /// Normals, if the faces are shaded.
     pub(super) normals: Vec<Normal>,
-    /// For each part, the corner that each of its vertices has become.
+    /// For each part, the corner of each of its vertices.
     pub(super) of: Vec<Vec<u32>>,
 }
 
-/// How many triangles of `part` are flat.
+/// Counts the flat triangles of `part`.
 pub(super) fn flat_faces(part: &Part) -> usize {
     triangles(part).filter(|corners| is_flat(part, *corners)).count()
 }
 
-/// Whether a triangle of `part` is shaded as it lies.
+/// Returns true if the normals of a triangle of `part` equal the normal of its plane.
 fn is_flat(part: &Part, corners: [u32; 3]) -> bool {
     let [normal, other, third] = corners.map(|corner| part.normals[corner as usize]);
     if normal != other || normal != third {
@@ -97,7 +97,7 @@ fn is_flat(part: &Part, corners: [u32; 3]) -> bool {
 }
 
 impl<'a> PartFaces<'a> {
-    /// Those among some triangles of the part.
+    /// Returns the selected triangles within a range of the part's triangles.
     pub(super) fn triangles(self, places: Range<usize>) -> impl Iterator<Item = [u32; 3]> {
         let Self { part, which, .. } = self;
         shown(part.triangles.range(places)).filter(move |corners| match which {
@@ -109,7 +109,8 @@ impl<'a> PartFaces<'a> {
 }
 
 impl<'a> FaceCorners<'a> {
-    /// Those of `faces`, of which those with texture coordinates come first. All of them are shaded, or none is.
+    /// Computes the corners of `faces`, in which faces with texture coordinates come first. All of them are shaded, or
+    /// none is.
     pub(super) fn of(faces: Vec<PartFaces<'a>>) -> Self {
         let list = CornerList::of(&faces);
         let range = |positions: &[Vec3]| CornerRange {
@@ -121,33 +122,33 @@ impl<'a> FaceCorners<'a> {
         Self { faces, textured, all: range(&list.positions), list: Mutex::default() }
     }
 
-    /// Whether they have normals.
+    /// Returns true if the corners have normals.
     pub(super) fn are_shaded(&self) -> bool {
         self.faces.iter().any(|faces| faces.which == FaceChoice::Shaded)
     }
 
-    /// Those that a part refers to: one with texture coordinates to the first ones, the others to all.
+    /// Returns the range of corners that a part refers to: the first ones if the part is `textured`, otherwise all.
     pub(super) fn range(&self, textured: bool) -> CornerRange {
         if textured { self.textured } else { self.all }
     }
 
-    /// Whether there are parts with texture coordinates, or without.
+    /// Returns true if there are parts with texture coordinates (`textured`), or without.
     pub(super) fn has_parts(&self, textured: bool) -> bool {
         self.faces.iter().any(|faces| faces.texture.is_some() == textured)
     }
 
-    /// The faces of a part, by their number among those that were given.
+    /// Returns the faces of a part, by their index in the list given to [`of`](Self::of).
     pub(super) fn faces(&self, number: usize) -> PartFaces<'a> {
         self.faces[number]
     }
 
-    /// They themselves.
+    /// Returns the corners, computing them if necessary.
     pub(super) fn list(&self) -> Arc<CornerList> {
         let mut list = self.list.lock().recover();
         Arc::clone(list.get_or_insert_with(|| Arc::new(CornerList::of(&self.faces))))
     }
 
-    /// Gives up the memory that they take.
+    /// Frees the memory of the corners.
     pub(super) fn release(&self) {
         self.list.lock().recover().take();
     }
@@ -156,7 +157,7 @@ impl<'a> FaceCorners<'a> {
 impl CornerList {
     fn of(all: &[PartFaces<'_>]) -> Self {
         let vertices: usize = all.iter().map(|faces| faces.part.positions.len()).sum();
-        // Corners by place; at most two thirds of it are taken.
+        // Hash table of corners by position; at most two thirds of it are used.
         let mut places = vec![NONE; (vertices + vertices / 2 + 1).next_power_of_two()];
         let mut list = Self::default();
         for faces in all {
@@ -175,7 +176,8 @@ impl CornerList {
         list
     }
 
-    /// The corner at `at` with these texture coordinates, or with any, and with this normal; added if there is none.
+    /// Returns the corner at `at` with these texture coordinates, or with any if `None`, and with this normal. Adds the
+    /// corner if it does not exist.
     #[inline]
     fn corner(&mut self, at: Vec3, uv: Option<[f32; 2]>, normal: Option<Normal>, places: &mut [u32]) -> u32 {
         // The highest bits of the product depend on all bits of the coordinates.
@@ -238,7 +240,7 @@ mod tests {
         assert!(list.normals.iter().all(|normal| *normal == part.normals[0]));
     }
 
-    /// A part of faces between the points of a small grid, with texture coordinates that hardly differ.
+    /// Generates a part with faces between the points of a small grid and texture coordinates that hardly differ.
     fn part() -> impl Strategy<Value = Part> {
         let corner = (prop::array::uniform3(0u8..3), prop::array::uniform2(0u8..2));
         prop::collection::vec(prop::array::uniform3(corner), 0..20).prop_map(|faces| {

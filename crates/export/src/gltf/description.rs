@@ -1,7 +1,7 @@
-//! What a document says of what it holds, as JSON.
+//! Description of a document as JSON.
 //!
-//! A city has hundreds of thousands of accessors and primitives. They are plain data here: gltf-json's types have room
-//! for all that the specification knows, which takes longer to fill, to write and to free than what is drawn.
+//! A city has hundreds of thousands of accessors and primitives. They are plain structs here, because gltf-json's types
+//! have fields for the whole specification, which take longer to fill, write and free than the geometry.
 
 use burgeon_base::error::{Error, Result};
 use gltf_json as json;
@@ -11,22 +11,22 @@ use rayon::prelude::*;
 use serde::Serialize;
 use std::io::{self, Write};
 
-/// Items of a list that are turned into text at a time.
+/// Number of list items that are serialised at a time.
 const CHUNK: usize = 4096;
 
-/// All that a document says, as `'a`, the scene, calls it.
+/// Description of a document; names are borrowed from the scene (`'a`).
 #[derive(Default)]
 pub(super) struct Description<'a> {
-    /// What there are few of; it has no accessors, meshes and nodes.
+    /// Parts of the document with few items; accessors, meshes and nodes are stored below.
     pub(super) root: json::Root,
-    /// Extensions of the whole.
+    /// Extensions of the document.
     pub(super) extensions: Option<serde_json::Value>,
     pub(super) accessors: Vec<Accessor>,
     pub(super) meshes: Vec<MeshDescription<'a>>,
     pub(super) nodes: Vec<Node<'a>>,
 }
 
-/// An array: where it is and what it is made of.
+/// Accessor: location and type of an array.
 #[derive(Clone, Copy, Serialize)]
 #[serde(rename_all = "camelCase")]
 pub(super) struct Accessor {
@@ -35,12 +35,12 @@ pub(super) struct Accessor {
     pub(super) byte_offset: u64,
     pub(super) count: usize,
     pub(super) component_type: ComponentType,
-    /// Whether integers stand for numbers from -1 to 1.
+    /// Set if integers represent numbers from -1 to 1.
     #[serde(skip_serializing_if = "is_false")]
     pub(super) normalized: bool,
     #[serde(rename = "type")]
     pub(super) kind: Type,
-    /// The corners of the box around points.
+    /// Corners of the bounding box of points.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(super) min: Option<[f32; 3]>,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -54,7 +54,7 @@ pub(super) struct MeshDescription<'a> {
     pub(super) primitives: Vec<Primitive>,
 }
 
-/// The triangles of one material; numbers of accessors.
+/// Triangles of one material, as indices of accessors.
 #[derive(Clone, Serialize)]
 pub(super) struct Primitive {
     pub(super) attributes: Attributes,
@@ -67,24 +67,24 @@ pub(super) struct Primitive {
     pub(super) material: Option<json::Index<json::Material>>,
 }
 
-/// What a viewer of Burgeon's own is told of a primitive.
+/// Hints on a primitive for Burgeon's viewer.
 #[derive(Clone, Copy, Serialize)]
 pub(super) struct ShadingExtras {
-    /// Whether each triangle has the normal of its last corner.
+    /// Set if each triangle has the normal of its last corner.
     pub(super) flat: bool,
 }
 
-/// The accessors of vertices.
+/// Accessors of vertex attributes.
 #[derive(Clone, Copy, Serialize)]
 pub(super) struct Attributes {
     #[serde(rename = "POSITION")]
     pub(super) positions: usize,
-    /// Without them faces are flat.
+    /// Normals; faces without normals are flat.
     #[serde(rename = "NORMAL", skip_serializing_if = "Option::is_none")]
     pub(super) normals: Option<usize>,
     #[serde(rename = "TEXCOORD_0", skip_serializing_if = "Option::is_none")]
     pub(super) tex_coords: Option<usize>,
-    /// The features that vertices are of.
+    /// Feature numbers of vertices.
     #[serde(rename = "_FEATURE_ID_0", skip_serializing_if = "Option::is_none")]
     pub(super) features: Option<usize>,
 }
@@ -95,7 +95,8 @@ pub(super) struct Node<'a> {
     pub(super) children: Option<Vec<usize>>,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(super) extensions: Option<serde_json::Value>,
-    /// In the extras and not in the name, since viewers change names that repeat or have unusual letters.
+    /// Id of the feature. It is stored in the extras, because viewers change names that repeat or contain unusual
+    /// characters.
     #[serde(rename = "extras", skip_serializing_if = "Option::is_none")]
     pub(super) feature: Option<FeatureExtras<'a>>,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -110,13 +111,13 @@ pub(super) struct Node<'a> {
     pub(super) translation: Option<[f32; 3]>,
 }
 
-/// The id of the feature that a node shows.
+/// Id of the feature that a node shows.
 #[derive(Clone, Copy, Serialize)]
 pub(super) struct FeatureExtras<'a> {
     pub(super) feature: &'a str,
 }
 
-/// Everything, in gltf-json's order.
+/// Complete document, in gltf-json's order.
 #[derive(Serialize)]
 struct WholeDocument<'a> {
     #[serde(skip_serializing_if = "<[_]>::is_empty")]
@@ -131,7 +132,7 @@ struct WholeDocument<'a> {
     after: DocumentTail<'a>,
 }
 
-/// What stands between the accessors and the meshes.
+/// Fields between the accessors and the meshes.
 #[derive(Serialize)]
 #[serde(rename_all = "camelCase")]
 struct DocumentHead<'a> {
@@ -153,7 +154,7 @@ struct DocumentHead<'a> {
     materials: &'a [json::Material],
 }
 
-/// What stands behind the nodes.
+/// Fields after the nodes.
 #[derive(Serialize)]
 struct DocumentTail<'a> {
     #[serde(skip_serializing_if = "<[_]>::is_empty")]
@@ -164,13 +165,13 @@ struct DocumentTail<'a> {
 }
 
 impl<'a> Description<'a> {
-    /// Adds an accessor, and tells its number.
+    /// Adds an accessor and returns its index.
     pub(super) fn accessor(&mut self, accessor: Accessor) -> usize {
         self.accessors.push(accessor);
         self.accessors.len() - 1
     }
 
-    /// Adds a node, and tells its number.
+    /// Adds a node and returns its index.
     pub(super) fn node(&mut self, node: Node<'a>) -> usize {
         self.nodes.push(node);
         self.nodes.len() - 1
@@ -197,12 +198,12 @@ impl<'a> Description<'a> {
         }
     }
 
-    /// As text for people.
+    /// Writes the document as indented JSON.
     pub(super) fn write_pretty(&self, out: &mut impl Write) -> io::Result<()> {
         serde_json::to_writer_pretty(out, &self.whole()).map_err(io::Error::from)
     }
 
-    /// As text without a blank, in pieces to be put one after another.
+    /// Returns the document as compact JSON, in consecutive pieces.
     pub(super) fn text(&self) -> Result<Vec<Vec<u8>>> {
         let WholeDocument { accessors, before, meshes, nodes, after } = self.whole();
         let written = || -> serde_json::Result<Vec<Vec<u8>>> {
@@ -220,7 +221,7 @@ impl<'a> Description<'a> {
     }
 }
 
-/// A list with its name and a comma behind it, unless it is empty. All threads write it.
+/// Serialises a named list followed by a comma, unless the list is empty. Chunks are serialised in parallel.
 fn list<T: Serialize + Sync>(name: &str, items: &[T]) -> serde_json::Result<Vec<Vec<u8>>> {
     if items.is_empty() {
         return Ok(Vec::new());
@@ -228,7 +229,7 @@ fn list<T: Serialize + Sync>(name: &str, items: &[T]) -> serde_json::Result<Vec<
     let mut text = vec![format!("\"{name}\":").into_bytes()];
     let chunks = items.par_chunks(CHUNK).enumerate().map(|(number, chunk)| {
         let mut text = serde_json::to_vec(chunk)?;
-        // Between two chunks there is a comma in place of the end of one list and the beginning of another.
+        // Between two chunks, a comma replaces the end of one list and the beginning of the next.
         text.pop();
         if number > 0 {
             text[0] = b',';
@@ -240,7 +241,7 @@ fn list<T: Serialize + Sync>(name: &str, items: &[T]) -> serde_json::Result<Vec<
     Ok(text)
 }
 
-/// The fields of an object without the braces around them.
+/// Serialises the fields of an object without the enclosing braces.
 fn fields(object: &impl Serialize) -> serde_json::Result<Vec<u8>> {
     let mut text = serde_json::to_vec(object)?;
     text.pop();

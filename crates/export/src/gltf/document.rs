@@ -1,4 +1,4 @@
-//! Writes a scene as a document, and its arrays as the bytes behind it.
+//! Writes a scene as a document and its arrays as the binary part.
 
 use std::path::Path;
 
@@ -19,25 +19,25 @@ use glam::DAffine3;
 use gltf_json as json;
 use json::extras::RawValue;
 
-/// Allows attributes that are integers.
+/// Extension that allows integer attributes.
 const QUANTIZATION: &str = "KHR_mesh_quantization";
 
-/// Where the images of a document are.
+/// Location of a document's images.
 pub(super) enum Textures {
     /// In the body.
     Embedded,
-    /// In files of these names beside the document.
+    /// In files with these names next to the document.
     Beside(Vec<String>),
 }
 
-/// The description and what it describes.
+/// Description and the data that it describes.
 struct Document<'a> {
     description: Description<'a>,
     body: Body<'a>,
     layout: Layout,
 }
 
-/// Where the things of a scene are in a document.
+/// Mapping from the items of a scene to the nodes and meshes of a document.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct Layout {
     /// For each instance of the scene, the node that shows it.
@@ -46,22 +46,24 @@ pub struct Layout {
     pub meshes: Vec<Option<usize>>,
 }
 
-/// `scene` as the bytes of a `.glb` file.
+/// Encodes `scene` as the bytes of a `.glb` file.
 ///
-/// Fails if the scene is not sound, if a texture cannot be read, and beyond 4 GiB.
+/// Fails if the scene is invalid, if a texture cannot be read, or if the file exceeds 4 GiB.
 pub fn glb(scene: &Scene) -> Result<Vec<u8>> {
     bytes(scene, Arrays::default(), &Stop::default()).map(|(bytes, _)| bytes)
 }
 
-/// As [`glb`], for a viewer: it is as small as it can be without looking worse, and it is told where everything is.
+/// Encodes `scene` as [`glb`] does, but as small as possible without visible loss, for a viewer. Also returns the
+/// layout of the document.
 ///
-/// Primitives whose extras say `flat` are for viewers that know of it: each triangle has the normal of its last corner.
+/// Primitives with `flat` in their extras require a viewer that supports it: each triangle has the normal of its last
+/// corner.
 pub fn glb_for_viewer(scene: &Scene) -> Result<(Vec<u8>, Layout)> {
     bytes(scene, Arrays { small: true, measured: false }, &Stop::default())
 }
 
-/// As [`glb_for_viewer`], with everything in the same places, but all surfaces have texture coordinates: in metres
-/// where they have no texture. Fails if a `stop` was asked for, too.
+/// Encodes `scene` as [`glb_for_viewer`] does, with the same layout, but all surfaces have texture coordinates: in
+/// metres if they have no texture. Also fails if `stop` requests cancellation.
 pub fn glb_with_texture_coordinates(scene: &Scene, stop: &Stop) -> Result<Vec<u8>> {
     bytes(scene, Arrays { small: true, measured: true }, stop).map(|(bytes, _)| bytes)
 }
@@ -90,7 +92,7 @@ pub(crate) fn write_glb(scene: &Scene, facts: &SceneFacts<'_>, path: &Path, file
     files.write(path, |out| document.body.write(head, out, &stop))
 }
 
-/// Writes a `.gltf` file to `path`, and its `.bin` file and copies of the textures beside it.
+/// Writes a `.gltf` file to `path`, with a `.bin` file and copies of the textures next to it.
 pub(crate) fn write_gltf(
     scene: &Scene,
     facts: &SceneFacts<'_>,
@@ -114,7 +116,8 @@ pub(crate) fn write_gltf(
     files.write(path, |out| document.description.write_pretty(out))
 }
 
-/// Extras of the asset: the packages that a scene was made with, and its place on the earth; nothing without any.
+/// Returns the extras of the asset: the packages that the scene was made with, and its location on the earth. Empty if
+/// there are neither.
 fn asset_extras(packages: &[ScenePackage], facts: &SceneFacts<'_>) -> json::extras::Extras {
     let mut extras = serde_json::Map::new();
     if !packages.is_empty() {
@@ -169,7 +172,7 @@ impl<'a> Document<'a> {
         Ok(Self { description, body, layout: Layout { places: placed.places, meshes } })
     }
 
-    /// All of a `.glb` file but the body, in pieces: both headers and the description between them.
+    /// Returns everything of a `.glb` file except the body, in pieces: both headers and the description between them.
     fn head(&self) -> Result<Vec<Vec<u8>>> {
         let mut pieces = self.description.text()?;
         let written: usize = pieces.iter().map(Vec::len).sum();
@@ -191,11 +194,12 @@ impl<'a> Document<'a> {
     }
 }
 
-/// A name for people, or nothing.
+/// Returns a display name, or `None` if it is empty.
 pub(super) fn name(name: &str) -> Option<String> {
     (!name.is_empty()).then(|| name.to_owned())
 }
-/// Extras of the glTF scene: the ids of shared instances' features, and up for a camera if it is not glTF's own.
+/// Returns the extras of the glTF scene: the feature ids of shared instances, and the up vector of the camera if it
+/// differs from glTF's.
 fn scene_extras(features: &[&str], scene: &Scene) -> Option<Box<RawValue>> {
     let mut extras = serde_json::Map::new();
     if !features.is_empty() {

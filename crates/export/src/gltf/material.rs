@@ -12,7 +12,7 @@ use json::material::{AlphaMode, EmissiveFactor, PbrBaseColorFactor, PbrMetallicR
 use json::texture::{Info, MagFilter, MinFilter, Sampler};
 use json::validation::Checked::Valid;
 
-/// Adds the materials that are shown. Returns where each material of the scene is.
+/// Adds the shown materials. Returns the index of each material of the scene.
 pub(super) fn write<'a>(
     checked: &SceneCheck<'_>,
     images: &'a Images,
@@ -81,7 +81,8 @@ fn describe(
     let (emissive, strength) = emission(material.emissive);
     json::Material {
         name: name(&material.name),
-        // Half-opaque materials are mixed; images with holes, such as leaves, are cut out, which needs no sorting.
+        // Translucent materials are blended. Images with transparent pixels, such as leaves, are masked, which needs no
+        // sorting.
         alpha_mode: Valid(match base_color[3] < 1.0 {
             true => AlphaMode::Blend,
             false if has_alpha => AlphaMode::Mask,
@@ -112,7 +113,7 @@ fn describe(
     }
 }
 
-/// Lists `extension` among those used.
+/// Adds `extension` to the list of used extensions.
 pub(super) fn use_extension(root: &mut json::Root, extension: &str) {
     if !root.extensions_used.iter().any(|used| used == extension) {
         root.extensions_used.push(extension.into());
@@ -120,7 +121,7 @@ pub(super) fn use_extension(root: &mut json::Root, extension: &str) {
     }
 }
 
-/// Light as a colour up to 1, and its strength if that is more than 1.
+/// Splits emitted light into a colour of at most 1, and a strength if it exceeds 1.
 fn emission(light: [f32; 3]) -> ([f32; 3], Option<f32>) {
     let light = light.map(|it| if it.is_finite() { it.max(0.0) } else { 0.0 });
     let strength = light.into_iter().fold(0.0, f32::max);

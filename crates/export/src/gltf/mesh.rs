@@ -14,9 +14,9 @@ use json::accessor::{ComponentType, Type};
 use rayon::prelude::*;
 use std::sync::Arc;
 
-/// Adds the meshes that are shown. Returns where each mesh of the scene is.
+/// Adds the shown meshes. Returns the index of each mesh of the scene.
 ///
-/// Texture coordinates are left out where no texture needs them, unless `arrays` says that they are metres there.
+/// Texture coordinates are omitted if no texture needs them, unless `arrays` requests them in metres.
 pub(super) fn write<'a>(
     checked: &SceneCheck<'a>,
     metadata: Option<&Metadata>,
@@ -69,30 +69,31 @@ pub(super) fn write<'a>(
     written
 }
 
-/// Which arrays are written, and how.
+/// Selection and encoding of arrays.
 #[derive(Clone, Copy, Default)]
 pub(super) struct Arrays {
-    /// Whether surfaces without a texture have texture coordinates too, in metres.
+    /// Set if surfaces without a texture also have texture coordinates (m).
     pub(super) measured: bool,
-    /// Whether normals are integers, which `KHR_mesh_quantization` allows, and parts of flat triangles are [`FlatPart`]
-    /// unless they have texture coordinates: a viewer waits for each byte. It reads turns of instances as they are.
+    /// Set to minimise the size for a viewer: normals are integers, which `KHR_mesh_quantization` allows, and parts
+    /// with flat triangles become [`FlatPart`] unless they have texture coordinates. Rotations of instances are not
+    /// quantised.
     pub(super) small: bool,
 }
 
-/// A part, and the width and height (m) of its texture if it has texture coordinates.
+/// Part, with the width and height (m) of its texture if it has texture coordinates.
 struct PartView<'a> {
     part: &'a Part,
     texture: Option<[f64; 2]>,
     measured: PartExtent,
-    /// What is written in the part's place.
+    /// Welded part that is written instead.
     welded: Option<Arc<FlatPart>>,
-    /// Which of the part's faces are meant, if they have corners.
+    /// Selected faces of the part, if they are written by corners.
     which: Option<FaceChoice>,
-    /// Where their corners are, and their number among the faces that share them.
+    /// Corners of the part, and its index among the faces that share them.
     corners: Option<(Arc<FaceCorners<'a>>, usize)>,
 }
 
-/// The parts of a mesh; one with mostly flat faces is divided into these and the others, if there are any.
+/// Divides each mostly flat part into its flat faces and the others, if there are any.
 fn divide(parts: Vec<PartView<'_>>) -> Vec<PartView<'_>> {
     let mut divided = Vec::with_capacity(parts.len());
     for shown in parts {
@@ -127,7 +128,8 @@ fn divide(parts: Vec<PartView<'_>>) -> Vec<PartView<'_>> {
     divided
 }
 
-/// Lets parts of a mesh share their corners, or each its own if they are too many for short indices.
+/// Lets parts of a mesh share their corners, or gives each part separate corners if they are too many for short
+/// indices.
 fn share_corners(mut parts: Vec<&mut PartView<'_>>) {
     if parts.is_empty() {
         return;
@@ -150,22 +152,22 @@ fn share_corners(mut parts: Vec<&mut PartView<'_>>) {
     }
 }
 
-/// Where the vertices of a part are.
+/// Location of the vertices of a part.
 #[derive(Clone, Copy)]
 struct Vertices {
     accessors: Attributes,
-    /// The number of the part's first vertex there.
+    /// Number of the part's first vertex in the accessors.
     first: usize,
-    /// How many vertices there are.
+    /// Number of vertices.
     count: usize,
 }
 
-/// The highest u16 means the end of a strip, so it cannot be the index of a point.
+/// Maximum number of vertices for u16 indices. The highest u16 marks the end of a strip, so it cannot be an index.
 const SHORT: usize = u16::MAX as usize;
 
 impl Vertices {
-    /// Adds the vertices of the parts of a mesh. Small parts of a kind share their arrays: what describes an array
-    /// takes as much as four vertices, and cities have many small parts.
+    /// Adds the vertices of the parts of a mesh. Small parts of the same type share their arrays, because describing an
+    /// array takes as many bytes as four vertices, and cities have many small parts.
     fn of<'a>(
         parts: &[PartView<'a>],
         arrays: Arrays,
@@ -203,7 +205,7 @@ impl Vertices {
         found.into_iter().flatten().collect()
     }
 
-    /// Notes that all vertices of a mesh are of one feature.
+    /// Assigns all vertices of a mesh to one feature.
     fn note(all: &mut [Self], feature: FeaturePlace, description: &mut Description<'_>, body: &mut Body<'_>) {
         let mut known: Vec<(usize, usize)> = Vec::new();
         for vertices in all {
@@ -220,8 +222,8 @@ impl Vertices {
         }
     }
 
-    /// Adds corners: for parts without and with texture coordinates, as far as there are such. Parts without refer to
-    /// those of the others, too.
+    /// Adds corners for parts without and with texture coordinates, if there are such parts. Parts without texture
+    /// coordinates also refer to the corners of the others.
     fn at_corners<'a>(
         corners: &Arc<FaceCorners<'a>>,
         description: &mut Description<'a>,
@@ -263,7 +265,7 @@ impl Vertices {
         let count = parts.iter().map(|shown| shown.vertices()).sum();
         let low = parts.iter().fold(Vec3::INFINITY, |low, shown| low.min(shown.measured.low));
         let high = parts.iter().fold(Vec3::NEG_INFINITY, |high, shown| high.max(shown.measured.high));
-        // What points up in the scene points towards the viewer in glTF, so two corners change places there.
+        // The scene's z axis is glTF's y axis and its y axis is -z, so the corners of the box are sorted again.
         let (a, b) = (y_up(low), y_up(high));
         let (low, high) = (a.min(b), a.max(b));
         let mut add = |shared: ArrayKind,
@@ -314,12 +316,12 @@ impl Vertices {
 }
 
 impl<'a> PartView<'a> {
-    /// How many vertices are written.
+    /// Returns the number of vertices to write.
     fn vertices(&self) -> usize {
         self.welded.as_ref().map_or(self.part.positions.len(), |welded| welded.positions.len())
     }
 
-    /// Those of its faces that have corners.
+    /// Returns the faces that are written by corners, if any.
     fn faces(&self) -> Option<PartFaces<'a>> {
         self.which.map(|which| PartFaces { part: self.part, texture: self.texture, which })
     }
@@ -360,7 +362,7 @@ impl<'a> PartView<'a> {
     }
 }
 
-/// An accessor of `count` items at a place in a view (bytes).
+/// Returns an accessor of `count` items at an offset (bytes) in a view.
 pub(super) fn accessor(
     (buffer_view, byte_offset): (u32, u64),
     component_type: ComponentType,
@@ -379,8 +381,8 @@ pub(super) fn accessor(
     }
 }
 
-/// Whether all triangles of `part` are flat. Rounding a normal turns the light on a face by less than can be seen, but
-/// highlights wander over smooth surfaces.
+/// Returns true if all triangles of `part` are flat. Rounding a normal changes the light on a flat face invisibly, but
+/// makes highlights move on smooth surfaces.
 fn is_faceted(part: &Part) -> bool {
     let normal = |corner: u32| part.normals[corner as usize];
     part.triangles.iter().all(|[a, b, c]| normal(a) == normal(b) && normal(b) == normal(c))

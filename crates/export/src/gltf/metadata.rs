@@ -1,8 +1,8 @@
-//! Whose everything is, and what is known of them: feature ids and tables of properties.
+//! Features of the model and their attributes: feature ids and property tables.
 //!
-//! A mesh that shows one feature has its number at each vertex (`EXT_mesh_features`); where instances of a mesh are of
-//! several features, each instance has it (`EXT_instance_features`). The number is a row of a table of properties
-//! (`EXT_structural_metadata`), one table for each system.
+//! A mesh that shows one feature stores the feature's number at each vertex (`EXT_mesh_features`). If instances of a
+//! mesh belong to several features, each instance stores it (`EXT_instance_features`). The number is a row of a
+//! property table (`EXT_structural_metadata`), with one table for each system.
 //!
 //! Specification: Cesium GS, "3D Metadata Specification" and the three extensions of glTF, 2023.
 
@@ -21,34 +21,34 @@ const MESH_FEATURES: &str = "EXT_mesh_features";
 pub(super) const INSTANCE_FEATURES: &str = "EXT_instance_features";
 const STRUCTURAL: &str = "EXT_structural_metadata";
 
-/// What stands for a number that is not there.
+/// Placeholder for a missing number.
 const NO_NUMBER: f64 = f64::MIN;
 
-/// A feature: its table and its row there.
+/// Feature: its table and its row in the table.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct FeaturePlace {
     pub(super) table: usize,
     pub(super) row: usize,
 }
 
-/// Which features a mesh shows.
+/// Features that a mesh shows.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum MeshFeatures {
     None,
     One(FeaturePlace),
-    /// Several, or one and what is of none.
+    /// Several features, or one feature and instances without one.
     Several,
 }
 
-/// Whose the things of a scene are.
+/// Features of the items of a scene.
 pub(super) struct Metadata {
-    /// The tables, and the systems that they are of.
+    /// Tables with the systems that they belong to.
     tables: Vec<(usize, RecordTable)>,
     meshes: Vec<MeshFeatures>,
 }
 
 impl Metadata {
-    /// What is to be told of `scene`; none if that is not asked for or there are no features.
+    /// Collects the metadata of `scene`. Returns `None` if metadata is not requested or there are no features.
     pub(super) fn of(scene: &Scene, facts: &SceneFacts<'_>) -> Option<Self> {
         let attributes = facts.metadata?;
         let systems = facts.systems.iter().filter(|system| !system.records.records.is_empty());
@@ -71,7 +71,7 @@ impl Metadata {
         Some(metadata)
     }
 
-    /// The feature that an instance is of.
+    /// Returns the feature of an instance.
     pub(super) fn of_instance(&self, instance: &Instance) -> Option<FeaturePlace> {
         let origin = instance.origin?;
         let table = self.tables.iter().position(|(system, _)| *system == origin.system)?;
@@ -79,12 +79,12 @@ impl Metadata {
         Some(FeaturePlace { table, row })
     }
 
-    /// The number of that feature in its table; -1 for none.
+    /// Returns the row of the instance's feature in its table; -1 for none.
     pub(super) fn number_of(&self, instance: &Instance) -> f32 {
         self.of_instance(instance).map_or(-1.0, |place| place.row as f32)
     }
 
-    /// The one feature that a mesh shows.
+    /// Returns the feature of a mesh that shows exactly one.
     pub(super) fn of_mesh(&self, mesh: usize) -> Option<FeaturePlace> {
         match self.meshes[mesh] {
             MeshFeatures::One(place) => Some(place),
@@ -92,7 +92,7 @@ impl Metadata {
         }
     }
 
-    /// Whether a mesh shows several features, so that its instances have to tell.
+    /// Returns true if a mesh shows several features, so that its instances store them.
     pub(super) fn is_shared(&self, mesh: usize) -> bool {
         self.meshes[mesh] == MeshFeatures::Several
     }
@@ -105,7 +105,7 @@ impl Metadata {
         }
     }
 
-    /// Writes the tables, before anything else is written; returns the extensions of the document.
+    /// Writes the tables, before all other data. Returns the extensions of the document.
     pub(super) fn write(&self, body: &mut Body<'_>) -> Json {
         let (mut classes, mut tables) = (Map::new(), Vec::new());
         let mut names = FxHashSet::default();
@@ -135,20 +135,20 @@ impl Metadata {
 }
 
 impl FeaturePlace {
-    /// The extension of a primitive that shows it alone.
+    /// Returns the extension of a primitive that shows only this feature.
     pub(super) fn of_primitive(self) -> Json {
         let ids = json!([{ "featureCount": 1, "attribute": 0, "propertyTable": self.table }]);
         json!({ MESH_FEATURES: { "featureIds": ids } })
     }
 }
 
-/// What a node says of the features that its instances are of.
+/// Returns the extension of a node with the features of its instances.
 pub(super) fn instance_features(features: &[f32], table: usize) -> Json {
     let different: FxHashSet<u32> = features.iter().map(|number| number.to_bits()).collect();
     json!({ "featureIds": [{ "featureCount": different.len(), "attribute": 0, "propertyTable": table }] })
 }
 
-/// `name` as an identifier that none of `taken` is.
+/// Converts `name` to an identifier that differs from all in `taken`.
 fn identifier(name: &str, taken: &mut FxHashSet<String>) -> String {
     let letter = |letter: char| if letter.is_ascii_alphanumeric() { letter } else { '_' };
     let plain: String = name.chars().map(letter).collect();
@@ -163,7 +163,7 @@ fn identifier(name: &str, taken: &mut FxHashSet<String>) -> String {
     free
 }
 
-/// What the schema says of a column, and where its values are.
+/// Returns the schema entry of a column and the location of its values.
 fn property(table: &RecordTable, column: usize, kind: ColumnKind, body: &mut Body<'_>) -> (Json, Json) {
     let cells = || table.records.iter().map(|record| record.value(column));
     let complete = cells().all(|cell| cell.is_some());
@@ -192,7 +192,7 @@ fn property(table: &RecordTable, column: usize, kind: ColumnKind, body: &mut Bod
                 json!({ "values": body.add_aligned(BodyArray::Blob(bytes)) }),
             )
         }
-        // A boolean cannot be missing.
+        // A boolean has no value that could mark a missing one.
         ColumnKind::Boolean => {
             let byte = |cell: Option<&Attribute>| match cell {
                 Some(Attribute::Boolean(value)) => u8::from(*value),
@@ -218,7 +218,7 @@ fn property(table: &RecordTable, column: usize, kind: ColumnKind, body: &mut Bod
     }
 }
 
-/// Writes texts one behind the other, and where each begins; returns where they are.
+/// Writes strings one after another, and the offset of each. Returns the locations.
 fn strings(texts: &[Option<String>], missing: &str, body: &mut Body<'_>) -> Json {
     let (mut bytes, mut offsets) = (Vec::new(), Vec::new());
     for text in texts {
@@ -226,7 +226,7 @@ fn strings(texts: &[Option<String>], missing: &str, body: &mut Body<'_>) -> Json
         bytes.extend_from_slice(text.as_deref().unwrap_or(missing).as_bytes());
     }
     offsets.push(bytes.len() as u64);
-    // A view has at least one byte.
+    // A view must have at least one byte.
     if bytes.is_empty() {
         bytes.push(0);
     }

@@ -1,4 +1,4 @@
-//! A reader of features and their properties in `.glb` files.
+//! Tests with a reader of features and their properties in `.glb` files.
 
 use std::collections::HashSet;
 
@@ -13,7 +13,7 @@ use super::super::samples;
 use crate::{Export, Files, SceneFacts, SystemFacts};
 use burgeon_picture::Picture;
 
-/// The description and the body of a file.
+/// Description and body of a file.
 struct Binary {
     json: Json,
     body: Vec<u8>,
@@ -39,7 +39,7 @@ fn written(scene: &Scene, systems: &[SystemFacts], metadata: bool) -> Binary {
 }
 
 impl Binary {
-    /// The bytes of a view, which begin at a multiple of 8.
+    /// Returns the bytes of a view, which begins at a multiple of 8.
     fn view(&self, index: &Json) -> &[u8] {
         let view = &self.json["bufferViews"][index.as_u64().unwrap() as usize];
         let from = view["byteOffset"].as_u64().unwrap_or(0) as usize;
@@ -47,7 +47,7 @@ impl Binary {
         &self.body[from..from + view["byteLength"].as_u64().unwrap() as usize]
     }
 
-    /// The numbers of an accessor of `f32`.
+    /// Returns the numbers of an accessor of `f32`.
     fn numbers(&self, accessor: &Json) -> Vec<f32> {
         let accessor = &self.json["accessors"][accessor.as_u64().unwrap() as usize];
         assert_eq!((&accessor["componentType"], &accessor["type"]), (&json!(5126), &json!("SCALAR")));
@@ -62,7 +62,7 @@ impl Binary {
         &self.json["extensions"]["EXT_structural_metadata"]
     }
 
-    /// The values of a property of a table; nothing where one is missing.
+    /// Returns the values of a property of a table; `None` for missing ones.
     fn column(&self, table: usize, name: &str) -> Vec<Option<Attribute>> {
         let table = &self.metadata()["propertyTables"][table];
         let class = &self.metadata()["schema"]["classes"][table["class"].as_str().unwrap()];
@@ -116,7 +116,7 @@ fn facts(system: usize, columns: &[&str], rows: Vec<Vec<Option<Attribute>>>) -> 
     SystemFacts { system, records: RecordTable { name: "1 häuser".into(), columns, records }, class: None }
 }
 
-/// `scene` with a chain of system 0 for each instance, of which the models that are placed share a mesh.
+/// Assigns each instance of `scene` to a separate chain of system 0. Placed models share a mesh.
 fn with_features(mut scene: Scene) -> Scene {
     for (chain, instance) in scene.instances.iter_mut().enumerate() {
         instance.origin = Some(Origin { system: 0, chain, record: Some(chain) });
@@ -136,7 +136,7 @@ fn without_being_asked_files_stay_as_they_were() {
 
 #[test]
 fn each_instance_of_a_shared_mesh_and_each_vertex_of_one_of_its_own_knows_its_feature() {
-    // Six boxes of one mesh, one of them sheared, and one with a mesh of its own.
+    // Six boxes with one mesh, one of them sheared, and one box with a separate mesh.
     let mut scene = samples::many(6);
     scene.instances[5].transform.matrix3.x_axis.y += 0.7;
     scene.meshes.push(samples::cube("own", 0));
@@ -219,7 +219,7 @@ proptest! {
             let booleans = name == "_1" && rows.iter().all(|row| matches!(row[column], Some(Attribute::Boolean(_))));
             for (row, read) in rows.iter().zip(file.column(0, name)) {
                 let given = row[column].clone().filter(|it| !matches!(it, Attribute::Number(number) if !number.is_finite()));
-                // A column of several kinds holds texts.
+                // A column of several types contains strings.
                 let given = given.map(|it| if texts && !booleans { Attribute::Text(it.text().into()) } else { it });
                 prop_assert_eq!(read, given, "{}", name);
             }

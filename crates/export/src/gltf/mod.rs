@@ -1,8 +1,8 @@
 //! glTF 2.0, which viewers, game engines and Blender open.
 //!
-//! glTF is y up: a point (x, y, z) of the scene is (x, z, -y) in the file, and transforms are turned alike.
-//! Each mesh is stored once, whatever the number of its instances (`place`). Arrays go straight from the
-//! scene to the file (`body`); only what describes them is held in memory.
+//! glTF is y up: a point (x, y, z) of the scene is (x, z, -y) in the file, and transforms are converted accordingly.
+//! Each mesh is stored once, regardless of the number of its instances (`place`). Arrays are written directly from the
+//! scene to the file (`body`); only their description is kept in memory.
 //!
 //! Specification: Khronos Group, "glTF 2.0 Specification", 2021.
 

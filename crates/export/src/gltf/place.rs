@@ -1,4 +1,4 @@
-//! Where meshes stand: a node for each instance, or one node for many.
+//! Nodes of instances: one node for each instance, or one node for many.
 
 use super::super::check::{PartExtent, SceneCheck};
 use super::super::decompose::{Steps, Trs, decompose, y_up};
@@ -16,32 +16,32 @@ use rustc_hash::FxHashMap;
 
 const INSTANCING: &str = "EXT_mesh_gpu_instancing";
 
-/// From how many on instances share a node.
+/// Minimum number of instances that share a node.
 ///
-/// A node takes about 130 bytes of JSON, an instance up to 40 of the body and its share of some 600 that
-/// describe the arrays; so from 7 on sharing is smaller. But a reader that does not know the extension cannot
-/// open the file, so sharing has to be worth it: at 16 it halves the size.
+/// A node takes about 130 bytes of JSON. An instance of a shared node takes up to 40 bytes of the body and its share of
+/// about 600 bytes that describe the arrays, so sharing is smaller from 7 instances on. But a reader that does not
+/// support the extension cannot open the file, so sharing must be worth it: at 16 instances it halves the size.
 const ENOUGH: usize = 16;
 
-/// Instances that differ in their transform alone.
+/// Properties that instances of one node have in common; only their transforms differ.
 #[derive(PartialEq, Eq, Hash, Clone, Copy)]
 struct InstanceKind<'a> {
     mesh: usize,
     name: &'a str,
-    /// Renderers choose the side that is seen once for all instances of a node.
+    /// Set if the instances are mirrored. Renderers choose the visible side once for all instances of a node.
     mirrored: bool,
-    /// The property table that tells of the features which they are of.
+    /// Property table of the features of the instances.
     table: Option<usize>,
 }
 
-/// The attribute that tells which feature an instance is of, as `EXT_instance_features` names it: a number in the list
-/// `features` of the scene's extras, or -1.
+/// Attribute with the feature of an instance, named as in `EXT_instance_features`: an index into the list `features` of
+/// the scene's extras, or -1.
 const FEATURE: &str = "_FEATURE_ID_0";
 
-/// The most (radians, 0.0036 degrees) that a turn is off if each number of its quaternion is a part of 32767.
+/// Maximum error (radians, 0.0036 degrees) of a rotation whose quaternion is stored as multiples of 1/32767.
 const ROUNDING: f64 = 6.2e-5;
 
-/// The most (m) that rounding a turn may move a point of what is turned.
+/// Maximum displacement (m) of a point by rounding a rotation.
 const UNSEEN: f64 = 1e-3;
 
 #[derive(Default)]
@@ -51,34 +51,34 @@ struct InstanceGroup {
     translations: Vec<f32>,
     rotations: Vec<f32>,
     scales: Vec<f32>,
-    /// The largest factor of a scale.
+    /// Largest scale factor.
     largest: f64,
 }
 
-/// The numbers of an attribute of instances, all that each has after another.
+/// Values of an instance attribute, for one instance after another.
 enum AttributeColumn {
     Floats(Vec<f32>),
-    /// Whole numbers, or parts of 32767.
+    /// Integers; if the flag is set, multiples of 1/32767.
     Shorts(Vec<i16>, bool),
 }
 
-/// Where an instance of the scene is in a document.
+/// Location of an instance of the scene in a document.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct InstancePlace {
-    /// The node that shows it, as an index into the document's nodes.
+    /// Index of the node in the document's nodes.
     pub node: usize,
-    /// Its number among the instances that share the node; `None` if it has the node to itself.
+    /// Index of the instance among those that share the node; `None` if the node shows only this instance.
     pub shared: Option<usize>,
 }
 
-/// What [`write`] has added.
+/// Nodes that [`write`] has added.
 #[derive(Default)]
 pub(super) struct InstanceNodes<'a> {
-    /// The nodes of the scene's top.
+    /// Root nodes of the scene.
     pub(super) nodes: Vec<usize>,
-    /// Where each instance is; `None` for one that has nothing to show.
+    /// Location of each instance; `None` if the instance shows nothing.
     pub(super) places: Vec<Option<InstancePlace>>,
-    /// The features that instances which share a node are of.
+    /// Features of instances that share a node.
     pub(super) features: Vec<&'a str>,
 }
 
@@ -160,7 +160,8 @@ pub(super) fn write<'a>(
 }
 
 impl<'a> InstanceKind<'a> {
-    /// The kind of an instance that may share its node: what is drawn for a feature has its own, which bears its id.
+    /// Returns the group key of an instance that may share its node. A drawing of a feature has a separate node, which
+    /// stores the feature's id.
     fn of(instance: &'a Instance, metadata: Option<&Metadata>) -> Option<Self> {
         let shared = metadata.is_some_and(|metadata| metadata.is_shared(instance.mesh));
         (instance.feature.is_none() || instance.placement.is_some() || shared).then(|| Self {
@@ -171,18 +172,18 @@ impl<'a> InstanceKind<'a> {
         })
     }
 
-    /// Whether its instances have to tell whose they are, since their mesh cannot.
+    /// Returns true if the instances store their features, because their mesh cannot.
     fn has_features(&self, metadata: Option<&Metadata>) -> bool {
         self.table.is_some() && metadata.is_some_and(|metadata| metadata.is_shared(self.mesh))
     }
 
-    /// What is left for the instance if its node mirrors.
+    /// Returns the transform that remains for the instance if its node mirrors.
     fn mirror(self, transform: DAffine3) -> DAffine3 {
         if self.mirrored { DAffine3::from_scale(DVec3::new(-1.0, 1.0, 1.0)) * transform } else { transform }
     }
 }
 
-/// The features that are named by number.
+/// Features that are referred to by number.
 #[derive(Default)]
 struct FeatureNumbers<'a> {
     list: Vec<&'a str>,
@@ -190,7 +191,7 @@ struct FeatureNumbers<'a> {
 }
 
 impl<'a> FeatureNumbers<'a> {
-    /// The number of a feature; -1 for none.
+    /// Returns the number of a feature; -1 for `None`.
     fn number(&mut self, feature: Option<&'a str>) -> f32 {
         let Some(feature) = feature else { return -1.0 };
         let number = *self.numbers.entry(feature).or_insert_with(|| {
@@ -202,7 +203,7 @@ impl<'a> FeatureNumbers<'a> {
 }
 
 impl InstanceGroup {
-    /// Adds an instance, unless its transform is sheared.
+    /// Adds an instance and returns true, unless its transform is sheared.
     fn take(&mut self, transform: &DAffine3) -> bool {
         let Steps::One(Trs { translation, rotation, scale }) = decompose(transform) else { return false };
         self.translations.extend((translation.as_vec3() + 0.0).to_array());
@@ -213,14 +214,15 @@ impl InstanceGroup {
     }
 }
 
-/// How far (m) the points of a mesh are from its origin at most.
+/// Returns the maximum distance (m) of a point of a mesh from the mesh's origin.
 fn reach(checked: &SceneCheck<'_>, mesh: usize) -> f64 {
     let furthest = |part: &PartExtent| part.low.abs().max(part.high.abs()).as_dvec3().length();
     checked.parts[mesh].iter().map(furthest).fold(0.0, f64::max)
 }
 
 impl AttributeColumn {
-    /// Turns of what reaches so far (m), as parts of 32767 unless that could be seen.
+    /// Stores rotations of an object with the radius `reach` (m): as multiples of 1/32767 unless the error would be
+    /// visible.
     fn rotations(floats: Vec<f32>, reach: f64) -> Self {
         if reach * ROUNDING > UNSEEN {
             return Self::Floats(floats);
@@ -228,7 +230,7 @@ impl AttributeColumn {
         Self::Shorts(floats.into_iter().map(short).collect(), true)
     }
 
-    /// Whole numbers in the smallest type that has room for them.
+    /// Stores integers in the smallest type that fits.
     #[allow(clippy::cast_possible_truncation, reason = "bounded before")]
     fn whole(floats: Vec<f32>) -> Self {
         if floats.iter().any(|number| *number > f32::from(i16::MAX)) {
@@ -238,8 +240,8 @@ impl AttributeColumn {
     }
 }
 
-/// Adds the nodes for one instance and returns the outermost and the one with the mesh. They are the same unless the
-/// instance is sheared, or so far away that a second translation has to hold what the first one rounds off.
+/// Adds the nodes for one instance. Returns the outermost node and the node with the mesh. They are the same unless the
+/// instance is sheared, or so far away that a second translation stores the rounding error of the first.
 fn alone<'a>(
     instance: &'a Instance,
     mesh: usize,
@@ -268,7 +270,7 @@ fn alone<'a>(
     (description.node(Node { translation: translation(lost), children, ..Node::default() }), inner)
 }
 
-/// A node for all instances of a group; `mesh` is its number with how far (m) it reaches.
+/// Adds one node for all instances of a group; `mesh` is the index of the mesh and its radius (m).
 fn together<'a>(
     kind: InstanceKind<'a>,
     group: InstanceGroup,
@@ -298,7 +300,7 @@ fn together<'a>(
     } else if group.features.iter().any(|feature| *feature >= 0.0) {
         add(FEATURE, AttributeColumn::whole(group.features), Type::Scalar);
     }
-    // No default, since one array has to be there to tell the number of instances.
+    // TRANSLATION is always written, because one array must exist to define the number of instances.
     add("TRANSLATION", AttributeColumn::Floats(group.translations), Type::Vec3);
     if differs(&group.rotations, &[0.0, 0.0, 0.0, 1.0]) {
         add("ROTATION", AttributeColumn::rotations(group.rotations, reach * group.largest), Type::Vec4);
@@ -320,7 +322,7 @@ fn together<'a>(
     })
 }
 
-/// Makes the node of an instance that is sheared, and cannot share it, tell whose it is.
+/// Assigns a feature to the node of a sheared instance, which cannot share a node.
 fn instance_alone(
     node: usize,
     feature: Option<FeaturePlace>,
@@ -343,16 +345,17 @@ fn instance_alone(
     }));
 }
 
-/// Rounding (m) of a translation that is not corrected: 32-bit floats have it from 8 km on.
+/// Maximum rounding error (m) of a translation that is not corrected. 32-bit floats exceed it from 8 km on.
 const UNCORRECTED: f64 = 5e-4;
 
-/// The part (m) of a translation that 32-bit floats do not hold, if it is large enough to open gaps between neighbours.
+/// Returns the part (m) of a translation that 32-bit floats lose, if it is large enough to open gaps between
+/// neighbours.
 fn rounding(translation: DVec3) -> Option<DVec3> {
     let lost = translation - translation.as_vec3().as_dvec3();
     (lost.abs().max_element() > UNCORRECTED).then_some(lost)
 }
 
-/// `node` with a transform; what is the default is left out.
+/// Sets the transform of `node`, omitting default values.
 fn placed<'a>(node: Node<'a>, trs: &Trs) -> Node<'a> {
     Node {
         translation: translation(trs.translation),
@@ -370,12 +373,12 @@ fn rotation(rotation: DQuat) -> Option<UnitQuaternion> {
     unless([0.0, 0.0, 0.0, 1.0], quaternion(rotation)).map(UnitQuaternion)
 }
 
-/// `value`, unless it is exactly the default.
+/// Returns `value`, or `None` if it equals the default exactly.
 fn unless<const N: usize>(default: [f32; N], value: [f32; N]) -> Option<[f32; N]> {
     (value.map(f32::to_bits) != default.map(f32::to_bits)).then_some(value)
 }
 
-/// The one of the two quaternions for `rotation` whose w is not negative, as x, y, z, w.
+/// Returns the quaternion of `rotation` with non-negative w, as x, y, z, w.
 fn quaternion(rotation: DQuat) -> [f32; 4] {
     let rotation = if rotation.w < 0.0 { -rotation } else { rotation };
     rotation.as_quat().to_array().map(|number| number + 0.0)

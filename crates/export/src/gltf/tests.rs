@@ -1,4 +1,4 @@
-//! What is written, read back by another crate.
+//! Tests that read written files back with another crate.
 
 use super::super::samples;
 use super::*;
@@ -13,7 +13,7 @@ use std::collections::BTreeMap;
 
 const TURN: fn(DVec3) -> DVec3 = |p| DVec3::new(p.x, p.z, -p.y);
 
-/// The triangles of every instance in the world, as a viewer draws them.
+/// Returns the triangles of every instance in the world, as a viewer draws them.
 fn drawn(bytes: &[u8]) -> Vec<[DVec3; 3]> {
     let file = Gltf::from_slice_without_validation(bytes).unwrap();
     let blob = file.blob.clone().unwrap_or_default();
@@ -96,7 +96,7 @@ fn instances(extension: &serde_json::Value, file: &Gltf, blob: &[u8]) -> Vec<DMa
     (0..translations.len()).map(place).collect()
 }
 
-/// The triangles of every instance, straight from the scene.
+/// Returns the triangles of every instance, directly from the scene.
 fn meant(scene: &Scene) -> Vec<[DVec3; 3]> {
     let mut triangles = Vec::new();
     for instance in &scene.instances {
@@ -115,7 +115,7 @@ fn meant(scene: &Scene) -> Vec<[DVec3; 3]> {
     triangles
 }
 
-/// The largest distance (m) between a triangle that is meant and the one that is drawn, in any order.
+/// Returns the largest distance (m) between an expected triangle and the one that is drawn, in any order.
 fn distance(scene: &Scene) -> f64 {
     let (mut meant, mut drawn) = (meant(scene), drawn(&glb(scene).unwrap()));
     assert_eq!(meant.len(), drawn.len());
@@ -129,7 +129,7 @@ fn distance(scene: &Scene) -> f64 {
     apart(&meant, &drawn)
 }
 
-/// The largest distance (m) between triangles in the same order, which may begin at another corner.
+/// Returns the largest distance (m) between triangles in the same order, which may begin at different corners.
 fn apart(some: &[[DVec3; 3]], others: &[[DVec3; 3]]) -> f64 {
     assert_eq!(some.len(), others.len());
     let apart = |(a, b): (&[DVec3; 3], &[DVec3; 3])| {
@@ -143,7 +143,7 @@ fn apart(some: &[[DVec3; 3]], others: &[[DVec3; 3]]) -> f64 {
 fn what_is_drawn_is_what_was_meant() {
     let folder = tempfile::tempdir().unwrap();
     let mut count = 0;
-    // The reader that checks has no empty scenes.
+    // The validating reader rejects empty scenes.
     let seen = |(_, scene): &(&str, Scene)| scene.triangles() > 0;
     for (name, scene) in samples::all(folder.path()).into_iter().filter(seen) {
         let distance = distance(&scene);
@@ -235,7 +235,7 @@ fn a_model_as_large_as_a_planet_loses_less_than_a_millimetre() {
         instance.transform.translation = DVec3::from(place);
     }
     assert!(distance(&scene) < 1e-3, "{}", distance(&scene));
-    // Three have a second node, and all stand in that of the origin.
+    // Three instances have a second node, and all are children of the origin's node.
     let file = Gltf::from_slice(&glb(&scene).unwrap()).unwrap();
     assert_eq!(file.nodes().count(), 5 + 3 + 1);
 }
@@ -319,7 +319,7 @@ fn flat_faces_have_no_normals_and_share_their_corners() {
         }
         counts.into_values().collect::<Vec<_>>()
     };
-    // Parts without triangles are left out.
+    // Parts without triangles are not written.
     assert_eq!(corners("odd"), [8]);
     assert_eq!(corners("boxes"), [8]);
 }
@@ -369,7 +369,7 @@ fn faces_that_are_shaded_otherwise_than_they_lie_are_written_with_their_normals(
 #[test]
 fn a_large_scene_is_written_in_batches_and_is_the_same() {
     let mut scene = samples::boxes(1);
-    // More corners than a batch, in meshes with more of them than short indices count and in small ones.
+    // More corners than a batch, in meshes that exceed short indices and in small ones.
     let part = scene.meshes[0].parts[0].clone();
     for count in [9_000_u32, 26_000, 40, 3] {
         let mut mesh = burgeon_scene::Mesh::default();
@@ -399,7 +399,7 @@ fn a_viewer_is_sent_the_same_triangles_in_fewer_bytes() {
     let mut rounded = 0;
     for (name, scene) in samples::all(folder.path()).into_iter().filter(|(_, scene)| scene.triangles() > 0) {
         let (file, (viewer, _)) = (glb(&scene).unwrap(), glb_for_viewer(&scene).unwrap());
-        // Only files have rounded turns.
+        // Only files have rounded rotations.
         let is_rounded = file.windows(10).any(|bytes| bytes == b"\"ROTATION\"");
         let most = if is_rounded { 1e-3 } else { 0.0 };
         let (sent, written) = (drawn(&viewer), drawn(&file));

@@ -1,7 +1,7 @@
 //! Flat parts with few vertices, for a viewer that takes the normal of a whole triangle from its last corner.
 //!
-//! A box has 24 vertices where each has the normal of one face, and about 9 if a corner of the box may stand for
-//! whichever face: what is sent, and what a processor without a graphics card works through, is a third.
+//! A box has 24 vertices if each vertex has the normal of one face, and about 9 if a corner of the box may be shared by
+//! all faces. The data to transfer, and the work of a computer without a graphics card, is reduced to a third.
 
 use super::super::check::triangles;
 use super::body::y_up;
@@ -9,24 +9,24 @@ use burgeon_scene::{Normal, Part};
 use bytemuck::cast;
 use glam::Vec3;
 
-/// No vertex.
+/// Placeholder for a missing vertex.
 const NONE: u32 = u32::MAX;
 
-/// Places that are remembered at most: what lies at one place is mostly drawn one after the other.
+/// Maximum number of positions in the cache. Vertices at the same position are mostly drawn soon after each other.
 const PLACES: usize = 1 << 12;
 
-/// A part whose triangles are flat.
+/// Part whose triangles are flat.
 pub(super) struct FlatPart {
-    /// In glTF's coordinates.
+    /// Positions in glTF's coordinates.
     pub(super) positions: Vec<Vec3>,
-    /// For each vertex the normal of the triangles whose last corner it is.
+    /// For each vertex, the normal of the triangles whose last corner it is.
     pub(super) normals: Vec<Normal>,
-    /// The part's triangles that are shown, in their order; they may begin at another corner.
+    /// Shown triangles of the part, in their order; they may begin at another corner.
     pub(super) triangles: Vec<[u32; 3]>,
 }
 
 impl FlatPart {
-    /// `part` with as few vertices as are easily found; `None` if one of its triangles is not flat.
+    /// Welds `part` into few vertices with a greedy method. Returns `None` if a triangle is not flat.
     pub(super) fn of(part: &Part) -> Option<Self> {
         let normal = |corner: u32| part.normals[corner as usize];
         let is_flat = |[a, b, c]: [u32; 3]| normal(a) == normal(b) && normal(b) == normal(c);
@@ -41,15 +41,15 @@ impl FlatPart {
     }
 }
 
-/// A part that is being welded.
+/// State of a part during welding.
 struct PartWelder<'a> {
     part: &'a Part,
     made: FlatPart,
-    /// Whether a vertex has the normal of a triangle that ends with it.
+    /// For each vertex, true if it has the normal of a triangle that ends with it.
     taken: Vec<bool>,
-    /// Where the part's own vertices have come to.
+    /// New vertex of each vertex of the part.
     moved: Vec<u32>,
-    /// The newest vertex for each remainder of a place's bits.
+    /// Newest vertex for each hash of a position.
     known: Vec<u32>,
 }
 
@@ -69,13 +69,13 @@ impl<'a> PartWelder<'a> {
         }
     }
 
-    /// Adds a triangle; `next` comes after it.
+    /// Adds a triangle; `next` is the triangle after it.
     fn add(&mut self, corners: [u32; 3], next: Option<[u32; 3]>) {
         let normal = self.part.normals[corners[0] as usize];
         let mut ends = corners.map(|corner| self.vertex(corner));
         let has_normal = |end: &u32| self.taken[*end as usize] && self.made.normals[*end as usize] == normal;
         let last = ends.iter().position(has_normal).unwrap_or_else(|| {
-            // The other half of a face can end at the same corner.
+            // Prefer a corner that the next triangle shares, since the other half of a quad can end at the same corner.
             let order = [2, 1, 0];
             let shared = |corner: &usize| next.is_some_and(|next| next.contains(&corners[*corner]));
             let free = |corner: &usize| !self.taken[ends[*corner] as usize];
@@ -93,7 +93,7 @@ impl<'a> PartWelder<'a> {
         self.made.triangles.push([ends[(last + 1) % 3], ends[(last + 2) % 3], ends[last]]);
     }
 
-    /// The vertex for one of the part's own.
+    /// Returns the new vertex for a vertex of the part.
     fn vertex(&mut self, corner: u32) -> u32 {
         let index = corner as usize;
         if self.moved[index] == NONE {
@@ -115,7 +115,7 @@ impl<'a> PartWelder<'a> {
         (self.taken.len() - 1) as u32
     }
 
-    /// Where a vertex at `at` is remembered.
+    /// Returns the cache slot of a vertex at `at`.
     fn place(&self, at: Vec3) -> usize {
         // The highest bits of the product depend on all bits of the coordinates.
         let mix = |sum: u64, bits: f32| {

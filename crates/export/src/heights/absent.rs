@@ -1,4 +1,4 @@
-//! What stands in the place of PNGs and GeoTIFFs of heights where a program is built without the feature `data`.
+//! Stubs for writing heights as PNG and GeoTIFF, for builds without the feature `data`.
 
 use std::io;
 
@@ -6,7 +6,7 @@ use super::super::Out;
 use super::HeightMap;
 use burgeon_base::error::{Error, Result};
 
-/// Fails: neither is there.
+/// Fails, because neither format is available.
 pub(super) fn check() -> Result<()> {
     Err(Error::left_out("data formats", "data"))
 }

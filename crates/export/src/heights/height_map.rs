@@ -1,4 +1,4 @@
-//! A height map, and the files it is written to.
+//! Height maps, and the files that store them.
 
 use std::io::{self, Write};
 use std::path::Path;
@@ -9,27 +9,27 @@ use burgeon_base::error::{Error, Result};
 use burgeon_data::ReferenceFrame;
 use glam::DVec2;
 
-/// What stands for a missing height in an ASCII grid.
+/// Marker of a missing height in an ASCII grid.
 const MISSING: &str = "-9999";
 
-/// A grid of heights over the ground of a run.
+/// Grid of heights of a run's terrain.
 #[derive(Clone)]
 pub struct HeightMap {
-    /// The number of heights from west to east.
+    /// Number of heights from west to east.
     pub columns: usize,
-    /// The number of heights from north to south.
+    /// Number of heights from north to south.
     pub rows: usize,
-    /// The distance (m) of neighbouring heights, in both directions.
+    /// Spacing (m) of neighbouring heights, in both directions.
     pub step: f64,
-    /// The outer south-west corner (m): each height stands in the middle of a cell, half a step from its edges.
+    /// Outer south-west corner (m): each height is in the centre of a cell, half a step from its edges.
     pub corner: DVec2,
-    /// The projection and origin of the run, if it has them.
+    /// Projection and origin of the run, if it has them.
     pub frame: Option<ReferenceFrame>,
-    /// The heights (m), row by row from the north, each from the west; NaN where there is none.
+    /// Heights (m), row by row from the north, each from the west; NaN if missing.
     pub heights: Vec<f64>,
 }
 
-/// The formats of height maps.
+/// Formats of height maps.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum HeightFormat {
     Png,
@@ -40,7 +40,7 @@ enum HeightFormat {
 }
 
 impl HeightFormat {
-    /// The one that the extension of `path` names. Fails if the program was built without it.
+    /// Returns the format that the extension of `path` names. Fails if the program was built without it.
     fn of(path: &Path) -> Result<Self> {
         let extension = path.extension().unwrap_or_default().to_string_lossy().to_ascii_lowercase();
         let format = match &*extension {
@@ -64,11 +64,11 @@ impl HeightFormat {
     }
 }
 
-/// Writes what will be `map` at `path`, in the format of its extension.
+/// Writes `map` to the future file `path`, in the format of its extension.
 ///
-/// Coordinates are those of the projection where the format can name it, in a GeoTIFF, or it is one of EPSG's, and
-/// metres of the run otherwise. Fails if the map has too few or infinite heights, if the format cannot hold it, and if
-/// the disk is full.
+/// Coordinates are in the projection if the format can name it: in a GeoTIFF, or if the projection has an EPSG code.
+/// Otherwise they are in metres of the run. Fails if the map has too few or infinite heights, if the format cannot
+/// store it, or if the disk is full.
 pub fn write(map: &HeightMap, path: &Path, files: &mut Files) -> Result<()> {
     let format = HeightFormat::of(path)?;
     check(map, format).map_err(|error| error.about(&format!("cannot write {}", path.display())))?;
@@ -83,12 +83,12 @@ pub fn write(map: &HeightMap, path: &Path, files: &mut Files) -> Result<()> {
     })
 }
 
-/// Refuses a file whose extension is no format of height maps.
+/// Fails if the extension of a file is not a height map format.
 pub fn check_name(path: &Path) -> Result<()> {
     HeightFormat::of(path).map(|_| ())
 }
 
-/// Refuses what cannot be written.
+/// Checks that `map` can be written in `format`.
 fn check(map: &HeightMap, format: HeightFormat) -> Result<()> {
     let (columns, rows) = (map.columns, map.rows);
     let fits = columns.checked_mul(rows) == Some(map.heights.len());
@@ -126,19 +126,19 @@ fn check(map: &HeightMap, format: HeightFormat) -> Result<()> {
     Ok(())
 }
 
-/// A height as most formats hold it.
+/// Converts a height to the precision of most formats.
 pub(super) fn narrow(height: f64) -> f32 {
     height as f32
 }
 
 impl HeightMap {
-    /// The outer corner in the south-west: in the projection if `named`, or else in metres of the run.
+    /// Returns the outer south-west corner: in the projection if `named`, otherwise in metres of the run.
     pub(super) fn corner_as(&self, named: bool) -> DVec2 {
         let frame = self.frame.as_ref().filter(|_| named);
         self.corner + frame.map_or(DVec2::ZERO, |frame| frame.origin.into())
     }
 
-    /// The EPSG code of its projection.
+    /// Returns the EPSG code of the projection.
     pub(super) fn epsg(&self) -> Option<u16> {
         self.frame.as_ref().and_then(|frame| frame.epsg)
     }
@@ -175,7 +175,7 @@ mod tests {
     use burgeon_data::Crs;
     use burgeon_data::elevation::{HeightOptions, Raster};
 
-    /// Hills of 12 by `rows` heights.
+    /// Returns hills of 12 by `rows` heights.
     fn map(rows: usize, frame: Option<ReferenceFrame>) -> HeightMap {
         let height =
             |at: usize| 250.0 + 80.0 * ((at % 12) as f64 * 0.7).sin() * ((at / 12) as f64 * 0.4).cos();
@@ -187,7 +187,7 @@ mod tests {
         Some(ReferenceFrame::around(&Crs::epsg(code).unwrap(), at, "a").unwrap())
     }
 
-    /// What is read of what was written.
+    /// Writes a map and reads it back.
     fn again(map: &HeightMap, name: &str, wanted: &HeightOptions) -> Raster {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join(name);
@@ -232,7 +232,7 @@ mod tests {
         let mut there = map.frame.clone();
         let relief = burgeon_data::elevation::Relief::new(raster.into(), &mut there).unwrap();
         assert_eq!(relief.low().truncate(), map.corner);
-        // Feet have become metres, which no code of EPSG's tells.
+        // Feet have been converted to metres, which no EPSG code describes.
         let map = super::tests::map(9, frame(2272, [2_690_000.0, 235_000.0]));
         let raster = again(&map, "a.tif", &HeightOptions::default());
         assert_eq!((raster.bounds(), raster.crs), ([-40.0, 30.0, -10.0, 52.5], None));

@@ -1,8 +1,9 @@
-//! Height maps: a grid of heights as a file that programs for maps and games read.
+//! Height maps: grids of heights in files that GIS programs and game engines read.
 //!
-//! | extension | what is written |
+//! | extension | content |
 //! | --- | --- |
-//! | `.png` | grey of 16 bits from the lowest to the highest height, which its texts `low` and `high` tell (m) |
+//! | `.png` | 16-bit grey from the lowest to the highest height; the text entries `low` and `high` store the range (m)
+//! |
 //! | `.asc` | an ESRI ASCII grid |
 //! | `.tif` | a GeoTIFF of 32-bit floats, with its coordinate system |
 //! | `.r32`, `.f32`, `.r64`, `.f64` | a square of raw little-endian floats, row by row |

@@ -1,4 +1,4 @@
-//! Heights as PNGs and GeoTIFFs.
+//! Heights as PNG and GeoTIFF files.
 
 use std::io;
 
@@ -12,7 +12,7 @@ use super::height_map::narrow;
 use burgeon_base::error::Result;
 use burgeon_data::elevation::{png_text, tiff_key};
 
-/// Both are there.
+/// Succeeds, because both formats are available.
 pub(super) fn check() -> Result<()> {
     Ok(())
 }
@@ -22,7 +22,7 @@ pub(super) fn write_png(map: &HeightMap, out: &mut Out) -> io::Result<()> {
     let low = map.heights.iter().copied().fold(f64::INFINITY, f64::min);
     let mut high = map.heights.iter().copied().fold(f64::NEG_INFINITY, f64::max);
     if high <= low {
-        // A plain is black.
+        // A flat terrain is black.
         high = low + 1.0;
     }
     let mut encoder = png::Encoder::new(out, map.columns as u32, map.rows as u32);
@@ -66,8 +66,8 @@ pub(super) fn write_tiff(map: &HeightMap, out: &mut Out) -> io::Result<()> {
     })
 }
 
-/// The keys of a GeoTIFF in the order of their numbers, and those of their values that are floats: for a projection of
-/// EPSG's, for one around a `middle` (degrees), or for none.
+/// Returns the keys of a GeoTIFF in ascending order, and their floating-point values: for an EPSG projection, for a
+/// projection around a `middle` (degrees), or for none.
 fn geokeys(epsg: Option<u16>, middle: Option<[f64; 2]>) -> (Vec<u16>, Vec<f64>) {
     use tiff_key as key;
     let mut short = vec![(key::RASTER, key::AREA)];
@@ -89,7 +89,8 @@ fn geokeys(epsg: Option<u16>, middle: Option<[f64; 2]>) -> (Vec<u16>, Vec<f64>) 
         }
         (None, None) => {}
     }
-    // A header of version and number, then for each key its number, where its value stands, how many, and which.
+    // The header has the version and the number of keys. Each key has its number, the tag of its value, the count and
+    // the index.
     let mut directory = vec![1, 1, 0, (short.len() + doubles.len()) as u16];
     directory.extend(short.into_iter().flat_map(|(key, value)| [key, 0, 1, value]));
     let stands = (0..).zip(key::MIDDLE).take(doubles.len());

@@ -12,13 +12,13 @@ use burgeon_base::stop::Stop;
 use burgeon_scene::Scene;
 use glam::DVec3;
 
-/// The most triangles that a drawing is made of; what has more is a picture.
+/// Maximum number of triangles in a drawing. A render shows larger models.
 const LIMIT: usize = 4_000_000;
 
-/// `scene` as an SVG document.
+/// Draws `scene` as an SVG document.
 ///
-/// Fails if the scene is not sound, if a texture cannot be read, beyond 4 million triangles, and if a `stop` was asked
-/// for.
+/// Fails if the scene is invalid, if a texture cannot be read, if it has more than 4 million triangles, or if `stop`
+/// requests cancellation.
 pub fn svg(scene: &Scene, stop: &Stop) -> Result<String> {
     let checked = check(scene)?;
     let count = scene.triangles();
@@ -36,15 +36,15 @@ pub fn svg(scene: &Scene, stop: &Stop) -> Result<String> {
     document(&checked, view, &faces, &palette, stop)
 }
 
-/// The paper: what is shown on it, and its size, in metres of the drawing's coordinates with y downwards.
+/// Area and size of the paper, in metres of the drawing's coordinates with y downwards.
 struct Paper {
     left: f64,
     top: f64,
     width: f64,
     height: f64,
-    /// The larger side of the drawing without its margins; line widths and letters are parts of it.
+    /// Larger side (m) of the drawing without its margins. Line widths and font sizes are relative to it.
     size: f64,
-    /// The middle of the drawing and its lower edge.
+    /// Horizontal centre (m) of the drawing.
     middle: f64,
     bottom: f64,
 }
@@ -57,7 +57,7 @@ impl Paper {
         let (top, bottom) = (-metres(high[1]), -metres(low[1]));
         let size = (right - left).max(bottom - top).max(0.01);
         let margin = size * 0.05;
-        // Wide enough for the scale bar under a tall drawing.
+        // Wide enough for the scale bar below a tall drawing.
         let width = (right - left).max(size * 0.4) + 2.0 * margin;
         let middle = (left + right) / 2.0;
         let height = bottom - top + 2.0 * margin + size * 0.06;
@@ -99,7 +99,7 @@ fn document(
     line(format_args!(
         "<rect x=\"{left}\" y=\"{top}\" width=\"{width}\" height=\"{height}\" fill=\"#fff\"/>"
     ));
-    // The same on paper for a shed and a city.
+    // Proportional to the drawing, so that a shed and a city look the same on paper.
     let pen = size / 1000.0;
     line(format_args!("<g fill=\"none\" stroke-linejoin=\"round\" stroke-linecap=\"round\">"));
     for sheet in sheets::stack(faces, pen, stop)? {
@@ -111,10 +111,10 @@ fn document(
         if !fill.is_empty() {
             line(format_args!("<path fill=\"{color}\"{opacity} d=\"{fill}\"/>"));
         }
-        // Renderers leave a light gap between areas that touch; where no dark line covers it, a wide one of
-        // the area's own colour does.
+        // Renderers leave a light gap between adjacent areas. Where no dark line covers the gap, a wide line in the
+        // area's own colour does.
         let [edge, thin] = [0.32, 0.7].map(|brightness| palette.tone(sheet.ink, brightness));
-        // What is narrower than a line, such as paint on a street, is a line of its own colour.
+        // Shapes that are narrower than a line, such as markings on a street, are drawn as lines in their own colour.
         let drawn = [
             (&sheet.seams, color.clone(), 2.0),
             (&sheet.hairs, color, 0.4),
@@ -139,7 +139,7 @@ fn document(
     Ok(out)
 }
 
-/// A bar of a round length, half black and half white, and how long it is.
+/// Draws a scale bar of a round length, half black and half white, with its length as text.
 fn scale_bar(paper: &Paper) -> String {
     let length = round_length((paper.width * 0.3).min(paper.size * 0.2));
     let label = match length {
@@ -164,7 +164,7 @@ fn scale_bar(paper: &Paper) -> String {
     )
 }
 
-/// An arrow to the top of the paper with an N beside it.
+/// Draws an arrow to the top of the paper with an N next to it.
 fn north_arrow(paper: &Paper) -> String {
     let unit = paper.size * 0.018;
     let x = 2.0 * paper.middle - paper.left - paper.size * 0.05 - unit;
@@ -179,13 +179,13 @@ fn north_arrow(paper: &Paper) -> String {
     )
 }
 
-/// The largest of 1, 2, 5, 10, 20, 50 and so on up to `most`.
+/// Returns the largest of 1, 2, 5, 10, 20, 50 and so on that is at most `most`.
 fn round_length(most: f64) -> f64 {
     let power = 10_f64.powf(most.log10().floor());
     [5.0, 2.0].map(|digit| digit * power).into_iter().find(|length| *length <= most).unwrap_or(power)
 }
 
-/// A number with as many decimals as a drawing of its size needs, at most six.
+/// Formats a number with as many decimals as a drawing of its size needs, at most six.
 fn decimals(number: f64) -> String {
     let digits = if number.abs() >= 1.0 { 3 } else { 6 };
     let text = format!("{number:.digits$}");
@@ -202,7 +202,7 @@ mod tests {
     use super::*;
     use crate::samples;
 
-    /// The area (m²) and the number of corners of all filled paths.
+    /// Returns the area (m²) and the number of corners of all filled paths.
     fn filled(drawing: &str) -> (f64, usize) {
         let (mut area, mut corners) = (0.0, 0);
         for line in drawing.lines().filter(|line| line.starts_with("<path fill=\"#") && !line.contains('L')) {
@@ -251,7 +251,7 @@ mod tests {
             .enumerate()
             .map(|(i, instance)| {
                 let base = instance.transform.matrix3.x_axis.cross(instance.transform.matrix3.y_axis).z;
-                // Each house is its flat top and, over it, a roof that is a tenth wider.
+                // Each house consists of its flat top and, above it, a roof that is a tenth wider.
                 if i == 0 { base } else { base * 2.1 }
             })
             .sum();

@@ -1,4 +1,4 @@
-//! The triangles of a drawing, flat on the paper.
+//! Triangles of a drawing, projected to the paper.
 
 use super::super::check::{SceneCheck, shown_parts, triangles};
 use super::super::color::{fraction, srgb};
@@ -9,66 +9,66 @@ use burgeon_scene::{Instance, Material, Mesh};
 use glam::{DVec3, Vec3};
 use rustc_hash::FxHashMap;
 
-/// How many shades a material has.
+/// Number of shades per material.
 const SHADES: u32 = 24;
 
-/// The light comes from above the upper left corner of the paper, as maps have it.
+/// Direction towards the light. It comes from above the upper left corner of the paper, as on maps.
 const LIGHT: DVec3 = DVec3::new(-0.42, 0.54, 0.73);
 
-/// The cosine of the angle from which on a bend is drawn as a line: 25 degrees.
+/// Cosine of the minimum angle of a bend that is drawn as a line: 25 degrees.
 const BEND: f64 = 0.906;
 
-/// A point of the paper (mm), y up.
+/// Point on the paper (mm), y up.
 pub(super) type PaperPoint = [i64; 2];
 
-/// A material in one of its shades.
+/// Material in one of its shades.
 pub(super) type Ink = u32;
 
-/// A triangle that faces the viewer.
+/// Triangle that faces the viewer.
 pub(super) struct VisibleFace {
-    /// Counter-clockwise.
+    /// Corners, counter-clockwise.
     pub(super) corners: [PaperPoint; 3],
-    /// How far towards the viewer (m) its farthest corner is.
+    /// Depth (m) of the farthest corner, positive towards the viewer.
     pub(super) depth: f64,
-    /// Its material and shade.
+    /// Material and shade.
     pub(super) ink: Ink,
     normal: DVec3,
 }
 
-/// A side of a face: the numbers of the points at its ends, the lower one first, the face, and its ends.
+/// Side of a face: the numbers of its end points, the lower one first, the face, and the end points.
 type PaperSide = (u32, u32, u32, [PaperPoint; 2]);
 
-/// A side of a face that matters.
+/// Visible line: a side of a face at an edge or a seam.
 pub(super) struct VisibleLine {
-    /// Its ends.
+    /// End points.
     pub(super) ends: [PaperPoint; 2],
-    /// The faces at both sides; the same one twice where there is but one.
+    /// Faces on both sides; the same face twice if there is only one.
     pub(super) faces: [u32; 2],
-    /// What it shows.
+    /// Type of the line.
     pub(super) kind: VisibleLineKind,
 }
 
-/// What a line shows.
+/// Type of a line.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum VisibleLineKind {
-    /// Where a shape ends, bends or changes its material. The number is how wide (mm) what is of that material in the
-    /// shape is on the whole, or the thinner of two: with dark lines around it, something thin would be nothing else.
+    /// Boundary, bend or change of material of a shape. The number is the mean width (mm) of the shape's area in that
+    /// material, or the smaller of two widths. It serves to avoid dark lines that would hide a thin shape.
     Edge(f64),
-    /// Where a smooth surface changes its shade.
+    /// Change of shade on a smooth surface.
     Seam,
 }
 
-/// What a drawing shows.
+/// Visible triangles and lines of a drawing.
 #[derive(Default)]
 pub(super) struct VisibleFaces {
-    /// The triangles, in the order of the scene.
+    /// Triangles, in the order of the scene.
     pub(super) faces: Vec<VisibleFace>,
-    /// The lines between and around them.
+    /// Lines between and around the triangles.
     pub(super) lines: Vec<VisibleLine>,
 }
 
 impl VisibleFaces {
-    /// All triangles that `view` sees the front of, with the lines between them.
+    /// Collects all triangles whose front `view` sees, and the lines between them.
     pub(super) fn collect(checked: &SceneCheck<'_>, view: DrawingSide) -> Self {
         let mut all = Self::default();
         let mut welded: FxHashMap<usize, Vec<Vec<u32>>> = FxHashMap::default();
@@ -80,7 +80,7 @@ impl VisibleFaces {
         all
     }
 
-    /// The lowest and highest coordinates (mm); `None` without faces.
+    /// Returns the minimum and maximum coordinates (mm); `None` if there are no faces.
     pub(super) fn bounds(&self) -> Option<(PaperPoint, PaperPoint)> {
         let mut points = self.faces.iter().flat_map(|face| &face.corners);
         let first = *points.next()?;
@@ -100,7 +100,7 @@ impl VisibleFaces {
         let matrix = view.matrix();
         let mirrored = instance.transform.matrix3.determinant() < 0.0;
         let mut edges: Vec<PaperSide> = Vec::new();
-        // Points that are one on paper, where a triangle between them has vanished.
+        // Points that coincide on the paper, where a triangle between them has degenerated.
         let mut merged: FxHashMap<u32, u32> = FxHashMap::default();
         let first_face = self.faces.len();
         for (part, welded) in shown_parts(mesh).zip(welded) {
@@ -156,9 +156,9 @@ impl VisibleFaces {
         self.add_lines(&edges, first_face);
     }
 
-    /// Adds the lines between the faces from `first_face` on, of which `edges` are in order.
+    /// Adds the lines between the faces from `first_face` on; `edges` are sorted.
     fn add_lines(&mut self, edges: &[PaperSide], first_face: usize) {
-        // By material, the area and the length of the lines around it.
+        // Area of each material, and the length of the lines around it.
         let mut sizes: FxHashMap<u32, (f64, f64)> = FxHashMap::default();
         for face in &self.faces[first_face..] {
             let [a, b, c] = face.corners.map(|at| DVec3::new(at[0] as f64, at[1] as f64, 0.0));
@@ -197,7 +197,7 @@ impl VisibleFaces {
     }
 }
 
-/// For each part that is shown, the number of each point; points at the same place have the same number.
+/// Returns the number of each point, for each shown part. Points at the same position have the same number.
 fn weld(mesh: &Mesh) -> Vec<Vec<u32>> {
     let mut known: FxHashMap<[u32; 3], u32> = FxHashMap::default();
     let mut number = |at: &Vec3| {
@@ -208,7 +208,7 @@ fn weld(mesh: &Mesh) -> Vec<Vec<u32>> {
     shown_parts(mesh).map(|part| part.positions.iter().map(&mut number).collect()).collect()
 }
 
-/// The point that a point was merged with in the end.
+/// Returns the final point that a point was merged with.
 fn last(merged: &FxHashMap<u32, u32>, mut point: u32) -> u32 {
     while let Some(next) = merged.get(&point) {
         point = *next;
@@ -216,18 +216,18 @@ fn last(merged: &FxHashMap<u32, u32>, mut point: u32) -> u32 {
     point
 }
 
-/// Whether the corners turn left, and not by nothing.
+/// Returns true if the corners turn left, and the area is not zero.
 fn is_counter_clockwise([a, b, c]: [PaperPoint; 3]) -> bool {
     let side = |from: PaperPoint, to: PaperPoint| [i128::from(to[0] - from[0]), i128::from(to[1] - from[1])];
     let (ab, ac) = (side(a, b), side(a, c));
     ab[0] * ac[1] > ab[1] * ac[0]
 }
 
-/// The colours of a drawing.
+/// Colours of a drawing.
 pub(super) struct Palette(Vec<([f32; 3], f32)>);
 
 impl Palette {
-    /// The colour of each material, with the mean of its image. Fails as [`ImageFile::mean_color`] does.
+    /// Computes the colour of each material, including the mean of its image. Fails as [`ImageFile::mean_color`] does.
     pub(super) fn new(materials: &[Material], images: &Images) -> Result<Self> {
         let means: Vec<_> = images.files.iter().map(ImageFile::mean_color).collect::<Result<_>>()?;
         let color = |(material, image): (&Material, &Option<usize>)| {
@@ -239,17 +239,17 @@ impl Palette {
         Ok(Self(materials.iter().zip(&images.of_material).map(color).collect()))
     }
 
-    /// The colour of `ink` and its opacity.
+    /// Returns the colour of `ink` and its opacity.
     pub(super) fn fill(&self, ink: Ink) -> (String, f64) {
         let (color, opacity) = self.0[(ink / SHADES) as usize];
-        // What lies flat on the paper has its own colour; what turns to the light is a little lighter.
+        // A surface parallel to the paper has its own colour; one that faces the light more is slightly lighter.
         let flat = LIGHT.z as f32;
         let shade = (ink % SHADES) as f32 / (SHADES - 1) as f32 - flat;
         let brightness = 1.0 + shade * if shade > 0.0 { 0.5 } else { 0.62 };
         (hex(color.map(|it| it * brightness)), f64::from(opacity))
     }
 
-    /// The colour of what is drawn on `ink`: its material's own, `brightness` times as bright.
+    /// Returns the colour of lines on `ink`: the material's colour times `brightness`.
     pub(super) fn tone(&self, ink: Ink, brightness: f32) -> String {
         let (color, _) = self.0[(ink / SHADES) as usize];
         hex(color.map(|it| it * brightness))
@@ -277,7 +277,7 @@ mod tests {
     #[test]
     fn a_triangle_that_vanishes_on_paper_leaves_no_line() {
         let mut scene = samples::boxes(1);
-        // A fan of three triangles around the origin, of which the middle one is thinner than the paper can tell.
+        // A fan of three triangles around the origin. The middle one is thinner than the resolution of the paper.
         let corners = [[0.0, 0.0], [10.0, 0.0], [10.0, 10.0], [9.9999, 10.0], [0.0, 10.0]];
         let part = &mut scene.meshes[0].parts[0];
         part.positions = corners.iter().map(|[x, y]| Vec3::new(*x, *y, 0.0)).collect();

@@ -1,10 +1,9 @@
-//! An architectural drawing to scale, as SVG: a plan, or an elevation of what stands upright and thin.
+//! An architectural drawing to scale, as SVG: a plan, or an elevation of a thin upright model.
 //!
-//! In order: the side to look from is chosen (`view`); the triangles that face the viewer are projected,
-//! rounded to millimetres and shaded like a relief map (`faces`); they are sorted from the back to the front
-//! into sheets of one colour each, as few as cover each other rightly (`sheets`); what a sheet covers is
-//! traced (`outline`), so that a flat roof is one polygon whatever its triangles. One unit is a metre, and a
-//! bar tells the scale.
+//! Steps: choose the side to view the model from (`view`); project the triangles that face the viewer, round them to
+//! millimetres and shade them like a relief map (`faces`); sort them from back to front into sheets of one colour each,
+//! as few as cover each other correctly (`sheets`); and trace the outline of each sheet (`outline`), so that a flat
+//! roof becomes one polygon regardless of its triangles. One unit is a metre, and a scale bar shows the scale.
 
 mod drawing;
 mod faces;

@@ -1,11 +1,11 @@
-//! Path data: what faces cover together, and lines.
+//! Path data of lines and of unions of faces.
 
 use super::faces::{PaperPoint, VisibleFaces};
 
-/// The border of what the faces of these indices cover, as path data; y is downwards and in metres.
+/// Returns the boundary of the union of the faces with these indices, as path data in metres with y downwards.
 ///
-/// A side between two of the faces is walked once in each direction, which cancels out. What is left forms
-/// rings, and a point is inside as often as before.
+/// A side between two of the faces is traversed once in each direction, which cancels out. The remaining sides form
+/// rings with unchanged winding numbers.
 pub(super) fn filled(faces: &VisibleFaces, indices: &[u32]) -> String {
     let mut sides: Vec<(PaperPoint, PaperPoint, i32)> = Vec::with_capacity(indices.len() * 3);
     for index in indices {
@@ -25,17 +25,18 @@ pub(super) fn filled(faces: &VisibleFaces, indices: &[u32]) -> String {
     path(&chain(left))
 }
 
-/// Lines between these ends, as path data.
+/// Returns lines between these end points, as path data.
 pub(super) fn lines(ends: &[[PaperPoint; 2]]) -> String {
     path(&chain(ends.to_vec()))
 }
 
-/// Joins `sides` head to tail for as long as it goes; rings end where they begin.
+/// Joins `sides` end to start into chains as long as possible; a ring ends where it begins.
 fn chain(mut sides: Vec<[PaperPoint; 2]>) -> Vec<Vec<PaperPoint>> {
     sides.sort_unstable();
     let mut used = vec![false; sides.len()];
     let mut chains = Vec::new();
-    // For each start of equal points in `sides`, how many of them are surely used; it keeps the search short.
+    // For each start of a run of equal points in `sides`, a number of sides known to be used. It keeps the search
+    // short.
     let mut skip = vec![0; sides.len()];
     for first in 0..sides.len() {
         if used[first] {
@@ -63,7 +64,7 @@ fn chain(mut sides: Vec<[PaperPoint; 2]>) -> Vec<Vec<PaperPoint>> {
     chains
 }
 
-/// `points` without those in the middle of a straight line.
+/// Removes the points in the interior of straight lines.
 fn straighten(points: Vec<PaperPoint>) -> Vec<PaperPoint> {
     let mut kept: Vec<PaperPoint> = Vec::with_capacity(points.len());
     for point in points {
@@ -83,14 +84,14 @@ fn straighten(points: Vec<PaperPoint>) -> Vec<PaperPoint> {
     kept
 }
 
-/// Whether `b` is between `a` and `c` on the line through them.
+/// Returns true if `b` is between `a` and `c` on the line through them.
 fn is_straight(a: PaperPoint, b: PaperPoint, c: PaperPoint) -> bool {
     let side = |from: PaperPoint, to: PaperPoint| [i128::from(to[0] - from[0]), i128::from(to[1] - from[1])];
     let (ab, bc) = (side(a, b), side(b, c));
     ab[0] * bc[1] == ab[1] * bc[0] && ab[0] * bc[0] + ab[1] * bc[1] > 0
 }
 
-/// Path data with the first point of each chain in place and the others as steps.
+/// Returns path data with the first point of each chain as absolute and the others as relative coordinates.
 fn path(chains: &[Vec<PaperPoint>]) -> String {
     let mut out = String::new();
     for chain in chains {
@@ -118,7 +119,7 @@ fn path(chains: &[Vec<PaperPoint>]) -> String {
     out
 }
 
-/// Adds a number after another; a minus sign separates by itself.
+/// Appends a number after another one; a minus sign also serves as the separator.
 fn spaced(millimetres: i64, out: &mut String) {
     if millimetres >= 0 {
         out.push(' ');
@@ -126,7 +127,7 @@ fn spaced(millimetres: i64, out: &mut String) {
     number(millimetres, out);
 }
 
-/// Adds a length as metres, as short as it goes.
+/// Appends a length in metres, as short as possible.
 fn number(millimetres: i64, out: &mut String) {
     let (whole, rest) = (millimetres.unsigned_abs() / 1000, millimetres.unsigned_abs() % 1000);
     if millimetres < 0 {

@@ -1,29 +1,29 @@
-//! Faces of one colour, gathered so that few sheets laid on each other show what is in front.
+//! Sheets: groups of faces of one colour. Few sheets, drawn in order, show the front faces correctly.
 
 use super::faces::{Ink, PaperPoint, VisibleFace, VisibleFaces, VisibleLineKind};
 use burgeon_base::error::Result;
 use burgeon_base::stop::Stop;
 use rustc_hash::FxHashMap;
 
-/// Most cells that all faces may touch together; it bounds the time.
+/// Maximum total number of cells that all faces touch; bounds the time.
 const TOUCHES: f64 = 1e7;
 
-/// From how many faces in a cell on they are taken to overlap, since looking at each would take too long.
+/// Number of faces in a cell from which faces are assumed to overlap, because testing each pair would take too long.
 const CROWD: u32 = 64;
 
-/// Faces that are filled at once, and the lines over them.
+/// Faces that are filled together, and the lines over them.
 pub(super) struct PaperSheet {
-    /// What they are filled with.
+    /// Fill of the faces.
     pub(super) ink: Ink,
-    /// Indices of faces.
+    /// Indices of the faces.
     pub(super) faces: Vec<u32>,
-    /// The ends of lines around shapes.
+    /// End points of lines around shapes.
     pub(super) lines: Vec<[PaperPoint; 2]>,
-    /// The ends of lines around shapes that are hardly wider than a line.
+    /// End points of lines around shapes that are barely wider than a line.
     pub(super) thin: Vec<[PaperPoint; 2]>,
-    /// The ends of lines around shapes that are narrower than a line.
+    /// End points of lines around shapes that are narrower than a line.
     pub(super) hairs: Vec<[PaperPoint; 2]>,
-    /// The ends of lines to sheets below with another shade of the same surface.
+    /// End points of lines to lower sheets that have another shade of the same surface.
     pub(super) seams: Vec<[PaperPoint; 2]>,
 }
 
@@ -40,11 +40,12 @@ impl PaperSheet {
     }
 }
 
-/// The sheets from the back to the front.
+/// Sorts the faces into sheets from back to front.
 ///
-/// Faces are laid down from the back, each on the lowest sheet of its ink that is not below a face that it
-/// overlaps. So faces of one ink that nothing separates share a sheet, and what is in front comes later.
-/// Shapes narrower than three times the `pen` (m) are thin, those narrower than it are hairs. Fails if a `stop` was asked for.
+/// Faces are placed from the back, each on the lowest sheet of its ink that is not below a face that it overlaps. Faces
+/// of one ink that are not separated by others therefore share a sheet, and front faces come later. Shapes narrower
+/// than three times the `pen` (m) are thin, and shapes narrower than the pen are hairs. Fails if `stop` requests
+/// cancellation.
 pub(super) fn stack(faces: &VisibleFaces, pen: f64, stop: &Stop) -> Result<Vec<PaperSheet>> {
     let Some(mut grid) = PaperGrid::around(faces) else { return Ok(Vec::new()) };
     let mut order: Vec<u32> = (0..faces.faces.len() as u32).collect();
@@ -71,7 +72,7 @@ pub(super) fn stack(faces: &VisibleFaces, pen: f64, stop: &Stop) -> Result<Vec<P
         grid.lay(index, face, sheet);
     }
     for line in &faces.lines {
-        // The later of two neighbours would cover half of the line.
+        // The later of two neighbours would cover half of the line, so the line belongs to the later sheet.
         let [one, other] = line.faces.map(|face| sheet_of[face as usize]);
         let sheet = &mut sheets[one.max(other) as usize];
         match line.kind {
@@ -84,24 +85,25 @@ pub(super) fn stack(faces: &VisibleFaces, pen: f64, stop: &Stop) -> Result<Vec<P
     Ok(sheets)
 }
 
-/// Squares of the paper and what has been laid on them.
+/// Grid of square cells on the paper, with the faces that have been placed in them.
 struct PaperGrid {
     low: PaperPoint,
-    /// The side of a cell (mm).
+    /// Side length (mm) of a cell.
     cell: f64,
     columns: usize,
     cells: Vec<PaperCell>,
-    /// Faces with their sheets, as lists that begin in the cells: each with the index of the next plus one.
+    /// Faces with their sheets, as linked lists that begin in the cells. The last number is the index of the next entry
+    /// plus one.
     laid: Vec<(u32, u32, u32)>,
 }
 
 #[derive(Clone, Default)]
 struct PaperCell {
-    /// The index of the first face in the list plus one; 0 for none.
+    /// Index of the first face in the list plus one; 0 if the list is empty.
     first: u32,
-    /// How many faces are in the list.
+    /// Number of faces in the list.
     count: u32,
-    /// The highest sheet of a face that touches the cell.
+    /// Highest sheet of a face that touches the cell.
     highest: u32,
 }
 
@@ -117,7 +119,7 @@ impl PaperGrid {
         Some(Self { low, cell, columns, cells: vec![PaperCell::default(); columns * rows], laid: Vec::new() })
     }
 
-    /// The cells that the box around `face` touches, as ranges of rows' cells.
+    /// Returns the cells that the bounding box of `face` touches, as one range for each row.
     fn rows(&self, face: &VisibleFace) -> impl Iterator<Item = std::ops::Range<usize>> + use<> {
         let [left, right, bottom, top] =
             [(0, true), (0, false), (1, true), (1, false)].map(|(axis, least)| {
@@ -129,7 +131,7 @@ impl PaperGrid {
         (bottom..=top).map(move |row| row * columns + left..row * columns + right + 1)
     }
 
-    /// The highest sheet that `face` may not be below.
+    /// Returns the highest sheet that `face` must not be below.
     fn highest(&self, face: &VisibleFace, faces: &[VisibleFace]) -> u32 {
         let mut highest = 0;
         for cell in self.rows(face).flat_map(|row| &self.cells[row]) {
@@ -166,7 +168,7 @@ impl PaperGrid {
     }
 }
 
-/// Whether two counter-clockwise triangles have more in common than a border.
+/// Returns true if the interiors of two counter-clockwise triangles intersect.
 fn overlap(one: &[PaperPoint; 3], other: &[PaperPoint; 3]) -> bool {
     let separates = |of: &[PaperPoint; 3], from: &[PaperPoint; 3]| {
         (0..3).any(|i| {
@@ -181,7 +183,7 @@ fn overlap(one: &[PaperPoint; 3], other: &[PaperPoint; 3]) -> bool {
     !separates(one, other) && !separates(other, one)
 }
 
-/// The size of `face` (mm) along an axis.
+/// Returns the size of `face` (mm) along an axis.
 fn extent(face: &VisibleFace, axis: usize) -> f64 {
     let [a, b, c] = face.corners.map(|corner| corner[axis]);
     (a.max(b).max(c) - a.min(b).min(c)) as f64

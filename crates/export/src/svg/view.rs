@@ -1,12 +1,12 @@
-//! The side that a drawing is seen from.
+//! Choice of the side from which a drawing shows the model.
 
 use super::super::check::{SceneCheck, shown_parts, triangles};
 use glam::{DMat3, DVec3};
 
-/// Where the viewer is.
+/// Position of the viewer.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum DrawingSide {
-    /// Above, with north at the top of the paper.
+    /// View from above, with north at the top of the paper.
     Plan,
     South,
     East,
@@ -17,8 +17,8 @@ pub(super) enum DrawingSide {
 impl DrawingSide {
     const ALL: [Self; 5] = [Self::Plan, Self::South, Self::East, Self::North, Self::West];
 
-    /// The view that shows most: the plan, or an elevation if the model is thin and upright or if nothing can
-    /// be seen from above.
+    /// Chooses the view that shows most: the plan, or an elevation if the model is thin and upright or if nothing is
+    /// visible from above.
     pub(super) fn of(checked: &SceneCheck<'_>) -> Self {
         let areas = facing_areas(checked);
         let thin = checked.scene.bounds().and_then(|(low, high)| {
@@ -32,7 +32,8 @@ impl DrawingSide {
             }
         });
         let best = |among: &[Self]| {
-            // The first wins unless another shows visibly more: a closed shape looks the same from both sides.
+            // The first view wins unless another shows visibly more, because a closed shape looks the same from both
+            // sides.
             among
                 .iter()
                 .copied()
@@ -47,7 +48,7 @@ impl DrawingSide {
         }
     }
 
-    /// From the scene's coordinates to the paper's: x to the right, y up, z towards the viewer.
+    /// Returns the rotation from the scene's coordinates to the paper's: x to the right, y up, z towards the viewer.
     pub(super) fn matrix(self) -> DMat3 {
         let (right, up) = match self {
             Self::Plan => (DVec3::X, DVec3::Y),
@@ -59,7 +60,7 @@ impl DrawingSide {
         DMat3::from_cols(right, up, right.cross(up)).transpose()
     }
 
-    /// What is written over the drawing.
+    /// Returns the title of the drawing.
     pub(super) fn title(self) -> &'static str {
         match self {
             Self::Plan => "Plan, north up",
@@ -71,7 +72,7 @@ impl DrawingSide {
     }
 }
 
-/// For each view, the area (m²) of what faces it, as large as it looks and whether or not it is covered.
+/// Computes the projected area (m²) of the faces towards each view, including covered faces.
 fn facing_areas(checked: &SceneCheck<'_>) -> [f64; 5] {
     let towards = DrawingSide::ALL.map(|view| view.matrix().row(2));
     let mut areas = [0.0; 5];
@@ -111,7 +112,7 @@ mod tests {
     #[test]
     fn one_wall_is_seen_from_the_side_that_it_faces() {
         let mut scene = samples::boxes(1);
-        // The first square of the box looks east, the fourth looks south.
+        // The first square of the box faces east, and the fourth faces south.
         for (square, view) in
             [(0, DrawingSide::East), (3, DrawingSide::South), (1, DrawingSide::West), (4, DrawingSide::Plan)]
         {

@@ -1,4 +1,4 @@
-//! Puts a document together: prototypes first, then what is shown, in the order of the scene.
+//! Assembles a document: prototypes first, then the instances in the order of the scene.
 
 use std::fmt::Write as _;
 use std::io::Write as _;
@@ -18,10 +18,10 @@ use glam::{DAffine3, DQuat, DVec3};
 use rayon::prelude::*;
 use rustc_hash::FxHashMap;
 
-/// How many of the items are turned into text at a time.
+/// Number of items that are serialised at a time.
 const CHUNK: usize = 128;
 
-/// The parameters of prototypes, which are fields of `Transform` too: name, type and default.
+/// Parameters of prototypes, which are also fields of `Transform`: name, type and default.
 const FIELDS: [[&str; 3]; 4] = [
     ["translation", "SFVec3f", "0 0 0"],
     ["rotation", "SFRotation", "0 0 1 0"],
@@ -29,41 +29,42 @@ const FIELDS: [[&str; 3]; 4] = [
     ["scaleOrientation", "SFRotation", "0 0 1 0"],
 ];
 
-/// A mesh of the scene, or its mirror image: X3D leaves open which side of a face is seen once its scale is negative.
+/// Mesh of the scene, or its mirror image. X3D does not define which side of a face is visible if its scale is
+/// negative.
 #[derive(Clone, Copy, PartialEq, Eq, Hash)]
 struct ShownMesh {
     mesh: usize,
     mirrored: bool,
 }
 
-/// How the instances of a mesh are written.
+/// Method of writing the instances of a mesh.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Sharing {
-    /// There is only one.
+    /// Written in place, for the only instance of the mesh.
     Alone,
-    /// They are instances of a prototype.
+    /// Written as a prototype that the instances use.
     Prototype,
-    /// The item with this number has the mesh under a name, others use it.
+    /// Defined under a name in the item with this number; other items refer to it.
     From(usize),
 }
 
-/// A piece of the document.
+/// Item of the document.
 #[derive(Clone, Copy)]
 enum DocumentItem<'a> {
     Prototype(ShownMesh),
     Placed(&'a Instance, ShownMesh),
 }
 
-/// What stands where in a document.
+/// Order of the items in a document, and the items that define shared parts.
 struct DocumentPlan<'a> {
     checked: &'a SceneCheck<'a>,
     items: Vec<DocumentItem<'a>>,
     sharing: FxHashMap<ShownMesh, Sharing>,
-    /// For each material, the number of the item that has it under its name.
+    /// For each material, the number of the item that defines it under its name.
     defined: Vec<Option<usize>>,
 }
 
-/// Writes an `.x3d` file to `path`, and copies of the textures beside it.
+/// Writes an `.x3d` file to `path`, and copies of the textures next to it.
 pub(crate) fn write(scene: &Scene, facts: &SceneFacts<'_>, path: &Path, files: &mut Files) -> Result<()> {
     let checked = check(scene)?;
     let images = Images::load(&checked)?;
@@ -87,10 +88,10 @@ pub(crate) fn write(scene: &Scene, facts: &SceneFacts<'_>, path: &Path, files: &
     })
 }
 
-/// All that stands before the items.
+/// Returns the text before the items.
 fn head(name: &str, origin: DVec3, packages: &[ScenePackage], frame: Option<&ReferenceFrame>) -> String {
     let version = env!("CARGO_PKG_VERSION");
-    // Their names, versions and hashes have no letter that XML takes for something else.
+    // The names, versions and hashes of packages have no characters that XML requires to escape.
     let packages: String = packages
         .iter()
         .map(|it| format!("<meta name='package' content='{} {} {}'/>\n", it.name, it.version, it.hash))
@@ -174,7 +175,7 @@ impl<'a> DocumentPlan<'a> {
         plan
     }
 
-    /// The text of item number `number`.
+    /// Returns the text of item number `number`.
     fn text(&self, number: usize, looks: &Looks<'_>) -> String {
         let mut text = String::new();
         match self.items[number] {
@@ -203,7 +204,7 @@ impl<'a> DocumentPlan<'a> {
             "</IS><MetadataString name='feature'><IS><connect nodeField='value' protoField='feature'/></IS></MetadataString>\n",
         );
         let shapes = &self.checked.scene.meshes[mesh.mesh];
-        // Names end where a prototype does.
+        // A name is only valid within its prototype.
         shape::write(shapes, mesh.mirrored, looks, |_| LookReference::Own, out);
         out.push_str("</Transform></ProtoBody></ProtoDeclare>\n");
     }
@@ -263,7 +264,7 @@ impl<'a> DocumentPlan<'a> {
         identifier(kind, mesh.mesh, &self.checked.scene.meshes[mesh.mesh].name)
     }
 
-    /// Where an instance stands: the fields of its transform that are not the default.
+    /// Returns the fields of an instance's transform that differ from the default.
     fn place(&self, instance: &Instance, mesh: ShownMesh) -> Vec<(&'static str, String)> {
         let mut transform = instance.transform;
         transform.translation -= self.checked.origin;
@@ -272,7 +273,7 @@ impl<'a> DocumentPlan<'a> {
         }
         let (place, turn, scale, axes) = match decompose(&y_up(&transform)) {
             Steps::One(trs) => (trs.translation, trs.rotation, trs.scale, DQuat::IDENTITY),
-            // Turned into the axes along which it is scaled, and back.
+            // Rotated into the axes of the scale, and back.
             Steps::Two(rest, first) => (rest.translation, rest.rotation * first, rest.scale, first.inverse()),
         };
         let vector = |vector: DVec3| {
@@ -288,7 +289,7 @@ impl<'a> DocumentPlan<'a> {
     }
 }
 
-/// A turn as an axis and an angle (radians).
+/// Formats a rotation as an axis and an angle (radians).
 fn rotation(turn: DQuat) -> String {
     let turn = if turn.w < 0.0 { -turn } else { turn };
     let (axis, angle) = turn.to_axis_angle();

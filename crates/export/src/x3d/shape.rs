@@ -1,4 +1,4 @@
-//! Shapes: the triangles of a material, and what they look like.
+//! Shapes: the triangles of a material, and their appearance.
 
 use std::fmt::Write;
 
@@ -8,25 +8,25 @@ use super::xml::{escaped, identifier, listed};
 use burgeon_scene::{Material, Mesh, Part, Texture};
 use glam::Vec3;
 
-/// The materials of a scene as a file has them.
+/// Materials of a scene as they are written.
 pub(super) struct Looks<'a> {
     pub(super) materials: &'a [Material],
-    /// For each material, the name of its image's file.
+    /// For each material, the file name of its image.
     pub(super) images: Vec<Option<String>>,
 }
 
-/// How a shape refers to its material.
+/// Reference from a shape to its material.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(super) enum LookReference {
-    /// It is written here, without a name.
+    /// Written here, without a name.
     Own,
-    /// It is written here, under its name.
+    /// Written here, under its name.
     Defined,
-    /// It has been written before.
+    /// Written before.
     Used,
 }
 
-/// Writes the shapes of `mesh`, mirrored along x if that is wanted; `refer` tells how each material is referred to.
+/// Writes the shapes of `mesh`, `mirrored` along x if set; `refer` returns the reference to each material.
 pub(super) fn write(
     mesh: &Mesh,
     mirrored: bool,
@@ -56,7 +56,7 @@ fn write_points(part: &Part, mirrored: bool, texture: Option<&Texture>, out: &mu
     out.push_str("<Coordinate point='");
     numbers(part.positions.iter().flat_map(|at| place(*at)), out);
     out.push_str("'/><Normal vector='");
-    // Four decimals are as many as a normal has.
+    // Normals have a precision of four decimals.
     let round = |number: f32| (number * 1e4).round() / 1e4 + 0.0;
     numbers(part.normals.iter().flat_map(|normal| place(normal.vector()).map(round)), out);
     out.push_str("'/>");
@@ -70,7 +70,7 @@ fn write_points(part: &Part, mirrored: bool, texture: Option<&Texture>, out: &mu
     }
 }
 
-/// Writes numbers with blanks between them, each as the shortest decimal that gives the same number.
+/// Writes numbers separated by spaces, each as the shortest decimal that represents the same number.
 pub(super) fn numbers<T: std::fmt::Display>(numbers: impl IntoIterator<Item = T>, out: &mut String) {
     for (index, number) in numbers.into_iter().enumerate() {
         let blank = if index == 0 { "" } else { " " };
@@ -79,7 +79,7 @@ pub(super) fn numbers<T: std::fmt::Display>(numbers: impl IntoIterator<Item = T>
 }
 
 impl Looks<'_> {
-    /// Writes material number `index`, or that it is used.
+    /// Writes material number `index`, or a reference to it.
     fn write(&self, index: usize, reference: LookReference, out: &mut String) {
         let material = &self.materials[index];
         let name = identifier("material", index, &material.name);
@@ -95,11 +95,11 @@ impl Looks<'_> {
         }
         let [r, g, b, opacity] = material.base_color.map(fraction);
         let (metallic, roughness) = (fraction(material.metallic), fraction(material.roughness));
-        // As in OBJ: 4 % of the light on anything but metal, and the exponent of Blinn and Phong, of which X3D has
-        // 128 at most. What is rough spreads its highlight until it is none.
+        // As in OBJ: 4 % of the light for dielectrics, and the exponent of Blinn and Phong, which X3D limits to 128. A
+        // rough surface spreads its highlight until it disappears.
         let specular = [r, g, b].map(|color| (0.04 + (color - 0.04) * metallic) * (1.0 - roughness));
         let exponent = (2.0 / roughness.max(0.045).powi(4) - 2.0).clamp(0.0, 128.0);
-        // Four decimals: the schema takes no exponents in colours.
+        // Four decimals, because the schema does not allow exponents in colours.
         let color = |color: [f32; 3]| color.map(|it| format!("{:.4}", srgb(it))).join(" ");
         let _ = write!(
             out,
@@ -122,12 +122,12 @@ impl Looks<'_> {
     }
 }
 
-/// Whose something is, as a node that programs which do not know of it pass over.
+/// Writes the feature as a node that unaware programs ignore.
 pub(super) fn write_feature(feature: &str, out: &mut String) {
     let _ = write!(out, "<MetadataString name='feature' value='{}'/>", listed(feature));
 }
 
-/// `name` as a title.
+/// Escapes `name` as a title.
 pub(super) fn title(name: &str) -> String {
     escaped(name)
 }

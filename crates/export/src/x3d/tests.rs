@@ -1,4 +1,4 @@
-//! A reader of X3D that knows the nodes which are written, as the schema of X3D 3.3 has them.
+//! Tests with a reader of X3D that knows the nodes that are written, according to the schema of X3D 3.3.
 
 use std::collections::{HashMap, HashSet};
 use std::path::Path;
@@ -10,7 +10,7 @@ use roxmltree::{Document, Node, ParsingOptions};
 use super::super::samples;
 use burgeon_picture::Picture;
 
-/// The nodes that may be there: each with its attributes and what may be in it, in this order.
+/// Allowed nodes, each with its attributes and its allowed children, in this order.
 const NODES: [(&str, &[&str], &[&str]); 23] = [
     ("X3D", &["profile", "version", "noNamespaceSchemaLocation"], &["head", "Scene"]),
     ("head", &[], &["meta"]),
@@ -43,10 +43,10 @@ const NODES: [(&str, &[&str], &[&str]); 23] = [
 
 const FIELDS: [&str; 4] = ["translation", "rotation", "scale", "scaleOrientation"];
 
-/// What a file shows.
+/// Content of a file.
 #[derive(Default)]
 struct X3dContent {
-    /// The corners of triangles where they are in the world, y up, with the normals there.
+    /// Corners of triangles in world coordinates, y up, with their normals.
     triangles: Vec<[(DVec3, DVec3); 3]>,
     shapes: usize,
     features: Vec<String>,
@@ -55,7 +55,7 @@ struct X3dContent {
     uses: usize,
 }
 
-/// Reads a file and checks all of it.
+/// Reader that validates the whole file.
 struct X3dReader<'a> {
     text: &'a str,
     named: HashMap<&'a str, Node<'a, 'a>>,
@@ -89,8 +89,8 @@ fn place(values: &HashMap<&str, &str>) -> DAffine3 {
 }
 
 impl<'a> X3dReader<'a> {
-    /// Checks that all nodes and their attributes are known and in their order, and that nothing is used that is not
-    /// there before.
+    /// Checks that all nodes and their attributes are known and in order, and that every reference follows its
+    /// definition.
     fn check(&mut self, node: Node<'a, 'a>) {
         let name = node.tag_name().name();
         let (_, attributes, children) =
@@ -144,7 +144,7 @@ impl<'a> X3dReader<'a> {
         }
     }
 
-    /// Notes what `node` shows at `at`; `values` are those of the prototype that it is in.
+    /// Records the content of `node` at `at`; `values` are the parameters of the enclosing prototype.
     fn show(&mut self, node: Node<'a, 'a>, at: DAffine3, values: &HashMap<&'a str, &'a str>) {
         let of = |name: &'static str| node.children().find(move |child| child.has_tag_name(name));
         match node.tag_name().name() {
@@ -237,7 +237,7 @@ fn every_sample_is_valid_and_shows_all_triangles_with_normals_outside() {
         let (shown, _) = read(&path);
         shapes += shown.shapes;
         if name == "odd" {
-            // It has triangles without area, which are not written.
+            // This sample has triangles without area, which are not written.
             continue;
         }
         assert_eq!(shown.triangles.len(), scene.triangles(), "{name}");
@@ -268,7 +268,8 @@ fn placed_models_are_instances_of_prototypes_and_other_shared_meshes_are_used() 
     let mut scene = samples::many(30);
     let (shown, text) = written(&scene);
     assert_eq!((shown.prototypes, shown.instances, shown.shapes), (0, 0, 30));
-    // One group as it is and one mirrored, each there once; the material is used from the second on.
+    // One group is unchanged and one is mirrored, and each is defined once. The material is referred to from the second
+    // use on.
     assert_eq!((text.matches("<IndexedTriangleSet").count(), shown.uses), (2, 29));
     for (number, instance) in scene.instances.iter_mut().enumerate() {
         instance.placement = Some(number);

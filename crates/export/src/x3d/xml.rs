@@ -1,11 +1,11 @@
-//! Text as XML holds it.
+//! Escaping of text in XML.
 
 use std::fmt::Write;
 
-/// The most letters of a name for people in one for programs.
+/// Maximum number of characters of a display name in an identifier.
 const LONGEST: usize = 40;
 
-/// `text` between the quotation marks of an attribute. XML has no way to write most control characters: they become
+/// Escapes `text` for an attribute in quotation marks. XML cannot represent most control characters, so they become
 /// U+FFFD.
 pub(super) fn escaped(text: &str) -> String {
     let mut escaped = String::with_capacity(text.len());
@@ -16,7 +16,7 @@ pub(super) fn escaped(text: &str) -> String {
             '>' => escaped.push_str("&gt;"),
             '\'' => escaped.push_str("&apos;"),
             '"' => escaped.push_str("&quot;"),
-            // Readers would make blanks of these.
+            // Readers would replace these characters by spaces.
             '\t' | '\n' | '\r' => {
                 let _ = write!(escaped, "&#{};", u32::from(letter));
             }
@@ -27,12 +27,13 @@ pub(super) fn escaped(text: &str) -> String {
     escaped
 }
 
-/// A list of strings that has `text` alone, as an attribute holds it.
+/// Escapes a list of strings with the single item `text` for an attribute.
 pub(super) fn listed(text: &str) -> String {
     escaped(&format!("\"{}\"", text.replace('\\', "\\\\").replace('"', "\\\"")))
 }
 
-/// A name that nothing else in the file has: thing number `index` of a `kind`, which people call `name`.
+/// Returns an identifier that is unique in the file: for item number `index` of type `kind` with the display name
+/// `name`.
 pub(super) fn identifier(kind: &str, index: usize, name: &str) -> String {
     let word = |letter: char| if letter.is_ascii_alphanumeric() { letter } else { '_' };
     let name: String = name.chars().take(LONGEST).map(word).collect();

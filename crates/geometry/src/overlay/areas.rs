@@ -9,30 +9,31 @@ use super::pairs::{Candidate, for_pairs};
 use super::subdivision::Subdivision;
 use crate::planar::Rings;
 
-/// The areas that are joined at once.
+/// Number of areas that are joined in one step.
 const AT_ONCE: usize = 4;
 
-/// An area: polygons, outer rings counter-clockwise and holes clockwise.
+/// An area: polygons, with counter-clockwise outer rings and clockwise holes.
 pub type PolygonArea = Vec<Rings<DVec2>>;
 
-/// The rule by which rings enclose an area.
+/// Fill rule of rings.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Fill {
-    /// All that they go around, in whatever direction.
+    /// Points with a winding number other than zero are inside.
     NonZero,
-    /// All that they go around an odd number of times.
+    /// Points with an odd winding number are inside.
     EvenOdd,
 }
 
-/// The rings of polygons as ways of a layer.
+/// Returns the rings of polygons as ways of a layer.
 pub fn ring_ways(area: &[Rings<DVec2>], layer: usize) -> impl Iterator<Item = LayerWay> + '_ {
     let rings = area.iter().flat_map(|rings| rings.iter());
     rings.map(move |ring| LayerWay { layer, kind: WayKind::Ring, places: ring.clone() })
 }
 
-/// Returns the area that rings enclose by a rule, valid: rings that cross or touch are divided.
+/// Computes the area that rings enclose by a fill rule, as a valid area: rings that cross or touch are
+/// divided.
 ///
-/// Fails if the work of this thread is to stop.
+/// Fails if the work of this thread is cancelled.
 pub fn fill(area: &[Rings<DVec2>], rule: Fill) -> Result<PolygonArea> {
     let ways: Vec<LayerWay> = ring_ways(area, 0).collect();
     Ok(Subdivision::new(&ways)?.areas(|[around, _]| match rule {
@@ -41,10 +42,11 @@ pub fn fill(area: &[Rings<DVec2>], rule: Fill) -> Result<PolygonArea> {
     }))
 }
 
-/// Returns the area of which `keep` says that it is part, by whether it lies in the first area and in the second. Rings
-/// enclose all that they go around.
+/// Computes the area for which `keep` returns true, given membership in the first and in the second area.
 ///
-/// Fails if the work of this thread is to stop.
+/// Rings use the non-zero fill rule.
+///
+/// Fails if the work of this thread is cancelled.
 ///
 /// ```
 /// use burgeon_geometry::overlay::overlay;
@@ -77,12 +79,12 @@ pub fn overlay(
     Ok(made)
 }
 
-/// Returns the union of polygons, whose rings each enclose all that they go around.
+/// Computes the union of polygons, with the non-zero fill rule for the rings of each polygon.
 ///
-/// Fails if the work of this thread is to stop.
+/// Fails if the work of this thread is cancelled.
 ///
-/// Method: polygons whose boxes meet, directly or by way of others, are joined four at a time, neighbours first, so that
-/// what is covered is left behind early.
+/// Method: polygons whose bounding boxes intersect, directly or through others, are joined in groups of four
+/// neighbours, so that covered edges are removed early.
 ///
 /// ```
 /// use burgeon_geometry::Rings;
@@ -104,7 +106,7 @@ pub fn unite(parts: Vec<Rings<DVec2>>) -> Result<PolygonArea> {
     unite_valid(valid)
 }
 
-/// Returns the union of areas that are valid, each by itself.
+/// Computes the union of areas, each of which is valid.
 pub(super) fn unite_valid(areas: Vec<PolygonArea>) -> Result<PolygonArea> {
     let mut made = PolygonArea::new();
     let all: Vec<Rings<DVec2>> = areas.iter().flatten().cloned().collect();
@@ -130,7 +132,7 @@ fn middle(rings: &Rings<DVec2>) -> DVec2 {
     low.midpoint(high)
 }
 
-/// Joins valid areas, some at a time, until there is one.
+/// Joins valid areas in groups until one area remains.
 fn join(mut areas: Vec<PolygonArea>) -> Result<PolygonArea> {
     while areas.len() > 1 {
         areas = areas.chunks(AT_ONCE).map(join_few).collect::<Result<_>>()?;
@@ -138,7 +140,7 @@ fn join(mut areas: Vec<PolygonArea>) -> Result<PolygonArea> {
     Ok(areas.pop().unwrap_or_default())
 }
 
-/// Joins valid areas at once.
+/// Joins a few valid areas in one step.
 fn join_few(areas: &[PolygonArea]) -> Result<PolygonArea> {
     let all: Vec<&Rings<DVec2>> = areas.iter().flatten().collect();
     let owners = owners(areas);
@@ -155,12 +157,12 @@ fn join_few(areas: &[PolygonArea]) -> Result<PolygonArea> {
     Ok(made)
 }
 
-/// By polygon: the area that it is part of.
+/// Returns the index of the area of each polygon.
 fn owners(areas: &[PolygonArea]) -> Vec<usize> {
     areas.iter().enumerate().flat_map(|(index, area)| std::iter::repeat_n(index, area.len())).collect()
 }
 
-/// Whether all polygons of a group are part of one area.
+/// Returns true if all polygons of a group belong to one area.
 fn is_of_one(group: &[usize], owners: &[usize]) -> bool {
     group.windows(2).all(|pair| owners[pair[0]] == owners[pair[1]])
 }
@@ -170,7 +172,8 @@ fn bounds(rings: &Rings<DVec2>) -> [DVec2; 2] {
     places.fold([DVec2::INFINITY, DVec2::NEG_INFINITY], |[low, high], at| [low.min(*at), high.max(*at)])
 }
 
-/// The numbers of polygons in groups whose boxes do not meet those of others; each in order, by their first ones.
+/// Groups polygons whose bounding boxes intersect; returns their indices in order, sorted by the first of
+/// each group.
 #[allow(clippy::cast_possible_truncation, reason = "fewer polygons than 2^32 fit into memory")]
 fn groups<'a>(all: impl Iterator<Item = &'a Rings<DVec2>>) -> Result<Vec<Vec<usize>>> {
     let mut boxes: Vec<Candidate> = all
@@ -189,7 +192,7 @@ fn groups<'a>(all: impl Iterator<Item = &'a Rings<DVec2>>) -> Result<Vec<Vec<usi
         return Ok(vec![vec![0]]);
     }
     let most = boxes.iter().fold(0.0_f64, |most, it| most.max(it.low.abs().max(it.high.abs()).max_element()));
-    // As far as what is rounded may be beside what it was meant to touch.
+    // Maximum distance that rounding can move a point from an edge that it should touch.
     let near = 4.0 * f64::EPSILON * most;
     let mut first: Vec<usize> = (0..count).collect();
     fn root(first: &mut [usize], mut index: usize) -> usize {

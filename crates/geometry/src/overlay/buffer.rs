@@ -1,4 +1,4 @@
-//! Buffers: what lies within a distance of areas, lines and points.
+//! Buffers: the area within a distance of areas, lines and points.
 
 use burgeon_base::error::Result;
 use glam::DVec2;
@@ -9,29 +9,33 @@ use super::outline::{BufferStyle, ClosedWalk, Outliner};
 use super::subdivision::Subdivision;
 use crate::planar::Rings;
 
-/// The edges of a piece of a walk, and the short ones with which a walk is divided into pieces.
+/// Number of edges per piece of a walk, and the number of short edges above which a walk is divided into
+/// pieces.
 const PIECE: usize = 32;
 const SHORT_EDGES: usize = 64;
-/// Edges shorter than this part of the distance are short: the rectangles beside many of them cover each other.
+/// Edges shorter than this fraction of the distance are short: the rectangles next to many such edges overlap
+/// each other.
 const SHORT: f64 = 0.5;
 
-/// Lines and points to draw a buffer around, with areas.
+/// Areas, lines and points to buffer.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct BufferSource<'a> {
-    /// Areas that are valid.
+    /// Valid areas.
     pub areas: &'a [Rings<DVec2>],
-    /// The places along lines.
+    /// Lines, each as its points.
     pub lines: &'a [Vec<DVec2>],
-    /// Places.
+    /// Points.
     pub points: &'a [DVec2],
 }
 
-/// Returns the area of all that lies within a distance (m) of areas, lines and points; if it is negative, of areas what lies
-/// farther than that from their border. Valid.
+/// Computes the valid area within a distance (m) of areas, lines and points.
 ///
-/// Fails if the work of this thread is to stop.
+/// A negative distance returns the part of the areas that is farther than that distance from their border.
 ///
-/// Method: the union of what is beside each edge and around each corner. Where that is much, it is computed piece by piece.
+/// Fails if the work of this thread is cancelled.
+///
+/// Method: the union of the areas next to each edge and around each corner, computed piecewise if there are
+/// many short edges.
 pub fn buffer(source: BufferSource<'_>, distance: f64, style: BufferStyle) -> Result<PolygonArea> {
     let outliner = Outliner { distance: distance.abs(), style };
     if distance <= 0.0 {
@@ -70,7 +74,7 @@ fn walks(rings: &Rings<DVec2>, is_inwards: bool) -> Vec<ClosedWalk> {
     rings.iter().filter_map(around).collect()
 }
 
-/// A polygon and what lies within the distance of it, as areas that may overlap.
+/// Returns areas that together cover a polygon and its surroundings within the distance; they may overlap.
 fn outer(rings: &Rings<DVec2>, outliner: &Outliner) -> Result<Vec<PolygonArea>> {
     let walks = walks(rings, false);
     let mut made = swept(&walks, outliner, 0)?;
@@ -80,7 +84,7 @@ fn outer(rings: &Rings<DVec2>, outliner: &Outliner) -> Result<Vec<PolygonArea>> 
     Ok(made)
 }
 
-/// What of a polygon lies farther than the distance from its border.
+/// Returns the part of a polygon that is farther than the distance from its border.
 fn inner(rings: &Rings<DVec2>, outliner: &Outliner) -> Result<PolygonArea> {
     let walks = walks(rings, true);
     if !are_dense(&walks, outliner) {
@@ -94,14 +98,17 @@ fn are_dense(walks: &[ClosedWalk], outliner: &Outliner) -> bool {
     walks.iter().map(|walk| walk.count_shorter(SHORT * outliner.distance)).sum::<usize>() > SHORT_EDGES
 }
 
-/// What walks sweep over to their right. With few edges that is one area, with what they go around more than `least` times;
-/// with many it is several, which may overlap, without what they go around.
+/// Computes the area that walks sweep on their right.
+///
+/// With few short edges, the result is one area, including the parts with a winding number greater than
+/// `least`. With many, it is several areas, which may overlap, without the enclosed parts.
 fn swept(walks: &[ClosedWalk], outliner: &Outliner, least: i32) -> Result<Vec<PolygonArea>> {
     let ring = |places| LayerWay { layer: 0, kind: WayKind::Ring, places };
     if !are_dense(walks, outliner) {
         let ways: Vec<LayerWay> = walks.iter().map(|walk| ring(outliner.whole(walk))).collect();
         let subdivision = Subdivision::new(&ways)?;
-        // Inwards, a polygon that is walked around clockwise counts less than nothing where nothing covers it.
+        // Inwards, a polygon walked clockwise has a negative winding number where the sweep does not cover
+        // it.
         let area = subdivision.areas(|[around, _]| if least < 0 { around < 0 } else { around > 0 });
         return Ok(vec![area]);
     }

@@ -1,14 +1,16 @@
 //! Set operations on areas and buffers, valid by construction.
 //!
-//! Comes in: rings, lines and points of one or two layers, in any state. Goes out: the area that they enclose or cover, as
-//! polygons that are valid in the sense of OGC Simple Features. Edges are divided where they meet until exact predicates
-//! find that none crosses another; by then each piece of the plane is on one side of every ring, and the border of any
-//! number of pieces consists of rings that neither cross nor touch themselves.
+//! Input: rings, lines and points of one or two layers, valid or not. Output: the area that they enclose or
+//! cover, as valid polygons in the sense of OGC Simple Features. Edges are divided where they intersect until
+//! exact predicates confirm that no two cross. Then each face of the plane is on one side of every ring, and
+//! the border of any set of faces consists of rings that neither cross nor touch themselves.
 //!
-//! Places that were given stay exactly as they are. Those within two units in the last place of the greatest coordinate
-//! are one place, and an edge runs through a place that is as near. So narrow are the areas that vanish.
+//! Input points keep their exact coordinates. Points within two units in the last place of the largest
+//! coordinate are merged, and an edge passes through every point that is as close. Therefore only areas as
+//! narrow as that vanish.
 //!
-//! All work ends, and before that if the [limits](burgeon_base::work::WorkLimits) of this thread's work say so.
+//! All operations terminate, earlier if the [limits](burgeon_base::work::WorkLimits) of this thread's work
+//! require it.
 
 mod areas;
 mod buffer;

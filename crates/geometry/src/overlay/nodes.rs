@@ -1,22 +1,23 @@
-//! The nodes of a subdivision: places of which those within a tolerance of each other are one.
+//! Nodes of a subdivision: points, merged within a tolerance.
 
 use glam::DVec2;
 use rustc_hash::FxHashMap;
 
-/// The end of a list of nodes.
+/// Marker for the end of a list of nodes.
 const END: u32 = u32::MAX;
 
-/// The tolerances in the width of a cell: so few places lie near its border that mostly one cell is searched.
+/// Width of a cell in units of the tolerance: few points lie near a border, so that a search mostly visits
+/// one cell.
 const CELL: f64 = 64.0;
 
-/// Places, found by cells of a grid.
+/// Points, indexed by the cells of a grid.
 #[derive(Debug)]
 pub(super) struct Nodes {
     pub(super) places: Vec<DVec2>,
     tolerance: f64,
-    /// The first node of each cell.
+    /// First node of each cell.
     cells: FxHashMap<[i64; 2], u32>,
-    /// By node: the next one of the same cell.
+    /// Next node of the same cell, by node.
     next: Vec<u32>,
 }
 
@@ -32,11 +33,12 @@ impl Nodes {
         [place.x.floor() as i64, place.y.floor() as i64]
     }
 
-    /// Returns the node at a place, or else the nearest one within the tolerance that `may_be` allows; if there is none, the
-    /// place becomes one.
+    /// Returns the node at a point, or the closest node within the tolerance for which `may_be` returns true.
+    ///
+    /// If no such node exists, the point becomes a new node.
     #[allow(clippy::cast_possible_truncation, reason = "fewer nodes than 2^32 fit into memory")]
     pub(super) fn find(&mut self, place: DVec2, may_be: impl Fn(u32) -> bool) -> u32 {
-        // There is only one zero.
+        // Adding 0 turns -0 into 0.
         let place = place + DVec2::ZERO;
         let (low, high) = (self.cell(place - self.tolerance), self.cell(place + self.tolerance));
         let mut best: Option<(f64, u32)> = None;

@@ -1,13 +1,14 @@
-//! Divides edges where they meet, until none crosses or touches another one but at nodes.
+//! Noding: divides edges where they intersect, until edges meet only at nodes.
 //!
-//! Method: edges that cross are divided at the crossing, rounded, and edges that a node lies on, or within a few units in
-//! the last place, at that node. What is divided is moved by as little, and may cross others: so it is looked at again,
-//! until exact predicates find nothing more. A crossing near a node is that node, hence nodes keep a distance, and an end
-//! is reached; where it is not within a number of rounds, all is done again with a greater tolerance, at last one as great
-//! as the whole, for which there is one node.
+//! Method: crossing edges are divided at their rounded crossing. Edges that pass through a node, or within a
+//! few units in the last place of it, are divided at that node. The division moves edges by as little as
+//! that, so they may cross others; the process repeats until exact predicates find no intersection. A
+//! crossing close to a node uses that node, so nodes keep a minimum distance and the process terminates. If
+//! it does not terminate within a number of rounds, it starts again with a greater tolerance; a tolerance as
+//! great as the whole input merges everything into one node.
 //!
-//! Places of one way that differ stay apart, and no edge of it is drawn to them, unless that is needed for an end to be
-//! reached: the tolerance brings together what was given apart, and takes no width from a ring.
+//! Distinct points of one way stay distinct, and no edge of the way is snapped to them, unless termination
+//! requires it: the tolerance merges points of different ways, and does not narrow a ring.
 
 use burgeon_base::error::Result;
 use burgeon_base::work::WorkLimits;
@@ -18,53 +19,53 @@ use super::nodes::Nodes;
 use super::pairs::{Candidate, for_pairs};
 use super::predicates::{crossing, side};
 
-/// The source of an edge that several ways share.
+/// Source of an edge that several ways share.
 pub(super) const SHARED: u32 = u32::MAX;
 
-/// The rounds until a greater tolerance is taken, and the factor between the two.
+/// Number of rounds before the tolerance is increased, and the factor of the increase.
 const ROUNDS: usize = 32;
 const COARSER: f64 = 8.0;
 
-/// The tolerance in units in the last place of the greatest coordinate: rounding leaves a place that was computed on a
-/// line as far beside it.
+/// Tolerance in units in the last place of the largest coordinate: the maximum rounding error of a point
+/// computed on a line.
 const TOLERANCE: f64 = 2.0;
-/// The part of the tolerance within which a node is on an edge. With three quarters or less the parts of the edge are
-/// shorter than the whole.
+/// Maximum distance of a node on an edge, as a fraction of the tolerance. Up to three quarters, the parts of
+/// a divided edge are shorter than the edge.
 const ON_EDGE: f64 = 0.75;
 
-/// The deepest that divided edges may be made of others.
+/// Maximum nesting depth of divided edges.
 const DEEPEST: usize = 64;
 
-/// How a way counts.
+/// Type of a way.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum WayKind {
-    /// A ring, with an area to its left. Its last place is joined to its first one.
+    /// A ring with an area to its left; its last point is joined to its first.
     Ring,
-    /// A line from its first place to its last.
+    /// A line from its first point to its last.
     Line,
-    /// A number of places.
+    /// A set of points.
     Points,
 }
 
-/// A ring, a line or points of one of two layers.
+/// A way: a ring, a line or points of one of two layers.
 #[derive(Debug, Clone)]
 pub struct LayerWay {
-    /// The layer: 0 or 1.
+    /// Layer: 0 or 1.
     pub layer: usize,
-    /// The kind.
+    /// Type of the way.
     pub kind: WayKind,
-    /// The places, in order. Those that are not finite are left out.
+    /// Points, in order; points that are not finite are skipped.
     pub places: Vec<DVec2>,
 }
 
-/// The rings and lines that an edge is part of.
+/// Rings and lines that contain an edge.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub(super) struct EdgeLoad {
-    /// By layer: the rings that lead from its first end to its second, less those that lead back.
+    /// Net number of rings along the edge, by layer: forward minus backward.
     pub(super) net: [i32; 2],
-    /// By layer: whether a line is there.
+    /// Presence of a line along the edge, by layer.
     pub(super) line: [bool; 2],
-    /// The only way that it is part of, or [`SHARED`].
+    /// Only way that contains the edge, or [`SHARED`].
     pub(super) source: u32,
 }
 
@@ -78,44 +79,44 @@ impl EdgeLoad {
     }
 }
 
-/// An edge between two nodes, the lesser one first.
+/// An edge between two nodes, the lower one first.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct NodedEdge {
     pub(super) ends: [u32; 2],
     pub(super) load: EdgeLoad,
-    /// Whether it still is an edge: it was neither divided nor do its rings cancel each other.
+    /// Marks a current edge: not divided, and with rings that do not cancel each other.
     is_alive: bool,
 }
 
-/// Edges that are being divided.
+/// Edges during their division.
 #[derive(Debug)]
 pub(super) struct Noding {
     pub(super) nodes: Nodes,
     edges: Vec<NodedEdge>,
-    /// The edge between two nodes.
+    /// Index of the edge between two nodes.
     known: FxHashMap<[u32; 2], u32>,
-    /// The nodes along edges that were divided.
+    /// Nodes along divided edges.
     divided: FxHashMap<[u32; 2], Vec<u32>>,
-    /// By way: its nodes.
+    /// Nodes of each way.
     ways: Vec<Vec<u32>>,
-    /// By node: the way of which it is a place, [`SHARED`] if there are several, none if it is a crossing.
+    /// Way of each node, [`SHARED`] for several; `None` for a crossing.
     owners: Vec<Option<u32>>,
-    /// Nodes that are points.
+    /// Nodes of ways of points.
     points: Vec<u32>,
     near: f64,
-    /// Whether places of one way stay apart however near they are.
+    /// Keeps distinct points of one way distinct, regardless of their distance.
     keeps_ways: bool,
-    /// Whether edges are made of others without end.
+    /// Marks edges that were divided into each other without end.
     is_tangled: bool,
 }
 
 impl Noding {
-    /// Divides the edges of ways; fails if the work of this thread is to stop.
+    /// Divides the edges of ways; fails if the work of this thread is cancelled.
     pub(super) fn new(ways: &[LayerWay]) -> Result<Self> {
         let limits = WorkLimits::current();
         let places = ways.iter().flat_map(|way| &way.places).filter(|place| place.is_finite());
         let most = places.fold(0.0_f64, |most, at| most.max(at.abs().max_element()));
-        // The unit in the last place of the greatest coordinate.
+        // Based on the unit in the last place of the largest coordinate.
         let mut tolerance = (TOLERANCE * f64::from_bits(most.to_bits() & !((1 << 52) - 1)) * f64::EPSILON)
             .max(f64::MIN_POSITIVE);
         let mut keeps_ways = true;
@@ -144,7 +145,7 @@ impl Noding {
             keeps_ways,
             is_tangled: false,
         };
-        // By node: the last way that has it.
+        // Last way that uses each node.
         let mut users: Vec<u32> = Vec::new();
         for (number, way) in ways.iter().enumerate() {
             let number = number as u32;
@@ -179,10 +180,10 @@ impl Noding {
         made
     }
 
-    /// Adds to the edge from one node to another, or to those that it was divided into.
+    /// Adds a load to the edge between two nodes, or to the edges that it was divided into.
     #[allow(clippy::cast_possible_truncation, reason = "fewer edges than 2^32 fit into memory")]
     fn add(&mut self, from: u32, to: u32, load: EdgeLoad, depth: usize) {
-        // Once edges are made of one another, there are more of them than could be added.
+        // A tangled division is discarded, and the number of its edges is not bounded.
         if from == to || self.is_tangled {
             return;
         }
@@ -217,7 +218,7 @@ impl Noding {
         self.edges.push(NodedEdge { ends, load, is_alive: true });
     }
 
-    /// Divides edges until none meets another but at its ends; returns whether that was reached.
+    /// Divides edges until they meet only at their ends; returns true if that succeeded.
     fn divide(&mut self, limits: &WorkLimits) -> Result<bool> {
         let mut fresh = 0;
         let mut points = std::mem::take(&mut self.points);
@@ -226,7 +227,7 @@ impl Noding {
         for _ in 0..ROUNDS {
             let mut cuts: Vec<(u32, u32)> = Vec::new();
             let mut candidates = self.candidates(fresh);
-            // After the first round points lie on edges only where those are new.
+            // After the first round, points can lie only on new edges.
             candidates.extend(points.iter().map(|node| {
                 let place = self.nodes.places[*node as usize];
                 Candidate { low: place, high: place, index: *node, is_fresh: fresh == 0, is_point: true }
@@ -264,7 +265,7 @@ impl Noding {
         ends.map(|node| self.nodes.places[node as usize])
     }
 
-    /// Whether a node that is no end of an edge lies on it.
+    /// Returns true if a node that is not an end of an edge lies on the edge.
     fn is_on(&self, edge: u32, node: u32) -> bool {
         let NodedEdge { ends, load, .. } = self.edges[edge as usize];
         let ([a, b], place) = (self.ends(ends), self.nodes.places[node as usize]);
@@ -278,7 +279,7 @@ impl Noding {
         aside == 0.0 || aside * aside <= self.near * self.near * squared && (!is_own || load.source == SHARED)
     }
 
-    /// Notes at which nodes two candidates are to be divided.
+    /// Records the nodes at which two candidates must be divided.
     fn meet(&mut self, one: &Candidate, two: &Candidate, cuts: &mut Vec<(u32, u32)>) {
         if one.is_point || two.is_point {
             let (point, edge) = if one.is_point { (one, two) } else { (two, one) };
@@ -314,7 +315,7 @@ impl Noding {
         }
     }
 
-    /// Divides edges, each at a node.
+    /// Divides edges at the recorded nodes.
     fn apply(&mut self, mut cuts: Vec<(u32, u32)>) {
         cuts.sort_unstable();
         cuts.dedup();
@@ -345,18 +346,18 @@ impl Noding {
         }
     }
 
-    /// The edges that are left, in an order that only depends on the ways.
+    /// Returns the remaining edges, in an order that depends only on the ways.
     pub(super) fn edges(&self) -> impl Iterator<Item = &NodedEdge> {
         self.edges.iter().filter(|edge| edge.is_alive)
     }
 
-    /// Takes it apart: the places of nodes, by node the way of which it is a place, and the ways.
+    /// Returns the points of nodes, the way of each node, and the divided ways.
     pub(super) fn into_parts(self) -> (Vec<DVec2>, Vec<Option<u32>>, NodedWays) {
         (self.nodes.places, self.owners, NodedWays { ways: self.ways, divided: self.divided })
     }
 }
 
-/// Ways that were divided.
+/// Ways with the nodes of their divided edges.
 #[derive(Debug)]
 pub(super) struct NodedWays {
     ways: Vec<Vec<u32>>,
@@ -364,11 +365,11 @@ pub(super) struct NodedWays {
 }
 
 impl NodedWays {
-    /// The nodes along a way.
+    /// Returns the nodes along a way.
     pub(super) fn nodes(&self, way: usize) -> Vec<u32> {
         let nodes = &self.ways[way];
         let mut found: Vec<u32> = nodes.first().copied().into_iter().collect();
-        // Steps that are left, the next one last.
+        // Stack of remaining steps, the next one last.
         let mut steps: Vec<[u32; 2]> = nodes.windows(2).rev().map(|pair| [pair[0], pair[1]]).collect();
         while let Some([from, to]) = steps.pop() {
             if from == to {
@@ -383,7 +384,7 @@ impl NodedWays {
         found
     }
 
-    /// The nodes of points, in their order.
+    /// Returns the nodes of a way of points, in their order.
     pub(super) fn points(&self, way: usize) -> &[u32] {
         &self.ways[way]
     }

@@ -1,8 +1,9 @@
-//! What a walk sweeps over to its right, as rings that go around it.
+//! Rings around the area that a walk sweeps on its right.
 //!
-//! Method: to the right of each edge there is a rectangle as wide as the distance, and at each corner that turns to the left
-//! a piece of a disc, a mitre or a triangle. All are counter-clockwise, so that their rings together go around nothing but
-//! what one of them covers; edges that two of them have in common cancel each other, and what is left is one ring.
+//! Method: to the right of each edge lies a rectangle as wide as the distance, and at each left turn lies a
+//! sector, a mitre or a triangle. All are counter-clockwise, so together their rings have a positive winding
+//! number exactly where one of them covers the plane. Edges shared by two of them cancel each other, and one
+//! ring remains.
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 use std::ops::Range;
@@ -11,70 +12,71 @@ use glam::DVec2;
 
 use super::predicates::{crossing, side};
 
-/// The border of a buffer at corners.
+/// Style of a buffer's border at corners.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Join {
-    /// An arc.
+    /// A circular arc.
     Round,
-    /// A corner, cut off where it is farther than so many distances.
+    /// A mitre, cut off at this multiple of the distance.
     Mitre(f64),
     /// A straight cut.
     Bevel,
 }
 
-/// The border of a buffer at the ends of lines.
+/// Style of a buffer's border at the ends of lines.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Cap {
-    /// Half a circle.
+    /// A semicircle.
     Round,
     /// A straight line through the end.
     Flat,
-    /// A straight line as far beyond the end as the distance.
+    /// A straight line beyond the end by the distance.
     Square,
 }
 
-/// The course of a buffer's border.
+/// Style of a buffer's border.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct BufferStyle {
-    /// At corners.
+    /// Style at corners.
     pub join: Join,
-    /// At the ends of lines.
+    /// Style at the ends of lines.
     pub cap: Cap,
-    /// The number of edges of a quarter of a circle.
+    /// Number of edges per quarter circle.
     pub quadrant_segments: u32,
 }
 
-/// The way in which a walk turns at a corner.
+/// Direction in which a walk turns at a corner.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Turn {
     None,
     Left,
     Right,
-    /// By half a turn, or nearly so.
+    /// Half a turn, or nearly half a turn.
     Back,
-    /// By half a turn at the end of a line.
+    /// Half a turn at the end of a line.
     End,
 }
 
-/// Half a turn but for this (radians) is one: what was turned around a place is rounded.
+/// Maximum deviation (radians) from half a turn, since rotated points are rounded.
 const BACK: f64 = 1e-9;
 
-/// A walk along edges that ends where it began.
+/// A closed walk along edges.
 pub(super) struct ClosedWalk {
-    /// Its places, each other than the one before.
+    /// Points, each different from the previous one.
     places: Vec<DVec2>,
-    /// The numbers of places that are ends of a line.
+    /// Indices of the points that are ends of a line.
     ends: Option<[usize; 2]>,
 }
 
 impl ClosedWalk {
-    /// Around a ring; none if it has no edges.
+    /// Creates a walk around a ring; `None` if it has no edges.
     pub(super) fn around(ring: impl IntoIterator<Item = DVec2>) -> Option<Self> {
         let places = distinct(ring, true);
         (places.len() > 1).then_some(Self { places, ends: None })
     }
 
-    /// Along a line and back; if it is a ring, around it both ways. None if it has no edges.
+    /// Creates a walk along a line and back, or two walks around a closed line in both directions; `None` if
+    /// it has no edges.
     pub(super) fn along(line: &[DVec2]) -> Option<Vec<Self>> {
         let mut places = distinct(line.iter().copied(), false);
         let last = places.len().checked_sub(1).filter(|last| *last > 0)?;
@@ -91,7 +93,7 @@ impl ClosedWalk {
         self.places.len()
     }
 
-    /// How many edges are short, compared to a length (m).
+    /// Returns the number of edges shorter than a length (m).
     pub(super) fn count_shorter(&self, length: f64) -> usize {
         (0..self.len()).filter(|edge| self.at(*edge).distance(self.at(edge + 1)) < length).count()
     }
@@ -100,7 +102,7 @@ impl ClosedWalk {
         self.places[index % self.places.len()]
     }
 
-    /// The turn behind an edge.
+    /// Returns the turn at the end of an edge.
     fn turn(&self, edge: usize) -> Turn {
         let corner = (edge + 1) % self.len();
         if self.ends.is_some_and(|ends| ends.contains(&corner)) {
@@ -118,22 +120,22 @@ impl ClosedWalk {
         }
     }
 
-    /// The places beside both ends of an edge, to the right.
+    /// Returns the points to the right of both ends of an edge, at a distance (m).
     fn beside(&self, edge: usize, distance: f64) -> [DVec2; 2] {
         let aside = self.normal(edge) * distance;
         [self.at(edge) + aside, self.at(edge + 1) + aside]
     }
 
-    /// The direction to the right of an edge.
+    /// Returns the unit vector to the right of an edge.
     fn normal(&self, edge: usize) -> DVec2 {
         let way = self.at(edge + 1) - self.at(edge);
-        // The square of a tiny length would be nothing.
+        // The square of a tiny length would underflow to 0.
         let way = (way / way.abs().max_element()).normalize();
         DVec2::new(way.y, -way.x)
     }
 }
 
-/// Places without those that are as the one before, in a ring also the last one as the first.
+/// Drops points equal to the previous point; in a ring, also a last point equal to the first.
 fn distinct(places: impl IntoIterator<Item = DVec2>, is_ring: bool) -> Vec<DVec2> {
     let mut distinct: Vec<DVec2> = places.into_iter().map(|place| place + DVec2::ZERO).collect();
     distinct.dedup();
@@ -143,15 +145,15 @@ fn distinct(places: impl IntoIterator<Item = DVec2>, is_ring: bool) -> Vec<DVec2
     distinct
 }
 
-/// Makes rings at a distance.
+/// Computes rings at a distance.
 pub(super) struct Outliner {
-    /// The distance (m), more than 0.
+    /// Distance (m), greater than 0.
     pub(super) distance: f64,
     pub(super) style: BufferStyle,
 }
 
 impl Outliner {
-    /// The ring around what a walk sweeps over, and around what it goes around.
+    /// Returns the ring around the area that a walk sweeps, including the area that it encloses.
     pub(super) fn whole(&self, walk: &ClosedWalk) -> Vec<DVec2> {
         let count = walk.len();
         let mut cuts: Vec<Option<DVec2>> = (0..count).map(|edge| self.cut(walk, edge)).collect();
@@ -167,7 +169,7 @@ impl Outliner {
         ring
     }
 
-    /// The ring around what some edges of a walk sweep over, with the corner behind them.
+    /// Returns the ring around the area that some edges of a walk sweep, with the corner after them.
     pub(super) fn piece(&self, walk: &ClosedWalk, edges: Range<usize>) -> Vec<DVec2> {
         let last = edges.end - 1;
         let mut ring = vec![walk.at(edges.start), walk.beside(edges.start, self.distance)[0]];
@@ -179,7 +181,7 @@ impl Outliner {
         }
         self.corner(walk, last, None, &mut ring);
         match walk.turn(last) {
-            // The place beside the next edge, which is not part of the piece.
+            // The point next to the following edge, which is not part of the piece.
             Turn::Right => drop(ring.pop()),
             Turn::None => ring.extend([walk.beside(last, self.distance)[1], walk.at(last + 1)]),
             _ => ring.extend([walk.beside(last + 1, self.distance)[0], walk.at(last + 1)]),
@@ -188,7 +190,7 @@ impl Outliner {
         ring
     }
 
-    /// A disc around a place, or what the ends of lines make of it; none if they make nothing.
+    /// Returns the buffer of a single point, with the style of the ends of lines; `None` for flat ends.
     pub(super) fn around(&self, place: DVec2) -> Option<Vec<DVec2>> {
         let right = DVec2::new(self.distance, 0.0);
         match self.style.cap {
@@ -205,8 +207,8 @@ impl Outliner {
         }
     }
 
-    /// The place where the line beside an edge meets that beside the next one, at a corner to the right: what is behind it
-    /// on both is covered twice.
+    /// Returns the crossing of the lines beside two consecutive edges at a right turn: beyond it, both lines
+    /// cover the same area.
     fn cut(&self, walk: &ClosedWalk, edge: usize) -> Option<DVec2> {
         if walk.turn(edge) != Turn::Right {
             return None;
@@ -214,14 +216,14 @@ impl Outliner {
         crossing(walk.beside(edge, self.distance), walk.beside(edge + 1, self.distance))
     }
 
-    /// Whether the line beside an edge is cut off at its begin behind where it is cut off at its end. If all corners of a
-    /// hole were cut off, nothing would be left that covers it.
+    /// Returns true if the cuts at both ends of the line beside an edge are in reverse order. If all corners
+    /// of a hole were cut off, no ring would cover the hole.
     fn is_reversed(&self, walk: &ClosedWalk, edge: usize, begin: Option<DVec2>, end: Option<DVec2>) -> bool {
         let way = walk.at(edge + 1) - walk.at(edge);
         begin.zip(end).is_some_and(|(begin, end)| (end - begin).dot(way) <= 0.0)
     }
 
-    /// Goes on from the line beside an edge to that beside the next one.
+    /// Connects the line beside an edge to the line beside the next edge.
     fn corner(&self, walk: &ClosedWalk, edge: usize, cut: Option<DVec2>, ring: &mut Vec<DVec2>) {
         if let Some(cut) = cut {
             ring.push(cut);
@@ -248,7 +250,7 @@ impl Outliner {
         ring.push(to);
     }
 
-    /// What is between the lines beside two edges at a corner to the left.
+    /// Adds the border between the lines beside two edges at a left turn.
     fn join(&self, walk: &ClosedWalk, edge: usize, ring: &mut Vec<DVec2>) {
         let corner = walk.at(edge + 1);
         let (from, to) = (walk.normal(edge), walk.normal(edge + 1));
@@ -260,7 +262,8 @@ impl Outliner {
             }
             Join::Mitre(limit) if !is_back => {
                 let cosine = from.dot(to);
-                // The tip is the farther from the corner the less the two normals have in common.
+                // The distance of the mitre's tip from the corner grows with the angle between the two
+                // normals.
                 let reach = (2.0 / (1.0 + cosine)).sqrt();
                 if reach <= limit {
                     ring.push(corner + (from + to) * (self.distance / (1.0 + cosine)));
@@ -278,7 +281,7 @@ impl Outliner {
         }
     }
 
-    /// The places of an arc around a corner between its ends: from a direction on, counter-clockwise.
+    /// Adds the inner points of an arc around a corner, counter-clockwise from a direction.
     #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "at most 4000")]
     fn arc(&self, corner: DVec2, from: DVec2, angle: f64, ring: &mut Vec<DVec2>) {
         let step = FRAC_PI_2 / f64::from(self.style.quadrant_segments);

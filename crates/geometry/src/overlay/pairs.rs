@@ -1,26 +1,26 @@
-//! Finds edges whose boxes meet.
+//! Search for pairs of edges whose bounding boxes intersect.
 
 use burgeon_base::error::Result;
 use burgeon_base::work::WorkLimits;
 use glam::DVec2;
 use rstar::{AABB, RTree, RTreeObject};
 
-/// From so many candidates on they may be found by a tree: if others lie beside each on an axis, on average, more than so
-/// many.
+/// Minimum number of candidates for the search with a tree, and the minimum mean number of candidates that
+/// overlap each one along an axis.
 const MANY: usize = 600;
 const MANY_BESIDE: f64 = 160.0;
 
-/// The pairs between two looks at whether to stop.
+/// Number of pairs between two checks for cancellation.
 const PAIRS: usize = 1024;
 
-/// The box of an edge or a point.
+/// Bounding box of an edge or a point.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Candidate {
     pub(super) low: DVec2,
     pub(super) high: DVec2,
-    /// The number of the edge, or the node of the point.
+    /// Index of the edge, or node of the point.
     pub(super) index: u32,
-    /// Whether it was not compared with the others before.
+    /// Marks a candidate that has not been compared with the others.
     pub(super) is_fresh: bool,
     pub(super) is_point: bool,
 }
@@ -39,8 +39,10 @@ impl Candidate {
     }
 }
 
-/// Calls `each` with all pairs whose boxes are within `near` of each other and of which one is fresh; in an order that only
-/// depends on the candidates.
+/// Calls `each` with all pairs of which one is fresh and whose bounding boxes are within `near` of each
+/// other.
+///
+/// The order depends only on the candidates. Fails if the work of this thread is cancelled.
 pub(super) fn for_pairs(
     candidates: &mut Vec<Candidate>,
     near: f64,
@@ -56,7 +58,7 @@ pub(super) fn for_pairs(
     if candidates.iter().any(|it| !it.is_fresh) {
         (0..2).for_each(|axis| keep_beside_fresh(candidates, near, axis));
     }
-    // Along the axis on which they cover each other less.
+    // Sort along the axis on which the candidates overlap less.
     let sum = candidates.iter().fold(DVec2::ZERO, |sum, it| sum + (it.high - it.low));
     let axis = usize::from(sum.x > sum.y);
     let low = candidates.iter().fold(f64::INFINITY, |low, it| low.min(it.low[axis]));
@@ -67,7 +69,7 @@ pub(super) fn for_pairs(
         for one in candidates.iter().filter(|it| it.is_fresh) {
             let around = AABB::from_corners((one.low - near).to_array(), (one.high + near).to_array());
             others.clear();
-            // Two fresh ones are compared once.
+            // Pairs of two fresh candidates are compared once.
             others.extend(
                 tree.locate_in_envelope_intersecting(&around)
                     .filter(|two| !two.is_fresh || two.key() > one.key()),
@@ -95,7 +97,7 @@ pub(super) fn for_pairs(
     Ok(())
 }
 
-/// Leaves out candidates that are not fresh and on an axis not beside one that is.
+/// Removes candidates that are not fresh and do not overlap a fresh candidate along an axis.
 fn keep_beside_fresh(candidates: &mut Vec<Candidate>, near: f64, axis: usize) {
     let fresh = candidates.iter().filter(|it| it.is_fresh);
     let mut spans: Vec<[f64; 2]> = fresh.map(|it| [it.low[axis] - near, it.high[axis] + near]).collect();

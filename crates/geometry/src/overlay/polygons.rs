@@ -5,8 +5,10 @@ use crate::planar::{Polygon, Rings};
 use burgeon_base::error::Result;
 
 impl Polygon {
-    /// The polygons left when every edge moves inwards by `distance` (m), or outwards if that is negative; none if
-    /// nothing is left. Corners are mitred, cut off where they are farther than two distances.
+    /// Returns the polygons after moving every edge inwards by `distance` (m), or outwards if it is negative;
+    /// empty if no area remains.
+    ///
+    /// Corners are mitred, and cut off at twice the distance.
     ///
     /// ```
     /// use burgeon_geometry::{Polygon, Rings};
@@ -31,7 +33,7 @@ impl Polygon {
         polygons(buffer(source, -distance, style))
     }
 
-    /// Returns the parts of it that lie outside of `others`; none if they cover it.
+    /// Returns this polygon minus `others`; empty if they cover it.
     ///
     /// ```
     /// use burgeon_geometry::{Polygon, Rings};
@@ -52,11 +54,11 @@ impl Polygon {
     }
 }
 
-/// The distances from a corner at which its mitre is cut off.
+/// Mitre limit, as a multiple of the distance.
 const MITRE: f64 = 2.0;
 
-/// The polygons of an area but for those that rounding may have made of nothing; none once the work of this thread is to
-/// stop.
+/// Returns the polygons of an area, without slivers that rounding may have created; empty if the work of this
+/// thread is cancelled.
 fn polygons(area: Result<PolygonArea>) -> Vec<Polygon> {
     area.unwrap_or_default().into_iter().filter_map(|rings| Polygon::turned(rings).ok()).collect()
 }

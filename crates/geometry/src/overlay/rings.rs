@@ -1,9 +1,10 @@
-//! The areas of a subdivision that are kept, as polygons that are valid.
+//! Conversion of the selected areas of a subdivision to valid polygons.
 //!
-//! Method: the border of what is kept is walked so that at every node the next edge is the one that bounds the same piece
-//! of the inside; a walk that comes by a node again is divided there. So rings neither cross nor touch themselves, an inside
-//! that hangs together only in a point becomes several polygons, and a hole that touches the outer ring stays a hole. A
-//! walk without an outer ring belongs to the polygon whose border lies below its leftmost node.
+//! Method: the border of the selection is walked so that at every node the next edge bounds the same face of
+//! the inside; a walk that returns to a node is split there. So rings neither cross nor touch themselves,
+//! areas that are connected only by a point become several polygons, and a hole that touches the outer ring
+//! stays a hole. A walk without an outer ring belongs to the polygon whose border lies below its leftmost
+//! node.
 
 use glam::DVec2;
 
@@ -14,29 +15,31 @@ use crate::planar::Rings;
 
 const NONE: u32 = u32::MAX;
 
-/// Edges of a border, from their right ends to their left ones if the inside is below them.
+/// Edges of a border, directed from right to left if the inside is below them.
 struct BorderWalks<'a> {
     of: &'a Subdivision,
-    /// By edge: whether the inside is above it and not below (1), or below and not above (-1), else 0.
+    /// Side of the inside, by edge: 1 if only above, -1 if only below, otherwise 0.
     sides: Vec<i8>,
-    /// By edge of the border: the one behind it.
+    /// Next edge of each edge of the border.
     next: Vec<u32>,
-    /// By node: how many edges of the border meet there.
+    /// Number of border edges at each node.
     degrees: Vec<u32>,
 }
 
-/// A walk along a border: the outer ring, if it has one, and holes.
+/// A walk along a border: its outer ring, if any, and its holes.
 #[derive(Default)]
 struct RingWalk {
     outer: Option<Vec<u32>>,
     holes: Vec<Vec<u32>>,
-    /// Its least edge: one that begins at its leftmost node, and below the others there.
+    /// First edge of the walk: it begins at the leftmost node, below the others there.
     least: u32,
 }
 
 impl Subdivision {
-    /// The polygons of what is kept, by how often the rings of each layer go around it. What is outside of all rings is
-    /// not. Outer rings are counter-clockwise and holes clockwise.
+    /// Returns the polygons of the faces for whose winding numbers by layer `keep` returns true.
+    ///
+    /// The area outside all rings is never included. Outer rings are counter-clockwise and holes are
+    /// clockwise.
     pub fn areas(&self, keep: impl Fn([i32; 2]) -> bool) -> Vec<Rings<DVec2>> {
         let sides: Vec<i8> = self
             .edges
@@ -60,7 +63,7 @@ impl Subdivision {
 }
 
 impl BorderWalks<'_> {
-    /// Finds the edge behind each.
+    /// Finds the next edge of each edge.
     fn link(&mut self) {
         let mut star: Vec<(u32, bool)> = Vec::new();
         for (node, around) in self.of.stars() {
@@ -68,7 +71,7 @@ impl BorderWalks<'_> {
             star.extend(around.iter().filter(|(edge, _)| self.sides[*edge as usize] != 0));
             self.degrees[node as usize] = star.len() as u32;
             for (index, (edge, is_right)) in star.iter().enumerate() {
-                // The inside is above an edge that comes from its left end.
+                // The inside is above an edge that is walked from its left end.
                 if *is_right == (self.sides[*edge as usize] > 0) {
                     self.next[*edge as usize] = star[(index + star.len() - 1) % star.len()].0;
                 }
@@ -76,16 +79,16 @@ impl BorderWalks<'_> {
         }
     }
 
-    /// The node at which an edge begins on the way around.
+    /// Returns the node at which an edge begins along the walk.
     fn begin(&self, edge: u32) -> u32 {
         self.of.edges[edge as usize].ends[usize::from(self.sides[edge as usize] < 0)]
     }
 
-    /// Walks along the border, from the edges on that are first in the order of the sweep.
+    /// Walks along the border, beginning with the first edges in sweep order.
     fn walks(&self) -> Vec<RingWalk> {
         let mut walks = Vec::new();
         let mut done = vec![false; self.sides.len()];
-        // By node: where on the present walk it is.
+        // Position of each node in the current walk.
         let mut places: Vec<u32> = vec![NONE; self.of.places.len()];
         let mut walk: Vec<u32> = Vec::new();
         for least in 0..self.sides.len() as u32 {
@@ -132,9 +135,9 @@ impl BorderWalks<'_> {
         }
     }
 
-    /// The polygons of walks: those without an outer ring are holes of the others.
+    /// Assembles the polygons of walks: walks without an outer ring are holes of others.
     fn polygons(&self, walks: Vec<RingWalk>) -> Vec<Rings<DVec2>> {
-        // By edge: the nearest one of the border below it.
+        // Nearest border edge below each edge.
         let mut under: Vec<u32> = Vec::with_capacity(self.sides.len());
         for edge in &self.of.edges {
             let found = edge.under.map_or(NONE, |below| {
@@ -142,10 +145,10 @@ impl BorderWalks<'_> {
             });
             under.push(found);
         }
-        // By edge: the polygon that it belongs to.
+        // Polygon of each edge.
         let mut owners: Vec<u32> = vec![NONE; self.sides.len()];
         let mut polygons: Vec<Vec<Vec<u32>>> = Vec::new();
-        // Walks are in the order of their least edges, and what lies below one was begun before.
+        // Walks are sorted by their first edges, so the walk below a walk comes earlier.
         for RingWalk { outer, holes, least } in walks {
             let below = under[least as usize];
             let polygon = if outer.is_some() {
@@ -166,8 +169,8 @@ impl BorderWalks<'_> {
         polygons.iter().map(|rings| rings.iter().map(|ring| self.ring(ring)).collect()).collect()
     }
 
-    /// The places of a ring, from the one on that was given first; without those that are on a straight line between others
-    /// and are no places of the ring that runs there.
+    /// Returns the points of a ring, beginning with the first input point. Collinear points that are not
+    /// points of the input ring at that position are dropped.
     fn ring(&self, edges: &[u32]) -> Vec<DVec2> {
         let count = edges.len();
         let is_corner = |index: &usize| {

@@ -1,8 +1,8 @@
-//! The plane as rings and lines divide it, with what lies to both sides of each edge.
+//! Subdivision of the plane by rings and lines, with the winding numbers on both sides of each edge.
 //!
-//! Method: edges that meet only at nodes are swept from left to right; of each it is known which lies right below it, and
-//! so how often the rings of each layer go around what is below and above it (winding numbers). All is decided by exact
-//! predicates.
+//! Method: edges that meet only at nodes are swept from left to right. For each edge, the sweep finds the
+//! edge directly below it, and so the winding number of each layer below and above it. All decisions use
+//! exact predicates.
 
 use burgeon_base::error::Result;
 use glam::DVec2;
@@ -11,49 +11,50 @@ use rustc_hash::FxHashMap;
 use super::noding::{LayerWay, NodedWays, Noding, WayKind};
 use super::predicates::{by_angle, side};
 
-/// An edge of a subdivision, from its left end to its right one, or from its lower to its upper one if it is upright.
+/// An edge of a subdivision, from its left end to its right end, or from its lower to its upper end if it is
+/// vertical.
 #[derive(Debug, Clone, Copy)]
 pub struct SubdivisionEdge {
-    /// The nodes at its ends.
+    /// Nodes at both ends.
     pub ends: [u32; 2],
-    /// By layer: how often its rings go around what is above (to the left), counter-clockwise ones less clockwise ones.
+    /// Winding number above (to the left), by layer; counter-clockwise rings count positive.
     pub above: [i32; 2],
-    /// By layer: the same of what is below (to the right).
+    /// Winding number below (to the right), by layer.
     pub below: [i32; 2],
-    /// By layer: whether a line is there.
+    /// Presence of a line along the edge, by layer.
     pub line: [bool; 2],
-    /// The only way that it is part of, or `u32::MAX`.
+    /// Only way that contains the edge, or `u32::MAX`.
     pub(super) source: u32,
-    /// The edge right below it.
+    /// Edge directly below it.
     pub(super) under: Option<u32>,
 }
 
-/// What rings, lines and points of two layers look like when all of their edges end where they meet.
+/// Subdivision of the plane by rings, lines and points of two layers.
 ///
-/// Edges neither cross nor overlap, and no node lies on an edge, which exact predicates have found.
+/// Exact predicates guarantee that edges neither cross nor overlap, and that no node lies on an edge.
 #[derive(Debug)]
 pub struct Subdivision {
-    /// The places of nodes.
+    /// Coordinates of the nodes.
     pub places: Vec<DVec2>,
-    /// The edges, each above those that are below it.
+    /// Edges, each after the edges below it.
     pub edges: Vec<SubdivisionEdge>,
-    /// By node: the way of which it is a place.
+    /// Way of each node.
     pub(super) owners: Vec<Option<u32>>,
     ways: NodedWays,
-    /// By node that has no edges: how often the rings of each layer go around it.
+    /// Winding numbers by layer of nodes without edges.
     lone: FxHashMap<u32, [i32; 2]>,
-    /// By node in the order of the sweep: the edges around it, counter-clockwise from below on the right; `true` if it is the
-    /// edge's right end.
+    /// Edges around each node, in sweep order of the nodes: counter-clockwise from the lower right; `true`
+    /// for an edge's right end.
     around: Vec<(u32, bool)>,
-    /// Where those of each node end in `around`, with the node.
+    /// Nodes with the end index of their edges in `around`.
     spokes: Vec<(u32, u32)>,
 }
 
-/// An edge that the sweep has not reached: its ends, net windings of both layers to its right, lines on it, and its source.
+/// An edge that the sweep has not reached: ends, net windings of both layers to the right, lines, and source.
 type WaitingEdge = ([u32; 2], [i32; 2], [bool; 2], u32);
 
 impl Subdivision {
-    /// Divides the plane by ways; fails if the work of this thread is to stop.
+    /// Divides the plane by ways; fails if the work of this thread is cancelled.
     pub fn new(ways: &[LayerWay]) -> Result<Self> {
         let noding = Noding::new(ways)?;
         let edges: Vec<_> = noding.edges().copied().collect();
@@ -74,22 +75,23 @@ impl Subdivision {
         Ok(made)
     }
 
-    /// The nodes along a way, by its number; a ring ends with its first node again.
+    /// Returns the nodes along a way, by its index; a ring ends with its first node again.
     pub fn way(&self, number: usize) -> Vec<u32> {
         self.ways.nodes(number)
     }
 
-    /// The nodes of a way of points.
+    /// Returns the nodes of a way of points, by its index.
     pub fn points(&self, number: usize) -> &[u32] {
         self.ways.points(number)
     }
 
-    /// How often the rings of each layer go around a node that is a point and has no edges; not at all around others.
+    /// Returns the winding numbers by layer at a node that is a point without edges; 0 for other nodes.
     pub fn around(&self, node: u32) -> [i32; 2] {
         self.lone.get(&node).copied().unwrap_or_default()
     }
 
-    /// By node that has edges, from left to right: the edges around it, counter-clockwise, each with whether it ends there.
+    /// Iterates over the nodes with edges from left to right, with the edges around each, counter-clockwise;
+    /// `true` for an edge that ends there.
     pub(super) fn stars(&self) -> impl Iterator<Item = (u32, &[(u32, bool)])> {
         let mut begin = 0;
         self.spokes.iter().map(move |(node, end)| {
@@ -117,7 +119,7 @@ impl Subdivision {
             one.x.total_cmp(&two.x).then(one.y.total_cmp(&two.y))
         };
         waiting.sort_unstable_by(|one, two| {
-            // Edges that begin at one node, from below to above.
+            // Edges that begin at one node are sorted from bottom to top.
             order(one.0[0], two.0[0]).then_with(|| {
                 let place = |node: u32| self.places[node as usize];
                 by_angle(place(one.0[0]), place(one.0[1]), place(two.0[1]))
@@ -126,10 +128,10 @@ impl Subdivision {
         nodes.extend(waiting.iter().flat_map(|it| it.0));
         nodes.sort_unstable_by(|one, two| order(*one, *two));
         nodes.dedup();
-        // How many edges end at each node.
+        // Number of edges that end at each node.
         let mut endings: Vec<u32> = vec![0; self.places.len()];
         waiting.iter().for_each(|it| endings[it.0[1] as usize] += 1);
-        // The edges above the present node's line, from below to above.
+        // Edges that cross the sweep line at the current node, from bottom to top.
         let mut status: Vec<u32> = Vec::new();
         let mut rest = waiting.into_iter().peekable();
         for node in nodes {

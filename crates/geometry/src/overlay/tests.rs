@@ -61,7 +61,7 @@ fn work_ends_where_its_run_is_stopped() {
     assert_eq!(unite(many).unwrap_err().message(), "enough");
 }
 
-/// Whether edges of rings cross.
+/// Returns true if edges of rings cross.
 fn is_tangled(made: &PolygonArea) -> bool {
     let edges: Vec<[DVec2; 2]> =
         made.iter().flat_map(|rings| rings.iter()).flat_map(|ring| crate::planar::edges(ring)).collect();

@@ -1,4 +1,4 @@
-//! Shapes of the plane to and from those of `geo`, whose rings are closed by their first point again.
+//! Conversion of plane shapes to and from `geo`, whose rings repeat their first point.
 
 use geo::{Coord, LineString};
 use glam::DVec2;
@@ -13,7 +13,7 @@ impl Point for Coord {
     }
 }
 
-/// The line through points, as they are.
+/// Returns the line through points, unchanged.
 fn string<P: Point>(points: &[P]) -> LineString {
     points.iter().map(|point| coord(point.flat())).collect()
 }
@@ -22,7 +22,7 @@ fn points(line: &LineString) -> Vec<DVec2> {
     line.coords().map(|at| at.flat()).collect()
 }
 
-/// The points of a closed line but the last.
+/// Returns the points of a line, without the last point if it is closed.
 pub(super) fn open(line: &LineString) -> Vec<DVec2> {
     let mut points = points(line);
     if line.is_closed() {
@@ -31,14 +31,14 @@ pub(super) fn open(line: &LineString) -> Vec<DVec2> {
     points
 }
 
-/// The polygon of `geo` inside the first of rings and outside the others, whichever way they run.
+/// Returns the `geo` polygon inside the first ring and outside the others, in any direction.
 pub(crate) fn geo_polygon<P: Point>(rings: &[impl AsRef<[P]>]) -> geo::Polygon {
     let mut lines = rings.iter().map(|ring| string(ring.as_ref()));
     let outer = lines.next().unwrap_or_else(|| LineString::new(Vec::new()));
     geo::Polygon::new(outer, lines.collect())
 }
 
-/// The rings of a polygon of `geo`, as they are.
+/// Converts the rings of a `geo` polygon, unchanged.
 impl From<&geo::Polygon> for Rings<DVec2> {
     fn from(polygon: &geo::Polygon) -> Self {
         std::iter::once(polygon.exterior()).chain(polygon.interiors()).map(open).collect()
@@ -81,7 +81,7 @@ impl TryFrom<&LineString> for Ring {
     }
 }
 
-/// Rings are turned the way that they are to run.
+/// Reverses rings with the wrong direction.
 impl TryFrom<&geo::Polygon> for Polygon {
     type Error = Error;
 

@@ -1,4 +1,4 @@
-//! Lines from point to point.
+//! Polylines.
 
 use std::ops::Deref;
 
@@ -9,7 +9,7 @@ use super::measure::bounds;
 use super::ring::check;
 use burgeon_base::error::{Error, Result};
 
-/// A line from point to point: two points or more, all finite, each other than the one before.
+/// A polyline: at least two finite points, each different from the previous one.
 ///
 /// ```
 /// use burgeon_geometry::Line;
@@ -27,7 +27,7 @@ pub struct Line<P = DVec2> {
 }
 
 impl<P: Point> Line<P> {
-    /// The line through `points`; fails if a promise is broken, and says by which point.
+    /// Creates a line through `points`; fails with the number of the point that violates a condition.
     pub fn new(points: Vec<P>) -> Result<Self> {
         check("the line", &points)?;
         if points.len() < 2 {
@@ -38,39 +38,39 @@ impl<P: Point> Line<P> {
         Ok(Self { points })
     }
 
-    /// The line through `points` but those that repeat the one before; `None` if fewer than two are left, or one is
+    /// Creates a line through `points` without repeated points; `None` if fewer than two remain or a point is
     /// not finite.
     pub fn without_repeats(mut points: Vec<P>) -> Option<Self> {
         points.dedup();
         Self::new(points).ok()
     }
 
-    /// The line through points of which the same is promised already.
+    /// Creates a line through points that are known to be valid.
     pub(super) fn trusted(points: Vec<P>) -> Self {
         Self { points }
     }
 
-    /// Its points.
+    /// Returns the points.
     pub fn into_points(self) -> Vec<P> {
         self.points
     }
 
-    /// Its edges, each with its two ends.
+    /// Returns the edges, each as its two ends.
     pub fn edges(&self) -> impl Iterator<Item = [P; 2]> + '_ {
         self.points.windows(2).map(|pair| [pair[0], pair[1]])
     }
 
-    /// Its length (m) as seen from above.
+    /// Returns the horizontal length (m).
     pub fn length(&self) -> f64 {
         self.edges().map(|edge| edge.map(Point::flat)).map(|[a, b]| a.distance(b)).sum()
     }
 
-    /// Its least and its greatest coordinates (m).
+    /// Returns the minimum and maximum coordinates (m).
     pub fn bounds(&self) -> [DVec2; 2] {
         bounds(self.points.iter().map(|point| point.flat())).unwrap_or_default()
     }
 
-    /// The line from its end to its beginning.
+    /// Reverses the line.
     #[must_use]
     pub fn reversed(mut self) -> Self {
         self.points.reverse();

@@ -1,19 +1,20 @@
-//! What is measured on rings of points: each thing here and nowhere else.
+//! Measurements of rings and lines of points, each defined once.
 
 use geo::{ConvexHull, Coord, Kernel, LineString, Orientation, kernels::RobustKernel};
 use glam::DVec2;
 
 use super::{Point, Ring};
 
-/// The edges of a ring of points, each with its two ends; the last one leads back to the first point.
+/// Returns the edges of a ring of points, each as its two ends; the last edge leads back to the first point.
 pub fn edges<T: Copy>(ring: &[T]) -> impl Iterator<Item = [T; 2]> + Clone + '_ {
     (0..ring.len()).map(|index| [ring[index], ring[(index + 1) % ring.len()]])
 }
 
-/// Twice the area (m²) inside a ring of points as seen from above; negative if it is clockwise. Whether its first point
-/// comes once more at the end makes no difference.
+/// Returns twice the horizontal area (m²) of a ring of points; negative if it is clockwise. The first point
+/// may be repeated at the end.
 ///
-/// Method: the triangles between its first point and its edges, so that it is as exact far from the origin.
+/// Method: the sum of the triangles between the first point and the edges, so that accuracy does not depend
+/// on the distance from the origin.
 ///
 /// ```
 /// use burgeon_geometry::planar::twice_area;
@@ -34,8 +35,8 @@ pub fn twice_area<P: Point>(ring: impl IntoIterator<Item = P>) -> f64 {
     sum
 }
 
-/// Whether the area inside a ring of points is more than rounding may have made of none, so that it has the same sign
-/// from whichever point on and whichever way around it is measured.
+/// Returns true if the area of a ring of points exceeds the rounding error, so that its sign does not depend
+/// on the first point or the direction.
 pub(crate) fn has_area(ring: impl IntoIterator<Item = DVec2>) -> bool {
     let mut ring = ring.into_iter();
     let (Some(from), Some(mut last)) = (ring.next(), ring.next()) else { return false };
@@ -48,14 +49,15 @@ pub(crate) fn has_area(ring: impl IntoIterator<Item = DVec2>) -> bool {
         count += 1.0;
         last = next;
     }
-    // Coordinates, products and differences are rounded once each, and every partial sum once more. The ring from
-    // another point on has other, at most four times as great products.
+    // Coordinates, products and differences are rounded once each, and every partial sum once more. If the
+    // ring begins at another point, its products are at most four times as great.
     sum.abs() > 16.0 * f64::EPSILON * products + 4.0 * count * f64::EPSILON * terms
 }
 
-/// Whether `place` is inside a ring of points, whichever way that runs. On its border the answer may be either.
+/// Returns true if `place` is inside a ring of points in either direction; on the border the result may be
+/// either.
 ///
-/// Method: whether a ray to the right meets it an odd number of times, by exact predicates (J. Shewchuk, "Adaptive
+/// Method: the parity of the crossings of a ray to the right, by exact predicates (J. Shewchuk, "Adaptive
 /// precision floating-point arithmetic and fast robust geometric predicates", 1997).
 pub fn contains<P: Point>(ring: &[P], place: DVec2) -> bool {
     let crossed = edges(ring).filter(|edge| {
@@ -68,8 +70,8 @@ pub fn contains<P: Point>(ring: &[P], place: DVec2) -> bool {
     crossed.count() % 2 == 1
 }
 
-/// How far along an edge, from 0 at its first end to 1 at its second, it is nearest to a place as seen from above; 0 on
-/// an edge without length.
+/// Returns the position of the point of an edge that is horizontally closest to `place`, from 0 at its first
+/// end to 1 at its second; 0 for an edge without length.
 ///
 /// ```
 /// use burgeon_geometry::planar::foot;
@@ -86,7 +88,7 @@ pub fn foot<P: Point>(edge: [P; 2], place: DVec2) -> f64 {
     if squared > 0.0 { ((place - a).dot(way) / squared).clamp(0.0, 1.0) } else { 0.0 }
 }
 
-/// How far (m) a place is from an edge as seen from above.
+/// Returns the horizontal distance (m) of a point from an edge.
 ///
 /// ```
 /// use burgeon_geometry::planar::distance;
@@ -101,10 +103,11 @@ pub fn distance<P: Point>(edge: [P; 2], place: DVec2) -> f64 {
     place.distance(a + (b - a) * foot(edge, place))
 }
 
-/// A line with fewer points: its ends, and those that would be more than `tolerance` from the line through the others.
+/// Simplifies a line: keeps its ends, and the points that would be more than `tolerance` from the line
+/// through the others.
 ///
-/// `aside` measures how far a point is from the way between two others, in the unit of `tolerance`: [`distance`] does for
-/// points in metres. Of points that are equally far from a way, the first one stays.
+/// `aside` returns the distance of a point from the segment between two others, in the unit of `tolerance`;
+/// use [`distance`] for points in metres. Of points at the same distance, the first is kept.
 ///
 /// Method: D. Douglas and T. Peucker, "Algorithms for the reduction of the number of points required to represent a
 /// digitized line or its caricature", 1973.
@@ -123,13 +126,13 @@ pub fn simplified<T: Copy>(line: &[T], tolerance: f64, aside: impl Fn(T, [T; 2])
     line.iter().zip(stays).filter(|(_, stays)| *stays).map(|(point, _)| *point).collect()
 }
 
-/// Divisions of a line one within another after which the next ones are made in the middle.
+/// Maximum depth of divisions at the farthest point; deeper divisions are made at the middle index.
 const DEEPEST: u32 = 100;
 
-/// For each point of a line, true if [`simplified`] keeps it.
+/// Returns true for each point of a line that [`simplified`] keeps.
 ///
-/// Lines that divide unevenly again and again, as spirals do, keep a few points more, so that the time grows with the
-/// number of points and no faster.
+/// Lines that divide unevenly again and again, such as spirals, keep a few more points, so that the time
+/// stays nearly proportional to the number of points.
 pub(crate) fn kept<T: Copy>(line: &[T], tolerance: f64, aside: impl Fn(T, [T; 2]) -> f64) -> Vec<bool> {
     let mut stays = vec![false; line.len()];
     let Some(last) = line.len().checked_sub(1) else { return stays };
@@ -149,7 +152,8 @@ pub(crate) fn kept<T: Copy>(line: &[T], tolerance: f64, aside: impl Fn(T, [T; 2]
     stays
 }
 
-/// The convex hull of `points`, counter-clockwise from its westernmost corner on; `None` if they lie on one line.
+/// Returns the convex hull of `points`, counter-clockwise from its westernmost corner; `None` if the points
+/// are collinear.
 ///
 /// Method: quickhull (C. Barber and others, "The quickhull algorithm for convex hulls", 1996), through `geo`.
 ///
@@ -167,20 +171,20 @@ pub fn hull(points: impl IntoIterator<Item = impl Point>) -> Option<Ring> {
     let found = points.convex_hull();
     let mut hull: Vec<DVec2> = found.exterior().0.iter().map(|at| DVec2::new(at.x, at.y)).collect();
     hull.pop();
-    // So that nothing that is measured on it depends on where the points begin.
+    // Measurements of the hull must not depend on the order of the points.
     let west = |a: &DVec2, b: &DVec2| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y));
     let first = (0..hull.len()).min_by(|&a, &b| west(&hull[a], &hull[b])).unwrap_or(0);
     hull.rotate_left(first);
     Ring::new(hull).ok()
 }
 
-/// The least and the greatest coordinates (m) of points; `None` of none.
+/// Returns the minimum and maximum coordinates (m) of points; `None` without points.
 pub(super) fn bounds(mut points: impl Iterator<Item = DVec2>) -> Option<[DVec2; 2]> {
     let first = points.next()?;
     Some(points.fold([first; 2], |[low, high], point| [low.min(point), high.max(point)]))
 }
 
-/// On which side of the way from `a` to `b` a place is, exactly.
+/// Returns the exact orientation of `a`, `b` and `place`.
 pub(crate) fn orientation(a: DVec2, b: DVec2, place: DVec2) -> Orientation {
     RobustKernel::orient2d(coord(a), coord(b), coord(place))
 }

@@ -1,17 +1,17 @@
-//! The plane: lines, rings and polygons, with what is promised of each and measured on it once.
+//! Plane geometry: lines, rings and polygons with guaranteed invariants.
 //!
-//! Comes in: points as somebody gave them. Goes out: shapes that keep their promises, or an error that says which
-//! point breaks one and what to do. Whether rings meet each other is not looked at here: [`Plan`](crate::Plan) does
-//! that, and repairs what it can.
+//! Input: points in any state. Output: shapes with guaranteed invariants, or an error with the invalid point
+//! and a remedy. This module does not check whether rings intersect: [`Plan`](crate::Plan) does, and repairs
+//! them if possible.
 //!
-//! | Type        | What is promised                                                                             |
+//! | Type        | Invariant                                                                                    |
 //! |-------------|----------------------------------------------------------------------------------------------|
-//! | [`Rings`]   | nothing: rings as they were given                                                            |
-//! | [`Line`]    | two points or more, each finite and other than the one before                                |
-//! | [`Ring`]    | three points or more, the same, and the last one is not the first again                      |
-//! | [`Polygon`] | the same as seen from above; its outer ring is counter-clockwise and its holes are clockwise |
+//! | [`Rings`]   | none: unvalidated rings                                                                      |
+//! | [`Line`]    | at least two finite points, each different from the previous one                             |
+//! | [`Ring`]    | at least three such points, and the last one differs from the first                          |
+//! | [`Polygon`] | rings, also as seen from above; the outer ring is counter-clockwise, the holes are clockwise |
 //!
-//! A point may have a height: it goes along with its place, and what is measured is measured as seen from above.
+//! A point may have a height, which shapes keep with its position; measurements are horizontal.
 
 mod convert;
 mod line;

@@ -5,8 +5,10 @@ use glam::DVec2;
 
 use super::measure::{has_area, orientation, twice_area};
 
-/// Checks if a ring of places is counter-clockwise: exactly so, if it does not meet itself; by its area otherwise, if that is
-/// clear.
+/// Returns true if a ring of points is counter-clockwise.
+///
+/// The result is exact if the ring does not intersect itself; otherwise it is the sign of the area, if the
+/// area is large enough to be certain.
 ///
 /// ```
 /// use burgeon_geometry::planar::is_counter_clockwise;
@@ -37,7 +39,7 @@ pub fn is_counter_clockwise(ring: &[DVec2]) -> bool {
     }
 }
 
-/// Checks if all places of a ring lie on one line, exactly.
+/// Returns true if all points of a ring are exactly collinear.
 pub fn is_flat(ring: impl IntoIterator<Item = DVec2> + Clone) -> bool {
     if has_area(ring.clone()) {
         return false;

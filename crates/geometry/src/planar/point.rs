@@ -2,12 +2,12 @@
 
 use glam::{DVec2, DVec3};
 
-/// A place in the plane, and perhaps what goes with it, such as a height.
+/// A point of the plane, optionally with more data, such as a height.
 pub trait Point: Copy + PartialEq {
-    /// The place (m) as seen from above.
+    /// Returns the horizontal position (m).
     fn flat(self) -> DVec2;
 
-    /// Whether all of it is a finite number.
+    /// Returns true if all coordinates are finite.
     fn is_finite(self) -> bool {
         self.flat().is_finite()
     }

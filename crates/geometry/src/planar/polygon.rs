@@ -12,10 +12,11 @@ use super::{Point, Ring, Rings};
 use crate::cap;
 use burgeon_base::error::{Error, Result};
 
-/// A polygon: an outer ring and holes; empty without any.
+/// A polygon: an outer ring and holes; a polygon without rings is empty.
 ///
-/// The outer ring is counter-clockwise and the holes are clockwise as seen from above, where neighbours among the
-/// points of a ring differ too. A polygon is the slice of its rings, the outer one first.
+/// The outer ring is counter-clockwise and the holes are clockwise as seen from above, and consecutive points
+/// of a ring differ as seen from above. A polygon dereferences to the slice of its rings, the outer ring
+/// first.
 ///
 /// ```
 /// use burgeon_geometry::{Polygon, Rings};
@@ -45,7 +46,8 @@ impl<P> Default for Polygon<P> {
 }
 
 impl<P: Point> Polygon<P> {
-    /// The polygon inside the first ring and outside the others; fails if a promise is broken, and says where.
+    /// Creates a polygon inside the first ring and outside the others; fails with the ring or point that
+    /// violates a condition.
     pub fn new(rings: impl Into<Rings<P>>) -> Result<Self> {
         Self::checked(rings.into(), |ring, is_outer, name| {
             if ring.is_counter_clockwise() == is_outer || !has_area(ring.iter().map(|point| point.flat())) {
@@ -57,7 +59,8 @@ impl<P: Point> Polygon<P> {
         })
     }
 
-    /// The same, where rings that run the wrong way are turned around; each keeps its first point.
+    /// Creates a polygon like [`Polygon::new`], and reverses rings with the wrong direction; each ring keeps
+    /// its first point.
     pub fn turned(rings: impl Into<Rings<P>>) -> Result<Self> {
         Self::checked(rings.into(), |ring, is_outer, _| {
             Ok(if ring.is_counter_clockwise() == is_outer { ring } else { ring.turned() })
@@ -87,64 +90,66 @@ impl<P: Point> Polygon<P> {
         Ok(Self { rings: checked })
     }
 
-    /// The outer ring; none if it is empty.
+    /// Returns the outer ring; `None` if the polygon is empty.
     pub fn outer(&self) -> Option<&Ring<P>> {
         self.rings.first()
     }
 
-    /// The holes.
+    /// Returns the holes.
     pub fn holes(&self) -> &[Ring<P>] {
         self.rings.get(1..).unwrap_or_default()
     }
 
-    /// The points of all rings.
+    /// Returns the points of all rings.
     pub fn points(&self) -> impl Iterator<Item = P> + Clone + '_ {
         self.rings.iter().flat_map(|ring| ring.iter().copied())
     }
 
-    /// The edges of all rings, each with its two ends.
+    /// Returns the edges of all rings, each as its two ends.
     pub fn edges(&self) -> impl Iterator<Item = [P; 2]> + Clone + '_ {
         self.rings.iter().flat_map(Ring::edges)
     }
 
-    /// How many edges there are, and points.
+    /// Returns the number of edges, which is also the number of points.
     pub fn size(&self) -> usize {
         self.rings.iter().map(|ring| ring.len()).sum()
     }
 
-    /// Its area (m²) without the holes.
+    /// Returns the area (m²) without the holes.
     pub fn area(&self) -> f64 {
         self.rings.iter().map(Ring::twice_area).sum::<f64>() / 2.0
     }
 
-    /// The length (m) of all edges as seen from above.
+    /// Returns the horizontal length (m) of all edges.
     pub fn length(&self) -> f64 {
         self.rings.iter().map(Ring::length).sum()
     }
 
-    /// Its least and its greatest coordinates (m); `None` if it is empty.
+    /// Returns the minimum and maximum coordinates (m); `None` if the polygon is empty.
     pub fn bounds(&self) -> Option<[DVec2; 2]> {
         bounds(self.points().map(Point::flat))
     }
 
-    /// Whether `place` is inside the outer ring and outside the holes. On a border the answer may be either.
+    /// Returns true if `place` is inside the outer ring and outside the holes; on a border the result may be
+    /// either.
     pub fn contains(&self, place: DVec2) -> bool {
         self.rings.iter().filter(|ring| contains(ring, place)).count() % 2 == 1
     }
 
-    /// The convex hull as seen from above; `None` if it is empty.
+    /// Returns the horizontal convex hull; `None` if the polygon is empty.
     pub fn hull(&self) -> Option<Ring> {
         hull(self.outer()?.iter().copied())
     }
 
-    /// Its rings as seen from below, where they run the other way.
+    /// Returns the rings reversed, as seen from below.
     pub fn from_below(&self) -> Vec<Ring<P>> {
         self.rings.iter().cloned().map(Ring::reversed).collect()
     }
 }
 
 impl<P: Point + Add<Output = P>> Polygon<P> {
-    /// The polygon moved by `offset` (m), which is not so great that points which differ are rounded to one.
+    /// Moves the polygon by `offset` (m), which must be small enough that distinct points stay distinct after
+    /// rounding.
     #[must_use]
     pub fn moved(self, offset: P) -> Self {
         Self { rings: self.rings.into_iter().map(|ring| ring.moved(offset)).collect() }
@@ -152,26 +157,27 @@ impl<P: Point + Add<Output = P>> Polygon<P> {
 }
 
 impl Polygon<DVec3> {
-    /// The polygon as seen from above.
+    /// Projects the polygon onto the horizontal plane.
     pub fn flat(&self) -> Polygon {
         Polygon { rings: self.rings.iter().map(Ring::flattened).collect() }
     }
 }
 
 impl Polygon {
-    /// The polygon at a height (m).
+    /// Returns the polygon at a height (m).
     pub fn at_height(&self, height: f64) -> Polygon<DVec3> {
         Polygon { rings: self.rings.iter().map(|ring| ring.at_height(height)).collect() }
     }
 
-    /// Fills it: counter-clockwise triangles of places in [`Polygon::points`].
+    /// Triangulates the polygon, and returns counter-clockwise triangles of indices into [`Polygon::points`].
     ///
-    /// Its rings do not meet. Every edge is that of exactly one triangle, also where points lie on a straight line, and
-    /// there are no slivers but where the rings leave no choice.
+    /// The rings must not intersect. Every edge belongs to exactly one triangle, even if points are
+    /// collinear. Slivers occur only where the rings leave no choice.
     ///
-    /// Method: ear clipping (D. Eberly, "Triangulation by Ear Clipping", 2002), after which edges are flipped until it is
-    /// Delaunay but for the rings (C. Lawson, "Software for C1 surface interpolation", 1977); where clipping fails, a
-    /// constrained Delaunay triangulation. Fails if it is too narrow somewhere.
+    /// Method: ear clipping (D. Eberly, "Triangulation by Ear Clipping", 2002), then edge flips until the
+    /// triangulation is constrained Delaunay (C. Lawson, "Software for C1 surface interpolation", 1977); if
+    /// clipping fails, a constrained Delaunay triangulation. Fails if the polygon is too narrow at some
+    /// point.
     ///
     /// ```
     /// use burgeon_geometry::{Polygon, Rings};
@@ -190,7 +196,8 @@ impl Polygon {
         cap::triangulate(self)
     }
 
-    /// Its rings without points that are within `distance` (m) of the line between others; they may meet.
+    /// Returns the rings without points that are within `distance` (m) of the line between others; the result
+    /// may intersect itself.
     ///
     /// Method: D. Douglas and T. Peucker, "Algorithms for the reduction of the number of points required to represent
     /// a digitized line or its caricature", 1973.

@@ -9,10 +9,11 @@ use super::measure::{bounds, contains, edges, hull, twice_area};
 use super::{Line, Point};
 use burgeon_base::error::{Error, Result};
 
-/// A ring of points, open: it goes on from its last point to its first by itself.
+/// An open ring of points: the last point is joined to the first, but does not repeat it.
 ///
-/// It has three points or more, all finite, each other than the one before, and the last is not the first again. It may
-/// run either way, and if its points have heights it may be any ring in space, such as that of a wall.
+/// A ring has at least three finite points, each different from the previous one, and the last differs from
+/// the first. It may have either direction. Points with heights may form any ring in space, such as the
+/// outline of a wall.
 ///
 /// ```
 /// use burgeon_geometry::Ring;
@@ -35,12 +36,12 @@ pub struct Ring<P = DVec2> {
 }
 
 impl<P: Point> Ring<P> {
-    /// The ring of `points`; fails if a promise is broken, and says by which point.
+    /// Creates a ring of `points`; fails with the number of the point that violates a condition.
     pub fn new(points: Vec<P>) -> Result<Self> {
         Self::named("the ring", points)
     }
 
-    /// The same, which errors call `name`.
+    /// Creates a ring like [`Ring::new`], with a name for errors.
     pub(super) fn named(name: &str, points: Vec<P>) -> Result<Self> {
         check(name, &points)?;
         if let ([first, .., last], count) = (points.as_slice(), points.len())
@@ -58,8 +59,8 @@ impl<P: Point> Ring<P> {
         Ok(Self { points })
     }
 
-    /// The ring of `points` but those that repeat the one before; `None` if fewer than three are left, or one is not
-    /// finite.
+    /// Creates a ring of `points` without repeated points; `None` if fewer than three remain or a point is
+    /// not finite.
     pub fn without_repeats(mut points: Vec<P>) -> Option<Self> {
         points.dedup();
         while points.len() > 1 && points.first() == points.last() {
@@ -68,17 +69,17 @@ impl<P: Point> Ring<P> {
         Self::new(points).ok()
     }
 
-    /// Its points.
+    /// Returns the points.
     pub fn into_points(self) -> Vec<P> {
         self.points
     }
 
-    /// Its edges, each with its two ends, in the order of their first points.
+    /// Returns the edges, each as its two ends, in the order of their first points.
     pub fn edges(&self) -> impl Iterator<Item = [P; 2]> + Clone + '_ {
         edges(&self.points)
     }
 
-    /// The area (m²) inside it as seen from above; negative if it is clockwise.
+    /// Returns the horizontal area (m²); negative if the ring is clockwise.
     pub fn area(&self) -> f64 {
         self.twice_area() / 2.0
     }
@@ -87,55 +88,57 @@ impl<P: Point> Ring<P> {
         twice_area(self.points.iter().copied())
     }
 
-    /// Whether it turns counter-clockwise as seen from above.
+    /// Returns true if the ring is counter-clockwise as seen from above.
     pub fn is_counter_clockwise(&self) -> bool {
         self.twice_area() > 0.0
     }
 
-    /// The length (m) of its edges as seen from above.
+    /// Returns the horizontal length (m) of the edges.
     pub fn length(&self) -> f64 {
         self.edges().map(|edge| edge.map(Point::flat)).map(|[a, b]| a.distance(b)).sum()
     }
 
-    /// Its least and its greatest coordinates (m).
+    /// Returns the minimum and maximum coordinates (m).
     pub fn bounds(&self) -> [DVec2; 2] {
         bounds(self.points.iter().map(|point| point.flat())).unwrap_or_default()
     }
 
-    /// Whether `place` is inside it as seen from above, whichever way it runs. On its border the answer may be either.
+    /// Returns true if `place` is inside as seen from above, in either direction; on the border the result
+    /// may be either.
     pub fn contains(&self, place: DVec2) -> bool {
         contains(&self.points, place)
     }
 
-    /// The convex hull of its points as seen from above; `None` if they lie on one line.
+    /// Returns the horizontal convex hull of the points; `None` if they are collinear.
     pub fn hull(&self) -> Option<Ring> {
         hull(self.points.iter().copied())
     }
 
-    /// The ring in the other direction, from its last point on.
+    /// Reverses the ring; the last point becomes the first.
     #[must_use]
     pub fn reversed(mut self) -> Self {
         self.points.reverse();
         self
     }
 
-    /// The ring in the other direction from the same first point on.
+    /// Reverses the ring; the first point stays first.
     #[must_use]
     pub fn turned(mut self) -> Self {
         self.points[1..].reverse();
         self
     }
 
-    /// The line once around it, whose last point is its first.
+    /// Returns the closed line around the ring, which ends with its first point.
     pub fn around(&self) -> Line<P> {
         let closed = self.points.iter().chain(self.points.first()).copied().collect();
-        // What is promised of a ring is more than what is promised of a line.
+        // The invariants of a ring include those of a line.
         Line::trusted(closed)
     }
 }
 
 impl<P: Point + Add<Output = P>> Ring<P> {
-    /// The ring moved by `offset` (m), which is not so great that points which differ are rounded to one.
+    /// Moves the ring by `offset` (m), which must be small enough that distinct points stay distinct after
+    /// rounding.
     #[must_use]
     pub fn moved(mut self, offset: P) -> Self {
         self.points.iter_mut().for_each(|point| *point = *point + offset);
@@ -144,19 +147,19 @@ impl<P: Point + Add<Output = P>> Ring<P> {
 }
 
 impl Ring {
-    /// The ring with the height (m) that each of its points is to have, which is finite.
+    /// Returns the ring with a finite height (m) for each point.
     pub fn raised(&self, height: impl Fn(DVec2) -> f64) -> Ring<DVec3> {
         Ring { points: self.points.iter().map(|&point| point.extend(height(point))).collect() }
     }
 
-    /// The ring at a height (m).
+    /// Returns the ring at a height (m).
     pub fn at_height(&self, height: f64) -> Ring<DVec3> {
         self.raised(|_| height)
     }
 }
 
 impl Ring<DVec3> {
-    /// The ring as seen from above; its points differ there as well.
+    /// Projects a ring whose consecutive points differ horizontally onto the horizontal plane.
     pub(super) fn flattened(&self) -> Ring {
         Ring { points: self.points.iter().map(|point| point.truncate()).collect() }
     }
@@ -185,7 +188,7 @@ impl<'a, P> IntoIterator for &'a Ring<P> {
     }
 }
 
-/// Fails if a point of `name` is not finite, or repeats the one before.
+/// Fails if a point of `name` is not finite or repeats the previous point.
 pub(super) fn check<P: Point>(name: &str, points: &[P]) -> Result<()> {
     for (number, point) in (1..).zip(points) {
         if !point.is_finite() {
@@ -200,7 +203,7 @@ pub(super) fn check<P: Point>(name: &str, points: &[P]) -> Result<()> {
     Ok(())
 }
 
-/// A point for a message.
+/// Formats a point for a message.
 pub(super) fn shown<P: Point>(point: P) -> String {
     let DVec2 { x, y } = point.flat();
     let mut text = format!("({x}, {y})");

@@ -1,4 +1,4 @@
-//! Rings as they were given.
+//! Unvalidated rings.
 
 use std::ops::Deref;
 
@@ -6,29 +6,29 @@ use glam::{DVec2, DVec3};
 
 use super::{Point, Polygon, is_counter_clockwise};
 
-/// Rings as somebody gave them, the outer one first: nothing is promised of their points.
+/// Unvalidated rings, the outer ring first.
 ///
-/// [`Polygon::new`] refuses those that keep no promise, and [`Plan::new`](crate::Plan::new) makes the best of them.
+/// [`Polygon::new`] refuses invalid rings, and [`Plan::new`](crate::Plan::new) repairs them if possible.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Rings<P = DVec3>(pub Vec<Vec<P>>);
 
 impl Rings<DVec2> {
-    /// The rings at a height (m).
+    /// Returns the rings at a height (m).
     pub fn at_height(&self, height: f64) -> Rings {
         self.iter().map(|ring| ring.iter().map(|at| at.extend(height)).collect()).collect()
     }
 }
 
 impl Rings {
-    /// The rings as seen from above.
+    /// Projects the rings onto the horizontal plane.
     pub fn flat(&self) -> Rings<DVec2> {
         self.iter().map(|ring| ring.iter().map(|at| at.truncate()).collect()).collect()
     }
 }
 
 impl<P: Point> Rings<P> {
-    /// Turns those rings around that run the wrong way: the outer one is to be counter-clockwise, holes clockwise. A ring
-    /// without area is taken for clockwise.
+    /// Reverses rings with the wrong direction, so that the outer ring is counter-clockwise and holes are
+    /// clockwise. A ring without area counts as clockwise.
     pub fn turn(&mut self) {
         for (index, ring) in self.0.iter_mut().enumerate() {
             let places: Vec<DVec2> = ring.iter().map(|point| point.flat()).collect();

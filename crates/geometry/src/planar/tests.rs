@@ -1,4 +1,4 @@
-//! Tests of the plane: what is promised holds whatever is given, and shapes come back from `geo` as they were.
+//! Tests of plane shapes: invariants hold for any input, and conversions to `geo` and back are exact.
 
 use geo::LineString;
 use glam::{DVec2, DVec3};
@@ -6,7 +6,8 @@ use proptest::prelude::*;
 
 use super::*;
 
-/// Points of few places, so that many are repeated, in line or in a ring that crosses itself.
+/// Returns points on few coordinates, so that repeated points, collinear points and self-crossing rings are
+/// frequent.
 fn points() -> impl Strategy<Value = Vec<DVec3>> {
     let number = prop::sample::select(vec![-2.0, 0.0, 0.1, 1.0, 1e6]);
     let height = prop::sample::select(vec![0.0, 0.0, 3.0, f64::NAN]);
@@ -109,7 +110,7 @@ proptest! {
     fn a_place_is_inside_a_ring_where_it_is_inside_its_triangles(
         at in (-50i32..50, -50i32..50), corners in prop::collection::vec(2.0..40.0f64, 3..12),
     ) {
-        // A star around the origin, from where each corner is seen.
+        // A star-shaped polygon: each corner is visible from the origin.
         let angle = |index: usize| std::f64::consts::TAU * index as f64 / corners.len() as f64;
         let place = |(index, far): (usize, &f64)| DVec2::from_angle(angle(index)) * *far;
         let star = Polygon::new(vec![corners.iter().enumerate().map(place).collect()]).expect("a star");
@@ -173,7 +174,7 @@ fn what_breaks_a_promise_is_named_with_what_to_do() {
 
 #[test]
 fn what_rounding_left_of_an_area_is_none() {
-    // A bow tie whose halves are of one size, in tenths, which have no exact sum.
+    // A bow tie whose halves have the same size, with coordinates in tenths, whose sums are not exact.
     let tie = [(1.0, -2.0), (-2.0, 0.1), (-2.0, 1.0), (0.1, -2.0)].map(DVec2::from);
     for start in 0..4 {
         for is_reversed in [false, true] {

@@ -1,4 +1,4 @@
-//! Roofs put together: the outline with its overhang, its skeleton, the slopes and what is below them.
+//! Construction of roofs: the outline with its overhang, the skeleton, the slopes and the faces below them.
 
 use glam::{DVec2, DVec3};
 
@@ -17,37 +17,37 @@ use burgeon_base::error::Result;
 /// A finished roof.
 #[derive(Debug, Clone, Default)]
 pub struct RoofCover {
-    /// Its faces. Together with walls up to the same height they close a building.
+    /// Faces of the roof; together with walls of the same base height they close a building.
     pub patches: Vec<Patch>,
-    /// How far (m) it juts out over each edge, beyond what stands out below.
+    /// Overhang (m) over each edge, beyond the parts that project below.
     pub overhangs: Vec<f64>,
-    /// The edges over which it juts out less than it was to, for want of room beside other parts of the building.
+    /// Edges with less than the requested overhang, because other parts of the building are too close.
     pub tight: Vec<usize>,
-    /// Whether it was to have gables, other than along neighbours, that it could not get.
+    /// Set if a requested gable, other than along a neighbour, could not be built.
     pub hipped: bool,
 }
 
-/// What stands over an edge.
+/// Type of the roof over an edge.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum EdgeCover {
     Slope,
-    /// A gable in the plane of the wall, with the roof jutting out over it.
+    /// A gable in the plane of the wall, with a roof overhang.
     Raked,
-    /// A gable at the end of the roof.
+    /// A gable at the end of the roof, without an overhang.
     Flush,
 }
 
-/// Corners of gables turn by more than this (radians).
+/// Minimum turn of a gable's corners (radians).
 const SHARP: f64 = 65.0 * std::f64::consts::PI / 180.0;
-/// A gable may go on by this (m) beyond the ends of its wall.
+/// Maximum extension (m) of a gable beyond the ends of its wall.
 const BEYOND: f64 = 0.05;
-/// What part of a gable's height a Dutch hip leaves.
+/// Fraction of a gable's height below a Dutch hip.
 const BELOW_HIP: f64 = 0.5;
 
 impl RoofShape {
-    /// The roof over walls with this outline, which end at height `base` (m).
+    /// Creates the roof over walls with this outline, which end at height `base` (m).
     ///
-    /// Fails if there is no skeleton for it.
+    /// Fails if the outline has no valid skeleton.
     ///
     /// ```
     /// use burgeon_geometry::roof::{Eaves, Ends, PatchKind, Rise, RoofShape, RoofSurface};
@@ -69,7 +69,7 @@ impl RoofShape {
         self.cover_on(&Support::new(walls, base))
     }
 
-    /// The roof over what stands below it. Fails if there is no skeleton for it.
+    /// Creates the roof over a support; fails if its outline has no valid skeleton.
     pub fn cover_on(&self, support: &Support<'_>) -> Result<RoofCover> {
         let mut cover = match support.outermost() {
             None => self.cover_walls(support)?,
@@ -86,7 +86,7 @@ impl RoofShape {
         Ok(cover)
     }
 
-    /// The roof over walls that nothing stands out of.
+    /// Creates the roof over walls without projecting parts.
     fn cover_walls(&self, support: &Support<'_>) -> Result<RoofCover> {
         match self.surface {
             RoofSurface::Shed => Ok(self.shed(support)),
@@ -96,13 +96,13 @@ impl RoofShape {
         }
     }
 
-    /// How far it is to jut out over each edge: not over flush gables.
+    /// Returns the requested overhang over each edge: 0 over flush gables.
     fn wanted(&self, most: &[f64], over: &[EdgeCover]) -> Vec<f64> {
         let wanted = |(over, most): (&EdgeCover, &f64)| if *over == EdgeCover::Flush { 0.0 } else { *most };
         over.iter().zip(most).map(wanted).collect()
     }
 
-    /// The cover with these patches and this outline.
+    /// Returns the cover with these patches and this outline.
     fn finished(
         &self,
         patches: Vec<Patch>,
@@ -116,7 +116,7 @@ impl RoofShape {
         RoofCover { patches, overhangs: outset.distances, tight, hipped }
     }
 
-    /// A level roof.
+    /// Creates a level roof.
     fn level(&self, support: &Support<'_>) -> RoofCover {
         let &Support { walls, base, .. } = support;
         let over = vec![EdgeCover::Slope; support.edges()];
@@ -146,10 +146,11 @@ impl RoofShape {
         }
     }
 
-    /// A roof with a slope over each edge, but for gables.
+    /// Creates a roof with a slope over each edge, except for gables.
     ///
-    /// Where a gable would go on beyond its wall, over other parts of the roof, there is a slope as well. Slopes that run
-    /// on beyond the walls are at the top of all walls at once: where they jut out less, they begin later.
+    /// If a gable would extend beyond its wall, over other parts of the roof, it is replaced by a slope.
+    /// Slopes that continue beyond the walls pass the top of all walls at the same time: slopes with a
+    /// smaller overhang start later.
     fn sloped(&self, support: &Support<'_>, ends: Ends) -> Result<RoofCover> {
         let &Support { walls, base, .. } = support;
         let even = vec![Pace::default(); support.edges()];
@@ -163,7 +164,7 @@ impl RoofShape {
             let overhang = outset.most();
             let paces = self.paces(walls, &outset, &over, ends);
             let hips = overhang == 0.0 && over.iter().all(|over| *over == EdgeCover::Slope);
-            // Without a gable and an overhang, the roof is the one that the gables were looked for in.
+            // Without gables and overhang, the result is the hip roof in which the gables were searched.
             let known = if hips { hip.take() } else { None };
             let skeleton = match known.map_or_else(|| Skeleton::for_mesh(&outset.polygon, &paces), Ok) {
                 Ok(skeleton) => skeleton,
@@ -173,7 +174,7 @@ impl RoofShape {
                     continue;
                 }
                 Err(error) if over.iter().all(|over| *over == EdgeCover::Slope) => {
-                    // What juts out may be harder than what stands below.
+                    // The outline with an overhang may be harder to solve than the walls.
                     if overhang == 0.0 {
                         return Err(error);
                     }
@@ -238,7 +239,7 @@ impl RoofShape {
         }
     }
 
-    /// What is to stand over each edge: `hip`, the hip roof, shows where gables may.
+    /// Returns the type of roof over each edge: the hip roof `hip` shows possible positions of gables.
     fn over(&self, walls: &Polygon, hip: Option<&Skeleton>, ends: Ends, party: &[usize]) -> Vec<EdgeCover> {
         let mut over = vec![EdgeCover::Slope; walls.size()];
         for edge in party {
@@ -252,7 +253,7 @@ impl RoofShape {
         over
     }
 
-    /// How the edges of the outline move.
+    /// Returns the motion of each edge of the outline.
     fn paces(&self, walls: &Polygon, outset: &Outset, over: &[EdgeCover], ends: Ends) -> Vec<Pace> {
         let mut paces = Vec::with_capacity(over.len());
         let is_plate = self.eaves == Eaves::Open && matches!(self.surface, RoofSurface::Sloped(..));
@@ -269,11 +270,11 @@ impl RoofShape {
                     }
                     EdgeCover::Slope => Pace::default(),
                     _ if ends == Ends::DutchHips => {
-                        // How much of the edge both neighbours use up while they move 1 m.
+                        // Length of the edge that both neighbours consume while they move 1 m.
                         let used = |side: DVec2| side.length() * along.length() / side.perp_dot(along).abs();
                         let top = along.length() / (used(before) + used(after));
                         let rest = beyond + BELOW_HIP * top;
-                        // So that hips that begin nearly at once do so at once.
+                        // Hips that begin at nearly the same time begin at exactly the same time.
                         Pace { speed: 1.0, rest: ((rest * 64.0).round() / 64.0).max(beyond) }
                     }
                     _ => Pace::STILL,
@@ -283,7 +284,7 @@ impl RoofShape {
         paces
     }
 
-    /// A roof of one slope, highest over the longest edge and lowest at the place furthest from it.
+    /// Creates a roof of one slope, highest over the longest edge and lowest at the point farthest from it.
     fn shed(&self, support: &Support<'_>) -> RoofCover {
         let &Support { walls, base, .. } = support;
         let fall = Fall::new(walls);
@@ -300,7 +301,7 @@ impl RoofShape {
         let outset = Outset::new(walls, wanted, |edge| over[edge] == EdgeCover::Flush);
         let high = match self.rise {
             Rise::Height(height) => height,
-            // As high as a gable roof of this slope would be.
+            // The roof has the height of a gable roof of the same slope.
             Rise::Slope(slope) => {
                 let hip = Skeleton::for_mesh(walls, &vec![Pace::default(); over.len()]);
                 let half = fall.length() / 2.0;
@@ -312,7 +313,8 @@ impl RoofShape {
     }
 }
 
-/// Lets the roof jut out less over edges that go `astray`, and over those beside them; at last nowhere.
+/// Reduces the overhang over the edges in `astray` and their neighbours; to 0 everywhere if nothing else
+/// helps.
 fn give_way(astray: &[usize], walls: &Polygon, distances: &[f64], most: &mut [f64]) {
     let mut changed = false;
     let mut first = 0;
@@ -333,7 +335,7 @@ fn give_way(astray: &[usize], walls: &Polygon, distances: &[f64], most: &mut [f6
     }
 }
 
-/// Whether the face over an edge that stands still goes on beyond the edge's ends, or the edge has had to move.
+/// Returns true if the face over a still edge extends beyond the edge's ends, or if the edge had to move.
 fn strays(skeleton: &Skeleton, edge: usize, pace: Pace) -> bool {
     if pace.moves() {
         return false;
@@ -349,8 +351,8 @@ fn strays(skeleton: &Skeleton, edge: usize, pace: Pace) -> bool {
     places.any(|place| !(-BEYOND..=length + BEYOND).contains(&place))
 }
 
-/// The edges for gables, in place of the triangles of a hip roof: the shortest first, and no two neighbours, nor
-/// neighbours of those that have gables `already`.
+/// Returns the edges whose hip triangles become gables: the shortest first, and no two neighbours, nor
+/// neighbours of edges with gables `already`.
 fn gables(walls: &Polygon, hip: &Skeleton, already: &[usize]) -> Vec<usize> {
     let mut candidates: Vec<(f64, usize, [usize; 2])> = Vec::new();
     let mut first = 0;
@@ -377,7 +379,7 @@ fn gables(walls: &Polygon, hip: &Skeleton, already: &[usize]) -> Vec<usize> {
     found.split_off(already.len())
 }
 
-/// The lowest face of a roof that stands by itself: its outline at height `base` (m), seen from below.
+/// Returns the lowest face of a detached roof: its outline at height `base` (m), seen from below.
 pub fn floor(outline: &Polygon, base: f64) -> Vec<Ring<DVec3>> {
     outline.at_height(base).from_below()
 }

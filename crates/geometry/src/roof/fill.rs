@@ -1,4 +1,4 @@
-//! Flat polygons as triangles.
+//! Triangulation of flat polygons in space.
 
 use glam::{DVec2, DVec3};
 use smallvec::SmallVec;
@@ -8,22 +8,22 @@ use crate::planar::Ring;
 use burgeon_base::error::{Error, Limit, Result};
 use burgeon_scene::Part;
 
-/// Triangles that are less wide than this (m) are thin.
+/// Minimum width (m) of the triangles of a fan.
 const WIDE: f64 = 0.01;
-/// Triangles that are less wide than this (m) are slivers.
+/// Minimum width (m) of triangles that are not slivers.
 const SLIVER: f64 = 1e-3;
-/// The most corners of a ring whose triangles are chosen anew where there are slivers.
+/// Maximum number of corners of a ring for a second triangulation without slivers.
 const MOST: usize = 200;
-/// The most corners of a small ring.
+/// Maximum number of corners of a small ring.
 const SMALL: usize = 16;
 
-/// Triangles as places in a ring.
+/// Triangles as indices into a ring.
 pub(super) type TriangleIndices = SmallVec<[[usize; 3]; 16]>;
 
-/// Adds a flat polygon with holes to `part`, counter-clockwise as seen along `-normal`.
+/// Adds a flat polygon with holes to `part`, counter-clockwise as seen against its normal.
 ///
-/// Texture coordinates are metres: u along `right`, v across, from `origin` on. Every edge of a ring is the edge
-/// of one triangle.
+/// Texture coordinates are in metres from `origin`: u along `right`, v perpendicular to it. Every edge of a
+/// ring is an edge of exactly one triangle.
 ///
 /// ```
 /// use burgeon_geometry::{Ring, fill};
@@ -50,13 +50,13 @@ pub fn fill(part: &mut Part, rings: &[Ring<DVec3>], right: DVec3, origin: DVec3)
     Ok(())
 }
 
-/// A flat polygon with holes and what fills it.
+/// A flat polygon with holes, and its triangulation.
 pub(super) struct FilledPolygon {
-    /// The unit normal.
+    /// Unit normal.
     pub normal: DVec3,
-    /// The corners of all rings in its plane (m).
+    /// Corners of all rings in the polygon's plane (m).
     pub corners: SmallVec<[DVec2; 16]>,
-    /// Counter-clockwise triangles of the corners' numbers.
+    /// Counter-clockwise triangles as indices of corners.
     pub triangles: TriangleIndices,
 }
 
@@ -73,7 +73,7 @@ impl FilledPolygon {
                 Some(apex) => fan(corners.len(), apex).collect(),
                 None => {
                     let clipped = cap::triangulate(&[corners.as_slice()]).map(TriangleIndices::from);
-                    // Where there are none, it almost touches itself.
+                    // If clipping fails, the ring almost touches itself.
                     let triangles =
                         clipped.unwrap_or_else(|_| fan(corners.len(), widest(&corners)).collect());
                     without_slivers(&corners, triangles)
@@ -92,24 +92,24 @@ impl FilledPolygon {
         Ok(Self { normal, corners, triangles })
     }
 
-    /// How wide a triangle is (m), negative if it is clockwise.
+    /// Returns the width of a triangle (m), negative if it is clockwise.
     pub(super) fn width(&self, triangle: [usize; 3]) -> f64 {
         width(&self.corners, triangle)
     }
 }
 
-/// The triangles of a ring, or others where some of them are slivers and others need not be: those whose thinnest is
-/// the widest.
+/// Replaces the triangles of a ring if some of them are slivers and a better triangulation exists: the one
+/// whose thinnest triangle is widest.
 ///
-/// Method: dynamic programming over the parts of the ring beyond each diagonal (G. Klincsek, "Minimal triangulations of
-/// polygonal domains", 1980).
+/// Method: dynamic programming over the parts of the ring beyond each diagonal (G. Klincsek, "Minimal
+/// triangulations of polygonal domains", 1980).
 fn without_slivers(ring: &[DVec2], triangles: TriangleIndices) -> TriangleIndices {
     let count = ring.len();
     let thinnest = triangles.iter().map(|&triangle| width(ring, triangle)).fold(f64::INFINITY, f64::min);
     if thinnest >= SLIVER || count > MOST {
         return triangles;
     }
-    // For each diagonal the least width beyond it and the corner of the triangle there.
+    // Minimum width beyond each diagonal, and the tip of the adjacent triangle.
     let mut best = vec![(f64::INFINITY, 0); count * count];
     for step in 2..count {
         for from in 0..count - step {
@@ -137,19 +137,19 @@ fn without_slivers(ring: &[DVec2], triangles: TriangleIndices) -> TriangleIndice
     found
 }
 
-/// How wide a triangle is (m), negative if it is clockwise.
+/// Returns the width of a triangle (m), negative if it is clockwise.
 fn width(points: &[DVec2], triangle: [usize; 3]) -> f64 {
     let [a, b, c] = triangle.map(|corner| points[corner]);
     let longest = [a - b, b - c, c - a].map(DVec2::length_squared).into_iter().fold(0.0, f64::max);
     (b - a).perp_dot(c - a) / longest.sqrt().max(f64::MIN_POSITIVE)
 }
 
-/// The triangles between a corner of a ring and all edges that it is not on.
+/// Returns the triangles between a corner of a ring and all edges without that corner.
 fn fan(count: usize, apex: usize) -> impl Iterator<Item = [usize; 3]> {
     (1..count - 1).map(move |step| [apex, (apex + step) % count, (apex + step + 1) % count])
 }
 
-/// The corner of a small ring that sees all others, so that a fan fills it without thin triangles.
+/// Returns the corner of a small ring from which a fan fills the ring without thin triangles.
 fn star(ring: &[DVec2]) -> Option<usize> {
     let count = ring.len();
     let is_wide = |triangle: [usize; 3]| {
@@ -162,14 +162,14 @@ fn star(ring: &[DVec2]) -> Option<usize> {
     corners.find(|&apex| count == 3 || fan(count, apex).all(is_wide))
 }
 
-/// The corner whose thinnest triangle is the thickest.
+/// Returns the corner whose fan has the largest smallest triangle.
 fn widest(ring: &[DVec2]) -> usize {
     let area = |[a, b, c]: [usize; 3]| (ring[b] - ring[a]).perp_dot(ring[c] - ring[a]);
     let thinnest = |apex: usize| fan(ring.len(), apex).map(area).fold(f64::INFINITY, f64::min);
     (0..ring.len()).max_by(|&a, &b| thinnest(a).total_cmp(&thinnest(b))).unwrap_or(0)
 }
 
-/// The sum of the normals of a ring's triangles, each as long as twice its area.
+/// Returns the sum of the normals of a ring's triangles, each with a length of twice its area.
 fn newell(ring: &[DVec3]) -> DVec3 {
     let from = ring[0];
     ring.windows(2)
@@ -183,7 +183,7 @@ mod tests {
 
     #[test]
     fn rings_are_filled_by_fans_or_otherwise_without_thin_triangles() {
-        // A square, an L, a T, which no corner sees all of, and a square with a point on an edge.
+        // A square, an L, a T without a corner that sees all others, and a square with a point on an edge.
         let rings: [&[(f64, f64)]; 4] = [
             &[(0., 0.), (4., 0.), (4., 4.), (0., 4.)],
             &[(0., 0.), (4., 0.), (4., 1.), (1., 1.), (1., 4.), (0., 4.)],

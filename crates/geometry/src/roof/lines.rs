@@ -1,4 +1,4 @@
-//! The lines of a roof along which things stand: ridges, hips, valleys, eaves, the feet of gables.
+//! Lines of a roof for the placement of objects: ridges, hips, valleys and eaves.
 
 use glam::{DVec2, DVec3};
 use rustc_hash::FxHashMap;
@@ -6,34 +6,34 @@ use rustc_hash::FxHashMap;
 use super::{Patch, PatchKind};
 use crate::planar::Ring;
 
-/// What a line is.
+/// Type of a roof line.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum RoofLineKind {
-    /// Both slopes fall away from it, to opposite sides, and it is nearly level.
+    /// Nearly level line from which both slopes fall to opposite sides.
     Ridge,
-    /// Both slopes fall away from it, as over a corner.
+    /// Line from which both slopes fall, as over a corner.
     Hip,
-    /// Both slopes rise from it.
+    /// Line from which both slopes rise.
     Valley,
-    /// The lower edge of a roof.
+    /// Lower edge of a roof.
     Eaves,
 }
 
 /// A line of a roof.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RoofLine {
-    /// What it is.
+    /// Type of the line.
     pub kind: RoofLineKind,
-    /// Its ends (m); eaves run to the right as seen from outside, hips and valleys upwards.
+    /// Ends (m); eaves run to the right as seen from outside, hips and valleys upwards.
     pub ends: [DVec3; 2],
-    /// The upward normals of the slopes to its left and to its right; of the same one for eaves.
+    /// Upward normals of the slopes to the left and to the right; equal for eaves.
     pub normals: [DVec3; 2],
 }
 
-/// What rises less than this is nearly level.
+/// Maximum gradient of a nearly level line.
 const LEVEL: f64 = 0.2;
 
-/// The lines of a roof, in the order of its patches.
+/// Returns the lines of a roof, in the order of its patches.
 pub fn lines(patches: &[Patch]) -> Vec<RoofLine> {
     let key = |at: DVec3| at.as_vec3().to_array().map(f32::to_bits);
     let mut owner = FxHashMap::default();
@@ -46,7 +46,7 @@ pub fn lines(patches: &[Patch]) -> Vec<RoofLine> {
     let mut lines = Vec::new();
     for (number, patch) in slopes() {
         let normal = normal(patch);
-        // Every edge of a level roof is the lowest one.
+        // Every edge of a level roof is a lowest edge.
         let is_level = normal.z > 1.0 - 1e-9;
         for [a, b] in patch.rings.iter().flat_map(Ring::edges) {
             match owner.get(&(key(b), key(a))) {
@@ -85,7 +85,7 @@ fn along(a: DVec3, b: DVec3) -> DVec2 {
     (b - a).truncate().normalize_or_zero()
 }
 
-/// The unit normal of a patch, upwards for slopes.
+/// Returns the unit normal of a patch, which points upwards for slopes.
 pub fn normal(patch: &Patch) -> DVec3 {
     let sum = patch.rings.iter().flat_map(|ring| {
         let from = ring[0];

@@ -1,4 +1,5 @@
-//! The patches of a finished roof as one mesh, so that no triangle of it is thinner than 32-bit numbers can show.
+//! Repair of the patches of a finished roof as one mesh, so that no triangle is too thin for 32-bit
+//! coordinates.
 
 use glam::DVec3;
 use rustc_hash::{FxHashMap, FxHashSet};
@@ -8,21 +9,23 @@ use super::Patch;
 use super::fill::FilledPolygon;
 use crate::planar::{Ring, edges};
 
-/// Triangles that are less wide than this (m) are slivers.
+/// Minimum width (m) of triangles that are not slivers.
 const SLIVER: f64 = 1.5e-4;
-/// Triangles that are wider than this (m) in the first place are not looked at twice.
+/// Width (m) above which a triangle needs no further check.
 const WIDE: f64 = 0.01;
-/// Corners nearer than this (m) are one, and others are moved so far from a border that they all but touch.
+/// Distance (m) below which corners are merged; it is also the distance to which nearly touching corners are
+/// moved.
 const NEAR: f64 = 2.5e-4;
-/// How often the triangles are looked at anew at most.
+/// Maximum number of repair rounds.
 const ROUNDS: usize = 64;
 
-/// Mends patches with slivers.
+/// Repairs patches with slivers.
 ///
-/// Of such a triangle two corners that all but touch become one. Otherwise the corner in the middle becomes one of the
-/// border that it is on, in the patches on both of its sides, or goes as far from it as a triangle has to be wide.
+/// If two corners of a sliver nearly touch, they are merged. Otherwise the middle corner is inserted into the
+/// border that it lies on, in the patches on both sides, or it is moved away from the border by the minimum
+/// width.
 ///
-/// What the walls below share with the roof stays exactly where it is.
+/// Corners that the roof shares with the walls do not move.
 pub(super) fn mend(patches: &mut Vec<Patch>) {
     let is_thin = |patch: &Patch| !is_wide(&patch.rings) && thin(&patch.rings, patch).is_some();
     if !patches.iter().any(is_thin) {
@@ -39,15 +42,15 @@ pub(super) fn mend(patches: &mut Vec<Patch>) {
 
 /// A triangle that is too thin.
 struct Sliver {
-    /// Its corners, the one opposite its longest side last.
+    /// Corners, the one opposite the longest side last.
     corners: [usize; 3],
-    /// The direction from that side to that corner.
+    /// Direction from the longest side to the last corner.
     out: DVec3,
-    /// How wide it is (m).
+    /// Width (m).
     width: f64,
 }
 
-/// Whether a patch is a triangle or a quadrilateral whose triangles are far from being slivers.
+/// Returns true if a patch is a triangle or a quadrilateral whose triangles are much wider than slivers.
 fn is_wide(rings: &[Ring<DVec3>]) -> bool {
     let [ring] = rings else { return false };
     let ([a, b, c] | [a, b, c, _]) = ring[..] else { return false };
@@ -59,7 +62,7 @@ fn is_wide(rings: &[Ring<DVec3>]) -> bool {
     wide(&normals[0]) && (ring.len() == 3 || (wide(&normals[1]) && normals[0].dot(normals[1]) > 0.0))
 }
 
-/// The thinnest triangle of a patch with these rings, if it is a sliver.
+/// Returns the thinnest triangle of a patch with these rings, if it is a sliver.
 fn thin(rings: &[impl AsRef<[DVec3]>], patch: &Patch) -> Option<Sliver> {
     let origin = rings.first()?.as_ref().first()?;
     let flat = FilledPolygon::new(rings, patch.along.extend(0.0), *origin).ok()?;
@@ -74,12 +77,12 @@ fn thin(rings: &[impl AsRef<[DVec3]>], patch: &Patch) -> Option<Sliver> {
     Some(Sliver { corners, out: flat.normal.cross(side).normalize_or_zero(), width })
 }
 
-/// The corners of all patches, each once, and their rings.
+/// Unique corners of all patches, and the rings of their faces.
 struct RoofMesh {
     points: Vec<DVec3>,
-    /// Whether a corner is one of the walls.
+    /// Marks corners of the walls, by corner.
     fixed: Vec<bool>,
-    /// For each face the patch that it is of, and its rings; a patch may fall into several faces.
+    /// Patch and rings of each face; a patch may be split into several faces.
     faces: Vec<(usize, Vec<Vec<usize>>)>,
 }
 
@@ -95,7 +98,7 @@ impl RoofMesh {
         let rings =
             |patch: &Patch| patch.rings.iter().map(|ring| ring.iter().map(&mut number).collect()).collect();
         let faces: Vec<(usize, Vec<Vec<usize>>)> = patches.iter().map(rings).enumerate().collect();
-        // Beside the walls a border has the roof on one side only.
+        // Along the walls, a border has the roof on one side only.
         let borders: FxHashSet<[usize; 2]> =
             faces.iter().flat_map(|face| &face.1).flat_map(|ring| edges(ring)).collect();
         let mut fixed = vec![false; points.len()];
@@ -111,11 +114,11 @@ impl RoofMesh {
         rings.iter().map(|ring| ring.iter().map(|&corner| self.points[corner]).collect()).collect()
     }
 
-    /// Mends the thinnest triangle of each face that has a sliver; whether it has done anything.
+    /// Repairs the thinnest sliver of each face; returns true if anything changed.
     fn mend(&mut self, patches: &[Patch]) -> bool {
         let mut done = false;
         let mut face = 0;
-        // Faces may fall into several meanwhile.
+        // Repairs may split faces meanwhile.
         while let Some((patch, rings)) = self.faces.get(face) {
             if let Some(sliver) = thin(&self.places(rings), &patches[*patch]) {
                 let all: SmallVec<[usize; 16]> = rings.iter().flatten().copied().collect();
@@ -128,7 +131,7 @@ impl RoofMesh {
         done
     }
 
-    /// Makes the two nearest of three corners one, if they all but touch; whether they do.
+    /// Merges the two closest of three corners if they nearly touch; returns true on success.
     fn joins(&mut self, [a, b, c]: [usize; 3]) -> bool {
         let distance = |[one, two]: [usize; 2]| self.points[one].distance_squared(self.points[two]);
         let pairs = [[a, b], [b, c], [c, a]];
@@ -147,7 +150,8 @@ impl RoofMesh {
         true
     }
 
-    /// Makes a corner one of the border from `a` to `b` that it is on, on both of its sides; whether it is.
+    /// Inserts a corner into the border from `a` to `b` on both sides, if the corner lies on it; returns true
+    /// on success.
     fn divides(&mut self, [a, b, corner]: [usize; 3], out: DVec3) -> bool {
         let runs = |ring: &Vec<usize>, ends: [usize; 2]| edges(ring).filter(|border| *border == ends).count();
         let count = |ends: [usize; 2]| -> usize {
@@ -169,7 +173,8 @@ impl RoofMesh {
         true
     }
 
-    /// Moves a corner away from the side opposite it, or that side away from it; whether either may be moved.
+    /// Moves a corner away from the opposite side, or an end of that side away from the corner; returns true
+    /// if either may move.
     fn widens(&mut self, [a, b, corner]: [usize; 3], sliver: &Sliver) -> bool {
         let by = sliver.out * (NEAR - sliver.width);
         let distance = |end: usize| self.points[end].distance_squared(self.points[corner]);
@@ -180,7 +185,7 @@ impl RoofMesh {
         true
     }
 
-    /// Parts faces that touch themselves; what has no area left is left out.
+    /// Splits faces that touch themselves, and removes those without area.
     fn part(&mut self) {
         let mut faces = Vec::with_capacity(self.faces.len());
         for (patch, mut rings) in std::mem::take(&mut self.faces) {
@@ -194,7 +199,7 @@ impl RoofMesh {
         self.faces = faces;
     }
 
-    /// The patches with these corners.
+    /// Replaces `patches` by the patches with the repaired corners.
     fn finish(&self, patches: &mut Vec<Patch>) {
         let patch = |(patch, rings): &(usize, Vec<Vec<usize>>)| {
             let rings: Option<Vec<Ring<DVec3>>> =
@@ -205,7 +210,7 @@ impl RoofMesh {
     }
 }
 
-/// The rings without repeated corners that a ring falls into; the one with its first corners is the first.
+/// Splits a ring into rings without repeated corners; the ring with its first corners comes first.
 fn simple(ring: &[usize]) -> SmallVec<[Vec<usize>; 2]> {
     let mut left: Vec<usize> = Vec::with_capacity(ring.len());
     let mut parts = SmallVec::new();

@@ -1,6 +1,6 @@
-//! Roofs: over every polygon with holes, as patches that close the building below.
+//! Roofs over polygons with holes, as patches that close the building below.
 //!
-//! Comes in: the walls as a [`Support`], and a [`RoofShape`]. Goes out: flat patches. Nothing is drawn here.
+//! Input: the walls as a [`Support`], and a [`RoofShape`]. Output: flat patches. This module draws nothing.
 
 mod build;
 mod fill;

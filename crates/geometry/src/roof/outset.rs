@@ -1,46 +1,49 @@
-//! The outline of a roof: that of the walls, moved outwards over each edge as far as there is room.
+//! Outline of a roof: the outline of the walls, moved outwards over each edge as far as space allows.
 
 use geo::line_intersection::line_intersection;
 use glam::DVec2;
 
 use crate::planar::{Polygon, Rings, coord, distance};
 
-/// An outline, and how far (m) it is from the walls over each edge.
+/// An outline, with its distance (m) from the walls over each edge.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Outset {
     pub polygon: Polygon,
     pub distances: Vec<f64>,
-    /// How many times its distance an edge is away, at a chamfer that others would pass by.
+    /// Factor of each edge's distance; greater than 1 for chamfers that their neighbours would eliminate.
     pub stretches: Vec<f64>,
 }
 
-/// What part is used of the room that there is before an edge of the outline vanishes, as in a narrow recess.
+/// Fraction that is used of the available space before an edge of the outline vanishes, as in a narrow
+/// recess.
 const KEPT: f64 = 0.9;
-/// An edge that is shorter (m) is not let become shorter still.
+/// Length (m) below which an edge must not become shorter.
 const SHORT: f64 = 0.015;
-/// Edges that meet at an angle with a smaller sine than this are in one line, or lie on each other.
+/// Maximum sine of the angle between edges that count as parallel.
 const STRAIGHT: f64 = 0.02;
-/// A corner goes no further from that of the walls than by so many times the distance of its edges.
+/// Maximum distance of a corner from the corner of the walls, as a multiple of the distance of its edges.
 const FURTHEST: f64 = 6.5;
-/// What is left of one plus the cosine of the turn at a sharp tip, so that it does not go far.
+/// Minimum value of one plus the cosine of the turn, which limits the length of sharp tips.
 const BLUNT: f64 = 0.05;
-/// Edges of an outline are so far (m) apart, so that they can be told apart.
+/// Minimum distance (m) between edges of an outline.
 const APART: f64 = 0.01;
-/// Distances below this (m) are none.
+/// Minimum distance (m) of an edge; smaller distances become 0.
 const LEAST: f64 = 0.01;
-/// What is left (m) of a chamfer in a reflex corner, at most, where those beside it would pass it by.
+/// Maximum remaining length (m) of a chamfer in a reflex corner that its neighbours would eliminate.
 const CHAMFER: f64 = 0.035;
-/// No chamfer is further away than so many times its distance.
+/// Maximum factor of a chamfer's distance.
 const MOST_STRETCHED: f64 = 2.0;
-/// How often distances become smaller, before there are none.
+/// Maximum number of reductions of the distances before all become 0.
 const ROUNDS: usize = 200;
 
 impl Outset {
-    /// The rings with each edge moved outwards by the distance (m) that is `wanted`, or by less where there is no room:
-    /// only the edges give way that would vanish or meet others, and those that go with them.
+    /// Moves each edge of the rings outwards by the distance (m) that is `wanted`, or by less if there is not
+    /// enough space.
     ///
-    /// Edges that meet in a reflex corner are as far out
-    /// as one another, so that neither ends at the other's wall, unless one is a gable `apart`; so are edges in one line.
+    /// Only edges that would vanish or meet others are reduced, with the edges tied to them.
+    ///
+    /// Edges that meet in a reflex corner have the same distance, so that neither ends at the other's wall,
+    /// unless one of them is `apart` (a gable); collinear edges also have the same distance.
     pub(super) fn new(walls: &Polygon, wanted: Vec<f64>, apart: impl Fn(usize) -> bool) -> Self {
         let mut corners = WallCorner::all(walls, apart);
         let mut distances = wanted;
@@ -63,7 +66,7 @@ impl Outset {
                 let Some(polygon) = moved(walls, &corners) else { break };
                 return Self { polygon, distances, stretches };
             }
-            // What comes near to a limit ever more slowly reaches it.
+            // Distances that approach a limit ever more slowly are reduced faster.
             let most = if round < 8 { 1.0 } else { 0.75 };
             let before = distances.clone();
             for (edge, factor) in factors {
@@ -76,22 +79,22 @@ impl Outset {
         Self { polygon: walls.clone(), distances: vec![0.0; count], stretches: vec![1.0; count] }
     }
 
-    /// The greatest distance (m).
+    /// Returns the maximum distance (m).
     pub(super) fn most(&self) -> f64 {
         self.distances.iter().copied().fold(0.0, f64::max)
     }
 }
 
-/// A corner of the walls, with the number of the edge that begins there.
+/// A corner of the walls; its index is that of the edge that begins there.
 struct WallCorner {
     at: DVec2,
     moved: DVec2,
-    /// The number of the edge before it, and of the corner where its edge ends.
+    /// Index of the previous edge, and of the corner at the end of this edge.
     before: usize,
     next: usize,
-    /// The directions of the edges before and after it.
+    /// Directions of the edges before and after the corner.
     ways: [DVec2; 2],
-    /// Whether both edges have one distance.
+    /// Set if both edges must have the same distance.
     tied: bool,
 }
 
@@ -112,7 +115,7 @@ impl WallCorner {
         corners
     }
 
-    /// Where it goes when the edges move outwards.
+    /// Returns the position of the corner after the edges move outwards.
     #[allow(clippy::float_cmp, reason = "equal distances are given as equal numbers")]
     fn place(&self, distances: &[f64], edge: usize) -> DVec2 {
         let ([a, b], [far, near]) = (self.ways, [distances[self.before], distances[edge]]);
@@ -124,7 +127,7 @@ impl WallCorner {
     }
 }
 
-/// Gives edges that are tied the lesser of their distances.
+/// Sets tied edges to the smaller of their distances.
 #[allow(clippy::float_cmp, reason = "equal distances are given as equal numbers")]
 fn level(corners: &[WallCorner], distances: &mut [f64]) {
     let mut changed = true;
@@ -143,11 +146,12 @@ fn level(corners: &[WallCorner], distances: &mut [f64]) {
     }
 }
 
-/// How many times its distance each edge goes: once, but for chamfers in reflex corners that would vanish between those
-/// beside them. These go on with what meets beyond them, so that it keeps its distance.
+/// Returns the factor of each edge's distance: 1, except for chamfers in reflex corners that would vanish
+/// between their neighbours. These move farther, up to the point where their neighbours meet, so that the
+/// corner keeps its distance.
 fn stretches(corners: &[WallCorner], distances: &[f64]) -> Vec<f64> {
     let length = |edge: usize| corners[edge].at.distance(corners[corners[edge].next].at);
-    // How much shorter it becomes while those beside it move by 1 m, and how much longer while it does so itself.
+    // Loss of length while the neighbours move by 1 m, and gain of length while the edge itself does.
     let rates = |edge: usize| {
         let turns = [edge, corners[edge].next].map(|corner| {
             let [a, b] = corners[corner].ways;
@@ -175,8 +179,8 @@ fn stretches(corners: &[WallCorner], distances: &[f64]) -> Vec<f64> {
     (0..corners.len()).map(|edge| stretch(edge).unwrap_or(1.0)).collect()
 }
 
-/// The edges that take the room of one that vanishes or turns around, or of a corner that goes too far, each with the
-/// part of its distance that there is room for.
+/// Returns the edges that take the space of a vanishing or reversed edge or of a corner that moves too far,
+/// each with the feasible fraction of its distance.
 fn shrunk(corners: &[WallCorner], distances: &[f64]) -> Vec<(usize, f64)> {
     let mut factors = Vec::new();
     for (edge, corner) in corners.iter().enumerate() {
@@ -187,7 +191,7 @@ fn shrunk(corners: &[WallCorner], distances: &[f64]) -> Vec<(usize, f64)> {
         }
         let end = &corners[corner.next];
         let old = end.at - corner.at;
-        // What is short from the beginning may stay so, unless it is so short that a roof has slivers there.
+        // An edge that is short from the beginning may stay short, unless a roof would have slivers there.
         let least = if old.length() < SHORT { 1e-3 } else { 1e-3_f64.min(0.98 * old.length_squared()) };
         if old.dot(end.moved - corner.moved) > least {
             continue;
@@ -220,12 +224,12 @@ fn shrunk(corners: &[WallCorner], distances: &[f64]) -> Vec<(usize, f64)> {
     factors
 }
 
-/// The edges that meet others or almost do, each with the part of its distance that there is room for.
+/// Returns the edges that meet others or nearly do, each with the feasible fraction of its distance.
 fn crossing(corners: &[WallCorner], distances: &[f64]) -> Vec<(usize, f64)> {
     let ends = |edge: usize| [corners[edge].moved, corners[corners[edge].next].moved];
     let left = |edge: usize| ends(edge)[0].x.min(ends(edge)[1].x);
     let mut order: Vec<usize> = (0..corners.len()).collect();
-    // From left to right, so that each edge meets only those that begin before it ends.
+    // Sweep from left to right: each edge is compared only with edges that begin before it ends.
     order.sort_by(|&a, &b| left(a).total_cmp(&left(b)));
     let mut factors = Vec::new();
     for (rank, &a) in order.iter().enumerate() {
@@ -244,7 +248,7 @@ fn crossing(corners: &[WallCorner], distances: &[f64]) -> Vec<(usize, f64)> {
                 continue;
             }
             let gap = gap([a, b].map(|edge| [corners[edge].at, corners[corners[edge].next].at]));
-            // Beside a short edge others are near to each other from the beginning.
+            // Edges next to a short edge are close to each other from the beginning.
             if !meet && gap_now() > gap / 4.0 {
                 continue;
             }
@@ -252,7 +256,7 @@ fn crossing(corners: &[WallCorner], distances: &[f64]) -> Vec<(usize, f64)> {
                 let factor = (KEPT * gap / both).clamp(0.0, 0.75);
                 factors.extend([(a, factor), (b, factor)]);
             } else {
-                // Their neighbours have made them longer.
+                // The neighbours of these edges have made them longer.
                 let around = neighbours.into_iter().chain([corners[b].before, corners[b].next]);
                 factors.extend(around.map(|edge| (edge, 0.5)));
             }
@@ -261,7 +265,7 @@ fn crossing(corners: &[WallCorner], distances: &[f64]) -> Vec<(usize, f64)> {
     factors
 }
 
-/// How far (m) two edges are from each other that do not meet.
+/// Returns the distance (m) between two edges that do not intersect.
 fn gap([a, b]: [[DVec2; 2]; 2]) -> f64 {
     b.map(|at| distance(a, at)).into_iter().chain(a.map(|at| distance(b, at))).fold(f64::INFINITY, f64::min)
 }
@@ -271,7 +275,7 @@ fn line(ends: [DVec2; 2]) -> geo::Line {
     geo::Line::new(start, end)
 }
 
-/// The corners where they have moved, in rings of the same sizes as those of the walls, if these are a polygon.
+/// Returns the moved corners as a polygon with the ring sizes of the walls; `None` if it is not valid.
 fn moved(walls: &Polygon, corners: &[WallCorner]) -> Option<Polygon> {
     let mut rest = corners.iter().map(|corner| corner.moved);
     let rings = walls.iter().map(|ring| rest.by_ref().take(ring.len()).collect());

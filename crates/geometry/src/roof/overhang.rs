@@ -1,4 +1,4 @@
-//! What is below a roof: undersides, the faces along its outline, and gables.
+//! Faces below a roof: undersides, the faces along the outline, and gables.
 
 use glam::{DVec2, DVec3};
 
@@ -9,47 +9,47 @@ use super::support::divide_feet;
 use super::{Patch, PatchKind};
 use crate::planar::{Polygon, Ring};
 
-/// Places of a roof nearer than this (m) to the wall are not beyond it.
+/// Minimum distance (m) of roof points beyond a wall.
 const CLEAR: f64 = 5e-3;
 
-/// The outline of a roof, beside that of the walls below.
+/// The outline of a roof, relative to the outline of the walls below.
 pub(super) struct Rim<'a> {
     pub walls: &'a Polygon,
-    /// As many edges as the walls have.
+    /// Outline of the roof, with the same number of edges as the walls.
     pub outer: &'a Polygon,
     pub profile: &'a Profile,
-    /// Where the walls end (m).
+    /// Height (m) of the top of the walls.
     pub base: f64,
-    /// How far (m) the outline is from the walls where it is furthest.
+    /// Maximum distance (m) of the outline from the walls.
     pub overhang: f64,
-    /// How far (m) it is over each edge.
+    /// Overhang (m) over each edge.
     pub distances: &'a [f64],
-    /// How high (m) the faces along the outline are.
+    /// Height (m) of the faces along the outline.
     pub slab: f64,
 }
 
-/// The faces of a skeleton with corners where they reach the walls, as [`super::plate::at_walls`] finds them.
+/// Faces of a skeleton with corners where they reach the walls, as computed by [`super::plate::at_walls`].
 #[derive(Clone, Copy)]
 pub(super) struct SkeletonFaces<'a> {
     pub rings: &'a [Vec<usize>],
-    /// Their corners (m), with the distances from the outline as heights.
+    /// Corners (m), with the distances from the outline as heights.
     pub points: &'a [DVec3],
 }
 
-/// The ends of two slopes that jut out over a gable: first the one on the left as seen from outside.
+/// Ends of two slopes with an overhang over a gable: first the left one as seen from outside.
 #[derive(Debug, Clone)]
 pub(super) struct Rake([SlopeSide; 2]);
 
 /// Points of a slope's end from the eaves up to the ridge, with their distances from the outline as heights.
 #[derive(Debug, Clone)]
 struct SlopeSide {
-    /// Along the outline of the roof, from its corner on.
+    /// Points along the outline of the roof, from its corner on.
     outer: Vec<DVec3>,
-    /// Along the wall, from its corner on.
+    /// Points along the wall, from its corner on.
     wall: Vec<DVec3>,
 }
 
-/// The neighbours of an edge in its ring.
+/// Position of an edge in its ring.
 struct RingPlace {
     ring: usize,
     index: usize,
@@ -84,12 +84,12 @@ impl Rim<'_> {
         RingPlace { ring: 0, index: 0, count: 1, first: 0 }
     }
 
-    /// The height (m) of the roof.
+    /// Returns the height (m) of the roof.
     fn top(&self, level: f64) -> f64 {
         self.base + self.profile.height(level)
     }
 
-    /// The height (m) of the underside.
+    /// Returns the height (m) of the underside.
     #[allow(clippy::float_cmp, reason = "levels are copies")]
     fn under(&self, level: f64) -> f64 {
         if level == 0.0 {
@@ -101,7 +101,7 @@ impl Rim<'_> {
         }
     }
 
-    /// How the slopes beside the gable over `edge` jut out over it; none if they are not simply two.
+    /// Returns the ends of the two slopes next to the gable over `edge`; `None` if their shape is not simple.
     pub(super) fn rake(&self, edge: usize, faces: SkeletonFaces<'_>) -> Option<Rake> {
         if self.distances[edge] == 0.0 {
             return None;
@@ -110,7 +110,7 @@ impl Rim<'_> {
         let highest = (0..border.len()).max_by(|&a, &b| border[a].z.total_cmp(&border[b].z))?;
         let apex = border[highest];
         let ends = [border[..highest].to_vec(), border[highest + 1..].iter().rev().copied().collect()];
-        // Each goes from the eaves to the top of the walls and on to the ridge, in one line.
+        // Each end runs from the eaves to the top of the walls and on to the ridge, in one line.
         let [Some(from_right), Some(from_left)] = ends.map(|side| self.side(&side)) else { return None };
         let place = self.place(edge);
         let [left, right] = place.ends(self.walls);
@@ -124,7 +124,7 @@ impl Rim<'_> {
                 return None;
             }
         }
-        // How fast the slopes' ends come nearer to each other along the wall.
+        // Speed at which the ends of the slopes approach each other along the wall.
         let speed = |neighbour: usize| {
             let [from, to] = self.place(neighbour).ends(self.walls);
             let inward = (to - from).normalize_or_zero().perp();
@@ -157,14 +157,16 @@ impl Rim<'_> {
         Some(Rake([side(from_left, left, along * speeds[0]), side(from_right, right, -along * speeds[1])]))
     }
 
-    /// The end of a slope from the eaves to the top of the walls, if nothing else happens up to the ridge.
+    /// Returns the end of a slope from the eaves to the top of the walls, if it has no other points up to the
+    /// ridge.
     fn side(&self, points: &[DVec3]) -> Option<Vec<DVec3>> {
         let at_walls = points.last().is_some_and(|last| self.is_at_wall(*last));
         (at_walls && points.len() <= 2).then(|| points.to_vec())
     }
 
-    /// Adds all that is below the slopes; gables that are in `patches` get their lower edges. `plate` has the faces of a
-    /// roof whose slopes run on beyond the walls.
+    /// Adds all faces below the slopes, and the lower edges of gables that are in `patches`.
+    ///
+    /// `plate` has the faces of a roof whose slopes continue beyond the walls.
     pub(super) fn close(
         &self,
         patches: &mut Vec<Patch>,
@@ -209,8 +211,10 @@ impl Rim<'_> {
         }
     }
 
-    /// What is upright of the plate's rim over an edge, up to a level: all that is between the top and the underside.
-    /// Where the underside is at the top of the wall, it passes these corners.
+    /// Returns the upright face of the plate's rim over an edge, up to a level, between the top and the
+    /// underside.
+    ///
+    /// At the top of the wall, the underside passes through `corners`.
     fn strip(
         &self,
         edge: usize,
@@ -218,7 +222,7 @@ impl Rim<'_> {
         faces: SkeletonFaces<'_>,
         corners: impl IntoIterator<Item = DVec3>,
     ) -> Vec<DVec3> {
-        // Not with_z: rustc 1.95 lets it change the caller's point where it is not inlined.
+        // Not `with_z`: rustc 1.95 lets it change the caller's point if the call is not inlined.
         let under = |point: &DVec3| point.truncate().extend(self.under(point.z));
         let top = |point: &DVec3| point.truncate().extend(self.top(point.z));
         let border = border(&faces.rings[edge], faces.points, level);
@@ -259,7 +263,7 @@ impl Rim<'_> {
         let patch = |kind, ring| Patch::new(kind, edge, 0, along, ring);
         let from = self.overhang - self.distances[edge];
         let beside = |edge: usize| rakes[edge].is_some();
-        // Beside a gable that the roof juts out over, the top of the wall ends before the roof does.
+        // Next to a gable with an overhang, the top of the wall ends before the roof does.
         let corners = [(left, beside(place.before())), (right, beside(place.after()))];
         let corners = corners.into_iter().filter(|(_, beside)| *beside).map(|(at, _)| at.extend(self.base));
         patches.extend(patch(PatchKind::Fascia, self.strip(edge, from, faces, corners.clone())));
@@ -286,7 +290,7 @@ impl Rim<'_> {
         let mut push = |kind, flap, along, ring: Vec<DVec3>| {
             patches.extend(Patch::new(kind, edge, flap, along, ring));
         };
-        // Not with_z: rustc 1.95 lets it change the caller's point where it is not inlined.
+        // Not `with_z`: rustc 1.95 lets it change the caller's point if the call is not inlined.
         let under = |point: DVec3| point.truncate().extend(self.under(point.z));
         let top = |point: DVec3| point.truncate().extend(self.top(point.z));
         for (number, side) in rake.0.iter().enumerate() {

@@ -1,38 +1,38 @@
-//! The patches that a roof consists of.
+//! Patches of a roof.
 
 use crate::planar::Ring;
 use glam::{DVec2, DVec3};
 
-/// What a patch is.
+/// Type of a patch.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum PatchKind {
-    /// Rain falls on it.
+    /// A face that rain falls on.
     Slope,
-    /// An upright face under the end of a ridge, or under the higher edges of a roof of one slope.
+    /// An upright face below the end of a ridge, or below the higher edges of a roof of one slope.
     Gable,
-    /// An upright face along the outline, or of a border.
+    /// An upright face along the outline, or a face of a border.
     Fascia,
-    /// It looks down, beyond the walls.
+    /// A face that points downwards, beyond the walls.
     Underside,
 }
 
 /// A flat face of a roof.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Patch {
-    /// What it is.
+    /// Type of the patch.
     pub kind: PatchKind,
-    /// The edge of the outline that it belongs to.
+    /// Index of the edge of the outline that it belongs to.
     pub edge: usize,
-    /// Which part of the slope it is, from the eaves up, from 0.
+    /// Index of its part of the slope, from the eaves up, from 0.
     pub flap: usize,
-    /// The direction of its edge on the plan.
+    /// Horizontal direction of its edge.
     pub along: DVec2,
-    /// Its rings (m): the first counter-clockwise as seen from outside, holes clockwise.
+    /// Rings (m): the first counter-clockwise as seen from outside, holes clockwise.
     pub rings: Vec<Ring<DVec3>>,
 }
 
 impl Patch {
-    /// The patch of one ring, without corners that repeat the one before; `None` if fewer than three are left.
+    /// Creates a patch of one ring without repeated corners; `None` if fewer than three corners remain.
     pub(super) fn new(
         kind: PatchKind,
         edge: usize,

@@ -1,4 +1,4 @@
-//! The faces of a skeleton raised along a profile.
+//! Faces of a skeleton, raised along a profile.
 
 use glam::{DVec2, DVec3};
 
@@ -12,10 +12,10 @@ use super::shape::{Profile, between};
 use super::{Patch, PatchKind};
 use crate::planar::edges;
 
-/// Corners that are as near to a level of the profile as this (m) are on it.
+/// Distance (m) below which corners are snapped to a level of the profile.
 const ON_LEVEL: f64 = 2e-3;
 
-/// The peaks of a skeleton with their times (m); those near a level are on it.
+/// Returns the peaks of a skeleton with their times (m) as heights, snapped to nearby levels.
 pub(super) fn leveled(skeleton: &Skeleton, paces: &[Pace], profile: &Profile) -> Vec<DVec3> {
     let rests = paces.iter().map(|pace| pace.rest);
     let mut levels: Vec<f64> = profile.corners.iter().map(|corner| corner.x).chain(rests).collect();
@@ -33,10 +33,11 @@ pub(super) fn leveled(skeleton: &Skeleton, paces: &[Pace], profile: &Profile) ->
     skeleton.peaks.iter().map(|peak| peak.at.extend(snapped(peak.time))).collect()
 }
 
-/// The slopes, gables and steps of a roof over `skeleton` with the top of the walls at `base` (m).
+/// Returns the slopes, gables and steps of a roof over `skeleton`, with the top of the walls at `base` (m).
 ///
-/// They join without gaps: corners of neighbours are equal to the last bit. `points` are those of [`leveled`]. What is
-/// upright below a slope beyond the walls is left out, and gables over edges with a `rake`.
+/// They join without gaps: corners of neighbours are equal to the last bit. `points` are those of
+/// [`leveled`]. Upright faces below a slope beyond the walls are omitted, and so are gables over edges with a
+/// `rake`.
 pub(super) fn patches(
     faces: &[Vec<usize>],
     paces: &[Pace],
@@ -59,7 +60,7 @@ pub(super) fn patches(
             let count = rest
                 .partition_point(|piece| (piece.edge, piece.number) <= (edge, number + usize::from(is_step)));
             if is_step {
-                // What is above it begins along it.
+                // The faces above the step begin along it.
                 for [a, b] in rest[..count].iter().flat_map(|piece| edges(&piece.ring)) {
                     let [a, b] = [points[a], points[b]];
                     if is_at(a, from.x) && is_at(b, from.x) {
@@ -81,7 +82,7 @@ pub(super) fn patches(
                 let point = points[index];
                 point.truncate().extend(base + between(from, to, point.z))
             };
-            // Of a gable that has been drawn otherwise, the lowest part stands for where it begins.
+            // The lowest part represents a gable that is drawn elsewhere, so that its position is known.
             let is_left_out =
                 kind == PatchKind::Gable && (pace.moves_at(profile.beyond()) || rakes[edge].is_some());
             for piece in rest[..count].iter().filter(|_| !is_left_out) {
@@ -93,8 +94,8 @@ pub(super) fn patches(
     patches
 }
 
-/// The pieces of all faces between the levels of their spans, by edge and span; borders pass a level in one point for both
-/// neighbours.
+/// Divides all faces at the levels of their spans; returns the pieces by edge and span. A border crosses a
+/// level in one point for both neighbours.
 fn cut(faces: &[Vec<usize>], spans: &[Spans], points: &mut Vec<DVec3>) -> Vec<FacePiece> {
     let mut passes = FxHashMap::default();
     let mut all = Vec::with_capacity(faces.len());
@@ -118,33 +119,33 @@ fn cut(faces: &[Vec<usize>], spans: &[Spans], points: &mut Vec<DVec3>) -> Vec<Fa
 
 /// A part of a face.
 struct FacePiece {
-    /// The edge of the outline that it belongs to.
+    /// Index of the edge of the outline that it belongs to.
     edge: usize,
-    /// The number of the interval of the profile that it is in.
+    /// Index of the profile span that contains it.
     number: usize,
-    /// Its corners, counter-clockwise.
+    /// Corners, counter-clockwise.
     ring: Vec<usize>,
 }
 
 type Spans = SmallVec<[ProfileSpan; 4]>;
 
-/// A part of a profile's interval.
+/// A part of an interval of a profile.
 struct ProfileSpan {
-    /// The ends of the interval.
+    /// Ends of the interval.
     line: [DVec2; 2],
-    /// From where to where (m from the outline) the part goes.
+    /// Lower and upper limit of the part (m from the outline).
     low: f64,
     high: f64,
 }
 
 impl ProfileSpan {
-    /// Whether it is upright.
+    /// Returns true if the interval is upright.
     fn is_step(&self) -> bool {
         self.line[0].x >= self.line[1].x
     }
 }
 
-/// The intervals of the profile, divided where the edge begins to move.
+/// Returns the intervals of the profile, divided where the edge begins to move.
 fn spans(profile: &Profile, pace: &Pace) -> Spans {
     let mut spans = Spans::new();
     for pair in profile.corners.windows(2) {
@@ -162,12 +163,13 @@ fn spans(profile: &Profile, pace: &Pace) -> Spans {
     spans
 }
 
-/// The place between `low` and `high` at `level`, which is between theirs.
+/// Interpolates between `low` and `high` at `level`, which is between their heights.
 pub(super) fn at_level(low: DVec3, high: DVec3, level: f64) -> DVec3 {
     low.truncate().lerp(high.truncate(), (level - low.z) / (high.z - low.z)).extend(level)
 }
 
-/// The part of `piece` up to `level`; the parts beyond are added to `above`. Each begins with its lowest edge.
+/// Returns the part of `piece` up to `level`, and adds the parts beyond to `above`. Each begins with its
+/// lowest edge.
 fn divide(
     piece: &[usize],
     level: f64,

@@ -1,4 +1,4 @@
-//! The plate of open eaves: what of a roof's faces is beyond the walls.
+//! Plate of open eaves: the parts of a roof's faces beyond the walls.
 
 use glam::{DVec2, DVec3};
 use rustc_hash::FxHashMap;
@@ -6,14 +6,15 @@ use rustc_hash::FxHashMap;
 use super::patches::at_level;
 use crate::planar::edges;
 
-/// Where a slope meets the top of the walls, it is within this distance (m) of their corner.
+/// Maximum distance (m) of a slope from a corner of the walls, at the top of the walls.
 const AT_CORNER: f64 = 5e-3;
-/// Places within this distance (m) are above one another.
+/// Horizontal distance (m) within which points lie above each other.
 const UPRIGHT: f64 = 1e-6;
 
-/// The faces of a skeleton, its `rings`, with corners where they reach the walls, `beyond` (m) from the outline; `ends` are those of
-/// the walls. Where an edge is said to be `free`, the roof goes on beyond its wall. `rests` (m) say how long edges stand
-/// still.
+/// Adds corners to the faces `rings` of a skeleton where they reach the walls, `beyond` (m) from the outline.
+///
+/// `ends` are the ends of each wall. Over `free` edges, the roof may continue beyond the wall. `rests` (m) is
+/// the time that each edge stands still.
 ///
 /// Fails with the edges whose faces do not reach the walls at their corners.
 pub(super) fn at_walls(
@@ -52,7 +53,7 @@ pub(super) fn at_walls(
     }
     let passes: Vec<Option<[bool; 2]>> =
         faces.iter().zip(ends).map(|(face, ends)| passes(face, points, beyond, *ends)).collect();
-    // Two that go on beyond the corner between them leave it alone.
+    // If both faces extend beyond their common corner, neither reaches it.
     let misses = |one: usize, two: usize| {
         !free[one] && !free[two] && matches!((passes[one], passes[two]), (Some([_, true]), Some([true, _])))
     };
@@ -64,9 +65,9 @@ pub(super) fn at_walls(
     if astray.is_empty() { Ok(faces) } else { Err(astray) }
 }
 
-/// For each edge the one before it.
+/// Returns the previous edge of each edge.
 fn before(rings: &[Vec<usize>]) -> Vec<usize> {
-    // A corner of the outline has the number of the edge that begins there.
+    // A corner of the outline has the index of the edge that begins there.
     let mut before = vec![0; rings.len()];
     for (edge, face) in rings.iter().enumerate() {
         before[face[1]] = edge;
@@ -74,7 +75,8 @@ fn before(rings: &[Vec<usize>]) -> Vec<usize> {
     before
 }
 
-/// Puts what is above a corner of the outline while both of its edges stand still exactly there.
+/// Moves points above a corner of the outline exactly there, up to the time when one of its edges starts to
+/// move.
 fn stand_still(rings: &[Vec<usize>], before: &[usize], points: &mut [DVec3], rests: &[f64]) {
     for face in rings {
         for (corner, next) in [(face[0], face[face.len() - 1]), (face[1], face[2])] {
@@ -93,8 +95,8 @@ pub(super) fn is_at(point: DVec3, level: f64) -> bool {
     point.z == level
 }
 
-/// Whether a face that passes the top of the walls once does so beyond the left and the right end of its wall, in its
-/// line, or just there; none if it does so otherwise.
+/// Reports whether a face crosses the top of the walls beyond the left and the right end of its wall (true),
+/// in its line, or exactly at the ends (false); `None` for any other crossing.
 fn passes(face: &[usize], points: &[DVec3], beyond: f64, [left, right]: [DVec2; 2]) -> Option<[bool; 2]> {
     let mut found: Vec<DVec2> = face
         .iter()
@@ -114,7 +116,8 @@ fn passes(face: &[usize], points: &[DVec3], beyond: f64, [left, right]: [DVec2; 
     Some([is_beyond(to, left, -1.0)?, is_beyond(from, right, 1.0)?])
 }
 
-/// The points of a face from its right end to its left one, up to a level; of those above one another the highest.
+/// Returns the points of a face from its right end to its left end, up to a level; of points above each other
+/// only the highest.
 pub(super) fn border(face: &[usize], points: &[DVec3], level: f64) -> Vec<DVec3> {
     let mut border: Vec<DVec3> = Vec::with_capacity(face.len());
     let around = face[1..].iter().chain(&face[..1]);
@@ -131,16 +134,16 @@ pub(super) fn border(face: &[usize], points: &[DVec3], level: f64) -> Vec<DVec3>
     border
 }
 
-/// Whether a point is above another one.
+/// Returns true if a point lies above another one.
 fn is_above(point: DVec3, other: DVec3) -> bool {
     point.z > other.z && point.truncate().distance(other.truncate()) < UPRIGHT
 }
 
-/// The part of a face between two levels, from its lowest edge on.
+/// Returns the part of a face between two levels, from its lowest edge on.
 pub(super) fn part(face: &[usize], points: &[DVec3], [from, to]: [f64; 2]) -> Vec<DVec3> {
     let mut part: Vec<DVec3> =
         face.iter().map(|&index| points[index]).filter(|point| (from..=to).contains(&point.z)).collect();
-    // Where the face begins higher than its edge, the left end is the last one.
+    // If the face begins higher than its edge, its left end is the last point.
     if from > 0.0 && part.last().is_some_and(|last| is_at(*last, from)) {
         part.rotate_right(1);
     }

@@ -1,4 +1,5 @@
-//! Tests of roofs beside neighbours, in rows whose walls bend slightly or step, and of those over what stands out.
+//! Tests of roofs next to neighbours, in rows whose walls bend slightly or step, and of roofs over projecting
+//! storeys.
 
 use super::super::skeleton::samples::{Random, mixed};
 use super::super::skeleton::tests::plan;
@@ -18,20 +19,21 @@ const SURFACES: [RoofSurface; 5] = [
 ];
 const EAVES: [(Eaves, f64); 3] = [(Eaves::Open, 0.15), (Eaves::Closed, 0.0), (Eaves::Slab, 0.2)];
 
-/// `least` rounds, or so many times as many as `BURGEON_CASES` says: `BURGEON_CASES=10 cargo test --release --lib roof`.
+/// Returns `least` rounds, multiplied by `BURGEON_CASES` if it is set: `BURGEON_CASES=10 cargo test --release
+/// --lib roof`.
 fn rounds(least: usize) -> std::ops::Range<usize> {
     let times = std::env::var("BURGEON_CASES").ok().and_then(|times| times.parse().ok()).unwrap_or(1);
     0..least * times
 }
 
-/// A plan beside others, and which of its edges are along them.
+/// A plan next to others, and its edges along them.
 struct TerraceHouse {
     walls: Polygon,
     party: Vec<usize>,
     reach: Vec<f64>,
 }
 
-/// Points from one end of a party wall to the other: straight, with slight bends, or with steps.
+/// Returns points from one end of a party wall to the other: straight, with slight bends, or with steps.
 fn side(random: &mut Random, from: DVec2, to: DVec2) -> Vec<DVec2> {
     let (way, across) = (to - from, (to - from).normalize_or_zero().perp());
     let mut points = vec![from];
@@ -53,7 +55,7 @@ fn side(random: &mut Random, from: DVec2, to: DVec2) -> Vec<DVec2> {
     points
 }
 
-/// A house of a row, with party walls to its right and to its left.
+/// Returns a house of a row, with party walls to its right and to its left.
 fn house(random: &mut Random) -> Option<TerraceHouse> {
     let (width, depth) = (4.0 + 8.0 * random.next(), 6.0 + 8.0 * random.next());
     let lean = (random.next() - 0.5) * 1.5;
@@ -64,7 +66,7 @@ fn house(random: &mut Random) -> Option<TerraceHouse> {
     let turn = DVec2::from_angle(6.3 * random.next());
     let ring: Vec<DVec2> = right.iter().chain(&left).map(|at| turn.rotate(*at)).collect();
     let given: Vec<usize> = (0..right.len() - 1).chain(right.len()..ring.len() - 1).collect();
-    // A piece of a wall in some, so that the rest of it is free.
+    // In some houses one segment of a party wall is free.
     let free = if random.next() < 0.3 { (random.next() * given.len() as f64) as usize } else { usize::MAX };
     let plan = Plan::new(&Rings(vec![ring.iter().map(|at| at.extend(0.0)).collect()])).ok()?;
     let stands = plan.given_edges();
@@ -77,7 +79,7 @@ fn house(random: &mut Random) -> Option<TerraceHouse> {
     (plan.repairs().0.is_empty()).then(|| TerraceHouse { walls: plan.flat(), party, reach })
 }
 
-/// What is wrong with a building that is to be one closed solid which nowhere meets itself.
+/// Describes the defects of a building that must be one closed solid without self-intersections.
 fn fault(cover: &RoofCover, walls: &Polygon) -> Option<String> {
     let part = building(walls, cover);
     let (check, clashes) = (solid::check([&part]), solid::clashes([&part], 2e-3));
@@ -85,7 +87,7 @@ fn fault(cover: &RoofCover, walls: &Polygon) -> Option<String> {
     (!sound).then(|| format!("{check:?} {clashes:?} {walls:?}"))
 }
 
-/// The area (m²) that a roof covers, seen from above.
+/// Returns the horizontal area (m²) that a roof covers.
 fn covered(cover: &RoofCover) -> f64 {
     let rings =
         cover.patches.iter().filter(|patch| patch.kind == PatchKind::Slope).flat_map(|patch| &patch.rings);
@@ -116,7 +118,7 @@ fn roofs_in_rows_with_bent_and_stepped_party_walls_never_meet_themselves() {
         let front = cover.overhangs.iter().filter(|overhang| **overhang == shape.overhang).count();
         full += usize::from(front >= 1);
         gabled += usize::from(cover.patches.iter().any(|patch| patch.kind == PatchKind::Gable));
-        // Nothing over neighbours.
+        // No overhang over neighbours.
         assert!(cover.overhangs.iter().zip(&reach).all(|(overhang, reach)| overhang <= reach), "{round}");
         let least = walls.area();
         assert!(covered(&cover) > least * (1.0 - 1e-4), "{round}: {} of {least} m²", covered(&cover));
@@ -154,7 +156,8 @@ fn roofs_over_random_plans_between_neighbours_never_meet_themselves() {
     assert!(count > 1000 && juts_out * 4 > count * 3, "{count}, {juts_out} jut out");
 }
 
-/// A rectangle with narrow notches, and what they take of a roof that juts out by `overhang` at most (m²).
+/// Returns a rectangle with narrow notches, its full roof area, and the area that the notches may remove from
+/// a roof with a maximum `overhang` (m²).
 fn notched(random: &mut Random, overhang: f64) -> (Vec<DVec2>, f64, f64) {
     let (width, depth) = (8.0 + 20.0 * random.next(), 7.0 + 10.0 * random.next());
     let corners = [(0.0, 0.0), (width, 0.0), (width, depth), (0.0, depth)].map(DVec2::from);
@@ -231,7 +234,7 @@ fn a_roof_begins_where_the_outermost_storey_ends() {
         let points = || cover.patches.iter().flat_map(|patch| &patch.rings).flatten();
         let is_out =
             |at: &&DVec3| (at.truncate() - DVec2::new(5.0, 3.0)).abs().cmpgt(over / 2.0 + 1e-6).any();
-        // What stands out is below the roof, and the overhang is beyond it.
+        // Projecting parts are below the roof, and the overhang is beyond them.
         assert!(points().filter(|at| at.z < HEIGHT - 1e-6).all(|at| is_out(&at)), "{shape:?}");
         let furthest = points().map(|at| (at.y - 3.0).abs()).fold(0.0, f64::max);
         assert!((furthest - 3.9).abs() < 1e-9, "{shape:?}: {furthest} m");

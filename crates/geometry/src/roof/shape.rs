@@ -1,8 +1,8 @@
-//! What a roof is to be like.
+//! Parameters of a roof's shape.
 
 use glam::DVec2;
 
-/// What stands over the short edges at the ends of wings.
+/// Type of the roof's ends over the short edges of wings.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Ends {
     /// Slopes, as over all other edges.
@@ -13,78 +13,79 @@ pub enum Ends {
     DutchHips,
 }
 
-/// How the roof juts out over the walls.
+/// Type of the roof's overhang.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Eaves {
-    /// A level underside at the top of the walls; the slopes begin at its outer edge. Gables are flush.
+    /// A level underside at the top of the walls, with slopes that begin at its outer edge and flush gables.
     Closed,
-    /// As closed, with upright faces along the outline on which the slopes stand.
+    /// A closed overhang with upright faces along the outline below the slopes.
     Slab,
-    /// The slopes run on beyond the walls as a plate with an underside along them, over gables too.
+    /// Slopes that continue beyond the walls as a plate with a parallel underside, also over gables.
     Open,
 }
 
-/// How high a roof is.
+/// Height of a roof.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Rise {
-    /// The highest ridge stands so far (m) above the eaves.
+    /// Height (m) of the highest ridge above the eaves.
     Height(f64),
-    /// The tangent of the slope from the eaves to the highest ridge.
+    /// Tangent of the slope from the eaves to the highest ridge.
     Slope(f64),
 }
 
-/// The upright edge of a flat roof.
+/// The upright border of a flat roof.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Border {
-    /// Its height (m) above the roof.
+    /// Height (m) above the roof.
     pub height: f64,
-    /// Its width (m).
+    /// Width (m).
     pub width: f64,
 }
 
-/// The faces of a roof.
+/// Surface of a roof.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum RoofSurface {
-    /// Level, with a border or without.
+    /// A level surface, with or without a border.
     Flat(Option<Border>),
     /// One slope, highest over the longest edge.
     Shed,
-    /// A slope over each edge; its profile has bends, as parts of the width and of the height, from the eaves up.
+    /// A slope over each edge, with bends of its profile as fractions of the width and of the height, from
+    /// the eaves up.
     Sloped(Ends, &'static [(f64, f64)]),
 }
 
-/// What a roof is to be like.
+/// Shape of a roof.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RoofShape {
-    /// Its surface.
+    /// Surface.
     pub surface: RoofSurface,
-    /// How high it is.
+    /// Height or slope.
     pub rise: Rise,
-    /// How far (m) it juts out over the walls.
+    /// Overhang beyond the walls (m).
     pub overhang: f64,
-    /// How it does so.
+    /// Type of the overhang.
     pub eaves: Eaves,
-    /// The height (m) of the upright faces along the outline, and how thick a plate is.
+    /// Height (m) of the upright faces along the outline, and thickness of a plate.
     pub slab: f64,
 }
 
-/// The steepest slope (a tangent) of a plate beyond the walls, so that the eaves of steep flaps stay high.
+/// Maximum slope (a tangent) of a plate beyond the walls, so that the eaves of steep roofs stay high.
 pub const STEEPEST_EAVES: f64 = 0.7;
 
-/// The height of a roof (m) above the top of the walls over the distance (m) from the outline.
+/// Height of a roof (m) above the top of the walls, as a function of the distance (m) from the outline.
 #[derive(Debug, Clone)]
 pub(super) struct Profile {
-    /// Its corners, by their distance; two at one distance make an upright step.
+    /// Corners, by distance; two at one distance form an upright step.
     pub corners: Vec<DVec2>,
-    /// The height (m) of the underside at the outline.
+    /// Height (m) of the underside at the outline.
     pub bottom: f64,
-    /// The first interval of the slopes themselves: what is before is beyond the walls, or a border.
+    /// Index of the first interval of the slopes: earlier intervals are beyond the walls or part of a border.
     pub first: usize,
 }
 
 impl Profile {
-    /// The profile of a roof whose ridge is at most `wide` (m) from the outline, of which `overhang` (m) is beyond
-    /// the walls.
+    /// Creates the profile of a roof whose ridge is at most `wide` (m) from the outline, of which `overhang`
+    /// (m) is beyond the walls.
     pub(super) fn new(shape: &RoofShape, wide: f64, overhang: f64) -> Self {
         let (mut corners, mut bottom, mut first) = (Vec::new(), 0.0, 0);
         match shape.surface {
@@ -125,12 +126,12 @@ impl Profile {
         Self { corners, bottom, first }
     }
 
-    /// How far (m) the slopes run on beyond the walls, as a plate.
+    /// Returns the distance (m) by which the slopes continue beyond the walls, as a plate.
     pub(super) fn beyond(&self) -> f64 {
         if self.first == 1 { self.corners[self.first].x } else { 0.0 }
     }
 
-    /// The height (m) at a distance (m) from the outline, on the higher side of a step.
+    /// Returns the height (m) at a distance (m) from the outline, on the upper side of a step.
     pub(super) fn height(&self, distance: f64) -> f64 {
         let last = self.corners.len().saturating_sub(2);
         let intervals = self.corners.windows(2).enumerate();
@@ -140,7 +141,7 @@ impl Profile {
     }
 }
 
-/// The height at `distance` on the line between two corners; exact at both, so that neighbours agree.
+/// Interpolates the height at `distance` between two corners; exact at both, so that neighbours agree.
 #[allow(clippy::float_cmp, reason = "exact at the end")]
 pub(super) fn between(from: DVec2, to: DVec2, distance: f64) -> f64 {
     if distance == to.x {

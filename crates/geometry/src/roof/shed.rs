@@ -6,18 +6,18 @@ use super::shape::{Eaves, Rise, RoofShape};
 use super::{Patch, PatchKind};
 use crate::planar::{Polygon, Ring};
 
-/// Heights (m) below this are none.
+/// Heights (m) below this are 0.
 const LOWEST: f64 = 2e-3;
-/// Edges that turn from the way of the fall by less than this (cosine, 60 degrees) are eaves.
+/// Minimum cosine of the angle between an eaves edge's outward normal and the fall (60 degrees).
 const DOWNWARDS: f64 = 0.5;
-/// Edges that turn by less than this (sine, 30 degrees) from eaves jut out as they do, so that no corner goes far.
+/// Maximum sine of the turn (30 degrees) between eaves and edges that join them, so that no corner moves far.
 const IN_LINE: f64 = 0.5;
 
-/// The way that rain runs: from the longest edge to the place furthest from it.
+/// Direction of drainage: from the longest edge to the point farthest from it.
 pub(super) struct Fall {
     from: DVec2,
     way: DVec2,
-    /// Where the walls are nearest and furthest along it (m).
+    /// Minimum and maximum position of the walls along the fall (m).
     near: f64,
     far: f64,
 }
@@ -42,12 +42,13 @@ impl Fall {
         self.way.dot(at - self.from)
     }
 
-    /// How far (m) the walls reach along it.
+    /// Returns the extent of the walls along the fall (m).
     pub(super) fn length(&self) -> f64 {
         (self.far - self.near).max(1e-9)
     }
 
-    /// Whether each edge is one of the eaves, where level undersides begin; over the others gables are flush.
+    /// Returns true for each edge that belongs to the eaves, where level undersides begin; over other edges
+    /// gables are flush.
     pub(super) fn eaves(&self, walls: &Polygon) -> Vec<bool> {
         let mut eaves = Vec::new();
         for ring in walls {
@@ -55,7 +56,7 @@ impl Fall {
             let mut down: Vec<bool> =
                 ways.iter().map(|along| -along.perp().dot(self.way) > DOWNWARDS).collect();
             let count = ring.len();
-            // Around once forwards and once backwards, from wherever there are eaves.
+            // Two rounds forwards and two backwards spread the eaves along the ring from any start.
             let forwards = (0..2 * count).map(|step| (step % count, (step + 1) % count));
             let backwards = (0..2 * count).rev().map(|step| ((step + 1) % count, step % count));
             for (known, next) in forwards.chain(backwards) {
@@ -67,9 +68,12 @@ impl Fall {
     }
 }
 
-/// A roof of one slope over walls that end at `base` (m): highest over the longest edge. `outer` is the outline of the
-/// roof, as many edges as the walls, with `overhang` (m) beyond some of them; `high` (m) is as high as it rises over the
-/// walls, from the place furthest from that edge, or from the outline there where the eaves are not open.
+/// Creates the patches of a roof of one slope, highest over the longest edge, over walls that end at `base`
+/// (m).
+///
+/// `outer` is the outline of the roof with as many edges as the walls, and with `overhang` (m) beyond some of
+/// them. `high` (m) is the rise over the walls from the point farthest from the longest edge, or from the
+/// outline there if the eaves are not open.
 pub(super) fn patches(
     shape: &RoofShape,
     fall: &Fall,
@@ -79,7 +83,7 @@ pub(super) fn patches(
     overhang: f64,
     high: f64,
 ) -> Vec<Patch> {
-    // How far the slope goes on beyond where the walls' tops would meet it.
+    // Distance by which the slope continues beyond the tops of the walls.
     let beyond = if shape.eaves == Eaves::Open { 0.0 } else { overhang };
     let slope = match shape.rise {
         Rise::Height(height) => height / (fall.length() + beyond),
@@ -102,7 +106,7 @@ pub(super) fn patches(
         };
         let mut wall = vec![a.extend(base), b.extend(base)];
         if along.perp_dot(c - a).abs().max(along.perp_dot(d - a).abs()) < LOWEST {
-            // Beside eaves, a flush gable ends where they do.
+            // Next to eaves, a flush gable ends where the eaves do.
             let moved =
                 |from: DVec2, to: DVec2| if from == to { None } else { Some([wall_top(from), under(to)]) };
             wall.extend(moved(b, d).into_iter().flatten());

@@ -1,4 +1,4 @@
-//! Tests of roofs over plans with slits: a slit of at most 1 cm is filled, a wider one is followed.
+//! Tests of roofs over plans with slits: slits of at most 1 cm are filled, roofs follow wider ones.
 
 use super::super::skeleton::samples::Random;
 use super::super::{Plan, Rings, solid};
@@ -7,7 +7,7 @@ use super::*;
 use crate::planar::{self, Polygon, Ring};
 use glam::DVec2;
 
-/// Rectangles and plans like an L, a T and a U, turned.
+/// Returns rotated rectangles and plans in the shape of an L, a T or a U.
 fn outline(random: &mut Random) -> Vec<DVec2> {
     let mut between = |from: f64, to: f64| from + (to - from) * random.next();
     let (w, d) = (between(8.0, 16.0), between(7.0, 14.0));
@@ -23,7 +23,7 @@ fn outline(random: &mut Random) -> Vec<DVec2> {
     ring.into_iter().map(|at| turn.rotate(DVec2::from(at)) + DVec2::new(37.0, -12.0)).collect()
 }
 
-/// The outline with a slit of a width (m) somewhere; none if chance has put it too near to another wall.
+/// Adds a slit of a width (m) to the outline at a random position; `None` if it is too close to another wall.
 fn slit(outline: &[DVec2], width: f64, random: &mut Random) -> Option<Vec<DVec2>> {
     let mut between = |from: f64, to: f64| from + (to - from) * random.next();
     let index = between(0.0, outline.len() as f64) as usize % outline.len();
@@ -57,7 +57,7 @@ fn slit(outline: &[DVec2], width: f64, random: &mut Random) -> Option<Vec<DVec2>
     Some(ring)
 }
 
-/// The ring with a point every `step` metres.
+/// Returns the ring with a point every `step` metres.
 fn dense(ring: &[DVec2], step: f64) -> Vec<DVec2> {
     let points = planar::edges(ring).flat_map(|[a, b]| {
         let count = (a.distance(b) / step).ceil().max(1.0) as usize;
@@ -66,7 +66,7 @@ fn dense(ring: &[DVec2], step: f64) -> Vec<DVec2> {
     points.collect()
 }
 
-/// The volume (m³) and the height (m) of the ridge of a roof.
+/// Returns the volume (m³) of a roof and the height (m) of its ridge.
 fn measured(walls: &Polygon, ends: Ends) -> (f64, f64) {
     let surface = RoofSurface::Sloped(ends, &[]);
     let shape = RoofShape { surface, rise: Rise::Slope(0.7), overhang: 0.0, eaves: Eaves::Closed, slab: 0.0 };
@@ -77,7 +77,7 @@ fn measured(walls: &Polygon, ends: Ends) -> (f64, f64) {
     (solid::volume([&part]) - walls.area() * HEIGHT, top)
 }
 
-/// So many, or as many times that as `BURGEON_CASES` asks for.
+/// Returns `count`, multiplied by the environment variable `BURGEON_CASES` if it is set.
 fn cases(count: usize) -> usize {
     count * std::env::var("BURGEON_CASES").ok().and_then(|times| times.parse().ok()).unwrap_or(1)
 }
@@ -128,7 +128,7 @@ fn a_slit_that_bends_or_leads_into_a_courtyard_is_filled() {
         let ring: Vec<DVec2> = corners.iter().copied().map(DVec2::from).collect();
         Plan::new(&raised(&ring)).expect("a plan")
     };
-    // From below up to y = 4 and then to the right.
+    // From the bottom up to y = 4 and then to the right.
     let bent = [
         &square[..1],
         &[(4., 0.), (4., 4.), (7., 4.), (7., 3.995), (4.005, 3.995), (4.005, 0.)],

@@ -1,4 +1,4 @@
-//! Tests of how thin triangles of roofs are: none is thinner than 0.1 mm.
+//! Tests of the width of roof triangles: none is thinner than 0.1 mm.
 
 use super::super::skeleton::samples::{FAMILIES, Random, mixed, rounded};
 use super::super::skeleton::tests::plan;
@@ -10,10 +10,10 @@ use burgeon_scene::Part;
 use glam::DVec2;
 use rustc_hash::FxHashMap;
 
-/// Triangles are at least so wide (m).
+/// Minimum width of triangles (m).
 const WIDE: f64 = 1e-4;
 
-/// How wide the thinnest triangle of a roof is (m).
+/// Returns the width of the thinnest triangle of a roof (m).
 fn thinnest(cover: &RoofCover) -> f64 {
     let mut part = Part::default();
     for patch in &cover.patches {
@@ -41,7 +41,7 @@ const SURFACES: [RoofSurface; 9] = [
 ];
 const EAVES: [(Eaves, f64); 3] = [(Eaves::Closed, 0.0), (Eaves::Slab, 0.2), (Eaves::Open, 0.15)];
 
-/// What is wrong with the roofs of all surfaces over a plan, of a sort that `round` says.
+/// Describes the defects of the roofs of all surfaces over a plan; `round` selects overhang and eaves.
 fn faults_over(walls: &Polygon, round: usize) -> Vec<String> {
     let (overhang, (eaves, slab)) = ([0.0, 0.3, 0.8][round / 8 % 3], EAVES[round / 24 % 3]);
     let fault = |surface: RoofSurface| {
@@ -55,13 +55,17 @@ fn faults_over(walls: &Polygon, round: usize) -> Vec<String> {
     SURFACES.into_iter().filter_map(fault).collect()
 }
 
-/// `cases`, or so many times as many as `BURGEON_CASES` says: `BURGEON_CASES=90 cargo test --release sliver`.
+/// Returns `cases`, multiplied by `BURGEON_CASES` if it is set: `BURGEON_CASES=90 cargo test --release
+/// sliver`.
 fn cases(cases: usize) -> usize {
     cases * std::env::var("BURGEON_CASES").ok().and_then(|times| times.parse().ok()).unwrap_or(1)
 }
 
-/// Plans of a seed whose roofs have had corners in the middle of a border of the same face, spikes at a level, corners of
-/// a face almost in one line, or a rim with two corners in nearly one place; and some of 9,000 others.
+/// Checks plans of a seed, and counts the roofs.
+///
+/// The `known` rounds once had corners within a border of the same face, spikes at a level, nearly collinear
+/// corners of a face, or a rim with two corners at nearly the same position. The others are a sample of 9,000
+/// rounds.
 fn faults(seed: u64, known: &[usize]) -> (usize, Vec<String>) {
     let mut random = Random(seed);
     let (mut count, mut faults) = (0, Vec::new());
@@ -138,8 +142,8 @@ fn open_eaves_beside_a_sharp_notch_end_at_its_corners() {
     assert!(faults.is_empty(), "{}: {:#?}", faults.len(), &faults[..faults.len().min(4)]);
 }
 
-/// Asserts that a hip roof over the plan that a family makes of a seed is solid, and each of its edges that of two faces;
-/// how many edges there are.
+/// Asserts that a hip roof over a family's plan of a seed is solid and that each edge has two faces; returns
+/// the number of edges.
 fn closed_edges(family: usize, seed: u64) -> usize {
     let walls = plan(&(FAMILIES[family].make)(&mut Random(seed))).expect("a plan");
     let shape = RoofShape {
@@ -165,13 +169,14 @@ fn closed_edges(family: usize, seed: u64) -> usize {
 
 #[test]
 fn a_face_that_merged_peaks_have_turned_over_does_not_lie_on_its_neighbours() {
-    // 24 courtyards; beside one of them a peak is 1 mm beyond the border that it is on.
+    // 24 courtyards; next to one of them a peak is 1 mm beyond the border that it lies on.
     assert!(closed_edges(5, 17_846_573_750_141_382_562) > 400);
 }
 
 #[test]
 fn a_face_that_merged_peaks_let_step_back_is_one() {
-    // 58 corners with 0.1 mm of noise, whose ridges meet all but in one place; two peaks pass one another by 2.2 mm.
+    // 58 corners with 0.1 mm of noise, whose ridges meet in nearly one position; two peaks pass one another
+    // by 2.2 mm.
     assert!(closed_edges(14, 15_810_918_746_686_250_647) > 100);
 }
 

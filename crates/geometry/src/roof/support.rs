@@ -1,4 +1,4 @@
-//! What a roof stands on.
+//! Support of a roof: the walls and their surroundings.
 
 use glam::DVec3;
 
@@ -6,34 +6,34 @@ use super::outset::Outset;
 use super::{Patch, PatchKind};
 use crate::planar::{Polygon, Ring};
 
-/// The walls below a roof, and what stands beside them.
+/// The walls below a roof, with neighbours and projecting parts.
 #[derive(Debug, Clone, Copy)]
 pub struct Support<'a> {
-    /// Their outline.
+    /// Outline of the walls.
     pub walls: &'a Polygon,
-    /// Where they end (m).
+    /// Height of the top of the walls (m).
     pub base: f64,
-    /// The edges along neighbours, which get gables where possible.
+    /// Edges along neighbours, which get gables if possible.
     pub party: &'a [usize],
-    /// How far (m) what is built below stands out over each edge; nowhere if empty. A roof juts out beyond it.
+    /// Projection (m) of the parts below over each edge; 0 everywhere if empty. The roof extends beyond it.
     pub juts: &'a [f64],
-    /// How far (m) from each edge there may be a roof, as beside a neighbour; anywhere if empty.
+    /// Maximum distance (m) of the roof from each edge, as next to a neighbour; unlimited if empty.
     pub reach: &'a [f64],
 }
 
 impl<'a> Support<'a> {
-    /// Walls that end at `base` (m), with nothing around them.
+    /// Creates a support of walls that end at `base` (m), without neighbours.
     pub fn new(walls: &'a Polygon, base: f64) -> Self {
         Self { walls, base, party: &[], juts: &[], reach: &[] }
     }
 
-    /// The number of edges of all rings.
+    /// Returns the number of edges of all rings.
     pub(super) fn edges(&self) -> usize {
         self.walls.size()
     }
 
-    /// How far (m) over each edge a roof may go that is to go so far everywhere; in whole centimetres where that is
-    /// less.
+    /// Returns the requested distance (m), limited by the reach of each edge; limits are rounded down to
+    /// whole centimetres.
     pub(super) fn within_reach(&self, distance: f64) -> Vec<f64> {
         let reach = |edge: usize| self.reach.get(edge).copied().unwrap_or(f64::INFINITY).max(0.0);
         let least =
@@ -41,9 +41,9 @@ impl<'a> Support<'a> {
         (0..self.edges()).map(|edge| least(reach(edge))).collect()
     }
 
-    /// The outline of what stands out below; none if nothing does.
+    /// Returns the outline of the projecting parts below; `None` if no part projects.
     ///
-    /// Beside a reflex corner the roof covers what stands out the most there, unless a neighbour is in its way.
+    /// At a reflex corner the roof covers the larger of both projections, unless a neighbour limits it.
     pub(super) fn outermost(&self) -> Option<Outset> {
         if self.juts.iter().all(|jut| *jut <= 0.0) {
             return None;
@@ -68,7 +68,7 @@ impl<'a> Support<'a> {
         Some(Outset::new(self.walls, juts, |_| false)).filter(|outset| outset.most() > 0.0)
     }
 
-    /// Adds what looks down between the walls and the outline of what stands out below, where the roof begins.
+    /// Adds the undersides between the walls and the outline of the projecting parts, where the roof begins.
     pub(super) fn add_soffit(&self, outer: &Outset, patches: &mut Vec<Patch>) {
         divide_feet(patches, self.walls, &outer.polygon, self.base);
         for (edge, [[left, right], [a, b]]) in feet(self.walls, &outer.polygon, self.base).enumerate() {
@@ -81,15 +81,16 @@ impl<'a> Support<'a> {
     }
 }
 
-/// Each edge of the walls, and of the outline around them, at height `base` (m).
+/// Returns each edge of the walls and of the outline around them, at height `base` (m).
 fn feet<'a>(walls: &'a Polygon, outer: &'a Polygon, base: f64) -> impl Iterator<Item = [[DVec3; 2]; 2]> + 'a {
     let pairs = walls.edges().zip(outer.edges());
     pairs.map(move |(inner, outer)| [inner, outer].map(|ends| ends.map(|at| at.extend(base))))
 }
 
-/// Gives the lower edge of a face that begins on a wall and beside it the corners of the wall.
+/// Inserts the corners of a wall into the lower edge of a face that begins on the wall and extends beyond it.
 ///
-/// So it is where an edge of the outline stays in its line, and becomes longer as those beside it do not.
+/// This occurs if an edge of the outline stays collinear with its wall and becomes longer because its
+/// neighbours move.
 pub(super) fn divide_feet(patches: &mut [Patch], walls: &Polygon, outer: &Polygon, base: f64) {
     let longer = feet(walls, outer, base).map(|[inner, outer]| {
         let between = inner.into_iter().filter(|at| !outer.contains(at)).collect::<Vec<_>>();
@@ -112,7 +113,7 @@ pub(super) fn divide_feet(patches: &mut [Patch], walls: &Polygon, outer: &Polygo
     }
 }
 
-/// Whether a point of an edge's outline is in the edge's own line.
+/// Returns true if a point of an edge's outline is collinear with the edge.
 fn in_line([left, right]: [DVec3; 2], at: DVec3) -> bool {
     (right - left).truncate().perp_dot((at - left).truncate()).abs() < 1e-9
 }

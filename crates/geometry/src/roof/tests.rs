@@ -1,4 +1,4 @@
-//! Tests of roofs: over random plans, each closes its walls into a solid with the volume that it encloses.
+//! Tests of roofs: over random plans, each closes its walls into a solid with the expected volume.
 
 use super::super::skeleton::samples::{FAMILIES, Random, mixed};
 use super::super::skeleton::tests::plan;
@@ -13,7 +13,7 @@ use glam::{DVec2, DVec3};
 pub(super) const HEIGHT: f64 = 3.0;
 pub(super) const BENT: &[(f64, f64)] = &[(0.3, 0.1), (0.6, 0.7)];
 
-/// Walls of 3 m over a floor, and `cover` on them.
+/// Returns walls of 3 m over a floor, with `cover` on them.
 pub(super) fn building(walls: &Polygon, cover: &RoofCover) -> Part {
     let mut part = Part::default();
     let mut add = |rings: &[Ring<DVec3>]| {
@@ -31,12 +31,12 @@ pub(super) fn building(walls: &Polygon, cover: &RoofCover) -> Part {
     part
 }
 
-/// The walls with this outline.
+/// Returns walls with this outline.
 pub(super) fn around(corners: &[(f64, f64)]) -> Polygon {
     Polygon::new(vec![corners.iter().copied().map(DVec2::from).collect()]).expect("a polygon")
 }
 
-/// The volume (m³) below the faces of a hip roof, by clipping them at the bends of the profile.
+/// Returns the volume (m³) below the faces of a hip roof, by clipping them at the bends of the profile.
 fn volume_below(walls: &Polygon, shape: &RoofShape) -> f64 {
     let paces = vec![Pace::default(); walls.size()];
     let skeleton = Skeleton::for_mesh(walls, &paces).expect("a skeleton");
@@ -60,7 +60,7 @@ fn volume_below(walls: &Polygon, shape: &RoofShape) -> f64 {
     volume
 }
 
-/// The integral (m³) of the height of all faces that rain falls on over the plan, and the area (m²) of these.
+/// Returns the integral (m³) of the height over all upward faces, and their horizontal area (m²).
 fn integral(cover: &RoofCover) -> (f64, f64) {
     let (mut volume, mut covered) = (0.0, 0.0);
     for patch in &cover.patches {
@@ -80,7 +80,7 @@ fn integral(cover: &RoofCover) -> (f64, f64) {
     (volume, covered)
 }
 
-/// The part of a ring on one side of a level.
+/// Returns the part of a ring on one side of a level.
 fn clipped(ring: &[DVec3], level: f64, side: f64) -> Vec<DVec3> {
     let mut kept = Vec::new();
     for [a, b] in edges(ring) {
@@ -95,7 +95,7 @@ fn clipped(ring: &[DVec3], level: f64, side: f64) -> Vec<DVec3> {
     kept
 }
 
-/// How far (m) the roof juts out where it does so the most.
+/// Returns the maximum overhang (m) of the roof.
 fn greatest(cover: &RoofCover) -> f64 {
     cover.overhangs.iter().copied().fold(0.0, f64::max)
 }
@@ -138,9 +138,9 @@ fn roofs_of_every_shape_close_thousands_of_random_plans() {
         let plain = walls.area() * HEIGHT;
         assert!(volume > plain - 1e-3, "{round}: {volume} m³ of {plain} m³");
         if greatest(&cover) == 0.0 {
-            // What the walls enclose up to the roof is what lies below its surface.
+            // The walls enclose the volume below the surface of the roof.
             let (below, covered) = integral(&cover);
-            // Corners where faces meet at nearly one point may be a millimetre off.
+            // Corners where faces meet at nearly one point may be off by a millimetre.
             let whole = walls.area();
             assert!((covered - whole).abs() < 1e-5 * whole.max(1.0), "{round}: {covered} of {whole} m²");
             assert!((volume - below).abs() < 1e-3 * below, "{round}: {volume} m³, not {below} m³");
@@ -244,7 +244,7 @@ fn open_eaves_of_a_gable_roof_have_the_volume_of_a_plate_beyond_the_walls() {
         ..shape(RoofSurface::Sloped(Ends::Gables, &[]), Eaves::Open, 0.5, 0.2)
     };
     let cover = open.cover(&walls, HEIGHT).expect("a roof");
-    // A slope of 1 over walls of 6 m gets a flatter end beyond them, so the plate is 0.2 m high everywhere.
+    // A slope of 1 over walls of 6 m is flatter beyond them, so the plate is 0.2 m high everywhere.
     let expected = 60.0 * HEIGHT + 10.0 * 6.0 * 3.0 / 2.0 + 11.0 * 7.0 * 0.2;
     let volume = solid::volume([&building(&walls, &cover)]);
     assert!((volume - expected).abs() < 1e-3, "{volume} m³, not {expected} m³");
@@ -263,7 +263,7 @@ fn a_roof_of_one_slope_is_as_high_as_a_gable_roof_of_the_same_slope() {
 
 #[test]
 fn a_house_in_a_row_has_gables_along_its_neighbours() {
-    // Wider than deep, so that without neighbours a gable roof would have its gables there, too; and deeper than wide.
+    // Wider than deep, where a gable roof without neighbours has the same gables; and deeper than wide.
     for (width, depth) in [(10.0, 6.0), (6.0, 10.0)] {
         let walls = around(&[(0., 0.), (width, 0.), (width, depth), (0., depth)]);
         for surface in [
@@ -290,7 +290,8 @@ fn a_gable_that_would_go_on_beyond_its_wall_is_left_out_alone() {
     let gables = |cover: &RoofCover| -> std::collections::BTreeSet<usize> {
         cover.patches.iter().filter(|patch| patch.kind == PatchKind::Gable).map(|patch| patch.edge).collect()
     };
-    // Over the wall at the top left the slopes would meet beyond its end, as the wall beside it is short.
+    // Over the wall at the top left the slopes would meet beyond its end, because the wall next to it is
+    // short.
     let corners = [(1.7, -5.5), (5.9, 0.8), (5.0, 1.4), (-1.6, 6.0), (-6.0, -0.4)];
     let walls = around(&corners);
     let roof = shape(RoofSurface::Sloped(Ends::Hips, &[]), Eaves::Closed, 0.0, 0.0);
@@ -303,10 +304,10 @@ fn a_gable_that_would_go_on_beyond_its_wall_is_left_out_alone() {
 fn a_roof_of_one_slope_juts_out_over_its_eaves_as_it_is_asked_to() {
     let walls = around(&[(0., 0.), (10., 0.), (10., 6.), (0., 6.)]);
     for (eaves, slab, overhang, wedge, lowest) in [
-        // From the outline of the eaves up to 2 m over the longest edge, beside flush gables.
+        // From the outline of the eaves up to 2 m over the longest edge, next to flush gables.
         (Eaves::Closed, 0.0, 0.5, 10.0 * 6.5 * 2.0 / 2.0, HEIGHT),
         (Eaves::Slab, 0.2, 0.5, 10.0 * 6.5 * (2.0 / 2.0 + 0.2), HEIGHT),
-        // From the walls up to 2 m, and a plate on it that juts out everywhere.
+        // From the walls up to 2 m, with a plate on top that has an overhang everywhere.
         (Eaves::Open, 0.2, 0.5, 10.0 * 6.0 * 2.0 / 2.0 + 11.0 * 7.0 * 0.2, HEIGHT - 0.5 / 3.0),
         (Eaves::Slab, 0.2, 0.0, 10.0 * 6.0 * (2.0 / 2.0 + 0.2), HEIGHT),
     ] {
@@ -340,7 +341,7 @@ fn gables_along_neighbours_end_with_their_walls_and_close_random_plans() {
         assert!(check.is_solid(), "{round}: {party:?} {check:?} {walls:?}");
         let (below, covered) = integral(&cover);
         let (volume, whole) = (solid::volume([&part]), walls.area());
-        // Short borders of its skeleton are left out.
+        // Short borders of the skeleton are omitted.
         let slack = 1e-3 * ends.iter().map(|[a, b]| a.distance(*b)).sum::<f64>();
         assert!((covered - whole).abs() < slack, "{round}: {covered} of {whole} m²");
         assert!((volume - below).abs() < 1e-3 * below, "{round}: {volume} m³, not {below} m³");

@@ -1,4 +1,4 @@
-//! The map of the faces made coarser where it is finer than a millimetre: short borders shrink, thin spikes close.
+//! Coarsening of the faces below a millimetre: short borders shrink, thin spikes close.
 
 use glam::DVec3;
 use smallvec::SmallVec;
@@ -6,25 +6,26 @@ use smallvec::SmallVec;
 use super::Peak;
 use super::edge::SkeletonEdge;
 
-/// Borders no longer than this (m), on the plan and in time, are short; spikes no wider are thin.
+/// Maximum length (m), horizontally and in time, of short borders, and maximum width of thin spikes.
 const FINEST: f64 = 1e-3;
-/// What is left between a peak and a border (m), so that a mesh of 32-bit numbers can tell them apart.
+/// Minimum distance (m) between a peak and a border, so that a mesh of 32-bit numbers separates them.
 const NARROW: f64 = 2.5e-4;
 
-/// Shrinks short borders and closes thin spikes, as long as the faces stay a map of the plane.
+/// Shrinks short borders and closes thin spikes, as long as the faces remain a planar map.
 ///
-/// Two peaks become one only where the border between them is all that the faces around them share, and a peak on a
-/// straight border between two faces is left out. A spike is closed where one of its borders runs along the other: what
-/// is beyond them meets there. No face loses its edge or touches itself, and no two faces get a second border between the same peaks. The first `fixed` peaks stay.
+/// Two peaks merge only if the border between them is all that the faces around them share. A peak on a
+/// straight border between two faces is removed. A spike is closed if one of its borders runs along the
+/// other; then the faces beyond them meet there. No face loses its edge or touches itself, and no two faces
+/// get a second border between the same peaks. The first `fixed` peaks stay.
 pub(super) fn coarsen(peaks: &[Peak], fixed: usize, edges: &[SkeletonEdge], faces: &mut [Vec<usize>]) {
-    // Peaks that stand for others may turn spikes over by twice as much; beside upright faces these would lean then.
+    // Merged peaks may invert spikes by twice as much; next to upright faces this would tilt them.
     let turned = if edges.iter().all(|edge| edge.pace.moves()) { 2.0 * FINEST } else { FINEST };
     if faces.iter().all(|face| is_coarse(peaks, fixed, face, turned)) {
         return;
     }
     let mut short = short_borders(peaks, fixed, faces);
     let mut map = PeakMap::new(peaks.len(), faces);
-    // What cannot be done at first may be possible once other things have been.
+    // An operation that is impossible at first may become possible after others.
     let mut done = true;
     while done {
         done = false;
@@ -49,10 +50,10 @@ pub(super) fn coarsen(peaks: &[Peak], fixed: usize, edges: &[SkeletonEdge], face
     }
 }
 
-/// Widens faces that are all but cut in two: where a peak all but touches a border of a face that it is not an end of,
-/// it moves away from it, by less than borders are short.
+/// Widens faces that are nearly cut in two: a peak that nearly touches a border of its face moves away from
+/// it, by less than the length of short borders.
 ///
-/// Faces over edges that stand still at first are upright there, and left alone.
+/// Faces over edges that stand still at first are upright there, and are skipped.
 pub(super) fn widen(peaks: &mut [Peak], fixed: usize, edges: &[SkeletonEdge], faces: &[Vec<usize>]) {
     for (face, _) in faces.iter().zip(edges).filter(|(face, edge)| face.len() > 4 && edge.pace.moves()) {
         for (index, &a) in face.iter().enumerate() {
@@ -62,7 +63,7 @@ pub(super) fn widen(peaks: &mut [Peak], fixed: usize, edges: &[SkeletonEdge], fa
             for &peak in face[2..].iter().filter(|&&peak| peak >= fixed && peak != a && peak != b) {
                 let there = peaks[peak].at - from;
                 let across = way.perp_dot(there);
-                // Most are far off, which takes no root to tell.
+                // Most peaks are far away, which needs no square root.
                 if across * across < 2.0 * NARROW * NARROW * square {
                     let length = square.sqrt();
                     let (far, on) = (across / length, way.dot(there) / length);
@@ -75,7 +76,7 @@ pub(super) fn widen(peaks: &mut [Peak], fixed: usize, edges: &[SkeletonEdge], fa
     }
 }
 
-/// Whether a face has neither short borders nor spikes.
+/// Returns true if a face has neither short borders nor spikes.
 fn is_coarse(peaks: &[Peak], fixed: usize, face: &[usize], turned: f64) -> bool {
     let count = face.len();
     let mut back = way(peaks, [face[1], face[0]]);
@@ -88,13 +89,13 @@ fn is_coarse(peaks: &[Peak], fixed: usize, face: &[usize], turned: f64) -> bool 
     })
 }
 
-/// The square of the length of a border, on the plan or in time.
+/// Returns the squared length of a border, the maximum of its horizontal and its time component.
 fn square(way: DVec3) -> f64 {
     way.truncate().length_squared().max(way.z * way.z)
 }
 
-/// Whether one of two ways from a corner runs along the other; the second one is up to `turned` (m) off it on the wrong
-/// side.
+/// Returns true if one of two vectors from a corner runs along the other; an inverted corner may deviate by
+/// up to `turned` (m).
 fn is_spike([one, two]: [DVec3; 2], turned: f64) -> bool {
     let dot = one.dot(two);
     if dot <= 0.0 {
@@ -106,7 +107,8 @@ fn is_spike([one, two]: [DVec3; 2], turned: f64) -> bool {
     4.0 * dot * dot > squares[0] * squares[1] && cross.length_squared() <= widest * widest * long
 }
 
-/// The short borders, each with the square of its length, the shortest first; the second of the two peaks may go.
+/// Returns the short borders, each with its squared length, the shortest first; the second of the two peaks
+/// may be removed.
 fn short_borders(peaks: &[Peak], fixed: usize, faces: &[Vec<usize>]) -> Vec<(f64, [usize; 2])> {
     let mut short = Vec::new();
     for face in faces {
@@ -124,29 +126,29 @@ fn short_borders(peaks: &[Peak], fixed: usize, faces: &[Vec<usize>]) -> Vec<(f64
     short
 }
 
-/// The spikes of a face: three corners after one another of which the first or the last is on the border between the
-/// two others.
+/// Returns the spikes of a face: three consecutive corners of which the first or the last lies on the border
+/// between the two others.
 ///
-/// One that has been turned over is no wider than `turned` (m).
+/// Inverted spikes are at most `turned` (m) wide.
 fn spikes_of(peaks: &[Peak], face: &[usize], turned: f64) -> impl Iterator<Item = [usize; 3]> {
     let count = face.len();
-    // The first two corners are those of the edge.
+    // The first two corners are the ends of the edge.
     let corners = (2..count).map(move |index| [face[index - 1], face[index], face[(index + 1) % count]]);
     corners.filter(move |&[a, tip, b]| is_spike([way(peaks, [tip, a]), way(peaks, [tip, b])], turned))
 }
 
-/// From a peak to another, on the plan and in time.
+/// Returns the vector from one peak to another, horizontally and in time.
 fn way(peaks: &[Peak], [from, to]: [usize; 2]) -> DVec3 {
     (peaks[to].at - peaks[from].at).extend(peaks[to].time - peaks[from].time)
 }
 
-/// The faces around each peak, and how far (m) the peaks are that it stands for.
+/// Faces around each peak, and the distance (m) of the farthest peak that it replaces.
 struct PeakMap {
     around: Vec<SmallVec<[usize; 6]>>,
     spread: Vec<f64>,
 }
 
-/// The corners before and after one of a ring; none if it is not there.
+/// Returns the corners before and after a corner of a ring; empty if the ring does not contain it.
 fn beside(ring: &[usize], peak: usize) -> SmallVec<[usize; 2]> {
     let count = ring.len();
     let at = ring.iter().position(|&other| other == peak);
@@ -163,12 +165,12 @@ impl PeakMap {
         Self { around, spread: vec![0.0; count] }
     }
 
-    /// The peaks to which borders go from one.
+    /// Returns the peaks that are connected to a peak by borders.
     fn neighbours(&self, peak: usize, faces: &[Vec<usize>]) -> SmallVec<[usize; 12]> {
         self.around[peak].iter().flat_map(|&face| beside(&faces[face], peak)).collect()
     }
 
-    /// Lets `kept` stand for `gone`, if that is sound and both are there; whether it is.
+    /// Replaces `gone` by `kept` if both exist and the map stays valid; returns true on success.
     fn shrinks(&mut self, kept: usize, gone: usize, far: f64, faces: &mut [Vec<usize>]) -> bool {
         let spread = self.spread[kept].max(far + self.spread[gone]);
         if spread > 2.0 * FINEST {
@@ -196,12 +198,12 @@ impl PeakMap {
         true
     }
 
-    /// Leaves out a peak that is on a straight border between two faces; whether it is.
+    /// Removes a peak on a straight border between two faces; returns true on success.
     fn straightens(&mut self, peak: usize, peaks: &[Peak], faces: &mut [Vec<usize>]) -> bool {
         let [one, two] = self.around[peak][..] else { return false };
         let [a, b] = beside(&faces[one], peak)[..] else { return false };
         let [there, whole] = [way(peaks, [a, peak]), way(peaks, [a, b])];
-        // Both ends may be off by as much as peaks are that they stand for.
+        // Both ends may be off by as much as merged peaks are.
         if there.cross(whole).length() > 3.0 * FINEST * whole.length()
             || faces[one].len().min(faces[two].len()) <= 3
             || self.neighbours(a, faces).contains(&b)
@@ -215,7 +217,7 @@ impl PeakMap {
         true
     }
 
-    /// The face on the other side of a border of a face; none beside an edge of the polygon.
+    /// Returns the face on the other side of a face's border; `None` at an edge of the polygon.
     fn across(&self, [from, to]: [usize; 2], faces: &[Vec<usize>]) -> Option<usize> {
         let runs = |face: &usize| {
             let ring = &faces[*face];
@@ -225,7 +227,7 @@ impl PeakMap {
         self.around[to].iter().copied().find(runs)
     }
 
-    /// Takes a spike from a face, if that is sound; whether it is.
+    /// Removes a spike from a face if the map stays valid; returns true on success.
     fn closes(
         &mut self,
         face: usize,
@@ -240,10 +242,11 @@ impl PeakMap {
             return false;
         }
         let far = |peak: usize| way(peaks, [tip, peak]).length_squared();
-        // The nearer end of the two is on the border to the other, and so on that of the face there.
+        // The nearer end lies on the border to the other end, and becomes a corner of the face beyond that
+        // border.
         let (beyond, middle, end) = if far(a) < far(b) { (right, a, b) } else { (left, b, a) };
         if left == right {
-            // Only the two faces are at the tip.
+            // Only the two faces touch the tip.
             if self.around[tip].len() != 2 || faces[left].len() <= 3 {
                 return false;
             }
@@ -254,7 +257,7 @@ impl PeakMap {
         } else {
             let ring = &mut faces[beyond];
             let [one, two] = [tip, end].map(|end| ring.iter().position(|&peak| peak == end).unwrap_or(0));
-            // The border between them may be the one from the last corner to the first.
+            // The border may run from the last corner to the first.
             let at = if one.abs_diff(two) == 1 { one.max(two) } else { ring.len() };
             ring.insert(at, middle);
             self.around[middle].push(beyond);

@@ -1,4 +1,4 @@
-//! The edges of the polygon on a lattice, where directions are compared exactly.
+//! Edges of the polygon on a lattice, where directions are compared exactly.
 
 use std::cmp::Ordering;
 
@@ -8,18 +8,18 @@ use super::Pace;
 use crate::planar::Polygon;
 use burgeon_base::error::{Error, Limit, Result};
 
-/// Cells of the lattice to a metre of the scaled polygon: corners move there by less than 2e-10 m.
+/// Number of lattice cells per metre of the scaled polygon: corners move by less than 2e-10 m.
 pub(super) const CELLS: f64 = (1u64 << 32) as f64;
-/// The power of two that is the least extent (m) of a scaled polygon.
+/// Exponent (base 2) of the minimum extent (m) of a scaled polygon.
 const EXTENT: i32 = 9;
-/// The greatest power of two of an extent (m), and of its inverse.
+/// Maximum exponent (base 2) of an extent (m), and of its inverse.
 const MOST_POWER: i32 = 300;
-/// The greatest coordinate (cells): products of differences fit in 128 bits.
+/// Maximum coordinate (cells): products of differences fit in 128 bits.
 const MOST: f64 = (1u64 << 61) as f64;
 
-/// The power of two by which a polygon is to be scaled so that it extends over 512 to 1024 m.
+/// Returns the power of two that scales a polygon to an extent of 512 to 1024 m.
 ///
-/// Fails if its extent (m) is 0 or so small or great that products of it are no numbers.
+/// Fails if its extent (m) is 0, or so small or large that its products overflow or underflow.
 pub(super) fn scale_of(polygon: &Polygon) -> Result<f64> {
     let [low, high] = polygon.bounds().unwrap_or_default();
     let extent = (high - low).max_element();
@@ -32,8 +32,8 @@ pub(super) fn scale_of(polygon: &Polygon) -> Result<f64> {
     Ok(2f64.powi(EXTENT - power))
 }
 
-/// Puts the rings, scaled by a power of two, on the lattice (cells); the middle (m) of their box, from which they are
-/// measured.
+/// Snaps the rings, scaled by a power of two, to the lattice (cells), and returns the centre (m) of their
+/// bounding box, which is the lattice's origin.
 pub(super) fn snap(polygon: &Polygon, scale: f64, rings: &mut Vec<Vec<I64Vec2>>) -> Result<DVec2> {
     let [low, high] = polygon.bounds().unwrap_or_default();
     let middle = (low.midpoint(high) * scale).round() / scale;
@@ -52,13 +52,14 @@ pub(super) fn snap(polygon: &Polygon, scale: f64, rings: &mut Vec<Vec<I64Vec2>>)
     Ok(middle)
 }
 
-/// The point of the lattice that is nearest; of two the one farther out, as `round` has it, but without a call.
+/// Rounds to the nearest point of the lattice, halves away from zero like `round`, but without a library
+/// call.
 fn nearest(point: DVec2) -> I64Vec2 {
     let whole = point.as_i64vec2();
     whole + ((point - whole.as_dvec2()) * 2.0).as_i64vec2()
 }
 
-/// A point of the lattice (m).
+/// Converts a point of the lattice to metres.
 pub(super) fn metres(point: I64Vec2) -> DVec2 {
     point.as_dvec2() / CELLS
 }
@@ -66,18 +67,18 @@ pub(super) fn metres(point: I64Vec2) -> DVec2 {
 /// An edge of the polygon.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct SkeletonEdge {
-    /// Its direction.
+    /// Direction.
     pub along: DVec2,
-    /// The distance of its line from the origin at the beginning.
+    /// Distance (m) of its line from the origin at the start.
     pub level: f64,
-    /// How it moves in all.
+    /// Motion of the edge over the whole time.
     pub pace: Pace,
-    /// The line that it lies on at present.
+    /// Index of its current line.
     pub line: usize,
 }
 
 impl SkeletonEdge {
-    /// The distance of `at` from it at `time`, positive where it has not been yet.
+    /// Returns the distance of `at` from the edge at `time`, positive if the edge has not reached it yet.
     pub(super) fn ahead(&self, at: DVec2, time: f64) -> f64 {
         self.along.perp().dot(at) - self.level - self.pace.way(time)
     }
@@ -92,34 +93,34 @@ impl Direction {
         Self(-self.0)
     }
 
-    /// A quarter turn to the left.
+    /// Returns the direction a quarter turn to the left.
     pub(super) fn left(self) -> Self {
         Self(self.0.perp())
     }
 
-    /// The way that `other` turns from it: greater to the left, less to the right. Exact.
+    /// Compares the turn to `other` exactly: greater to the left, less to the right.
     pub(super) fn turn(self, other: Self) -> Ordering {
         let [a, b] = [self.0, other.0].map(|way| (i128::from(way.x), i128::from(way.y)));
         (a.0 * b.1).cmp(&(a.1 * b.0))
     }
 
-    /// Whether two parallel directions are one.
+    /// Returns true if two parallel directions have the same sense.
     pub(super) fn agrees(self, other: Self) -> bool {
         self.0.signum() == other.0.signum()
     }
 
-    /// Whether another one is parallel to it and the same way.
+    /// Returns true if another direction is parallel and has the same sense.
     pub(super) fn runs_as(self, other: Self) -> bool {
         self.agrees(other) && self.turn(other) == Ordering::Equal
     }
 
-    /// The order of the angles from the negative x axis, counter-clockwise. Exact.
+    /// Compares the angles from the negative x axis, counter-clockwise and exactly.
     pub(super) fn compare(self, other: Self) -> Ordering {
         let upper = |way: I64Vec2| way.y > 0 || (way.y == 0 && way.x > 0);
         upper(self.0).cmp(&upper(other.0)).then_with(|| other.turn(self))
     }
 
-    /// The shortest direction on the lattice that is parallel to it.
+    /// Returns the shortest parallel direction on the lattice.
     pub(super) fn shortest(self) -> Self {
         let [mut a, mut b] = [self.0.x.unsigned_abs(), self.0.y.unsigned_abs()];
         while b > 0 {

@@ -1,4 +1,4 @@
-//! What is going to happen to the wavefront, and when.
+//! Prediction of the wavefront's events and their times.
 
 use std::cmp::{Ordering, Reverse};
 use std::collections::BinaryHeap;
@@ -8,22 +8,22 @@ use super::fronts::{CornerCourse, EdgeFront};
 use super::lines::EventTime;
 use super::wavefront::{ANY, CornerKind, Wavefront};
 
-/// Times that may be off by more than this (m) are made exact before they are compared.
+/// Error (m) above which times are computed exactly before they are compared.
 const COARSE: f64 = 1e-6;
-/// How many edges that a reflex corner may reach are foreseen at once.
+/// Number of edges that are predicted at once for a reflex corner.
 const FORESEEN: usize = 8;
 
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum WavefrontEventKind {
-    /// The edge between two corners shrinks to a point.
+    /// Collapse of the edge between two corners to a point.
     Collapse(u32, u32),
-    /// A reflex corner reaches the line of an edge.
+    /// Arrival of a reflex corner at the line of an edge.
     Split(u32, u32),
-    /// An edge that stood still begins to move.
+    /// Start of an edge that stood still.
     Start(u32),
 }
 
-/// The number of a corner or edge, of which there are fewer than 2^32.
+/// Converts the index of a corner or edge, of which there are fewer than 2^32.
 #[allow(clippy::cast_possible_truncation, reason = "there is no memory for more")]
 pub(super) fn short(number: usize) -> u32 {
     number as u32
@@ -31,11 +31,11 @@ pub(super) fn short(number: usize) -> u32 {
 
 #[derive(Debug, Clone, Copy)]
 pub(super) struct WavefrontEvent {
-    /// It does not take place before this time.
+    /// Lower bound of the time.
     low: f64,
     when: EventTime,
     what: WavefrontEventKind,
-    /// Whether what the corner may reach after it is still to be expected.
+    /// Set if the corner's next possible events have not been added yet.
     leads: bool,
 }
 
@@ -48,19 +48,19 @@ impl WavefrontEvent {
         }
     }
 
-    /// The order in which what happens at one time is noted.
+    /// Orders events of the same time.
     fn compare(&self, other: &Self) -> Ordering {
         self.low.total_cmp(&other.low).then_with(|| self.rank().cmp(&other.rank()))
     }
 }
 
-/// What is expected, the earliest first.
+/// Queue of predicted events, the earliest first.
 ///
-/// What moves about in the heap is a small part of it.
+/// The heap moves only small keys, not the events.
 #[derive(Debug, Default)]
 pub(super) struct EventQueue {
     events: Vec<WavefrontEvent>,
-    /// The time of each, as a number that is sorted alike, and then its number.
+    /// Keys: the time of each event as an integer with the same order, then its index.
     order: BinaryHeap<Reverse<u128>>,
 }
 
@@ -76,15 +76,15 @@ impl EventQueue {
         self.put_back(short(self.events.len() - 1));
     }
 
-    /// Expects an event again that had been taken.
+    /// Inserts an event again after it was removed.
     fn put_back(&mut self, number: u32) {
         let bits = self.events[number as usize].low.to_bits();
-        // Among the negative ones the greater bits are those of the lesser number.
+        // The order of the bits of negative numbers is reversed.
         let sorted = if bits >> 63 == 0 { bits | 1 << 63 } else { !bits };
         self.order.push(Reverse(u128::from(sorted) << 32 | u128::from(number)));
     }
 
-    /// The number of the earliest event.
+    /// Returns the index of the earliest event.
     #[allow(clippy::cast_possible_truncation, reason = "it stands in the last 32 bits")]
     fn first(&self) -> Option<u32> {
         self.order.peek().map(|&Reverse(key)| key as u32)
@@ -96,7 +96,7 @@ impl Wavefront {
         self.events.push(WavefrontEvent { low: when.low(), when, what, leads: false });
     }
 
-    /// Foresees when the edge between two neighbours shrinks to a point.
+    /// Predicts the time when the edge between two neighbours shrinks to a point.
     pub(super) fn expect_collapse(&mut self, a: usize, b: usize) {
         self.corners[a].shrunk = f64::INFINITY;
         let (from, to) = (&self.corners[a], &self.corners[b]);
@@ -115,22 +115,24 @@ impl Wavefront {
         }
     }
 
-    /// When one of the two edges of a corner has shrunk to a point, as far as is known, and the corner is over.
+    /// Returns the latest known time at which one of the corner's two edges has shrunk to a point, which ends
+    /// the corner.
     fn over(&self, index: usize) -> f64 {
         let corner = &self.corners[index];
         corner.shrunk.min(self.corners[corner.before].shrunk)
     }
 
-    /// Foresees more of what a corner reaches if it lasts longer than it was to when nothing was found.
+    /// Predicts further events of a corner that lasts longer than assumed when none were found.
     pub(super) fn expect_later_split(&mut self, index: usize) {
         if self.corners[index].alive && self.over(index) > self.corners[index].foreseen_until {
             self.expect_split(index, ANY);
         }
     }
 
-    /// Foresees the first edge whose line a reflex corner reaches after (time, edge) `last` and before it is over.
+    /// Predicts the first edge whose line a reflex corner reaches after (time, edge) `last` and before the
+    /// corner ends.
     ///
-    /// Few of these lines are reached where the edge is, so the next ones are kept for then.
+    /// A line is seldom reached within its edge, so the following candidates are stored.
     #[allow(clippy::float_cmp, reason = "equal speeds are given as equal numbers")]
     pub(super) fn expect_split(&mut self, index: usize, last: (f64, usize)) {
         let corner = &self.corners[index];
@@ -221,9 +223,9 @@ impl Wavefront {
         }
     }
 
-    /// Collects what meets next, and when.
+    /// Collects the next events and returns their time.
     ///
-    /// All that happens at exactly the same time is taken together.
+    /// All events at exactly the same time are collected together.
     pub(super) fn gather(&mut self) -> Option<EventTime> {
         let (mut ties, mut later) = (std::mem::take(&mut self.ties), std::mem::take(&mut self.later));
         let next = loop {
@@ -274,7 +276,7 @@ impl Wavefront {
             let Some(&first) = ties.first() else { break None };
             let mut when = event(first).when;
             self.spots.clear();
-            // What was foreseen twice is over.
+            // Events that were predicted twice have already occurred.
             if self.last.as_mut().is_some_and(|last| self.lines.compare(&mut when, last) != Ordering::Greater)
             {
                 continue;
@@ -290,7 +292,7 @@ impl Wavefront {
         next
     }
 
-    /// Whether an event may still take place.
+    /// Returns true if an event may still occur.
     fn stands(&self, event: &WavefrontEvent) -> bool {
         match event.what {
             WavefrontEventKind::Start(_) => true,
@@ -305,7 +307,7 @@ impl Wavefront {
         }
     }
 
-    /// Notes what meets where an event takes place.
+    /// Records the points that meet in an event.
     fn note(&mut self, what: WavefrontEventKind, when: &mut EventTime) {
         match what {
             WavefrontEventKind::Start(edge) => self.start(edge as usize, when),
@@ -322,10 +324,10 @@ impl Wavefront {
         }
     }
 
-    /// Notes that a reflex corner reaches a piece of `edge`, if there is one where it does.
+    /// Records that a reflex corner reaches a segment of `edge`, if the edge exists at that position.
     fn hit(&mut self, index: usize, edge: usize, when: &mut EventTime) {
         let corner = &mut self.corners[index];
-        // What met where it began has been resolved there.
+        // Meetings at the start of the corner have already been resolved.
         if self.lines.compare(&mut corner.born, when) != Ordering::Less {
             return;
         }
@@ -336,7 +338,7 @@ impl Wavefront {
         while let Some(from) = piece {
             piece = self.corners[from].older;
             let to = self.corners[from].after;
-            // At its neighbours' other edges it is only if its own have collapsed.
+            // A corner reaches its neighbours' other edges only if its own edges have collapsed.
             if !self.corners[from].alive || from == after || to == before {
                 continue;
             }

@@ -1,4 +1,4 @@
-//! Moving lines in whole numbers: when three meet, where two are, and which comes first, without rounding.
+//! Moving lines in integers: exact times and positions of their intersections, and exact comparisons.
 
 use std::cmp::Ordering;
 
@@ -9,7 +9,7 @@ use glam::{DVec2, I64Vec2};
 use super::edge::{CELLS, Direction};
 use super::whole::Whole;
 
-/// The points (x, y) of the lattice with a x + b y = c + w t, where t is the time in cells.
+/// A moving line: the points (x, y) of the lattice with a x + b y = c + w t, where t is the time in cells.
 #[derive(Debug, Clone)]
 pub(super) struct ExactLine {
     pub a: Whole,
@@ -18,14 +18,14 @@ pub(super) struct ExactLine {
     pub w: Whole,
 }
 
-/// A fraction; the denominator is positive.
+/// A fraction with a positive denominator.
 #[derive(Debug, Clone)]
 pub(super) struct Ratio {
     pub over: Whole,
     pub under: Whole,
 }
 
-/// A point (cells) with one positive denominator for both coordinates.
+/// A point (cells) with a common positive denominator for both coordinates.
 #[derive(Debug, Clone)]
 pub(super) struct ExactPlace {
     pub x: Whole,
@@ -33,7 +33,7 @@ pub(super) struct ExactPlace {
     pub under: Whole,
 }
 
-/// A number as a product of a whole one and a power of two.
+/// Decomposes a number into an integer and a power of two.
 fn parts(number: f64) -> (i64, i64) {
     let bits = number.to_bits();
     #[allow(clippy::cast_possible_wrap, reason = "11 and 52 bits")]
@@ -53,10 +53,10 @@ fn shifted(number: &Whole, by: i64) -> Whole {
     number.shifted(by as usize)
 }
 
-/// The length of a way, as a product of a whole number and a power of two.
+/// Returns the length of a vector as the product of an integer and a power of two.
 ///
-/// Lines that are all but parallel part as slowly as their speeds differ, so these must be far more exact than
-/// directions are.
+/// Nearly parallel lines separate as slowly as their speeds differ, so lengths must be far more precise than
+/// directions.
 fn length(x: i64, y: i64) -> (Whole, i64) {
     let [x, y] = [x, y].map(|number| u128::from(number.unsigned_abs()));
     let square = x * x + y * y;
@@ -71,9 +71,9 @@ fn length(x: i64, y: i64) -> (Whole, i64) {
 }
 
 impl ExactLine {
-    /// The line in `direction` through a point, which moves to the left from the time `rest` (m) on.
+    /// Creates the line in `direction` through a point, which moves to the left after the time `rest` (m).
     ///
-    /// Its speed is as exact as a number of 128 bits can be, and the same for all lines that are parallel.
+    /// Its speed has a precision of 128 bits, and is equal for all parallel lines of the same speed.
     pub(super) fn new(direction: Direction, through: I64Vec2, speed: f64, rest: f64) -> Self {
         let I64Vec2 { x, y } = direction.shortest().0;
         let (length, length_power) = length(x, y);
@@ -91,7 +91,7 @@ impl ExactLine {
         }
     }
 
-    /// The line through a place across `direction`, which never moves.
+    /// Creates the stationary line through a point, perpendicular to `direction`.
     pub(super) fn pin(direction: Direction, at: &ExactPlace) -> Self {
         let I64Vec2 { x, y } = direction.shortest().0;
         let (x, y) = (Whole::from(x), Whole::from(y));
@@ -104,12 +104,12 @@ impl ExactLine {
     }
 }
 
-/// Its sign is that of the rate at which three lines near each other.
+/// Computes a number with the sign of the rate at which three lines approach each other.
 pub(super) fn rate([l, m, n]: [&ExactLine; 3]) -> Whole {
     &l.w * &m.cross(n) + &m.w * &n.cross(l) + &n.w * &l.cross(m)
 }
 
-/// When three lines go through one point; none if they never do, or always.
+/// Returns the time when three lines intersect in one point; `None` if that is never or always.
 pub(super) fn time([l, m, n]: [&ExactLine; 3]) -> Option<Ratio> {
     let crosses = [m.cross(n), n.cross(l), l.cross(m)];
     let under = &l.w * &crosses[0] + &m.w * &crosses[1] + &n.w * &crosses[2];
@@ -121,7 +121,7 @@ pub(super) fn time([l, m, n]: [&ExactLine; 3]) -> Option<Ratio> {
     }
 }
 
-/// Where two lines that are not parallel cross at a time.
+/// Returns the intersection of two lines that are not parallel, at a time.
 pub(super) fn place(l: &ExactLine, m: &ExactLine, time: &Ratio) -> ExactPlace {
     let [level, other] = [l, m].map(|line| &line.c * &time.under + &line.w * &time.over);
     let cross = l.cross(m);
@@ -136,7 +136,7 @@ pub(super) fn place(l: &ExactLine, m: &ExactLine, time: &Ratio) -> ExactPlace {
 }
 
 impl Ratio {
-    /// A time (m).
+    /// Converts a time (m) to a fraction.
     pub(super) fn of(time: f64) -> Self {
         let (whole, power) = parts(time * CELLS);
         let [up, down] = [power.max(0), (-power).max(0)];
@@ -147,7 +147,7 @@ impl Ratio {
         (&self.over * &other.under).cmp(&(&other.over * &self.under))
     }
 
-    /// In metres, rounded.
+    /// Converts to metres, rounded.
     pub(super) fn metres(&self) -> f64 {
         self.over.over(&self.under) / CELLS
     }
@@ -158,14 +158,14 @@ impl ExactPlace {
         &self.x * &other.under == &other.x * &self.under && &self.y * &other.under == &other.y * &self.under
     }
 
-    /// The order of two places along a direction.
+    /// Compares the positions of two points along a direction.
     pub(super) fn compare_along(&self, other: &Self, direction: Direction) -> Ordering {
         let (x, y) = (Whole::from(direction.0.x), Whole::from(direction.0.y));
         let [own, others] = [self, other].map(|place| &place.x * &x + &place.y * &y);
         (&own * &other.under).cmp(&(&others * &self.under))
     }
 
-    /// In metres, rounded.
+    /// Converts to metres, rounded.
     pub(super) fn metres(&self) -> DVec2 {
         DVec2::new(self.x.over(&self.under), self.y.over(&self.under)) / CELLS
     }

@@ -1,4 +1,4 @@
-//! The faces of a skeleton: put together from their borders, and verified.
+//! Assembly and verification of the faces of a skeleton.
 
 use glam::{DVec2, I64Vec2};
 use smallvec::SmallVec;
@@ -10,25 +10,25 @@ use super::{Peak, Skeleton};
 use crate::planar::twice_area;
 use burgeon_base::error::{Error, Result};
 
-/// How far (m) borders may be off each other.
+/// Tolerance (m) for the borders of faces.
 const MERGED: f64 = 1e-3;
-/// How far (m) a corner may be off the plane of its face.
+/// Maximum distance (m) of a corner from the plane of its face.
 const OFF_PLANE: f64 = 5e-3;
 
-/// Lists that faces are put together and verified with.
+/// Reusable lists for the assembly and verification of faces.
 #[derive(Debug, Default)]
 pub(super) struct FaceLists {
-    /// Where the borders of each face end, in the list of all.
+    /// End index of each face's borders in `borders`.
     ends: Vec<usize>,
     borders: Vec<[usize; 2]>,
-    /// For each peak a face that has it, and the peak after it there.
+    /// A face of each peak, and the next peak of that face.
     next: Vec<[usize; 2]>,
-    /// How far (m) each corner of a face is along its edge.
+    /// Position (m) of each corner of a face along its edge.
     along: Vec<f64>,
 }
 
 impl FaceLists {
-    /// Puts the faces together; fails if they are not those of a roof over `rings`.
+    /// Assembles the faces; fails if they do not form a valid roof over `rings`.
     pub(super) fn assemble(
         &mut self,
         rings: &[Vec<I64Vec2>],
@@ -45,12 +45,12 @@ impl FaceLists {
         Ok(Skeleton { peaks: peaks.clone(), faces, paces })
     }
 
-    /// The faces' rings, put together from the edges and the borders between them.
+    /// Assembles the faces' rings from the edges and the borders between them.
     fn chains(&mut self, rings: &[Vec<I64Vec2>], arcs: &[Arc]) -> Result<Vec<Vec<usize>>> {
         let arcs = || arcs.iter().filter(|arc| arc.edges[0] != arc.edges[1]);
         let count = rings.iter().map(Vec::len).sum::<usize>();
         let Self { ends, borders, next, .. } = self;
-        // One more for each face is the edge itself.
+        // One border of each face is the edge itself.
         ends.clear();
         ends.resize(count + 1, 1);
         ends[0] = 0;
@@ -64,7 +64,7 @@ impl FaceLists {
             *end = before;
         }
         borders.resize(before, [0; 2]);
-        // Where they end so far: at first where they begin.
+        // Used as insertion indices here: each begins at the start of its face and advances to the end.
         let mut add = |edge: usize, border: [usize; 2]| {
             borders[ends[edge]] = border;
             ends[edge] += 1;
@@ -93,7 +93,7 @@ impl FaceLists {
     }
 }
 
-/// What [`chain`] gives, found at once, if no two of the borders begin at one peak.
+/// Assembles the result of [`chain`] directly, if no two of the borders begin at one peak.
 fn simple_chain(borders: &[[usize; 2]], face: usize, next: &mut [[usize; 2]]) -> Option<Vec<usize>> {
     for &[from, to] in borders {
         next[from] = [face, to];
@@ -108,9 +108,9 @@ fn simple_chain(borders: &[[usize; 2]], face: usize, next: &mut [[usize; 2]]) ->
     (at == first && ring.len() == borders.len()).then_some(ring)
 }
 
-/// The closed ring that directed borders form, beginning with the first of them.
+/// Assembles directed borders to a closed ring that begins with the first border.
 fn chain(borders: &mut [[usize; 2]]) -> Result<Vec<usize>> {
-    // What runs both ways bounds nothing.
+    // Pairs of opposite borders bound nothing.
     let (mut index, mut count) = (1, borders.len());
     while index < count {
         let [from, to] = borders[index];
@@ -146,8 +146,8 @@ fn chain(borders: &mut [[usize; 2]]) -> Result<Vec<usize>> {
 
 /// Fails unless `faces` cover the polygon once, each in the plane of its edge.
 ///
-/// Where all edges move alike, faces are monotone along their edges; otherwise they need not be (T. Biedl et al., "Weighted
-/// straight skeletons in the plane", 2015), and must not cross themselves.
+/// If all edges have the same pace, faces are monotone along their edges. Otherwise they may be non-monotone
+/// (T. Biedl et al., "Weighted straight skeletons in the plane", 2015), but must not cross themselves.
 fn verify(
     rings: &[Vec<I64Vec2>],
     edges: &[SkeletonEdge],
@@ -170,7 +170,7 @@ fn verify(
         along.clear();
         along.extend(corners().map(|peak| peak.at.dot(edge.along)));
         if area <= 0.0 {
-            // What stands upright may be off its plane by as much as borders are short.
+            // Upright faces may be off their plane by as much as short borders are long.
             let length = along.iter().copied().fold(f64::NEG_INFINITY, f64::max)
                 - along.iter().copied().fold(f64::INFINITY, f64::min);
             if area < -MERGED * length || edge.pace.moves() {
@@ -179,7 +179,7 @@ fn verify(
         }
         sum += area;
         let monotone = |within| is_monotone(along, within * MERGED);
-        // Peaks may stand for others that are 2 mm away, at both ends of a border.
+        // Peaks may replace others that are 2 mm away, at both ends of a border.
         if !monotone(2.0) && (is_even() && !monotone(4.0) || crosses_itself(edge, peaks, face)) {
             return Err(Error::geometry("a face of the roof overlaps itself"));
         }
@@ -190,7 +190,8 @@ fn verify(
     Ok(())
 }
 
-/// Whether a ring of places (m) along its edge goes once there and once back, but for steps `within` a length (m).
+/// Returns true if a ring of positions (m) along its edge runs once there and once back, except for steps
+/// `within` a length (m).
 fn is_monotone(along: &[f64], within: f64) -> bool {
     let (mut first, mut last) = (0.0f64, 0.0f64);
     let mut turns = 0;
@@ -208,12 +209,12 @@ fn is_monotone(along: &[f64], within: f64) -> bool {
     turns + usize::from(last * first < 0.0) <= 2
 }
 
-/// Whether two borders cross, in the plane of the face.
+/// Returns true if two borders cross in the plane of the face.
 fn crosses_itself(edge: &SkeletonEdge, peaks: &[Peak], face: &[usize]) -> bool {
     let flat = |&peak: &usize| DVec2::new(peaks[peak].at.dot(edge.along), peaks[peak].time);
     let ring: SmallVec<[DVec2; 32]> = face.iter().map(flat).collect();
     let border = |index: usize| [ring[index], ring[(index + 1) % ring.len()]];
-    // Whether the ends of one lie on different sides of the other.
+    // Returns true if the ends of one border lie on different sides of the other.
     let parted = |[a, b]: [DVec2; 2], ends: [DVec2; 2]| {
         let way = (b - a).normalize_or_zero();
         let [from, to] = ends.map(|end| way.perp_dot(end - a));
@@ -238,7 +239,7 @@ mod tests {
         };
         let ring = Some(vec![0, 1, 3, 4]);
         assert_eq!(both(0, vec![[0, 1], [4, 0], [1, 3], [3, 4]]), (ring.clone(), ring));
-        // What runs both ways, a peak that is passed twice, two rings, and one that is open.
+        // A pair of opposite borders, a peak that is passed twice, two rings, and an open ring.
         assert_eq!(both(1, vec![[0, 1], [1, 2], [3, 4], [2, 0], [4, 3]]), (None, Some(vec![0, 1, 2])));
         assert_eq!(both(2, vec![[0, 1], [1, 2], [2, 3], [3, 1], [1, 4], [4, 0]]).0, None);
         assert_eq!(both(3, vec![[0, 1], [1, 0], [2, 3], [3, 4], [4, 2]]), (None, None));

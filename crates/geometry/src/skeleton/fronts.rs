@@ -1,4 +1,4 @@
-//! The edges that a corner may reach, looked through several at a time.
+//! Search for the edges that a corner may reach, several at a time.
 
 use glam::{DVec2, Vec2};
 
@@ -6,12 +6,12 @@ use super::edge::Direction;
 use super::events::short;
 use super::lines::MovingLine;
 
-/// How many edges are looked at together: as a processor does with short numbers that lie side by side.
+/// Number of edges per block, for SIMD instructions on single-precision numbers.
 const LANES: usize = 8;
-/// How much more short numbers may be off than long ones.
+/// Ratio of the rounding errors of single and double precision, with a margin.
 const SHORT: f32 = (1 << 28) as f32;
 
-/// An edge and its line at present.
+/// An edge with its current line.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct EdgeFront {
     pub line: MovingLine,
@@ -19,10 +19,10 @@ pub(super) struct EdgeFront {
     pub edge: usize,
 }
 
-/// How many edges before an edge are asked whether they run just as it does, as those of teeth and bays do.
+/// Number of previous edges that are compared for an equal direction and speed, as in teeth and bays.
 const BEFORE: usize = 4;
 
-/// The lines of some edges after one another, number by number, in short numbers.
+/// Lines of consecutive edges as a structure of arrays, in single precision.
 #[derive(Debug, Clone, Copy, Default)]
 struct FrontBlock {
     x: [f32; LANES],
@@ -43,30 +43,30 @@ impl FrontBlock {
     }
 }
 
-/// The short number that is nearest to a number.
+/// Rounds a number to single precision.
 #[allow(clippy::cast_possible_truncation, reason = "what is lost is reckoned with")]
 fn near(number: f64) -> f32 {
     number as f32
 }
 
-/// What is known of a corner that moves along two lines: of the sums over three lines, by which they meet, what these two
-/// add.
+/// Motion of a corner along two lines: their contribution to the sums over three lines, which determine the
+/// time when the lines meet.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct CornerCourse {
     pub cross: f64,
     pub levels: DVec2,
     pub speeds: DVec2,
-    /// How far (m) a sum of levels may be off, but for what the third line adds.
+    /// Error (m) of a sum of levels, without the contribution of the third line.
     pub slack: f64,
-    /// How far by rounding a sum of levels (m) may be off, and one of speeds.
+    /// Rounding errors of a sum of levels (m) and of a sum of speeds.
     pub noise: [f64; 2],
-    /// What has been is before this time.
+    /// Current time; earlier events are over.
     pub now: f64,
-    /// The sorts of the edges on the two lines.
+    /// Classes of the edges on the two lines.
     pub sorts: [u32; 2],
 }
 
-/// A [`CornerCourse`] in short numbers.
+/// A [`CornerCourse`] in single precision.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct ShortCourse {
     cross: f32,
@@ -92,7 +92,7 @@ impl CornerCourse {
         }
     }
 
-    /// The rate at which the three lines near each other, and the sum of their levels.
+    /// Returns the rate at which the three lines approach each other, and the sum of their levels.
     pub(super) fn sums(&self, line: &MovingLine) -> [f64; 2] {
         [
             line.speed * self.cross + line.normal.perp_dot(self.speeds),
@@ -101,12 +101,12 @@ impl CornerCourse {
     }
 }
 
-/// The edges that are still there, with their lines at present.
+/// Remaining edges with their current lines.
 #[derive(Debug, Default)]
 pub(super) struct EdgeFronts {
     all: Vec<EdgeFront>,
     blocks: Vec<FrontBlock>,
-    /// For each edge the number of its sort: those of one sort have one direction and speed, to the last bit.
+    /// Class of each edge: edges of one class have the same direction and speed, to the last bit.
     sorts: Vec<u32>,
 }
 
@@ -133,7 +133,7 @@ impl EdgeFronts {
         self.all.push(front);
     }
 
-    /// Puts the edge of a rank, which no other has had, into its block.
+    /// Adds the edge of the next rank to its block.
     fn put(&mut self, rank: usize, front: &EdgeFront) {
         let lane = rank % LANES;
         if lane == 0 {
@@ -144,14 +144,14 @@ impl EdgeFronts {
         }
     }
 
-    /// The sort of an edge.
+    /// Returns the class of an edge.
     pub(super) fn sort(&self, edge: usize) -> u32 {
         self.sorts[edge]
     }
 
-    /// Lets an edge have another line.
+    /// Changes the line of an edge.
     pub(super) fn turn_to(&mut self, edge: usize, line: MovingLine) {
-        // One that no other edge has.
+        // A class without other edges.
         let sort = short(self.sorts.len() + edge);
         self.sorts[edge] = sort;
         for (index, front) in self.all.iter_mut().enumerate().filter(|(_, front)| front.edge == edge) {
@@ -160,7 +160,7 @@ impl EdgeFronts {
         }
     }
 
-    /// Keeps the edges that are there.
+    /// Keeps the edges for which `is_there` returns true.
     pub(super) fn retain(&mut self, is_there: impl Fn(usize) -> bool) {
         self.all.retain(|front| is_there(front.edge));
         self.blocks.clear();
@@ -170,15 +170,16 @@ impl EdgeFronts {
         }
     }
 
-    /// All blocks, first those near that of an edge: what is next to a corner in its ring it often reaches first.
+    /// Returns all blocks, beginning with those near an edge's block: a corner often reaches edges near it in
+    /// its ring first.
     pub(super) fn blocks_around(&self, edge: usize) -> impl Iterator<Item = usize> + use<> {
         let own = self.all.partition_point(|front| front.edge < edge) / LANES;
         (own..self.blocks.len()).chain((0..own).rev())
     }
 
-    /// Those edges of a block that a corner may reach before the time `last`, as a number of one bit for each.
+    /// Returns a bit mask of the edges of a block that a corner may reach before the time `last`.
     ///
-    /// Most lines are reached too late, or have been. Short numbers tell that of twice as many at once.
+    /// Most lines are reached too late or in the past. Single precision tests twice as many lines at once.
     pub(super) fn within_reach(&self, block: usize, course: &ShortCourse, last: f64) -> u32 {
         let FrontBlock { x, y, level, speed, slack, sort } = &self.blocks[block];
         let ShortCourse { cross, levels, speeds, noise, now, sorts, .. } = *course;
@@ -190,7 +191,7 @@ impl EdgeFronts {
             let off = sum.abs() * 1e-6 + 3.0 * (course.slack + slack[lane]);
             let [slowest, fastest] = [rate - 2.0 * noise[1], rate + 2.0 * noise[1]];
             let (is_late, is_over) = (-sum - off > last * fastest, off - sum < now * slowest.max(0.0));
-            // Lines that run alike never meet.
+            // Parallel lines of the same speed never meet.
             let is_alike = (sort[lane] == sorts[0]) | (sort[lane] == sorts[1]);
             let is_out = (rate < -noise[1]) | is_late | is_over | is_alike;
             within |= u32::from(!is_out) << lane;
@@ -198,7 +199,7 @@ impl EdgeFronts {
         within
     }
 
-    /// An edge of a block, if the block has so many.
+    /// Returns an edge of a block, if the block has that many edges.
     pub(super) fn get(&self, block: usize, lane: usize) -> Option<&EdgeFront> {
         self.all.get(block * LANES + lane)
     }

@@ -1,4 +1,5 @@
-//! When lines that move meet, and where: quickly with a bound on the error, and exactly where that does not tell.
+//! Intersections of moving lines: approximate with an error bound, and exact where the bound is not
+//! sufficient.
 
 use std::cmp::Ordering;
 
@@ -7,46 +8,46 @@ use glam::{DVec2, I64Vec2};
 use super::edge::{Direction, metres};
 use super::exact::{self, ExactLine, ExactPlace, Ratio};
 
-/// What rounding adds to a number, as a part of it.
+/// Relative rounding error of a number.
 const UNIT: f64 = f64::EPSILON / 2.0;
-/// How far (m) times and places may be off in what goes out.
+/// Maximum error (m) of times and positions in the output.
 pub(super) const FINE: f64 = 1e-7;
 
-/// A line: the points whose product with `normal` is `level` + `speed` * time.
+/// A moving line: the points whose dot product with `normal` is `level` + `speed` * time.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct MovingLine {
     pub normal: DVec2,
     pub level: f64,
     pub speed: f64,
-    /// How far (m) `level` may be off.
+    /// Error bound of `level` (m).
     pub slack: f64,
-    /// Whether it runs along an axis, with a level without rounding and a speed of 0 or 1: what is reckoned of such lines
-    /// alone is often as exact.
+    /// Set for an axis-parallel line with an exact level and a speed of 0 or 1: computations with only such
+    /// lines are often exact.
     pub is_plain: bool,
 }
 
-/// What a line is, exactly.
+/// Exact definition of a line.
 #[derive(Debug, Clone)]
 enum LineOrigin {
-    /// It goes through a point and moves once it has rested (m).
+    /// A line through a point that starts to move after `rest` (m).
     Edge { through: I64Vec2, rest: f64 },
-    /// It goes through the place where two lines are at a time, across the direction of an edge, and never moves.
+    /// A stationary line through the intersection of two lines at a time, perpendicular to an edge.
     Pin { pair: [usize; 2], when: EventTime },
 }
 
-/// A time.
+/// Time of an event.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct EventTime {
     pub time: f64,
-    /// How far (m) `time` may be off.
+    /// Error bound of `time` (m).
     pub slack: f64,
-    /// The three lines that go through one point then, in their order; none if the time is given.
+    /// Lines that intersect in one point at this time, sorted; `NONE` for an explicit time.
     by: [u32; 3],
-    /// The number of the exact time, if it is known.
+    /// Index of the exact time, or `NONE`.
     exact: u32,
 }
 
-/// No line, or no number of an exact line or time.
+/// Marker for a missing line, exact line or time.
 const NONE: u32 = u32::MAX;
 
 impl EventTime {
@@ -62,30 +63,31 @@ impl EventTime {
         self.time + self.slack
     }
 
-    /// Whether a line is one of those that meet then.
+    /// Returns true if a line is one of those that meet at this time.
     #[allow(clippy::cast_possible_truncation, reason = "there are fewer lines")]
     pub(super) fn is_by(&self, line: usize) -> bool {
         self.by.contains(&(line as u32))
     }
 }
 
-/// Where two lines are at a certain time.
+/// Intersection of two lines at a time.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct LineMeeting {
     pub pair: [usize; 2],
     pub at: DVec2,
-    /// How far (m) `at` may be off.
+    /// Error bound of `at` (m).
     pub slack: f64,
 }
 
-/// The sum of the levels (m) and the sum of the speeds of three lines, each times the cross product of the others.
+/// Sums over three lines of the levels (m) and of the speeds, each multiplied by the cross product of the
+/// other two.
 #[derive(Debug, Clone, Copy)]
 struct LineSums {
     levels: f64,
     speeds: f64,
-    /// How far (m) the levels of the lines may be off.
+    /// Sum of the error bounds of the levels (m).
     slack: f64,
-    /// Whether both sums are without rounding; the sum of the speeds is then no more than 2.
+    /// Set if both sums are exact; then the sum of the speeds is at most 2.
     is_exact: bool,
 }
 
@@ -95,15 +97,15 @@ pub(super) struct MovingLines {
     lines: Vec<MovingLine>,
     directions: Vec<Direction>,
     origins: Vec<LineOrigin>,
-    /// The number of what each is exactly, if it is known.
+    /// Index of the exact form of each line, or `NONE`.
     numbers: Vec<u32>,
     exact: Vec<ExactLine>,
     times: Vec<Ratio>,
-    /// What the rounding of products with levels may add up to (m), and that of products with speeds.
+    /// Error bounds of products with levels (m), and of products with speeds.
     noise: [f64; 2],
 }
 
-/// The sign of a number that may be off by `slack`, if it is known.
+/// Returns the sign of a number with the error bound `slack`, if it is certain.
 fn sign(number: f64, slack: f64) -> Option<Ordering> {
     if number > slack {
         Some(Ordering::Greater)
@@ -114,7 +116,7 @@ fn sign(number: f64, slack: f64) -> Option<Ordering> {
     }
 }
 
-/// Whether the sum of two numbers is one without rounding.
+/// Returns true if the sum of two numbers is exact.
 ///
 /// Method: D. Knuth, "The Art of Computer Programming", volume 2, 4.2.2.
 fn is_sum_exact(a: f64, b: f64) -> bool {
@@ -123,7 +125,7 @@ fn is_sum_exact(a: f64, b: f64) -> bool {
     a - (sum - part) == 0.0 && b - part == 0.0
 }
 
-/// The vector of length 1 in a direction; along an axis without rounding.
+/// Returns the unit vector in a direction; exact along an axis.
 fn unit(way: I64Vec2) -> DVec2 {
     if is_axis(way) { way.signum().as_dvec2() } else { way.as_dvec2().normalize_or_zero() }
 }
@@ -133,7 +135,7 @@ fn is_axis(way: I64Vec2) -> bool {
 }
 
 impl MovingLines {
-    /// Forgets all lines; those to come are within `reach` (m) of the origin, and none is faster than `speed`.
+    /// Removes all lines; later lines are within `reach` (m) of the origin and at most as fast as `speed`.
     pub(super) fn begin(&mut self, reach: f64, speed: f64) {
         self.lines.clear();
         self.directions.clear();
@@ -141,11 +143,11 @@ impl MovingLines {
         self.numbers.clear();
         self.exact.clear();
         self.times.clear();
-        // Normals are off by 8 units, levels by 16 of them; a product of three normals and levels has 9 terms.
+        // Normals are off by 8 units, levels by 16 units; a product of three normals and levels has 9 terms.
         self.noise = [128.0 * UNIT * reach, 96.0 * UNIT * speed.max(1.0)];
     }
 
-    /// Adds the line in `direction` through a point of the lattice, which moves from `rest` on.
+    /// Adds the line in `direction` through a point of the lattice, which moves after the time `rest` (m).
     pub(super) fn add(&mut self, direction: Direction, through: I64Vec2, speed: f64, rest: f64) -> usize {
         let normal = unit(direction.left().0);
         let late = if speed > 0.0 { speed * rest } else { 0.0 };
@@ -157,7 +159,7 @@ impl MovingLines {
         self.push(line, direction, LineOrigin::Edge { through, rest })
     }
 
-    /// Adds the line across another one through a place on it.
+    /// Adds the stationary line perpendicular to another line, through a point on it.
     pub(super) fn pin(&mut self, line: usize, place: &LineMeeting, when: &EventTime) -> usize {
         let direction = self.directions[line];
         let normal = unit(direction.0);
@@ -165,7 +167,7 @@ impl MovingLines {
         let slack = 2.0 * place.slack;
         let is_plain = slack == 0.0 && is_axis(direction.0);
         let pinned = MovingLine { normal, level, speed: 0.0, slack, is_plain };
-        // To its left is where the other line came from.
+        // The other line comes from the left side.
         let across = Direction(-direction.0.perp());
         self.push(pinned, across, LineOrigin::Pin { pair: place.pair, when: *when })
     }
@@ -186,7 +188,7 @@ impl MovingLines {
         self.directions[line]
     }
 
-    /// What may be added up by rounding: of levels (m) and of speeds.
+    /// Returns the accumulated rounding errors of levels (m) and of speeds.
     pub(super) fn noise(&self) -> [f64; 2] {
         self.noise
     }
@@ -211,18 +213,18 @@ impl MovingLines {
         }
     }
 
-    /// What lines are, for which that has been asked.
+    /// Returns the exact forms of lines, which must have been computed by `exactly`.
     fn known<const N: usize>(&self, lines: [usize; N]) -> [&ExactLine; N] {
         lines.map(|line| &self.exact[self.numbers[line] as usize])
     }
 
-    /// Whether two lines that cross do so to the left or to the right; equal if they are parallel.
+    /// Compares the turn from one line to another: to the left or to the right; equal if they are parallel.
     pub(super) fn turn(&self, line: usize, other: usize) -> Ordering {
         let cross = self.lines[line].normal.perp_dot(self.lines[other].normal);
         sign(cross, 32.0 * UNIT).unwrap_or_else(|| self.directions[line].turn(self.directions[other]))
     }
 
-    /// What of three lines tells when they meet.
+    /// Computes the sums that determine when three lines meet.
     fn sums(&self, [l, m, n]: [usize; 3]) -> LineSums {
         let [l, m, n] = [l, m, n].map(|line| &self.lines[line]);
         let crosses = [m.normal.perp_dot(n.normal), n.normal.perp_dot(l.normal), l.normal.perp_dot(m.normal)];
@@ -233,7 +235,7 @@ impl MovingLines {
         LineSums { levels: one + two + three, speeds, slack: l.slack + m.slack + n.slack, is_exact }
     }
 
-    /// Whether two lines are parallel and move the same way at the same speed.
+    /// Returns true if two lines are parallel and move in the same direction at the same speed.
     #[allow(clippy::float_cmp, reason = "equal speeds are given as equal numbers")]
     fn are_alike(&self, line: usize, other: usize) -> bool {
         let [one, two] = [self.directions[line], self.directions[other]];
@@ -246,7 +248,7 @@ impl MovingLines {
             return Ordering::Equal;
         }
         let [l, m, n] = lines;
-        // Two lines that move alike cross the third one alike.
+        // Two lines with the same motion intersect the third line at a constant distance.
         if self.are_alike(l, m) || self.are_alike(m, n) || self.are_alike(n, l) {
             return Ordering::Equal;
         }
@@ -254,8 +256,8 @@ impl MovingLines {
         exact::rate(self.known(lines)).sign()
     }
 
-    /// When three lines that near each other meet; none if they do not, at least where two of them turn so that they
-    /// near each other backwards.
+    /// Returns the time when three approaching lines meet; `None` if they do not approach. `backwards`
+    /// reverses the sign if two of the lines are in reverse order.
     pub(super) fn nearing(&mut self, lines: [usize; 3], backwards: bool) -> Option<EventTime> {
         let sums = self.sums(lines);
         let noise = if sums.is_exact { 0.0 } else { self.noise[1] };
@@ -264,7 +266,7 @@ impl MovingLines {
         (rate == wanted).then(|| self.when_of(lines, sums))
     }
 
-    /// When three lines go through one point. They do so at one time only.
+    /// Returns the time when three lines intersect in one point; they must do so exactly once.
     pub(super) fn when(&self, lines: [usize; 3]) -> EventTime {
         self.when_of(lines, self.sums(lines))
     }
@@ -292,7 +294,7 @@ impl MovingLines {
         when
     }
 
-    /// Refines a time that may be off by more than `slack` (m); whether it was one.
+    /// Refines a time with an error bound greater than `slack` (m); returns true if that was necessary.
     pub(super) fn settle(&mut self, when: &mut EventTime, slack: f64) -> bool {
         let coarse = when.slack > slack && when.exact == NONE;
         if coarse {
@@ -301,14 +303,14 @@ impl MovingLines {
         coarse
     }
 
-    /// Makes a time as exact as a number can be.
+    /// Computes a time to the full precision of a number.
     pub(super) fn refine(&mut self, when: &mut EventTime) {
         let number = self.ratio(when);
         when.time = self.times[number].metres();
         when.slack = 2.0 * UNIT * when.time.abs() + f64::MIN_POSITIVE;
     }
 
-    /// The number of the exact time.
+    /// Returns the index of the exact time.
     fn ratio(&mut self, when: &mut EventTime) -> usize {
         if when.exact != NONE {
             return when.exact as usize;
@@ -325,7 +327,7 @@ impl MovingLines {
         self.times.len() - 1
     }
 
-    /// The order of two times. Exact.
+    /// Compares two times exactly.
     pub(super) fn compare(&mut self, a: &mut EventTime, b: &mut EventTime) -> Ordering {
         if let Some(order) = sign(a.time - b.time, a.slack + b.slack) {
             return order;
@@ -337,7 +339,7 @@ impl MovingLines {
         if a == b { Ordering::Equal } else { self.times[a].compare(&self.times[b]) }
     }
 
-    /// Where two lines cross at a time. Not for parallel ones.
+    /// Returns the intersection of two lines at a time; they must not be parallel.
     pub(super) fn place(&self, pair: [usize; 2], when: &EventTime) -> LineMeeting {
         let [l, m] = pair.map(|line| &self.lines[line]);
         let cross = l.normal.perp_dot(m.normal);
@@ -352,7 +354,7 @@ impl MovingLines {
         LineMeeting { pair, at, slack: if slack.is_nan() { f64::INFINITY } else { slack } }
     }
 
-    /// Makes a place as exact as numbers can be, if it may be far off.
+    /// Computes a position to the full precision of numbers if its error bound exceeds [`FINE`].
     pub(super) fn settle_place(&mut self, place: &mut LineMeeting, when: &mut EventTime) {
         if place.slack > FINE {
             place.at = self.exact_place(place.pair, when).metres();
@@ -360,11 +362,11 @@ impl MovingLines {
         }
     }
 
-    /// Where three lines meet.
+    /// Returns the point where three lines meet.
     pub(super) fn meeting(&self, [l, m, n]: [usize; 3], when: &EventTime) -> LineMeeting {
         let [a, b, c] = [l, m, n].map(|line| self.lines[line].normal);
         let [one, two, three] = [a.perp_dot(b), b.perp_dot(c), c.perp_dot(a)].map(f64::abs);
-        // Those that cross most squarely.
+        // The pair with the angle closest to a right angle is the most precise.
         let pair = if three >= one.max(two) {
             [n, l]
         } else if two >= one {
@@ -382,14 +384,14 @@ impl MovingLines {
         exact::place(l, m, &self.times[time])
     }
 
-    /// Whether two places at one time are one. Exact.
+    /// Returns true if two positions at one time are exactly equal.
     pub(super) fn is_one(&mut self, a: &LineMeeting, b: &LineMeeting, when: &mut EventTime) -> bool {
         let apart = (a.at - b.at).abs().max_element();
         let near = a.slack + b.slack;
         if apart > near || near == 0.0 {
             return apart == 0.0;
         }
-        // The lines that meet at this time do so in one place.
+        // The lines that meet at this time meet in one point.
         let mut lines = a.pair.iter().chain(&b.pair);
         lines.all(|&line| when.is_by(line)) || a.pair == b.pair || {
             let [a, b] = [a, b].map(|place| self.exact_place(place.pair, when));
@@ -397,7 +399,7 @@ impl MovingLines {
         }
     }
 
-    /// The order of two places at one time along a line that both are on. Exact.
+    /// Compares two positions at one time along a common line, exactly.
     pub(super) fn compare_along(
         &mut self,
         line: usize,
@@ -424,7 +426,7 @@ mod tests {
     use super::*;
     use proptest::prelude::*;
 
-    /// A line along an axis, from few of them, so that many meet at one time.
+    /// Returns an axis-parallel line on one of few positions, so that many meet at one time.
     fn plain() -> impl Strategy<Value = (Direction, I64Vec2, f64)> {
         let at = prop_oneof![(-4..4i64).prop_map(|at| at << 31), -(1i64 << 54)..1 << 54];
         (0..4usize, at.clone(), at, 0..3u8).prop_map(|(turn, x, y, speed)| {

@@ -1,4 +1,4 @@
-//! What meets in a place is cut there and paired anew.
+//! Meetings: edges that meet in a point are cut there and paired again.
 
 use std::cmp::Ordering;
 
@@ -8,19 +8,20 @@ use super::lines::{EventTime, FINE, LineMeeting};
 use super::wavefront::Wavefront;
 use burgeon_base::error::{Error, Result};
 
-/// A corner, or a point of an edge (by the corner where the piece of the edge begins), that an event moves.
+/// A corner that an event moves, or a point of an edge (identified by the corner at the start of the edge's
+/// segment).
 #[derive(Debug, Clone, Copy)]
 pub(super) struct EventPoint {
     corner: usize,
     cut: bool,
     place: LineMeeting,
-    /// The spot that stands for all at its place.
+    /// Representative of all spots at the same position.
     leader: usize,
-    /// The number of the meeting that it takes part in, once it is known.
+    /// Index of its meeting, once it is assigned.
     meeting: usize,
 }
 
-/// Where a piece of an edge ends: at a corner that stays, or at what meets in a place.
+/// End of a segment of an edge: a corner that stays, or a meeting.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum End {
     Corner(usize),
@@ -33,23 +34,24 @@ struct EdgePiece {
     ends: [End; 2],
 }
 
-/// Lists that are empty between two meetings, and keep their memory.
+/// Reusable lists, empty between two meetings.
 #[derive(Debug, Default)]
 pub(super) struct MeetingLists {
-    /// The spots from left to right.
+    /// Spots from left to right.
     order: Vec<usize>,
     places: Vec<LineMeeting>,
-    /// The corners where pieces of edges begin.
+    /// Corners at the start of segments of edges.
     begins: Vec<usize>,
-    /// What meets on an edge, by the corner where its piece begins, and the numbers of the meetings.
+    /// Meetings within an edge: the corner at the start of the segment, the position, and the index of the
+    /// meeting.
     cuts: Vec<(usize, LineMeeting, usize)>,
     pieces: Vec<EdgePiece>,
     rays: Vec<Ray>,
-    /// The new corners.
+    /// New corners.
     fresh: Vec<usize>,
 }
 
-/// An end of a piece, as seen from the place where it meets others.
+/// End of a segment, seen from its meeting.
 #[derive(Debug, Clone, Copy)]
 struct Ray {
     meeting: usize,
@@ -59,7 +61,7 @@ struct Ray {
 }
 
 impl Wavefront {
-    /// The spot of a corner.
+    /// Returns the spot of a corner; adds it if necessary.
     pub(super) fn spot(&mut self, corner: usize, place: LineMeeting) -> usize {
         if let Some(known) = self.spot_of(corner) {
             return known;
@@ -73,7 +75,7 @@ impl Wavefront {
         self.spots.get(known).filter(|spot| spot.corner == corner && !spot.cut).map(|_| known)
     }
 
-    /// A new spot on the piece of an edge that begins at a corner.
+    /// Adds a spot on the segment of an edge that begins at a corner.
     pub(super) fn spot_between(&mut self, corner: usize, place: LineMeeting) -> usize {
         self.add_spot(corner, true, place)
     }
@@ -96,7 +98,7 @@ impl Wavefront {
         self.spots[a.max(b)].leader = a.min(b);
     }
 
-    /// Makes the new wavefront of what the spots' corners and edges meet, until nothing more happens at this time.
+    /// Computes the new wavefront at the spots, until nothing more happens at this time.
     pub(super) fn resolve(&mut self, lists: &mut MeetingLists, when: &mut EventTime) -> Result<()> {
         self.lines.settle(when, FINE);
         self.last = Some(*when);
@@ -116,7 +118,7 @@ impl Wavefront {
         Err(Error::geometry("edges in one line do not come to rest"))
     }
 
-    /// Cuts what meets and pairs it anew in new corners.
+    /// Cuts the edges at the meetings, and pairs them again in new corners.
     fn pair_anew(&mut self, lists: &mut MeetingLists, when: &mut EventTime) -> Result<()> {
         self.join_same(&mut lists.order, when);
         let first_peak = self.traced.peaks.len();
@@ -142,13 +144,14 @@ impl Wavefront {
         rays.sort_by_key(|ray| ray.meeting);
         fresh.clear();
         for rays in rays.chunk_by_mut(|a, b| a.meeting == b.meeting) {
-            // Between two edges that lie on each other is what they have swept, never what is outside.
+            // Between two overlapping edges lies the area that they have swept, never the outside.
             rays.sort_by(|a, b| a.direction.compare(b.direction).then(b.leaves.cmp(&a.leaves)));
             let next = |index: usize| &rays[(index + 1) % rays.len()];
             if (0..rays.len()).any(|index| rays[index].leaves == next(index).leaves) {
                 return Err(Error::geometry("the edges that meet in a place do not enclose areas"));
             }
-            // Each that leaves is followed by the one that arrives across the area between them, counter-clockwise.
+            // Each leaving edge is followed, counter-clockwise across the area between them, by the arriving
+            // edge.
             for (number, ray) in rays.iter().enumerate().filter(|(_, ray)| ray.leaves) {
                 let arriving = next(number).piece;
                 let edges = [pieces[arriving].edge, pieces[ray.piece].edge];
@@ -167,7 +170,7 @@ impl Wavefront {
         Ok(())
     }
 
-    /// Joins the spots whose places are one.
+    /// Joins the spots at equal positions.
     fn join_same(&mut self, order: &mut Vec<usize>, when: &mut EventTime) {
         if (1..self.spots.len()).all(|spot| self.leader(spot) == 0) {
             return;
@@ -190,7 +193,7 @@ impl Wavefront {
         }
     }
 
-    /// Numbers the meetings, from 0, and adds a peak for each, in their order; their places.
+    /// Numbers the meetings from 0, adds a peak for each, in order, and stores their positions in `places`.
     fn number_meetings(&mut self, places: &mut Vec<LineMeeting>, when: &mut EventTime) {
         places.clear();
         for index in 0..self.spots.len() {
@@ -207,7 +210,7 @@ impl Wavefront {
         }
     }
 
-    /// Finds the pieces of edges that the spots touch, cut there.
+    /// Finds the segments of edges that the spots touch, and cuts them there.
     fn cut(&mut self, lists: &mut MeetingLists, when: &mut EventTime) {
         let MeetingLists { begins, cuts, pieces, .. } = lists;
         begins.clear();

@@ -1,6 +1,6 @@
 //! Straight skeletons: the faces of a roof over a polygon with holes.
 //!
-//! Comes in: rings and the pace of each edge. Goes out: one face for each edge. Every result is verified.
+//! Input: rings, and the pace of each edge. Output: one face for each edge. Every result is verified.
 
 mod coarse;
 mod edge;

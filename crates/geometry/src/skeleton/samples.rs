@@ -1,14 +1,14 @@
-//! Random plans of the sorts that buildings come in, and of sorts that are hard. Tests and benches share them.
+//! Random plans of typical and of difficult buildings, shared by tests and benches.
 
 use std::f64::consts::{PI, TAU};
 
 use glam::DVec2;
 
-/// Random numbers, always the same.
+/// Reproducible random numbers.
 pub(crate) struct Random(pub u64);
 
 impl Random {
-    /// From 0 to 1.
+    /// Returns the next number, from 0 to 1.
     #[allow(clippy::cast_precision_loss, reason = "a random number needs no more")]
     pub(crate) fn next(&mut self) -> f64 {
         self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
@@ -26,7 +26,8 @@ impl Random {
 
 type Points = Vec<DVec2>;
 
-/// A row of houses of several depths on both sides of a line, on whole metres: many ties.
+/// Returns a row of houses of several depths on both sides of a line, on whole metres, with many simultaneous
+/// events.
 fn row(random: &mut Random) -> Points {
     let (mut x, mut low, mut high) = (0.0, Vec::new(), Vec::new());
     for _ in 0..random.whole(1, 6) as usize {
@@ -46,7 +47,7 @@ fn star(random: &mut Random) -> Points {
     (0..count).map(|index| at(index, random.between(3.0, 12.0))).collect()
 }
 
-/// A wheel whose spokes are equal: everything meets at once.
+/// Returns a wheel with equal spokes: all events are simultaneous.
 fn wheel(random: &mut Random) -> Points {
     let spokes = random.whole(2, 9) as u32;
     let (long, short) = (random.between(6.0, 12.0), random.between(2.0, 5.0));
@@ -56,7 +57,7 @@ fn wheel(random: &mut Random) -> Points {
     (0..count).map(at).collect()
 }
 
-/// A comb; with narrow gaps its slots are thin.
+/// Returns a comb; narrow gaps make thin slots.
 fn comb(random: &mut Random) -> Points {
     let gap = [0.03, 0.3, 1.0][random.whole(0, 2) as usize];
     let (teeth, width) = (random.whole(2, 12) as u32, random.whole(1, 3));
@@ -71,7 +72,7 @@ fn comb(random: &mut Random) -> Points {
     ring.into_iter().map(DVec2::from).collect()
 }
 
-/// The ring with points that are almost on its edges, or with tiny steps in them.
+/// Returns the ring with points that are almost on its edges, or with tiny steps.
 fn worn(ring: &Points, random: &mut Random) -> Points {
     let mut worn = Vec::new();
     for (index, &a) in ring.iter().enumerate() {
@@ -92,7 +93,7 @@ fn worn(ring: &Points, random: &mut Random) -> Points {
     worn
 }
 
-/// Rings of the sort that `round` asks for; chance makes some that cross themselves.
+/// Returns random rings of the type selected by `round`; some of them cross themselves.
 pub(crate) fn mixed(round: usize, random: &mut Random) -> Vec<Points> {
     let mut outer = match round % 5 {
         0 | 1 => row(random),
@@ -112,15 +113,15 @@ pub(crate) fn mixed(round: usize, random: &mut Random) -> Vec<Points> {
     if round.is_multiple_of(2) { rings } else { turned(&rings, random.between(0.0, TAU)) }
 }
 
-/// A sort of regular plans, on which much happens at once, or all but at once.
+/// A family of regular plans with simultaneous or nearly simultaneous events.
 pub(crate) struct Family {
-    /// What they are.
+    /// Description.
     pub name: &'static str,
-    /// Makes one of them.
+    /// Creates a plan of the family.
     pub make: fn(&mut Random) -> Vec<Points>,
 }
 
-/// All sorts of regular plans.
+/// All families of regular plans.
 pub(crate) const FAMILIES: [Family; 18] = [
     Family { name: "double combs, noise of 0.5 mm", make: |random| noisy(double_comb(random), 5e-4, random) },
     Family { name: "double combs, noise of 1 mm", make: |random| noisy(double_comb(random), 1e-3, random) },
@@ -145,7 +146,7 @@ pub(crate) const FAMILIES: [Family; 18] = [
     Family { name: "rows of houses", make: |random| anyhow(vec![row(random)], random) },
 ];
 
-/// The rings as they might come: as they are, turned, or with noise of up to 20 mm.
+/// Returns the rings unchanged, rotated, or with noise of up to 20 mm.
 fn anyhow(rings: Vec<Points>, random: &mut Random) -> Vec<Points> {
     let noise = [0.0, 0.0, 1e-9, 1e-6, 1e-5, 1e-4, 1e-3, 2e-2][random.whole(0, 7) as usize];
     let rings = noisy(rings, noise, random);
@@ -153,7 +154,7 @@ fn anyhow(rings: Vec<Points>, random: &mut Random) -> Vec<Points> {
     if turn == 0.0 { rings } else { turned(&rings, turn) }
 }
 
-/// A plan on a lattice, turned or not, of which every coordinate is off by from 1e-9 m to 1e-6 m.
+/// Returns a plan on a lattice, rotated or not, with coordinates off by up to 1e-9 m to 1e-6 m.
 pub(crate) fn rounded(random: &mut Random) -> Vec<Points> {
     let noise = 10f64.powf(-random.between(6.0, 9.0));
     let rings = noisy(lattice(random), noise, random);
@@ -161,8 +162,8 @@ pub(crate) fn rounded(random: &mut Random) -> Vec<Points> {
     if turn == 0.0 { rings } else { turned(&rings, turn) }
 }
 
-/// For each of 400 edges how fast it moves, and how long (m) it stands still at first: some do so for ever, some for a
-/// while, and no two after one another.
+/// Returns the speed and the initial rest (m) of 400 edges: some stand still forever, some for a while, and
+/// no two consecutive ones.
 pub(crate) fn still(random: &mut Random) -> Vec<[f64; 2]> {
     let mut last = 1.0;
     let pace = |chance: f64| {
@@ -182,7 +183,7 @@ fn turned(rings: &[Points], angle: f64) -> Vec<Points> {
     rings.iter().map(|ring| ring.iter().map(|&at| turn.rotate(at)).collect()).collect()
 }
 
-/// The rings with every coordinate off by up to `most` (m).
+/// Moves every coordinate of the rings by up to `most` (m).
 pub(crate) fn noisy(mut rings: Vec<Points>, most: f64, random: &mut Random) -> Vec<Points> {
     for at in rings.iter_mut().flatten() {
         *at += DVec2::new(random.between(-most, most), random.between(-most, most));
@@ -194,7 +195,7 @@ fn rectangle(low: DVec2, high: DVec2) -> Points {
     vec![low, DVec2::new(high.x, low.y), high, DVec2::new(low.x, high.y)]
 }
 
-/// Equal pavilions on both sides of a corridor.
+/// Returns equal pavilions on both sides of a corridor.
 fn double_comb(random: &mut Random) -> Vec<Points> {
     let half = |random: &mut Random, from: u32, to: u32| random.whole(2 * from, 2 * to) / 2.0;
     let (count, width, gap) = (random.whole(2, 10) as u32, half(random, 4, 10), half(random, 3, 10));
@@ -210,7 +211,7 @@ fn double_comb(random: &mut Random) -> Vec<Points> {
         let y = corridor;
         high.extend([(from, y), (from, y + up), (to, y + up), (to, y)].map(DVec2::from));
     }
-    // The ends of the corridor and of the pavilions there are one edge.
+    // The ends of the corridor and of the adjacent pavilions form one edge.
     low.remove(0);
     high.pop();
     if shift == 0.0 {
@@ -224,7 +225,7 @@ fn double_comb(random: &mut Random) -> Vec<Points> {
     vec![low]
 }
 
-/// From 1 to 20 equal courtyards with wings of 6 to 8 m around and between them.
+/// Returns 1 to 20 equal courtyards with wings of 6 to 8 m around and between them.
 fn courtyards(random: &mut Random) -> Vec<Points> {
     let count = random.whole(1, 20) as u32;
     let columns = random.whole(1, count.min(7)) as u32;
@@ -233,7 +234,7 @@ fn courtyards(random: &mut Random) -> Vec<Points> {
     yards(count.div_ceil(columns), columns, wing, DVec2::new(wide, deep))
 }
 
-/// A grid of equal courtyards on whole metres, many of them square.
+/// Returns a grid of equal courtyards on whole metres, many of them square.
 fn grid(random: &mut Random) -> Vec<Points> {
     let (rows, columns) = (random.whole(1, 5) as u32, random.whole(1, 5) as u32);
     let (wing, wide) = (random.whole(4, 10), random.whole(4, 12));
@@ -252,7 +253,8 @@ fn yards(rows: u32, columns: u32, wing: f64, yard: DVec2) -> Vec<Points> {
     rings
 }
 
-/// Random plans on whole metres, with holes: unions of squares of a lattice, some with their corners cut off.
+/// Returns random plans on whole metres, with holes: unions of squares of a lattice, some with chamfered
+/// corners.
 fn lattice(random: &mut Random) -> Vec<Points> {
     const SIZE: usize = 9;
     let mut filled = [[false; SIZE + 2]; SIZE + 2];
@@ -268,7 +270,7 @@ fn lattice(random: &mut Random) -> Vec<Points> {
             _ => {}
         }
     }
-    // Squares that touch at a corner alone are joined by a third.
+    // Squares that touch only at a corner are joined by a third.
     let touches = |filled: &[[bool; SIZE + 2]; SIZE + 2], x: usize, y: usize| {
         let [a, b, c, d] = [filled[y][x], filled[y][x + 1], filled[y + 1][x + 1], filled[y + 1][x]];
         a == c && b == d && a != b
@@ -297,7 +299,7 @@ fn lattice(random: &mut Random) -> Vec<Points> {
     rings
 }
 
-/// The corners of the rings around squares; the outer ring is the first one.
+/// Returns the corners of the rings around squares, the outer ring first.
 fn outlines(filled: impl Fn(usize, usize) -> bool, size: usize) -> Vec<Points> {
     let mut ways: Vec<[(usize, usize); 2]> = Vec::new();
     for (x, y) in (1..size).flat_map(|y| (1..size).map(move |x| (x, y))) {
@@ -331,7 +333,7 @@ fn outlines(filled: impl Fn(usize, usize) -> bool, size: usize) -> Vec<Points> {
     rings
 }
 
-/// A regular polygon of 3 to 60 corners, some with a courtyard of the same shape.
+/// Returns a regular polygon of 3 to 60 corners, some with a courtyard of the same shape.
 fn regular(random: &mut Random) -> Vec<Points> {
     let count = random.whole(3, 60) as u32;
     let ring = |radius: f64| -> Points {

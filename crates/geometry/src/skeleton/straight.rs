@@ -11,66 +11,66 @@ use super::wavefront::Wavefront;
 use crate::planar::Polygon;
 use burgeon_base::error::Result;
 
-/// A place where faces meet: on the plan (m), and when the wavefront reached it.
+/// A point where faces meet: its horizontal position, and the time when the wavefront reached it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Peak {
-    /// The place (m).
+    /// Horizontal position (m).
     pub at: DVec2,
-    /// How far an edge of speed 1 had moved (m).
+    /// Distance that an edge of speed 1 has moved (m).
     pub time: f64,
 }
 
-/// How an edge moves inwards.
+/// Motion of an edge inwards.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Pace {
-    /// How far it moves while an edge of speed 1 moves 1 m.
+    /// Distance (m) that the edge moves while an edge of speed 1 moves 1 m.
     pub speed: f64,
-    /// How long it stands still at first: how far (m) an edge of speed 1 moves meanwhile.
+    /// Initial rest (m), as the distance that an edge of speed 1 moves meanwhile.
     pub rest: f64,
 }
 
 impl Default for Pace {
-    /// It moves from the beginning, at speed 1.
+    /// Returns the pace of an edge that moves from the start, at speed 1.
     fn default() -> Self {
         Self { speed: 1.0, rest: 0.0 }
     }
 }
 
 impl Pace {
-    /// It stands still for ever, as under a gable; its face has no area on the plan.
+    /// Pace of an edge that never moves, as below a gable; its face has no horizontal area.
     pub const STILL: Self = Self { speed: 0.0, rest: 0.0 };
 
-    /// How far (m) it has moved at `time`.
+    /// Returns the distance (m) that the edge has moved at `time` (m).
     pub fn way(&self, time: f64) -> f64 {
         self.speed * (time - self.rest).max(0.0)
     }
 
-    /// Whether it moves from the beginning.
+    /// Returns true if the edge moves from the start.
     pub fn moves(&self) -> bool {
         self.speed > 0.0 && self.rest <= 0.0
     }
 
-    /// Whether it moves at `time`.
+    /// Returns true if the edge moves at `time` (m).
     pub fn moves_at(&self, time: f64) -> bool {
         self.speed > 0.0 && self.rest <= time
     }
 }
 
-/// The faces over a polygon, one for each edge, in the order of the edges.
+/// Faces over a polygon, one for each edge, in the order of the edges.
 #[derive(Debug, Clone, Default)]
 pub struct Skeleton {
-    /// The corners of all faces; first those of the polygon, in their order.
+    /// Corners of all faces, beginning with the corners of the polygon, in their order.
     pub peaks: Vec<Peak>,
-    /// Indices into `peaks`, counter-clockwise; each begins with the edge itself.
+    /// Faces as indices of `peaks`, counter-clockwise; each begins with the edge itself.
     pub faces: Vec<Vec<usize>>,
-    /// How the edges have moved: as they were to, but for those that had to begin as nothing else would have swept an
-    /// area between them.
+    /// Actual motion of the edges: as requested, except for edges that had to start because no other edge
+    /// would have swept an area between them.
     pub paces: Vec<Pace>,
 }
 
 impl Skeleton {
-    /// The weighted straight skeleton of a polygon whose rings neither cross nor touch; `paces` says of each edge of all
-    /// rings how it moves.
+    /// Computes the weighted straight skeleton of a polygon whose rings neither cross nor touch; `paces`
+    /// defines the motion of each edge of all rings.
     ///
     /// ```
     /// use burgeon_geometry::skeleton::{Pace, Skeleton};
@@ -93,34 +93,35 @@ impl Skeleton {
     /// # Ok::<(), burgeon_base::error::Error>(())
     /// ```
     ///
-    /// The result scales with the polygon: scaled by a power of two, it has the same skeleton to the last bit, of any
-    /// extent from 1e-90 to 1e90 m.
+    /// The result scales with the polygon: a polygon scaled by a power of two has the same skeleton to the
+    /// last bit, for extents from 1e-90 to 1e90 m.
     ///
     /// Method: wavefront propagation (O. Aichholzer and F. Aurenhammer, "Straight skeletons for general
-    /// polygonal figures in the plane", 1996) of the polygon on a lattice of 2^-42 of its extent. All decisions are exact: its
-    /// edges lie on lines of whole numbers, of which only the speed is rounded, alike for parallel ones, so that times
-    /// and places are fractions. Rounded numbers with a bound on their error tell most of them apart, the fractions
-    /// the rest. Ties: what happens at exactly one time and place is resolved at once, the edges that meet there are
-    /// sorted around it and paired anew, whatever the kind of the events; at other places of that time it changes
-    /// nothing. Between edges in one line that move alike the border runs straight on from where they met; at
-    /// different speeds the faster one sweeps what the slower one has left. Around an area where all edges stand still
-    /// for ever, these begin to move once nothing else does.
+    /// polygonal figures in the plane", 1996) of the polygon on a lattice of 2^-42 of its extent. All
+    /// decisions are exact: the edges lie on lines with integer coefficients, of which only the speed is
+    /// rounded, equally for parallel edges, so that times and positions are fractions. Floating-point numbers
+    /// with an error bound decide most comparisons, the fractions decide the others. Ties: all events at
+    /// exactly one time and position are resolved together; the edges that meet there are sorted around the
+    /// point and paired again, regardless of the type of the events. Events at other positions at that time
+    /// are independent. Between collinear edges with the same motion, the border runs straight on from the
+    /// point where they met; at different speeds, the faster edge sweeps the area behind the slower edge. If
+    /// all edges around an area never move, they start to move once no other edge does.
     ///
-    /// Afterwards borders and spikes of less than 2e-6 of the extent are closed where the faces stay a map of the plane.
-    /// Fails if the result does not pass the checks: one closed face for each edge, every corner in the plane of its faces, no
-    /// negative area, areas that add up to the polygon's (to 1e-6), faces that are monotone along their edges, or do
-    /// not cross themselves where paces differ.
+    /// Afterwards, borders and spikes of less than 2e-6 of the extent are closed if the faces remain a planar
+    /// map. Fails if the result does not pass the checks: one closed face for each edge, every corner in the
+    /// plane of its faces, no negative area, areas that add up to the area of the polygon (to 1e-6), and
+    /// faces that are monotone along their edges, or do not cross themselves if paces differ.
     pub fn new(polygon: &Polygon, paces: &[Pace]) -> Result<Self> {
         Self::scaled(polygon, paces, edge::scale_of(polygon)?)
     }
 
-    /// The same for a mesh in metres, whatever the extent: borders and spikes of less than 1 mm are closed, on a lattice
-    /// of 2^-32 m.
+    /// Computes the skeleton for a mesh in metres, regardless of the extent: borders and spikes of less than
+    /// 1 mm are closed, on a lattice of 2^-32 m.
     pub fn for_mesh(polygon: &Polygon, paces: &[Pace]) -> Result<Self> {
         Self::scaled(polygon, paces, 1.0)
     }
 
-    /// The skeleton of a polygon that is scaled by a power of two meanwhile.
+    /// Computes the skeleton of a polygon that is temporarily scaled by a power of two.
     fn scaled(polygon: &Polygon, paces: &[Pace], scale: f64) -> Result<Self> {
         let mut spare = SPARE.take().unwrap_or_default();
         let skeleton = spare.skeleton(polygon, paces, scale);
@@ -128,23 +129,23 @@ impl Skeleton {
         skeleton
     }
 
-    /// The greatest time: the height of the highest ridge at a slope of 1.
+    /// Returns the maximum time (m): the height of the highest ridge at a slope of 1.
     pub fn duration(&self) -> f64 {
         self.peaks.iter().map(|peak| peak.time).fold(0.0, f64::max)
     }
 }
 
 thread_local! {
-    /// What the last skeleton of the thread was made with.
+    /// Memory of the thread's last skeleton.
     static SPARE: Cell<Option<Box<SkeletonMaker>>> = const { Cell::new(None) };
 }
 
-/// What a skeleton is made with, whose memory the next one uses again: a city has tens of thousands.
+/// Working memory of a skeleton, reused by the next one: a city has tens of thousands.
 #[derive(Default)]
 struct SkeletonMaker {
-    /// The polygon on the lattice.
+    /// Polygon on the lattice.
     rings: Vec<Vec<I64Vec2>>,
-    /// How the edges of the scaled polygon move.
+    /// Motion of the edges of the scaled polygon.
     paces: Vec<Pace>,
     front: Wavefront,
     meetings: MeetingLists,

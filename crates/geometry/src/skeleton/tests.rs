@@ -6,7 +6,7 @@ use super::*;
 use crate::planar::twice_area;
 use glam::DVec2;
 
-/// The plan of rings; none where chance has made them cross.
+/// Returns the plan of rings; `None` if the random rings cross.
 pub(crate) fn plan(rings: &[Vec<DVec2>]) -> Option<Polygon> {
     let rings: Rings = rings.iter().map(|ring| ring.iter().map(|at| at.extend(0.0)).collect()).collect();
     Plan::new(&rings).ok().map(|plan| plan.flat())
@@ -22,8 +22,8 @@ fn hip(rings: &[&[(f64, f64)]]) -> Skeleton {
     Skeleton::new(&polygon, &vec![Pace::default(); polygon.size()]).expect("a skeleton")
 }
 
-/// Checks the even skeletons of plans, and those with some edges that stand still, rest or are slow; how many plans
-/// there were.
+/// Checks the uniform skeletons of plans, and skeletons with some edges that stand still, rest or are slow;
+/// returns the number of plans.
 fn all_are_sound(plans: impl Iterator<Item = Polygon>, random: &mut Random) -> usize {
     let (mut count, mut failed, mut stuck) = (0, Vec::new(), Vec::new());
     for rings in plans {
@@ -82,7 +82,7 @@ fn regular_plans_with_and_without_noise_have_sound_skeletons_at_every_size_and_p
     }
 }
 
-/// The paces of a plan's edges, of which some stand still.
+/// Returns the paces of a plan's edges, some of which stand still.
 fn paces(polygon: &Polygon, still: &[[f64; 2]]) -> Vec<Pace> {
     still.iter().map(|&[speed, rest]| Pace { speed, rest }).take(polygon.size()).collect()
 }
@@ -107,7 +107,7 @@ fn regular_plans_with_edges_that_rest_or_stand_still_have_sound_skeletons() {
 
 #[test]
 fn an_edge_that_is_gone_before_it_begins_to_move_hides_nothing_that_others_reach() {
-    // A corner of a wheel reaches the line of such an edge before it reaches an edge that is still there.
+    // A corner of a wheel reaches the line of such an edge before it reaches an edge that still exists.
     let wheels = FAMILIES.iter().find(|family| family.name == "wheels").expect("wheels");
     let mut random = Random(3);
     let mut next = || ((wheels.make)(&mut random), still(&mut random));
@@ -159,7 +159,7 @@ fn an_edge_that_stands_still_has_a_face_without_area_until_it_begins_to_move() {
 
 #[test]
 fn edges_around_an_area_that_nothing_else_sweeps_begin_to_move_at_last() {
-    // A wing whose long sides stand still, as does its end: once its other end is gone, nothing moves in it.
+    // A wing whose long sides and one end stand still: after its other end has vanished, nothing moves in it.
     let corners = [(0., 0.), (12., 0.), (12., 4.), (8., 4.), (8., 9.), (4., 9.), (4., 4.), (0., 4.)];
     let still = |edges: &[usize]| {
         let mut paces = [Pace::default(); 8];
@@ -197,7 +197,7 @@ fn edges_in_one_line_have_a_straight_border_from_where_they_meet() {
 
 #[test]
 fn the_faster_of_two_edges_in_one_line_sweeps_what_the_slower_one_has_left() {
-    // A step of 1 m closes when its lower edge has reached the line of the upper one, which stands still.
+    // A step of 1 m closes when its lower edge has reached the line of the upper edge, which stands still.
     let step = polygon(&[&[(0., 0.), (5., 0.), (5., 1.), (9., 1.), (9., 7.), (0., 7.)]]);
     let mut paces = [Pace::default(); 6];
     (paces[1], paces[2]) = (Pace::STILL, Pace::STILL);
@@ -212,8 +212,8 @@ fn an_outline_that_turns_back_on_itself_is_refused() {
     assert!(Skeleton::new(&spike, &[Pace::default(); 5]).is_err());
 }
 
-/// The volume below a hip roof and the height of its highest ridge, and how far corners are off the planes of their faces,
-/// all as parts of the extent.
+/// Measures the volume below a hip roof, the height of its highest ridge, and the maximum distance of corners
+/// from the planes of their faces, all relative to the extent.
 fn measured(polygon: &Polygon) -> [f64; 3] {
     let skeleton = Skeleton::new(polygon, &vec![Pace::default(); polygon.size()]).expect("a skeleton");
     let [low, high] = polygon.bounds().expect("points");

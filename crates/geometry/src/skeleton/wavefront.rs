@@ -1,4 +1,4 @@
-//! The wavefront: the polygon's edges moving inwards until nothing is left of it.
+//! Wavefront: the polygon's edges move inwards until no area remains.
 
 use std::cmp::Ordering;
 use std::ops::Range;
@@ -14,16 +14,16 @@ use super::{Pace, Peak};
 use burgeon_base::Stop;
 use burgeon_base::error::{Error, Result};
 
-/// A border between the faces of two edges, as a corner of the wavefront has drawn it.
+/// A border between the faces of two edges, traced by a corner of the wavefront.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Arc {
-    /// The edges before and after the corner.
+    /// Edges before and after the corner.
     pub edges: [usize; 2],
-    /// The peaks where the corner began and ended.
+    /// Peaks at the start and the end of the corner.
     pub ends: [usize; 2],
 }
 
-/// What the wavefront leaves behind.
+/// Result of the propagation.
 #[derive(Debug, Default)]
 pub(super) struct WavefrontTrace {
     pub edges: Vec<SkeletonEdge>,
@@ -34,44 +34,45 @@ pub(super) struct WavefrontTrace {
 /// A corner of the wavefront.
 #[derive(Debug)]
 pub(super) struct WavefrontCorner {
-    /// The edges before and after it.
+    /// Edges before and after it.
     pub edges: [usize; 2],
-    /// The lines of both; where these are one line, a line across it through the corner.
+    /// Lines of both edges; if they are the same line, `pin` is a line across it through the corner.
     pub lines: [usize; 2],
     pub pin: Option<usize>,
     pub before: usize,
     pub after: usize,
-    /// The peak where it began.
+    /// Peak at its start.
     pub peak: usize,
-    /// Where and when it began.
+    /// Position and time of its start.
     pub at: LineMeeting,
     pub born: EventTime,
     pub kind: CornerKind,
     pub alive: bool,
-    /// The number of its spot, if it has one.
+    /// Index of its spot, if it has one.
     pub spot: usize,
-    /// Where the lines that it may reach after the one that it is expected to reach next are among those that have been
-    /// foreseen, the last one first.
+    /// Stored candidates in [`Wavefront::foreseen`] for lines that the corner may reach after the next
+    /// predicted one, the last one first.
     pub foreseen: Range<usize>,
-    /// Until when all that it may reach has been foreseen, if that was nothing.
+    /// Time up to which no reachable line exists, if none was found.
     pub foreseen_until: f64,
-    /// When the edge after it has shrunk to a point at the latest, as things are.
+    /// Latest time at which the edge after it has shrunk to a point, as currently predicted.
     pub shrunk: f64,
-    /// The corner before it where a piece of the same edge began.
+    /// Previous corner at the start of a segment of the same edge.
     pub older: Option<usize>,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum CornerKind {
     Convex,
-    /// Reflex, or straight.
+    /// Reflex or straight corner.
     Reflex,
-    /// Between two edges that lie on each other, or in one line at different speeds: it goes to an end of one at once.
+    /// Corner between two overlapping edges, or between collinear edges at different speeds: it jumps to an
+    /// end of one edge.
     Rushing,
 }
 
 impl WavefrontCorner {
-    /// The two lines that say where it is.
+    /// Returns the two lines that determine the position.
     pub(super) fn pair(&self) -> [usize; 2] {
         [self.lines[0], self.pin.unwrap_or(self.lines[1])]
     }
@@ -81,36 +82,36 @@ impl WavefrontCorner {
 pub(super) struct Wavefront {
     pub traced: WavefrontTrace,
     pub lines: MovingLines,
-    /// The edges that are still there.
+    /// Remaining edges.
     pub current: EdgeFronts,
-    /// How many pieces there are of each edge.
+    /// Number of segments of each edge.
     alive: Vec<u32>,
-    /// How many corners there are.
+    /// Number of living corners.
     living: usize,
-    /// How many corners there had been when it was last asked which edges are still there.
+    /// Total number of corners when the remaining edges were last updated.
     known: usize,
     pub corners: Vec<WavefrontCorner>,
-    /// For each edge the last of the corners where pieces of it begin; some may be dead.
+    /// Last corner at the start of a segment of each edge; linked corners may be dead.
     pub pieces: Vec<Option<usize>>,
     /// Lines that corners may reach, each with the earliest time.
     pub foreseen: Vec<(f64, usize)>,
     pub events: EventQueue,
-    /// The numbers of the events that are next.
+    /// Indices of the next simultaneous events.
     pub ties: Vec<u32>,
-    /// The numbers of events that were looked at before them.
+    /// Indices of later events that were examined with them.
     pub later: Vec<u32>,
     pub spots: Vec<EventPoint>,
-    /// When the last thing happened, and that or a little before.
+    /// Time of the last event, and a lower bound of it.
     pub last: Option<EventTime>,
     pub now: f64,
-    /// Whether an edge has just begun to move.
+    /// Set if an edge has just started to move.
     pub restarted: bool,
     /// A point of each edge.
     through: Vec<I64Vec2>,
 }
 
 impl Wavefront {
-    /// Moves all edges inwards until the polygon is used up.
+    /// Moves all edges inwards until no area remains.
     pub(super) fn propagate(
         &mut self,
         rings: &[Vec<I64Vec2>],
@@ -125,7 +126,7 @@ impl Wavefront {
             if step % STOP_STEPS == 0 {
                 check()?;
             }
-            // What is still expected then takes place nowhere.
+            // Events that are still in the queue never occur.
             if self.living == 0 {
                 return Ok(());
             }
@@ -138,7 +139,7 @@ impl Wavefront {
         Err(Error::geometry("the wavefront does not end"))
     }
 
-    /// Lets the edges around areas that nothing sweeps begin to move, a little later than all that has happened.
+    /// Starts the edges around areas that nothing sweeps, a little later than the last event.
     fn move_on(&mut self) -> Result<()> {
         let last = self.last.map_or(0.0, |last| last.high());
         let rest = ((last * STEPS).floor() + 1.0) / STEPS;
@@ -159,7 +160,7 @@ impl Wavefront {
         }
     }
 
-    /// Puts the wavefront on the polygon, whatever it was before.
+    /// Initializes the wavefront at the polygon.
     fn begin(
         &mut self,
         rings: &[Vec<I64Vec2>],
@@ -240,7 +241,7 @@ impl Wavefront {
         Ok(())
     }
 
-    /// The place of a corner of the polygon. Where it is straight, the line across is through it.
+    /// Returns the position of a corner of the polygon, with a line across it if the corner is straight.
     fn start_of(&mut self, edges: [usize; 2], at: I64Vec2) -> LineMeeting {
         let [before, after] = edges.map(|edge| self.traced.edges[edge].line);
         let mut pair = [before, after];
@@ -251,7 +252,7 @@ impl Wavefront {
         LineMeeting { pair, at: metres(at), slack: 0.0 }
     }
 
-    /// Adds a corner between two edges; its neighbours are still to be set.
+    /// Adds a corner between two edges, without its neighbours.
     #[allow(clippy::float_cmp, reason = "equal speeds are given as equal numbers")]
     pub(super) fn corner(
         &mut self,
@@ -299,9 +300,10 @@ impl Wavefront {
         index
     }
 
-    /// Lets an edge that stood still move from `time` on; corners along it begin anew.
+    /// Starts an edge that stood still, with new corners along it.
     ///
-    /// Of one that is gone the line stays as it is: corners that were to reach it next would forget what comes after.
+    /// The line of a vanished edge does not change: corners that reach it next would lose the following
+    /// candidates.
     pub(super) fn start(&mut self, edge: usize, when: &mut EventTime) {
         if self.alive[edge] == 0 {
             return;
@@ -324,7 +326,7 @@ impl Wavefront {
         self.restarted = true;
     }
 
-    /// Where a corner is.
+    /// Returns the position of a corner.
     fn place(&mut self, index: usize, when: &mut EventTime) -> LineMeeting {
         let corner = &mut self.corners[index];
         match self.lines.compare(&mut corner.born, when) {
@@ -344,7 +346,7 @@ impl Wavefront {
         }
     }
 
-    /// Ends rings of two corners among new ones: nothing is between them.
+    /// Ends rings of two new corners, which enclose no area.
     pub(super) fn close(&mut self, fresh: &[usize], when: &mut EventTime) {
         for &index in fresh {
             let WavefrontCorner { alive, before, after, .. } = self.corners[index];
@@ -368,7 +370,7 @@ impl Wavefront {
         }
     }
 
-    /// Lets new corners that rush meet the ends of pieces that they go to.
+    /// Lets new rushing corners meet the ends of the segments that they jump to.
     pub(super) fn rush(&mut self, fresh: &[usize], when: &mut EventTime) {
         self.spots.clear();
         for &index in fresh {
@@ -379,7 +381,7 @@ impl Wavefront {
             let [mut low, mut high] = [before, after];
             let [a, b] = lines.map(|line| self.lines.line(line).speed);
             if self.lines.direction(lines[0]).agrees(self.lines.direction(lines[1])) {
-                // The faster edge sweeps what the slower one has left.
+                // The faster edge sweeps the area behind the slower edge.
                 if a < b {
                     high = low;
                 } else {
@@ -387,7 +389,7 @@ impl Wavefront {
                 }
             } else {
                 let places = [low, high].map(|end| self.place(end, when));
-                // Both are in the direction of the second edge; the nearer one is met.
+                // Both ends are in the direction of the second edge; the corner meets the nearer end.
                 match self.lines.compare_along(lines[1], &places[0], &places[1], when) {
                     Ordering::Less => high = low,
                     Ordering::Greater => low = high,
@@ -402,7 +404,7 @@ impl Wavefront {
         }
     }
 
-    /// Foresees what happens to new corners.
+    /// Predicts the events of new corners.
     pub(super) fn go_on(&mut self, fresh: &[usize]) {
         if self.corners.len() > self.known + self.current.len() / 2 {
             self.known = self.corners.len();
@@ -412,7 +414,7 @@ impl Wavefront {
             let WavefrontCorner { alive, before, after, .. } = self.corners[index];
             if alive {
                 self.expect_collapse(before, index);
-                // Another new one foresees what happens before it.
+                // If the next corner is new as well, its own iteration predicts the edge before it.
                 if after < fresh[0] {
                     self.expect_collapse(index, after);
                 }
@@ -429,7 +431,7 @@ impl Wavefront {
         }
     }
 
-    /// Foresees anew what all old corners reach, as edges have begun to move.
+    /// Predicts the events of all old corners again, because edges have started to move.
     pub(super) fn look_again(&mut self) {
         for index in 0..self.corners.len() {
             if self.corners[index].alive {
@@ -439,9 +441,9 @@ impl Wavefront {
     }
 }
 
-/// Steps after which it is checked again that the run goes on.
+/// Number of steps between two checks for cancellation.
 const STOP_STEPS: usize = 256;
-/// Edges that begin to move as nothing else does so at a time of which there are so many to a metre.
+/// Time steps per metre for edges that start because nothing else moves.
 const STEPS: f64 = 64.0;
-/// Before all that may happen.
+/// Lower bound before all events.
 pub(super) const ANY: (f64, usize) = (f64::NEG_INFINITY, 0);

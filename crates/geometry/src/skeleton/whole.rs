@@ -1,4 +1,4 @@
-//! Whole numbers of any size, which cost no more than a machine's where that is enough.
+//! Integers of any size, as fast as machine integers if these are sufficient.
 
 use std::cmp::Ordering;
 use std::ops::{Add, Mul, Neg, Sub};
@@ -6,10 +6,10 @@ use std::ops::{Add, Mul, Neg, Sub};
 use dashu_int::IBig;
 use dashu_int::ops::{BitTest, UnsignedAbs};
 
-/// A whole number.
+/// An integer of any size.
 ///
-/// Plans along the axes need few digits: their products fit in 128 bits, which is several times quicker than numbers
-/// of any length are.
+/// Axis-parallel plans need few digits: their products fit in 128 bits, which is several times faster than
+/// big integers.
 #[derive(Debug, Clone)]
 pub(super) enum Whole {
     Short(i128),
@@ -29,7 +29,7 @@ impl Whole {
         }
     }
 
-    /// The sum or the like of two numbers one of which is long, or it is.
+    /// Applies an operation to two numbers as big integers, if an operand or the result needs one.
     #[cold]
     fn longer(&self, other: &Self, of: impl Fn(&IBig, &IBig) -> IBig) -> Self {
         Long(match (self, other) {
@@ -40,7 +40,7 @@ impl Whole {
         })
     }
 
-    /// The number times two to the power of `by`.
+    /// Returns the number multiplied by two to the power of `by`.
     pub(super) fn shifted(&self, by: usize) -> Self {
         match self {
             Short(0) => Self::ZERO,
@@ -53,7 +53,7 @@ impl Whole {
         self.sign() == Ordering::Equal
     }
 
-    /// Whether it is less or greater than zero.
+    /// Compares the number with zero.
     pub(super) fn sign(&self) -> Ordering {
         match self {
             Short(number) => number.cmp(&0),
@@ -61,7 +61,7 @@ impl Whole {
         }
     }
 
-    /// How many digits it has in base two, but for its sign.
+    /// Returns the number of binary digits of the absolute value.
     fn bits(&self) -> usize {
         match self {
             Short(number) => 128 - number.unsigned_abs().leading_zeros() as usize,
@@ -69,7 +69,7 @@ impl Whole {
         }
     }
 
-    /// It as a part of another number, rounded; not a number if that is zero.
+    /// Returns the quotient by another number, rounded; NaN if that number is zero.
     pub(super) fn over(&self, under: &Self) -> f64 {
         if under.is_zero() {
             return f64::NAN;
@@ -185,7 +185,7 @@ mod tests {
     use super::*;
     use proptest::prelude::*;
 
-    /// Numbers of all lengths around those where they no longer fit.
+    /// Returns numbers of all lengths around the limit of 128 bits.
     fn numbers() -> impl Strategy<Value = Whole> {
         let short =
             prop_oneof![any::<i64>().prop_map(i128::from), any::<i128>(), Just(i128::MIN), Just(i128::MAX)];

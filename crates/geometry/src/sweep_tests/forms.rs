@@ -1,4 +1,4 @@
-//! Sweeps of forms whose volume and area are known.
+//! Sweeps of shapes with known volumes and areas.
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
@@ -20,7 +20,7 @@ const FLAT: SweepOptions = SweepOptions {
     lengthwise: Lengthwise::Surface,
 };
 
-/// Stations above each other: height (m), scale of x and y, twist.
+/// Returns stations above each other: height (m), scale of x and y, twist.
 pub(super) fn tower(levels: &[(f64, f64, f64, f64)]) -> Vec<Station> {
     let station = |&(height, x, y, twist): &(f64, f64, f64, f64)| {
         let mut frame = Frame::default();
@@ -43,7 +43,7 @@ pub(super) fn solid(section: &Section, stations: &[Station]) -> Part {
     part
 }
 
-/// The least cosine between a triangle's own normal and those of its corners.
+/// Returns the minimum cosine between a triangle's own normal and those of its corners.
 pub(super) fn least_cosine(part: &Part) -> f64 {
     let mut least = 1.0f64;
     for triangle in &part.triangles {
@@ -58,7 +58,7 @@ pub(super) fn least_cosine(part: &Part) -> f64 {
     least
 }
 
-/// The area (m²) of the triangles on the texture; negative parts are mirrored.
+/// Returns the area (m²) of the triangles on the texture; mirrored triangles count negative.
 pub(super) fn texture_area(part: &Part) -> f64 {
     let corner = |corner: u32| part.uvs[corner as usize].as_dvec2();
     let area = |[a, b, c]: [u32; 3]| (corner(b) - corner(a)).perp_dot(corner(c) - corner(a)) / 2.0;
@@ -138,7 +138,7 @@ fn a_torus_whose_hole_has_closed_is_solid_where_its_faces_shrink_to_points() {
     arc.stations(Frame::default(), &mut stations).expect("a circle");
     let section = Section::regular(24).expect("a circle");
     for turn in [0.4, -0.4] {
-        // The section's first point, or the one opposite to it, comes to lie in the centre of the torus.
+        // The section's first point, or the opposite point, coincides with the centre of the torus.
         stations.iter_mut().for_each(|station| station.twist = turn);
         let (part, _) = swept(&section, &stations, &SweepOptions { closed: true, ..SweepOptions::default() });
         let found = check([&part]);
@@ -240,7 +240,7 @@ fn a_turn_on_the_spot_is_mitred_and_keeps_the_volume() {
         frame.turn(turn);
     }
     let part = solid(&section, &stations);
-    // A mitre takes as much from the inner side as it adds to the outer one.
+    // A mitre removes as much on the inner side as it adds on the outer side.
     assert!(near(volume([&part]), 9.0, 1e-6), "{}", volume([&part]));
     assert!(least_cosine(&swept(&section, &stations, &FLAT).0) > 0.9999);
 }
@@ -272,7 +272,7 @@ fn textures_are_in_metres_and_run_on() {
     assert_eq!(ends.v, 11.0);
     let (low, high) = part.uvs.iter().fold((f32::MAX, f32::MIN), |(l, h), uv| (l.min(uv.x), h.max(uv.x)));
     assert!(low.abs() < 1e-5 && near(f64::from(high), section.perimeter() * 2.0, 1e-5));
-    // Flat faces that taper are neither stretched nor sheared, up to the tip.
+    // Flat tapering faces are neither stretched nor sheared, up to the tip.
     let square = Section::regular(4).expect("a square").marked(false);
     for top in [1.0, 0.0] {
         let options = SweepOptions { lengthwise: Lengthwise::Surface, ..FLAT };
@@ -317,7 +317,7 @@ fn smooth_normals_follow_taper_and_bend() {
             triangle.iter().find(|&&corner| tip.positions[corner as usize].z == 1.0).expect("the tip");
         assert!((b - a).cross(c - a).normalize().dot(tip.normals[*above as usize].vector()) > 0.999_999);
     }
-    // On a torus every normal points away from the circle in the middle, also at both ends.
+    // On a torus every normal points away from the centre circle, also at both ends.
     let mut stations = Vec::new();
     let arc = Segment { length: 3.0, bend: 1.0, steps: 6, ..Segment::default() };
     arc.stations(Frame::default(), &mut stations).expect("an arc");

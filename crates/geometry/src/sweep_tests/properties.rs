@@ -1,4 +1,4 @@
-//! Sweeps of random sections along random ways.
+//! Sweeps of random sections along random paths.
 
 use std::f64::consts::{FRAC_PI_3, TAU};
 
@@ -9,10 +9,10 @@ use super::super::solid::{area, check, volume};
 use super::super::{Frame, Section, SectionPoint, Segment, Station, SweepOptions};
 use super::forms::{least_cosine, near, solid, swept, texture_area, tower};
 
-/// Points around a centre at random angles and distances: an outline that does not meet itself.
+/// Returns points around a centre at random angles and distances: an outline that does not intersect itself.
 fn outline(low: f64, high: f64) -> impl Strategy<Value = Vec<SectionPoint>> {
     prop::collection::vec((0.5f64..1.0, low..high, any::<bool>()), 4..12).prop_map(|points| {
-        // No gap is half a turn, so the centre is inside and the outline can grow and shrink on the spot.
+        // No gap is half a turn, so the centre is inside, and the outline can be scaled at one position.
         let whole: f64 = points.iter().map(|(gap, ..)| gap).sum();
         let mut angle = 0.0;
         let place = |(gap, radius, smooth): (f64, f64, bool)| {
@@ -31,7 +31,8 @@ fn any_section() -> impl Strategy<Value = Section> {
     })
 }
 
-/// Segments with bends and twists (radians) of up to `angle` a step; each tip is followed by a wide foot.
+/// Returns segments with bends and twists (radians) of up to `angle` per step; each tip is followed by a wide
+/// foot.
 fn any_segments(angle: f64, least: f64) -> impl Strategy<Value = Vec<Segment>> {
     let scale = prop_oneof![4 => least..1.5, 1 => Just(0.0)];
     let turns = (-angle..angle, 0.0..TAU, -angle..angle);
@@ -74,7 +75,7 @@ proptest! {
 
     #[test]
     fn every_gentle_sweep_has_normals_that_look_outwards(
-        // No normal could look out of both faces of a smooth spike.
+        // No normal can point out of both faces of a smooth spike.
         section in any_section().prop_map(|section| section.creased(FRAC_PI_3)),
         segments in any_segments(0.15, 0.5),
         (around, along, mirror) in any::<(bool, bool, bool)>(),

@@ -1,6 +1,6 @@
 //! Geometries as scripts hold them.
 //!
-//! Comes in: text, points, features of data files. Goes out: objects that never change, with what can be asked of them.
+//! Input: text, points, features of data files. Output: objects that never change, with what can be asked of them.
 //! What is computed stands in the member `spatial`; here are its names, its arguments and its messages.
 
 mod construct;

@@ -1,31 +1,31 @@
-//! Messages as text in which nothing is so long that a page could not show it.
+//! Serialisation of messages with a limit on the length of strings.
 
 use std::io;
 
 use serde::Serialize;
 use serde_json::ser::{CharEscape, CompactFormatter, Formatter, Serializer};
 
-/// The longest text (bytes) in a message. What a script says may have many millions.
+/// Maximum length (bytes) of a string in a message. Strings from scripts may have many millions.
 const LONGEST: usize = 16_000;
 
-/// `value` as JSON whose texts are cut to a length that pages can show.
+/// Serialises `value` as JSON whose strings are cut to a length that pages can show.
 pub(super) fn to_text(value: &impl Serialize) -> String {
     let mut bytes = Vec::with_capacity(256);
     let mut serializer = Serializer::with_formatter(&mut bytes, TextLimiter::default());
-    // Keys are text and numbers are finite or null, so this cannot fail.
+    // Keys are strings and numbers are finite or null, so serialisation cannot fail.
     let _ = value.serialize(&mut serializer);
     String::from_utf8(bytes).unwrap_or_default()
 }
 
-/// Writes texts up to a length, and then how much was left out.
+/// JSON formatter that cuts long strings, and appends the number of omitted bytes.
 #[derive(Default)]
 struct TextLimiter {
-    /// Bytes of the present text.
+    /// Length of the current string (bytes).
     length: usize,
 }
 
 impl TextLimiter {
-    /// How many of `more` bytes there is room for.
+    /// Returns the number of `more` bytes that fit.
     fn room(&mut self, more: usize) -> usize {
         let room = LONGEST.saturating_sub(self.length);
         self.length += more;

@@ -1,4 +1,4 @@
-//! What pages say.
+//! Messages from pages.
 
 use serde::Deserialize;
 use serde_json::Value;
@@ -6,102 +6,102 @@ use serde_json::Value;
 use super::Event;
 use burgeon_base::error::Error;
 
-/// What a page says.
+/// Message from a page.
 #[derive(Debug, Clone, Deserialize)]
 #[serde(tag = "type", rename_all = "lowercase", deny_unknown_fields)]
 pub enum PageCommand {
-    /// Sets parameters, by name; nothing puts the default back.
+    /// Sets parameters by name; null restores the default.
     Set {
-        /// Comes back if they are refused.
+        /// Id to return if the values are rejected.
         id: Option<u64>,
-        /// Values as text; numbers and switches may come as they are.
+        /// Values as strings; numbers and booleans are also accepted.
         params: serde_json::Map<String, Value>,
     },
-    /// Puts all defaults back.
+    /// Restores all defaults.
     Reset {},
     /// Sets the seed.
     Seed {
-        /// A whole number from 0, as text.
+        /// Seed as a string: an integer from 0.
         seed: Value,
     },
-    /// Derives at most so many steps, or to the end.
+    /// Limits the derivation to a number of steps, or removes the limit.
     Steps {
-        /// The limit.
+        /// Maximum number of steps; `None` for no limit.
         steps: Option<usize>,
     },
-    /// Stops the run, and takes its values, seed and limit back to those of the model that is shown.
+    /// Cancels the run, and restores the values, seed and limit of the model that is shown.
     Cancel {},
     /// Opens a line in the editor.
     Open {
-        /// A file of the script, as errors name it.
+        /// File of the script, as errors name it.
         file: String,
-        /// The line, from 1.
+        /// Line, from 1.
         line: Option<usize>,
     },
-    /// Which module made a triangle, by glTF's indices.
+    /// Queries the module that made a triangle, by glTF's indices.
     Pick(PickCommand),
-    /// What a line of a script made.
+    /// Queries the modules and triangles that a line of a script made.
     Highlight {
-        /// Comes back with the answer.
+        /// Id to return with the answer.
         id: u64,
-        /// The file.
+        /// File of the script.
         file: String,
-        /// The line, from 1.
+        /// Line, from 1.
         line: usize,
     },
-    /// A part of a chain.
+    /// Queries a part of a chain.
     Chain {
-        /// Comes back with the answer.
+        /// Id to return with the answer.
         id: u64,
-        /// The system's place in the script, from 0.
+        /// Index of the system in the script, from 0.
         system: usize,
-        /// The chain.
+        /// Index of the chain.
         chain: usize,
-        /// The module in the middle.
+        /// Index of the module in the centre.
         module: usize,
     },
     /// Saves, loads or deletes a preset.
     Preset {
         /// `save`, `load` or `delete`.
         action: String,
-        /// The preset's name.
+        /// Name of the preset.
         name: String,
-        /// Whether one of that name may be saved over.
+        /// Set if an existing preset of that name may be overwritten.
         #[serde(default)]
         replace: bool,
     },
-    /// Asks for small pictures of other values.
+    /// Requests small renders with other values.
     Variations {
-        /// Comes back with the answers.
+        /// Id to return with the answers.
         id: u64,
-        /// Other seeds.
+        /// Seeds to vary.
         seeds: Option<Vec<String>>,
-        /// A parameter.
+        /// Parameter to vary.
         param: Option<String>,
-        /// Other values of the parameter.
+        /// Values of the parameter.
         values: Option<Vec<String>>,
     },
 }
 
-/// A triangle of the model, by glTF's indices.
+/// Triangle of the model, by glTF's indices.
 #[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct PickCommand {
-    /// Comes back with the answer.
+    /// Id to return with the answer.
     pub id: u64,
-    /// The mesh.
+    /// Index of the mesh.
     pub mesh: usize,
-    /// The primitive of the mesh.
+    /// Index of the primitive in the mesh.
     pub primitive: usize,
-    /// The triangle of the primitive.
+    /// Index of the triangle in the primitive.
     pub triangle: usize,
-    /// The instance of the node, if it has several.
+    /// Instance of the node, if the node has several.
     pub instance: Option<usize>,
-    /// The node.
+    /// Index of the node.
     pub node: Option<usize>,
 }
 
-/// Reads a page's message. Fails with what is to be told to the page.
+/// Parses a page's message. Fails with the event to send to the page.
 pub fn read(text: &str) -> Result<PageCommand, Box<Event>> {
     let refuse = |id: Option<u64>, error: Error| Err(Box::new(Event::refused(id, &error)));
     let value: Value = match serde_json::from_str(text) {

@@ -1,4 +1,4 @@
-//! What the server says.
+//! Messages from the server.
 
 use std::collections::BTreeMap;
 
@@ -7,181 +7,182 @@ use burgeon_base::error::Error;
 use serde::Serialize;
 use serde_json::Value;
 
-/// What the server says.
+/// Message from the server.
 #[derive(Debug, Clone, Serialize)]
 #[serde(tag = "type", rename_all = "lowercase")]
 pub enum Event {
-    /// First on every connection; the present state follows.
+    /// First message on every connection; the present state follows.
     Hello(Hello),
-    /// The script does not exist (yet).
+    /// Absence of the script file.
     Waiting {
-        /// What is waited for.
+        /// Description of the missing file.
         text: String,
     },
-    /// A run has begun.
+    /// Start of a run.
     Working {
-        /// The run's number, from 1.
+        /// Number of the run, from 1.
         run: u64,
-        /// Why it runs.
+        /// Cause of the run.
         cause: Cause,
-        /// The files that changed.
+        /// Changed files.
         files: Vec<String>,
     },
-    /// How far a run has come, ten times a second.
+    /// Progress of a run, ten times a second.
     Progress {
-        /// The run's number.
+        /// Number of the run.
         run: u64,
-        /// It in words.
+        /// Progress as human-readable text.
         message: String,
-        /// The last step that is done.
+        /// Last completed step.
         step: usize,
-        /// The greatest number of steps, if there is one.
+        /// Maximum number of steps, if limited.
         steps: Option<usize>,
-        /// Modules in the chains.
+        /// Number of modules in the chains.
         modules: usize,
     },
-    /// A run has ended well; the page shows its model.
+    /// Successful end of a run; the page shows its model.
     Model(Box<ModelMessage>),
-    /// A run has failed; the last model stays, stale.
+    /// Failure of a run; the last model remains and is stale.
     Error {
-        /// The run's number.
+        /// Number of the run.
         run: u64,
-        /// Why it ran.
+        /// Cause of the run.
         cause: Cause,
-        /// All problems as text.
+        /// Text of all problems.
         text: String,
-        /// Each problem: `{ code, message, file, line, excerpt, rule, module, step, help }`, absent where unknown; the excerpt is
-        /// of lines `{ line, text }`. Of very many problems only the first ones.
+        /// Problems: `{ code, message, file, line, excerpt, rule, module, step, help }`, with unknown fields absent;
+        /// the excerpt consists of lines `{ line, text }`. If there are very many problems, only the first ones are
+        /// sent.
         errors: Vec<Value>,
-        /// How many problems there are.
+        /// Total number of problems.
         number: usize,
-        /// The parameters of the model that is shown, with the values that led to the error; none without a model.
+        /// Parameters of the shown model, with the values that caused the error; empty if there is no model.
         params: Vec<ParamMessage>,
-        /// The seed that led to it.
+        /// Seed that caused the error.
         seed: String,
     },
-    /// A run was stopped, by a page or by a newer run.
+    /// Cancellation of a run, by a page or by a newer run.
     Cancelled {
-        /// The run's number.
+        /// Number of the run.
         run: u64,
-        /// Whether nothing newer is on its way, and yet the model that is shown is not the present one.
+        /// Set if no newer run is scheduled although the shown model is out of date.
         stale: bool,
     },
-    /// The module that made a triangle.
+    /// Module that made a triangle.
     Picked(Box<PickMessage>),
-    /// What a line of a script has made.
+    /// Modules and triangles that a line of a script has made.
     Highlighted(Box<HighlightMessage>),
-    /// A part of a chain.
+    /// Part of a chain.
     Chain {
-        /// The question's id.
+        /// Id of the query.
         id: u64,
-        /// The system's place in the script, from 0.
+        /// Index of the system in the script, from 0.
         system: usize,
-        /// The chain.
+        /// Index of the chain.
         chain: usize,
-        /// The module in the middle.
+        /// Index of the module in the centre.
         module: usize,
-        /// Modules and brackets of the chain.
+        /// Number of modules and brackets of the chain.
         of: usize,
-        /// The text.
+        /// Part of the chain as text.
         #[serde(flatten)]
         text: AroundMessage,
     },
-    /// The names of the presets have changed.
+    /// Change of the names of presets.
     Presets {
-        /// All names, in the order of their file.
+        /// Names of all presets, in the order of their file.
         names: Vec<String>,
-        /// The one whose values and seed are the present ones, if there is one.
+        /// Name of the preset with the present values and seed, if any.
         chosen: Option<String>,
     },
-    /// How many of the small pictures' scripts have run: all of them have one camera, which is known at the end.
+    /// Progress of the runs for small renders. All renders share one camera, which is known when all scripts have run.
     Variations {
-        /// The question's id.
+        /// Id of the query.
         id: u64,
-        /// How many have run.
+        /// Number of scripts that have run.
         ran: usize,
-        /// How many there will be.
+        /// Total number of renders.
         of: usize,
     },
-    /// A small picture of other values.
+    /// Small render with other values.
     Variation {
-        /// The question's id.
+        /// Id of the query.
         id: u64,
-        /// Its number, from 0.
+        /// Index of the render, from 0.
         index: usize,
-        /// How many there will be.
+        /// Total number of renders.
         of: usize,
-        /// What it is, for people.
+        /// Human-readable description of the render.
         label: String,
-        /// Its seed.
+        /// Seed of the run.
         seed: String,
-        /// All values.
+        /// Values of all parameters.
         params: BTreeMap<String, Value>,
-        /// Where the picture is; nowhere if the script failed.
+        /// URL of the image; `None` if the script failed.
         url: Option<String>,
-        /// Why it failed.
+        /// Error message of the script.
         error: Option<String>,
     },
-    /// Something that is worth knowing, once.
+    /// Information that is sent once.
     Note {
-        /// What it is.
+        /// Text of the information.
         text: String,
     },
-    /// A message that could not be done.
+    /// Rejection of a message.
     Refused {
-        /// The message's id, if it had one.
+        /// Id of the message, if it had one.
         id: Option<u64>,
-        /// The [code](burgeon_base::error::ErrorKind::code) of the error.
+        /// [Code](burgeon_base::error::ErrorKind::code) of the error.
         code: &'static str,
-        /// Why, and what can be done.
+        /// Reason and remedy.
         text: String,
     },
 }
 
-/// Who the server is.
+/// Properties of the server.
 #[derive(Debug, Clone, Serialize)]
 pub struct Hello {
-    /// Burgeon's version.
+    /// Version of Burgeon.
     pub version: &'static str,
-    /// The script's file name.
+    /// File name of the script.
     pub script: String,
-    /// The script as it was named on the command line.
+    /// Path of the script as named on the command line.
     pub path: String,
-    /// Whether `open` opens an editor.
+    /// Set if `open` opens an editor.
     pub editor: bool,
-    /// The extensions of the formats of `export/`.
+    /// Extensions of the formats of `export/`.
     pub formats: Vec<&'static str>,
-    /// The names of the presets.
+    /// Names of the presets.
     pub presets: Vec<String>,
-    /// How long (s) the model that is shown has not been the present one, if it is not.
+    /// Time (s) for which the shown model has been out of date, if it is.
     pub stale: Option<f64>,
 }
 
-/// Why a run was begun.
+/// Cause of a run.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Cause {
-    /// The server has started.
+    /// Start of the server.
     Start,
-    /// A file changed.
+    /// Change of a file.
     Save,
-    /// A parameter was set.
+    /// Change of a parameter.
     Parameters,
-    /// The seed was set.
+    /// Change of the seed.
     Seed,
-    /// The limit of steps was set.
+    /// Change of the step limit.
     Steps,
-    /// A preset was loaded.
+    /// Loading of a preset.
     Preset,
 }
 
 impl Event {
-    /// What is said of a message that led to `error`.
+    /// Creates the rejection of a message that led to `error`.
     pub fn refused(id: Option<u64>, error: &Error) -> Self {
         Self::Refused { id, code: error.kind().code(), text: error.to_string() }
     }
 
-    /// The text for people that it consists of, if it does.
+    /// Returns the human-readable text of the message, if it has one.
     pub fn text_mut(&mut self) -> Option<&mut String> {
         match self {
             Self::Waiting { text }
@@ -193,7 +194,7 @@ impl Event {
         }
     }
 
-    /// The message as it travels. Texts that no page could show are cut.
+    /// Serialises the message. Strings that are too long for a page are cut.
     pub fn to_text(&self) -> String {
         bounded::to_text(self)
     }

@@ -1,8 +1,8 @@
-//! What server and page say to each other: JSON objects whose `type` is the name of the case.
+//! Messages between server and pages: JSON objects whose `type` is the name of the variant.
 //!
-//! Everything that the server says goes to all pages, except answers with an `id`, which go to the page that
-//! asked. Whole numbers of 64 bits travel as text. Times are in milliseconds, lengths in metres with z up; the
-//! model itself is glTF, y up.
+//! The server sends every message to all pages, except answers with an `id`, which only the querying page receives.
+//! 64-bit integers are sent as strings. Times are in milliseconds, lengths in metres with z up; the model itself is
+//! glTF, y up.
 
 mod bounded;
 mod command;

@@ -1,4 +1,4 @@
-//! The result of a run as pages are told it.
+//! Result of a run, as sent to pages.
 
 use serde::Serialize;
 use serde_json::Value;
@@ -6,175 +6,175 @@ use serde_json::Value;
 use super::Cause;
 use burgeon_engine::script::{Control, Param, Setting};
 
-/// The result of a run.
+/// Result of a run.
 #[derive(Debug, Clone, Serialize)]
 pub struct ModelMessage {
-    /// The run's number.
+    /// Number of the run.
     pub run: u64,
-    /// Why it ran.
+    /// Cause of the run.
     pub cause: Cause,
-    /// Where the `.glb` file is; nowhere if there is nothing to show or too much.
+    /// URL of the `.glb` file; `None` if the model is empty or too large.
     pub url: Option<String>,
-    /// The file's size.
+    /// Size of the file (bytes).
     pub bytes: usize,
-    /// Triangles that are seen, instances counted each.
+    /// Number of visible triangles, counted for each instance.
     pub triangles: usize,
-    /// Placed meshes.
+    /// Number of placed meshes.
     pub instances: usize,
-    /// Modules of all systems.
+    /// Number of modules of all systems.
     pub modules: usize,
-    /// The box around what is seen (m, z up).
+    /// Bounding box of the visible geometry (m, z up).
     pub bounds: Option<Bounds>,
-    /// Steps of this model: the most of any system.
+    /// Number of steps of this model: the maximum over all systems.
     pub steps: usize,
-    /// Steps of the model when they are not limited, as far as that is known.
+    /// Number of steps without a limit, as far as known.
     pub last_step: usize,
-    /// The limit of steps, if one is set.
+    /// Step limit, if one is set.
     pub step_limit: Option<usize>,
-    /// The seed.
+    /// Seed of the run.
     pub seed: String,
-    /// The preset whose values and seed these are, if there is one.
+    /// Preset with these values and this seed, if any.
     pub preset: Option<String>,
-    /// Why there is nothing to see, if so.
+    /// Reason for an empty model, if it is empty.
     pub nothing: Option<String>,
-    /// The parameters in the script's order, those of files that it requires last.
+    /// Parameters in the script's order, with the parameters of required files last.
     pub params: Vec<ParamMessage>,
-    /// The systems in the order in which they were derived.
+    /// Systems in the order of their derivation.
     pub systems: Vec<SystemMessage>,
-    /// The rules, with what they cost.
+    /// Rules, with their costs.
     pub rules: Vec<RuleMessage>,
-    /// Where the time went.
+    /// Times of the stages of the run.
     pub times: TimesMessage,
-    /// The files that decide what the model is.
+    /// Files that determine the model.
     pub files: Vec<String>,
-    /// What people should know of it: as errors are told, each with its `kind` and how often it was found, its `count`.
+    /// Warnings, in the format of errors, each with its `kind` and the number of its occurrences, its `count`.
     pub warnings: Vec<Value>,
-    /// What became of features that could not be built as asked, each `{ message, help }`.
+    /// Summaries of skipped and simplified features, each `{ message, help }`.
     pub notes: Vec<Value>,
 }
 
-/// A box (m).
+/// Bounding box (m).
 #[derive(Debug, Clone, Copy, Serialize)]
 pub struct Bounds {
-    /// The lowest corner.
+    /// Minimum corner.
     pub low: [f64; 3],
-    /// The highest corner.
+    /// Maximum corner.
     pub high: [f64; 3],
 }
 
-/// A parameter with its control.
+/// Parameter with its control.
 #[derive(Debug, Clone, Serialize)]
 pub struct ParamMessage {
-    /// Its name, by which it is set.
+    /// Name by which the parameter is set.
     pub name: String,
-    /// The package that declares it, which its name begins with.
+    /// Package that declares the parameter; it is the prefix of the name.
     pub package: Option<String>,
-    /// Its value in this run: a number, a switch or text.
+    /// Value in this run: a number, a boolean or a string.
     pub value: Value,
-    /// The script's own value.
+    /// Default of the script.
     pub default: Value,
-    /// The script's value when this one was set, if the script has changed it since.
+    /// Default at the time when the value was set, if the script has changed it since.
     pub old_default: Option<Value>,
-    /// Whether the value is not the script's.
+    /// Set if the value differs from the default.
     pub changed: bool,
-    /// What values it may have.
+    /// Control for the allowed values.
     pub control: ControlMessage,
-    /// The unit; may be empty.
+    /// Unit; may be empty.
     pub unit: String,
-    /// What it does; may be empty.
+    /// Description; may be empty.
     pub text: String,
 }
 
-/// What values a parameter may have.
+/// Control for the allowed values of a parameter.
 #[derive(Debug, Clone, Serialize)]
 #[serde(tag = "type", rename_all = "lowercase")]
 pub enum ControlMessage {
-    /// A number within bounds, on a grid of steps from the lower bound.
+    /// Number within bounds, in steps from the lower bound.
     Number {
-        /// The least value.
+        /// Minimum value.
         min: Option<f64>,
-        /// The greatest value.
+        /// Maximum value.
         max: Option<f64>,
-        /// The distance of neighbouring values.
+        /// Difference of neighbouring values.
         step: Option<f64>,
     },
-    /// On or off.
+    /// Boolean.
     Switch,
-    /// One of these.
+    /// Choice among values.
     Choice {
-        /// The values.
+        /// Allowed values.
         choices: Vec<String>,
     },
-    /// A colour as `#rrggbb`.
+    /// Colour as `#rrggbb`.
     Color,
     /// Free text.
     Text,
 }
 
-/// A derived system.
+/// Derived system.
 #[derive(Debug, Clone, Serialize)]
 pub struct SystemMessage {
-    /// Its place in the script, from 0.
+    /// Index of the system in the script, from 0.
     pub system: usize,
-    /// The file and line that made it.
+    /// File and line that created the system.
     pub place: String,
-    /// The number of chains.
+    /// Number of chains.
     pub chains: usize,
-    /// Modules in all chains.
+    /// Number of modules in all chains.
     pub modules: usize,
-    /// Derivation steps.
+    /// Number of derivation steps.
     pub steps: usize,
-    /// The number of modules of each symbol.
+    /// Number of modules of each symbol.
     pub symbols: Vec<CountMessage>,
 }
 
-/// How many modules have a symbol.
+/// Number of modules of a symbol.
 #[derive(Debug, Clone, Serialize)]
 pub struct CountMessage {
-    /// The symbol.
+    /// Name of the symbol.
     pub name: String,
-    /// The number of modules.
+    /// Number of modules.
     pub count: usize,
 }
 
-/// A rule and what it cost.
+/// Rule and its cost.
 #[derive(Debug, Clone, Serialize)]
 pub struct RuleMessage {
-    /// Its pattern.
+    /// Pattern of the rule.
     pub text: String,
     /// `rule` or `interpretation`.
     pub kind: &'static str,
-    /// The file that has it; none if it is the engine's own.
+    /// File of the rule; empty for built-in rules of the engine.
     pub file: String,
-    /// Its line.
+    /// Line of the rule.
     pub line: usize,
-    /// How often it was applied.
+    /// Number of applications.
     pub applied: usize,
-    /// The modules and brackets that it made.
+    /// Number of modules and brackets that the rule made.
     pub made: usize,
-    /// The time that it took (ms).
+    /// Time taken by the rule (ms).
     pub ms: f64,
 }
 
-/// Where the time of a run went (ms).
+/// Times of the stages of a run (ms).
 #[derive(Debug, Clone, Copy, Serialize)]
 pub struct TimesMessage {
-    /// Starting the machine and running the script.
+    /// Time to start the Lua virtual machine and run the script.
     pub script: f64,
-    /// Finding and applying rules.
+    /// Time to match and apply rules.
     pub rewriting: f64,
-    /// Interpretation.
+    /// Time of the interpretation.
     pub interpretation: f64,
-    /// Building the scene.
+    /// Time to build the scene.
     pub scene: f64,
-    /// Writing the model's bytes.
+    /// Time to encode the model.
     pub encode: f64,
-    /// From the file's change or the page's message to the model's bytes being ready.
+    /// Time from the change of a file or the page's message to the encoded model.
     pub total: f64,
 }
 
 impl ParamMessage {
-    /// `param` as the page shows it; `old_default` is the script's value when this one was set.
+    /// Describes `param` for the page; `old_default` is the script's default at the time when the value was set.
     pub fn new(param: &Param, old_default: Option<&Setting>) -> Self {
         Self {
             name: param.name.clone(),
@@ -198,7 +198,7 @@ impl ParamMessage {
     }
 }
 
-/// A parameter's value for machines.
+/// Converts a parameter's value to JSON.
 pub fn json(setting: &Setting) -> Value {
     match setting {
         Setting::Number(number) => (*number).into(),

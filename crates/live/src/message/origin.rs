@@ -1,143 +1,144 @@
-//! What made a triangle, and what a line made, as pages are told it.
+//! Origins of triangles and results of lines, as sent to pages.
 
 use serde::Serialize;
 
-/// The module that made a triangle.
+/// Module that made a triangle.
 #[derive(Debug, Clone, Serialize)]
 pub struct PickMessage {
-    /// The question's id.
+    /// Id of the query.
     pub id: u64,
-    /// Whether it is known.
+    /// Set if the module was found.
     pub found: bool,
-    /// The module that drew the triangle, or placed it if nobody knows who drew it.
+    /// Module that drew the triangle, or the module that placed it if the former is unknown.
     #[serde(flatten)]
     pub made: Option<OriginMessage>,
-    /// The module that placed the model to which the triangle belongs.
+    /// Module that placed the model to which the triangle belongs.
     pub placed: Option<OriginMessage>,
-    /// The instance as it was asked about.
+    /// Instance as given in the query.
     pub instance: Option<usize>,
 }
 
-/// A module that made something.
+/// Module that made something, with its history.
 #[derive(Debug, Clone, Serialize)]
 pub struct OriginMessage {
-    /// The system's place in the script, from 0.
+    /// Index of the system in the script, from 0.
     pub system: usize,
-    /// The chain.
+    /// Index of the chain.
     pub chain: usize,
-    /// The id of the chain's feature.
+    /// Id of the chain's feature.
     pub feature: Option<String>,
-    /// The module.
+    /// Module as text and in parts.
     pub module: ModuleMessage,
-    /// The rule that interprets it, unless the standard library does.
+    /// Rule that interprets the module, unless the standard library does.
     pub interpretation: Option<RulePlace>,
-    /// The modules that led to it, from the axiom on.
+    /// Predecessors of the module, from the axiom on.
     pub path: Vec<StepMessage>,
-    /// The chain around it.
+    /// Part of the chain around the module.
     pub chain_text: AroundMessage,
-    /// What it has drawn.
+    /// Triangles that the module has drawn.
     pub ranges: Vec<Range>,
 }
 
-/// A module.
+/// Module as text.
 #[derive(Debug, Clone, Serialize)]
 pub struct ModuleMessage {
-    /// The whole.
+    /// Symbol and parameters.
     pub text: String,
-    /// Its symbol.
+    /// Symbol of the module.
     pub symbol: String,
-    /// Its parameters.
+    /// Parameters of the module.
     pub params: Vec<NamedValue>,
-    /// Its place in the chain, brackets counted.
+    /// Index in the chain, counting brackets.
     pub index: usize,
 }
 
-/// A parameter of a module.
+/// Parameter of a module.
 #[derive(Debug, Clone, Serialize)]
 pub struct NamedValue {
-    /// Its name.
+    /// Name of the parameter.
     pub name: String,
-    /// Its value as text.
+    /// Value as text.
     pub value: String,
 }
 
-/// A rule and its place.
+/// Rule and its location.
 #[derive(Debug, Clone, Serialize)]
 pub struct RulePlace {
-    /// Its pattern.
+    /// Pattern of the rule.
     pub text: String,
-    /// The file that has it; none if it is the engine's own.
+    /// File of the rule; empty for built-in rules of the engine.
     pub file: String,
-    /// Its line.
+    /// Line of the rule.
     pub line: usize,
 }
 
-/// A module on the way from the axiom to another.
+/// Module on the path from the axiom to another module.
 #[derive(Debug, Clone, Serialize)]
 pub struct StepMessage {
-    /// The derivation step that made it; 0 for the axiom.
+    /// Derivation step that made the module; 0 for the axiom.
     pub step: usize,
-    /// The module.
+    /// Module as text.
     pub module: String,
-    /// The rule that made it; none for the axiom.
+    /// Rule that made the module; `None` for the axiom.
     pub rule: Option<String>,
-    /// The file of the rule or the axiom.
+    /// File of the rule or the axiom.
     pub file: String,
-    /// Its line.
+    /// Line of the rule or the axiom.
     pub line: usize,
-    /// Its number among the modules of the same application, from 0.
+    /// Index among the modules of the same rule application, from 0.
     pub ordinal: usize,
-    /// The query or the fragmentation whose place it took, with values and the number of rows; none where a rule made it.
+    /// Query or fragmentation that the module replaced, with values and the number of rows; `None` if a rule made the
+    /// module.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub answer: Option<String>,
-    /// What its rules asked of data as it was made, with values and the number of rows.
+    /// Queries that its rules ran when the module was made, with values and the number of rows.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub asked: Vec<String>,
 }
 
-/// A piece of a chain as text.
+/// Part of a chain as text.
 #[derive(Debug, Clone, Serialize)]
 pub struct AroundMessage {
-    /// What is before.
+    /// Text before the module.
     pub before: String,
-    /// The module in the middle.
+    /// Module in the centre.
     pub at: String,
-    /// What is after.
+    /// Text after the module.
     pub after: String,
 }
 
-/// What a line of a script has made.
+/// Result of a line of a script.
 #[derive(Debug, Clone, Serialize)]
 pub struct HighlightMessage {
-    /// The question's id.
+    /// Id of the query.
     pub id: u64,
-    /// The file as it was asked about.
+    /// File as given in the query.
     pub file: String,
-    /// The line as it was asked about.
+    /// Line as given in the query.
     pub line: usize,
-    /// The rules at the line.
+    /// Rules at the line.
     pub what: String,
-    /// The number of modules that came of them.
+    /// Number of modules that descend from applications of these rules.
     pub modules: usize,
-    /// What these have drawn.
+    /// Triangles that these modules have drawn.
     pub ranges: Vec<Range>,
 }
 
-/// Triangles of a primitive of the document.
+/// Range of triangles of a primitive of the document.
 #[derive(Debug, Clone, Serialize)]
 pub struct Range {
-    /// The mesh.
+    /// Index of the mesh.
     pub mesh: usize,
-    /// The primitive of the mesh.
+    /// Index of the primitive in the mesh.
     pub primitive: usize,
-    /// The first triangle.
+    /// First triangle.
     pub from: usize,
-    /// How many.
+    /// Number of triangles.
     pub count: usize,
-    /// The node, if only that one is meant.
+    /// Node, if the range is limited to one node.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub node: Option<usize>,
-    /// The instances of the node, if only these are meant.
+    /// Instances of the node, if the range is limited to these.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub instances: Option<Vec<usize>>,
 }

@@ -1,7 +1,7 @@
 //! The extruder: sweeps a cross-section along segments, straight or curved.
 //!
-//! Comes in: the calls of scripts. Goes out: closed meshes, or the edges where they are open. It never changes what it
-//! has drawn.
+//! Input: the calls of scripts. Output: closed meshes, or meshes with a count of their open edges. Meshes already drawn
+//! never change.
 
 mod object;
 mod state;

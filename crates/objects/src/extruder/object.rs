@@ -1,4 +1,4 @@
-//! The object: what scripts see of an extruder.
+//! The extruder object of scripts.
 
 use std::sync::Arc;
 
@@ -12,50 +12,50 @@ use burgeon_kit::{AxisScale, Color, Drawing, Model, Path, Vector, Warn, fields, 
 use glam::{DAffine3, DVec2, DVec3};
 use smallvec::{SmallVec, smallvec};
 
-/// What `extruder { ... }` takes.
+/// Fields of `extruder { ... }`.
 #[fields("extruder")]
 pub struct ExtruderOptions {
     /// Number of sides of the cross-section, a regular polygon with radius 1.
     #[default(16)]
     pub sides: u32,
-    /// Points of the cross-section, as { { x, y }, ... }, in place of `sides`.
+    /// Points of the cross-section, as { { x, y }, ... }, instead of `sides`.
     pub shape: Vec<Vector>,
-    /// Whether surfaces are shaded as round; corners of the cross-section above 40 degrees stay edges.
+    /// Smooth shading. Corners of the cross-section above 40 degrees stay sharp.
     #[default(true)]
     pub smooth: bool,
-    /// Number of pieces of a segment; with 0, a piece for every 10 degrees that it bends or twists.
+    /// Number of divisions of a segment. With 0, one division for every 10 degrees of bend or twist.
     #[default(0)]
     pub along: u32,
-    /// Number of points around the cross-section; with 0, those that its shape has.
+    /// Number of points around the cross-section. With 0, the points of its shape.
     #[default(0)]
     pub around: u32,
-    /// Whether ends are closed.
+    /// Close the ends.
     #[default(true)]
     pub caps: bool,
-    /// Colour of what is drawn.
+    /// Colour of the surfaces.
     #[default(Color([0.62, 0.58, 0.52, 1.0]))]
     pub color: Color,
-    /// 0 like a mirror, 1 like chalk.
+    /// Roughness: 0 like a mirror, 1 like chalk.
     #[default(0.7)]
     pub roughness: f64,
-    /// 0 for wood, stone and plaster, 1 for bare metal.
+    /// Metalness: 0 for wood, stone and plaster, 1 for bare metal.
     #[default(0.0)]
     pub metallic: f64,
-    /// Where it begins (m).
+    /// Start position (m).
     #[default(Vector(DVec3::ZERO))]
     pub position: Vector,
-    /// The direction of extruding at first.
+    /// Initial direction of extrusion.
     #[default(Vector(DVec3::Z))]
     pub heading: Vector,
 }
 
-/// Corners of a cross-section that turn by more than this (degrees) are edges also on smooth surfaces.
+/// Angle (degrees) of a cross-section's corner above which the corner is sharp on smooth surfaces too.
 const CREASE: f64 = 40.0;
 
 /// Sweeps a cross-section along segments, straight or curved, as in the ML-System paper.
 ///
-/// Each segment has its own length, curvature, twist and scale. Segments that continue one another exactly make one solid; a jump in place, direction, scale or section
-/// closes it and begins another.
+/// Each segment has its own length, curvature, twist and scale. Segments that continue each other exactly form one
+/// solid. A jump in position, direction, scale or section closes the solid and begins another.
 #[object(
     "extruder",
     options = ExtruderOptions,
@@ -73,14 +73,14 @@ pub struct Extruder {
     first_section: Arc<Section>,
     state: ExtruderState,
     stack: Vec<ExtruderState>,
-    /// The cross-sections that were set last, since the same ones are set again and again.
+    /// Recently set cross-sections, because scripts often set the same ones again.
     known: Vec<(SectionShape, Arc<Section>)>,
     pub(super) drawing: Drawing,
     open_edges: usize,
     warnings: Vec<Warning>,
 }
 
-/// A cross-section that a few numbers describe.
+/// A cross-section defined by a few numbers.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum SectionShape {
     Regular(u32),
@@ -88,7 +88,7 @@ enum SectionShape {
     Rectangle(f64, f64),
 }
 
-/// How many cross-sections are kept.
+/// Number of cross-sections that are kept.
 const KNOWN: usize = 16;
 
 #[methods("extruder")]
@@ -98,15 +98,16 @@ impl Extruder {
         self.set(SectionShape::Regular(sides))
     }
 
-    /// Sets the cross-section to a star with `points` outside at radius 1 and as many inside at `inner`.
+    /// Sets the cross-section to a star with `points` outer corners at radius 1 and as many inner corners at radius
+    /// `inner`.
     pub fn star(&mut self, points: u32, inner: f64) -> Result<()> {
         self.set(SectionShape::Star(points, inner))
     }
 
-    /// Sets the cross-section to a rectangle around the middle, `width` (m) to the right and `height` (m) up.
+    /// Sets the cross-section to a centred rectangle, `width` (m) to the right and `height` (m) up.
     ///
-    /// Right and up are those of `shift`: x and y before the first turn, when the extruder looks along z. Once it looks sideways,
-    /// `direction(heading, above)` turns the height towards `above`.
+    /// Right and up are the directions of `shift`: x and y before the first turn, while the extruder faces along z. If
+    /// it faces sideways, `direction(heading, above)` turns the height towards `above`.
     pub fn rectangle(&mut self, width: f64, height: f64) -> Result<()> {
         self.set(SectionShape::Rectangle(width, height))
     }
@@ -120,7 +121,8 @@ impl Extruder {
         Ok(())
     }
 
-    /// Turns the extruding direction to `direction`, by the shortest way or so that the cross-section's up looks to `above`.
+    /// Turns the direction of extrusion to `direction`, by the shortest rotation, or so that the cross-section's up
+    /// direction points to `above`.
     pub fn direction(&mut self, direction: Vector, above: Option<Vector>) -> Result<()> {
         if direction.0.length_squared() < 1e-24 {
             return Err(Error::argument("extruder:direction: direction has no length")
@@ -137,7 +139,8 @@ impl Extruder {
         Ok(())
     }
 
-    /// Sets the number of pieces along each segment and of points around the cross-section; 0 leaves the choice.
+    /// Sets the number of divisions along each segment and of points around the cross-section; 0 selects them
+    /// automatically.
     pub fn resolution(&mut self, along: u32, around: u32) -> Result<()> {
         check_resolution(along, around)?;
         self.state.along = along;
@@ -145,26 +148,26 @@ impl Extruder {
         Ok(())
     }
 
-    /// Sets the scale of the cross-section at once: to the right `scale`, and up `y` (`scale` unless given).
+    /// Sets the scale of the cross-section immediately: to the right `scale`, and up `y` (`scale` unless given).
     pub fn scale(&mut self, scale: f64, y: Option<f64>) {
         self.state.scale = DVec2::new(scale, y.unwrap_or(scale));
         self.state.taper = self.state.scale;
     }
 
-    /// Sets the scale that the next segment ends with, to the right `scale`, and up `y` (`scale` unless given); it changes
-    /// evenly along the segment.
+    /// Sets the scale at the end of the next segment: to the right `scale`, and up `y` (`scale` unless given). The
+    /// scale changes linearly along the segment.
     pub fn taper(&mut self, scale: f64, y: Option<f64>) {
         self.state.taper = DVec2::new(scale, y.unwrap_or(scale));
     }
 
-    /// Bends the following segments by `angle` (degrees) each, to the side at `toward` (degrees, 0 unless
-    /// given), where 0 is left.
+    /// Bends each following segment by `angle` (degrees), towards the side at `toward` (degrees, 0 unless given), where
+    /// 0 is left.
     pub fn bend(&mut self, angle: f64, toward: Option<f64>) {
         self.state.bend = angle.to_radians();
         self.state.toward = toward.unwrap_or(0.0).to_radians();
     }
 
-    /// Twists the following segments by `angle` (degrees) each.
+    /// Twists each following segment by `angle` (degrees).
     pub fn twist(&mut self, angle: f64) {
         self.state.twist = angle.to_radians();
     }
@@ -174,7 +177,7 @@ impl Extruder {
         self.state.caps = [start, end.unwrap_or(start)];
     }
 
-    /// Sets whether surfaces are shaded as round.
+    /// Sets smooth or flat shading.
     pub fn smooth(&mut self, smooth: bool) {
         self.state.smooth = smooth;
     }
@@ -184,18 +187,18 @@ impl Extruder {
         self.segment(length)
     }
 
-    /// Goes on by `length` (m) without drawing.
+    /// Moves forward by `length` (m) without drawing.
     pub fn advance(&mut self, length: f64) {
         self.state.frame.forward(length);
     }
 
-    /// Goes sideways across the extruding direction: to the right by `right` (m), and up by `up` (m).
+    /// Moves across the direction of extrusion: to the right by `right` (m), and up by `up` (m).
     pub fn shift(&mut self, right: f64, up: f64) {
         let frame = &mut self.state.frame;
         frame.position += frame.left * -right - frame.up * up;
     }
 
-    /// Goes to a place (m) without drawing.
+    /// Moves to a position (m) without drawing.
     pub fn jump(&mut self, position: Vector) {
         self.state.frame.position = position.0 - self.drawing.origin();
     }
@@ -215,60 +218,61 @@ impl Extruder {
         self.state.frame.roll(angle.to_radians());
     }
 
-    /// Sets the colour of what is drawn.
+    /// Sets the colour of the surfaces.
     pub fn color(&mut self, color: Color) {
         Arc::make_mut(&mut self.state.material).base_color = color.0;
     }
 
-    /// Sets the whole material of what is drawn.
+    /// Sets the whole material of the surfaces.
     pub fn material(&mut self, material: MaterialOptions) -> Result<()> {
         self.state.material = Arc::new(material.material()?);
         Ok(())
     }
 
-    /// Draws `faces` in the extruder's frame, each the numbers of its corners among `points` (m), such as { 1, 2, 3 }.
+    /// Draws `faces` in the extruder's frame, each a list of the numbers of its corners among `points` (m), such as {
+    /// 1, 2, 3 }.
     ///
-    /// Where there are many, buffers hold them: points of three 32-bit numbers, and triangles of three 32-bit whole numbers,
-    /// which count points from 0. `options` shade and colour them.
+    /// For many faces, pass buffers: points of three 32-bit floats, and triangles of three 32-bit integers, which
+    /// number the points from 0. `options` sets shading and colours.
     pub fn mesh(&mut self, points: MeshPoints, faces: MeshFaces, options: Option<MeshOptions>) -> Result<()> {
         let to = ("extruder", &mut self.drawing, &*self.state.material);
         draw_mesh(to, &self.state.frame, &points, &faces, &options.unwrap_or_default())
     }
 
-    /// Places what another system has drawn at the extruder's frame, with this `scale` (1 unless given), which may be a vector
+    /// Places another system's model at the extruder's frame, with this `scale` (1 unless given), which may be a vector
     /// with a scale for each axis of the model.
     pub fn place(&mut self, model: Arc<Model>, scale: Option<AxisScale>) {
         let scale = DAffine3::from_scale(scale.unwrap_or_default().0);
         self.drawing.place(&model, self.state.frame.transform() * scale);
     }
 
-    /// Its place (m).
+    /// Returns the position (m).
     pub fn position(&self) -> DVec3 {
         self.drawing.origin() + self.state.frame.position
     }
 
-    /// The direction of extruding.
+    /// Returns the direction of extrusion.
     pub fn heading(&self) -> DVec3 {
         self.state.frame.heading
     }
 
-    /// Distance (m) from a place to the nearest point of what it has drawn.
+    /// Returns the distance (m) from a position to the nearest point of the drawn model.
     pub fn distance(&self, place: Vector) -> f64 {
         self.drawing.distance(place.0 - self.drawing.origin())
     }
 
-    /// The number of edges left open by missing caps and open sections.
+    /// Returns the number of edges left open by missing caps and open sections.
     pub fn open_edges(&self) -> u32 {
         u32::try_from(self.open_edges).unwrap_or(u32::MAX)
     }
 }
 
-/// Rings of points, of which a section has x and y.
+/// Converts rings of points to rings in the plane of a section, by their x and y.
 fn flat(rings: impl IntoIterator<Item = Vec<DVec3>>) -> Rings<DVec2> {
     rings.into_iter().map(|ring| ring.iter().map(|point| point.truncate()).collect()).collect()
 }
 
-/// The section with its corners marked for shading.
+/// Returns the section with its corners marked as smooth or sharp.
 fn shaded(section: Section, smooth: bool) -> Section {
     if smooth { section.creased(CREASE.to_radians()) } else { section.marked(false) }
 }
@@ -283,7 +287,7 @@ fn check_resolution(along: u32, around: u32) -> Result<()> {
 }
 
 impl Extruder {
-    /// An extruder at its beginning.
+    /// Creates an extruder in its initial state.
     pub fn new(options: ExtruderOptions) -> Result<Self> {
         check_resolution(options.along, options.around)?;
         if options.heading.0.length_squared() < 1e-24 {
@@ -409,7 +413,7 @@ impl Extruder {
             ..SweepOptions::default()
         };
         let part = self.drawing.material(&run.material);
-        // What the present module drew before is settled first.
+        // Triangles drawn earlier by the current module are assigned to it first.
         self.drawing.draw_for(self.drawing.maker(), part, |_| ());
         let swept = sweep(self.drawing.part(part), &run.section, &run.stations, &options)?;
         for (station, count) in &swept.reached {

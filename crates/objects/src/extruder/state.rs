@@ -1,4 +1,4 @@
-//! What an extruder is about to draw with, and the solid that it is at.
+//! The state with which an extruder draws, and its current solid.
 
 use std::sync::Arc;
 
@@ -10,7 +10,7 @@ use crate::surface::plain_material;
 use burgeon_geometry::{Frame, Section, Station};
 use burgeon_scene::Material;
 
-/// The frame, the cross-section and the look of what is drawn next.
+/// The frame, the cross-section and the material of the next segment.
 #[derive(Clone)]
 pub(super) struct ExtruderState {
     pub(super) frame: Frame,
@@ -28,11 +28,11 @@ pub(super) struct ExtruderState {
     pub(super) run: Option<SolidRun>,
 }
 
-/// Segments that make one solid.
+/// Segments that form one solid.
 #[derive(Clone)]
 pub(super) struct SolidRun {
     pub(super) stations: SmallVec<[Station; 2]>,
-    /// The modules that led to each station.
+    /// Module that drew up to each station.
     pub(super) makers: SmallVec<[u32; 2]>,
     pub(super) section: Arc<Section>,
     pub(super) end: Frame,

@@ -1,4 +1,4 @@
-//! Tests of extruders: solids with the volumes of their formulas.
+//! Tests of extruders: solids have the volumes of their formulas.
 
 use super::object::ExtruderOptions;
 use super::*;
@@ -8,7 +8,7 @@ use burgeon_kit::Object;
 use burgeon_kit::Vector;
 use glam::DVec3;
 
-/// Draws with an extruder; gives its volume (m³) after having checked that it is a closed solid.
+/// Draws with an extruder, checks that the result is a closed solid, and returns its volume (m³).
 fn volume(options: ExtruderOptions, draw: impl FnOnce(&mut Extruder) -> Result<()>) -> f64 {
     let mut extruder = Extruder::new(options).expect("the options are valid");
     extruder.begin();
@@ -19,7 +19,7 @@ fn volume(options: ExtruderOptions, draw: impl FnOnce(&mut Extruder) -> Result<(
     solid::volume(extruder.drawing.parts())
 }
 
-/// The area of a regular polygon with radius 1.
+/// Returns the area of a regular polygon with radius 1.
 fn regular(sides: f64) -> f64 {
     sides / 2.0 * (std::f64::consts::TAU / sides).sin()
 }
@@ -72,7 +72,7 @@ fn a_hole_is_taken_from_the_volume() {
 
 #[test]
 fn a_bent_segment_follows_pappus() {
-    // A quarter of a torus: the area times the length of the centre line, less what the chords cut off.
+    // The solid is a quarter of a torus: the area times the length of the centreline, minus the loss due to chords.
     let bent = volume(ExtruderOptions { sides: 24, along: 200, ..ExtruderOptions::default() }, |it| {
         it.bend(90.0, None);
         it.extrude(6.0)

@@ -9,28 +9,28 @@ use burgeon_base::error::{Error, Result};
 use burgeon_geometry::{Share, Split};
 use burgeon_kit::{Kind, fields};
 
-/// What `bordered { ... }` takes.
+/// Fields of `bordered { ... }`.
 #[fields("bordered")]
 pub struct BorderedOptions {
-    /// The wall in the middle.
+    /// Wall in the middle.
     pub wall: Option<Wall>,
-    /// The left margin: a size (m), or { size, "min" | "max" | "fixed" }; a size alone is the least.
+    /// Left margin: a size (m), or { size, "min" | "max" | "fixed" }. A size alone is the minimum.
     pub left: Margin,
-    /// The right margin (m), in the same way.
+    /// Right margin (m), in the same form.
     pub right: Margin,
-    /// The margin below (m), in the same way.
+    /// Bottom margin (m), in the same form.
     pub bottom: Margin,
-    /// The margin above (m), in the same way.
+    /// Top margin (m), in the same form.
     pub top: Margin,
-    /// Width (m): preferred, { least, greatest } or { least, preferred, greatest }.
+    /// Width (m): preferred, { minimum, maximum } or { minimum, preferred, maximum }.
     pub width: Option<Size>,
-    /// Height (m), in the same way.
+    /// Height (m), in the same form.
     pub height: Option<Size>,
-    /// Material of the margins; the template's if left out.
+    /// Material of the margins. If omitted, the template's.
     pub material: Option<MaterialOptions>,
 }
 
-/// The type, as scripts see it.
+/// Returns the script type of bordered walls.
 pub fn kind() -> &'static Arc<Kind> {
     static KIND: LazyLock<Arc<Kind>> = LazyLock::new(|| {
         let kind = Kind::new("bordered", "A wall between four margins.")
@@ -59,7 +59,8 @@ fn split(before: Margin, wall: &Wall, side: usize, after: Margin) -> Result<Spli
     let margin = |margin: Margin| Share {
         sizes: margin.sizes(),
         target: Some(margin.size),
-        // What may be smaller gives way first, what may be larger takes what a preferred size leaves.
+        // A margin that may be smaller gives way first; a margin that may be larger takes the remainder of a preferred
+        // size.
         order: if margin.policy == Policy::Max { 0 } else { 1 },
     };
     let target = wall.0.targets[side];

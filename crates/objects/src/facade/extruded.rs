@@ -10,41 +10,41 @@ use burgeon_base::error::{Error, Result};
 use burgeon_base::text::number;
 use burgeon_kit::{Kind, Model, fields};
 
-/// What `extruded { ... }` takes.
+/// Fields of `extruded { ... }`.
 #[fields("extruded")]
 pub struct ExtrudedOptions {
-    /// The wall that is moved.
+    /// Wall to move.
     pub wall: Option<Wall>,
-    /// How far it stands out (m); less than 0 where it lies back.
+    /// Projection (m); negative for a recess.
     #[default(0.0)]
     pub depth: f64,
-    /// Whether there is a face on the left side.
+    /// Draw a face on the left side.
     #[default(true)]
     pub left: bool,
-    /// Whether there is a face on the right side.
+    /// Draw a face on the right side.
     #[default(true)]
     pub right: bool,
-    /// Whether there is a face below.
+    /// Draw a face at the bottom.
     #[default(true)]
     pub bottom: bool,
-    /// Whether there is a face above.
+    /// Draw a face at the top.
     #[default(true)]
     pub top: bool,
-    /// A model on the surface, not moved, such as a guardrail: x to the right, z up, y into the wall.
+    /// Model on the original surface, which is not moved, such as a guardrail: x to the right, z up, y into the wall.
     pub model: Option<Arc<Model>>,
-    /// Whether the model is stretched to the wall's width and height.
+    /// Stretch the model to the wall's width and height.
     pub stretch: bool,
-    /// Where the model sits: "bottom", "center" or "top".
+    /// Vertical position of the model: "bottom", "center" or "top".
     pub at: Anchor,
-    /// Width (m): preferred, { least, greatest } or { least, preferred, greatest }.
+    /// Width (m): preferred, { minimum, maximum } or { minimum, preferred, maximum }.
     pub width: Option<Size>,
-    /// Height (m), in the same way.
+    /// Height (m), in the same form.
     pub height: Option<Size>,
-    /// Material of the side faces; the template's if left out.
+    /// Material of the side faces. If omitted, the template's.
     pub material: Option<MaterialOptions>,
 }
 
-/// The type, as scripts see it.
+/// Returns the script type of extruded walls.
 pub fn kind() -> &'static Arc<Kind> {
     static KIND: LazyLock<Arc<Kind>> = LazyLock::new(|| {
         let kind = Kind::new("extruded", "A wall that stands out or lies back, with faces at its sides.")
@@ -55,7 +55,7 @@ pub fn kind() -> &'static Arc<Kind> {
     &KIND
 }
 
-/// How far a wall may be moved (m).
+/// Maximum distance (m) by which a wall may be moved.
 const FURTHEST: f64 = 100.0;
 
 fn make(options: &ExtrudedOptions) -> Result<Wall> {

@@ -1,4 +1,4 @@
-//! Models that walls carry: windows, doors, guardrails.
+//! Models on walls: windows, doors, guardrails.
 
 use std::sync::Arc;
 
@@ -7,39 +7,39 @@ use glam::DVec3;
 use burgeon_kit::{Expectation, Model, Parameter, Value};
 use burgeon_scene::SurfaceMeaning;
 
-/// A model and how it sits on a wall.
+/// A model and its alignment on a wall.
 ///
 /// Models are seen from the front: x to the right, z up, y into the wall, whose surface is at y = 0.
 #[derive(Clone)]
 pub struct Fixture {
-    /// The model.
+    /// Model to place.
     pub model: Arc<Model>,
-    /// Whether it is stretched to the wall's width and height.
+    /// Set if the model is stretched to the wall's width and height.
     pub stretch: bool,
-    /// Where it sits: 0 at the bottom of the wall, 1 at the top.
+    /// Vertical position: 0 at the bottom of the wall, 1 at the top.
     pub anchor: f64,
-    /// The lowest corner of the box around it (m).
+    /// Minimum corner of the bounding box (m).
     pub low: DVec3,
-    /// The highest corner of the box around it (m).
+    /// Maximum corner of the bounding box (m).
     pub high: DVec3,
-    /// What it is, if that was said.
+    /// Meaning of the model's surfaces, if specified.
     pub meaning: Option<SurfaceMeaning>,
 }
 
 impl Fixture {
-    /// A fixture of `model`.
+    /// Creates a fixture of `model`.
     pub fn new(model: Arc<Model>, stretch: bool, at: Anchor) -> Self {
         let (low, high) = (model.low(), model.high());
         Self { model, stretch, anchor: at.0, low, high, meaning: None }
     }
 
-    /// Its width and height (m).
+    /// Returns the width and height (m).
     pub fn extent(&self) -> [f64; 2] {
         [self.high.x - self.low.x, self.high.z - self.low.z]
     }
 }
 
-/// What a piece of wall is.
+/// The meaning of a panel: wall, window or door.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct PanelMeaning(pub SurfaceMeaning);
 
@@ -63,12 +63,12 @@ impl Parameter for PanelMeaning {
     }
 }
 
-/// Where a model sits on a wall: 0 at the bottom, 1 at the top.
+/// The vertical position of a model on a wall: 0 at the bottom, 1 at the top.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Anchor(pub f64);
 
 impl Default for Anchor {
-    /// In the middle.
+    /// Returns the anchor in the middle.
     fn default() -> Self {
         Self(0.5)
     }

@@ -8,22 +8,22 @@ use burgeon_base::error::{Error, Result};
 use burgeon_geometry::{SAME, Sizes};
 use burgeon_kit::{Kind, fields};
 
-/// What `grid { ... }` takes.
+/// Fields of `grid { ... }`.
 #[fields("grid")]
 pub struct GridOptions {
-    /// The wall that is repeated; all cells are equal.
+    /// Wall to repeat; all cells are equal.
     pub wall: Option<Wall>,
-    /// How many stand side by side: a number or { least, greatest }.
+    /// Number of columns: a number or { minimum, maximum }.
     pub columns: Count,
-    /// How many stand above each other.
+    /// Number of rows: a number or { minimum, maximum }.
     pub rows: Count,
-    /// Width (m): preferred, { least, greatest } or { least, preferred, greatest }.
+    /// Width (m): preferred, { minimum, maximum } or { minimum, preferred, maximum }.
     pub width: Option<Size>,
-    /// Height (m), in the same way.
+    /// Height (m), in the same form.
     pub height: Option<Size>,
 }
 
-/// The type, as scripts see it.
+/// Returns the script type of grids.
 pub fn kind() -> &'static Arc<Kind> {
     static KIND: LazyLock<Arc<Kind>> = LazyLock::new(|| {
         let kind = Kind::new(
@@ -47,7 +47,7 @@ fn make(options: &GridOptions) -> Result<Wall> {
     let sizes =
         |side: usize| wall.0.sizes[side].times(counts[side].clone()).map_err(|error| error.about("grid"));
     let sizes = [sizes(0)?, sizes(1)?];
-    // Only where the number is given, the cells' preferred size tells that of the whole.
+    // The cells' preferred size determines the size of the whole only if the number of cells is fixed.
     let target = |side: usize| {
         let count = &counts[side];
         wall.0.targets[side]
@@ -58,10 +58,11 @@ fn make(options: &GridOptions) -> Result<Wall> {
     Wall::new(WallRule::Grid { counts, wall }, sizes, targets, [options.width, options.height], None)
 }
 
-/// How many cells of `sizes` fill `whole` (m), each as near to `target` as can be; `None` if no number does.
+/// Returns the number of cells of `sizes` that fill `whole` (m) with a cell size nearest to `target`, or `None` if no
+/// number fits.
 ///
-/// Without a target, cells are halfway between their least and greatest size, or as small as can be if they have
-/// no greatest, or as few as can be if they have no least size either.
+/// Without a target, the target is halfway between the minimum and maximum size. If there is no maximum, it is the
+/// minimum; if there is no minimum either, the fewest cells are used.
 pub(super) fn count(
     whole: f64,
     counts: &std::ops::RangeInclusive<u32>,
@@ -74,7 +75,7 @@ pub(super) fn count(
         (true, false) => low,
         (false, false) => whole,
     });
-    // Beyond these bounds a cell is too small or too large.
+    // Outside these bounds, a cell is too small or too large.
     let ceiling = if low > SAME { whole / low + 1.0 } else { f64::INFINITY };
     let floor = if high.is_finite() { whole / high - 1.0 } else { 0.0 };
     let mut best: Option<(f64, u32)> = None;

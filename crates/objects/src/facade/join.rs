@@ -1,5 +1,5 @@
-//! Joins the faces of a frontage: those of one material that lie beside one another become one surface, and where
-//! faces meet they have the same corners.
+//! The union of a frontage's faces: adjacent faces of one material become one surface, and faces share corners where
+//! they meet.
 
 use std::cell;
 
@@ -9,34 +9,34 @@ use super::lay::FacadeFace;
 use burgeon_geometry::{Crossing, Union, UnionCell};
 use burgeon_scene::SurfaceMeaning;
 
-/// Coordinates (m) that differ by less are one.
+/// Distance (m) below which two coordinates are equal.
 const SAME: f64 = 1e-9;
 
 /// A corner of a face, by the numbers of its coordinates.
 type CornerNumbers = [u32; 3];
 
-/// A corner as a number: those of a line along some axis follow one another.
+/// A corner as a sort key: the corners of a line along one axis have consecutive keys.
 type CornerKey = u128;
 
-/// A face between such corners.
+/// A face between two numbered corners.
 #[derive(Clone, Copy)]
 struct CornerBounds {
-    /// The lowest left corner, and the one across.
+    /// Lower left corner and the opposite corner.
     ends: [CornerNumbers; 2],
-    /// The axes along which it goes to the right and upwards.
+    /// Axes of the face's right and up directions.
     axes: [usize; 2],
 }
 
-/// Surfaces with their corners (m) and triangles. It keeps its memory from one frontage to the next.
+/// The surfaces of a frontage, with corners (m) and triangles. Reuses its memory for the next frontage.
 #[derive(Default)]
 pub struct Joiner {
-    /// The coordinates (m) of all corners, along each axis and in order.
+    /// Coordinates (m) of all corners, sorted, for each axis.
     places: [Vec<f64>; 3],
     bounds: Vec<CornerBounds>,
-    /// The corners of all surfaces, as far as others may have to know them: in three orders, of which each has those of
-    /// a line along an axis in a row.
+    /// Corners of all surfaces that other surfaces may have to share, in three orders. In each order, the corners of a
+    /// line along one axis are contiguous.
     corners: [Vec<CornerKey>; 3],
-    /// Faces that others may join, with what they need to have in common and their numbers.
+    /// Faces that may be joined, with their group and their numbers.
     fronts: Vec<(SurfaceGroup, UnionCell, usize)>,
     union: Union,
     cells: Vec<UnionCell>,
@@ -44,43 +44,43 @@ pub struct Joiner {
     mesh: FaceMesh,
 }
 
-/// What faces of one surface have in common.
+/// The properties that the faces of one surface share.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 struct SurfaceGroup {
-    /// The number of the part of the drawing.
+    /// Number of the drawing's part.
     part: usize,
-    /// The number of how far it stands out.
+    /// Number of the depth coordinate.
     depth: u32,
     meaning: SurfaceMeaning,
 }
 
-/// Some faces as one.
+/// A mesh of one or several faces.
 #[derive(Debug, Default)]
 pub struct FaceMesh {
-    /// Its corners (m).
+    /// Corners (m).
     pub corners: Vec<DVec3>,
-    /// Counter-clockwise from outside, by the numbers of corners.
+    /// Triangles by corner number, counter-clockwise from outside.
     pub triangles: Vec<[u32; 3]>,
 }
 
 thread_local! {
-    /// The last one of the thread, whose memory the next one uses again: a city has a hundred thousand frontages.
+    /// Last joiner of the thread, whose memory is reused: a city has a hundred thousand frontages.
     static SPARE: cell::Cell<Option<Box<Joiner>>> = const { cell::Cell::new(None) };
 }
 
 impl Joiner {
-    /// One that has the memory of an earlier one, if there is any.
+    /// Returns the spare joiner of this thread, or a new one.
     pub fn spare() -> Box<Self> {
         SPARE.take().unwrap_or_default()
     }
 
-    /// Leaves its memory to the next one.
+    /// Keeps this joiner as the spare of this thread.
     pub fn retire(self: Box<Self>) {
         SPARE.set(Some(self));
     }
 
-    /// Joins `faces`, each of which belongs to one of `parts`. Gives each surface to `draw` with the number of a face
-    /// that it is like.
+    /// Joins `faces`, each of which belongs to one of `parts`. Calls `draw` with each surface and the number of a
+    /// representative face.
     pub fn join(
         &mut self,
         faces: &[FacadeFace<'_>],
@@ -103,12 +103,12 @@ impl Joiner {
         }
     }
 
-    /// Finds the faces that others may join, and the corners of all surfaces.
+    /// Collects the faces that may be joined, and the corners of all surfaces.
     fn gather(&mut self, faces: &[FacadeFace<'_>], parts: &[usize]) {
         self.fronts.clear();
         self.corners.iter_mut().for_each(Vec::clear);
         let [all, ..] = &mut self.corners;
-        // Whether a single face may have corners of others between its own.
+        // Set if a single face may have corners of other faces on its edges.
         let mut is_wide = false;
         for (number, (face, bounds)) in faces.iter().zip(&self.bounds).enumerate() {
             match bounds.as_front().filter(|_| !face.stretched) {
@@ -166,7 +166,7 @@ impl Joiner {
         }));
     }
 
-    /// Draws the surfaces of faces that others may join.
+    /// Draws the surfaces of faces that may be joined.
     fn draw_fronts(&mut self, draw: &mut impl FnMut(usize, &FaceMesh)) {
         let Self { places, corners: [corners, ..], fronts, union, cells, others, mesh, .. } = self;
         for group in fronts.chunk_by(|a, b| a.0 == b.0) {
@@ -183,7 +183,7 @@ impl Joiner {
         }
     }
 
-    /// Makes a surface of a single face.
+    /// Builds the surface of a single face.
     fn draw_face(&mut self, bounds: &CornerBounds) {
         let Self { places, corners, union, others, mesh, .. } = self;
         let ring = bounds.corners();
@@ -226,12 +226,12 @@ impl CornerBounds {
         self.axes.iter().any(|axis| low[*axis] == high[*axis])
     }
 
-    /// Whether there is a coordinate between its ends along `axis`.
+    /// Reports whether a coordinate lies between the ends along `axis`.
     fn is_wide(&self, axis: usize) -> bool {
         self.ends[0][axis].abs_diff(self.ends[1][axis]) > 1
     }
 
-    /// The four corners, counter-clockwise from outside.
+    /// Returns the four corners, counter-clockwise from outside.
     fn corners(&self) -> [CornerNumbers; 4] {
         let [low, high] = self.ends;
         let [right, up] = self.axes;
@@ -241,7 +241,7 @@ impl CornerBounds {
         corners
     }
 
-    /// Where it is among the lines, if it looks out of the building.
+    /// Returns the cell of the face in the grid of coordinates, if the face is a front that faces out of the building.
     fn as_front(&self) -> Option<UnionCell> {
         let [low, high] = self.ends;
         let is_front = self.axes == [0, 1] && low[0] < high[0] && low[1] < high[1];
@@ -250,20 +250,20 @@ impl CornerBounds {
 }
 
 impl FaceMesh {
-    /// That of a face by itself.
+    /// Creates the mesh of a single face.
     pub fn of(face: &FacadeFace<'_>) -> Self {
         let mut mesh = Self::default();
         mesh.cover(face);
         mesh
     }
 
-    /// Becomes that of a face by itself.
+    /// Replaces the mesh with the mesh of a single face.
     fn cover(&mut self, face: &FacadeFace<'_>) {
         let FacadeFace { at, right, up, .. } = *face;
         self.set([at, at + right, at + right + up, at + up]);
     }
 
-    /// Becomes that of a face with these corners (m).
+    /// Replaces the mesh with the mesh of a face with these corners (m).
     fn set(&mut self, corners: [DVec3; 4]) {
         self.corners.clear();
         self.corners.extend(corners);
@@ -271,7 +271,7 @@ impl FaceMesh {
         self.triangles.extend([[0, 1, 2], [0, 2, 3]]);
     }
 
-    /// Takes over what `union` has found. It is seen from behind if it is `mirrored`.
+    /// Replaces the mesh with the result of `union`. Reverses the triangles if the face is `mirrored`.
     fn take(&mut self, union: &Union, mirrored: bool, place: impl Fn(Crossing) -> DVec3) {
         self.corners.clear();
         self.corners.extend(union.vertices.iter().map(|crossing| place(*crossing)));
@@ -281,7 +281,7 @@ impl FaceMesh {
     }
 }
 
-/// The number of a coordinate (m) among `places`, or that which it would have.
+/// Returns the index of a coordinate (m) among `places`, or its insertion index.
 fn number(places: &[f64], place: f64) -> usize {
     places.partition_point(|known| *known < place - SAME)
 }
@@ -290,7 +290,7 @@ fn place(places: &[Vec<f64>; 3], corner: CornerNumbers) -> DVec3 {
     DVec3::from(std::array::from_fn(|axis| places[axis][corner[axis] as usize]))
 }
 
-/// The key of a corner by which those of a line along `axis` are in a row.
+/// Returns the key of a corner in the order in which corners of a line along `axis` are contiguous.
 fn key([x, y, z]: CornerNumbers, axis: usize) -> CornerKey {
     let in_order = match axis {
         0 => [z, y, x],
@@ -300,7 +300,7 @@ fn key([x, y, z]: CornerNumbers, axis: usize) -> CornerKey {
     in_order.into_iter().fold(0, |key, number| key << 32 | CornerKey::from(number))
 }
 
-/// The corner that has this key.
+/// Returns the corner of a key.
 fn corner(key: CornerKey, axis: usize) -> CornerNumbers {
     let [a, b, c] = [64, 32, 0].map(|bits| (key >> bits) as u32);
     match axis {

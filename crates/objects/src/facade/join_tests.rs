@@ -1,4 +1,5 @@
-//! Tests of joined faces: surfaces are few, close the frontage but for its border, and cover what the faces covered.
+//! Tests of joined faces: surfaces are few, close the frontage except for its border, and cover the same area as the
+//! faces.
 
 use glam::{DVec2, DVec3};
 use proptest::prelude::*;
@@ -9,7 +10,7 @@ use burgeon_geometry::solid;
 use burgeon_kit::Value;
 use burgeon_scene::{Material, Part};
 
-/// The materials that walls are made of; the first one is that of the template.
+/// Materials of walls; the first is the template's.
 const COLORS: [&str; 3] = ["", "#aa4444", "#4444aa"];
 
 fn made_of(color: usize) -> Option<(&'static str, Value)> {
@@ -21,7 +22,7 @@ fn number(number: f64) -> Value {
     Value::Number(number)
 }
 
-/// The surfaces of `wall` over a frontage of this size (m): one part for each material.
+/// Returns the surfaces of `wall` over a frontage of this size (m), with one part for each material.
 fn joined(wall: &Wall, size: DVec2) -> (Vec<Part>, Vec<(Material, f64)>) {
     let mut laid = FacadeLayout::default();
     assert!(laid.lay(wall, Rectangle { at: DVec2::ZERO, size }, 0.0), "{size}");
@@ -55,7 +56,7 @@ fn joined(wall: &Wall, size: DVec2) -> (Vec<Part>, Vec<(Material, f64)>) {
     (parts, materials)
 }
 
-/// A row of `count` windows of 1 m by 1.5 m that lie back, in bays of 2 m by 3 m.
+/// Returns a row of `count` recessed windows of 1 m by 1.5 m, in bays of 2 m by 3 m.
 fn windows(count: u32) -> (Wall, DVec2) {
     let glass = panel(&[1.0, 1.0], &[1.5, 1.5]);
     let niche = make(extruded::kind(), &[("wall", glass), ("depth", number(-0.2))]).expect("a niche");
@@ -71,7 +72,7 @@ fn a_wall_of_windows_is_one_surface_with_few_corners_and_triangles() {
         let (wall, size) = windows(count);
         let (parts, _) = joined(&wall, size);
         let [part] = parts.as_slice() else { panic!("one material") };
-        // The wall; then four sides and the glass of each window.
+        // The counts are the wall, and four sides and the glass of each window.
         let (triangles, corners) = (6 * count + 2 + count * 10, 4 * count + 4 + count * 20);
         assert_eq!((part.triangles.len(), part.positions.len()), (triangles as usize, corners as usize));
         let front = part.positions.iter().filter(|at| at.z == 0.0 && [0.0, 3.0].contains(&at.y));

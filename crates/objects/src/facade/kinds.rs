@@ -1,11 +1,11 @@
-//! The kinds of objects that make walls.
+//! The object types of walls.
 
 use std::sync::Arc;
 
 use super::{bordered, extruded, grid, list, panel};
 use burgeon_kit::Kind;
 
-/// The types of walls.
+/// Returns the types of walls.
 pub(crate) fn kinds() -> [&'static Arc<Kind>; 5] {
     [panel::kind(), bordered::kind(), extruded::kind(), list::kind(), grid::kind()]
 }

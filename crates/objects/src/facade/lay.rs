@@ -1,4 +1,4 @@
-//! Lays a wall out over a frontage: which faces and models it takes, and where.
+//! The layout of a wall over a frontage: its faces and models, and their positions.
 
 use glam::{DVec2, DVec3};
 
@@ -7,10 +7,10 @@ use super::grid::count;
 use super::wall::{Wall, WallRule};
 use burgeon_scene::{Material, SurfaceMeaning};
 
-/// A part of a frontage: its lowest left corner and its size (m).
+/// A part of a frontage: its lower left corner and its size (m).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Rectangle {
-    /// From the frontage's lowest left corner.
+    /// Position relative to the frontage's lower left corner.
     pub at: DVec2,
     /// Width and height.
     pub size: DVec2,
@@ -19,41 +19,41 @@ pub struct Rectangle {
 /// A rectangle in the frontage's coordinates (m): x to the right, y upwards, z out of the building.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FacadeFace<'a> {
-    /// Its lowest left corner.
+    /// Lower left corner.
     pub at: DVec3,
-    /// Its lower side, from that corner.
+    /// Vector along the lower side, from that corner.
     pub right: DVec3,
-    /// Its left side, from that corner.
+    /// Vector along the left side, from that corner.
     pub up: DVec3,
-    /// What it is made of; the template's material if `None`.
+    /// Material of the face; the template's if `None`.
     pub material: Option<&'a Material>,
-    /// Whether the material's image covers it once.
+    /// Set if the material's image covers the face once.
     pub stretched: bool,
-    /// What it is.
+    /// Meaning of the surface.
     pub meaning: SurfaceMeaning,
 }
 
 impl<'a> FacadeFace<'a> {
-    /// A piece of wall of the template's material.
+    /// Creates a face of a wall with the template's material.
     pub fn new(at: DVec3, right: DVec3, up: DVec3) -> Self {
         Self { at, right, up, material: None, stretched: false, meaning: SurfaceMeaning::Wall }
     }
 
-    /// The same of another material, and as something else.
+    /// Returns this face with another material and meaning.
     #[must_use]
     pub fn of(self, material: Option<&'a Material>, stretched: bool, meaning: SurfaceMeaning) -> Self {
         Self { material, stretched, meaning, ..self }
     }
 }
 
-/// What a wall is laid out into. Faces of no area are left out.
+/// The layout of a wall. Faces without area are omitted.
 #[derive(Default)]
 pub struct FacadeLayout<'a> {
-    /// The faces.
+    /// Faces of the wall.
     pub faces: Vec<FacadeFace<'a>>,
-    /// Models with the lowest left corner of what they sit on (m) and its size.
+    /// Models, each with the lower left corner (m) and the size of the part of the wall that it is on.
     pub(super) fixtures: Vec<(&'a Fixture, DVec3, DVec2)>,
-    /// Whether the wall was given up, as it has more than [`MOST`] faces or models.
+    /// Set if the layout was abandoned because it has more than [`MOST`] faces or models.
     pub too_many: bool,
 }
 
@@ -63,22 +63,22 @@ impl std::fmt::Debug for FacadeLayout<'_> {
     }
 }
 
-/// The most faces or models that a frontage may have.
+/// Maximum number of faces or models of a frontage.
 pub const MOST: usize = 2_000_000;
 
-/// Sides shorter than this (m) are none.
+/// Minimum side length (m) of a face.
 const NONE: f64 = 1e-6;
 
 impl<'a> FacadeLayout<'a> {
-    /// Forgets everything but keeps the memory.
+    /// Clears the layout but keeps its memory.
     pub fn clear(&mut self) {
         self.faces.clear();
         self.fixtures.clear();
         self.too_many = false;
     }
 
-    /// Lays `wall` out over `over`, `depth` (m) in front of the frontage; false if it does not fit or has too many
-    /// faces.
+    /// Lays out `wall` over `over`, `depth` (m) in front of the frontage. Returns false if the wall does not fit or has
+    /// too many faces.
     pub fn lay(&mut self, wall: &'a Wall, over: Rectangle, depth: f64) -> bool {
         let inner = &*wall.0;
         let material = inner.material.as_ref();
@@ -116,7 +116,7 @@ impl<'a> FacadeLayout<'a> {
                 let out = DVec3::new(0.0, 0.0, *by);
                 let (right, up) = (DVec3::new(size.x, 0.0, 0.0), DVec3::new(0.0, size.y, 0.0));
                 let corner = at.extend(depth);
-                // Each seen from outside, or from within where the wall lies back.
+                // Side faces are seen from outside, or from inside if the wall is recessed.
                 let faces = [
                     (corner, out, up),
                     (corner + right + out, -out, up),
@@ -153,7 +153,7 @@ impl<'a> FacadeLayout<'a> {
         }
     }
 
-    /// Lays one cell out and repeats it.
+    /// Lays out one cell and repeats it.
     fn grid(&mut self, wall: &'a Wall, over: Rectangle, [columns, rows]: [u32; 2], depth: f64) -> bool {
         let cell = over.size / DVec2::new(f64::from(columns), f64::from(rows));
         let (first_face, first_fixture) = (self.faces.len(), self.fixtures.len());
@@ -180,7 +180,7 @@ impl<'a> FacadeLayout<'a> {
         true
     }
 
-    /// A face that looks out of the building.
+    /// Returns a face that faces out of the building.
     fn front(&self, over: Rectangle, depth: f64) -> FacadeFace<'a> {
         let (right, up) = (DVec3::new(over.size.x, 0.0, 0.0), DVec3::new(0.0, over.size.y, 0.0));
         FacadeFace::new(over.at.extend(depth), right, up)
@@ -198,7 +198,7 @@ impl<'a> FacadeLayout<'a> {
         }
     }
 
-    /// The models, each with where its origin is in the frontage (m) and how it is scaled along x, y and z.
+    /// Returns the models, each with its origin in the frontage (m) and its scale along x, y and z.
     pub fn models(&self) -> impl Iterator<Item = (&'a Fixture, DVec3, DVec3)> + '_ {
         self.fixtures.iter().map(|&(fixture, at, size)| {
             let [width, height] = fixture.extent();

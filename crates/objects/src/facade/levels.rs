@@ -1,12 +1,13 @@
-//! The levels of a facade that its storeys do not cross.
+//! The levels of a facade that separate its storeys.
 
 use super::lay::FacadeLayout;
 
-/// Faces that are as near (m) to a level as this begin or end there.
+/// Tolerance (m) within which a face starts or ends at a level.
 const NEAR: f64 = 1e-6;
 
 impl FacadeLayout<'_> {
-    /// The lowest level (m) from `height` on that no face crosses; the top of the facade at last, none if it has no faces.
+    /// Returns the lowest level (m) from `height` upwards that no face crosses. This is at most the top of the facade;
+    /// `None` if there are no faces.
     pub fn level_above(&self, height: f64) -> Option<f64> {
         let mut spans: Vec<[f64; 2]> =
             self.faces.iter().map(|face| [face.at.y, face.at.y + face.up.y]).collect();
@@ -21,10 +22,10 @@ impl FacadeLayout<'_> {
         Some(top)
     }
 
-    /// Leaves out all faces and models below a level (m) that none crosses.
+    /// Removes all faces and models below a level (m) that none of them crosses.
     pub fn keep_above(&mut self, level: f64) {
         self.faces.retain(|face| {
-            // What lies at the level and looks upwards is the top of something below it.
+            // An upward face at the level is the top of an object below the level.
             let is_lid =
                 face.up.y.abs() < NEAR && face.right.cross(face.up).y > 0.0 && face.at.y < level + NEAR;
             face.at.y >= level - NEAR && !is_lid
@@ -61,7 +62,7 @@ mod tests {
     #[test]
     fn what_is_below_a_level_goes_with_its_upper_side() {
         let mut laid = layout(&[[0.0, 4.0], [4.0, 8.0]]);
-        // The top of a ledge below the level, and the bottom of one above it.
+        // The faces are the top of a ledge below the level, and the bottom of one above it.
         let (out, across) = (DVec3::new(0.0, 0.0, 0.1), DVec3::new(2.0, 0.0, 0.0));
         let at = DVec3::new(0.0, 4.0, 0.0);
         laid.faces.push(FacadeFace::new(at + out, across, -out));

@@ -1,4 +1,4 @@
-//! `list { ... }`: walls beside or above each other.
+//! `list { ... }`: walls next to or above each other.
 
 use std::sync::{Arc, LazyLock};
 
@@ -9,21 +9,21 @@ use burgeon_base::error::{Error, Limit, Result};
 use burgeon_geometry::{Share, Split};
 use burgeon_kit::{Kind, fields};
 
-/// What `list { ... }` takes.
+/// Fields of `list { ... }`.
 #[fields("list")]
 pub struct ListOptions {
-    /// The walls, from left to right or from the bottom up.
+    /// Walls, from left to right or from the bottom up.
     pub walls: Vec<Wall>,
-    /// "horizontal" or "vertical".
+    /// Direction: "horizontal" or "vertical".
     #[default("horizontal".into())]
     pub direction: String,
-    /// Width (m): preferred, { least, greatest } or { least, preferred, greatest }.
+    /// Width (m): preferred, { minimum, maximum } or { minimum, preferred, maximum }.
     pub width: Option<Size>,
-    /// Height (m), in the same way.
+    /// Height (m), in the same form.
     pub height: Option<Size>,
 }
 
-/// The type, as scripts see it.
+/// Returns the script type of lists.
 pub fn kind() -> &'static Arc<Kind> {
     static KIND: LazyLock<Arc<Kind>> = LazyLock::new(|| {
         let kind = Kind::new("list", "Walls from left to right, or from the bottom up.")
@@ -34,7 +34,7 @@ pub fn kind() -> &'static Arc<Kind> {
     &KIND
 }
 
-/// The most walls in a list.
+/// Maximum number of walls in a list.
 const MOST: usize = 500;
 
 fn make(options: &ListOptions) -> Result<Wall> {

@@ -1,7 +1,7 @@
 //! Facades by a wall grammar of five rules: panel, bordered, extruded, list and grid.
 //!
-//! Comes in: walls that scripts put together, and a frontage's width and height. Goes out: a [`FacadeLayout`] of faces and
-//! models. It never knows where on a building the frontage is.
+//! Input: walls composed by scripts, and a frontage's width and height. Output: a [`FacadeLayout`] of faces and models.
+//! The layout does not depend on the frontage's position on a building.
 //!
 //! Method: T. Larive and V. Gaildrat, "Wall grammar for building generation", 2006.
 

@@ -11,31 +11,31 @@ use burgeon_geometry::Sizes;
 use burgeon_kit::{Kind, Model, fields};
 use burgeon_scene::SurfaceMeaning;
 
-/// What `panel { ... }` takes.
+/// Fields of `panel { ... }`.
 #[fields("panel")]
 pub struct PanelOptions {
-    /// Width (m): preferred, { least, greatest } or { least, preferred, greatest }.
+    /// Width (m): preferred, { minimum, maximum } or { minimum, preferred, maximum }.
     pub width: Option<Size>,
-    /// Height (m), in the same way.
+    /// Height (m), in the same form.
     pub height: Option<Size>,
-    /// Material of its face; the template's if left out.
+    /// Material of the face. If omitted, the template's.
     pub material: Option<MaterialOptions>,
-    /// A material whose image covers the panel once, whatever its size, in place of its own.
+    /// Material whose image covers the panel once, whatever its size, instead of `material`.
     pub decoration: Option<MaterialOptions>,
-    /// A model in its middle: x to the right, z up, y into the wall.
+    /// Model in the middle of the panel: x to the right, z up, y into the wall.
     pub model: Option<Arc<Model>>,
-    /// Whether the model is stretched to the panel's width and height.
+    /// Stretch the model to the panel's width and height.
     pub stretch: bool,
-    /// Where the model sits: "bottom", "center" or "top".
+    /// Vertical position of the model: "bottom", "center" or "top".
     pub at: Anchor,
-    /// Whether it has a face of its own; false where a model leads into the building.
+    /// Draw the panel's own face. Set it to false if a model opens into the building.
     #[default(true)]
     pub background: bool,
-    /// What it is, with its model: "wall", "window" or "door"; city models tell them apart.
+    /// Meaning of the panel and its model in city models: "wall", "window" or "door".
     pub surface: Option<PanelMeaning>,
 }
 
-/// The type, as scripts see it.
+/// Returns the script type of panels.
 pub fn kind() -> &'static Arc<Kind> {
     static KIND: LazyLock<Arc<Kind>> = LazyLock::new(|| {
         let kind = Kind::new("panel", "A plain piece of wall, with a model or an image on it if wanted.")
@@ -51,7 +51,7 @@ fn make(options: &PanelOptions) -> Result<Wall> {
     let meaning = options.surface.map(|PanelMeaning(meaning)| meaning);
     let fixture = model.map(|model| Fixture { meaning, ..Fixture::new(model, options.stretch, options.at) });
     let extent = fixture.as_ref().map(Fixture::extent);
-    // A model that is not stretched needs its room.
+    // A model that is not stretched needs its full size.
     let room = extent.filter(|_| !options.stretch).unwrap_or_default();
     let sizes = room.map(|room| Sizes::between(room, f64::INFINITY));
     let targets = [0, 1].map(|side| extent.map(|extent| extent[side]));

@@ -1,9 +1,9 @@
-//! How scripts say how wide, high or many something may be.
+//! The permitted sizes and counts of walls, as scripts specify them.
 
 use burgeon_geometry::{SAME, Sizes};
 use burgeon_kit::{Expectation, Parameter, Value};
 
-/// A preferred length (m), or the least and the greatest, or least, preferred and greatest.
+/// A preferred length (m), or a minimum and a maximum, or a minimum, a preferred length and a maximum.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Size {
     low: f64,
@@ -12,7 +12,7 @@ pub struct Size {
 }
 
 impl Default for Size {
-    /// Any length.
+    /// Returns a size that permits any length.
     fn default() -> Self {
         Self { low: 0.0, high: f64::INFINITY, target: None }
     }
@@ -52,35 +52,35 @@ impl Parameter for Size {
 }
 
 impl Size {
-    /// The lengths that it allows.
+    /// Returns the permitted lengths.
     pub fn sizes(&self) -> Sizes {
         Sizes::between(self.low, self.high)
     }
 
-    /// The preferred length (m).
+    /// Returns the preferred length (m).
     pub fn target(&self) -> Option<f64> {
         self.target
     }
 }
 
-/// A margin: its size (m) and whether that is the least, the greatest or the only one.
+/// A margin: its size (m), which is the minimum, the maximum or the only permitted size.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Margin {
-    /// Its size (m).
+    /// Size (m).
     pub size: f64,
-    /// How far it keeps to it.
+    /// Permitted deviation from the size.
     pub policy: Policy,
 }
 
-/// How far a margin keeps to its size.
+/// The permitted deviation of a margin from its size.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub enum Policy {
-    /// It cannot be smaller.
+    /// Minimum: the margin may be larger.
     #[default]
     Min,
-    /// It cannot be greater.
+    /// Maximum: the margin may be smaller.
     Max,
-    /// It is exactly that.
+    /// Fixed: the margin has exactly this size.
     Fixed,
 }
 
@@ -117,10 +117,10 @@ impl Parameter for Margin {
 }
 
 impl Margin {
-    /// The sizes that it may have.
+    /// Returns the permitted sizes.
     pub fn sizes(&self) -> Sizes {
         match self.policy {
-            // A margin that is left out stays out.
+            // An omitted margin stays omitted: it does not grow.
             Policy::Min if self.size <= SAME => Sizes::between(0.0, 0.0),
             Policy::Min => Sizes::between(self.size, f64::INFINITY),
             Policy::Max => Sizes::between(0.0, self.size),
@@ -129,16 +129,16 @@ impl Margin {
     }
 }
 
-/// How often something is repeated: a number, or the least and the greatest one.
+/// The number of repetitions: a number, or a minimum and a maximum.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Count {
-    /// The least number.
+    /// Minimum number.
     pub low: u32,
-    /// The greatest number.
+    /// Maximum number.
     pub high: u32,
 }
 
-/// The most repetitions.
+/// Maximum number of repetitions.
 const MOST: u32 = 1000;
 
 impl Default for Count {

@@ -1,4 +1,4 @@
-//! Templates: which wall goes on which frontage.
+//! Templates: the choice of a wall for each frontage.
 
 use std::any::Any;
 use std::sync::Arc;
@@ -9,30 +9,30 @@ use burgeon_base::error::{Error, Result};
 use burgeon_kit::{Expectation, Parameter, Table, Value, fields, methods, object};
 use burgeon_scene::Material;
 
-/// What `template { ... }` takes.
+/// Fields of `template { ... }`.
 #[fields("template")]
 pub struct TemplateOptions {
-    /// The primary wall, which covers the whole frontage.
+    /// Primary wall, which covers the whole frontage.
     pub wall: Option<Wall>,
-    /// Words that say which frontages it is for, such as "entry door" or "blind".
+    /// Keywords of the frontages that the template is for, such as "entry door" or "blind".
     pub keywords: Vec<String>,
-    /// Material of every wall that does not say its own.
+    /// Default material of the walls.
     pub material: MaterialOptions,
-    /// How often it is taken where others suit as well.
+    /// Relative frequency among templates that suit equally well.
     #[default(1.0)]
     pub weight: f64,
 }
 
-/// What `facade { ... }` takes.
+/// Fields of `facade { ... }`.
 #[fields("facade")]
 pub struct FacadeOptions {
-    /// The templates to choose from.
+    /// Templates to choose from.
     pub templates: Vec<Template>,
 }
 
-/// A wall for a whole frontage, with keywords that say for which.
+/// A wall for a whole frontage, with the keywords of suitable frontages.
 ///
-/// It never changes.
+/// A template is immutable.
 #[object(
     "template",
     options = TemplateOptions,
@@ -51,7 +51,7 @@ struct TemplateData {
 
 #[methods("template")]
 impl Template {
-    /// Whether a frontage may be exactly `width` (m) wide and `height` (m) high.
+    /// Returns true if a frontage can be exactly `width` (m) wide and `height` (m) high.
     pub fn fits(&self, width: f64, height: f64) -> bool {
         self.0.wall.fits(width, height)
     }
@@ -75,12 +75,12 @@ impl Template {
         Ok(Self(Arc::new(inner)))
     }
 
-    /// The wall that covers the frontage.
+    /// Returns the wall that covers the frontage.
     pub fn wall(&self) -> &Wall {
         &self.0.wall
     }
 
-    /// The material of walls that do not say their own.
+    /// Returns the default material of the walls.
     pub fn material(&self) -> &Material {
         &self.0.material
     }
@@ -88,7 +88,7 @@ impl Template {
 
 /// Templates for the frontages of a building.
 ///
-/// It never changes.
+/// A facade is immutable.
 #[object(
     "facade",
     options = FacadeOptions,
@@ -99,7 +99,7 @@ pub struct Facade(Templates);
 
 #[methods("facade")]
 impl Facade {
-    /// Whether some template fits a frontage that is exactly `width` (m) wide and `height` (m) high.
+    /// Returns true if a template fits a frontage that is exactly `width` (m) wide and `height` (m) high.
     pub fn fits(&self, width: f64, height: f64) -> bool {
         self.0.0.iter().any(|template| template.fits(width, height))
     }
@@ -115,19 +115,19 @@ impl Facade {
     }
 }
 
-/// The keyword of a frontage that a neighbour covers.
+/// Keyword of a frontage that a neighbour covers.
 pub const BLIND: &str = "blind";
 
-/// What walls take as templates: a facade, a template, or a list of templates.
+/// The templates of walls: a facade, a template, or a list of templates.
 #[derive(Debug, Clone)]
 pub struct Templates(Arc<[Template]>);
 
 impl Templates {
-    /// The template for a frontage with these keywords and this width and height (m); `chance` is a random number in
-    /// [0, 1).
+    /// Chooses the template for a frontage with these keywords and this width and height (m); `chance` is a random
+    /// number in [0, 1).
     ///
-    /// Of those that fit, the one that shares most keywords; of these, the one with the fewest others; of these, one
-    /// by weight. A frontage that is "blind" takes only a template with that keyword.
+    /// Among the templates that fit, prefers the one with the most shared keywords, then the one with the fewest other
+    /// keywords, and finally chooses by weight. A frontage that is "blind" only takes a template with that keyword.
     pub fn choose(&self, keywords: &[&str], width: f64, height: f64, chance: f64) -> Option<&Template> {
         let blind = keywords.contains(&BLIND);
         let suits = |template: &Template| {
@@ -152,7 +152,7 @@ impl Templates {
         equal().next_back()
     }
 
-    /// The first one, whose material plain walls take.
+    /// Returns the first template, whose material plain walls have.
     pub fn first(&self) -> Option<&Template> {
         self.0.first()
     }

@@ -1,4 +1,4 @@
-//! Tests of facades: walls fill what they are given, exactly.
+//! Tests of facades: walls fill their frontage exactly.
 
 use std::sync::Arc;
 
@@ -26,7 +26,7 @@ pub(super) fn text(text: &str) -> Value {
     Value::Text(text.into())
 }
 
-/// A wall by the rule of `kind`, or why there is none.
+/// Creates a wall by the rule of `kind`, or returns the error message.
 pub(super) fn make(kind: &Kind, fields: &[(&str, Value)]) -> Result<Value, String> {
     match kind.make(&table(fields)) {
         Ok(wall) => Ok(Value::Object(Arc::from(wall))),
@@ -34,7 +34,7 @@ pub(super) fn make(kind: &Kind, fields: &[(&str, Value)]) -> Result<Value, Strin
     }
 }
 
-/// Why a wall by the rule of `kind` is refused.
+/// Returns the error message for a wall that the rule of `kind` refuses.
 fn refused(kind: &Kind, fields: &[(&str, Value)]) -> String {
     make(kind, fields).err().unwrap_or_default()
 }
@@ -49,7 +49,7 @@ pub(super) fn panel(width: &[f64], height: &[f64]) -> Value {
     make(panel::kind(), &[("width", sizes(width)), ("height", sizes(height))]).expect("a panel")
 }
 
-/// The faces of `wall` over a frontage, as left, bottom, right, top and depth (m).
+/// Returns the faces of `wall` over a frontage, as left, bottom, right, top and depth (m).
 fn laid(value: &Value, width: f64, height: f64) -> Vec<[f64; 5]> {
     let wall = wall(value);
     let mut laid = FacadeLayout::default();
@@ -81,7 +81,8 @@ fn margins_keep_their_policies() {
         ],
     )
     .expect("a wall");
-    // The fixed margin stays, the least one takes what the preferred width leaves, the greatest one gives way.
+    // The fixed margin stays, the minimum margin takes the remainder of the preferred width, and the maximum margin
+    // gives way.
     assert_near(
         &laid(&framed, 3.0, 1.3),
         &[

@@ -1,4 +1,4 @@
-//! What all walls share: the sizes that they can have, their material, and how scripts ask them.
+//! The common part of all walls: their permitted sizes, their material, and their methods in scripts.
 
 use std::ops::RangeInclusive;
 use std::sync::Arc;
@@ -12,26 +12,26 @@ use burgeon_geometry::{Sizes, Split};
 use burgeon_kit::{Expectation, Field, Kind, Object, Parameter, Table, Value, methods};
 use burgeon_scene::{Material, SurfaceMeaning};
 
-/// A wall of a facade, made by one of five rules. It never changes.
+/// A wall of a facade, made by one of five rules. A wall is immutable.
 #[derive(Clone)]
 pub struct Wall(pub(super) Arc<WallData>);
 
 pub(super) struct WallData {
-    /// The widths and heights that it can have (m).
+    /// Permitted widths and heights (m).
     pub sizes: [Sizes; 2],
-    /// The width and height that it has where it is free to.
+    /// Preferred width and height, if any.
     pub targets: [Option<f64>; 2],
-    /// What its own faces are made of, if it says so.
+    /// Material of the wall's own faces, if specified.
     pub material: Option<Material>,
-    /// How many walls are within one another.
+    /// Nesting depth of walls.
     pub depth: usize,
     pub rule: WallRule,
 }
 
-/// The most walls that may be within one another.
+/// Maximum nesting depth of walls.
 const DEEPEST: usize = 100;
 
-/// How a wall is made up.
+/// The rule of a wall and its parts.
 pub(super) enum WallRule {
     Panel {
         decoration: Option<Material>,
@@ -61,7 +61,7 @@ pub(super) enum WallRule {
     },
 }
 
-/// The type `kind`, whose constructor takes `fields`, of which `make` makes a wall.
+/// Creates the type `kind`, whose constructor accepts `fields` and calls `make` to create a wall.
 pub(super) fn wall_kind(
     kind: Kind,
     fields: Vec<Field>,
@@ -72,34 +72,34 @@ pub(super) fn wall_kind(
 
 #[methods("wall")]
 impl Wall {
-    /// The least width (m) that it can have.
+    /// Returns the minimum width (m).
     pub fn min_width(&self) -> f64 {
         self.0.sizes[0].low()
     }
 
-    /// The greatest width (m) that it can have; math.huge if there is none.
+    /// Returns the maximum width (m), or math.huge if there is none.
     pub fn max_width(&self) -> f64 {
         self.0.sizes[0].high()
     }
 
-    /// The least height (m) that it can have.
+    /// Returns the minimum height (m).
     pub fn min_height(&self) -> f64 {
         self.0.sizes[1].low()
     }
 
-    /// The greatest height (m) that it can have; math.huge if there is none.
+    /// Returns the maximum height (m), or math.huge if there is none.
     pub fn max_height(&self) -> f64 {
         self.0.sizes[1].high()
     }
 
-    /// Whether it can be exactly `width` (m) wide and `height` (m) high.
+    /// Returns true if the wall can be exactly `width` (m) wide and `height` (m) high.
     pub fn fits(&self, width: f64, height: f64) -> bool {
         self.0.sizes[0].contains(width) && self.0.sizes[1].contains(height)
     }
 }
 
 impl Wall {
-    /// A wall by `rule`, which can have the sizes that both its parts and its owner allow.
+    /// Creates a wall by `rule` with the sizes that both its parts and the options permit. Fails if there are none.
     pub(super) fn new(
         rule: WallRule,
         of_parts: [Sizes; 2],
@@ -137,7 +137,7 @@ impl Wall {
     }
 }
 
-/// Sizes in words: "2 m wide", "at least 2 m wide", "0.5 to 2 m wide".
+/// Describes sizes in words: "2 m wide", "at least 2 m wide", "0.5 to 2 m wide".
 pub(super) fn range(sizes: &Sizes, side: &str) -> String {
     let shown = |length: f64| (length * 1e6).round() / 1e6;
     let (low, high) = (shown(sizes.low()), shown(sizes.high()));
@@ -151,7 +151,7 @@ pub(super) fn range(sizes: &Sizes, side: &str) -> String {
 }
 
 impl WallRule {
-    /// The walls that it is made up of.
+    /// Returns the walls that this rule contains.
     fn parts(&self) -> &[Wall] {
         match self {
             Self::Panel { .. } => &[],
@@ -174,7 +174,7 @@ impl WallRule {
 }
 
 impl Wall {
-    /// What Luau calls all types of walls.
+    /// Name of all types of walls in Luau.
     pub(super) const FAMILY: &str = "Wall";
 }
 

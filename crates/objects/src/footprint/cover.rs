@@ -1,34 +1,35 @@
-//! The parts of walls that neighbours cover: those alone are blind.
+//! The parts of walls that neighbours cover. Only these parts are blind.
 //!
-//! Rule: a neighbour covers the part of a wall in front of it up to the top of its own walls, whatever its roof is like.
-//! Where the height of a neighbour is not known before it is built, it covers the whole height.
+//! Rule: a neighbour covers the part of a wall in front of it up to the top of its own walls, whatever its roof. If the
+//! height of a neighbour is unknown before it is built, the neighbour covers the whole height.
 
 use smallvec::{SmallVec, smallvec};
 
-/// Parts of a wall that are narrower (m) than this are as the wider part beside them.
+/// Minimum width (m) of a part of a wall. A narrower part takes the cover of its wider neighbour.
 const NARROWEST: f64 = 0.6;
-/// A storey that is covered, or free, up to this part of its height is so as a whole.
+/// Fraction of a storey's height that is ignored: a storey covered up to this fraction counts as free, and a storey
+/// free up to this fraction counts as covered.
 const SLIGHT: f64 = 0.1;
 
 /// A part of an edge that one neighbour covers.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Cover {
-    /// From where to where (m) along the edge.
+    /// Start and end (m) along the edge.
     pub part: [f64; 2],
-    /// How high (m): infinite where it is not known.
+    /// Height (m) of the top: infinite if unknown.
     pub top: f64,
 }
 
-/// A part of a wall that is covered alike.
+/// A part of a wall with the same covered height along its whole width.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct WallSpan {
-    /// From where to where (m) along the edge.
+    /// Start and end (m) along the edge.
     pub part: [f64; 2],
-    /// How much (m) of its height is covered from below.
+    /// Covered height (m), from the bottom.
     pub covered: f64,
 }
 
-/// The parts of an edge, each with the height (m) of the highest cover; minus infinity where there is none.
+/// Divides an edge into parts, each with the height (m) of its highest cover, or minus infinity without a cover.
 fn skyline(covers: &[Cover], length: f64) -> SmallVec<[Cover; 4]> {
     let mut ends: SmallVec<[f64; 8]> = smallvec![0.0, length];
     ends.extend(covers.iter().flat_map(|cover| cover.part).map(|at| at.clamp(0.0, length)));
@@ -47,14 +48,14 @@ fn skyline(covers: &[Cover], length: f64) -> SmallVec<[Cover; 4]> {
     line
 }
 
-/// The part, 0 to 1, of a wall between two heights (m) that `covers` hide.
+/// Returns the fraction, 0 to 1, of a wall between two heights (m) that `covers` hide.
 pub(super) fn hidden(covers: &[Cover], length: f64, [from, to]: [f64; 2]) -> f64 {
     let area =
         |cover: &Cover| (cover.part[1] - cover.part[0]) * ((cover.top - from) / (to - from)).clamp(0.0, 1.0);
     if length > 0.0 { skyline(covers, length).iter().map(area).sum::<f64>() / length } else { 0.0 }
 }
 
-/// The parts of a wall between two heights (m), each covered alike, from its left end to its right end.
+/// Divides a wall between two heights (m) into parts of constant covered height, from left to right.
 pub(super) fn spans(covers: &[Cover], length: f64, [from, to]: [f64; 2]) -> SmallVec<[WallSpan; 2]> {
     let height = to - from;
     let covered = |top: f64| {
@@ -87,7 +88,7 @@ pub(super) fn spans(covers: &[Cover], length: f64, [from, to]: [f64; 2]) -> Smal
     spans
 }
 
-/// Adds a span, to the last one if that is covered alike.
+/// Adds a span, or extends the last span if the covered heights are equal.
 #[allow(clippy::float_cmp, reason = "what is covered alike has equal numbers")]
 fn add(spans: &mut SmallVec<[WallSpan; 2]>, span: WallSpan) {
     match spans.last_mut() {
@@ -126,7 +127,7 @@ mod tests {
         let covers = [cover(0.0, 7.0, 9.0), cover(7.3, 19.8, 9.0)];
         assert_eq!(found(&covers, [0.0, 3.0]), [(0.0, 20.0, 3.0)]);
         assert_eq!(found(&[cover(0.0, 0.4, 9.0)], [0.0, 3.0]), [(0.0, 20.0, 0.0)]);
-        // A storey that is covered but for a few centimetres is covered.
+        // A storey that is covered except for a few centimetres counts as covered.
         assert_eq!(found(&[cover(0.0, 20.0, 5.9)], [3.0, 6.0]), [(0.0, 20.0, 3.0)]);
         assert_eq!(found(&[cover(0.0, 20.0, 3.1)], [3.0, 6.0]), [(0.0, 20.0, 0.0)]);
     }

@@ -1,4 +1,4 @@
-//! Tests of walls beside neighbours: windows stay where no neighbour covers the wall.
+//! Tests of walls next to neighbours: windows remain where no neighbour covers the wall.
 
 use std::sync::Arc;
 
@@ -11,7 +11,7 @@ use burgeon_kit::declare::as_mut;
 use burgeon_kit::{Kind, Object, Parameter, Table, TableKey, Value};
 use glam::{DVec2, DVec3};
 
-/// How far (m) windows lie back.
+/// Distance (m) by which windows are set back.
 const BACK: f64 = 0.2;
 
 fn table(entries: &[(&str, Value)]) -> Arc<Table> {
@@ -19,7 +19,7 @@ fn table(entries: &[(&str, Value)]) -> Arc<Table> {
     Arc::new(Table { class: None, entries: entries.collect() })
 }
 
-/// A facade of windows, about 3 m by 3 m for each, and a plain wall where it is blind.
+/// Returns a facade of windows, each about 3 m by 3 m, with a plain wall for blind parts.
 fn templates() -> Value {
     let object = |made: Result<Box<dyn Object>>| Value::Object(Arc::from(made.expect("a wall")));
     let make = |kind: &Kind, entries: &[(&str, Value)]| object(kind.make(&table(entries)));
@@ -36,7 +36,7 @@ fn templates() -> Value {
     vec![front, party].into_value()
 }
 
-/// A rectangle with its height, and the number of storeys that its walls are raised in.
+/// A rectangle with its height, and the number of storeys in which its walls are raised.
 #[derive(Debug, Clone, Copy)]
 struct BlockSketch {
     low: DVec2,
@@ -52,7 +52,7 @@ impl BlockSketch {
     }
 }
 
-/// The windows of buildings beside one another: by building the middles of their panes.
+/// Returns the centres of the window panes of adjacent buildings, by building.
 fn windows(blocks: &[BlockSketch]) -> Vec<Vec<DVec3>> {
     let make = |block: &BlockSketch| {
         let ring = block.corners().map(|at| at.extend(0.0)).to_vec();
@@ -93,7 +93,7 @@ fn windows(blocks: &[BlockSketch]) -> Vec<Vec<DVec3>> {
     all
 }
 
-/// The windows that look over the wall where x is `x`, without depth.
+/// Returns the windows in the wall at x = `x`, up to the depth by which they are set back.
 fn on_wall(windows: &[DVec3], x: f64) -> Vec<DVec3> {
     windows.iter().copied().filter(|at| (at.x - x).abs() < BACK + 0.01).collect()
 }
@@ -112,7 +112,7 @@ fn a_nave_keeps_its_clerestory_and_a_tower_its_windows() {
             levels.dedup();
             levels
         };
-        // Two triangles of each window; the template alone makes five storeys of 12 m. Two are wholly above the aisle.
+        // A window has two triangles; the template alone makes five storeys of 12 m. Two are wholly above the aisle.
         let (all, above) = (levels(&free), levels(&shared));
         assert_eq!((all.len(), above.len()), (if raised == 1 { 10 } else { 8 }, 4), "{raised}");
         assert_eq!(all[all.len() - 4..], above, "{raised}");
@@ -170,7 +170,7 @@ fn windows_of_random_blocks_are_nowhere_behind_a_neighbour_and_everywhere_else()
         for at in &found {
             assert!(at.z > cover(at.y) - 0.31 * main.height / f64::from(raised), "{round}: {at} {blocks:?}");
         }
-        // Every 8 m by 8 m that nothing covers has a window.
+        // Every area of 8 m by 8 m that is not covered has a window.
         for (row, column) in (0..3).flat_map(|row| (0..3).map(move |column| (row, column))) {
             let low = DVec2::new(8.0 * f64::from(column), 8.0 * f64::from(row));
             let is_free = (0..=16).all(|step| cover(low.x + 0.5 * f64::from(step)) < low.y + 0.5);
@@ -189,7 +189,7 @@ fn windows_of_random_blocks_are_nowhere_behind_a_neighbour_and_everywhere_else()
 
 #[test]
 fn walls_that_rise_above_the_height_of_a_storey_stay_blind() {
-    // The height that is given is that of one storey here.
+    // The given height is the height of one storey here.
     let house = |x: f64| BlockSketch {
         low: DVec2::new(x, 0.0),
         size: DVec2::new(10.0, 12.0),

@@ -1,4 +1,4 @@
-//! Tests of what a roof knows of its surroundings: storeys that stand out, neighbours, and what walls are made of.
+//! Tests of roofs and their surroundings: projecting storeys, neighbours, and the materials of walls.
 
 use super::object::{FootprintOptions, Height};
 use super::*;
@@ -33,7 +33,7 @@ fn material(color: &str) -> Value {
     Value::Table(Arc::new(table(&[("color", text(color))])))
 }
 
-/// A wall of this colour that stands out by `depth` (m).
+/// Returns a wall of this colour that projects by `depth` (m).
 fn template(depth: f64, color: &str) -> Value {
     let wall = make(
         facade::extruded::kind(),
@@ -52,7 +52,7 @@ fn rectangle(low: DVec2, size: DVec2, turn: DVec2) -> Rings {
     Rings(vec![corners.map(|corner| turn.rotate(low + corner * size).extend(0.0)).to_vec()])
 }
 
-/// A house of 10 m by 6 m with these walls, one above the other, and this roof.
+/// Returns a house of 10 m by 6 m with these walls, one above the other, and this roof.
 fn house(walls: &[Table], roof: &[(&str, Value)]) -> Footprint {
     let mut house = on(rectangle(DVec2::ZERO, DVec2::new(10.0, 6.0), DVec2::X), 0.0);
     house.begin();
@@ -72,7 +72,7 @@ fn a_roof_juts_out_beyond_the_outermost_storey_and_nothing_passes_through_it() {
     let storey = |depth: f64| table(&[("height", number(3.0)), ("templates", template(depth, "#a03020"))]);
     for kind in ["hip", "gable", "shed", "mansard", "dutch_hip"] {
         for eaves in ["closed", "slab", "open"] {
-            // The outermost is not the topmost one.
+            // The outermost storey is not the topmost one.
             for depths in [[0.2, 0.5], [0.5, 0.2]] {
                 let roof = [("kind", text(kind)), ("eaves", text(eaves)), ("overhang", number(0.4))];
                 let house = house(&depths.map(storey), &roof);
@@ -80,7 +80,7 @@ fn a_roof_juts_out_beyond_the_outermost_storey_and_nothing_passes_through_it() {
                 let out = |at: DVec3| ((at.truncate() - middle).abs() - DVec2::new(5.0, 3.0)).max_element();
                 let furthest = points(&house).map(out).fold(0.0, f64::max);
                 assert!((furthest - 0.9).abs() < 1e-5, "{kind} {eaves} {depths:?}: {furthest} m");
-                // The plate falls from where the walls stand out.
+                // The plate slopes down from the projecting walls.
                 let low = || points(&house).filter(|at| at.z < 6.0 - 1e-5 && out(*at) > 0.5 + 1e-5);
                 assert!(low().all(|at| out(at) > 0.85), "{kind} {eaves} {depths:?}");
                 assert_eq!(low().count() > 0, eaves == "open", "{kind} {eaves} {depths:?}");
@@ -123,7 +123,7 @@ fn a_gable_goes_on_as_the_wall_below_it_unless_it_is_given_a_material() {
     assert_eq!(color(&red, &[("gable", material("#102030"))]), own.base_color);
 }
 
-/// Houses beside one another, each with its height (m).
+/// Returns a row of adjacent houses, each with its height (m).
 fn row(random: &mut Stream) -> Vec<(Rings, f64)> {
     let turn = DVec2::from_angle(6.3 * random.uniform());
     let mut x = 0.0;
@@ -134,7 +134,7 @@ fn row(random: &mut Stream) -> Vec<(Rings, f64)> {
         houses.push((rectangle(DVec2::new(x, front), size, turn), 3.0 * (1 + random.below(4)) as f64));
         x += size.x + [0.0, 0.0, 0.1, 1.2 * random.uniform()][random.below(4)];
         if random.below(3) == 0 {
-            // One behind it.
+            // Some houses have another one behind them.
             let low = DVec2::new(x - size.x * 0.9, front + size.y + [0.0, 0.5][random.below(2)]);
             houses.push((rectangle(low, DVec2::new(4.0, 5.0), turn), 3.0 * (1 + random.below(4)) as f64));
         }
@@ -185,11 +185,11 @@ fn eaves_do_not_cut_into_neighbours_that_are_as_high_or_higher() {
             overhangs[usize::from(furthest > overhang * 0.99)] += 1;
         }
     }
-    // Most have a free side.
+    // Most houses have a free side.
     assert!(overhangs[1] > 9 * overhangs[0], "{overhangs:?}");
 }
 
-/// How deep (m) a place is inside a convex ring; less than 0 beside it.
+/// Returns the depth (m) of a position inside a convex ring, or a negative number outside.
 fn depth(ring: &[DVec3], at: DVec2) -> f64 {
     burgeon_geometry::planar::edges(ring)
         .map(|[a, b]| (b - a).truncate().normalize_or_zero().perp_dot(at - a.truncate()))
@@ -202,7 +202,7 @@ fn an_overhang_that_gives_way_tells_whether_a_neighbour_is_the_cause() {
         |corners: &[(f64, f64)]| Rings(vec![corners.iter().map(|&(x, y)| DVec3::new(x, y, 0.0)).collect()]);
     let angle = ring(&[(0., 0.), (12., 0.), (12., 5.), (5., 5.), (5., 12.), (0., 12.)]);
     let recess = ring(&[(0., 0.), (5., 0.), (5., 2.), (5.4, 2.), (5.4, 0.), (12., 0.), (12., 8.), (0., 8.)]);
-    // It touches one of the two walls of the inner corner, which are as far out as one another.
+    // The neighbour touches one of the two walls of the inner corner, which are in the same plane.
     let beside = ring(&[(5.05, 7.), (12., 7.), (12., 12.), (5.05, 12.)]);
     let notes = |rings: &[&Rings]| {
         let objects = rings.iter().map(|rings| Box::new(on((*rings).clone(), 6.0)) as Box<dyn Object>);

@@ -1,4 +1,4 @@
-//! What a footprint knows of each of its edges: words, neighbours, and which one is on the street.
+//! The properties of a footprint's edges: keywords, neighbours, and the edge on the street.
 
 use std::borrow::Cow;
 use std::collections::BTreeMap;
@@ -15,20 +15,20 @@ use burgeon_geometry::planar::edges;
 use burgeon_kit::Expectation;
 use burgeon_kit::{Parameter, Table, TableKey, Value};
 
-/// The word for the edge on the street.
+/// Keyword of the edge on the street.
 const STREET: &str = "street";
-/// The word for the edge with the entry.
+/// Keyword of the edge with the entry.
 const ENTRY: &str = "entry door";
-/// The cosine of the angle to the street's edge from which on a wall runs along the street.
+/// Cosine of the angle to the street's edge, above which a wall counts as parallel to the street.
 const ALONG_STREET: f64 = 0.7;
-/// How much lower (m) the walls of a neighbour are than eaves that jut out over it.
+/// Height (m) by which a neighbour's walls must be lower than eaves that overhang the neighbour.
 const LOWER: f64 = 1.0;
-/// Walls that end this much (m) above the height which was given have another one.
+/// Height (m) above the given height of the footprint, beyond which walls have a different height.
 const ABOVE: f64 = 0.05;
-/// How much nearer (m) to a street an edge must be to be preferred to a longer one.
+/// Distance (m) by which an edge must be nearer to a street to be preferred to a longer edge.
 const NEARER: f64 = 2.0;
 
-/// Words by the number of the edge that they are about, counted from 1 over the rings as they were given.
+/// Keywords by edge number, counted from 1 over the rings as they were given.
 #[derive(Debug, Clone, Default)]
 pub struct EdgeKeywords(pub BTreeMap<usize, Vec<String>>);
 
@@ -57,15 +57,15 @@ impl Parameter for EdgeKeywords {
     }
 }
 
-/// What is known of the edges of a plan, over all of its rings.
+/// The properties of the edges of a plan, over all its rings.
 #[derive(Debug, Default)]
 pub(super) struct Edges {
     keywords: Vec<Vec<Cow<'static, str>>>,
-    /// By edge: true if it is blind as it was given that word, whatever stands beside it.
+    /// Flag for each edge: true if the script gave it the keyword "blind", regardless of neighbours.
     always_blind: Vec<bool>,
     touch: Touch,
     street: Option<usize>,
-    /// By edge that was given: the edge of the plan that stands for it, if there is one.
+    /// Edge of the plan for each given edge, if there is one.
     stands_for: Vec<Option<usize>>,
 }
 
@@ -117,7 +117,8 @@ fn add(words: &mut Vec<Cow<'static, str>>, word: impl Into<Cow<'static, str>>) {
     }
 }
 
-/// The outer edge on the street: the nearest to a street that it faces, or else the longest, if it is no party wall.
+/// Returns the outer edge on the street: the nearest edge that faces a street, otherwise the longest. Prefers edges
+/// that are not party walls.
 fn street(footprint: &Footprint, touch: &Touch) -> Option<usize> {
     let flat = footprint.plan.flat();
     let outer: Vec<[DVec2; 2]> = flat.outer()?.edges().collect();
@@ -145,26 +146,27 @@ fn street(footprint: &Footprint, touch: &Touch) -> Option<usize> {
 }
 
 impl Footprint {
-    /// What is known of the edges, from the first question about them on.
+    /// Returns the properties of the edges, which are computed on first use.
     fn known_edges(&self) -> &Edges {
         self.edges.get_or_init(|| Edges::new(self))
     }
 
-    /// The words about an edge of the plan, by its number over all rings: those that were given, and "blind",
-    /// "street" and "entry door". The footprint's own keywords are not among them.
+    /// Returns the keywords of an edge of the plan, by its number over all rings: the given keywords, and "blind",
+    /// "street" and "entry door". Excludes the footprint's own keywords.
     pub(super) fn edge_keywords(&self, edge: usize) -> &[Cow<'static, str>] {
         self.known_edges().keywords.get(edge).map_or(&[], Vec::as_slice)
     }
 
-    /// Where its walls end (m), as far as that is known before they are built.
+    /// Returns the top (m) of the walls, if it is known before they are built.
     fn known_top(&self) -> Option<f64> {
         self.place.as_ref().and_then(|(all, own)| all.top(*own))
     }
 
-    /// The parts of the walls over an edge of this length (m) between two heights (m), each covered alike.
+    /// Divides the walls over an edge of this length (m), between two heights (m), into parts of constant covered
+    /// height.
     ///
-    /// Walls that rise above the height which the footprint was given, as it is that of a storey, may have neighbours that
-    /// do so too: how high these are is not known then.
+    /// If walls rise above the height given to the footprint, that height is the height of a storey. The neighbours may
+    /// then rise as well, so their height is unknown.
     pub(super) fn spans(&self, edge: usize, length: f64, heights: [f64; 2]) -> SmallVec<[WallSpan; 2]> {
         let known = self.known_edges();
         let whole = |covered: f64| smallvec![WallSpan { part: [0.0, length], covered }];
@@ -183,7 +185,7 @@ impl Footprint {
         cover::spans(&covers, length, heights)
     }
 
-    /// The "blind" edges of the plan that run away from its street rather than along it.
+    /// Returns the "blind" edges of the plan that are not parallel to the street edge.
     pub(super) fn party_walls(&self) -> Vec<usize> {
         let flat = self.plan.flat();
         let all: Vec<DVec2> = flat.edges().map(|[a, b]| (b - a).normalize_or_zero()).collect();
@@ -192,15 +194,15 @@ impl Footprint {
         (0..all.len()).filter(blind).filter(|edge| all[*edge].dot(street).abs() < ALONG_STREET).collect()
     }
 
-    /// How far (m) over each edge there may be a roof that is to go `furthest`, whose eaves fall by `drop` (m): not over
-    /// edges where a neighbour stands that is as high, or lower by so little that its roof would be in the way.
+    /// Returns the maximum overhang (m) over each edge for a roof with overhang `furthest` whose eaves drop by `drop`
+    /// (m). An edge is limited by a neighbour that is as high, or too little lower for its roof to stay clear.
     pub(super) fn reach(&self, furthest: f64, drop: f64) -> Vec<f64> {
         let Some((all, own)) = &self.place else { return Vec::new() };
         let height = self.origin().z + self.shell.top - drop - LOWER;
         all.reach(*own, furthest, height)
     }
 
-    /// Checks the number, from 1, of an edge of the rings that were given; counted from 0.
+    /// Converts the number of a given edge, from 1, to an index from 0. Fails if there is no such edge.
     fn given_edge(&self, method: &str, number: u32) -> Result<usize> {
         let count = self.plan.given();
         let number = number as usize;
@@ -215,14 +217,14 @@ impl Footprint {
         }))
     }
 
-    /// The two ends (m) of an edge that was given.
+    /// Returns both ends (m) of a given edge.
     pub(super) fn ends(&self, method: &str, number: u32) -> Result<[DVec2; 2]> {
         let index = self.given_edge(method, number)?;
         let given = self.options.geometry.iter().flat_map(|ring| edges(ring)).nth(index);
         Ok(given.map_or([DVec2::ZERO; 2], |edge| edge.map(DVec3::truncate)))
     }
 
-    /// The edge of the plan that stands for an edge that was given, if there is one.
+    /// Returns the edge of the plan for a given edge, if there is one.
     fn standing(&self, method: &str, number: u32) -> Result<Option<usize>> {
         let index = self.given_edge(method, number)?;
         Ok(self.known_edges().stands_for.get(index).copied().flatten())
@@ -251,7 +253,7 @@ impl Footprint {
         self.known_edges().touch.neighbors
     }
 
-    /// The number, from 1, of the longest edge that was given on the street side; 0 if there is no edge.
+    /// Returns the number, from 1, of the longest given edge on the street side, or 0 if there are no edges.
     pub(super) fn on_street(&self) -> u32 {
         let known = self.known_edges();
         let Some(street) = known.street else { return 0 };
@@ -261,7 +263,7 @@ impl Footprint {
         candidates.max_by(|a, b| length(*a).total_cmp(&length(*b)).then(b.cmp(a))).unwrap_or(0)
     }
 
-    /// Fails if words are given to an edge that there is not.
+    /// Fails if keywords are given to an edge that does not exist.
     pub(super) fn check_edge_keywords(&self) -> Result<()> {
         let count = self.plan.given();
         match self.options.edge_keywords.0.keys().find(|number| !(1..=count).contains(*number)) {
@@ -291,7 +293,7 @@ mod tests {
 
     #[test]
     fn words_keep_the_numbers_of_the_edges_that_were_given() {
-        // Point 2 lies on a straight line, and the ring turns right.
+        // Point 2 lies on a straight line, and the ring is clockwise.
         let given = [[0.0, 0.0], [0.0, 3.0], [0.0, 6.0], [10.0, 6.0], [10.0, 0.0]];
         let footprint = Footprint::new(FootprintOptions {
             geometry: Rings(vec![ring(&given)]),
@@ -319,7 +321,7 @@ mod tests {
         assert!(
             footprint.edge_has(5, "gate".into()).unwrap() && !footprint.edge_has(6, "gate".into()).unwrap()
         );
-        // The hole is turned, so that its first edge is the plan's last.
+        // The hole is reversed, so its first edge is the plan's last edge.
         assert_eq!(footprint.edge_keywords(6), ["gate"]);
         assert!(Footprint::new(options(8)).is_err());
     }
@@ -339,7 +341,7 @@ mod tests {
         assert_eq!(plain.street_edge(), 1);
         assert!(plain.edge_has(1, "entry door".into()).unwrap());
         let street = |points: &[[f64; 2]]| LineIndex::over(&[Line::new(ring(points)).unwrap()]);
-        // The street to the right runs past the corner, nearer to edge 1 than to the front that faces it.
+        // The street to the right passes the corner nearer to edge 1 than to the front that faces the street.
         let right = street(&[[13.0, -40.0], [13.0, 40.0]]);
         let facing = make(Some(right), words(&[(3, "entry door")]));
         assert_eq!(facing.street_edge(), 2);

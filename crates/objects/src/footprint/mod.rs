@@ -1,7 +1,7 @@
 //! The footprint: a plan on the ground, from which groundwork, walls and a roof rise.
 //!
-//! Comes in: a polygon, its neighbours and the ground. Goes out: a closed building, with a [`Note`](burgeon_kit::Note) where
-//! it is not as asked. It never leaves out a building without saying so.
+//! Input: a polygon, its neighbours and the ground. Output: a closed building, with a [`Note`](burgeon_kit::Note) for
+//! each deviation from the script. A building is never skipped without a report.
 
 mod cover;
 #[cfg(test)]

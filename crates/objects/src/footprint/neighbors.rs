@@ -1,4 +1,4 @@
-//! What the footprints of a system learn from one another: which parts of their edges others touch.
+//! The adjacency of a system's footprints: the parts of each edge that other footprints touch.
 
 use std::hash::Hasher;
 use std::sync::{Arc, OnceLock};
@@ -15,34 +15,34 @@ use burgeon_geometry::Plan;
 use burgeon_kit::Object;
 use burgeon_kit::declare::as_mut;
 
-/// How far (m) walls that touch may be apart, or overlap.
+/// Maximum gap or overlap (m) of walls that touch.
 const APART: f64 = 0.3;
-/// The cosine of the angle (8 degrees) by which walls that touch may diverge.
+/// Cosine of the maximum angle (8 degrees) between walls that touch.
 const OPPOSITE: f64 = 0.990_27;
-/// The least length (m) along which buildings touch.
+/// Minimum length (m) along which buildings touch.
 const LEAST: f64 = 0.1;
-/// What is in front of an edge along less than this (m) is beside it.
+/// Minimum width (m) of an obstacle in front of an edge. A narrower obstacle is ignored.
 const NARROW: f64 = 0.01;
 
 type IndexedBox = GeomWithData<Rectangle<[f64; 2]>, u32>;
 
-/// All footprints of a system. What is made for all of them together is made when the first one asks.
+/// All footprints of a system. Shared data is computed on first use.
 pub(super) struct Neighborhood {
     plans: Vec<(Arc<Plan>, DVec2)>,
-    /// Where the walls of each end (m), as far as it is known before they are built.
+    /// Top (m) of each footprint's walls, if it is known before they are built.
     tops: Vec<Option<f64>>,
     map: OnceLock<FootprintMap>,
 }
 
-/// Where the footprints are. Those with the same walls are there once.
+/// The positions of the footprints. Footprints with equal walls share one outline.
 struct FootprintMap {
-    /// The walls of all outlines.
+    /// Walls of all outlines.
     walls: Vec<WallEnds>,
-    /// Where the walls of each outline begin among them; one more for the end.
+    /// Index of each outline's first wall, and the total number of walls at the end.
     begins: Vec<usize>,
-    /// By footprint: its outline.
+    /// Outline of each footprint.
     outlines: Vec<u32>,
-    /// By outline: whose it is.
+    /// Owners of each outline.
     owners: Vec<OutlineOwners>,
     boxes: RTree<IndexedBox>,
 }
@@ -51,7 +51,7 @@ struct FootprintMap {
 #[derive(Default)]
 struct OutlineOwners {
     count: u32,
-    /// The one whose walls end highest (m), and where those of the next one end.
+    /// Footprint with the highest walls, and the height (m) at which they end. `second` is the top of the next highest.
     highest: Option<(usize, f64)>,
     second: f64,
 }
@@ -69,7 +69,7 @@ impl OutlineOwners {
         self.second = if self.count > 2 { self.second.max(other) } else { other };
     }
 
-    /// Where the highest walls (m) of those end that are not `own`.
+    /// Returns the highest top (m) of the walls of the owners other than `own`.
     fn top_besides(&self, own: usize) -> f64 {
         match self.highest {
             Some((highest, top)) if highest != own => top,
@@ -87,13 +87,13 @@ impl FootprintMap {
             owners: Vec::new(),
             boxes: RTree::default(),
         };
-        // By hash: the outlines that have it.
+        // Outlines by the hash of their walls.
         let mut known: FxHashMap<u64, SmallVec<[u32; 1]>> = FxHashMap::default();
         for (footprint, ((plan, origin), top)) in plans.iter().zip(tops).enumerate() {
             let outline = map.outline(&mut known, plan, *origin);
             map.outlines.push(outline);
             if let Some(owners) = map.owners.get_mut(outline as usize) {
-                // Where walls end that are not built yet may be anywhere.
+                // Walls that are not built yet may have any height.
                 owners.add(footprint, top.unwrap_or(f64::INFINITY));
             }
         }
@@ -106,7 +106,7 @@ impl FootprintMap {
         map
     }
 
-    /// The outline of a plan at a place, which is added unless there is one with the same walls.
+    /// Returns the outline of a plan at a position, and adds it if no outline has the same walls.
     fn outline(&mut self, known: &mut FxHashMap<u64, SmallVec<[u32; 1]>>, plan: &Plan, origin: DVec2) -> u32 {
         let begin = self.walls.len();
         self.walls.extend(plan.polygon().edges().map(|edge| edge.map(|point| point.truncate() + origin)));
@@ -127,7 +127,8 @@ impl FootprintMap {
         outline
     }
 
-    /// The outlines whose boxes meet another, and how many of those that have each are not `own`, in order.
+    /// Returns the outlines whose boxes intersect `around`, in order, each with the number of its owners other than
+    /// `own`.
     fn around(&self, own: usize, around: &AABB<[f64; 2]>) -> SmallVec<[(&IndexedBox, u32); 16]> {
         let found = self.boxes.locate_in_envelope_intersecting(around).filter_map(|found| {
             let count = self.owners.get(found.data as usize)?.count;
@@ -139,12 +140,12 @@ impl FootprintMap {
         found
     }
 
-    /// The walls of a footprint.
+    /// Returns the walls of a footprint.
     fn walls_at(&self, own: usize) -> &[WallEnds] {
         self.outlines.get(own).map_or(&[], |outline| self.walls_of(*outline as usize))
     }
 
-    /// The walls of an outline.
+    /// Returns the walls of an outline.
     fn walls_of(&self, outline: usize) -> &[WallEnds] {
         match self.begins.get(outline..outline + 2) {
             Some(&[begin, end]) => &self.walls[begin..end],
@@ -156,18 +157,18 @@ impl FootprintMap {
 /// The two ends (m) of an edge.
 type WallEnds = [DVec2; 2];
 
-/// What the others touch of a footprint.
+/// The contact of a footprint with the other footprints.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub(super) struct Touch {
-    /// By edge, over all rings: the part of its length, 0 to 1.
+    /// Touched fraction, 0 to 1, of each edge's length, over all rings.
     pub shared: Vec<f64>,
-    /// By edge: what covers it, with heights (m) in the world; empty if nothing covers any.
+    /// Covers of each edge, with heights (m) in world coordinates. Empty if no edge is covered.
     pub covers: Vec<Vec<Cover>>,
-    /// How many others there are.
+    /// Number of neighbours.
     pub neighbors: u32,
 }
 
-/// Tells the footprints among `objects` of one another.
+/// Connects the footprints among `objects` with one another.
 pub(super) fn gather(objects: &mut [Box<dyn Object>]) {
     let mut found: Vec<&mut Footprint> =
         objects.iter_mut().filter_map(|object| as_mut::<Footprint>(&mut **object)).collect();
@@ -193,7 +194,8 @@ impl Neighborhood {
         self.map.get_or_init(|| FootprintMap::new(&self.plans, &self.tops))
     }
 
-    /// What the others touch of footprint `own`: walls that run the other way, at most 8 degrees askew and 0.3 m away.
+    /// Computes the contact of footprint `own` with the others: walls that face it, at an angle of at most 8 degrees
+    /// and a distance of at most 0.3 m.
     pub(super) fn touch(&self, own: usize) -> Touch {
         let map = self.map();
         let walls = map.walls_at(own);
@@ -211,7 +213,7 @@ impl Neighborhood {
             let mut longest = 0f64;
             let top = map.owners[other.data as usize].top_besides(own);
             for (&[a, b], covers) in walls.iter().zip(&mut covers) {
-                // Its box is as much larger as walls that touch may be apart.
+                // The box is already enlarged by the maximum gap of walls that touch.
                 if a.max(b).cmplt(least).any() || a.min(b).cmpgt(most).any() {
                     continue;
                 }
@@ -233,13 +235,14 @@ impl Neighborhood {
         Touch { shared, covers, neighbors }
     }
 
-    /// Where the walls of a footprint end (m), as far as it is known before they are built.
+    /// Returns the top (m) of a footprint's walls, if it is known before they are built.
     pub(super) fn top(&self, own: usize) -> Option<f64> {
         self.tops.get(own).copied().flatten()
     }
 
-    /// How far (m) each edge of footprint `own` is from others in front of it, halved so that theirs have room as well,
-    /// up to `furthest`; 0 where they touch. Only what ends above `height` (m), or may do so, is in the way.
+    /// Returns the available overhang (m) over each edge of footprint `own`: half the distance to others in front of
+    /// the edge, so that both have room, at most `furthest`, and 0 where they touch. Ignores footprints that end below
+    /// `height` (m).
     pub(super) fn reach(&self, own: usize, furthest: f64, height: f64) -> Vec<f64> {
         let map = self.map();
         let walls = map.walls_at(own);
@@ -270,15 +273,16 @@ impl Neighborhood {
     }
 }
 
-/// What is in front of an edge: up to the mitres at its ends, or beside the lines of edges that others touch.
+/// The area in front of an edge: bounded by the mitres at its ends, or by the lines of adjacent edges that others
+/// touch.
 struct FrontArea {
     from: DVec2,
     out: DVec2,
-    /// Points and the ways from there into it.
+    /// Points and directions of the half-planes that bound the area.
     sides: [[DVec2; 2]; 2],
 }
 
-/// The front of each edge of rings of these sizes; what others touch has no `reach`.
+/// Returns the area in front of each edge of rings of these sizes. An edge that others touch has a `reach` of 0.
 fn fronts(walls: &[WallEnds], sizes: impl Iterator<Item = usize>, reach: &[f64]) -> Vec<FrontArea> {
     let mut fronts = Vec::with_capacity(walls.len());
     for count in sizes {
@@ -291,7 +295,7 @@ fn fronts(walls: &[WallEnds], sizes: impl Iterator<Item = usize>, reach: &[f64])
                 let [c, d] = walls[neighbour];
                 let turned = (d - c).normalize_or_zero();
                 let inward = turned.perp();
-                // Walls that touch may overlap by so much.
+                // Walls that touch may overlap by this distance.
                 if reach[neighbour] == 0.0 && inward.dot(way) > 0.0 {
                     [end + inward * APART, inward]
                 } else {
@@ -306,7 +310,7 @@ fn fronts(walls: &[WallEnds], sizes: impl Iterator<Item = usize>, reach: &[f64])
 }
 
 impl FrontArea {
-    /// The distance (m) of the nearest place of a wall that is in front, up to `most`.
+    /// Returns the distance (m) to the nearest point of a wall in front of the edge, at most `most`.
     fn distance(&self, [mut a, mut b]: WallEnds, most: f64) -> Option<f64> {
         let near = [self.from + self.out * most, -self.out];
         let behind = [self.from - self.out * APART, self.out];
@@ -326,7 +330,7 @@ impl FrontArea {
     }
 }
 
-/// From where to where (m) along `wall` the wall `their` touches it.
+/// Returns the start and end (m) along `wall` at which the wall `their` touches it.
 fn overlap([a, b]: WallEnds, [c, d]: WallEnds) -> Option<[f64; 2]> {
     let low = a.min(b) - APART;
     let high = a.max(b) + APART;
@@ -337,7 +341,7 @@ fn overlap([a, b]: WallEnds, [c, d]: WallEnds) -> Option<[f64; 2]> {
     if along.dot(back) < OPPOSITE {
         return None;
     }
-    // Theirs from its end to its beginning, which runs as this wall does: distances along it and to its left.
+    // The other wall is reversed to run in the same direction: coordinates along this wall and to its left.
     let [from, to] = [d - a, c - a].map(|point| DVec2::new(point.dot(along), along.perp_dot(point)));
     let (mut begin, mut end) = (from.x.max(0.0), to.x.min(a.distance(b)));
     let slope = (to.y - from.y) / (to.x - from.x);
@@ -352,7 +356,7 @@ fn overlap([a, b]: WallEnds, [c, d]: WallEnds) -> Option<[f64; 2]> {
     (end - begin > 1e-3).then_some([begin, end])
 }
 
-/// The length (m) that `covers` cover together.
+/// Returns the total length (m) covered by `covers`, without counting overlaps twice.
 fn union(covers: &[Cover]) -> f64 {
     let mut parts: SmallVec<[[f64; 2]; 8]> = covers.iter().map(|cover| cover.part).collect();
     parts.sort_by(|a, b| a[0].total_cmp(&b[0]));
@@ -411,7 +415,7 @@ mod tests {
     #[test]
     fn outlines_that_are_there_several_times_count_as_often_and_are_compared_once() {
         let (house, beside) = (rectangle(0.0, 0.0, 10.0, 8.0), rectangle(10.0, 0.0, 10.0, 8.0));
-        // So thin that each wall lies where an equal one's opposite does.
+        // The rectangle is so thin that each wall touches the opposite wall of an equal rectangle.
         let thin = rectangle(0.0, 50.0, 10.0, 0.2);
         let mut rings: Vec<&[[f64; 2]]> = vec![&house; 500];
         rings.extend([&beside[..], &beside, &thin, &thin, &thin]);
@@ -424,7 +428,7 @@ mod tests {
         assert_eq!(touch(500), (vec![0.0, 0.0, 0.0, 1.0], 500));
         assert_eq!((all.touch(504).neighbors, all.touch(504).shared[0]), (2, 1.0));
         assert_eq!(all.map().owners.len(), 3);
-        // Of those beside it, only the second is high enough to be in the way.
+        // Only the second of the adjacent houses is high enough to be in the way.
         assert_eq!(all.reach(0, 1.0, 5.0)[1], 0.0);
         all.tops = vec![Some(3.0); rings.len()];
         all.tops[501] = Some(6.0);
@@ -433,14 +437,14 @@ mod tests {
         assert_eq!(all.reach(0, 1.0, 6.0)[1], f64::INFINITY);
         all.tops[503] = Some(6.0);
         all.map = OnceLock::new();
-        // It is not in its own way, but in that of those like it.
+        // A footprint is not in its own way, but in the way of its duplicates.
         assert_eq!([502, 503, 504].map(|own| all.reach(own, 1.0, 5.0)[0]), [0.0, f64::INFINITY, 0.0]);
     }
 
     #[test]
     fn walls_askew_touch_only_where_they_are_near() {
         let wall = rectangle(0.0, 0.0, 10.0, 8.0);
-        // A twentieth of its length askew: within 0.3 m along 6 of 10 m.
+        // The slope is a twentieth: within 0.3 m along 6 of 10 m.
         let askew = [[0.0, 8.0], [10.0, 8.5], [10.0, 14.0], [0.0, 14.0]];
         let turned = [[0.0, 8.0], [10.0, 10.0], [10.0, 14.0], [0.0, 14.0]];
         let shared = |other: &[[f64; 2]]| all(&[&wall, other]).touch(0).shared[2];

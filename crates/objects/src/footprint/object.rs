@@ -1,4 +1,4 @@
-//! The object: what scripts see of a footprint.
+//! The footprint object of scripts.
 
 use std::sync::{Arc, OnceLock};
 
@@ -37,35 +37,36 @@ impl Parameter for Height {
     }
 }
 
-/// What `footprint(geometry, { ... })` takes.
+/// Options of `footprint(geometry, { ... })`.
 #[fields("footprint")]
 pub struct FootprintOptions {
-    /// The polygon on the ground (m): a feature's geometry, or rings of points, the holes after the outer one.
+    /// Polygon on the ground (m): a feature's geometry, or rings of points, the outer ring first and then the holes.
     pub geometry: Rings,
-    /// Words that say what kind of building it is, such as "shop".
+    /// Keywords for the type of building, such as "shop".
     pub keywords: Vec<String>,
-    /// Words about single edges, by their numbers: { [2] = { "entry door" } }. Edge 1 goes from the first point
-    /// that was given to the second; those of holes count on after the outer ring's.
+    /// Keywords of single edges, by edge number: { [2] = { "entry door" } }. Edge 1 runs from the first given point to
+    /// the second. The edges of holes follow the edges of the outer ring.
     pub edge_keywords: EdgeKeywords,
-    /// What else is known of it, for `attribute` to tell: any table, such as the feature.
+    /// Further data, which `attribute` returns: any table, such as the feature.
     pub attributes: Arc<Table>,
-    /// The streets by which it lies, as `streets(source)` made them.
+    /// Nearby streets, as `streets(source)` returns them.
     pub streets: Option<LineIndex>,
-    /// The terrain on which it stands, which gives its points their heights.
+    /// Terrain under the building, which sets the heights of its points.
     pub ground: Option<Arc<Terrain>>,
-    /// Height of the walls (m), where they are not given one.
+    /// Default height of the walls (m).
     pub height: Option<Height>,
-    /// Colour of what is drawn, where it is given none.
+    /// Default colour of the building.
     #[default(Color([0.62, 0.58, 0.52, 1.0]))]
     pub color: Color,
 }
 
-/// The highest walls and roofs (m).
+/// Maximum height (m) of walls and roofs.
 const HIGHEST: f64 = 2000.0;
 
 /// A building: groundwork, walls and a roof over a polygon on the ground.
 ///
-/// They rise as one closed solid. Walls stand on the groundwork or on earlier walls, the roof stands on the walls and ends the building.
+/// The parts form one closed solid. Walls stand on the groundwork or on earlier walls. The roof covers the walls and
+/// completes the building.
 #[object(
     "footprint",
     options = FootprintOptions,
@@ -85,19 +86,19 @@ const HIGHEST: f64 = 2000.0;
 pub struct Footprint {
     pub(super) options: Arc<FootprintOptions>,
     pub(super) plan: Arc<Plan>,
-    /// What is known of the edges, once someone has asked.
+    /// Properties of the edges, computed on first use.
     pub(super) edges: Arc<OnceLock<Edges>>,
-    /// The footprints of its system, and its number among them.
+    /// Footprints of the system, and the index of this one among them.
     pub(super) place: Option<(Arc<Neighborhood>, usize)>,
     pub(super) shell: Shell,
-    /// The walls over each edge, once there are some.
+    /// Walls over each edge, empty before the first walls.
     pub(super) sides: Vec<Side>,
     pub(super) drawing: Drawing,
-    /// Where random choices come from.
+    /// Seed of random choices.
     pub(super) seed: u64,
-    /// The level of detail, from 0 to 3.
+    /// Level of detail, from 0 to 3.
     pub(super) detail: u8,
-    /// How often walls have been raised.
+    /// Number of times that walls have been raised.
     pub(super) raised: u64,
     /// Walls that are still to be drawn.
     pub(super) plain: Option<Plain>,
@@ -106,7 +107,8 @@ pub struct Footprint {
 
 #[methods("footprint")]
 impl Footprint {
-    /// Lays the ground: "z_min" at the lowest point, "z_max" at the highest, "extruded" with faces down from it.
+    /// Builds the groundwork: "z_min" at the lowest point, "z_max" at the highest, "extruded" with faces down to the
+    /// ground.
     pub fn groundwork(&mut self, kind: String, material: Option<MaterialOptions>) -> Result<()> {
         self.lay(&kind, material)
     }
@@ -117,95 +119,95 @@ impl Footprint {
         self.raise(&options)
     }
 
-    /// Puts on the roof: { kind, height, slope, overhang, eaves, slab, material, gable, details, ... }.
+    /// Adds the roof: { kind, height, slope, overhang, eaves, slab, material, gable, details, ... }.
     pub fn roof(&mut self, options: Option<TableOf<Roof>>) -> Result<()> {
         let options = options.unwrap_or_default().read()?;
         self.cover(&options)
     }
 
-    /// Its area (m²) without the holes.
+    /// Returns the area (m²) without the holes.
     pub fn area(&self) -> f64 {
         self.plan.polygon().area()
     }
 
-    /// The length (m) of its edges.
+    /// Returns the total length (m) of the edges.
     pub fn perimeter(&self) -> f64 {
         self.plan.polygon().length()
     }
 
-    /// The number of its edges, as they were given: first those of the outer ring, then those of the holes.
+    /// Returns the number of given edges: the edges of the outer ring, then the edges of the holes.
     pub fn edges(&self) -> u32 {
         u32::try_from(self.plan.given()).unwrap_or(u32::MAX)
     }
 
-    /// The length (m) of an edge, by its number from 1.
+    /// Returns the length (m) of an edge, by its number from 1.
     pub fn edge_length(&self, edge: u32) -> Result<f64> {
         self.ends("edge_length", edge).map(|[a, b]| a.distance(b))
     }
 
-    /// The place (m) where an edge begins, at the height of the lowest ground.
+    /// Returns the start (m) of an edge, at the height of the lowest ground.
     pub fn edge_start(&self, edge: u32) -> Result<DVec3> {
         self.ends("edge_start", edge).map(|[a, _]| a.extend(self.lowest()))
     }
 
-    /// The way an edge faces (degrees): 0 is east, 90 is north.
+    /// Returns the direction that an edge faces (degrees): 0 is east, 90 is north.
     pub fn edge_facing(&self, edge: u32) -> Result<f64> {
         self.facing(edge)
     }
 
-    /// Returns true if an edge has this keyword: one it was given, or "blind" (neighbours cover half of its wall or more),
-    /// "street" or "entry door".
+    /// Returns true if an edge has this keyword: a given keyword, or "blind" (neighbours cover half of its wall or
+    /// more), "street" or "entry door".
     pub fn edge_has(&self, edge: u32, keyword: String) -> Result<bool> {
         self.words_of(edge).map(|words| words.iter().any(|word| *word == keyword))
     }
 
-    /// The part of an edge, 0 to 1, that neighbours touch.
+    /// Returns the fraction, 0 to 1, of an edge that neighbours touch.
     pub fn shared(&self, edge: u32) -> Result<f64> {
         self.part_shared(edge)
     }
 
-    /// How many of its system's footprints touch it.
+    /// Returns the number of footprints of the system that touch this one.
     pub fn neighbors(&self) -> u32 {
         self.touching()
     }
 
-    /// The number of the edge on the street side: the nearest to a street that it faces, without streets the
-    /// longest; no party wall if there is another.
+    /// Returns the number of the edge on the street side: the nearest edge that faces a street, or the longest edge
+    /// without streets. Prefers edges that are not party walls.
     pub fn street_edge(&self) -> u32 {
         self.on_street()
     }
 
-    /// What its attributes have under this name.
+    /// Returns the attribute with this name.
     pub fn attribute(&self, name: String) -> Value {
         self.options.attributes.get(&name).cloned().unwrap_or(Value::Nil)
     }
 
-    /// Its area as a part of its convex hull's: 1 if it is convex.
+    /// Returns the ratio of the area to the area of the convex hull: 1 if the polygon is convex.
     pub fn convexity(&self) -> f64 {
         self.plan.convexity()
     }
 
-    /// The lowest ground at its points (m).
+    /// Returns the minimum ground height at the points (m).
     pub fn lowest(&self) -> f64 {
         self.origin().z + self.plan.ground().0
     }
 
-    /// The highest ground at its points (m).
+    /// Returns the maximum ground height at the points (m).
     pub fn highest(&self) -> f64 {
         self.origin().z + self.plan.ground().1
     }
 
-    /// How high the walls are that it was made with (m); 0 if it was not told.
+    /// Returns the wall height given to the constructor (m), or 0 if none was given.
     pub fn height(&self) -> f64 {
         self.options.height.map_or(0.0, |height| height.0)
     }
 
-    /// Whether it has this keyword.
+    /// Returns true if the footprint has this keyword.
     pub fn has(&self, keyword: String) -> bool {
         self.options.keywords.contains(&keyword)
     }
 
-    /// Distance (m) from a place to the nearest point of what it has drawn.
+    /// Returns the distance (m) from a position to the nearest point of the drawn building.
     pub fn distance(&self, place: Vector) -> f64 {
         self.drawing.distance(place.0 - self.origin())
     }
@@ -214,17 +216,17 @@ impl Footprint {
 impl Footprint {
     fn from_table(table: &Table) -> Result<Self> {
         let options = FootprintOptions::from_table(table)?;
-        // Under other heights it is another plan.
+        // A prefetched plan does not have the terrain's heights.
         let ready = if options.ground.is_none() { prefetched(table) } else { None };
         Self::with(options, ready)
     }
 
-    /// A footprint that has drawn nothing yet; without rings it can only stand for its type.
+    /// Creates a footprint without any drawn parts. Without rings, the footprint only represents its type.
     pub fn new(options: FootprintOptions) -> Result<Self> {
         Self::with(options, None)
     }
 
-    /// The same, where its plan may be ready.
+    /// Creates a footprint from a plan that may be prefetched.
     fn with(mut options: FootprintOptions, ready: Option<Result<LocalPlan>>) -> Result<Self> {
         if let Some(ground) = &options.ground {
             for point in options.geometry.0.iter_mut().flatten() {
@@ -257,12 +259,12 @@ impl Footprint {
         Ok(footprint)
     }
 
-    /// Where the mesh has its origin (m): a whole number of metres near the plan.
+    /// Returns the origin of the mesh (m): whole metres near the plan.
     pub(super) fn origin(&self) -> DVec3 {
         self.drawing.origin()
     }
 
-    /// The part with this material, or with this colour, or with the footprint's own.
+    /// Returns the part of the drawing with this material, this colour, or the footprint's colour, in this order.
     pub(super) fn part(&mut self, color: Option<Color>, material: Option<&MaterialOptions>) -> Result<usize> {
         let material = match material {
             Some(surface) => surface.material()?,
@@ -271,7 +273,7 @@ impl Footprint {
         Ok(self.drawing.material(&material))
     }
 
-    /// Fails if nothing can be built, or `what` comes too late.
+    /// Fails if there is no geometry to build on, or if the building already has its roof.
     pub(super) fn check_open(&self, what: &str) -> Result<()> {
         if self.plan.polygon().is_empty() {
             return Err(Error::script(format!("footprint:{what}: the footprint has no geometry"))
@@ -285,7 +287,7 @@ impl Footprint {
     }
 }
 
-/// The plan of the geometry in a table of options, if another thread has made it.
+/// Returns the plan of the geometry in a table of options, if another thread has computed it.
 fn prefetched(options: &Table) -> Option<Result<LocalPlan>> {
     let Some(Value::Object(object)) = options.get("geometry") else { return None };
     let any: &dyn std::any::Any = &**object;
@@ -294,7 +296,7 @@ fn prefetched(options: &Table) -> Option<Result<LocalPlan>> {
     any.downcast_ref::<PlanPrefetch>()?.take(number)
 }
 
-/// Fails if a height (m) is not above 0 or is absurd.
+/// Fails if a height (m) is not above 0 or exceeds the maximum.
 pub(super) fn check_height(what: &str, height: f64) -> Result<()> {
     if height > 0.0 && height <= HIGHEST {
         return Ok(());
@@ -303,19 +305,19 @@ pub(super) fn check_height(what: &str, height: f64) -> Result<()> {
     Err(error.help(format!("give metres above 0, up to {HIGHEST}")).of_data())
 }
 
-/// The error for a kind that there is not.
+/// Creates the error for an unknown kind.
 pub(super) fn unknown(what: &str, kind: &str, known: &[&'static str]) -> Error {
     Error::not_found("kind", kind, known.iter().copied(), format!("{what} has no kind called {kind:?}"))
         .help(format!("there are {}", known.join(", ")))
 }
 
-/// The direction of an edge on the ground.
+/// Returns the horizontal direction of an edge.
 pub(super) fn along(from: DVec2, to: DVec2) -> DVec3 {
     (to - from).normalize_or_zero().extend(0.0)
 }
 
 impl Footprint {
-    /// The rings (m) that it was given.
+    /// Returns the given rings (m).
     pub fn rings(&self) -> &burgeon_geometry::Rings {
         &self.options.geometry
     }

@@ -1,8 +1,8 @@
-//! Plans of a source's polygons, made while a script is still at the features before them.
+//! Plans of a source's polygons, computed ahead while a script processes earlier features.
 //!
-//! A script's function makes the footprints of a source one after another, on one thread, and most of that work are
-//! their plans. So another thread makes the plans of what comes next. One that is not there in time is made where it is
-//! needed: whoever makes it, it is the same.
+//! A script's function creates the footprints of a source one by one, on one thread, and most of the work is computing
+//! their plans. So another thread computes the plans of the next features. If a plan is not ready in time, the script's
+//! thread computes it. The result is the same on either thread.
 
 use std::collections::VecDeque;
 use std::sync::{Arc, Condvar, Mutex, MutexGuard};
@@ -15,21 +15,21 @@ use burgeon_data::Layer;
 use burgeon_geometry::{Plan, Rings};
 use burgeon_kit::{Prefetch, rings};
 
-/// From this many plans on, no more are made until some have been taken.
+/// Maximum number of plans that are kept ready before the thread pauses.
 const READY: usize = 256;
-/// Plans that are made at a time, so that the threads seldom wait for one another.
+/// Number of plans that are computed at a time, so that the threads rarely wait for each other.
 const BATCH: usize = 16;
 
 /// A plan near its own origin.
 #[derive(Debug, Clone)]
 pub(super) struct LocalPlan {
     pub plan: Arc<Plan>,
-    /// Where the origin is (m): a whole number of metres near the plan.
+    /// Position of the origin (m): whole metres near the plan.
     pub origin: DVec3,
 }
 
 impl LocalPlan {
-    /// The plan of `rings`; an empty one of no rings.
+    /// Computes the plan of `rings`, or an empty plan if there are no rings.
     pub(super) fn new(rings: &Rings) -> Result<Self> {
         if rings.is_empty() {
             return Ok(Self { plan: Arc::default(), origin: DVec3::ZERO });
@@ -41,7 +41,7 @@ impl LocalPlan {
     }
 }
 
-/// Plans of a layer's polygons that are made ahead.
+/// Plans of a layer's polygons, computed ahead.
 pub(super) struct PlanPrefetch {
     layer: Arc<Layer>,
     state: Mutex<PrefetchState>,
@@ -50,13 +50,13 @@ pub(super) struct PlanPrefetch {
 
 #[derive(Default)]
 struct PrefetchState {
-    /// The feature whose plan was asked for last, if any was.
+    /// Feature whose plan was requested last, if any.
     asked: Option<usize>,
     /// Plans by feature, in the order of the features.
     made: VecDeque<(usize, Result<LocalPlan>)>,
-    /// Whether a thread waits to go on.
+    /// Set while a thread waits to continue.
     waits: bool,
-    /// Whether nobody will ask any more.
+    /// Set once no more plans will be requested.
     over: bool,
 }
 
@@ -65,14 +65,14 @@ impl PlanPrefetch {
         Self { layer: Arc::clone(layer), state: Mutex::default(), changed: Condvar::new() }
     }
 
-    /// The plan of the feature with this number, if it has been made.
+    /// Takes the plan of the feature with this number, if it has been computed.
     pub(super) fn take(&self, number: usize) -> Option<Result<LocalPlan>> {
         let mut state = self.state();
         state.asked = Some(number);
         while state.made.front().is_some_and(|(made, _)| *made < number) {
             state.made.pop_front();
         }
-        // To wake a thread takes longer than to look whether there is one to wake.
+        // Waking a thread takes longer than checking that one waits.
         if state.waits && state.made.len() < READY / 2 {
             self.changed.notify_one();
         }
@@ -122,7 +122,7 @@ mod tests {
     use burgeon_data::{Feature, Geometry};
     use burgeon_geometry::{Polygon, Rings};
 
-    /// Squares on a line, every seventh of which has no area.
+    /// Returns squares on a line, every seventh of which has no area.
     fn squares(count: u32) -> Arc<Layer> {
         let square = |number: u32| {
             let (x, size) = (10.0 * f64::from(number), if number.is_multiple_of(7) { 0.0 } else { 4.0 });
@@ -157,7 +157,7 @@ mod tests {
         let mut ready = 0;
         std::thread::scope(|scope| {
             scope.spawn(|| ahead.work());
-            // Not every one, and some once more, as a script may.
+            // The numbers skip some features and repeat others, as a script may.
             for number in (0..1000).filter(|number| number % 5 != 0).chain([9, 8]) {
                 let Some(plan) = ahead.take(number) else {
                     std::thread::sleep(std::time::Duration::from_millis(1));

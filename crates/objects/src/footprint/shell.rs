@@ -1,4 +1,4 @@
-//! The lower part of a building: its groundwork, and how far it has got.
+//! The lower part of a building: its groundwork, and the progress of construction.
 
 use crate::MaterialOptions;
 use glam::DVec3;
@@ -9,16 +9,16 @@ use burgeon_base::error::{Error, Result};
 use burgeon_geometry::{Plan, Ring, fill};
 use burgeon_scene::SurfaceMeaning;
 
-/// How far a building has got.
+/// The progress of a building.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Shell {
-    /// The height (m) that has been reached.
+    /// Height (m) reached so far.
     pub top: f64,
-    /// The height (m) where walls begin, for textures.
+    /// Height (m) at which walls begin, for textures.
     pub bottom: f64,
-    /// Whether there is a floor.
+    /// Set once there is a floor.
     pub begun: bool,
-    /// Whether there is a roof.
+    /// Set once there is a roof.
     pub closed: bool,
 }
 
@@ -62,7 +62,7 @@ impl Footprint {
                 }
             }
         }
-        // Seen from below, rings run the other way.
+        // Rings are reversed as seen from below.
         let floor = match kind {
             "extruded" => plan.polygon().from_below(),
             _ => plan.flat().at_height(base).from_below(),

@@ -1,4 +1,4 @@
-//! What a roof has to know of the walls over each edge: what they are made of, and how far they stand out.
+//! The properties of the walls over each edge that a roof depends on: their material and their projection.
 
 use glam::DVec2;
 
@@ -10,18 +10,18 @@ use burgeon_scene::Material;
 /// The walls over an edge.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Side {
-    /// The part of the drawing that holds what its topmost storey is made of.
+    /// Part of the drawing with the material of the topmost storey.
     pub part: usize,
-    /// How far (m) its outermost storey stands out.
+    /// Projection (m) of the outermost storey.
     jut: f64,
-    /// How far (m) a roof has to stand out so that open eaves, which fall as steeply as they may, pass above all faces:
-    /// if the walls ended at height 0.
+    /// Overhang (m) at which open eaves of the steepest permitted slope pass above all faces, for walls that end at
+    /// height 0.
     clear: f64,
 }
 
-/// A storey stands out as far as this part of it does.
+/// Fraction of a storey's area that determines its projection: at least this fraction projects that far.
 const MOST_OF_IT: f64 = 0.5;
-/// What stands out less (m) than this does not stand out.
+/// Minimum projection (m). A smaller projection is ignored.
 const LEAST: f64 = 1e-3;
 
 impl Default for Side {
@@ -52,7 +52,7 @@ impl Side {
         }
     }
 
-    /// How far (m) it stands out below a roof at height `base` (m), whose eaves may be open.
+    /// Returns the projection (m) below a roof at height `base` (m), whose eaves may be open.
     fn stands_out(&self, base: f64, open: bool) -> f64 {
         let below = if open { self.clear - base / STEEPEST_EAVES } else { 0.0 };
         let furthest = self.jut.max(below);
@@ -61,7 +61,7 @@ impl Side {
 }
 
 impl Footprint {
-    /// Notes that the walls over `edge` are made of what part `part` holds.
+    /// Records that the walls over `edge` have the material of part `part`.
     pub(super) fn note_part(&mut self, edge: usize, part: usize) {
         if self.sides.len() <= edge {
             self.sides.resize(self.plan.polygon().size(), Side::default());
@@ -69,12 +69,13 @@ impl Footprint {
         self.sides[edge].part = part;
     }
 
-    /// Notes what a storey is like over `edge`, of this size (m) and from height `from` (m) on.
+    /// Records the layout of a storey over `edge`, of this size (m) and from height `from` (m).
     pub(super) fn note_storey(&mut self, edge: usize, laid: &FacadeLayout<'_>, size: DVec2, from: f64) {
         self.sides[edge].add(laid, size, from);
     }
 
-    /// How far (m) the walls over each edge stand out below a roof, whose eaves may be open; empty if nothing does.
+    /// Returns the projection (m) of the walls over each edge below a roof, whose eaves may be open. Empty if no wall
+    /// projects.
     pub(super) fn juts(&self, open: bool) -> Vec<f64> {
         let base = self.shell.top;
         let juts: Vec<f64> = self.sides.iter().map(|side| side.stands_out(base, open)).collect();
@@ -82,8 +83,8 @@ impl Footprint {
     }
 }
 
-/// The material of what a wall shows most of, apart from images that cover a face once: that of the template if it
-/// shows at all.
+/// Returns the material with the largest area of a wall, ignoring images that cover a face once. The template's own
+/// material takes precedence if it is visible at all.
 pub(super) fn material_of<'a>(laid: &FacadeLayout<'a>, template: &'a Material) -> &'a Material {
     let mut shown: Vec<(&'a Material, f64)> = Vec::new();
     for face in laid.faces.iter().filter(|face| !face.stretched && face.up.z == 0.0 && face.right.z == 0.0) {

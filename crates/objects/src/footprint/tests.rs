@@ -23,12 +23,12 @@ fn table(entries: &[(&str, Value)]) -> Arc<Table> {
     Arc::new(Table { class: None, entries: entries.collect() })
 }
 
-/// The same as a method takes it.
+/// Converts entries to the table argument of a method.
 fn given<T>(entries: &[(&str, Value)]) -> Option<TableOf<T>> {
     Some(table(entries).into())
 }
 
-/// The volume (m³) of a building with walls of 3 m and this roof, after having checked that it is a solid.
+/// Returns the volume (m³) of a building with walls of 3 m and this roof, after checking that it is a solid.
 fn volume(geometry: Rings, roof: &[(&str, Value)]) -> f64 {
     let mut house = Footprint::new(FootprintOptions { geometry, ..FootprintOptions::default() })
         .expect("a clean footprint");
@@ -61,7 +61,7 @@ fn roofs_over_a_rectangle_have_the_volumes_of_the_textbook() {
     near(volume(rectangle(), &kind("flat")), walls);
     near(volume(rectangle(), &kind("shed")), walls + 60.0);
     near(volume(rectangle(), &kind("gable")), walls + 60.0);
-    // A prism between the ends, and a pyramid of both ends together.
+    // The volume is a prism between the ends, and a pyramid formed by both ends together.
     near(volume(rectangle(), &kind("hip")), walls + 4.0 * 6.0 * 2.0 / 2.0 + 36.0 * 2.0 / 3.0);
     let border = [
         ("kind", Value::Text("flat".into())),
@@ -142,7 +142,7 @@ fn every_roof_closes_every_plan() {
     assert_eq!(count, 7 * 10 * 6);
 }
 
-/// A house with a facade of windows that lie back, at this level of detail.
+/// Returns a house with a facade of recessed windows, at this level of detail.
 fn with_facades(detail: u8) -> Footprint {
     use crate::facade;
     let object = |made: Result<Box<dyn Object>>| Value::Object(Arc::from(made.expect("a wall")));
@@ -172,7 +172,7 @@ fn with_facades(detail: u8) -> Footprint {
 #[test]
 fn each_level_of_detail_shows_less_and_all_but_facades_are_closed() {
     let count = |detail: u8| with_facades(detail).triangles();
-    // The floor; a block of 6 walls and a lid; the same under a hip roof.
+    // The counts are the floor; a block of 6 walls and a lid; the same under a hip roof.
     assert_eq!((count(0), count(1)), (4, 4 + 12 + 4));
     assert!(count(1) < count(2) && count(2) < count(3));
     for (detail, volume) in [(1, 95.0 * 6.0), (2, 95.0 * 6.0)] {
@@ -184,7 +184,7 @@ fn each_level_of_detail_shows_less_and_all_but_facades_are_closed() {
 
 #[test]
 fn storeys_of_one_material_are_one_wall_where_detail_is_off() {
-    // 6 walls of two triangles, 4 for the floor; the rest is roof, which rises above 6 m.
+    // The house has 6 walls of two triangles and 4 triangles for the floor; the rest is roof, above 6 m.
     let house = with_facades(2);
     let upright = house.drawing.parts().iter().flat_map(|part| {
         part.triangles.iter().filter(|corners| {
@@ -204,7 +204,7 @@ fn facades_cover_their_walls_and_leave_party_walls_plain() {
         for corners in &part.triangles {
             let [a, b, c] = corners.map(|corner| part.positions[corner as usize].as_dvec3());
             let area = (b - a).cross(c - a) / 2.0;
-            // Walls of the south side look towards -y; those that lie back by 0.2 m are glass.
+            // Walls on the south side face -y; walls recessed by 0.2 m are glass.
             if area.y < -1e-9 && area.z.abs() < 1e-9 && a.z.min(b.z).min(c.z) < 6.0 {
                 let south = house.plan.flat()[0][0].y;
                 let depth = [a.y, b.y, c.y].map(|y| ((y - south) * 1000.0).round());
@@ -218,7 +218,7 @@ fn facades_cover_their_walls_and_leave_party_walls_plain() {
     }
     near(front, 2.0 * (12.0 * 3.0 - 1.5));
     near(back, 2.0 * 1.5);
-    // The blind wall in the east is two rectangles, one for each storey.
+    // The blind wall in the east consists of two rectangles, one for each storey.
     let east = house.plan.flat()[0][1].x as f32;
     let plain = house.drawing.parts().iter().flat_map(|part| {
         part.triangles.iter().filter(|corners| {
@@ -253,7 +253,7 @@ fn textures_run_on_in_metres_over_the_joined_faces_of_a_facade() {
             }
         }
     }
-    // In each of two storeys a window with its wall.
+    // Each of the two storeys has windows with their walls.
     assert_eq!(count, 2 * 3 * (6 + 2));
 }
 
@@ -271,7 +271,7 @@ fn a_photo_covers_each_frontage_once() {
     let part = house.drawing.parts().iter().find(textured).expect("walls with the photo");
     assert_eq!((part.positions.len(), part.triangles.len()), (16, 8));
     for corners in part.uvs.chunks(4) {
-        // The whole image, which is 2 m wide and 4 m high, from its lowest left corner on.
+        // The coordinates cover the whole image, 2 m wide and 4 m high, from its lower left corner.
         let uvs: Vec<[f32; 2]> = corners.iter().map(|uv| uv.to_array()).collect();
         assert_eq!(uvs, [[0.0, 0.0], [2.0, 0.0], [2.0, 4.0], [0.0, 4.0]]);
     }
@@ -301,7 +301,7 @@ fn a_photo_with_bays_shows_whole_ones_on_each_frontage() {
         assert!((first.x / 2.5).fract() == 0.0 && first.x < 10.0 && first.y == 0.0, "{first}");
         sizes.push(size.to_array());
     }
-    // 12 m are nearest to five bays, 0.6 m still show one, and 7 m are two storeys.
+    // 12 m is closest to five bays, 0.6 m still shows one bay, and 7 m is two storeys.
     assert_eq!(sizes, [[12.5, 6.0], [2.5, 6.0], [12.5, 6.0], [2.5, 6.0]]);
     for (bay, photo) in [(vec![2.5, 3.0], None), (vec![2.5], Some(())), (vec![0.0, 3.0], Some(()))] {
         let photo = photo.map(|()| Value::Table(table(&[("texture", Value::Text("front.png".into()))])));

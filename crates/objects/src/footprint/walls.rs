@@ -1,4 +1,4 @@
-//! The walls of a building: plain ones, photos, and facades laid out by templates.
+//! The walls of a building: plain walls, photos, and facades laid out by templates.
 
 use glam::{DAffine3, DMat3, DVec2, DVec3};
 
@@ -17,28 +17,28 @@ use burgeon_geometry::{Ring, SAME, fill};
 use burgeon_kit::{Color, Note, fields};
 use burgeon_scene::{Material, Part, SurfaceMeaning};
 
-/// What `footprint:walls { ... }` takes.
+/// Options of `footprint:walls { ... }`.
 #[fields("footprint:walls")]
 pub struct Walls {
-    /// How high they are (m); as high as the footprint says if left out.
+    /// Height of the walls (m). If omitted, the footprint's height.
     pub height: Option<Height>,
-    /// What the frontages look like: a facade, a template or a list of templates.
+    /// Facade layout: a facade, a template or a list of templates.
     pub templates: Option<Templates>,
-    /// A material whose image covers each frontage once, as a photo of the building does.
+    /// Material whose image covers each frontage once, such as a photo of the building.
     pub photo: Option<MaterialOptions>,
-    /// Width and height (m) of one bay of the photo, which then repeats in whole bays, as many as suit a frontage best;
-    /// parts of walls that neighbours cover stay plain.
+    /// Width and height (m) of one bay of the photo. The photo then repeats in the number of whole bays that fits a
+    /// frontage best. Parts of walls that neighbours cover stay plain.
     pub bay: Vec<f64>,
     /// Colour of plain walls.
     pub color: Option<Color>,
-    /// Material of plain walls, in place of the colour.
+    /// Material of plain walls, instead of the colour.
     pub material: Option<MaterialOptions>,
-    /// Whether models on the walls become faces of the building, and not instances.
+    /// Convert models on the walls to faces of the building, instead of instances.
     pub expand: bool,
 }
 
 impl Walls {
-    /// Width and height (m) of a bay of the photo; fails if there is none to repeat.
+    /// Returns the width and height (m) of a bay of the photo. Fails if there is no photo to repeat.
     fn bay(&self) -> Result<Option<DVec2>> {
         let refused =
             |why: &str, remedy: &str| Error::argument(format!("footprint:walls: {why}")).help(remedy);
@@ -60,35 +60,36 @@ impl Walls {
     }
 }
 
-/// Plain walls that have been asked for but not drawn, since more may follow above them.
+/// Plain walls that are not drawn yet, because more walls may follow above them.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Plain {
-    /// The height (m) where they begin.
+    /// Height (m) at which they begin.
     from: f64,
     part: usize,
     maker: u32,
 }
 
-/// A side of the building for as high as the walls go.
+/// A side of the building, over the height of the walls.
 #[derive(Debug, Clone, Copy)]
 struct Frontage {
-    /// Its lowest corners, the left and the right one, seen from outside (m).
+    /// Lower left and lower right corner, seen from outside (m).
     ends: [DVec3; 2],
-    /// Its width and height (m).
+    /// Width and height (m).
     size: DVec2,
-    /// To the right, upwards and out of the building.
+    /// Axes to the right, upwards and out of the building.
     axes: DMat3,
-    /// How far (m) what stands out by 1 m goes on beyond its left and its right end, to meet what is around the corner.
+    /// Extension (m) of a projection of 1 m beyond the left and the right end, to meet the projection around the
+    /// corner.
     miters: [f64; 2],
-    /// Where textures begin: how far it is around the building and above the ground (m).
+    /// Start of texture coordinates: the distances around the building and above the ground (m).
     passed: DVec2,
-    /// How much (m) of its height a neighbour covers from below.
+    /// Height (m) that a neighbour covers, from the bottom.
     covered: f64,
-    /// The edge that it is a part of.
+    /// Edge to which the frontage belongs.
     edge: usize,
 }
 
-/// The most that a miter goes on beyond a corner, for 1 m that it stands out.
+/// Maximum extension of a mitre beyond a corner, per metre of projection.
 const STEEPEST_MITER: f64 = 1.5;
 
 impl Footprint {
@@ -136,7 +137,7 @@ impl Footprint {
         }
     }
 
-    /// Draws the plain walls that were waiting for what follows above them.
+    /// Draws the pending plain walls.
     pub(super) fn finish_walls(&mut self) -> Result<()> {
         self.finish_walls_up_to(self.shell.top)
     }
@@ -183,7 +184,7 @@ impl Footprint {
                     continue;
                 }
                 Some(bay) => {
-                    // Each frontage begins with a bay of its own, so that windows differ from one to the next.
+                    // Each frontage begins with a random bay, so that windows differ between frontages.
                     let chance = Stream::new(self.seed ^ mixed(self.raised, edge)).uniform();
                     let first = (chance * (whole / bay).round()).floor() * bay * DVec2::X;
                     [first, (frontage.size / bay).round().max(DVec2::ONE) * bay]
@@ -205,7 +206,7 @@ impl Footprint {
     ) -> Result<()> {
         let mut laid = FacadeLayout::default();
         let mut joiner = Joiner::spare();
-        // Parts by the addresses of materials, which templates keep where they are.
+        // Parts are indexed by the addresses of materials, which do not move while the templates exist.
         let mut parts: Vec<(*const Material, usize)> = Vec::new();
         let mut without: Vec<DVec2> = Vec::new();
         let mut frontages = self.divided(from, to);
@@ -243,7 +244,7 @@ impl Footprint {
                 continue;
             };
             if is_partly {
-                // Storeys that begin above what the neighbour covers stay as they are.
+                // Storeys that begin above the neighbour's cover stay unchanged.
                 let level =
                     laid.level_above(frontage.covered).filter(|level| *level < frontage.size.y - SAME);
                 let Some(level) = level else {
@@ -257,7 +258,7 @@ impl Footprint {
             let edge = frontage.edge;
             self.draw_laid(&laid, template, &frontage, &mut parts, &mut joiner);
             let material: *const Material = material_of(&laid, template.material());
-            // The free part of a wall is what its gable goes on with.
+            // A gable continues the free part of the wall below it.
             if (!frontage.is_blind() || !has_free[edge])
                 && let Some((_, part)) = parts.iter().find(|(known, _)| *known == material)
             {
@@ -265,7 +266,7 @@ impl Footprint {
             }
             self.note_storey(edge, &laid, frontage.size, from);
             for (fixture, at, scale) in laid.models() {
-                // Models look towards -y.
+                // Models face -y.
                 let DMat3 { x_axis, y_axis, z_axis } = frontage.axes;
                 let turned = DMat3::from_cols(x_axis * scale.x, -z_axis * scale.y, y_axis * scale.z);
                 let frame = DAffine3 { matrix3: turned, translation: frontage.place(at) };
@@ -290,7 +291,7 @@ impl Footprint {
         Ok(())
     }
 
-    /// The template of a frontage; that of walls which are blind in part as well, if they were free.
+    /// Chooses the template of a frontage. A partly blind wall gets the template that it would have if it were free.
     fn choose<'a>(&self, templates: &'a Templates, frontage: &Frontage) -> Option<&'a Template> {
         let chance = Stream::new(self.seed ^ mixed(self.raised, frontage.edge)).uniform();
         let keywords = self.keywords_of(frontage.edge, frontage.is_blind());
@@ -337,7 +338,7 @@ impl Footprint {
                     ends: [a.extend(from), b.extend(from)],
                     size: DVec2::new(length, to - from),
                     axes: DMat3::from_cols(right, DVec3::Z, right.cross(DVec3::Z)),
-                    // Textures run on around the corners.
+                    // Textures continue around the corners.
                     passed: DVec2::new(passed, from - self.shell.bottom),
                     covered: 0.0,
                     edge: frontages.len(),
@@ -348,7 +349,7 @@ impl Footprint {
         frontages
     }
 
-    /// The frontages, divided where neighbours begin and end.
+    /// Returns the frontages, divided where neighbours begin and end.
     fn divided(&self, from: f64, to: f64) -> Vec<Frontage> {
         let mut divided = Vec::with_capacity(self.plan.polygon().size());
         for frontage in self.frontages(from, to) {
@@ -358,7 +359,7 @@ impl Footprint {
         divided
     }
 
-    /// Lets what stands out meet at the corners of frontages; nothing reaches over a neighbour's wall.
+    /// Computes the mitres at the corners between frontages. A mitre never extends over a neighbour's wall.
     fn miter(&self, frontages: &mut [Frontage]) {
         let mut first = 0;
         let mut edges = 0;
@@ -382,7 +383,7 @@ impl Footprint {
         }
     }
 
-    /// The words that say what kind of frontage an edge has, where it is blind or is not.
+    /// Returns the keywords that describe a frontage on an edge, which is blind or not.
     fn keywords_of(&self, edge: usize, is_blind: bool) -> Vec<&str> {
         let own = self.options.keywords.iter().map(String::as_str);
         let words = own.chain(self.edge_keywords(edge).iter().map(|word| &**word));
@@ -391,12 +392,12 @@ impl Footprint {
 }
 
 impl Frontage {
-    /// Whether a neighbour covers all of it.
+    /// Returns true if a neighbour covers the whole frontage.
     fn is_blind(&self) -> bool {
         self.covered >= self.size.y
     }
 
-    /// A part of it between two places along the edge.
+    /// Returns the part of the frontage between two positions along the edge.
     fn part(&self, span: &WallSpan) -> Self {
         let [begin, end] = span.part;
         let is_all = [begin <= 0.0, end >= self.size.x];
@@ -413,7 +414,7 @@ impl Frontage {
         }
     }
 
-    /// The blind part below a height (m) above its lower side, and the free one above it.
+    /// Divides the frontage at a height (m) above its lower side into the blind part below and the free part above.
     fn divided_at(&self, height: f64) -> [Self; 2] {
         let by = |height: f64| self.ends.map(|end| end + DVec3::Z * height);
         let size = |height: f64| DVec2::new(self.size.x, height);
@@ -429,9 +430,9 @@ impl Frontage {
         ]
     }
 
-    /// A point of the frontage in the footprint's coordinates (m).
+    /// Converts a point of the frontage to the footprint's coordinates (m).
     ///
-    /// From the nearer end, so that frontages meet to the last bit.
+    /// Measures from the nearer end, so that adjacent frontages meet exactly.
     fn place(&self, at: DVec3) -> DVec3 {
         if at.x < self.size.x / 2.0 {
             self.ends[0] + self.axes * at
@@ -440,7 +441,7 @@ impl Frontage {
         }
     }
 
-    /// Adds all of it as one plain face.
+    /// Adds the whole frontage as one plain face.
     fn fill(&self, part: &mut Part) -> Result<()> {
         let up = DVec3::Z * self.size.y;
         let [a, b] = self.ends;
@@ -449,8 +450,8 @@ impl Frontage {
         face.map_or(Ok(()), |face| fill(part, &[face], self.axes.x_axis, origin))
     }
 
-    /// Adds `mesh`, which is like `face`, with its texture coordinates (m); a face that an image is stretched over shows of it
-    /// what begins at the first place of `shown` and is as large as the second says (m).
+    /// Adds `mesh`, the mesh of `face`, with texture coordinates (m). A face with a stretched image shows the section
+    /// of the image that begins at the first point of `shown` and has the size of the second (m).
     fn draw(&self, part: &mut Part, face: &FacadeFace<'_>, mesh: &FaceMesh, shown: [DVec2; 2]) {
         let Ok(base) = u32::try_from(part.positions.len()) else { return };
         let normal = (self.axes * face.right.cross(face.up)).normalize_or_zero().as_vec3();
@@ -469,7 +470,7 @@ impl Frontage {
             } else if lies {
                 self.passed + DVec2::new(corner.x, corner.y + corner.z)
             } else {
-                // Around the edges of what stands out or lies back, too.
+                // Texture coordinates also continue around the edges of projections and recesses.
                 self.passed + DVec2::new(corner.x + corner.z, corner.y)
             };
             part.positions.push(self.place(corner).as_vec3());
@@ -480,7 +481,7 @@ impl Frontage {
     }
 }
 
-/// A number of its own for an edge of the walls that were raised as number `raised`.
+/// Returns a random seed for an edge of the walls raised as number `raised`.
 fn mixed(raised: u64, edge: usize) -> u64 {
     raised.wrapping_mul(0x9E37_79B9_7F4A_7C15) ^ (edge as u64).wrapping_mul(0xD134_2543_DE82_EF95)
 }

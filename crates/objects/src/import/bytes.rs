@@ -1,4 +1,4 @@
-//! The bytes of a glTF file and of those beside it, and the columns of numbers in them.
+//! The bytes of a glTF file and of its external files, and the arrays of numbers in them.
 
 use std::rc::Rc;
 
@@ -18,7 +18,7 @@ pub(super) struct Bytes<'a> {
 }
 
 impl<'a> Bytes<'a> {
-    /// Reads all buffers; `own` is that of the file itself.
+    /// Reads all buffers; `own` is the binary chunk of the file itself.
     pub(super) fn load(root: &Root, own: Option<&'a [u8]>, wanted: &mut ImportOptions<'_>) -> Result<Self> {
         let mut buffers = Vec::new();
         for (index, buffer) in root.buffers.iter().enumerate() {
@@ -36,7 +36,7 @@ impl<'a> Bytes<'a> {
         Ok(Self { buffers })
     }
 
-    /// The bytes of a view, and how far apart (bytes) its items are if it says so.
+    /// Returns the bytes of a view, and the stride (bytes) of its items if specified.
     pub(super) fn view(
         &self,
         root: &Root,
@@ -52,7 +52,7 @@ impl<'a> Bytes<'a> {
     }
 }
 
-/// The columns of numbers of a file, each read once however many parts of it use it.
+/// The arrays of numbers of a file, each read once even if several primitives share it.
 pub(super) struct NumberColumns<'a> {
     pub root: &'a Root,
     pub bytes: &'a Bytes<'a>,
@@ -79,7 +79,7 @@ impl<'a> NumberColumns<'a> {
         }
     }
 
-    /// The items of an accessor, each of two numbers; whole numbers are scaled to 1 where they are normalized.
+    /// Returns the items of an accessor, each of two numbers. Normalized integers are scaled to 1.
     pub(super) fn pairs(&mut self, index: Index<Accessor>) -> Result<Rc<[[f32; 2]]>> {
         let mut known = std::mem::take(&mut self.pairs);
         let column = self.cached(&mut known, index, Self::column);
@@ -87,7 +87,7 @@ impl<'a> NumberColumns<'a> {
         column
     }
 
-    /// The same, of three numbers.
+    /// Returns the items of an accessor, each of three numbers.
     pub(super) fn triples(&mut self, index: Index<Accessor>) -> Result<Rc<[[f32; 3]]>> {
         let mut known = std::mem::take(&mut self.triples);
         let column = self.cached(&mut known, index, Self::column);
@@ -95,7 +95,7 @@ impl<'a> NumberColumns<'a> {
         column
     }
 
-    /// The same, of four numbers.
+    /// Returns the items of an accessor, each of four numbers.
     pub(super) fn fours(&mut self, index: Index<Accessor>) -> Result<Rc<[[f32; 4]]>> {
         let mut known = std::mem::take(&mut self.fours);
         let column = self.cached(&mut known, index, Self::column);
@@ -103,7 +103,7 @@ impl<'a> NumberColumns<'a> {
         column
     }
 
-    /// The items of an accessor of whole numbers.
+    /// Returns the items of an accessor of integers.
     pub(super) fn indices(&mut self, index: Index<Accessor>) -> Result<Rc<[u32]>> {
         let mut known = std::mem::take(&mut self.indices);
         let column = self.cached(&mut known, index, Self::whole);
@@ -164,7 +164,7 @@ impl<'a> NumberColumns<'a> {
         Ok(items)
     }
 
-    /// How many numbers each item of an accessor has; none where there is no such accessor.
+    /// Returns the number of components of an accessor's items, or 0 if there is no such accessor.
     pub(super) fn width(&self, index: Index<Accessor>) -> usize {
         match self.root.get(index).map(|accessor| &accessor.type_) {
             Some(Checked::Valid(kind)) => kind.multiplicity(),
@@ -172,7 +172,7 @@ impl<'a> NumberColumns<'a> {
         }
     }
 
-    /// An accessor of items of `count` numbers, and what these are.
+    /// Returns an accessor with items of `count` numbers, and its component type. Fails if the accessor is unsupported.
     fn described(&self, index: Index<Accessor>, count: usize) -> Result<(&'a Accessor, ComponentType)> {
         let number = index.value();
         let accessor =
@@ -190,10 +190,10 @@ impl<'a> NumberColumns<'a> {
         }
     }
 
-    /// Calls `take` with the bytes of each item, for which `kept` bytes are asked for.
+    /// Calls `take` with the bytes of each item, and charges the budget `kept` bytes per item.
     fn each(&self, accessor: &Accessor, size: usize, kept: usize, mut take: impl FnMut(&[u8])) -> Result<()> {
         let outside = || Error::data("an accessor reaches outside of its view");
-        // Without a view all numbers are 0, which is no shape.
+        // Without a view, all numbers are 0, which is not a shape.
         let view = accessor.buffer_view.ok_or_else(outside)?;
         let (bytes, stride) = self.bytes.view(self.root, view).map_err(Error::data)?;
         let stride = stride.unwrap_or(size).max(1);
@@ -219,10 +219,10 @@ impl<'a> NumberColumns<'a> {
     }
 }
 
-/// How many items are read between two looks at the clock.
+/// Number of items that are read between two checks of the budget.
 pub(super) const MANY: usize = 1 << 16;
 
-/// What an address in the file means: content in the address itself, or a file beside it.
+/// Returns the content of a URI in the file: data in the URI itself, or an external file.
 pub(super) fn address(uri: &str, wanted: &mut ImportOptions<'_>) -> Result<Vec<u8>> {
     let Some(data) = uri.strip_prefix("data:") else { return (wanted.beside)(&plain(uri)) };
     let coded = data.split_once(";base64,").map(|(_, coded)| coded);
@@ -233,7 +233,7 @@ pub(super) fn address(uri: &str, wanted: &mut ImportOptions<'_>) -> Result<Vec<u
         .ok_or_else(|| broken(wanted.name, "it holds data that is not base64"))
 }
 
-/// An address without its escapes, `%20` and the like.
+/// Decodes the percent-encoding of a URI, such as `%20`.
 fn plain(uri: &str) -> String {
     let bytes = uri.as_bytes();
     let (mut found, mut at) = (Vec::new(), 0);

@@ -1,4 +1,4 @@
-//! Reads a file of glTF.
+//! The reader for glTF files.
 
 use std::path::Path;
 use std::sync::Arc;
@@ -14,36 +14,37 @@ use burgeon_scene::{Instance, Mesh, Part, Scene};
 use glam::{DAffine3, DMat3, DMat4, DQuat, DVec3};
 use gltf_json::{Index, Root, scene::Node};
 
-/// The deepest that nodes may be nested, and the most of them.
+/// Maximum nesting depth of nodes. `MOST_NODES` is their maximum number.
 const DEEPEST: usize = 64;
 
 const MOST_NODES: usize = 100_000;
 
-/// The most memory (bytes) that an object of a description takes, and an instance.
+/// Maximum memory (bytes) of a JSON object of the description, and of an instance.
 pub(super) const OBJECT: usize = 500;
 
-/// What an import needs from outside of the file.
+/// The inputs of an import in addition to the file.
 pub(super) struct ImportOptions<'a> {
-    /// What messages call the file.
+    /// Name of the file in messages.
     pub name: &'a str,
-    /// The most triangles, those of repeated meshes counted each time.
+    /// Maximum number of triangles, with repeated meshes counted for each instance.
     pub triangles: usize,
-    /// What reading may take.
+    /// Budget for reading.
     pub budget: &'a Budget,
-    /// Reads a file beside it, by the address in the file.
+    /// Function that reads an external file, by its URI in the file.
     pub beside: &'a mut dyn FnMut(&str) -> Result<Vec<u8>>,
 }
 
-/// The scene of a glTF file, in metres, z up.
+/// Reads the scene of a glTF file, in metres, z up.
 ///
-/// Takes positions, normals, texture coordinates, colours of points, instances of a node, and of materials base colour with its texture, metal, roughness and
-/// light; normals that are missing are those of flat faces, texture coordinates are then metres along the faces. Fails
-/// if the file is damaged, needs an extension that is not known here, or has too many triangles.
+/// Reads positions, normals, texture coordinates, vertex colours and instances of a node. For materials, reads base
+/// colour and its texture, metalness, roughness and emission. Missing normals are the normals of flat faces; missing
+/// texture coordinates are metres along the faces. Fails if the file is damaged, requires an unsupported extension, or
+/// has too many triangles.
 pub(super) fn read(content: &[u8], wanted: &mut ImportOptions<'_>) -> Result<Scene> {
     let name = wanted.name;
     let (json, own) = container(content).map_err(|why| broken(name, why))?;
     wanted.budget.check()?;
-    // A description may have many objects of a few letters, which take much more when they are read.
+    // A description may contain many tiny objects, which take much more memory after parsing.
     let objects = json.iter().filter(|byte| **byte == b'{').count();
     wanted.budget.take(objects.saturating_mul(OBJECT).saturating_add(json.len()))?;
     let root = Root::from_slice(json).map_err(|error| broken(name, format!("its JSON is wrong: {error}")))?;
@@ -73,19 +74,19 @@ pub(super) fn read(content: &[u8], wanted: &mut ImportOptions<'_>) -> Result<Sce
     Ok(model.scene)
 }
 
-/// The error for a file that is damaged, or for a limit that was reached on the way.
+/// Returns the error for a damaged file, or for an exceeded limit.
 fn damaged(name: &str, budget: &Budget, error: &Error) -> Error {
-    // It may be that the time or the memory is at its end, and not the file's fault.
+    // The cause may be an exceeded time or memory limit, and not the file.
     budget.check().err().unwrap_or_else(|| broken(name, error.message()))
 }
 
-/// The error for a file that is damaged.
+/// Creates the error for a damaged file.
 pub(super) fn broken(name: &str, why: impl std::fmt::Display) -> Error {
     Error::data(format!("the model {name} cannot be read: {why}"))
         .help("export it again as glTF 2.0 (.glb), and check that it was copied whole")
 }
 
-/// The JSON of a file, and the bytes that a `.glb` file holds besides.
+/// Returns the JSON of a file, and the binary chunk of a `.glb` file.
 fn container(content: &[u8]) -> Result<(&[u8], Option<&[u8]>), String> {
     if !content.starts_with(b"glTF") {
         let text = content.iter().find(|byte| !byte.is_ascii_whitespace());
@@ -108,7 +109,7 @@ fn container(content: &[u8]) -> Result<(&[u8], Option<&[u8]>), String> {
             b"BIN\0" if own.is_none() => own = Some(chunk),
             _ => {}
         }
-        // Chunks are filled up to whole words, though some programs forget it.
+        // Chunks are padded to multiples of 4 bytes, but some programs omit the padding.
         let [bare, filled] = [chunk.len(), chunk.len().next_multiple_of(4)].map(|length| at + 8 + length);
         let is_chunk = |at: usize| matches!(whole.get(at + 4..at + 8), Some(b"JSON" | b"BIN\0"));
         at = if is_chunk(bare) && !is_chunk(filled) { bare } else { filled };
@@ -125,7 +126,7 @@ fn check_extensions(root: &Root, name: &str) -> Result<()> {
     ))
 }
 
-/// The nodes that are no one's children.
+/// Returns the nodes without parents.
 fn roots(root: &Root) -> Vec<Index<Node>> {
     let mut own = vec![true; root.nodes.len()];
     for child in root.nodes.iter().flat_map(|node| node.children.iter().flatten()) {
@@ -141,7 +142,7 @@ struct Import<'a> {
     columns: NumberColumns<'a>,
     name: &'a str,
     scene: Scene,
-    /// By mesh of the file: the one of the scene, once it has been asked for; none if it has no triangles.
+    /// Mesh of the scene for each mesh of the file, once it is read; `None` inside if it has no triangles.
     meshes: Vec<Option<Option<usize>>>,
     materials: Vec<ImportMaterial>,
     nodes: usize,
@@ -223,12 +224,12 @@ impl Import<'_> {
         .help("simplify it, or raise the limit: --triangle-limit N")
     }
 
-    /// The mesh of the scene for one of the file; `None` if it has no triangles.
+    /// Returns the mesh of the scene for a mesh of the file, or `None` if it has no triangles.
     fn mesh(&mut self, index: Index<gltf_json::Mesh>) -> Result<Option<usize>> {
         let Some(described) = self.root.get(index) else { return Ok(None) };
         let name = described.name.clone().unwrap_or_default();
         let mut mesh = Mesh { name, ..Mesh::default() };
-        // By part of the mesh: what it is made of. Parts of the same material stay apart in the file; here they are one.
+        // Pieces of each part. The file has separate primitives of the same material, which become one part.
         let mut pieces: Vec<Vec<Part>> = Vec::new();
         let mut triangles = 0;
         for primitive in &described.primitives {
@@ -271,7 +272,7 @@ impl Import<'_> {
     }
 }
 
-/// Where a node stands in its parent.
+/// Returns the transform of a node relative to its parent.
 fn transform(node: &Node) -> DAffine3 {
     if let Some(matrix) = node.matrix {
         return DAffine3::from_mat4(DMat4::from_cols_array(&matrix.map(f64::from)));
@@ -290,13 +291,13 @@ fn transform(node: &Node) -> DAffine3 {
     )
 }
 
-/// A transform of y-up coordinates as one of z-up coordinates.
+/// Converts a transform from y-up to z-up coordinates.
 fn turned(place: DAffine3) -> DAffine3 {
     let turn = DMat3::from_cols(DVec3::X, DVec3::Z, DVec3::NEG_Y);
     DAffine3 { matrix3: turn * place.matrix3 * turn.transpose(), translation: turn * place.translation }
 }
 
-/// The type of models, which files of glTF are read for.
+/// Creates the model type with the loader for glTF files.
 pub(crate) fn kind() -> Kind {
     let loader = Loader {
         what: "model",
@@ -311,7 +312,7 @@ pub(crate) fn kind() -> Kind {
 fn load(file: &mut LoadRequest<'_>, _: &Table) -> Result<LoadedObject> {
     let remedy = "name a .glb or .gltf file";
     let content = file.read(remedy)?;
-    // Files beside it are named from its own folder.
+    // External files are relative to the folder of the file.
     let folder = Path::new(file.name).parent().map(Path::to_path_buf).unwrap_or_default();
     let mut beside = |uri: &str| {
         let name = folder.join(uri).display().to_string();

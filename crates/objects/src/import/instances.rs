@@ -1,4 +1,4 @@
-//! Many instances of one node.
+//! Multiple instances of one node.
 //!
 //! Source: Khronos Group, glTF extension `EXT_mesh_gpu_instancing`, 2021.
 
@@ -10,10 +10,10 @@ use super::bytes::NumberColumns;
 use super::gltf_file::OBJECT;
 use burgeon_base::error::{Error, Result};
 
-/// The extension's name.
+/// Name of the extension.
 pub(super) const EXTENSION: &str = "EXT_mesh_gpu_instancing";
 
-/// Where the instances of a node stand in it; none if it has no such list.
+/// Returns the transforms of the instances of a node, or `None` if it does not have the extension.
 pub(super) fn places(columns: &mut NumberColumns<'_>, node: &Node) -> Result<Option<Vec<DAffine3>>> {
     let extension = node.extensions.as_ref().and_then(|known| known.others.get(EXTENSION));
     let Some(attributes) = extension.and_then(|extension| extension.get("attributes")) else {

@@ -13,17 +13,17 @@ use burgeon_base::error::Result;
 use burgeon_scene::image::ImageKind;
 use burgeon_scene::{Material, Texture};
 
-/// A material, and which of the texture coordinates it takes.
+/// A material, and the number of the texture coordinates that it uses.
 #[derive(Debug, Clone)]
 pub(super) struct ImportMaterial {
     pub material: Material,
     pub set: u32,
-    /// Whether nothing shines through, whatever its colours say.
+    /// Set if the material is opaque regardless of the alpha of its colours.
     opaque: bool,
 }
 
 impl ImportMaterial {
-    /// The material for points with a colour of their own.
+    /// Returns the material multiplied by a vertex colour.
     pub(super) fn tinted(&self, tint: [f32; 4]) -> Material {
         let mut material = self.material.clone();
         let channels = if self.opaque { 3 } else { 4 };
@@ -34,13 +34,13 @@ impl ImportMaterial {
     }
 }
 
-/// What glTF gives to a primitive without a material.
+/// Returns the default material of glTF for a primitive without a material.
 pub(super) fn plain() -> ImportMaterial {
     let material = Material { base_color: [1.0; 4], metallic: 1.0, roughness: 1.0, ..Material::default() };
     ImportMaterial { material, set: 0, opaque: true }
 }
 
-/// All materials of the file, in its order.
+/// Reads all materials of the file, in order.
 pub(super) fn materials(
     root: &Root,
     bytes: &Bytes<'_>,
@@ -75,12 +75,12 @@ pub(super) fn materials(
     Ok(looks)
 }
 
-/// A number from 0 to 1.
+/// Limits a number to the range from 0 to 1.
 fn part(value: f32) -> f32 {
     if value.is_nan() { 0.0 } else { value.clamp(0.0, 1.0) }
 }
 
-/// The light that a material gives off, as strong as its extension says.
+/// Returns the emission of a material, multiplied by the strength in its extension.
 fn light(described: &gltf_json::Material) -> [f32; 3] {
     let extension = described.extensions.as_ref();
     let extension = extension.and_then(|known| known.others.get("KHR_materials_emissive_strength"));
@@ -126,7 +126,7 @@ fn texture(
     let stem = PathBuf::from(wanted.name).file_stem().unwrap_or_default().to_string_lossy().into_owned();
     let name = image.name.clone().filter(|name| !name.is_empty());
     let own = name.unwrap_or_else(|| source.value().to_string());
-    // One repetition of an image is one unit of the file's texture coordinates.
+    // A repetition of an image corresponds to 1 unit of the file's texture coordinates.
     let path = PathBuf::from(format!("{stem}_{}", own.replace(['/', '\\'], "_")));
     Ok(Texture { path, size: [1.0, 1.0], content: Some(content) })
 }

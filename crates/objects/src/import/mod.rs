@@ -1,7 +1,7 @@
 //! Models from glTF files: nodes become instances, y up becomes z up.
 //!
-//! Comes in: the bytes of a `.glb` or `.gltf` file. Goes out: a [`Scene`], or an error that says what is wrong with
-//! the file. Nothing in a file makes this panic.
+//! Input: the bytes of a `.glb` or `.gltf` file. Output: a [`Scene`], or an error that describes the problem in the
+//! file. No file content causes a panic.
 //!
 //! Source: Khronos Group, glTF 2.0 Specification, 2021 (ISO/IEC 12113).
 

@@ -11,20 +11,20 @@ use burgeon_base::budget::Budget;
 use burgeon_base::error::{Error, Limit, Result};
 use burgeon_scene::{Normal, Part};
 
-/// The farthest (m) that a point may be from the model's origin.
+/// Maximum distance (m) of a point from the model's origin.
 const FARTHEST: f32 = 1e7;
 
-/// The triangles of a primitive that have one colour besides their material's.
+/// The triangles of a primitive with the same vertex colour.
 pub(super) struct TintedPart {
-    /// What the material's colour is multiplied by.
+    /// Factor for the material's colour.
     pub tint: [f32; 4],
     pub part: Part,
 }
 
-/// The triangles of a primitive, z up; nothing if it has lines or points, or no triangle with an area.
+/// Reads the triangles of a primitive, z up. Returns nothing for lines and points, and for triangles without area.
 ///
-/// `set` is the number of the texture coordinates that its material takes. What it takes depends on its own triangles
-/// alone: parts of a file may share one long list of points.
+/// `set` is the number of the texture coordinates that its material uses. Memory depends only on the primitive's own
+/// triangles, because several primitives of a file may share one long list of points.
 pub(super) fn shapes(
     columns: &mut NumberColumns<'_>,
     primitive: &Primitive,
@@ -47,7 +47,7 @@ pub(super) fn shapes(
         tints::apart(columns, attribute(Semantic::Colors(0)), positions.len(), triangles)?
     {
         let budget = columns.budget;
-        // Corners may become points of their own, and are gone through several times.
+        // Corners may become separate points, and are traversed several times.
         budget.take(triangles.len().saturating_mul(size_of::<[u32; 3]>() + 3 * POINT))?;
         let given =
             PrimitiveColumns { positions: &positions, normals: normals.as_deref(), uvs: uvs.as_deref() };
@@ -56,10 +56,10 @@ pub(super) fn shapes(
     Ok(shapes)
 }
 
-/// About what a point takes (bytes).
+/// Approximate memory of a point (bytes).
 const POINT: usize = size_of::<Vec3>() + size_of::<Vec2>() + size_of::<Normal>();
 
-/// The triangles of a primitive that have an area, as its own points.
+/// Returns the triangles of a primitive that have an area, as indices into its points.
 fn triangles(
     columns: &mut NumberColumns<'_>,
     primitive: &Primitive,
@@ -102,7 +102,7 @@ fn triangles(
         if let Some(point) = points.iter().find(|point| !point.abs().cmple(Vec3::splat(FARTHEST)).all()) {
             return Err(Error::data(format!("a point lies at {}, {}, {}", point.x, point.y, point.z)));
         }
-        // What has no area shows nothing, and has no normal.
+        // A triangle without area is invisible and has no normal.
         if area_vector(points).length_squared() > 0.0 {
             triangles.push(corners);
         }
@@ -110,8 +110,8 @@ fn triangles(
     Ok(triangles)
 }
 
-/// Makes the empty part `whole` of pieces, one after the other: column by column, so that never more than one of them
-/// is there twice.
+/// Concatenates pieces into the empty part `whole`, column by column, so that at most one column exists twice at a
+/// time.
 pub(super) fn join(whole: &mut Part, mut pieces: Vec<Part>, budget: &Budget) -> Result<()> {
     if let [piece] = &mut pieces[..] {
         *whole = Part { material: whole.material, ..std::mem::take(piece) };
@@ -136,7 +136,7 @@ pub(super) fn join(whole: &mut Part, mut pieces: Vec<Part>, budget: &Budget) -> 
     Ok(())
 }
 
-/// A column of `count` values in all, taken from pieces.
+/// Concatenates a column of the pieces, with `count` values in total.
 fn column<T>(
     pieces: &mut [Part],
     count: usize,
@@ -158,11 +158,11 @@ struct PrimitiveColumns<'a> {
 }
 
 impl PrimitiveColumns<'_> {
-    /// The part of these triangles, with the points that they have and no others.
+    /// Creates the part of these triangles, with only the points that they use.
     fn part(&self, triangles: Vec<[u32; 3]>) -> Result<Part> {
         let mut part = Part::default();
         let used: Vec<u32> = match self.normals {
-            // Each triangle gets points of its own, with the normal of its face.
+            // Each triangle gets separate points with the normal of its face.
             None => triangles.iter().flatten().copied().collect(),
             Some(_) => {
                 let mut used: Vec<u32> = triangles.iter().flatten().copied().collect();
@@ -174,7 +174,7 @@ impl PrimitiveColumns<'_> {
         let used = || used.iter().map(|point| *point as usize);
         part.positions = used().map(|point| z_up(Vec3::from(self.positions[point]))).collect();
         if let Some(uvs) = self.uvs {
-            // v points up here, and down in a file.
+            // The v coordinate points up here, but down in a file.
             part.uvs = used().map(|point| Vec2::new(uvs[point][0], 1.0 - uvs[point][1])).collect();
             if part.uvs.iter().any(|uv| !uv.abs().cmple(Vec2::splat(FARTHEST)).all()) {
                 return Err(Error::data("a texture coordinate is no number"));
@@ -212,12 +212,12 @@ fn z_up(vector: Vec3) -> Vec3 {
     Vec3::new(vector.x, -vector.z, vector.y)
 }
 
-/// A vector out of a triangle, as long as twice its area.
+/// Returns a normal vector of a triangle, with a length of twice its area.
 fn area_vector([a, b, c]: [Vec3; 3]) -> Vec3 {
     (b - a).cross(c - a)
 }
 
-/// Takes the normals of the file, or those of the faces around a point where the file's are none.
+/// Sets the normals of the file, or the average of the adjacent faces for an invalid normal.
 fn take_normals(part: &mut Part, normals: impl Iterator<Item = [f32; 3]>) {
     let mut around = vec![Vec3::ZERO; part.positions.len()];
     for triangle in &part.triangles {
@@ -233,7 +233,7 @@ fn take_normals(part: &mut Part, normals: impl Iterator<Item = [f32; 3]>) {
     part.normals = normals.zip(around).map(unit).collect();
 }
 
-/// Texture coordinates in metres, seen along the axis that a face looks along most.
+/// Returns texture coordinates in metres, projected along the dominant axis of the normal.
 fn along(at: Vec3, normal: Vec3) -> Vec2 {
     let size = normal.abs();
     if size.z >= size.x && size.z >= size.y {

@@ -1,4 +1,4 @@
-//! What is written is read again, and nothing that is damaged makes trouble.
+//! Tests of import: exported files can be read, and damaged files fail without a panic.
 
 use glam::{DAffine3, DVec3, Vec2, Vec3};
 
@@ -11,7 +11,8 @@ use burgeon_picture::Picture;
 use burgeon_scene::{Instance, Mesh, Scene};
 use burgeon_scene::{Material, Part, Texture, image};
 
-/// A box of 2 m by 3 m by 4 m that stands twice, once turned and at half its size, with an image on it.
+/// Returns a scene with two instances of a box of 2 m by 3 m by 4 m, one of them rotated and at half its size, with a
+/// texture.
 fn sample() -> Scene {
     let png = image::encode_opaque(4, 2, &[200, 80, 40].repeat(8)).unwrap();
     let mut scene = Scene::default();
@@ -90,13 +91,13 @@ fn what_was_written_is_read_again() {
             (brick.texture.as_ref().unwrap(), known.materials[0].texture.as_ref().unwrap());
         assert_eq!(texture.content, source.content);
         let part = &scene.meshes[0].parts[0];
-        // Repetitions of the image, which was 0.5 m by 0.25 m.
+        // The coordinates are repetitions of the image, which was 0.5 m by 0.25 m.
         assert_eq!(part.uvs[2], Vec2::new(4.0, 8.0));
         for [a, b, c] in &part.triangles {
             let [a, b, c] = [a, b, c].map(|corner| part.positions[corner as usize]);
             assert!((b - a).cross(c - a).dot(part.normals[0].vector()) >= 0.0);
         }
-        // And what was read can be written.
+        // The scene that was read can be exported again.
         burgeon_export::write(&scene, &folder.path().join("again.glb"), &Picture::default()).unwrap();
     }
 }
@@ -120,7 +121,7 @@ fn a_file_that_is_none_or_needs_too_much_is_refused_with_the_reason() {
     assert!(many.contains("more than 20 triangles") && many.contains("--triangle-limit"), "{many}");
 }
 
-/// A triangle in a file of text, with these numbers as its points and indices.
+/// Returns a glTF file with a triangle of these points and indices.
 fn triangle(points: [f32; 9], indices: [u16; 3], rest: &str) -> Vec<u8> {
     use base64::Engine;
     let mut bytes: Vec<u8> = points.iter().flat_map(|number| number.to_le_bytes()).collect();
@@ -143,7 +144,7 @@ const NODES: &str = r#""nodes":[{"mesh":0,"translation":[0,0,5]}],"scenes":[{"no
 fn what_a_file_leaves_out_is_computed() {
     let scene = read_in(std::path::Path::new("."), &triangle(POINTS, [0, 1, 2], NODES), 10).unwrap();
     let part = &scene.meshes[0].parts[0];
-    // Upright, seen from the south; 5 m towards the viewer of a file is 5 m south.
+    // The triangle is upright, seen from the south; 5 m towards the viewer of a file is 5 m south.
     assert_eq!(part.positions, [Vec3::ZERO, Vec3::new(2., 0., 0.), Vec3::new(0., 0., 2.)]);
     assert_eq!((part.normals[0].vector(), part.uvs[1]), (Vec3::NEG_Y, Vec2::new(2.0, 0.0)));
     assert_eq!(scene.instances[0].transform.translation, DVec3::new(0.0, -5.0, 0.0));
@@ -195,7 +196,7 @@ fn flipped_bytes_never_make_it_panic() {
     assert!(read > 500 && refused > 500, "{read} {refused}");
 }
 
-/// A `.glb` file of a description and a body; the description is filled up to whole words if it is `filled`.
+/// Returns a `.glb` file with a description and a body; the description is padded to multiples of 4 bytes if `filled`.
 fn glb(json: &str, body: &[u8], filled: bool) -> Vec<u8> {
     let mut json = json.as_bytes().to_vec();
     while filled && !json.len().is_multiple_of(4) {
@@ -300,7 +301,7 @@ fn colours_of_points_become_materials() {
     assert_eq!((scene.triangles(), seen), (2, vec![[0, 252, 1000], [500, 0, 0]]));
 }
 
-/// Random numbers that are the same each time.
+/// Reproducible random numbers.
 struct Dice(Stream);
 
 impl Dice {
@@ -309,7 +310,7 @@ impl Dice {
     }
 }
 
-/// Changes a description somewhere: a number, a list, a name, or the whole of a part.
+/// Changes a random value in a description: a number, a list, a name, or a whole part.
 fn mutate(value: &mut serde_json::Value, dice: &mut Dice) {
     use serde_json::{Value, json};
     let inner = match value {
@@ -409,9 +410,9 @@ fn many_primitives_over_one_list_of_points_keep_to_the_limits() {
         assert!(begin.elapsed().as_secs_f64() < seconds + 5.0, "{:?}", begin.elapsed());
         read.map_or_else(|error| error.message().to_owned(), |scene| scene.triangles().to_string())
     };
-    // One small triangle each is no work, however long the list is.
+    // One small triangle per primitive is little work, regardless of the length of the shared list.
     assert_eq!(told(&model(3000, true), 10.0, 100_000_000, 5000), "3000");
-    // A few become one part, without the room that a growing list has left.
+    // A few primitives become one part, without spare capacity.
     let budget = Budget::default();
     let mut beside = |name: &str| Err(Error::other(name));
     let mut wanted = ImportOptions { name: "a", triangles: usize::MAX, budget: &budget, beside: &mut beside };

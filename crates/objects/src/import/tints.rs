@@ -1,4 +1,4 @@
-//! Colours of points: triangles are sorted by theirs, since here a surface has the colour of its material.
+//! Vertex colours: triangles are grouped by their colour, because a surface has only the colour of its material.
 
 use std::collections::BTreeMap;
 
@@ -7,15 +7,16 @@ use gltf_json::{Accessor, Index};
 use super::bytes::NumberColumns;
 use burgeon_base::error::{Error, Result};
 
-/// Triangles by what their material's colour is multiplied by.
+/// Triangles, grouped by the factor for their material's colour.
 type TintedTriangles = Vec<([f32; 4], Vec<[u32; 3]>)>;
 
-/// Shades of a channel: those of an image, or fewer where there would be too many colours.
+/// Number of shades per channel: as in an image, or fewer if there would be too many colours.
 const SHADES: [f32; 2] = [255.0, 15.0];
-/// The most colours of a primitive in the finer shades.
+/// Maximum number of colours of a primitive with the finer shades.
 const MOST: usize = 256;
 
-/// Parts `triangles` by the mean colour of their points, of which there are `count`; one group without `colors`.
+/// Groups `triangles` by the mean colour of their points, of which there are `count`. Without `colors`, there is one
+/// group.
 pub(super) fn apart(
     columns: &mut NumberColumns<'_>,
     colors: Option<Index<Accessor>>,

@@ -1,4 +1,4 @@
-//! What a network answers in tables, and tells of what it was asked.
+//! The tables that a network returns to scripts, and warnings about its calls.
 
 use std::sync::Arc;
 
@@ -10,7 +10,7 @@ use burgeon_streets::{
 };
 use glam::DVec2;
 
-/// A table of named values.
+/// Creates a table of named values, without entries that are nil.
 fn named<const N: usize>(entries: [(&str, Value); N]) -> Value {
     let there = entries.into_iter().filter(|(_, value)| !matches!(value, Value::Nil));
     let entries = there.map(|(name, value)| (TableKey::Name(name.into()), value));
@@ -25,7 +25,7 @@ fn number(junction: JunctionId) -> Value {
     Value::Number(f64::from(junction) + 1.0)
 }
 
-/// The word for what became of a street, or why it was refused.
+/// Returns the name of the outcome of a street, or of the reason for its refusal.
 pub(super) fn fate(fate: Fate) -> &'static str {
     match fate {
         Fate::Refused(why) => why.name(),
@@ -33,7 +33,7 @@ pub(super) fn fate(fate: Fate) -> &'static str {
     }
 }
 
-/// What would become of a street.
+/// Creates the table that describes the predicted outcome of a street.
 pub(super) fn prospect(prospect: StreetProspect) -> Value {
     let junction = prospect.junction.map_or(Value::Nil, number);
     named([
@@ -44,7 +44,7 @@ pub(super) fn prospect(prospect: StreetProspect) -> Value {
     ])
 }
 
-/// The measures, by name.
+/// Creates the table of the measures, by name.
 pub(super) fn measures(measures: &Measures) -> Value {
     let [dead_ends, three_way, four_way] = measures.shares;
     named(
@@ -72,7 +72,7 @@ pub(super) fn measures(measures: &Measures) -> Value {
     )
 }
 
-/// The missing parts of existing streets.
+/// Creates the list of the missing parts of existing streets.
 pub(super) fn omitted(losses: &[ExistingLoss]) -> Value {
     let parts = losses.iter().map(|loss| {
         named([
@@ -85,7 +85,8 @@ pub(super) fn omitted(losses: &[ExistingLoss]) -> Value {
     parts.collect::<Vec<_>>().into_value()
 }
 
-/// The dead ends on the ground: their junctions, where they are, where they lead on to, and the depth of their streets.
+/// Creates the list of the dead ends on the ground: their junctions, positions, headings to continue in, and the depths
+/// of their streets.
 pub(super) fn open_ends(network: &StreetNetwork) -> Value {
     let on_ground =
         |end: &JunctionId| network.arms(*end).iter().all(|(piece, _)| network.is_on_ground(*piece));
@@ -102,7 +103,8 @@ pub(super) fn open_ends(network: &StreetNetwork) -> Value {
     ends.collect::<Vec<_>>().into_value()
 }
 
-/// The junctions by number: where each is, the least depth of its streets, and where they lead.
+/// Creates the list of the junctions by number: their positions, the minimum depths of their streets, and the headings
+/// of the streets.
 pub(super) fn places(network: &StreetNetwork) -> Value {
     let places = (0..).zip(network.junctions()).map(|(id, junction)| {
         let arms = network.arms(id);
@@ -118,7 +120,8 @@ pub(super) fn places(network: &StreetNetwork) -> Value {
     places.collect::<Vec<_>>().into_value()
 }
 
-/// The area on the left of the street that leaves a junction nearest to a direction, and its corners.
+/// Creates the table of the area on the left of the street that leaves a junction nearest to a direction, with its
+/// corners.
 pub(super) fn face(network: &StreetNetwork, junction: JunctionId, towards: DVec2) -> Value {
     let way = network.way_from(junction, towards);
     if way.is_empty() {
@@ -137,8 +140,8 @@ pub(super) fn face(network: &StreetNetwork, junction: JunctionId, towards: DVec2
     named([("area", Value::Number(network.area(&way))), ("corners", corners)])
 }
 
-/// What to tell of a street that was to lead from one place to another and ends elsewhere; the places are where it begins, where
-/// it ends, and where it was to lead.
+/// Returns the warning about a street that did not reach its target. The positions are the start, the end and the
+/// target of the street.
 pub(super) fn misled(fate: Fate, [from, end, to]: [DVec2; 3]) -> Option<Warning> {
     let metres = |place: DVec2| format!("{:.1}, {:.1}", place.x, place.y);
     let way = format!("from {} to {}", metres(from), metres(to));
@@ -166,7 +169,7 @@ pub(super) fn misled(fate: Fate, [from, end, to]: [DVec2; 3]) -> Option<Warning>
     Some(Warning::new(WarningKind::NoEffect, text).help(remedy))
 }
 
-/// How dead ends are joined, as a script gave it to `method`.
+/// Checks the options with which a script called `method` to join dead ends. Fails if they are out of range.
 pub(super) fn dead_end_options(
     method: &str,
     radius: Option<f64>,

@@ -1,17 +1,17 @@
-//! Areas that streets do not lead through, as scripts give them.
+//! The areas that streets do not cross, as scripts specify them.
 
 use super::object::NetworkOptions;
 use burgeon_base::warning::{Warning, WarningKind};
 use burgeon_geometry::{Plan, Polygon, Rings};
 use burgeon_streets::Obstacle;
 
-/// The areas of a network, and what is to be told of them.
+/// The areas of a network, and the warnings about them.
 pub(super) struct NetworkAreas {
-    /// All of them.
+    /// All areas.
     pub(super) areas: Vec<Obstacle>,
-    /// Those that bridges lead over.
+    /// Areas that bridges may cross.
     pub(super) waters: Vec<Polygon>,
-    /// What was left out, or counts in part.
+    /// Warnings about areas that were skipped or that count only in part.
     pub(super) warnings: Vec<Warning>,
 }
 

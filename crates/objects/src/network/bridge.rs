@@ -1,4 +1,4 @@
-//! Bridges as a network shows them: a deck with parapets, and what carries it.
+//! The drawing of bridges: a deck with parapets, and its supports.
 
 use glam::{DVec2, DVec3};
 
@@ -8,20 +8,21 @@ use burgeon_scene::Part;
 use burgeon_streets::{StreetDeck, StreetSpan};
 use smallvec::SmallVec;
 
-/// How thick (m) a deck is.
+/// Thickness (m) of a deck.
 const DECK: f64 = 1.1;
 /// Height and thickness (m) of parapets.
 const PARAPET: [f64; 2] = [1.05, 0.3];
-/// Thickness (m) of piers along the street, and how much narrower than it (m) they are on each side.
+/// Thickness (m) of piers along the street, and the distance (m) by which they are narrower than the street on each
+/// side.
 const PIER: [f64; 2] = [1.4, 1.2];
-/// Thickness (m) of what carries a bridge at the shores.
+/// Thickness (m) of the abutments at the shores.
 const ABUTMENT: f64 = 3.0;
-/// How far (m) from the line of a side what is on it may lie.
+/// Tolerance (m) within which a point is on the line of a side.
 const ON_SIDE: f64 = 0.02;
-/// How far (m) below the water all that stands in it reaches.
+/// Depth (m) below the water to which supports extend.
 const FOOT: f64 = 2.0;
 
-/// Draws a bridge, whose kerbs are so high (m), over water at a level (m).
+/// Draws a bridge with kerbs of height `kerb` (m) over water at level `water` (m).
 pub(super) fn draw_span(part: &mut Part, span: &StreetSpan, kerb: f64, water: f64) -> Result<()> {
     let [right, left] = &span.sides;
     let low = |at: DVec3| at - DVec3::Z * DECK;
@@ -51,7 +52,7 @@ pub(super) fn draw_span(part: &mut Part, span: &StreetSpan, kerb: f64, water: f6
     Ok(())
 }
 
-/// Draws what carries streets over others, whose kerbs are so high (m): a slab, railings, and piers.
+/// Draws the structure of streets over other streets, with kerbs of height `kerb` (m): a slab, railings, and piers.
 pub(super) fn draw_deck(part: &mut Part, deck: &StreetDeck, kerb: f64) -> Result<()> {
     let points = &deck.surface.points;
     for corners in &deck.surface.triangles {
@@ -60,7 +61,7 @@ pub(super) fn draw_deck(part: &mut Part, deck: &StreetDeck, kerb: f64) -> Result
     }
     for ([a, b], has_railing) in &deck.sides {
         let (low, top) = (-DVec3::Z * DECK, DVec3::Z * kerb);
-        // The deck is on the right, so seen from the left.
+        // The deck is on the right, so the face is seen from the left.
         face(part, &[*b + low, *a + low, *a + top, *b + top])?;
         if *has_railing {
             let inward = -(*b - *a).truncate().normalize_or_zero().perp() * PARAPET[1];
@@ -74,7 +75,7 @@ pub(super) fn draw_deck(part: &mut Part, deck: &StreetDeck, kerb: f64) -> Result
     Ok(())
 }
 
-/// The bridges that may have a side on the border of a part of a street (m).
+/// Returns the bridges that may have a side on the border (m) of a part of a street.
 pub(super) fn spans_beside<'a>(border: &[DVec3], spans: &'a [StreetSpan]) -> Vec<&'a StreetSpan> {
     let around = |places: &mut dyn Iterator<Item = DVec2>| {
         places.fold([DVec2::INFINITY, DVec2::NEG_INFINITY], |[low, high], at| [low.min(at), high.max(at)])
@@ -87,7 +88,7 @@ pub(super) fn spans_beside<'a>(border: &[DVec3], spans: &'a [StreetSpan]) -> Vec
     spans.iter().filter(is_near).collect()
 }
 
-/// The parts of an edge of a street (m) that are no side of a bridge.
+/// Returns the parts of a street's edge (m) that are not the side of a bridge.
 pub(super) fn beside_spans(edge: [DVec3; 2], spans: &[&StreetSpan]) -> SmallVec<[[DVec3; 2]; 2]> {
     let [a, b] = edge;
     let mut parts = SmallVec::from_elem(edge, 1);
@@ -104,7 +105,7 @@ pub(super) fn beside_spans(edge: [DVec3; 2], spans: &[&StreetSpan]) -> SmallVec<
             if (from <= 0.0 && to <= 0.0) || (from >= end && to >= end) {
                 continue;
             }
-            // In the direction of the edge.
+            // Orders the ends in the direction of the edge.
             let [near, far] = if from < to { [0.0, end] } else { [end, 0.0] };
             let at = |along: f64| a.lerp(b, (along - from) / (to - from));
             parts.clear();
@@ -115,7 +116,7 @@ pub(super) fn beside_spans(edge: [DVec3; 2], spans: &[&StreetSpan]) -> SmallVec<
     parts
 }
 
-/// A wall along an edge, whose other side lies `inward` (m) of that: on the left as it goes.
+/// Draws a wall along an edge. Its other side is offset by `inward` (m), to the left of the edge's direction.
 fn parapet(part: &mut Part, edge: &[DVec3], inward: DVec2, kerb: f64) -> Result<()> {
     let inward = inward.extend(0.0);
     let raised = |at: DVec3, up: f64| at + DVec3::Z * (kerb + up);
@@ -133,7 +134,7 @@ fn parapet(part: &mut Part, edge: &[DVec3], inward: DVec2, kerb: f64) -> Result<
     Ok(())
 }
 
-/// A block around a middle, so far (m) along a way and beside it on each side, from one height (m) to another.
+/// Draws a block around a centre, with half its sizes (m) along and across a direction, between two heights (m).
 fn block(part: &mut Part, middle: DVec3, way: DVec2, half: [f64; 2], [low, high]: [f64; 2]) -> Result<()> {
     if high <= low || half[1] <= 0.0 {
         return Ok(());

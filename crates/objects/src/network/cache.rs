@@ -1,4 +1,4 @@
-//! Answers that are asked for again with the same words: every machine that runs a script asks all of its questions.
+//! A cache of results: each VM of a run executes the whole script, and therefore requests the same results.
 
 use std::sync::{Arc, Mutex};
 
@@ -7,34 +7,34 @@ use burgeon_base::locks::LockRecovery;
 use burgeon_base::warning::{Warning, defer_warning};
 use burgeon_kit::Value;
 
-/// How many answers are kept at most: those that were asked for last.
+/// Maximum number of cached results; the most recent are kept.
 const MOST: usize = 32;
 
-/// What an answer depends on, number by number; the first is the network's version.
+/// The values that a result depends on, as numbers; the first is the network's version.
 pub(super) type AnswerKey = Vec<u64>;
-/// An answer with what was told of it, once there is one.
+/// A result with its warnings, once it is computed.
 type AnswerSlot = Arc<Mutex<Option<(Value, Vec<Warning>)>>>;
 
-/// The answers of a network, by what they depend on.
+/// The results of a network, by the values that they depend on.
 #[derive(Debug, Default)]
 pub(super) struct AnswerCache(Mutex<Vec<(AnswerKey, AnswerSlot)>>);
 
 impl Clone for AnswerCache {
-    /// An empty one: the copy may become another network.
+    /// Returns an empty cache, because the copy may become a different network.
     fn clone(&self) -> Self {
         Self::default()
     }
 }
 
 impl AnswerCache {
-    /// The answer to a question, which one asks while others wait for it; what is to be told of it is [deferred](defer_warning)
-    /// each time.
+    /// Returns the cached result of `key`, or computes it while other threads wait for it. Each call
+    /// [defers](defer_warning) the warnings of the result.
     pub(super) fn once(
         &self,
         key: impl FnOnce() -> AnswerKey,
         find: impl FnOnce() -> Result<(Value, Vec<Warning>)>,
     ) -> Result<Value> {
-        // A thread of the pool that waits might have to finish, meanwhile, what it waits for.
+        // A waiting thread of the pool might have to run the task that it waits for, which would deadlock.
         if rayon::current_thread_index().is_some() {
             return find().map(tell);
         }
@@ -44,7 +44,7 @@ impl AnswerCache {
             match known.iter().find(|(other, _)| *other == key) {
                 Some((_, slot)) => Arc::clone(slot),
                 None => {
-                    // Nobody asks for what an earlier network would have answered.
+                    // Results of an earlier version of the network are no longer needed.
                     known.retain(|(other, _)| other.first() == key.first());
                     let surplus = (known.len() + 1).saturating_sub(MOST);
                     known.drain(..surplus);

@@ -1,4 +1,4 @@
-//! How a network shows itself: carriageways, kerbs, sidewalks, medians, painted lines and the blocks between.
+//! The drawing of a network: carriageways, kerbs, sidewalks, medians, painted lines and the blocks between.
 
 use glam::{DVec2, DVec3, Vec3};
 
@@ -11,11 +11,11 @@ use burgeon_kit::{Color, Drawing, Show};
 use burgeon_scene::{Material, Normal, Part, Scene};
 use burgeon_streets::{Sidewalk, StreetSurface};
 
-/// How high (m) paint lies over the street.
+/// Height (m) of paint above the street.
 const PAINT: f64 = 0.02;
-/// How far (m) the sides of streets reach down into the ground.
+/// Depth (m) of the sides of streets in the ground.
 const SKIRT: f64 = 6.0;
-/// The colour of paint.
+/// Colour of paint.
 const WHITE: Color = Color([0.78, 0.78, 0.76, 1.0]);
 
 impl Show for Network {
@@ -29,7 +29,7 @@ impl Show for Network {
 }
 
 impl Network {
-    /// Everything that it shows.
+    /// Draws the whole network.
     fn draw(&self) -> Result<Drawing> {
         let mut drawing = Drawing::default();
         let (options, fit) = (self.surface_options(), self.fit()?);
@@ -58,11 +58,11 @@ impl Network {
             add_surface(part, walk, kerb);
         }
         for [a, b] in &merged.kerbs {
-            // With the carriageway, which is lower, in front of it.
+            // The lower carriageway is in front of the kerb.
             upright(part, [*a, *b], kerb);
         }
         for edge in merged.edges.iter().map(|[a, b]| [*b, *a]) {
-            // Down to the blocks, which are level where there is no ground, or into the ground.
+            // The sides extend down to the blocks, which are level without a terrain, or into the ground.
             let skirt = if self.options.on.is_some() { SKIRT } else { edge[0].z.max(edge[1].z) };
             if skirt > 0.0 {
                 upright(part, edge.map(|at| at + DVec3::Z * (kerb - skirt)), skirt);
@@ -72,8 +72,8 @@ impl Network {
             draw_deck(part, deck, kerb)?;
         }
         if self.options.on.is_some() {
-            // The ground beside lies lower by what it can be off, and by more where another street is lower. Below a bridge
-            // there is to be none.
+            // The ground next to a street is lower by its tolerance, and by more where another street is lower. Below a
+            // bridge there are no sides.
             for edge in surfaces.sidewalks.iter().map(|walk| &walk.edge) {
                 let near = spans_beside(edge, &spans);
                 for (a, b) in edge.iter().zip(edge.iter().cycle().skip(1)) {
@@ -115,7 +115,7 @@ impl Network {
     }
 }
 
-/// The walk, and the kerb down to the carriageway.
+/// Draws the sidewalk, and the kerb down to the carriageway.
 fn draw_sidewalk(part: &mut Part, sidewalk: &Sidewalk, kerb: f64) {
     let count = sidewalk.kerb.len();
     for index in 0..count {
@@ -138,7 +138,7 @@ fn draw_sidewalk(part: &mut Part, sidewalk: &Sidewalk, kerb: f64) {
     }
 }
 
-/// A kerb whose top is on the left of its way, seen from the right.
+/// Draws an upright face of this height (m) above a line, visible from the right of the line's direction.
 pub(super) fn upright(part: &mut Part, [a, b]: [DVec3; 2], height: f64) {
     let Some(out) = (a - b).truncate().try_normalize().map(DVec2::perp) else { return };
     if height <= 0.0 {
@@ -157,7 +157,7 @@ pub(super) fn next_vertex(part: &Part) -> u32 {
     u32::try_from(part.positions.len()).unwrap_or(u32::MAX)
 }
 
-/// Adds points, higher by `lift` (m), that look up; gives the number of the first.
+/// Adds points with upward normals, raised by `lift` (m), and returns the number of the first point.
 pub(super) fn add_points(part: &mut Part, points: &[DVec3], lift: f64) -> u32 {
     let first = next_vertex(part);
     for at in points {
@@ -171,7 +171,7 @@ pub(super) fn add_points(part: &mut Part, points: &[DVec3], lift: f64) -> u32 {
 fn add_surface(part: &mut Part, surface: &StreetSurface, lift: f64) {
     let first = add_points(part, &surface.points, lift);
     for corners in &surface.triangles {
-        // Streets whose corners leave nothing of them have no area once they are rounded.
+        // Triangles of very short streets between junctions may have no area after rounding.
         let [a, b, c] = corners.map(|corner| part.positions[(corner + first) as usize]);
         if (b - a).cross(c - a) != Vec3::ZERO {
             part.triangles.push(corners.map(|corner| corner + first));

@@ -1,4 +1,4 @@
-//! Existing streets, as scripts give them to a network.
+//! Existing streets, as scripts specify them for a network.
 
 use std::sync::Arc;
 
@@ -10,32 +10,34 @@ use glam::DVec3;
 
 use super::lines::{ByLine, ExistingLine, StreetLines, is_set, number_of};
 
-/// How many losses a warning names; `network:omitted()` lists all.
+/// Maximum number of losses that a warning names; `network:omitted()` lists all losses.
 const NAMED: usize = 5;
-/// The width (m) of a sidewalk is at most this part of a width that a line sets.
+/// Maximum width of a sidewalk, as a fraction of a width that a line sets.
 const SIDEWALK_PART: f64 = 0.2;
 
 /// Streets in `network { existing = ... }`.
 #[fields("a street of network { existing = ... }")]
 pub struct ExistingLines {
-    /// The lines (m): a source, features, geometries or lists of points.
+    /// Lines (m): a source, features, geometries or lists of points.
     pub lines: StreetLines,
-    /// Hierarchy level, as of streets that grow: 0 for a main street. A number, or the name of an attribute of the lines.
+    /// Hierarchy level, as for streets that grow: 0 for a main street. A number, or the name of an attribute of the
+    /// lines.
     pub depth: Option<ByLine>,
-    /// Width (m) between the outer edges of the sidewalks: a number, or the name of an attribute such as "width"; that of the
-    /// kind of street if omitted.
+    /// Width (m) between the outer edges of the sidewalks: a number, or the name of an attribute such as "width". If
+    /// omitted, the width of the street type.
     pub width: Option<ByLine>,
     /// Width (m) of the sidewalk on each side: a number, or the name of an attribute.
     pub sidewalk: Option<ByLine>,
     /// Number of lanes for both directions: a number, or the name of an attribute such as "lanes".
     pub lanes: Option<ByLine>,
-    /// Level: 0 on the ground, 1 on a bridge, -1 in a tunnel. Streets of different levels cross without a junction. A number, or
-    /// the name of an attribute; if omitted, it follows from the attributes `bridge`, `tunnel` and `layer` of OpenStreetMap.
+    /// Level: 0 on the ground, 1 on a bridge, -1 in a tunnel. Streets of different levels cross without a junction. A
+    /// number, or the name of an attribute; if omitted, it follows from the attributes `bridge`, `tunnel` and `layer`
+    /// of OpenStreetMap.
     pub level: Option<ByLine>,
-    /// Name for reports: an attribute of the lines.
+    /// Attribute of the lines that names the street in reports.
     #[default("name".into())]
     pub name: String,
-    /// Whether the streets are bridges, which are on level 1 unless `level` says otherwise.
+    /// Set if the streets are bridges, which are on level 1 unless `level` is given.
     pub bridge: bool,
 }
 
@@ -61,10 +63,10 @@ impl Parameter for ExistingLines {
     }
 }
 
-/// Attributes that could not be used, by what they are of.
+/// Unusable attribute values, by attribute.
 #[derive(Default)]
 struct Unusable {
-    /// How many lines have one, and the first: its name, and what it has.
+    /// Number of lines with an unusable value, and the name and value of the first.
     found: Vec<(&'static str, usize, String, String)>,
 }
 
@@ -88,7 +90,7 @@ impl Unusable {
     }
 }
 
-/// Adds existing streets to a network; gives what became of them and what is to be reported.
+/// Adds existing streets to a network. Returns their report and the warnings.
 pub(super) fn add(
     network: &mut StreetNetwork,
     existing: &[ExistingLines],
@@ -122,7 +124,7 @@ pub(super) fn add(
     Ok((report, warnings))
 }
 
-/// A street as its line has it.
+/// Creates the street of a line from the line's attributes.
 fn street(
     lines: &ExistingLines,
     line: &ExistingLine,
@@ -185,7 +187,7 @@ fn street(
     }
 }
 
-/// The level of a line by the attributes that OpenStreetMap has for it.
+/// Returns the level of a line according to its OpenStreetMap attributes.
 fn level_of(line: &ExistingLine, is_bridge: bool) -> i32 {
     let layer = line.fact("layer").and_then(|layer| number_of(&layer)).filter(|layer| layer.abs() <= 100.0);
     #[allow(clippy::cast_possible_truncation, reason = "tested to be in range")]
@@ -202,7 +204,7 @@ fn level_of(line: &ExistingLine, is_bridge: bool) -> i32 {
     layer.unwrap_or(usual)
 }
 
-/// What is to be reported of streets that are not in the network.
+/// Returns the warning about streets that are missing in the network.
 fn losses(report: &ExistingReport) -> Option<Warning> {
     if report.losses.is_empty() {
         return None;

@@ -1,4 +1,4 @@
-//! The ground of blocks as a network shows it, and the water between.
+//! The drawing of the blocks' ground, and of the water between.
 
 use glam::DVec3;
 
@@ -11,22 +11,22 @@ use burgeon_kit::Color;
 use burgeon_scene::Part;
 use burgeon_streets::{StreetFit, StreetProfiles};
 
-/// The colour of water.
+/// Colour of water.
 pub(super) const WATER: Color = Color([0.055, 0.105, 0.125, 1.0]);
-/// The height (m) of water, where nothing tells it.
+/// Default height (m) of water.
 pub(super) const WATER_LEVEL: f64 = -3.0;
-/// How far (m) the banks of water reach below it.
+/// Depth (m) of banks below the water.
 const BANK: f64 = 2.0;
-/// A place that is nearer (m) to an outline is on it.
+/// Tolerance (m) within which a point is on an outline.
 const ON: f64 = 1e-3;
 
 impl Network {
-    /// Fills the blocks; gives the height (m) of the water that is to be drawn between them.
+    /// Fills the blocks, and returns the height (m) of the water to draw between them.
     pub(super) fn draw_ground(&self, part: &mut Part, fit: &StreetFit) -> Result<Option<f64>> {
         let kerb = self.options.kerb;
         let is_flat = self.options.on.is_none();
         let level = self.water_level().unwrap_or(WATER_LEVEL);
-        // Blocks without a ground are level, also beside a street that rises to a bridge.
+        // Blocks without a terrain are level, also next to a street that rises to a bridge.
         let level_streets = StreetProfiles::default();
         let profiles = if is_flat { &level_streets } else { &fit.profiles };
         for rings in self.network.blocks_at(self.surface_options(), profiles) {
@@ -41,7 +41,7 @@ impl Network {
             for dry in outline.without(&self.water) {
                 let points: Vec<DVec3> = dry.points().map(|at| at.extend(0.0)).collect();
                 fill(part, &dry, &points, kerb)?;
-                // Its banks: what the water has cut, and not what the streets bound.
+                // Banks are the edges cut by the water, but not the edges along streets.
                 for [a, b] in dry.edges() {
                     let middle = (a + b) / 2.0;
                     if outline.edges().all(|edge| distance(edge, middle) > ON) {
@@ -55,7 +55,7 @@ impl Network {
     }
 }
 
-/// Draws the surface of waters at a level (m).
+/// Draws the surface of water areas at a level (m).
 pub(super) fn draw_water(part: &mut Part, waters: &[Polygon], level: Option<f64>) -> Result<()> {
     let Some(level) = level else { return Ok(()) };
     for water in waters {
@@ -74,7 +74,7 @@ fn fill(part: &mut Part, outline: &Polygon, points: &[DVec3], lift: f64) -> Resu
     Ok(())
 }
 
-/// Whether the boxes around two areas meet.
+/// Reports whether the bounding boxes of two areas intersect.
 fn meets(a: &Polygon, b: &Polygon) -> bool {
     match (a.bounds(), b.bounds()) {
         (Some([a, b]), Some([c, d])) => a.cmple(d).all() && c.cmple(b).all(),

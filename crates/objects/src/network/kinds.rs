@@ -1,50 +1,50 @@
-//! The kinds of streets, as scripts write them.
+//! The types of streets, as scripts define them.
 
 use std::sync::Arc;
 
 use burgeon_kit::{Color, Expectation, Field, Parameter, Table, Value, fields};
 use burgeon_streets::StreetKind;
 
-/// The width (m) of a sidewalk that is not told, and the part of the street's width that it is at most.
+/// Default width (m) of a sidewalk. `SIDEWALK_PART` is its maximum as a fraction of the street's width.
 const SIDEWALK: f64 = 2.5;
 const SIDEWALK_PART: f64 = 0.2;
 
-/// A kind of streets.
+/// A type of street.
 #[fields("street")]
 #[derive(PartialEq)]
 pub struct StreetOptions {
-    /// What streets of it are called in layers, such as "avenue"; "kind 1" and so on if it is left out.
+    /// Name of the street type in layers, such as "avenue". If omitted, "kind 1" and so on.
     pub name: Option<String>,
-    /// Width (m) from one outer edge of the sidewalks to the other.
+    /// Width (m) between the outer edges of the sidewalks.
     #[default(12.0)]
     pub width: f64,
-    /// Colour of its carriageway; that of all streets if it is left out.
+    /// Colour of the carriageway. If omitted, the colour of all streets.
     pub asphalt: Option<Color>,
-    /// Width (m) of the sidewalk on each side; 2.5 if it is left out, or a fifth of the width if that is less.
+    /// Width (m) of the sidewalk on each side. If omitted, 2.5 or a fifth of the street's width, whichever is less.
     pub sidewalk: Option<f64>,
-    /// The number of lanes for both directions; as many as fit, if it is left out.
+    /// Number of lanes for both directions. If omitted, as many as fit.
     pub lanes: Option<u32>,
     /// Width (m) of a raised strip between the two directions.
     #[default(0.0)]
     pub median: f64,
-    /// Width (m) of a strip to park on, on each side.
+    /// Width (m) of a parking strip on each side.
     #[default(0.0)]
     pub parking: f64,
-    /// Distance (m) of trees along each sidewalk, and in the median; 0 for none.
+    /// Distance (m) between trees along each sidewalk and in the median; 0 for none.
     #[default(0.0)]
     pub trees: f64,
-    /// Distance (m) of lamps along each sidewalk; 0 for none.
+    /// Distance (m) between lamps along each sidewalk; 0 for none.
     #[default(0.0)]
     pub lamps: f64,
 }
 
 impl StreetOptions {
-    /// One of this width (m), and the rest as it is usual.
+    /// Creates a street type of this width (m), with defaults for the other fields.
     pub(super) fn of_width(width: f64) -> Self {
         Self { width, ..Self::default() }
     }
 
-    /// What streets of it are made of.
+    /// Converts the options to a street type of the network.
     pub(super) fn kind(&self) -> StreetKind {
         StreetKind {
             width: self.width,

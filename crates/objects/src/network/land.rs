@@ -1,4 +1,4 @@
-//! A network on the ground: how high its streets lie, what the ground becomes under them, and what stands beside them.
+//! A network on a terrain: the heights of its streets, the ground under them, and the objects next to them.
 
 use std::sync::Arc;
 
@@ -13,26 +13,26 @@ use burgeon_kit::{Answer, Parameter, Table, TableKey, Value, Vector};
 use burgeon_streets::{SlopeOptions, StreetArea, StreetFit, StreetFooting, StreetPiece, VergeKind};
 use burgeon_terrain::{Edit, GroundBed, GroundCut, GroundCuts};
 
-/// How far (m) the ground stays below the edge of a sidewalk.
+/// Distance (m) of the ground below the edge of a sidewalk.
 const FLUSH: f64 = 0.02;
-/// How far (m) the ground stays below a bridge at least.
+/// Minimum distance (m) of the ground below a bridge.
 const BELOW: f64 = 0.05;
-/// How steep (m/m) the ground beside a street is at most.
+/// Maximum slope (m/m) of the ground next to a street.
 const BATTER: f64 = 2.0 / 3.0;
-/// How far (m) beside a street the ground changes at most.
+/// Maximum distance (m) from a street at which the ground changes.
 const FARTHEST: f64 = 80.0;
-/// How many cells a height of the ground depends on, on each side.
+/// Number of cells on each side that a height of the ground depends on.
 const CELLS: f64 = 2.2;
-/// How many cells beside a street are as high as its sidewalks.
+/// Number of cells next to a street that are level with its sidewalks.
 const VERGE: f64 = 1.6;
-/// By how much (m) a street that lies on the ground may lie above or below it, before that is told.
+/// Height (m) above or below the ground beyond which a warning reports a street.
 const DEEP: f64 = 8.0;
-/// How far (m) streets may lie above or below the ground that is shown, before that is told.
+/// Height (m) above or below the visible ground beyond which a warning reports hidden streets.
 const OFF: f64 = 0.5;
-/// How far (m) above water streets lie, and how far bridges.
+/// Minimum height (m) of streets above water, and of bridges.
 const DRY: [f64; 2] = [0.8, 3.0];
 
-/// Places beside streets, as scripts get them.
+/// Positions next to streets, as records for scripts.
 pub struct VergeRecords(Vec<Value>);
 
 impl Answer for VergeRecords {
@@ -46,7 +46,7 @@ impl Answer for VergeRecords {
 }
 
 impl Network {
-    /// How high its streets lie.
+    /// Returns the heights of the streets, computed once per version of the network.
     pub(super) fn fit(&self) -> Result<Arc<StreetFit>> {
         let version = self.network.version();
         if let Some((known, fit)) = self.fit.get()
@@ -55,7 +55,7 @@ impl Network {
             return Ok(Arc::clone(fit));
         }
         let fit = Arc::new(self.laid()?);
-        // One of an earlier network stays until the pass ends.
+        // A result of an earlier version remains stored until the pass ends.
         let _ = self.fit.set((version, Arc::clone(&fit)));
         Ok(fit)
     }
@@ -79,7 +79,7 @@ impl Network {
         })
     }
 
-    /// Heights of the streets of a network without ground: some rise to bridges over others.
+    /// Computes the heights of streets without a terrain: some streets rise to bridges over others.
     fn raised(&self) -> StreetFit {
         let is_above = |piece: &StreetPiece| piece.attributes.level > 0;
         if !self.network.pieces().any(|(_, piece)| is_above(piece)) {
@@ -89,13 +89,13 @@ impl Network {
         self.network.lay(self.surface_options(), slopes, |_| Some(0.0)).unwrap_or_default()
     }
 
-    /// The height (m) of the water that bridges lead over.
+    /// Returns the height (m) of the water under bridges.
     pub(super) fn water_level(&self) -> Option<f64> {
         self.options.water_level.or_else(|| self.options.on.as_ref()?.water_level())
     }
 
-    /// The changes of ground with cells of a size (m), whose triangles are off by `error` (m) at most, so that it meets
-    /// the edges of the sidewalks, and lies below bridges.
+    /// Returns the terrain edits with which the ground meets the edges of the sidewalks and stays below bridges. The
+    /// terrain has cells of size `cell` (m), and its triangles deviate by at most `error` (m).
     pub(crate) fn bed(&self, cell: f64, error: f64) -> Result<Vec<Edit>> {
         let fit = self.fit()?;
         let rise = self.rise();
@@ -104,7 +104,7 @@ impl Network {
             .footings(self.surface_options(), &fit.profiles)
             .into_iter()
             .map(|StreetFooting { line, width, piece, is_below }| {
-                // Between cells the ground is straight, where a street bends.
+                // The ground is straight between cells, even if the street bends.
                 let sink = if is_below { BELOW + error + 0.6 * steepest(&line) * cell } else { -rise };
                 let depth = piece.and_then(|piece| fit.depths.get(piece as usize)).copied();
                 let margin = ((depth.unwrap_or(DEEP) + sink.abs() + 4.0) / BATTER).min(FARTHEST);
@@ -114,18 +114,18 @@ impl Network {
             })
             .collect();
         let raised = beds.iter().filter(|(_, is_below)| !is_below);
-        // All of them are raised before any is lowered: the ground is nowhere above a street.
+        // All beds are raised before any is lowered, so that the ground is never above a street.
         let mut edits: Vec<Edit> = raised.map(|(bed, _)| Edit::Embank { bed: bed.clone() }).collect();
         edits.extend(beds.into_iter().map(|(bed, _)| Edit::Excavate { bed }));
         Ok(edits)
     }
 
-    /// How far (m) above a carriageway the ground beside its sidewalks lies.
+    /// Returns the height (m) of the ground next to sidewalks above the carriageway.
     fn rise(&self) -> f64 {
         (self.options.kerb - FLUSH).max(0.0)
     }
 
-    /// The areas that its streets take of ground which is shown lower by `lift` (m) than it is.
+    /// Returns the areas that the streets cut out of ground that is drawn `lift` (m) lower.
     pub(crate) fn ground_cuts(&self, lift: f64) -> Result<GroundCuts> {
         let fit = self.fit()?;
         let areas = self.network.ground_areas(self.surface_options(), &fit.profiles);
@@ -137,7 +137,8 @@ impl Network {
         Ok(GroundCuts::new(cuts.collect()))
     }
 
-    /// What to tell of streets that do not lie on the ground that is shown, which only one that is made afterwards can meet.
+    /// Returns the warning about streets above or below the visible ground. Only a terrain that is created after the
+    /// streets can match them.
     pub(super) fn hidden(&self) -> Result<Option<Warning>> {
         if self.network.size() == 0 || !self.options.on.as_ref().is_some_and(|ground| ground.is_shown()) {
             return Ok(None);
@@ -152,7 +153,7 @@ impl Network {
         }))
     }
 
-    /// What to tell of streets that would be steeper if they lay on the ground.
+    /// Returns the warning about streets that differ much from the ground because of the maximum slope.
     pub(crate) fn steep(&self) -> Result<Option<Warning>> {
         let fit = self.fit()?;
         let deep = fit.depths.iter().filter(|depth| **depth > DEEP).count();
@@ -169,14 +170,14 @@ impl Network {
         }))
     }
 
-    /// The height (m) of the sidewalks of the street nearest to a place, where it is nearest.
+    /// Returns the height (m) of the sidewalks at the point of the nearest street that is closest to a position.
     pub(super) fn height_at(&self, place: DVec3) -> Result<f64> {
         let Some((piece, _)) = self.network.nearest(place.truncate()) else { return Ok(0.0) };
         let fit = self.fit()?;
         Ok(fit.profiles.near(&self.network, piece, place.truncate()) + self.options.kerb)
     }
 
-    /// Places for something beside the streets.
+    /// Returns the positions for an object type next to the streets. Fails if the object type is unknown.
     pub(super) fn verge_of(&self, what: &str) -> Result<VergeRecords> {
         let thing = match what {
             "tree" => VergeKind::Tree,
@@ -207,7 +208,7 @@ impl Network {
     }
 }
 
-/// How steep (m/m) a line is where it is steepest.
+/// Returns the maximum slope (m/m) of a line.
 fn steepest(line: &[DVec3]) -> f64 {
     let slope = |pair: &[DVec3]| {
         let way = pair[1] - pair[0];

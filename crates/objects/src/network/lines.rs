@@ -1,4 +1,4 @@
-//! Lines of streets with the attributes of the features that they are of.
+//! Street lines with the attributes of their features.
 
 use std::fmt;
 use std::sync::Arc;
@@ -8,15 +8,15 @@ use burgeon_geometry::Line;
 use burgeon_kit::{Expectation, Features, Lines, Parameter, Table, Value};
 use glam::DVec3;
 
-/// How deep lists of lists may be.
+/// Maximum nesting depth of lists.
 const DEEPEST: usize = 4;
 
-/// A number for all lines, or the name of an attribute that each line has.
+/// A number for all lines, or the name of an attribute of each line.
 #[derive(Debug, Clone, PartialEq)]
 pub enum ByLine {
-    /// For all lines.
+    /// Number for all lines.
     Number(f64),
-    /// As each line has it.
+    /// Name of the attribute with the number of each line.
     Attribute(String),
 }
 
@@ -45,11 +45,11 @@ impl Parameter for ByLine {
 #[derive(Debug, Clone, Default)]
 pub struct StreetLines {
     pub(super) lines: Vec<ExistingLine>,
-    /// How many items of a list are no lines, and the first of them.
+    /// Number of list items that are not lines, and the first error.
     pub(super) refused: Option<(usize, String)>,
 }
 
-/// A line and what is known of it.
+/// A line and its attributes.
 #[derive(Debug, Clone)]
 pub(super) struct ExistingLine {
     pub(super) line: Line<DVec3>,
@@ -57,12 +57,12 @@ pub(super) struct ExistingLine {
     facts: LineFacts,
 }
 
-/// Where the attributes of a line are.
+/// The location of a line's attributes.
 #[derive(Debug, Clone)]
 enum LineFacts {
     None,
     Table(Arc<Table>),
-    /// The number of a feature of a layer.
+    /// Layer, and the index of the feature in it.
     Layer(Arc<Layer>, usize),
 }
 
@@ -75,7 +75,7 @@ pub(super) enum LineFact {
 }
 
 impl LineFact {
-    /// Its text, if it is one that says something.
+    /// Returns the string, if the value is a string that is not blank.
     pub(super) fn text(&self) -> Option<String> {
         match self {
             Self::Text(text) if !text.trim().is_empty() => Some(text.to_string()),
@@ -83,7 +83,7 @@ impl LineFact {
         }
     }
 
-    /// As it is shown in a message.
+    /// Returns the value as it appears in a message.
     pub(super) fn shown(&self) -> String {
         match self {
             Self::Text(text) => format!("{:?}", text.chars().take(40).collect::<String>()),
@@ -102,7 +102,7 @@ impl fmt::Display for LineFact {
     }
 }
 
-/// The number that an attribute is or begins with, such as 7.5 of "7.5 m"; `None` if there is none.
+/// Returns the number that an attribute is or begins with, such as 7.5 of "7.5 m", or `None`.
 pub(super) fn number_of(fact: &LineFact) -> Option<f64> {
     match fact {
         LineFact::Number(number) => Some(*number).filter(|number| number.is_finite()),
@@ -116,7 +116,7 @@ pub(super) fn number_of(fact: &LineFact) -> Option<f64> {
     }
 }
 
-/// Tells if an attribute says yes: whatever is not no, false, nothing or 0.
+/// Returns true if an attribute is set: any value except no, false, none, 0 or a blank string.
 pub(super) fn is_set(fact: &LineFact) -> bool {
     match fact {
         LineFact::Boolean(value) => *value,
@@ -128,7 +128,7 @@ pub(super) fn is_set(fact: &LineFact) -> bool {
 }
 
 impl ExistingLine {
-    /// An attribute of the line; `None` if it has none of that name.
+    /// Returns an attribute of the line, or `None` if there is no attribute of that name.
     pub(super) fn fact(&self, name: &str) -> Option<LineFact> {
         match &self.facts {
             LineFacts::None => None,
@@ -173,7 +173,7 @@ impl Parameter for StreetLines {
 }
 
 impl StreetLines {
-    /// Adds the lines of a value, as [`Lines`] finds them, with the attributes of the feature that it is.
+    /// Adds the lines of a value, as [`Lines`] finds them, with the attributes of the value's feature.
     fn collect(&mut self, value: Value, depth: usize) -> Result<(), Expectation> {
         let layer = match &value {
             Value::Object(object) => {
@@ -217,7 +217,7 @@ impl StreetLines {
             self.add(Lines::from_value(value)?, &LineFacts::None, None);
             return Ok(());
         }
-        // One bad item among others is left out alone.
+        // An invalid item of a list does not affect the other items.
         let (mut good, mut bad) = (0, None);
         for (number, item) in (1..).zip(list) {
             match self.collect(item, depth + 1) {

@@ -1,4 +1,4 @@
-//! Blocks and lots as scripts get them: features, to be the source of a system.
+//! Blocks and lots as features for scripts, which can be the source of a system.
 
 use std::sync::Arc;
 
@@ -20,54 +20,55 @@ use super::Network;
 use super::cache::AnswerKey;
 use super::overlaps::overlapping;
 
-/// How far (m) terraces stay inside of the borders of their lots.
+/// Distance (m) of terraces inside the borders of their lots.
 const JOINT: f64 = 0.02;
 
-/// What `network:lots` takes.
+/// Options of `network:lots`.
 #[fields("network:lots")]
 pub struct LotSettings {
-    /// How blocks are divided: "boxes", by cuts across them, again and again; "strips", along the streets around a court; or
-    /// "skeleton", along the streets without one.
+    /// Method of division: "boxes", by repeated cuts across the block; "strips", along the streets around a court; or
+    /// "skeleton", along the streets without a court.
     #[default("boxes".into())]
     pub kind: String,
-    /// How wide (m) lots usually are along the street.
+    /// Typical width (m) of lots along the street.
     #[default(18.0)]
     pub width: f64,
-    /// How deep (m) they usually are behind the street.
+    /// Typical depth (m) of lots behind the street.
     #[default(28.0)]
     pub depth: f64,
-    /// The least front (m) of a lot; half of the width if it is left out.
+    /// Minimum front (m) of a lot. If omitted, half of the width.
     pub min_width: Option<f64>,
-    /// The area (m²) above which a lot is divided; 1.4 times the width by the depth if it is left out.
+    /// Area (m²) above which a lot is divided. If omitted, 1.4 times the width times the depth.
     pub area: Option<f64>,
-    /// The least area (m²); 0.3 times the width by the depth if it is left out.
+    /// Minimum area (m²). If omitted, 0.3 times the width times the depth.
     pub min_area: Option<f64>,
-    /// How many times a lot may be as long as wide.
+    /// Maximum ratio of a lot's length to its width.
     #[default(4.0)]
     pub elongation: f64,
-    /// How much sizes vary: from 0, not at all, to 1.
+    /// Variation of sizes, from 0 (none) to 1.
     #[default(0.3)]
     pub jitter: f64,
-    /// The share of the blocks that are parks, from 0 to 1.
+    /// Fraction of the blocks that are parks, from 0 to 1.
     #[default(0.0)]
     pub parks: f64,
-    /// What to divide: blocks of network:blocks(), features or polygons; all blocks of the network if it is left out.
+    /// Areas to divide: blocks of network:blocks(), features or polygons. If omitted, all blocks of the network.
     pub blocks: Option<Vec<BlockArea>>,
-    /// How near (m) to a street an edge of such an area is to be on it. Where there are no streets, all edges are on one.
+    /// Maximum distance (m) from a street at which an edge of such an area is on the street. Without streets, all edges
+    /// are on a street.
     #[default(6.0)]
     pub reach: f64,
-    /// How deep (m) a terrace of buildings that touch reaches behind its fronts: then each lot to be built on has a list of
-    /// polygons, terrace, the parts of it that are at most so deep, 2 cm inside of its border.
+    /// Depth (m) of a terrace of adjoining buildings behind its fronts. If given, each building lot has a list of
+    /// polygons, terrace: the parts of the lot up to this depth, 2 cm inside its border.
     pub terrace: Option<f64>,
-    /// Whether parks, courts and what is too small for a building are given too.
+    /// Include parks, courts and areas that are too small for a building.
     #[default(false)]
     pub all: bool,
-    /// What random numbers come from, with the id of each block.
+    /// Seed of the random numbers, combined with the id of each block.
     #[default(Seed(0))]
     pub seed: Seed,
 }
 
-/// An area to divide: a polygon, and its name if it is a feature.
+/// An area to divide: a polygon, and its id if it is a feature.
 #[derive(Debug, Clone)]
 pub struct BlockArea {
     id: Option<String>,
@@ -99,7 +100,7 @@ impl Parameter for BlockArea {
     }
 }
 
-/// Blocks as scripts get them.
+/// Blocks, as records for scripts.
 pub struct BlockRecords(Value);
 
 impl Answer for BlockRecords {
@@ -112,7 +113,7 @@ impl Answer for BlockRecords {
     }
 }
 
-/// Lots as scripts get them.
+/// Lots, as records for scripts.
 pub struct LotRecords(Value);
 
 impl Answer for LotRecords {
@@ -128,17 +129,17 @@ impl Answer for LotRecords {
     }
 }
 
-/// What blocks do not give, for another reason than that there is no room.
+/// The lots and blocks that are left out for other reasons than lack of room.
 #[derive(Default)]
 struct Omissions {
-    /// What is no lot to be built on only because it is more times as long as wide than was asked.
+    /// Number of lots that are not building lots only because their ratio of length to width is too large.
     long: usize,
     longest: f64,
-    /// What is none only because an obstacle reaches into it.
+    /// Number of lots that are not building lots only because an obstacle reaches into them.
     blocked: usize,
-    /// Blocks that no lots can be made of.
+    /// Number of blocks that cannot be divided.
     undivided: usize,
-    /// Blocks that are parks.
+    /// Number of blocks that are parks.
     parks: usize,
 }
 
@@ -164,7 +165,7 @@ impl Omissions {
         self.parks += other.parks;
     }
 
-    /// Tells of lots that are given where a script asks for `all`.
+    /// Returns the warnings about lots that are only returned if the script sets `all`.
     fn lots(&self, options: &LotOptions) -> Vec<Warning> {
         let lots = |count: usize| format!("{count} lot{}", if count == 1 { "" } else { "s" });
         let mut told = Vec::new();
@@ -190,7 +191,7 @@ impl Omissions {
         told
     }
 
-    /// Tells of blocks, `count` in all, that give nothing in any case.
+    /// Returns the warning about blocks, `count` in total, that never give any lots.
     fn blocks(&self, count: usize) -> Option<Warning> {
         (self.undivided > 0).then(|| {
             let text = format!(
@@ -206,7 +207,7 @@ impl Omissions {
 }
 
 impl LotSettings {
-    /// All that lots depend on, number by number.
+    /// Returns the cache key: all values that the lots depend on, as numbers.
     fn key(&self, version: u64, options: &LotOptions) -> AnswerKey {
         let LotOptions { pattern, width, min_width, depth, area, min_area, elongation, jitter, parks } =
             *options;
@@ -346,7 +347,7 @@ impl Network {
                     let help = "let streets meet, or say what to divide: blocks = { polygon }";
                     told.push(Warning::new(WarningKind::Doubtful, text).help(help));
                 }
-                // A share of the blocks was to be parks, and may be all of a few.
+                // A fraction of the blocks becomes parks; among few blocks, these may be all blocks.
                 Some(_) if told.is_empty() && omissions.parks < blocks.len() => {
                     told.push(Warning::new(WarningKind::Doubtful, without_room(&blocks, options)).help(help));
                 }
@@ -398,7 +399,7 @@ impl Network {
     }
 }
 
-/// Says that nothing of blocks is a lot to be built on.
+/// Describes that no block has room for a building lot.
 fn without_room(blocks: &[StreetBlock], options: &LotOptions) -> String {
     let greatest = blocks.iter().map(area_of).fold(0.0, f64::max);
     format!(

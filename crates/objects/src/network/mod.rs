@@ -1,4 +1,4 @@
-//! A network of streets as scripts have it: `network` in scripts.
+//! The street network of scripts: `network`.
 
 mod answers;
 mod areas;

@@ -1,4 +1,4 @@
-//! The type of object: its fields, and what rules ask and interpretations change.
+//! The network object: its fields, and its read and write methods.
 
 use std::sync::{Arc, OnceLock};
 
@@ -26,71 +26,71 @@ use burgeon_streets::{
     StreetKind, StreetNetwork, SurfaceOptions,
 };
 
-/// What `network(...)` takes.
+/// Fields of `network(...)`.
 #[fields("network")]
 pub struct NetworkOptions {
-    /// Where streets begin (m): junctions 1, 2, 3 and so on. The origin if omitted, unless streets exist and an obstacle is
-    /// there.
+    /// Start positions of streets (m): junctions 1, 2, 3 and so on. If omitted, the origin; with existing streets, the
+    /// origin only if no obstacle is there.
     pub starts: Option<Vec<Vector>>,
-    /// The kinds of streets, by depth from 0 on; the last one holds for all that are deeper.
+    /// Street types, by depth from 0. The last type also applies to greater depths.
     #[default([20.0, 14.0, 11.0].map(StreetOptions::of_width).to_vec())]
     pub streets: Vec<StreetOptions>,
-    /// How near (m) the end of a street comes to a junction or another street before it joins that.
+    /// Snap distance (m): the end of a street joins a junction or another street within this distance.
     #[default(25.0)]
     pub snap: f64,
-    /// The least angle (degrees) between two streets at a junction.
+    /// Minimum angle (degrees) between two streets at a junction.
     #[default(45.0)]
     pub min_angle: f64,
-    /// The least length (m) of a street between two junctions.
+    /// Minimum length (m) of a street between two junctions.
     #[default(12.0)]
     pub min_length: f64,
-    /// The least distance (m) between streets that do not meet.
+    /// Minimum distance (m) between streets that do not meet.
     #[default(6.0)]
     pub clearance: f64,
-    /// The radius (m) of the corners of blocks.
+    /// Radius (m) of the corners of blocks.
     #[default(4.0)]
     pub corner: f64,
-    /// How far (degrees) a street may turn to pass an obstacle.
+    /// Maximum turn (degrees) to avoid an obstacle.
     #[default(40.0)]
     pub bend: f64,
-    /// The longest way (m) over water that a bridge may lead.
+    /// Maximum length (m) of a bridge over water.
     #[default(0.0)]
     pub bridge: f64,
-    /// Areas that no street leads through: polygons.
+    /// Areas that no street crosses: polygons.
     #[default(Vec::new())]
     pub obstacles: Vec<Rings>,
-    /// Areas that only bridges lead over: polygons.
+    /// Areas that only bridges cross: polygons.
     #[default(Vec::new())]
     pub water: Vec<Rings>,
-    /// The area that streets stay inside of; anywhere if it is left out.
+    /// Area that streets stay inside. If omitted, streets are not limited.
     pub limit: Option<Rings>,
-    /// Whether a street may end before an obstacle, in place of being refused.
+    /// Shorten streets before an obstacle instead of refusing them.
     #[default(true)]
     pub shorten: bool,
-    /// Existing streets, which stay where they are whatever the constraints ask: a list of { lines = ..., depth = ...,
+    /// Existing streets, which stay unchanged regardless of the constraints: a list of { lines = ..., depth = ...,
     /// width = ..., lanes = ..., level = ... }.
     #[default(Vec::new())]
     pub existing: Vec<ExistingLines>,
-    /// The most pieces of streets.
+    /// Maximum number of street segments.
     #[default(400_000)]
     pub most: u32,
-    /// The ground that streets lie on: a terrain that was derived before.
+    /// Terrain under the streets, which must already be derived.
     pub on: Option<Arc<Terrain>>,
-    /// The greatest slope (%) of streets on the ground; they cut into it and are raised over it to keep that.
+    /// Maximum slope (%) of streets on the terrain. To keep it, streets cut into the ground or rise above it.
     #[default(10.0)]
     pub max_slope: f64,
-    /// The height (m) of the water that bridges lead over; that of the terrain's water if it is left out.
+    /// Height (m) of the water under bridges. If omitted, the terrain's water level.
     pub water_level: Option<f64>,
     /// Height (m) of kerbs.
     #[default(0.14)]
     pub kerb: f64,
-    /// The radius (m) of circles to turn in at dead ends; 0 for none.
+    /// Radius (m) of turning circles at dead ends; 0 for none.
     #[default(0.0)]
     pub turning: f64,
-    /// Whether dead ends without such a circle are cut off square, as at the rim of a map, in place of round.
+    /// Square dead ends without a turning circle, as at the edge of the map, instead of round ones.
     #[default(false)]
     pub square_ends: bool,
-    /// Whether lines and crossings are painted on the streets.
+    /// Paint lines and crossings on the streets.
     #[default(true)]
     pub markings: bool,
     /// Colour of carriageways.
@@ -99,15 +99,15 @@ pub struct NetworkOptions {
     /// Colour of sidewalks.
     #[default(Color([0.45, 0.44, 0.42, 1.0]))]
     pub paving: Color,
-    /// Colour of the blocks between the streets; none is drawn if it is left out.
+    /// Colour of the blocks between the streets. If omitted, blocks are not drawn.
     pub ground: Option<Color>,
 }
 
-/// A network of streets, which grows by what interpretation rules propose.
+/// A street network, grown by interpretation rules.
 ///
-/// A street that is proposed is built, shortened, bent, joined to what is near its end, or refused; in the next step rules ask
-/// what became of it. No two streets cross without a junction, and none comes too near another. What was built stays for all
-/// steps.
+/// A proposed street is built, shortened, bent, joined to a street or junction near its end, or refused. In the next
+/// step, rules read the outcome. Streets never cross without a junction, and keep their minimum distance. Streets that
+/// are built remain in all later steps.
 #[object(
     "network",
     options = NetworkOptions,
@@ -122,33 +122,33 @@ pub struct NetworkOptions {
 )]
 pub struct Network {
     pub(super) options: NetworkOptions,
-    /// By depth.
+    /// Street types, by depth.
     pub(super) kinds: Vec<StreetKind>,
     pub(super) network: StreetNetwork,
-    /// Areas that bridges lead over.
+    /// Areas that bridges may cross.
     pub(super) water: Arc<[Polygon]>,
-    /// How high its streets lie, with the version of the network that this is of.
+    /// Heights of the streets, with the version of the network for which they were computed.
     pub(super) fit: OnceLock<(u64, Arc<StreetFit>)>,
-    /// What became of what was proposed in the last pass, by junction and heading.
+    /// Outcomes of the streets proposed in the last pass, by junction and heading.
     pub(super) growths: FxHashMap<(u32, u64), StreetGrowth>,
     pub(super) walk: NetworkWalk,
-    /// Parts of existing streets that are missing.
+    /// Missing parts of existing streets.
     pub(super) omitted: Vec<ExistingLoss>,
-    /// What scripts have asked of blocks and lots.
+    /// Cached results about blocks and lots.
     pub(super) answers: AnswerCache,
     pub(super) warnings: Vec<Warning>,
-    /// What became of all that was proposed.
+    /// Outcomes of all proposed streets.
     pub(super) proposals: ProposalTally,
-    /// Whether it was told that streets were refused.
+    /// Set once a warning has reported refused streets.
     pub(super) has_warned_of_refusals: bool,
-    /// Whether it was told that the ground hides streets.
+    /// Set once a warning has reported streets hidden by the ground.
     pub(super) has_warned_of_hiding: bool,
 }
 
 #[methods("network")]
 impl Network {
-    /// Proposes a street from a junction: its `heading` (degrees from east, counter-clockwise), its `length` (m) and how often
-    /// its way has branched off.
+    /// Proposes a street from a junction: its `heading` (degrees from east, counter-clockwise), its `length` (m) and
+    /// its depth, the number of times that its path has branched.
     pub fn grow(&mut self, junction: u32, heading: f64, length: f64, depth: u32) -> Result<()> {
         let (from, to) = self.proposed("grow", junction, heading, length)?;
         let growth = self.network.grow(from, to, self.attributes(depth))?;
@@ -157,8 +157,8 @@ impl Network {
         Ok(())
     }
 
-    /// Proposes a street from a junction to a place (m). It may join others on its way; a warning tells if it is refused, or
-    /// ends before an obstacle.
+    /// Proposes a street from a junction to a position (m). The street may join other streets on its way. A warning
+    /// reports a street that is refused, or that ends before an obstacle.
     pub fn lead(&mut self, junction: u32, to: Vector, depth: u32) -> Result<()> {
         let from = self.known(junction)?;
         let to = to.0.truncate();
@@ -168,10 +168,10 @@ impl Network {
         Ok(())
     }
 
-    /// Walks ahead from where the way is by a street of a `length` (m), if that is not refused, and goes on from where it ends.
+    /// Walks ahead by a street of a `length` (m), and continues from its end.
     ///
-    /// A way begins at the first start, towards the east; a branch begins where it leaves, and its depth is one more. What
-    /// is refused ends its way.
+    /// A path begins at the first start, towards the east. A branch begins at the current position, and its depth is
+    /// one more. A refused street ends its path.
     pub fn walk(&mut self, length: f64) -> Result<()> {
         if length <= 0.0 {
             return Err(Error::argument(format!("network:walk: a street of {length} m cannot be"))
@@ -188,172 +188,179 @@ impl Network {
         Ok(())
     }
 
-    /// Turns the way by `angle` (degrees), counter-clockwise.
+    /// Turns the path by `angle` (degrees), counter-clockwise.
     pub fn turn(&mut self, angle: f64) {
         self.walk.turn(angle);
     }
 
-    /// Lets the way go on from a junction towards a `heading` (degrees from east, counter-clockwise).
+    /// Continues the path from a junction with a `heading` (degrees from east, counter-clockwise).
     pub fn stand(&mut self, junction: u32, heading: f64) -> Result<()> {
         let at = self.known(junction)?;
         self.walk.stand(at, heading);
         Ok(())
     }
 
-    /// Joins dead ends to the streets within `radius` (m, 150 unless given) to which the way along the streets is `detour` (2
+    /// Joins dead ends to streets within `radius` (m, 150 unless given), if the path along the streets is `detour` (2
     /// unless given) times longer.
     pub fn join_dead_ends(&mut self, radius: Option<f64>, detour: Option<f64>) -> Result<()> {
         self.network.join_dead_ends(answers::dead_end_options("join_dead_ends", radius, detour)?);
         Ok(())
     }
 
-    /// Takes dead ends away, until none is left.
+    /// Removes dead ends until none remain.
     pub fn remove_dead_ends(&mut self) {
         self.network.remove_dead_ends();
     }
 
-    /// The junction where a street ends that was proposed with this `heading` (degrees), if others may go on from there; nil if
-    /// it joined others or was refused.
+    /// Returns the junction at the end of a street that was proposed with this `heading` (degrees), if it is open for
+    /// further streets, or nil if the street joined others or was refused.
     pub fn reached(&self, junction: u32, heading: f64) -> Option<u32> {
         let growth = self.growths.get(&(junction, heading.to_bits()))?;
         matches!(growth.fate, Fate::Built | Fate::Bent | Fate::Shortened).then_some(growth.end + 1)
     }
 
-    /// The junction where a street ends that was proposed with this `heading` (degrees), whatever it joined; nil if it was
-    /// refused.
+    /// Returns the junction at the end of a street that was proposed with this `heading` (degrees), also if it joined
+    /// others, or nil if it was refused.
     pub fn arrived(&self, junction: u32, heading: f64) -> Option<u32> {
         let growth = self.growths.get(&(junction, heading.to_bits()))?;
         (!matches!(growth.fate, Fate::Refused(_))).then_some(growth.end + 1)
     }
 
-    /// What became of a street that was proposed with this `heading` (degrees): "built", "bent", "shortened", "snapped" to a
-    /// junction, "joined" to a street, or why it was refused: "too short", "angle", "too near", "corners", "obstacle",
-    /// "outside"; "unknown" if it was not proposed.
+    /// Returns the outcome of a street that was proposed with this `heading` (degrees): "built", "bent", "shortened",
+    /// "snapped" to a junction, or "joined" to a street. If it was refused, returns the reason: "too short", "angle",
+    /// "too near", "corners", "obstacle" or "outside". If it was not proposed, returns "unknown".
     pub fn fate(&self, junction: u32, heading: f64) -> String {
         let growth = self.growths.get(&(junction, heading.to_bits()));
         growth.map_or("unknown", |growth| answers::fate(growth.fate)).into()
     }
 
-    /// What would become of a street with this `heading` (degrees) and `length` (m), as the network is now: a table with its
-    /// `fate`, whether it would be `built`, the `place` (m) where it would end, and the `junction` if one is there.
+    /// Predicts the outcome of a street with this `heading` (degrees) and `length` (m), without building it: a table
+    /// with its `fate`, `built` (true if it would be built), the `place` (m) of its end, and the `junction` there, if
+    /// any.
     pub fn probe(&self, junction: u32, heading: f64, length: f64, depth: u32) -> Result<Value> {
         let (from, to) = self.proposed("probe", junction, heading, length)?;
         Ok(answers::prospect(self.network.probe(from, to, self.attributes(depth))))
     }
 
-    /// The dead ends: a list of tables with `junction`, `place` (m), the `heading` (degrees) that leads on, and `depth`.
+    /// Returns the dead ends: a list of tables with `junction`, `place` (m), the `heading` (degrees) to continue in,
+    /// and `depth`.
     pub fn open_ends(&self) -> Value {
         answers::open_ends(&self.network)
     }
 
-    /// How many dead ends `join_dead_ends` would join within the same `radius` (m, 150 unless given) and with the same
-    /// `detour` (2 unless given).
+    /// Returns the number of dead ends that `join_dead_ends` would join within the same `radius` (m, 150 unless given)
+    /// and with the same `detour` (2 unless given).
     pub fn joinable(&self, radius: Option<f64>, detour: Option<f64>) -> Result<u32> {
         let options = answers::dead_end_options("joinable", radius, detour)?;
         Ok(u32::try_from(self.network.joinable_dead_ends(options)).unwrap_or(u32::MAX))
     }
 
-    /// The measures that networks are compared by: a table with `length` (m), the mean `degree` of junctions, the shares
-    /// `dead_ends`, `three_way` and `four_way`, `circuity`, `meshedness`, `orientation_order`, of blocks the median area `block`
-    /// (m²), `block_spread`, `block_shape` and the `largest` (m²), the median `segment` (m) between junctions, the `density`
-    /// (km/km²), the `zigzags` on each kilometre, and the shares `stubs`, `triangles` and `knots`.
+    /// Returns the measures for comparing networks: a table with `length` (m), the mean `degree` of junctions, the
+    /// fractions `dead_ends`, `three_way` and `four_way`, `circuity`, `meshedness`, `orientation_order`, the median
+    /// area `block` (m²), `block_spread` and `block_shape` of blocks, the `largest` block (m²), the median `segment`
+    /// (m) between junctions, the `density` (km/km²), the `zigzags` per kilometre, and the fractions `stubs`,
+    /// `triangles` and `knots`.
     pub fn measures(&self) -> Value {
         answers::measures(&self.network.measures())
     }
 
-    /// Where a junction is (m).
+    /// Returns the position of a junction (m).
     pub fn place(&self, junction: u32) -> Result<glam::DVec3> {
         Ok(self.network.at(self.known(junction)?).extend(0.0))
     }
 
-    /// Where all junctions are, by their numbers, those too where a street only turns: a list of tables with `place` (m), the
-    /// least `depth` of its streets, and the `headings` (degrees) in which they leave it.
+    /// Returns all junctions by number, including those where a street only turns: a list of tables with `place` (m),
+    /// the minimum `depth` of its streets, and the `headings` (degrees) in which they leave it.
     pub fn places(&self) -> Value {
         answers::places(&self.network)
     }
 
-    /// The area on the left of the street that leaves a junction nearest to a `heading` (degrees): a table with its `area` (m²),
-    /// negative if it lies outside of all streets, and its `corners` in order, each with `junction`, `place` (m), `degree`, and
-    /// the `depth` of the street to the next one. It is nil if no street leaves the junction.
+    /// Returns the area on the left of the street that leaves a junction nearest to a `heading` (degrees): a table with
+    /// its `area` (m²), negative for the area outside all streets, and its `corners` in order, each with `junction`,
+    /// `place` (m), `degree`, and the `depth` of the street to the next corner. Returns nil if no street leaves the
+    /// junction.
     pub fn face(&self, junction: u32, heading: f64) -> Result<Value> {
         let towards = DVec2::from_angle(heading.to_radians());
         Ok(answers::face(&self.network, self.known(junction)?, towards))
     }
 
-    /// How many streets meet at a junction.
+    /// Returns the number of streets at a junction.
     pub fn degree(&self, junction: u32) -> Result<u32> {
         let degree = self.network.junctions()[self.known(junction)? as usize].degree();
         Ok(u32::try_from(degree).unwrap_or(u32::MAX))
     }
 
-    /// How many pieces of streets there are, from junction to junction.
+    /// Returns the number of street segments between junctions.
     pub fn size(&self) -> u32 {
         u32::try_from(self.network.size()).unwrap_or(u32::MAX)
     }
 
-    /// Distance (m) from a place to the middle of the nearest street; infinite without any.
+    /// Returns the distance (m) from a position to the centreline of the nearest street, or infinity without streets.
     pub fn distance(&self, place: Vector) -> f64 {
         self.network.nearest(place.0.truncate()).map_or(f64::INFINITY, |(_, distance)| distance)
     }
 
-    /// The streets from one junction to the next, as features: each has an id, a geometry (its middle line), how often its way has
-    /// branched off (depth), the name of its kind, its width, sidewalk, lanes, median and parking, its level, its length (m),
-    /// whether it is a bridge, and the junctions that it leads from and to.
+    /// Returns the streets from one junction to the next as features. Each has an id, a geometry (its centreline), its
+    /// depth, the name of its kind, its width, sidewalk, lanes, median and parking, its level, its length (m), bridge
+    /// (true for a bridge), and the junctions from and to.
     pub fn streets(&self) -> StreetRecords {
         self.street_records()
     }
 
-    /// The junctions and the dead ends, without places where a street only turns, as features: each has an id, a geometry (a
-    /// point), its junction, its degree, and the least depth and the greatest width of its streets.
+    /// Returns the junctions and dead ends as features, without positions where a street only turns. Each has an id, a
+    /// geometry (a point), its junction number, its degree, and the minimum depth and maximum width of its streets.
     pub fn junctions(&self) -> JunctionRecords {
         self.junction_records()
     }
 
-    /// The parts of `existing` streets that are missing in the network: a list of tables with the `name` of the street, the
-    /// `place` (m) where the part begins, its `length` (m) and the `reason`.
+    /// Returns the parts of `existing` streets that are missing in the network: a list of tables with the `name` of the
+    /// street, the `place` (m) where the part begins, its `length` (m) and the `reason`.
     pub fn omitted(&self) -> Value {
         answers::omitted(&self.omitted)
     }
 
-    /// The blocks between the streets, inside of their sidewalks, as features: each has an id, a geometry, its area (m²) and the
-    /// least depth of the streets around it (street_depth).
+    /// Returns the blocks between the streets, inside their sidewalks, as features. Each has an id, a geometry, its
+    /// area (m²) and the minimum depth of the surrounding streets (street_depth).
     pub fn blocks(&self) -> Result<BlockRecords> {
         self.block_records()
     }
 
-    /// Divides blocks into lots with a front on a street, as features: each has an id, a geometry, its area (m²), its front (a
-    /// line) and all its fronts, its width along the front and its depth behind it (m), whether it is a corner, its access (a place
-    /// on the front), where it is facing (degrees), its use, its block, and the depth and width of its street.
+    /// Divides blocks into lots with a front on a street, and returns them as features. Each has an id, a geometry, its
+    /// area (m²), its front (a line) and all its fronts, its width along the front and its depth behind it (m), corner
+    /// (true for a corner lot), its access (a point on the front), its facing direction (degrees), its use, its block,
+    /// and the depth and width of its street.
     pub fn lots(&self, options: Option<TableOf<LotSettings>>) -> Result<LotRecords> {
         self.lot_records(&options.unwrap_or_default().read()?)
     }
 
-    /// Height (m) of the sidewalks of the street that is nearest to a place, where it is nearest: houses beside it stand there.
+    /// Returns the height (m) of the sidewalks of the nearest street, at its point nearest to a position: the base of
+    /// houses next to the street.
     pub fn height(&self, place: Vector) -> Result<f64> {
         self.height_at(place.0)
     }
 
-    /// Places along the streets for a "tree" or a "lamp", as far apart as the kinds of streets say: features with a place (m), the
-    /// direction from there towards the street (degrees), and how often the street's way has branched off.
+    /// Returns the positions along the streets for a "tree" or a "lamp", at the distances of the street types: features
+    /// with a place (m), the heading towards the street (degrees), and the street's depth.
     pub fn verge(&self, what: String) -> Result<VergeRecords> {
         self.verge_of(&what)
     }
 
-    /// Sites for buildings beside the streets, in a grid along both sides of each, where there is room, as features: each has an
-    /// id, a geometry (a rectangle), its area (m²), width and depth (m), its front (a line), its access (the middle of it), where
-    /// it is facing (degrees), its row behind the street, from 0, and the depth and width of its street.
+    /// Returns sites for buildings next to the streets, in a grid along both sides of each street, as features. Each
+    /// has an id, a geometry (a rectangle), its area (m²), width and depth (m), its front (a line), its access (the
+    /// middle of the front), its facing direction (degrees), its row behind the street, from 0, and the depth and width
+    /// of its street.
     pub fn sites(&self, options: Option<TableOf<SiteSettings>>) -> Result<SiteRecords> {
         self.site_records(&options.unwrap_or_default().read()?)
     }
 
-    /// How many dead ends there are.
+    /// Returns the number of dead ends.
     pub fn dead_ends(&self) -> u32 {
         u32::try_from(self.network.dead_ends().count()).unwrap_or(u32::MAX)
     }
 }
 
 impl Network {
-    /// The network that a script describes; fails if its fields contradict one another.
+    /// Creates the network that a script specifies. Fails if its fields contradict each other.
     pub fn new(options: NetworkOptions) -> Result<Self> {
         let kinds: Vec<StreetKind> = options.streets.iter().map(StreetOptions::kind).collect();
         if kinds.is_empty() {
@@ -396,7 +403,7 @@ impl Network {
                     network.begin(start.0.truncate()).map_err(|error| error.about("network: starts"))?;
                 }
             }
-            // What exists says where streets begin; nobody asked for the origin.
+            // With existing streets, the origin is only a default start, so an obstacle there is not an error.
             None if !options.existing.is_empty() => {
                 let _ = network.begin(DVec2::ZERO);
             }
@@ -423,12 +430,12 @@ impl Network {
         })
     }
 
-    /// The network itself.
+    /// Returns the street network.
     pub fn network(&self) -> &StreetNetwork {
         &self.network
     }
 
-    /// The junction with this number, which counts from 1.
+    /// Converts the number of a junction, from 1, to its id. Fails if there is no such junction.
     fn known(&self, junction: u32) -> Result<JunctionId> {
         let count = self.network.junctions().len();
         match junction.checked_sub(1) {
@@ -447,7 +454,8 @@ impl Network {
         SurfaceOptions { turning: self.options.turning }
     }
 
-    /// Where a street begins and ends that a script proposes by `method`.
+    /// Returns the start and the end of a street that a script proposes with `method`. Fails if the length is not above
+    /// 0.
     fn proposed(
         &self,
         method: &str,
@@ -466,7 +474,7 @@ impl Network {
     }
 }
 
-/// A network of a script, to be asked by others.
+/// Allows other objects to take a script's network as a parameter.
 impl burgeon_kit::ObjectParameter for Network {
     const LUAU: &str = "Network";
     const EXPECTED: &str = "a network that was derived: roads:derive().objects[1]";

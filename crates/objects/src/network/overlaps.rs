@@ -1,17 +1,17 @@
-//! Areas to divide that lie on each other.
+//! The detection of areas to divide that overlap.
 
 use burgeon_base::warning::{Warning, WarningKind};
 use burgeon_streets::StreetBlock;
 use glam::DVec2;
 
-/// Blocks that have less (m²) in common are beside each other.
+/// Maximum common area (m²) of adjacent blocks that do not overlap.
 const LEAST: f64 = 0.01;
-/// So many pairs are counted: each takes time, and more say nothing more.
+/// Maximum number of overlapping pairs to count, because each pair takes time and more pairs add no information.
 const MOST: usize = 100;
-/// Of blocks whose boxes meet without an overlap, so many pairs are looked at: thousands around one another are millions.
+/// Maximum number of pairs with intersecting boxes to compare: thousands of nested blocks have millions of pairs.
 const MOST_COMPARED: usize = 100_000;
 
-/// What to tell of blocks with lots that lie on each other.
+/// Returns the warning about blocks whose lots overlap.
 pub(super) fn overlapping(blocks: &[&StreetBlock]) -> Option<Warning> {
     let mut areas: Vec<(&StreetBlock, [DVec2; 2])> =
         blocks.iter().map(|block| (*block, bounds(block))).collect();
@@ -41,7 +41,7 @@ pub(super) fn overlapping(blocks: &[&StreetBlock]) -> Option<Warning> {
         }
     }
     let Some((common, one, other)) = greatest else {
-        // What lies on each other may be among the others.
+        // The pairs that were not compared may overlap.
         let text =
             format!("network:lots: of blocks around one another, only {MOST_COMPARED} pairs were compared");
         let help =

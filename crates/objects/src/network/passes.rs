@@ -1,4 +1,4 @@
-//! What a network does before, within and after a pass over the chains, and what it reports of it.
+//! The work of a network before, during and after a pass over the chains, and its warnings.
 
 use std::sync::OnceLock;
 
@@ -23,12 +23,12 @@ impl Network {
         Ok(())
     }
 
-    /// Tells if a pass proposed streets and there is none, or hardly any has room.
+    /// Ends a pass. Warns if the pass proposed streets and none was built, or if most were refused.
     pub(super) fn finish(&mut self) -> Result<()> {
         if self.fit.get().is_some_and(|(version, _)| *version != self.network.version()) {
             self.fit = OnceLock::new();
         }
-        // Where there is no ground is told when the streets are drawn.
+        // Missing ground is reported when the streets are drawn.
         if !self.has_warned_of_hiding
             && let Ok(Some(warning)) = self.hidden()
         {
@@ -46,7 +46,7 @@ impl Network {
         Ok(())
     }
 
-    /// Reports that there is no block to fill.
+    /// Returns the warning that there is no block to fill.
     fn bare(&self) -> Option<Warning> {
         let is_bare =
             self.options.ground.is_some() && self.network.size() > 0 && self.network.faces().is_empty();

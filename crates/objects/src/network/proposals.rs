@@ -1,18 +1,18 @@
-//! How many streets were proposed to a network, and what to tell where hardly any has room.
+//! The number of streets proposed to a network, and the warning if few have room.
 
 use burgeon_base::warning::{Warning, WarningKind};
 use burgeon_streets::{Fate, Refusal};
 
-/// So many streets tell what becomes of most.
+/// Minimum number of streets that are representative.
 const ENOUGH: usize = 8;
 
-/// What became of the streets that were proposed.
+/// The outcomes of the proposed streets.
 #[derive(Debug, Clone, Default)]
 pub(super) struct ProposalTally {
     proposed: usize,
-    /// How many of them were refused, by the reason, in the order of [`Refusal::ALL`].
+    /// Number of refused streets by reason, in the order of [`Refusal::ALL`].
     refused: [usize; Refusal::ALL.len()],
-    /// How many were proposed in this pass, and how many of these were not refused.
+    /// Number of streets proposed in this pass, and number of them that were not refused.
     of_pass: [usize; 2],
 }
 
@@ -31,8 +31,8 @@ impl ProposalTally {
         }
     }
 
-    /// What to tell after a pass that proposed streets and built none, with so many pieces of streets in all: that there is
-    /// none, or that most that were proposed are too short for their widths, so that growth ends early.
+    /// Returns the warning after a pass that proposed streets and built none, with `size` street segments in total:
+    /// either there are no streets, or most proposed streets are too short for their widths, so that growth ends early.
     pub(super) fn warning(&self, size: usize) -> Option<Warning> {
         if self.of_pass[0] == 0 || self.of_pass[1] > 0 {
             return None;
@@ -62,7 +62,7 @@ impl ProposalTally {
         Some(Warning::new(WarningKind::DrawsNothing, text).help(help))
     }
 
-    /// The reasons that there were, each with how many were refused for it, by name.
+    /// Returns the reasons for refusals, each with its number of refused streets, sorted by name.
     fn reasons(&self) -> impl Iterator<Item = (Refusal, usize)> {
         let mut reasons: Vec<(Refusal, usize)> =
             Refusal::ALL.into_iter().zip(self.refused).filter(|(_, count)| *count > 0).collect();

@@ -1,4 +1,4 @@
-//! Sites beside streets as scripts get them: features, to be the source of a system.
+//! Sites next to streets as features for scripts, which can be the source of a system.
 
 use burgeon_base::error::{Error, Result};
 use burgeon_base::warning::{Warning, WarningKind, defer_warning};
@@ -12,36 +12,38 @@ use glam::DVec3;
 use super::Network;
 use super::lots::record;
 
-/// What `network:sites` takes.
+/// Options of `network:sites`.
 #[fields("network:sites")]
 pub struct SiteSettings {
-    /// Width along the street and depth (m) of sites, by the depth of the street from 0 on; the last one holds for all deeper ones.
+    /// Width along the street and depth (m) of sites, by the depth of the street from 0. The last size also applies to
+    /// greater depths.
     #[default(vec![Vector(DVec3::new(24.0, 20.0, 0.0)), Vector(DVec3::new(16.0, 14.0, 0.0)), Vector(DVec3::new(10.0, 10.0, 0.0))])]
     pub sizes: Vec<Vector>,
-    /// From one place to the next along a street (m).
+    /// Distance between candidate positions along a street (m).
     #[default(6.0)]
     pub along: f64,
-    /// From one row of places to the next one behind it (m).
+    /// Distance between rows of candidate positions behind the street (m).
     #[default(18.0)]
     pub away: f64,
-    /// From the edge of the street to the nearest front (m).
+    /// Minimum distance from the edge of the street to a front (m).
     #[default(2.0)]
     pub setback: f64,
-    /// From the edge of the street to the farthest front (m).
+    /// Maximum distance from the edge of the street to a front (m).
     #[default(24.0)]
     pub distance: f64,
-    /// The least distance (m) between sites.
+    /// Minimum distance (m) between sites.
     #[default(3.0)]
     pub gap: f64,
-    /// The least share that is left of one side, which is as much shorter at random, except for the smallest of the sizes.
+    /// Minimum remaining fraction of one side, which is shortened at random. The smallest of the sizes is not
+    /// shortened.
     #[default(0.5)]
     pub shrink: f64,
-    /// What random numbers come from, with the place of each street.
+    /// Seed of the random numbers, combined with the position of each street.
     #[default(Seed(0))]
     pub seed: Seed,
 }
 
-/// Sites as scripts get them.
+/// Sites, as records for scripts.
 pub struct SiteRecords(Vec<Value>);
 
 impl Answer for SiteRecords {

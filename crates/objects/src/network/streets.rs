@@ -1,4 +1,4 @@
-//! Streets and junctions as scripts and files of layers get them: features.
+//! Streets and junctions as features for scripts and layer files.
 
 use burgeon_data::Geometry;
 use burgeon_kit::{Answer, HasLayers, Parameter, Value};
@@ -8,7 +8,7 @@ use glam::{DVec2, DVec3};
 use super::Network;
 use super::lots::record;
 
-/// Streets as scripts get them.
+/// Streets, as records for scripts.
 pub struct StreetRecords(Vec<Value>);
 
 impl Answer for StreetRecords {
@@ -23,7 +23,7 @@ impl Answer for StreetRecords {
     }
 }
 
-/// Junctions as scripts get them.
+/// Junctions, as records for scripts.
 pub struct JunctionRecords(Vec<Value>);
 
 impl Answer for JunctionRecords {
@@ -42,7 +42,7 @@ impl Network {
         let streets = self.network.stretches();
         let mut known = rustc_hash::FxHashMap::<String, u32>::default();
         let records = streets.iter().map(|street| {
-            // Called by where they lie, so that a street more changes no other.
+            // The id depends on the position, so that adding a street does not change other ids.
             let id = named(middle(&street.line));
             let count = known.entry(id.clone()).or_default();
             *count += 1;
@@ -98,7 +98,7 @@ impl Network {
         ])
     }
 
-    /// What streets of a depth are called: what the script calls them, or the number of their kind.
+    /// Returns the name of the street type of a depth: the name given by the script, or the number of the type.
     fn kind_name(&self, depth: u32) -> String {
         let last = self.options.streets.len() - 1;
         let number = (depth as usize).min(last);
@@ -117,18 +117,18 @@ impl HasLayers for Network {
     }
 }
 
-/// The number of a junction in scripts.
+/// Returns the number of a junction in scripts.
 fn number(junction: JunctionId) -> Value {
     Value::Number(f64::from(junction) + 1.0)
 }
 
-/// A name for what lies at a place.
+/// Returns the id for a position.
 fn named(at: DVec2) -> String {
     // Adding zero turns -0 into 0.
     format!("{:.0}:{:.0}", at.x.round() + 0.0, at.y.round() + 0.0)
 }
 
-/// The place half way along a line.
+/// Returns the point halfway along a line.
 fn middle(line: &[DVec2]) -> DVec2 {
     let length: f64 = line.windows(2).map(|pair| pair[0].distance(pair[1])).sum();
     let mut rest = length / 2.0;

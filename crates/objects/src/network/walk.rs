@@ -1,4 +1,4 @@
-//! Ways that a network is walked by, as a turtle walks: ahead, aside, and back to where a branch began.
+//! Paths that walk a network like a turtle: ahead, aside, and back to the start of a branch.
 
 use glam::DVec2;
 use rustc_hash::{FxHashMap, FxHashSet};
@@ -8,34 +8,34 @@ use burgeon_streets::{Fate, JunctionId, StreetAttributes, StreetGrowth, StreetNe
 
 use super::walked::{WalkStep, WalkTally};
 
-/// Where a way is, and where its branches began.
+/// The position of a path, and the starts of its branches.
 #[derive(Debug, Clone, Default)]
 pub(super) struct NetworkWalk {
     at: WalkPlace,
     branches: Vec<WalkPlace>,
-    /// Where the steps of all passes led to, by junction, heading and length.
+    /// End junctions of the steps of all passes, by junction, heading and length.
     steps: FxHashMap<WalkKey, JunctionId>,
-    /// The steps of the present pass.
+    /// Steps of the current pass.
     of_pass: FxHashSet<WalkKey>,
-    /// What became of them.
+    /// Outcomes of the steps.
     tally: WalkTally,
 }
 
-/// Where a step begins, its heading and its length.
+/// The start junction of a step, its heading and its length.
 type WalkKey = (JunctionId, u64, u64);
 
-/// Where a street was proposed: the junction, the heading (degrees), and what became of it.
+/// The junction and the heading (degrees) of a proposed street, and its outcome.
 type WalkProposal = (JunctionId, f64, StreetGrowth);
 
-/// A place on a way.
+/// A position on a path.
 #[derive(Debug, Clone, Copy, Default)]
 struct WalkPlace {
     junction: JunctionId,
-    /// Degrees from east, counter-clockwise.
+    /// Heading (degrees) from east, counter-clockwise.
     heading: f64,
-    /// How often the way has branched off.
+    /// Number of times that the path has branched.
     depth: u32,
-    /// Whether a street was refused, so that the way ends here.
+    /// Set if a street was refused, so that the path ends here.
     has_ended: bool,
 }
 
@@ -48,12 +48,12 @@ impl NetworkWalk {
         self.tally = WalkTally::default();
     }
 
-    /// What became of the streets of the present pass.
+    /// Returns the outcomes of the streets of the current pass.
     pub(super) fn tally(&self) -> &WalkTally {
         &self.tally
     }
 
-    /// Goes on from a junction.
+    /// Continues from a junction.
     pub(super) fn stand(&mut self, junction: JunctionId, heading: f64) {
         self.at = WalkPlace { junction, heading, depth: self.at.depth, has_ended: false };
     }
@@ -63,14 +63,15 @@ impl NetworkWalk {
         self.at.heading = (self.at.heading + angle).rem_euclid(360.0);
     }
 
-    /// How often the way has branched off.
+    /// Returns the number of times that the path has branched.
     pub(super) fn depth(&self) -> u32 {
         self.at.depth
     }
 
-    /// Proposes a street ahead of a length (m), and goes on from where that ends; a refused one ends the way.
+    /// Proposes a street ahead with a length (m), and continues from its end. A refused street ends the path.
     ///
-    /// A step that an earlier pass has made leads where it led then. Gives where the street was proposed, and its fate.
+    /// A step that an earlier pass has made leads to the same junction. Returns the start of a newly proposed street,
+    /// and its outcome.
     pub(super) fn ahead(
         &mut self,
         network: &mut StreetNetwork,
@@ -102,13 +103,13 @@ impl NetworkWalk {
         Ok(Some((junction, heading, growth)))
     }
 
-    /// Remembers where a branch begins, whose depth is one more.
+    /// Stores the start of a branch, whose depth is one more.
     pub(super) fn open_branch(&mut self) {
         self.branches.push(self.at);
         self.at.depth += 1;
     }
 
-    /// Goes back to where the branch began, with the heading that it had there.
+    /// Returns to the start of the branch, with its heading there.
     pub(super) fn close_branch(&mut self) {
         self.at = self.branches.pop().unwrap_or_default();
     }

@@ -1,4 +1,4 @@
-//! What became of the streets that a pass walked: how many were added, and why the others were not.
+//! The outcomes of the streets that a pass walked: the number of added streets, and the reasons for the others.
 
 use burgeon_base::warning::{Warning, WarningKind};
 use burgeon_streets::{Fate, Refusal};
@@ -9,11 +9,11 @@ use glam::DVec2;
 pub(super) struct WalkTally {
     asked: usize,
     added: usize,
-    /// Streets that an earlier step of the pass had walked already.
+    /// Number of streets that an earlier step of the pass had already walked.
     again: usize,
-    /// Streets whose path had ended at a refused street.
+    /// Number of streets whose path had ended at a refused street.
     behind: usize,
-    /// By reason, in the order of [`Refusal::ALL`].
+    /// Refused streets by reason, in the order of [`Refusal::ALL`].
     refused: [RefusedWalks; Refusal::ALL.len()],
 }
 
@@ -21,20 +21,20 @@ pub(super) struct WalkTally {
 #[derive(Debug, Clone, Copy, Default)]
 struct RefusedWalks {
     count: usize,
-    /// Start (m) and heading (degrees) of the first one.
+    /// Start (m) and heading (degrees) of the first street.
     first: (DVec2, f64),
 }
 
-/// One step of a path.
+/// A step of a path.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum WalkStep {
-    /// A street was proposed from a position (m) with a heading (degrees).
+    /// Proposal of a street from a position (m) with a heading (degrees).
     Proposed(Fate, DVec2, f64),
-    /// The street was added in an earlier pass.
+    /// Street that was added in an earlier pass.
     Known,
-    /// The street was walked before in this pass.
+    /// Street that was already walked in this pass.
     Again,
-    /// The path had ended.
+    /// Step beyond the end of the path.
     Behind,
 }
 
@@ -56,7 +56,7 @@ impl WalkTally {
         }
     }
 
-    /// Reports the streets that are missing; `None` if every street was added.
+    /// Reports the streets that are missing, or returns `None` if every street was added.
     pub(super) fn warning(&self) -> Option<Warning> {
         let mut reasons: Vec<(Refusal, RefusedWalks)> =
             Refusal::ALL.into_iter().zip(self.refused).filter(|(_, refused)| refused.count > 0).collect();
@@ -93,7 +93,7 @@ impl WalkTally {
     }
 }
 
-/// What would let such streets be added.
+/// Returns the remedy for a reason of refusal.
 fn remedy(why: Refusal) -> &'static str {
     match why {
         Refusal::TooShort => "walk farther at once, or give the network a smaller `min_length` or `snap`",

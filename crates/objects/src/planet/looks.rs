@@ -1,4 +1,4 @@
-//! What the ground and the seas of a planet look like: an image for each tile.
+//! The appearance of a planet's ground and seas: one image per tile.
 
 use glam::{DVec2, DVec3};
 
@@ -10,7 +10,7 @@ use burgeon_scene::Material;
 use burgeon_terrain::Tile;
 use burgeon_terrain::globe::{Globe, latitude, within};
 
-/// The material called `name` of a tile with its face.
+/// Returns the material named `name` for a tile of a face.
 pub(super) fn of(
     options: &PlanetOptions,
     globe: &Globe,
@@ -49,30 +49,30 @@ pub(super) fn of(
     material(name.to_owned(), &bytes, whole, size, roughness)
 }
 
-/// How many texels an image reaches beyond its tile: seen from afar they mix with those at the rim, and those of the
-/// opposite rim do not.
+/// Number of texels by which an image extends beyond its tile on each side. Minified textures blend with these texels
+/// at the border, not with the texels of the opposite border.
 const MARGIN: usize = 4;
 
-/// How far (m) texture coordinates begin from the rim of a tile.
+/// Returns the distance (m) between the border of the image and the tile, at which texture coordinates begin.
 #[allow(clippy::cast_precision_loss, reason = "texels are few")]
 pub(super) fn begin(globe: &Globe, tile: &Tile) -> f64 {
     texel(globe, tile) * (MARGIN as f64 + 0.5)
 }
 
-/// The size (m) of texels.
+/// Returns the texel size (m).
 #[allow(clippy::cast_precision_loss, reason = "texels are few")]
 fn texel(globe: &Globe, tile: &Tile) -> f64 {
     globe.world().cell(tile.place.level) / (texels(tile, 2) - 1) as f64
 }
 
-/// Heights and slopes at all corners of the cells of a tile.
+/// The heights and slopes at all cell corners of a tile.
 struct TileRelief<'a> {
     tile: &'a Tile,
-    /// The height (m), and how it changes to the east and to the south (m/m).
+    /// Height (m), and its gradients to the east and to the south (m/m).
     corners: Vec<DVec3>,
-    /// Corners along a side.
+    /// Number of corners along a side.
     across: usize,
-    /// The size (m) of cells.
+    /// Cell size (m).
     cell: f64,
 }
 
@@ -92,7 +92,7 @@ impl<'a> TileRelief<'a> {
         Self { tile, corners, across, cell }
     }
 
-    /// The ground at a texel of an image with `across` of them a side.
+    /// Returns the ground at a texel of an image with `across` texels per side.
     #[allow(
         clippy::cast_precision_loss,
         clippy::cast_possible_truncation,

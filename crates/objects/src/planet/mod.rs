@@ -1,6 +1,6 @@
-//! The planet: a globe made by dividing six squares into quadrants, expanded where it is looked at.
+//! The planet: a globe whose six square faces are divided into quadrants, expanded near the eye.
 //!
-//! Comes in: rules, a radius and an eye. Goes out: meshes of the globe. It never expands what nobody looks at.
+//! Input: rules, a radius and an eye position. Output: meshes of the globe. Tiles out of view are never expanded.
 
 mod looks;
 mod object;

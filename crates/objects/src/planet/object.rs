@@ -1,4 +1,4 @@
-//! The object: what scripts see of a planet.
+//! The planet object of scripts.
 
 use std::sync::Arc;
 
@@ -16,58 +16,58 @@ use burgeon_terrain::{Cells, World};
 use glam::{DAffine3, DVec3};
 use rayon::prelude::*;
 
-/// What `planet { ... }` takes.
+/// Fields of `planet { ... }`.
 #[fields("planet")]
 pub struct PlanetOptions {
-    /// Its radius (m).
+    /// Radius (m).
     #[default(6_371_000.0)]
     pub radius: f64,
-    /// What divides its six faces: a rule table, a system, or a list of these by level.
+    /// Rules that divide the six faces: a rule table, a system, or a list of these by level.
     pub rules: RuleLayers,
-    /// The symbol of each face; the first by name, if it is left out.
+    /// Symbol of each face. If omitted, the first symbol by name.
     pub start: Option<String>,
-    /// The height (m) of all of it.
+    /// Initial height (m) of the whole surface.
     #[default(0.0)]
     pub height: f64,
-    /// How much (m) the changes of a rule table are at first.
+    /// Initial factor (m) for the height changes of a rule table.
     #[default(4000.0)]
     pub decay: f64,
-    /// How often a face is divided at most, where it is seen from near.
+    /// Maximum number of divisions of a face near the eye.
     #[default(20)]
     pub levels: u32,
-    /// A part of it is divided further while the eye is nearer to it than so many times its size.
+    /// Maximum distance of the eye for a division, in tile sizes. A tile is divided while the eye is closer.
     #[default(3.0)]
     pub closeness: f64,
-    /// Whether the surface runs smoothly through the cells, or each cell keeps its own height.
+    /// Smooth interpolation of the surface between cells. If false, each cell keeps its own height.
     #[default(true)]
     pub smooth: bool,
-    /// How far the triangles may be from the surface, in sizes of the cells there.
+    /// Maximum distance between the triangles and the surface, in sizes of the local cells.
     #[default(0.05)]
     pub error: f64,
-    /// Its middle (m).
+    /// Centre (m).
     #[default(Vector(DVec3::ZERO))]
     pub position: Vector,
-    /// The direction of its north pole, from which latitudes are told.
+    /// Direction of the north pole, which defines latitudes.
     #[default(Vector(DVec3::Z))]
     pub axis: Vector,
-    /// What its random numbers come from: a number or a string; the run's seed, if it is left out.
+    /// Seed of the random numbers: a number or a string. If omitted, the run's seed.
     pub seed: Option<Seed>,
     /// Omit tiles below the horizon of the focus, and keep them coarse.
     pub horizon: bool,
-    /// What lies on it, from the bottom to the top.
+    /// Ground covers, from bottom to top.
     pub covers: Vec<GroundCover>,
-    /// Its colour, where it has no covers.
+    /// Colour of the ground if there are no covers.
     #[default(Color([0.30, 0.28, 0.22, 1.0]))]
     pub color: Color,
-    /// Its seas: their level (m), or more of them.
+    /// Seas: their level (m), or a table of fields.
     pub water: Option<Water>,
-    /// What lies on the water, such as ice near the poles.
+    /// Cover on the water, such as ice near the poles.
     pub ice: Option<GroundCover>,
 }
 
-/// A globe made by dividing the six faces of a cube into quadrants again and again, expanded where it is looked at.
+/// A globe made by repeatedly dividing the six faces of a cube into quadrants, expanded near the eye.
 ///
-/// What a pass asks of it holds from the end of that pass on: until then it answers as it was.
+/// Calls during a pass take effect at the end of the pass. Until then, the planet returns its earlier values.
 #[object(
     "planet",
     options = PlanetOptions,
@@ -82,22 +82,22 @@ pub struct PlanetOptions {
 pub struct Planet {
     options: Arc<PlanetOptions>,
     globe: Globe,
-    /// Position of the eye that the present pass wants (m, from its centre), and its height (m) above the ground.
+    /// Eye position requested in the current pass (m, relative to the centre), and its height (m) above the ground.
     wanted: Option<(DVec3, f64)>,
-    /// Position of the eye (m, from its centre).
+    /// Eye position (m, relative to the centre).
     eye: Option<DVec3>,
-    /// Height (m) of the eye above the ground that its pass knew.
+    /// Height (m) of the eye above the ground that was expanded in the pass that set the eye.
     clearance: f64,
-    /// Whether the script is only checked.
+    /// Set if the script is only checked.
     sketched: bool,
     warnings: Vec<Warning>,
 }
 
 #[methods("planet")]
 impl Planet {
-    /// Expands what is seen from the position `x` (m), `y` (m), `z` (m) when the pass ends: the nearer to it, the further.
-    /// Fails below the ground or the water that the pass knows. Where finer ground is higher, the eye is above it by as
-    /// much. The last focus of a pass counts.
+    /// Expands the planet for an eye at `x` (m), `y` (m), `z` (m) when the pass ends: nearer tiles get more detail.
+    /// Fails if the position is below the ground or the water of this pass. If the expanded ground is higher, the eye
+    /// is raised to keep its height above the ground. Only the last call in a pass counts.
     pub fn focus(&mut self, x: f64, y: f64, z: f64) -> Result<()> {
         let (eye, radius) = (DVec3::new(x, y, z) - self.options.position.0, self.options.radius);
         if eye.length() < radius * (1.0 - DEEP) {
@@ -127,24 +127,24 @@ impl Planet {
         Ok(())
     }
 
-    /// Height (m) of the ground in a direction from its middle; below the water that of the sea's floor.
+    /// Returns the ground height (m) in a direction from the centre. Below water, this is the height of the sea floor.
     pub fn height(&self, direction: Vector) -> Result<f64> {
         self.known(self.globe.height(towards(direction)?), 0.0)
     }
 
-    /// Where the ground or the water is (m) in a direction from its middle.
+    /// Returns the position (m) of the ground or water surface in a direction from the centre.
     pub fn surface(&self, direction: Vector) -> Result<DVec3> {
         let way = towards(direction)?;
         let height = self.known(self.globe.height(way), 0.0)?;
         Ok(self.options.position.0 + way * (self.options.radius + self.globe.shown(height)))
     }
 
-    /// The symbol of the cell in a direction from its middle.
+    /// Returns the symbol of the cell in a direction from the centre.
     pub fn symbol(&self, direction: Vector) -> Result<String> {
         self.known(self.globe.symbol(towards(direction)?), "").map(str::to_owned)
     }
 
-    /// How many heights are expanded at present.
+    /// Returns the number of heights that are currently expanded.
     pub fn heights(&self) -> f64 {
         #[allow(clippy::cast_precision_loss, reason = "counts below 2^53")]
         let count = self.globe.heights() as f64;
@@ -152,11 +152,11 @@ impl Planet {
     }
 }
 
-/// No ground is deeper than this part of the radius.
+/// Maximum depth of the ground below the radius, as a fraction of the radius.
 const DEEP: f64 = 0.1;
 
 impl Planet {
-    /// What was `found`; where nothing is expanded, an error, or `even` while the script is only checked.
+    /// Returns `found`. If it is `None`, returns `even` while the script is only checked, and otherwise an error.
     fn known<T>(&self, found: Option<T>, even: T) -> Result<T> {
         match found {
             None if self.sketched => Ok(even),
@@ -164,7 +164,7 @@ impl Planet {
         }
     }
 
-    /// A planet of which nothing is expanded.
+    /// Creates a planet of which no tile is expanded.
     pub fn new(options: PlanetOptions) -> Result<Self> {
         if !(options.radius > 0.0 && options.radius <= 1e9) {
             return Err(Error::argument(format!("planet: radius is {} m", number(options.radius)))
@@ -212,7 +212,7 @@ impl Planet {
         })
     }
 
-    /// The name of what one sees of the surface in a direction.
+    /// Returns the name of the visible surface in a direction: water or ground.
     fn surface_name(&self, direction: DVec3) -> &'static str {
         let height = self.globe.height(direction);
         if self.globe.sea().is_some_and(|sea| height.is_some_and(|height| height < sea)) {
@@ -222,7 +222,7 @@ impl Planet {
         }
     }
 
-    /// The globe that is expanded.
+    /// Returns the globe as currently expanded.
     pub fn globe(&self) -> &Globe {
         &self.globe
     }

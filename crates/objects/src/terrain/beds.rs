@@ -1,4 +1,4 @@
-//! The beds of rivers, found by place: nothing grows in them.
+//! A spatial index of river beds, in which nothing grows.
 
 use glam::DVec2;
 use rstar::primitives::{GeomWithData, Line};
@@ -27,7 +27,7 @@ impl RiverBeds {
         Self { segments: RTree::bulk_load(segments.collect()), widest }
     }
 
-    /// True if the place (m) is in a bed.
+    /// Returns true if the position (m) is in a bed.
     pub(super) fn contain(&self, place: DVec2) -> bool {
         let place = place.to_array();
         self.segments

@@ -1,4 +1,4 @@
-//! The world of a terrain, out of what its constructor was given.
+//! The construction of a terrain's world from its options.
 
 use std::sync::Arc;
 
@@ -11,7 +11,7 @@ use burgeon_base::text::number;
 use burgeon_rewriting::ModuleKey;
 use burgeon_terrain::{HeightSource, LevelRules, Rules, World};
 
-/// The world that `options` describe. Fails for what cannot be.
+/// Creates the world that `options` describe. Fails if an option is invalid.
 pub(super) fn world(options: &TerrainOptions) -> Result<World> {
     if !(options.size > 0.0 && options.size <= 1e9) {
         return Err(Error::argument(format!("terrain: size is {} m", number(options.size)))
@@ -57,7 +57,7 @@ pub(super) fn world(options: &TerrainOptions) -> Result<World> {
     })
 }
 
-/// The pairs of heights (m) of a change, in order.
+/// Converts the pairs of heights (m) of `remap`. Fails if they are not in ascending order.
 fn remap(pairs: &[Vec<f64>]) -> Result<Vec<[f64; 2]>> {
     let wrong = |what: String| {
         Error::argument(format!("terrain: {what}"))
@@ -72,13 +72,13 @@ fn remap(pairs: &[Vec<f64>]) -> Result<Vec<[f64; 2]>> {
     Ok(pairs)
 }
 
-/// In how many pieces a side of a terrain is looked at for heights.
+/// Number of positions along a side of a terrain at which the elevation is checked.
 const PIECES: u32 = 64;
 
-/// The first level whose cells are smaller than the distance of the samples of `elevation`. Fails unless it has heights
-/// for all of the square of `size` (m) from `corner` (m) on.
+/// Returns the first level whose cells are smaller than the distance between the samples of `elevation`. Fails unless
+/// the elevation covers the square of `size` (m) from `corner` (m).
 fn finer(elevation: &Elevation, corner: DVec2, size: f64) -> Result<u32> {
-    // A raster that is projected may be missing in the middle of a side.
+    // A projected raster may lack heights in the middle of a side.
     let sides = [DVec2::ZERO, DVec2::X, DVec2::ONE, DVec2::Y];
     let along =
         (0..4).flat_map(|side| (0..PIECES).map(move |part| (side, f64::from(part) / f64::from(PIECES))));

@@ -1,4 +1,4 @@
-//! A file of changes of the ground, on its way from the script's folder to a terrain.
+//! A file of terrain edits, loaded by a script and passed to a terrain.
 
 use std::sync::Arc;
 
@@ -6,13 +6,13 @@ use burgeon_base::error::{Error, Result};
 use burgeon_kit::{Expectation, Parameter, Table, Value};
 use burgeon_kit::{LoadRequest, LoadedObject, Loader, methods, object};
 
-/// Changes of the ground that a file keeps.
+/// Terrain edits stored in a file.
 #[object("edits", loader = LOADER)]
 #[derive(Debug)]
 pub struct EditFile {
-    /// What the script calls it.
+    /// Name in the script.
     pub name: String,
-    /// What it holds.
+    /// Content of the file.
     pub text: Arc<str>,
 }
 

@@ -1,4 +1,4 @@
-//! What the ground looks like: layers of colour, blended into an image for each tile.
+//! The appearance of the ground: layers of colour, blended into an image for each tile.
 
 use std::sync::Arc;
 
@@ -13,15 +13,15 @@ use burgeon_terrain::{Ground, Tile};
 
 use super::mask::{GroundPoint, Mask};
 
-/// A layer of what lies on the ground.
+/// A layer that covers the ground.
 #[fields("cover")]
 pub struct GroundCover {
-    /// Its colour.
+    /// Colour of the cover.
     #[default(Color([0.2, 0.25, 0.1, 1.0]))]
     pub color: Color,
-    /// Where it lies; everywhere, if that is left out.
+    /// Location of the cover. If omitted, everywhere.
     pub on: Mask,
-    /// How much (0 to 1) of what lies below is hidden at most.
+    /// Maximum opacity (0 to 1) of the cover.
     #[default(1.0)]
     pub amount: f64,
 }
@@ -50,14 +50,14 @@ impl Parameter for GroundCover {
     }
 }
 
-/// How many texels a side of a tile's image has at most.
+/// Maximum number of texels per side of a tile's image.
 const MOST_TEXELS: usize = 2048;
 
-/// The image of what lies on `tile`, and how many texels a side
-/// of it has. Its outermost texels lie on the tile's rim, so that images of neighbours meet.
+/// Returns the image of `tile` with its covers, and the number of texels per side. Its outermost texels are on the
+/// tile's border, so that images of adjacent tiles match.
 pub(super) fn paint(ground: &Ground, tile: &Tile, covers: &[GroundCover]) -> (Vec<u8>, usize) {
     let (corner, size) = tile.bounds(ground.world());
-    // One tile alone is seen as a whole, many of them are far from most eyes.
+    // A single tile is seen as a whole; most of many tiles are far from the eye.
     let fine = if ground.tiles().len() == 1 { 2 } else { 1 };
     let across = texels(tile, fine);
     #[allow(clippy::cast_precision_loss, reason = "texels are few")]
@@ -73,12 +73,13 @@ pub(super) fn paint(ground: &Ground, tile: &Tile, covers: &[GroundCover]) -> (Ve
     (bytes, across)
 }
 
-/// How many texels a side of a tile's image has, `fine` for each cell.
+/// Returns the number of texels per side of a tile's image, with `fine` texels per cell.
 pub(crate) fn texels(tile: &Tile, fine: usize) -> usize {
     ((1usize << tile.detail) * fine).min(MOST_TEXELS) + 1
 }
 
-/// An image of `across` texels a side, each of the colour that `color` gives for its column and row from the north.
+/// Creates an image with `across` texels per side. `color` returns the colour of each texel, by its column and its row
+/// from the north.
 pub(crate) fn image(across: usize, color: impl Fn(usize, usize) -> [f32; 3] + Sync) -> Vec<u8> {
     let row = |row: usize| (0..across).flat_map(|column| color(column, row).map(to_srgb)).collect();
     let owner = MemoryOwner::current();
@@ -86,7 +87,7 @@ pub(crate) fn image(across: usize, color: impl Fn(usize, usize) -> [f32; 3] + Sy
     rows.concat()
 }
 
-/// The colour of a spot under `covers`.
+/// Returns the colour of a point under `covers`.
 pub(crate) fn blend(spot: &GroundPoint<'_>, covers: &[GroundCover]) -> [f32; 3] {
     let mut color = covers.first().map_or([0.25, 0.25, 0.2], |cover| [0, 1, 2].map(|at| cover.color.0[at]));
     for (number, cover) in (0..).zip(covers).skip(1) {
@@ -99,7 +100,7 @@ pub(crate) fn blend(spot: &GroundPoint<'_>, covers: &[GroundCover]) -> [f32; 3] 
     color
 }
 
-/// A linear channel as a byte of an sRGB image.
+/// Converts a linear channel to a byte of an sRGB image.
 #[allow(
     clippy::cast_possible_truncation,
     clippy::cast_sign_loss,
@@ -111,13 +112,14 @@ pub(super) fn to_srgb(channel: f32) -> u8 {
     (value * 255.0).round() as u8
 }
 
-/// How far (m) the texels of an image with `across` a side lie from its rim, laid over a tile of `size` (m).
+/// Returns half the size (m) of a texel of an image with `across` texels per side, on a tile of `size` (m): the
+/// distance between the border and the centre of a texel.
 #[allow(clippy::cast_precision_loss, reason = "texels are few")]
 pub(super) fn half_texel(size: f64, across: usize) -> f64 {
     size / (across - 1) as f64 / 2.0
 }
 
-/// A material with an image of `across` texels a side, laid over a tile of `size` (m).
+/// Creates a material with an image of `across` texels per side, on a tile of `size` (m).
 pub(crate) fn material(
     name: String,
     bytes: &[u8],

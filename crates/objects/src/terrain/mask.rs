@@ -1,4 +1,4 @@
-//! Where something is on the ground: by height, slope, curvature, symbol and noise, with smooth transitions.
+//! Masks: locations on the ground by height, slope, curvature, symbol and noise, with smooth transitions.
 
 use std::sync::Arc;
 
@@ -8,26 +8,26 @@ use burgeon_base::error::{Error, Result};
 use burgeon_kit::{Expectation, Field, Parameter, Table, Value, fields};
 use burgeon_terrain::{Ground, World, octaves, octaves_around};
 
-/// Where a cover lies or plants grow.
+/// The locations of a cover or of plants.
 #[fields("on")]
 pub struct Mask {
-    /// From which height (m) to which it fades in; out, if the first is greater.
+    /// Height range (m) of the fade-in: { start, end }. If start is greater than end, it fades out.
     pub height: Vec<f64>,
-    /// From which slope (degrees) to which it fades in; out, if the first is greater.
+    /// Slope range (degrees) of the fade-in: { start, end }. If start is greater than end, it fades out.
     pub slope: Vec<f64>,
-    /// From which curvature (1/m) to which it fades in; hollows are above 0, crests below.
+    /// Curvature range (1/m) of the fade-in: { start, end }. Hollows are positive, crests negative.
     pub curvature: Vec<f64>,
-    /// From which latitude (degrees, north or south) to which it fades in; on planets only.
+    /// Latitude range (degrees, north or south) of the fade-in: { start, end }. Only on planets.
     pub latitude: Vec<f64>,
-    /// The symbols of the cells where it is; all, if there are none.
+    /// Symbols of the included cells. If empty, all cells.
     pub symbols: Vec<String>,
-    /// How far (0 to 1) noise shifts where it fades in.
+    /// Shift of the fade-in by noise (0 to 1).
     #[default(0.0)]
     pub noise: f64,
-    /// How much (0 to 1) it is missing between patches.
+    /// Strength of the gaps between patches (0 to 1).
     #[default(0.0)]
     pub patches: f64,
-    /// The size (m) of patches, and of what noise shifts.
+    /// Size (m) of patches and of noise.
     #[default(50.0)]
     pub scale: f64,
 }
@@ -70,32 +70,32 @@ impl Parameter for Mask {
     }
 }
 
-/// A place, as patches know it.
+/// A position, as used for patches.
 #[derive(Debug, Clone, Copy)]
 pub(crate) enum PatchPlace {
-    /// On flat ground (m).
+    /// Position on flat ground (m).
     Flat(DVec2),
-    /// On a globe (m, from its middle), seen with grains of a size (m).
+    /// Position on a globe (m, from its centre), and the size of the grains (m).
     Round(DVec3, f64),
 }
 
-/// How the ground is at a place.
+/// The properties of the ground at a position.
 pub(crate) struct GroundPoint<'a> {
     pub place: PatchPlace,
-    /// m.
+    /// Height (m).
     pub height: f64,
-    /// degrees.
+    /// Slope (degrees).
     pub slope: f64,
-    /// 1/m; above 0 in hollows.
+    /// Curvature (1/m), positive in hollows.
     pub curvature: f64,
-    /// degrees from the equator.
+    /// Latitude (degrees from the equator).
     pub latitude: f64,
-    /// The name of the symbol of the cell there.
+    /// Name of the cell's symbol.
     pub symbol: Option<&'a str>,
 }
 
 impl<'a> GroundPoint<'a> {
-    /// The ground at `place` (m); its curvature over `reach` (m), if that is wanted.
+    /// Returns the ground at `place` (m). If `bent`, computes its curvature over `reach` (m).
     pub(super) fn new(ground: &'a Ground, place: DVec2, reach: f64, bent: bool) -> Self {
         let height = ground.height(place).unwrap_or(0.0);
         let up = ground.way_up(place).unwrap_or(DVec3::Z);
@@ -122,12 +122,12 @@ impl Mask {
         ]
     }
 
-    /// Whether it asks for the curvature of the ground.
+    /// Returns true if the mask depends on the curvature of the ground.
     pub(crate) fn is_bent(&self) -> bool {
         !self.curvature.is_empty()
     }
 
-    /// Fails if no cell of the world of a `kind` of object has one of its symbols.
+    /// Fails if the world has no cell with one of the mask's symbols. `kind` is the object type for the message.
     pub(crate) fn check(&self, kind: &str, world: &World) -> Result<()> {
         let names = || world.layers.iter().flat_map(|layer| layer.names.iter()).map(String::as_str);
         let Some(unknown) = self.symbols.iter().find(|symbol| names().all(|name| name != symbol.as_str()))
@@ -140,7 +140,7 @@ impl Mask {
             .help(format!("the cells are {}", known.join(", "))))
     }
 
-    /// How much (0 to 1) of it there is at a spot; masks with other `seed`s have other patches.
+    /// Returns the strength (0 to 1) of the mask at a point. Masks with a different `seed` have different patches.
     pub(crate) fn at(&self, spot: &GroundPoint<'_>, seed: u64) -> f64 {
         let here = |symbol: &String| spot.symbol == Some(symbol.as_str());
         if !self.symbols.is_empty() && !self.symbols.iter().any(here) {
@@ -153,7 +153,7 @@ impl Mask {
             _ => None,
         };
         let fades = || self.ranges().into_iter().zip(values).filter_map(along);
-        // Where noise cannot change anything, it need not be known.
+        // Noise that cannot change the result is not computed.
         if fades().any(|along| along <= -self.noise) {
             return 0.0;
         }

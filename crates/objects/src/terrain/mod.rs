@@ -1,7 +1,6 @@
-//! The terrain: ground made by dividing a square into quadrants, expanded where it is looked at.
+//! The terrain: ground made by dividing a square into quadrants, expanded in the view.
 //!
-//! Comes in: rules, edits and a view. Goes out: tiles with what grows on them, and heights. It never expands what nobody
-//! looks at.
+//! Input: rules, edits and a view. Output: tiles with their plants, and heights. Tiles out of view are never expanded.
 
 mod beds;
 mod build;

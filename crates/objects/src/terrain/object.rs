@@ -1,4 +1,4 @@
-//! The object: what scripts see of a terrain.
+//! The terrain object of scripts.
 
 use std::sync::{Arc, OnceLock};
 
@@ -15,65 +15,65 @@ use burgeon_scene::Scene;
 use burgeon_terrain::{Cells, Channel, DEEPEST, Drainage, Dry, Edit, Edits, Ground, GroundMap, View, World};
 use glam::{DVec2, DVec3};
 
-/// What `terrain { ... }` takes.
+/// Fields of `terrain { ... }`.
 #[fields("terrain")]
 pub struct TerrainOptions {
-    /// The length (m) of its sides.
+    /// Length (m) of the sides.
     #[default(1024.0)]
     pub size: f64,
-    /// How often all of it is divided; left out, only what is focused on.
+    /// Number of divisions of the whole terrain. If omitted, only the focus is expanded.
     pub levels: Option<u32>,
-    /// What divides its cells: a rule table, a system, or a list of these by level.
+    /// Rules that divide the cells: a rule table, a system, or a list of these by level.
     pub rules: RuleLayers,
-    /// The symbol of the whole; the first by name, if it is left out.
+    /// Symbol of the first cell. If omitted, the first symbol by name.
     pub start: Option<String>,
-    /// The height (m) of the whole.
+    /// Initial height (m) of the whole terrain.
     #[default(0.0)]
     pub height: f64,
-    /// How much (m) the changes of a rule table are at first.
+    /// Initial factor (m) for the height changes of a rule table.
     #[default(100.0)]
     pub decay: f64,
-    /// Whether the surface runs smoothly through the cells and through measured samples, or each cell keeps its own
-    /// height, and the ground is straight from sample to sample.
+    /// Smooth interpolation between cells and between measured samples. If false, each cell keeps its own height, and
+    /// the ground is straight between samples.
     #[default(true)]
     pub smooth: bool,
-    /// What heights (m) are changed to: pairs { from, to } with straight lines in between.
+    /// Mapping of heights (m): pairs { from, to }, with linear interpolation between them.
     pub remap: Vec<Vec<f64>>,
-    /// How far (m) the triangles may be from the surface; a tenth of the smallest cell, if it is left out.
+    /// Maximum distance (m) between the triangles and the surface. If omitted, a tenth of the smallest cell.
     pub error: Option<f64>,
-    /// The middle of its square (m); its z is added to all heights.
+    /// Centre of the square (m). Its z is added to all heights.
     #[default(Vector(DVec3::ZERO))]
     pub position: Vector,
-    /// Measured heights, which the ground has at each sample, and to which the rules add detail in between:
+    /// Measured heights, which the ground has at each sample; the rules add detail between samples:
     /// elevation("N43E007.hgt").
     pub elevation: Option<Elevation>,
-    /// Changes of the ground that were kept: edits("ground.json").
+    /// Stored terrain edits: edits("ground.json").
     pub edits: Option<EditFile>,
-    /// Streets that lie on it: the ground is cut and filled, so that it meets the edges of their sidewalks, and slopes beside
+    /// Streets on the terrain: the ground is cut and filled to meet the edges of their sidewalks, with slopes next to
     /// them.
     pub under: Option<Arc<Network>>,
-    /// Whether it is shown; one that is not can still be asked, and streets can lie on it.
+    /// Visible; a hidden terrain can still be queried, and streets can be laid on it.
     #[default(true)]
     pub shown: bool,
-    /// What lies on it, from the bottom to the top.
+    /// Ground covers, from bottom to top.
     pub covers: Vec<GroundCover>,
-    /// The height (m) of an underside: then it has sides and is closed.
+    /// Height (m) of the underside. If given, the terrain is a closed solid with sides.
     pub base: Option<f64>,
-    /// The colour of its sides.
+    /// Colour of the sides.
     #[default(Color([0.16, 0.12, 0.09, 1.0]))]
     pub sides: Color,
-    /// Its colour, where it has no covers.
+    /// Colour of the ground if there are no covers.
     #[default(Color([0.30, 0.28, 0.22, 1.0]))]
     pub color: Color,
-    /// Standing water: its level (m), or more of it.
+    /// Standing water: its level (m), or a table of fields.
     pub water: Option<Water>,
-    /// What grows on it.
+    /// Plants on the terrain.
     pub plants: Vec<Plants>,
 }
 
-/// Ground made by dividing a square into quadrants again and again, expanded where it is looked at.
+/// Ground made by repeatedly dividing a square into quadrants, expanded in the view.
 ///
-/// What a pass asks of it holds from the end of that pass on: until then it answers as it was.
+/// Calls during a pass take effect at the end of the pass. Until then, the terrain returns its earlier values.
 #[object(
     "terrain",
     options = TerrainOptions,
@@ -88,37 +88,37 @@ pub struct TerrainOptions {
 pub struct Terrain {
     pub(super) options: Arc<TerrainOptions>,
     pub(super) ground: Ground,
-    /// The ground without what passes change, which the next pass finds.
+    /// Ground without the changes of passes, from which the next pass starts.
     plain: Ground,
-    /// What the present pass has asked for: a place and what is seen from there.
+    /// Position and view requested in the current pass.
     wanted: Option<(DVec2, View)>,
-    /// The ways down on the ground as it is expanded, once a river has asked.
+    /// Drainage of the expanded ground, computed on first use.
     drainage: OnceLock<Drainage>,
-    /// The rivers that the present pass has let run.
+    /// Rivers of the current pass.
     pub(super) rivers: Vec<River>,
-    /// The changes of the ground that come from a file.
+    /// Edits from a file, and for streets.
     kept: Arc<Edits>,
-    /// Whether that file has been read: its world is known only once there is a seed.
+    /// Set once the file is read. The world is known only after the seed is set.
     kept_read: bool,
-    /// Whether there is room for the streets on it.
+    /// Set once the ground is adapted to the streets.
     has_room: bool,
-    /// These, and what the present pass has changed.
+    /// Edits of `kept`, followed by the edits of the current pass.
     edits: Arc<Edits>,
     pub(super) key: ModuleKey,
-    /// Whether the script is only checked.
+    /// Set if the script is only checked.
     sketched: bool,
-    /// Whether a pass has begun.
+    /// Set once a pass has begun.
     begun: bool,
     warnings: Vec<Warning>,
 }
 
 #[methods("terrain")]
 impl Terrain {
-    /// Expands what `view` shows from the place at `x` (m) and `y` (m), and contracts everything else, when the pass ends;
-    /// until then the ground answers as it was. The last focus of a pass counts. A view is the size (m) of cells, and rings
-    /// around the place: how many cells across, and how often each is divided.
+    /// Expands what `view` shows from the position at `x` (m) and `y` (m), and contracts everything else, when the pass
+    /// ends. Until then, the ground is unchanged. Only the last call in a pass counts. A view is the size (m) of cells,
+    /// and rings around the position: the width of each ring in cells, and the number of their divisions.
     pub fn focus(&mut self, x: f64, y: f64, view: View) -> Result<()> {
-        // What cannot be is told where it is asked for.
+        // Checks the view here, so that an error refers to this call.
         view.check(self.ground.world(), DVec2::new(x, y))?;
         let wanted = (DVec2::new(x, y), view);
         let earlier = self.wanted.as_ref().filter(|earlier| **earlier != wanted);
@@ -127,8 +127,8 @@ impl Terrain {
         Ok(())
     }
 
-    /// Makes the ground within an outline level, when the pass ends: at `height` (m), or as it is in the middle. Over
-    /// `margin` (m, 5 unless given) around it the ground changes less and less.
+    /// Levels the ground within an outline when the pass ends: at `height` (m), or at the height of the middle. The
+    /// change fades out over `margin` (m, 5 unless given) around the outline.
     pub fn flatten(&mut self, outline: Path, height: Option<f64>, margin: Option<f64>) -> Result<()> {
         let outline = flat(&outline.points);
         let middle = outline.iter().map(|at| DVec2::from(*at)).sum::<DVec2>() / outline.len().max(1) as f64;
@@ -139,23 +139,23 @@ impl Terrain {
         self.change(Edit::Flatten { outline, height, margin: margin.unwrap_or(5.0) })
     }
 
-    /// Gives the ground along a path the heights of the path, over `width` (m), when the pass ends; beside it the
-    /// ground changes less and less over `margin` (m, `width` unless given).
+    /// Sets the ground along a path to the heights of the path, over `width` (m), when the pass ends. The change fades
+    /// out on both sides over `margin` (m, `width` unless given).
     pub fn cut(&mut self, path: Path, width: f64, margin: Option<f64>) -> Result<()> {
         let lift = self.options.position.0.z;
         let path = path.points.iter().map(|at| [at.x, at.y, at.z - lift]).collect();
         self.change(Edit::Cut { path, width, margin: margin.unwrap_or(width) })
     }
 
-    /// Lowers the ground along a path of `width` (m) when the pass ends, by `depth` (m) in the middle; raises it, if
-    /// the depth is below 0.
+    /// Lowers the ground along a path of `width` (m) when the pass ends, by `depth` (m) in the middle. A negative depth
+    /// raises the ground.
     pub fn dig(&mut self, path: Path, width: f64, depth: f64) -> Result<()> {
         self.change(Edit::Dig { path: flat(&path.points), width, depth })
     }
 
-    /// Lets a river of `width` (m) run downhill from a place, to the standing water, the rim or an earlier river; its
-    /// bed is dug when the pass ends, and nothing grows in it. It raises no ground. A place under water starts no river,
-    /// and a bed deeper than its width and than 10 m gives a warning.
+    /// Adds a river of `width` (m) that runs downhill from a position, to the standing water, the edge of the map or an
+    /// earlier river. Its bed is dug when the pass ends, and nothing grows in it. A river never raises the ground. A
+    /// source under water gives no river, but a warning, and so does a bed deeper than its width and than 10 m.
     pub fn river(&mut self, source: Vector, width: f64) -> Result<()> {
         if !(width > 0.0 && width <= self.options.size) {
             return Err(Error::argument(format!("terrain:river: width is {} m", number(width)))
@@ -169,7 +169,7 @@ impl Terrain {
             self.drainage.get_mut().ok_or_else(|| Error::internal("terrain: there are no ways down"))?;
         let way = match (drainage.river(at), sunk) {
             (Ok(way), _) => way,
-            // Water runs there already.
+            // A river already runs there.
             (Err(Dry::River), None) => return Ok(()),
             (Err(_), sunk) => {
                 self.warnings.push(dry(at, sunk.map(|level| level - height)));
@@ -187,33 +187,35 @@ impl Terrain {
         self.change(Edit::Carve { path, width, margin: width * 1.5 })
     }
 
-    /// Height (m) of the ground at a place; fails where nothing is expanded.
+    /// Returns the height (m) of the ground at a position. Fails if the position is not expanded.
     pub fn height(&self, place: Vector) -> Result<f64> {
         let at = place.0.truncate();
         Ok(self.known(at, self.ground.height(at), 0.0)? + self.options.position.0.z)
     }
 
-    /// The way up from the ground at a place, as a vector of length 1.
+    /// Returns the normal of the ground at a position, as a vector of length 1.
     pub fn normal(&self, place: Vector) -> Result<DVec3> {
         let at = place.0.truncate();
         self.known(at, self.ground.way_up(at), DVec3::Z)
     }
 
-    /// How steep (degrees) the ground is at a place.
+    /// Returns the slope (degrees) of the ground at a position.
     pub fn slope(&self, place: Vector) -> Result<f64> {
         let at = place.0.truncate();
         let up = self.known(at, self.ground.way_up(at), DVec3::Z)?;
         Ok(up.z.clamp(-1.0, 1.0).acos().to_degrees())
     }
 
-    /// Whether a river can begin at a place: not in standing water, at the shore or the rim, or in an earlier river.
+    /// Returns true if a river can start at a position: not in standing water, at the shore, at the edge of the map, or
+    /// in an earlier river.
     pub fn is_source(&self, place: Vector) -> Result<bool> {
         let at = place.0.truncate();
         let found = self.ground.height(at).map(|_| self.drainage()).transpose()?;
         self.known(at, found.map(|drainage| drainage.is_source(at)), true)
     }
 
-    /// Depth (m) of the deepest cut that the bed of a river of `width` (m) from a place needs; nil if no river begins there.
+    /// Returns the depth (m) of the deepest cut for the bed of a river of `width` (m) from a position, or nil if no
+    /// river can start there.
     pub fn river_cut(&self, place: Vector, width: f64) -> Result<Option<f64>> {
         let at = place.0.truncate();
         let drainage = self.ground.height(at).map(|_| self.drainage()).transpose()?;
@@ -221,13 +223,13 @@ impl Terrain {
         Ok(course.ok().map(|path| Channel::new(&path, width, |at| self.ground.height(at)).deepest.1))
     }
 
-    /// The symbol of the cell at a place.
+    /// Returns the symbol of the cell at a position.
     pub fn symbol(&self, place: Vector) -> Result<String> {
         let at = place.0.truncate();
         self.known(at, self.ground.symbol(at), "").map(str::to_owned)
     }
 
-    /// How many heights are expanded at present.
+    /// Returns the number of heights that are currently expanded.
     pub fn heights(&self) -> f64 {
         #[allow(clippy::cast_precision_loss, reason = "counts below 2^53")]
         let count = self.ground.heights() as f64;
@@ -236,7 +238,7 @@ impl Terrain {
 }
 
 impl Terrain {
-    /// A terrain of which nothing is expanded.
+    /// Creates a terrain of which no tile is expanded.
     pub fn new(options: TerrainOptions) -> Result<Self> {
         let world = build::world(&options)?;
         if let Some(levels) = options.levels {
@@ -261,24 +263,25 @@ impl Terrain {
         })
     }
 
-    /// The text of a file that keeps the changes of its ground.
+    /// Returns the terrain edits as the text of a file.
     pub fn edits_json(&self) -> String {
         self.ground.edits().to_json(self.ground.world())
     }
 
-    /// The heights (m) of all that is expanded, as a map.
+    /// Returns the heights (m) of the whole expanded ground, as a map.
     pub fn map(&self) -> Result<GroundMap> {
         let mut map = self.ground.map()?;
         map.heights.iter_mut().for_each(|height| *height += self.options.position.0.z);
         Ok(map)
     }
 
-    /// The ground that is expanded.
+    /// Returns the ground as currently expanded.
     pub fn ground(&self) -> &Ground {
         &self.ground
     }
 
-    /// What was `found` at a place (m); where nothing is expanded, an error, or `even` while the script is only checked.
+    /// Returns `found`, a value at a position (m). If it is `None`, returns `even` while the script is only checked,
+    /// and otherwise an error.
     fn known<T>(&self, at: DVec2, found: Option<T>, even: T) -> Result<T> {
         match found {
             None if self.sketched => Ok(even),
@@ -301,7 +304,7 @@ impl Terrain {
         ))
     }
 
-    /// What to tell where the cells are too large for the samples of measured ground.
+    /// Returns the warning that the cells are too large for the samples of measured ground.
     fn coarse(&self) -> Option<Warning> {
         let (world, elevation) = (self.ground.world(), self.options.elevation.as_ref()?);
         let finest = self.ground.finest();
@@ -335,12 +338,12 @@ impl Terrain {
         Arc::make_mut(&mut self.edits).add(self.ground.world(), edit)
     }
 
-    /// The height (m) of its standing water.
+    /// Returns the height (m) of the standing water.
     pub(crate) fn water_level(&self) -> Option<f64> {
         self.options.water.as_ref().map(|water| water.level + self.options.position.0.z)
     }
 
-    /// Makes room for the streets on it, once.
+    /// Adapts the ground to the streets on it, once.
     fn make_room(&mut self, view: &View) -> Result<()> {
         let Some(streets) = self.options.under.as_ref().filter(|_| !self.has_room) else { return Ok(()) };
         let world = self.ground.world();
@@ -356,11 +359,11 @@ impl Terrain {
         Ok(())
     }
 
-    /// Reads the changes that were kept, once.
+    /// Reads the stored edits, once.
     fn read_edits(&mut self) -> Result<()> {
         if let (Some(file), false) = (&self.options.edits, self.kept_read) {
             self.kept = Arc::new(Edits::from_json(&file.text, &file.name, self.ground.world())?);
-            // Before the first pass nothing else has changed the ground.
+            // Before the first pass, there are no other edits.
             self.edits = Arc::clone(&self.kept);
             self.kept_read = true;
         }
@@ -368,7 +371,7 @@ impl Terrain {
     }
 }
 
-/// What to tell of a river that ends where it begins, at a place (m) that may lie some metres under water.
+/// Creates the warning about a river that ends at its source, a position (m) that may be under water by a depth (m).
 fn dry(at: DVec2, under: Option<f64>) -> Warning {
     let place = format!("({:.1}, {:.1})", at.x, at.y);
     let (text, help) = match under {
@@ -381,19 +384,19 @@ fn dry(at: DVec2, under: Option<f64>) -> Warning {
     Warning::new(WarningKind::DrawsNothing, format!("terrain:river: {text}, so there is no river")).help(help)
 }
 
-/// What to tell of a focus of a `kind` of object that takes the place of an earlier one in the same pass.
+/// Creates the warning about a focus that replaces an earlier focus in the same pass. `kind` is the object type.
 pub(crate) fn lost_focus(kind: &str, earlier: &str) -> Warning {
     let text = format!("{kind}:focus: this takes the place of the focus on {earlier} in the same pass");
     Warning::new(WarningKind::NoEffect, text).help("the last focus of a pass counts: focus once")
 }
 
-/// A length (m) rounded to three digits, for messages.
+/// Rounds a length (m) to three significant digits, for messages.
 pub(crate) fn rounded(length: f64) -> f64 {
     let unit = 10f64.powf(2.0 - length.abs().max(1e-9).log10().floor());
     (length * unit).round() / unit
 }
 
-/// Warns of a river that has to cut the ground deeply (m) at a place (m).
+/// Creates the warning about a river that cuts deeply (m) into the ground at a position (m).
 fn deep(at: DVec2, cut: f64) -> Warning {
     let text = format!(
         "terrain:river: at ({:.1}, {:.1}) its bed is cut {cut:.1} m deep into the ground",
@@ -407,10 +410,10 @@ fn deep(at: DVec2, cut: f64) -> Warning {
 /// Depth (m) up to which a bed of any width may be cut without a warning.
 const DEEP: f64 = 10.0;
 
-/// How deep a river's bed is, as a multiple of its width.
+/// Depth of a river's bed, as a multiple of its width.
 const SHALLOW: f64 = 0.12;
 
-/// A terrain of a script, to be asked by others.
+/// Allows other objects to take a script's terrain as a parameter.
 impl ObjectParameter for Terrain {
     const LUAU: &str = "Terrain";
     const EXPECTED: &str = "a terrain that was derived: land:derive().objects[1]";
@@ -474,7 +477,7 @@ impl Expand for Terrain {
             self.ground.edit(&self.edits);
             self.ground.focus(eye, &view, divide)?;
         }
-        // What is shown before the first pass may be focused on in it.
+        // A terrain that is shown before the first pass may still get a focus in it.
         let coarse = if self.begun { self.coarse() } else { None };
         self.warnings.extend(coarse);
         Ok(())
@@ -486,7 +489,7 @@ impl Expand for Terrain {
 }
 
 impl Terrain {
-    /// Whether it shows itself.
+    /// Returns true if the terrain is visible.
     pub(crate) fn is_shown(&self) -> bool {
         self.options.shown
     }

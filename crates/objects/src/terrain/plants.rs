@@ -1,4 +1,4 @@
-//! Plants and other models that are scattered over the ground, each where its place says, whatever else is seen.
+//! Plants and other models that are scattered over the ground. Each depends only on its position, and not on the view.
 
 use std::sync::Arc;
 
@@ -14,25 +14,25 @@ use burgeon_kit::{Drawing, Expectation, Field, Model, Parameter, Table, Value, f
 use burgeon_rewriting::ModuleKey;
 use burgeon_terrain::Ground;
 
-/// A kind of model that is scattered over the ground.
+/// Models that are scattered over the ground.
 #[fields("plants")]
 pub struct Plants {
-    /// What is scattered: several models are drawn from with equal chances.
+    /// Models to scatter, chosen at random with equal probability.
     pub models: Vec<Arc<Model>>,
-    /// How many there are on a hectare where they grow best.
+    /// Number of models per hectare where the mask is strongest.
     #[default(100.0)]
     pub density: f64,
-    /// Where they grow; everywhere, if that is left out.
+    /// Location of the plants. If omitted, everywhere.
     pub on: Mask,
-    /// The least and the greatest size, as a multiple of the model's.
+    /// Minimum and maximum scale factor of the models.
     #[default(vec![0.8, 1.2])]
     pub size: Vec<f64>,
-    /// How deep (m) they stand in the ground.
+    /// Depth (m) of the models' origins in the ground.
     #[default(0.0)]
     pub sink: f64,
 }
 
-/// The most models that are scattered.
+/// Maximum number of scattered models.
 const MOST: f64 = 5_000_000.0;
 
 impl Parameter for Plants {
@@ -68,8 +68,8 @@ impl Parameter for Plants {
 }
 
 impl Plants {
-    /// Places them on all of `ground` but in the `beds` of rivers. Which there are depends on the world, the `key` and the
-    /// place alone.
+    /// Places the models on all of `ground` except in the `beds` of rivers. They depend only on the world, the `key`
+    /// and their positions.
     pub(super) fn scatter(
         &self,
         ground: &Ground,
@@ -78,7 +78,7 @@ impl Plants {
         drawing: &mut Drawing,
     ) -> Result<()> {
         let world = ground.world();
-        // The squares of a level on each of which at most one grows.
+        // Level at which each square has at most one model.
         let most = 10_000.0 / self.density;
         let level =
             (0..burgeon_terrain::DEEPEST).find(|level| world.cell(*level).powi(2) <= most).unwrap_or(0);
@@ -104,7 +104,7 @@ impl Plants {
             )]
             let [x, y, across] =
                 [first.x.ceil(), first.y.ceil(), (size / cell).max(1.0).round()].map(|it| it as u64);
-            // A square larger than a tile belongs to the tile with its south-west corner.
+            // A square larger than a tile belongs to the tile at its south-west corner.
             if cell > size && (first.fract().abs().max_element() > 1e-9) {
                 continue;
             }
@@ -125,7 +125,7 @@ impl Plants {
         Ok(())
     }
 
-    /// The plant of one square, if one grows there: its model and where it stands.
+    /// Returns the plant of a square, if one grows there: the index of its model and its frame.
     #[allow(clippy::cast_precision_loss, reason = "squares are below 2^31")]
     fn one(
         &self,
@@ -141,7 +141,7 @@ impl Plants {
             return None;
         }
         let place = ground.world().corner + (DVec2::new(x as f64, y as f64) + along) * cell;
-        // They stand on what one sees of the ground.
+        // Plants stand on the visible triangles of the ground.
         let shown = ground.shown(place)?;
         let spot = GroundPoint::new(ground, place, reach, self.on.is_bent());
         if luck >= chance * self.on.at(&spot, key.0) {

@@ -1,4 +1,4 @@
-//! The water of a river: a ribbon along its way.
+//! The water of a river: a ribbon along its path.
 
 use glam::{DVec3, Vec2};
 
@@ -7,17 +7,17 @@ use burgeon_scene::{Normal, Part};
 /// A river.
 #[derive(Clone)]
 pub(super) struct River {
-    /// Its way (m) along the ground as it was before.
+    /// Path (m) along the unchanged ground.
     pub way: Vec<DVec3>,
-    /// How wide (m) it is.
+    /// Width (m).
     pub width: f64,
 }
 
-/// How far its water lies below the ground that was there, as a multiple of its width.
+/// Depth of the water surface below the unchanged ground, as a multiple of the width.
 const BELOW: f64 = 0.05;
 
 impl River {
-    /// Draws its water, which widens from nothing at the source.
+    /// Draws the water, which widens from the source.
     pub(super) fn draw(&self, part: &mut Part) {
         let Ok(first) = u32::try_from(part.positions.len()) else { return };
         let last = self.way.len().saturating_sub(1);

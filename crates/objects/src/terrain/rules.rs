@@ -1,4 +1,4 @@
-//! How scripts write the rules of a terrain: rule tables, systems, and lists of them by level.
+//! The rules of a terrain in scripts: rule tables, systems, and lists of them by level.
 
 use std::sync::Arc;
 
@@ -8,31 +8,31 @@ use burgeon_kit::{Expectation, Parameter, System, Table, TableKey, Value};
 use burgeon_rewriting::Symbol;
 use burgeon_terrain::{LevelRules, NumberRange, Quadrants, RuleTable, Rules};
 
-/// The rules of a terrain, by level; the first are from level 0.
+/// The rules of a terrain, by level; the first layer starts at level 0.
 #[derive(Debug, Clone, Default)]
 pub struct RuleLayers(pub Vec<RuleLayer>);
 
-/// The rules from a level on, as a script gives them.
+/// The rules from a level on, as a script specifies them.
 #[derive(Debug, Clone)]
 pub struct RuleLayer {
-    /// The level of the cells that are divided first.
+    /// Level of the first cells that the rules divide.
     pub from: u32,
-    /// What divides them.
+    /// Rules that divide the cells.
     pub rules: LayerRules,
-    /// The symbol that they get, if it is given.
+    /// Initial symbol, if given.
     pub start: Option<String>,
-    /// What is added to their heights (m).
+    /// Height (m) added to the cells.
     pub height: f64,
-    /// Their decay (m), if it is given.
+    /// Decay (m), if given.
     pub decay: Option<f64>,
 }
 
-/// What divides cells.
+/// The rules that divide cells.
 #[derive(Debug, Clone)]
 pub enum LayerRules {
-    /// A rule table.
+    /// Rule table.
     Table(Arc<RuleTable>),
-    /// A system of the script.
+    /// System of the script.
     System(Arc<System>),
 }
 
@@ -202,7 +202,7 @@ fn quadrants(rule: &Table, name: &str, names: &[String]) -> Result<Quadrants, Ex
     })
 }
 
-/// A finite number, or a range of them.
+/// Reads a finite number, or a range of numbers.
 fn draw(value: Value) -> Option<NumberRange> {
     match value {
         Value::Number(number) => number.is_finite().then(|| NumberRange::exactly(number)),
@@ -217,13 +217,13 @@ fn draw(value: Value) -> Option<NumberRange> {
 /// The rules of a world.
 pub(crate) struct WorldRules {
     pub layers: Vec<LevelRules>,
-    /// Whether they draw random numbers.
+    /// Set if the rules use random numbers.
     pub drawn: bool,
 }
 
 impl RuleLayers {
-    /// The rules as the world of a `kind` of object has them, which begins with the symbol `start`, the height `height`
-    /// (m) and the decay `decay` (m); all of them from `finer` levels farther on.
+    /// Builds the rules of the world of an object of type `kind`, with the initial symbol `start`, the height `height`
+    /// (m) and the decay `decay` (m). Moves all rules down by `finer` levels.
     pub(crate) fn build(
         &self,
         kind: &str,
@@ -249,7 +249,7 @@ impl RuleLayers {
         Ok(built)
     }
 
-    /// What to tell people of decays that do not shrink.
+    /// Returns the warnings about decays that do not converge.
     pub(crate) fn warnings(&self, kind: &str) -> Vec<Warning> {
         let grown = self.0.iter().find_map(RuleLayer::grows);
         let warning = |decay| {
@@ -260,7 +260,7 @@ impl RuleLayers {
     }
 }
 
-/// The error of a `kind` of object without rules.
+/// Creates the error for an object of type `kind` without rules.
 pub(crate) fn none(kind: &str) -> burgeon_base::error::Error {
     burgeon_base::error::Error::argument(format!("{kind}: there are no rules")).help(
         "write rules = { A = { \"A\", \"A\", \"A\", \"A\", change = { 1, -1, 0.5, -0.5 }, decay = 0.5 } }",
@@ -268,7 +268,7 @@ pub(crate) fn none(kind: &str) -> burgeon_base::error::Error {
 }
 
 impl RuleLayer {
-    /// The rules as the world has them, where cells get the decay `decay` (m) unless these rules give another.
+    /// Builds the rules of a layer. Cells get the decay `decay` (m) unless the layer specifies its own.
     fn build(&self, kind: &str, decay: f64) -> Result<LevelRules, burgeon_base::error::Error> {
         let rest = vec![self.decay.unwrap_or(decay)];
         let (rules, start, rest) = match &self.rules {
@@ -294,7 +294,7 @@ impl RuleLayer {
         Ok(LevelRules { from: self.from, rules, start, height: self.height, rest, names })
     }
 
-    /// The greatest factor by which a decay grows where it does not shrink.
+    /// Returns the maximum decay factor, if it is 1 or more.
     fn grows(&self) -> Option<f64> {
         match &self.rules {
             LayerRules::Table(table) => Some(table.greatest_decay()).filter(|decay| *decay >= 1.0),

@@ -1,4 +1,4 @@
-//! How a terrain shows itself.
+//! The drawing of a terrain.
 
 use glam::{DAffine3, DVec3};
 
@@ -12,7 +12,7 @@ use burgeon_scene::{Instance, Material, Mesh, Part, Scene};
 use burgeon_terrain::{GroundCuts, GroundMesh};
 
 impl Terrain {
-    /// Adds what is expanded to `scene`: a mesh for each tile, sides, water and rivers, and plants.
+    /// Adds the expanded ground to `scene`: a mesh for each tile, sides, water and rivers, and plants.
     pub(super) fn draw(&self, scene: &mut Scene, name: &str, feature: Option<&str>) -> Result<()> {
         let ground = &self.ground;
         if ground.heights() == 0 {
@@ -92,7 +92,7 @@ impl Terrain {
         drawing.show(scene, name, feature)
     }
 
-    /// How far (m) triangles may be from the surface.
+    /// Returns the maximum distance (m) between the triangles and the surface.
     fn error(&self) -> f64 {
         self.options.error.unwrap_or_else(|| self.ground.world().cell(self.ground.finest()) / 10.0)
     }

@@ -1,12 +1,12 @@
-//! The sides and the underside of a piece of ground, and of the water on it.
+//! The sides and the underside of the ground, and the sides of the water on it.
 
 use glam::{DVec3, Vec2, Vec3};
 
 use burgeon_base::error::{Error, Result};
 use burgeon_scene::Part;
 
-/// Draws upright faces from the edges of `rim` (m), which have the ground on their left, down to the height `base`
-/// (m), and an underside.
+/// Draws upright faces from the edges of `rim` (m), which have the ground on their left, down to the height `base` (m),
+/// and an underside.
 pub(super) fn draw(rim: &[[DVec3; 2]], base: f64, part: &mut Part) -> Result<()> {
     let lowest = rim.iter().flatten().map(|at| at.z).fold(f64::INFINITY, f64::min);
     if lowest <= base {
@@ -24,7 +24,7 @@ pub(super) fn draw(rim: &[[DVec3; 2]], base: f64, part: &mut Part) -> Result<()>
     Ok(())
 }
 
-/// Draws upright faces from the edges of `rim` (m) that lie below the height `level` (m) of standing water, up to it.
+/// Draws upright faces from the edges of `rim` (m) that are below the height `level` (m) of standing water, up to it.
 pub(super) fn draw_water(rim: &[[DVec3; 2]], level: f64, part: &mut Part) {
     for [from, to] in rim.iter().filter(|edge| edge.iter().any(|end| end.z < level)) {
         let up = |at: &DVec3| DVec3::new(at.x, at.y, at.z.max(level));

@@ -12,16 +12,16 @@ use burgeon_terrain::{Ground, Tile};
 /// Standing water.
 #[fields("water")]
 pub struct Water {
-    /// The height (m) of its surface.
+    /// Height (m) of the surface.
     #[default(0.0)]
     pub level: f64,
-    /// Its colour where it is deep.
+    /// Colour of deep water.
     #[default(Color([0.008, 0.045, 0.075, 1.0]))]
     pub color: Color,
-    /// Its colour at the shore.
+    /// Colour at the shore.
     #[default(Color([0.07, 0.17, 0.17, 1.0]))]
     pub shallow: Color,
-    /// How deep (m) one sees into it.
+    /// Visibility depth (m).
     #[default(8.0)]
     pub clarity: f64,
 }
@@ -52,19 +52,19 @@ impl Parameter for Water {
     }
 }
 
-/// How many texels a side of a tile's image has at most.
+/// Maximum number of texels per side of a tile's image.
 const MOST_TEXELS: usize = 512;
 
 impl Water {
-    /// Its colour where it is so deep (m).
+    /// Returns the colour at a depth (m).
     #[allow(clippy::cast_possible_truncation, reason = "colours are f32")]
     pub(crate) fn tint(&self, depth: f64) -> [f32; 3] {
         let clear = (-depth.max(0.0) / self.clarity).exp() as f32;
         [0, 1, 2].map(|at| self.color.0[at] + (self.shallow.0[at] - self.color.0[at]) * clear)
     }
 
-    /// The surface over `tile` and an image for it with its texels along a side; `None` where all ground is above it.
-    /// All points are told from `origin` (m).
+    /// Returns the surface over `tile`, and an image for it with its number of texels per side, or `None` if all ground
+    /// is above the water. All points are relative to `origin` (m).
     #[allow(clippy::cast_precision_loss, clippy::cast_possible_truncation, reason = "texels are few")]
     pub(super) fn surface(
         &self,

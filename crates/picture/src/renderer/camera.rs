@@ -1,22 +1,22 @@
-//! The perspective camera and how it is fitted to the model.
+//! Perspective camera, fitted to the model.
 
 use super::view::Viewpoint;
 use glam::{Affine3A, Mat3A, Vec3A};
 
-/// Part of the picture's size that stays free on each side.
+/// Margin on each side, as a fraction of the image size.
 const MARGIN: f32 = 0.06;
 
-/// Focal length in units of the picture's longer side: a field of view of 32 degrees, as used for buildings.
+/// Focal length in units of the image's longer side: a field of view of 32 degrees, as is common for buildings.
 const FOCAL: f32 = 1.75;
 
-/// A camera around the origin of the stage.
+/// Camera around the origin of the stage.
 #[derive(Debug, Clone)]
 pub(super) struct Camera {
-    /// Where it stands.
+    /// Position of the camera.
     pub eye: Vec3A,
-    /// From the stage to the camera's axes: to the right, downwards, forwards.
+    /// Transform from the stage to the camera's axes: right, down, forward.
     pub view: Affine3A,
-    /// Distance of the model's nearest point along the view, for the depth.
+    /// Distance of the model's nearest point along the view direction, for the depth.
     near: f32,
     right: Vec3A,
     down: Vec3A,
@@ -26,7 +26,7 @@ pub(super) struct Camera {
 }
 
 impl Camera {
-    /// The camera in direction `eye` that is as near as lets all of `points` into a picture of `size` (pixels).
+    /// Fits a camera in direction `eye`, as near as possible with all of `points` in an image of `size` (pixels).
     pub(super) fn fit(points: impl Iterator<Item = Vec3A>, eye: Viewpoint, size: [u32; 2]) -> Self {
         let forward = -eye.direction();
         let (sin, cos) = eye.azimuth.sin_cos();
@@ -51,7 +51,7 @@ impl Camera {
             (most, nearest) = ([1.0; 4], -1.0);
         }
         let back = |i: usize| -(most[2 * i] + most[2 * i + 1]) / (2.0 * slope[i]);
-        // The nearest point stays half a unit away, also of a model that is a point.
+        // The nearest point stays half a unit away, even if the model is a single point.
         let z = back(0).min(back(1)).min(nearest - 0.5);
         let (x, y) = ((most[0] - most[1]) / 2.0, (most[2] - most[3]) / 2.0);
         let eye = right * x + down * y + forward * z;
@@ -68,18 +68,18 @@ impl Camera {
         }
     }
 
-    /// The same camera for a model that also reaches nearer to it than the points that it was fitted to.
+    /// Returns the same camera for a model that extends nearer to it than the points that it was fitted to.
     pub(super) fn inside(self) -> Self {
         Self { near: self.near * 0.02, ..self }
     }
 
-    /// Returns the distance of the plane in front of which points are seen.
+    /// Returns the distance of the near plane; points beyond it are visible.
     pub(super) fn near_plane(&self) -> f32 {
         self.near * 0.5
     }
 
-    /// Returns the pixel coordinates of a point in the camera's axes, and its depth, below 0 before the nearest point
-    /// to 1 infinitely far. The depth of a plane is linear over the picture. Not finite for a point behind the near
+    /// Returns the pixel coordinates of a point in the camera's axes, and its depth: below 0 in front of the nearest
+    /// point, 1 at infinity. The depth of a plane is linear over the image. Returns NaN for a point behind the near
     /// plane.
     pub(super) fn project(&self, point: Vec3A) -> Vec3A {
         if point.z < self.near_plane() {
@@ -91,7 +91,7 @@ impl Camera {
         Vec3A::new(x, y, 1.0 - self.near * scale)
     }
 
-    /// The direction, not of unit length, from the eye through pixel coordinates `x`, `y`.
+    /// Returns the direction, not of unit length, from the eye through pixel coordinates `x`, `y`.
     pub(super) fn ray(&self, x: f32, y: f32) -> Vec3A {
         let (x, y) = ((x - self.center[0]) / self.focal, (y - self.center[1]) / self.focal);
         self.forward + self.right * x + self.down * y

@@ -1,24 +1,23 @@
-//! Clipping of triangles that reach behind the camera.
+//! Clipping of triangles that extend behind the camera.
 //!
 //! Method: Sutherland and Hodgman, "Reentrant polygon clipping", 1974.
 
 use glam::Vec3A;
 
-/// Slope of the planes beside the picture. The picture itself reaches to 0.29 and stays whole, and clipped corners keep
-/// coordinates that the raster computes exactly.
+/// Slope of the side planes. The image itself reaches a slope of 0.29, so it is never clipped, and the coordinates of
+/// clipped corners stay in the range that the raster computes exactly.
 const ASIDE: f32 = 1.0;
 
-/// A triangle has three corners, and each of the five planes adds at most one.
+/// Maximum number of corners: the triangle has three, and each of the five planes adds at most one.
 const MOST: usize = 8;
 
-/// A corner in the camera's axes, and its weights of the triangle's three corners.
+/// Corner in the camera's axes, and its weights relative to the triangle's three corners.
 type ClippedCorner = (Vec3A, Vec3A);
 
-/// Calls `emit` with the triangles that make up the part of a triangle in front of the plane at the distance `near`, and
-/// beside the picture not farther than it matters: their corners in the camera's axes, and for each of them its weights
-/// of the given corners.
+/// Clips a triangle by the plane at the distance `near` and by the side planes. Calls `emit` with the resulting
+/// triangles: their corners in the camera's axes, and for each corner its weights relative to the given corners.
 ///
-/// Triangles that share an edge are cut at the same points, whichever way around they run.
+/// Triangles that share an edge are cut at the same points, regardless of their orientation.
 pub(super) fn clip(corners: [Vec3A; 3], near: f32, mut emit: impl FnMut([Vec3A; 3], [Vec3A; 3])) {
     let planes: [&dyn Fn(Vec3A) -> f32; 5] =
         [&|p| p.z - near, &|p| ASIDE * p.z - p.x, &|p| ASIDE * p.z + p.x, &|p| ASIDE * p.z - p.y, &|p| {
@@ -37,7 +36,7 @@ pub(super) fn clip(corners: [Vec3A; 3], near: f32, mut emit: impl FnMut([Vec3A; 
     }
 }
 
-/// The part of a convex polygon where `inside` is not negative.
+/// Returns the part of a convex polygon in which `inside` is not negative.
 fn cut(polygon: &[ClippedCorner], inside: impl Fn(Vec3A) -> f32) -> ([ClippedCorner; MOST], usize) {
     let mut kept = [(Vec3A::ZERO, Vec3A::ZERO); MOST];
     let mut count = 0;
@@ -54,7 +53,7 @@ fn cut(polygon: &[ClippedCorner], inside: impl Fn(Vec3A) -> f32) -> ([ClippedCor
             add(here);
         }
         if (from >= 0.0) != (to >= 0.0) {
-            // From the inner end, so that both triangles at an edge compute the same point.
+            // Compute from the inner end, so that both triangles at an edge get the same point.
             let ((inner, outer), part) = if from >= 0.0 {
                 ((here, next), from / (from - to))
             } else {
@@ -112,7 +111,7 @@ mod tests {
                     prop_assert!(corner.x.abs().max(corner.y.abs()) <= ASIDE * corner.z + 1e-4);
                 }
             }
-            // A point of the triangle that the picture may show lies in one of the pieces.
+            // A point of the triangle that may be visible is in one of the pieces.
             let (u, v) = if at[0] + at[1] <= 1.0 { (at[0], at[1]) } else { (1.0 - at[0], 1.0 - at[1]) };
             let point = corners[0] + (corners[1] - corners[0]) * u + (corners[2] - corners[0]) * v;
             let seen = point.z > near + 1e-3 && point.x.abs().max(point.y.abs()) < 0.9 * ASIDE * point.z;

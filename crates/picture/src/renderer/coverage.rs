@@ -1,40 +1,39 @@
-//! Which samples of the picture and of the maps a surface covers that is translucent or cut out by its texture.
+//! Samples of the image and of the maps that a surface covers if it is translucent or cut out by its texture.
 
 use super::stage::{DrawCall, ProjectedTriangle};
 use super::texture::SampledTexture;
 use glam::{Vec2, Vec3, Vec3A};
 
-/// What is less opaque than this is a hole in a surface that is opaque otherwise, as glTF has it.
+/// Alpha cutoff: texels below this opacity are holes in an otherwise opaque surface, as in glTF.
 const CUT: f32 = 0.5;
 
-/// Which samples a surface covers: as many of a hundred as its opacity says, and for each surface others.
+/// Coverage of samples by a surface: the opacity is the fraction of covered samples, and each surface covers different
+/// ones.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Coverage<'a> {
     opacity: f32,
     seed: u32,
-    /// Samples across and down a block, in each of which as many are covered, give or take one.
+    /// Columns and rows of samples in a block. Every block has the same number of covered samples, plus or minus one.
     block: [usize; 2],
     cutout: Option<Cutout<'a>>,
 }
 
-/// What lies over a triangle whose texture has holes.
+/// Texture mapping of a triangle whose texture has holes.
 #[derive(Debug, Clone, Copy)]
 struct Cutout<'a> {
     texture: &'a SampledTexture,
-    /// Which of the texture's sizes has pixels as large as samples.
+    /// Level of the texture whose pixels are about as large as samples.
     level: usize,
-    /// Texture coordinates (m) and 1, each divided by the distance from the camera, where both coordinates of samples
-    /// are zero.
+    /// Texture coordinates (m) and 1, each divided by the distance from the camera, at the sample coordinates (0, 0).
     start: Vec3,
-    /// What is added for each sample to the right, and for each downwards.
+    /// Increment for each sample to the right, and for each sample downwards.
     growth: [Vec3; 2],
 }
 
 impl<'a> Coverage<'a> {
-    /// Returns the coverage of a triangle of `draw` in blocks of so many samples across and down.
+    /// Returns the coverage of a triangle of `draw`, in blocks with this number of columns and rows of samples.
     ///
-    /// The corners of the `triangle` are in samples. If it is seen in perspective, the third coordinate is 1 infinitely
-    /// far away.
+    /// The corners of the `triangle` are in samples. With `perspective`, the third coordinate is 1 at infinity.
     #[inline]
     pub(super) fn of(
         draw: &DrawCall<'a>,
@@ -52,12 +51,13 @@ impl<'a> Coverage<'a> {
         Self { opacity: draw.opacity, seed: draw.first.wrapping_mul(0x9e37_79b9), block, cutout }
     }
 
-    /// Whether the surface covers all samples.
+    /// Returns true if the surface covers all samples.
     pub(super) fn is_full(&self) -> bool {
         self.opacity >= 1.0 && self.cutout.is_none()
     }
 
-    /// Whether the surface covers sample `x`, `y`, which stands so far (1/256 sample) right of `x`.
+    /// Returns true if the surface covers sample `x`, `y`, which is offset by `shift` (1/256 sample) to the right of
+    /// `x`.
     #[inline]
     pub(super) fn covers(&self, x: usize, y: usize, shift: f64) -> bool {
         let Some(cutout) = &self.cutout else {
@@ -67,7 +67,7 @@ impl<'a> Coverage<'a> {
         if self.opacity >= 1.0 && cutout.level == 0 {
             return alpha >= CUT;
         }
-        // From far away a sample sees holes and what is around them.
+        // At a distance, a sample covers holes together with their surroundings.
         self.threshold(x, y) < self.opacity * alpha
     }
 
@@ -75,7 +75,8 @@ impl<'a> Coverage<'a> {
         let [columns, rows] = self.block;
         let count = columns * rows;
         let place = y % rows * columns + x % columns;
-        // Odd steps visit all of a power of two; other surfaces use other steps, so that they do not line up.
+        // An odd step visits all numbers of a power of two. Surfaces use different steps, so that their patterns
+        // differ.
         let step = 2 * (self.seed as usize >> 16) + 5;
         let turn = place.wrapping_mul(step) % count;
         let start = noise((x / columns) as u32, (y / rows) as u32, self.seed);
@@ -90,7 +91,7 @@ impl<'a> Cutout<'a> {
         let [at, to_b, to_c] = [0, 1, 2].map(|i| uvs[i].extend(1.0) * near[i]);
         let (ab, ac) = (b - a, c - a);
         let area = ab.perp_dot(ac);
-        // What is seen edge-on covers no sample.
+        // A triangle seen edge-on covers no sample.
         let part = if area == 0.0 { 0.0 } else { 1.0 / area };
         let right = ((to_b - at) * ac.y - (to_c - at) * ab.y) * part;
         let down = ((to_c - at) * ab.x - (to_b - at) * ac.x) * part;
@@ -114,7 +115,7 @@ impl<'a> Cutout<'a> {
     }
 }
 
-/// A number from 0 to 1 that looks random.
+/// Returns a pseudo-random number from 0 to 1.
 pub(super) fn noise(x: u32, y: u32, seed: u32) -> f32 {
     let mut bits = x.wrapping_mul(0x8da6_b343) ^ y.wrapping_mul(0xd816_3841) ^ seed.wrapping_mul(0xcb1a_b31f);
     bits = (bits ^ (bits >> 16)).wrapping_mul(0x7feb_352d);

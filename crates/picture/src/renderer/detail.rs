@@ -1,27 +1,27 @@
-//! How much time a picture takes, in numbers.
+//! Parameters that determine the time and the quality of a render.
 
 use super::super::settings::Quality;
 
-/// The numbers behind a [`Quality`].
+/// Parameters of a [`Quality`].
 #[derive(Debug, Clone)]
 pub(super) struct RenderDetail {
-    /// Columns of samples in a pixel.
+    /// Number of sample columns in a pixel.
     pub columns: usize,
-    /// Rows of samples in a pixel. Each row is shifted, so that no two samples share their x.
+    /// Number of sample rows in a pixel. Each row is shifted, so that no two samples have the same x.
     pub rows: usize,
-    /// Directions from which the sky shines.
+    /// Number of sky light directions.
     pub sky_maps: usize,
     /// Side of a square with as many texels as a map of the sky.
     pub sky_side: f32,
     /// Side of a square with as many texels as the sun's map.
     pub sun_side: f32,
-    /// Lookups in the sun's map for one pixel.
+    /// Number of lookups in the sun's map for one pixel.
     pub sun_taps: usize,
 }
 
 impl RenderDetail {
-    /// What `quality` means for a scene of so many `triangles`: the sky gets fewer maps where each costs
-    /// more.
+    /// Returns the parameters of `quality` for a scene with this number of `triangles`. Scenes with more triangles get
+    /// fewer sky maps, because each map takes longer.
     pub(super) fn of(quality: Quality, triangles: usize) -> Self {
         let affordable =
             |budget: usize, most: usize, least: usize| (budget / triangles.max(1)).clamp(least, most);
@@ -45,7 +45,7 @@ impl RenderDetail {
         }
     }
 
-    /// The number of samples in a pixel.
+    /// Returns the number of samples in a pixel.
     pub(super) fn samples(&self) -> usize {
         self.columns * self.rows
     }

@@ -1,4 +1,4 @@
-//! From samples to pixels: finds what each pixel sees, has it lit, and mixes the colours.
+//! Converts samples to pixels: finds the surfaces that each pixel sees, shades them, and mixes the colours.
 
 use super::super::settings::{Background, Picture};
 use super::coverage::noise;
@@ -12,28 +12,28 @@ use burgeon_scene::image::Image;
 use glam::{Vec3, Vec3A, Vec4};
 use rayon::prelude::*;
 
-/// Samples held at a time, which bounds the memory to 8 times as many bytes.
+/// Maximum number of samples in memory, which takes 8 bytes for each.
 const HELD: usize = 32_000_000;
-/// Width and height (pixels) of what is lit together.
+/// Width and height (pixels) of a tile that is shaded together.
 const TILE: [usize; 2] = [16, 8];
-/// The distance from the model, in the stage's units, up to which the ground shows its full shadow, and from
-/// which on it shows none.
+/// Distances from the model, in the stage's units, up to which the ground shows its full shadow, and from which on it
+/// shows none.
 const FADE: [f32; 2] = [0.7, 2.4];
 
-/// What a fragment adds to its pixel.
+/// Contribution of a fragment to its pixel.
 struct FragmentShare {
     pixel: usize,
     weight: f32,
     ground: bool,
 }
 
-/// The picture in `light`.
+/// Computes the image of a scene in `light`.
 pub(super) fn develop(light: &Light, picture: &Picture, detail: &RenderDetail) -> Image {
     let (width, height) = (picture.width as usize, picture.height as usize);
     let mut pixels = vec![[0; 4]; width * height];
     let band = (HELD / (width * detail.samples())).max(TILE[1]) / TILE[1] * TILE[1];
     for (index, rows) in pixels.chunks_mut(band * width).enumerate() {
-        // What is seen of a band takes its time and its memory, also where nothing is drawn any more.
+        // A band takes time and memory even if nothing is drawn after cancellation, so stop here.
         if light.stage.stop.is_stopped() {
             break;
         }
@@ -57,7 +57,7 @@ pub(super) fn develop(light: &Light, picture: &Picture, detail: &RenderDetail) -
     Image::from_pixels(picture.width, picture.height, pixels).unwrap_or_else(|| Image::filled(0, 0, [0; 4]))
 }
 
-/// The colours of the pixels from `corner` on.
+/// Computes the colours of the pixels of a tile, from `corner` on.
 fn tile(
     light: &Light,
     picture: &Picture,
@@ -97,7 +97,7 @@ fn tile(
                     }
                 },
             };
-            // Triangles of one smooth surface are lit as one.
+            // Triangles of one smooth surface are shaded as one fragment.
             let ground = number.is_none();
             let alike = (first..fragments.len()).find(|i| fragments[*i].joins(&surface));
             match alike {
@@ -126,8 +126,8 @@ fn tile(
     colors.into_iter().map(encode).collect()
 }
 
-/// Lets the `fragments` of a pixel take turns in lookups if they are many, since their light is mixed anyway.
-/// Of the sky's `maps` each gets enough to tell light from shade.
+/// Distributes lookups among the `fragments` of a pixel if they are many, because their light is mixed anyway. Each
+/// fragment gets enough of the sky's `maps` to distinguish light from shade.
 fn take_turns(fragments: &mut [Fragment], maps: usize) {
     let turns = fragments.len().div_ceil(2).min(maps / 12).max(1);
     for (i, fragment) in fragments.iter_mut().enumerate() {
@@ -135,7 +135,7 @@ fn take_turns(fragments: &mut [Fragment], maps: usize) {
     }
 }
 
-/// What is behind the model at pixel coordinates `place`: a linear colour times its opacity, and the opacity.
+/// Returns the background at pixel coordinates `place`: a linear colour times its opacity, and the opacity.
 fn backdrop(picture: &Picture, place: [f32; 2]) -> Vec4 {
     let (top, bottom) = match picture.background {
         Background::Light => (Vec3::new(0.560, 0.590, 0.620), Vec3::new(0.775, 0.765, 0.740)),
@@ -145,16 +145,16 @@ fn backdrop(picture: &Picture, place: [f32; 2]) -> Vec4 {
     top.lerp(bottom, smooth(0.0, 1.0, place[1] / picture.height as f32)).extend(1.0)
 }
 
-/// `backdrop` where the ground in front of it has this part of its light.
+/// Returns `backdrop` with a ground in front of it that receives this fraction of its light.
 fn shadowed(backdrop: Vec4, part: Vec3) -> Vec4 {
     if backdrop.w > 0.0 {
         return (backdrop.truncate() * part).extend(backdrop.w);
     }
-    // Images are laid over others by their sRGB values, in which half the light is about three quarters.
+    // Images are composited by their sRGB values, in which half the light is about three quarters.
     Vec4::new(0.0, 0.0, 0.0, 1.0 - (part.element_sum() / 3.0).powf(1.0 / 2.2))
 }
 
-/// The ground at pixel coordinates `place`, if it is seen there and near enough to show a shadow.
+/// Returns the ground at pixel coordinates `place`, if it is visible there and near enough to show a shadow.
 fn ground(light: &Light, place: [f32; 2]) -> Option<SurfacePoint> {
     let floor = light.floor?.height;
     let ray = light.camera.ray(place[0], place[1]);
@@ -166,14 +166,14 @@ fn ground(light: &Light, place: [f32; 2]) -> Option<SurfacePoint> {
     (fade(light, position) > 0.0).then(|| SurfacePoint::ground(position, light.camera))
 }
 
-/// How strongly, 0 to 1, the ground at `position` shows its shadow.
+/// Returns the strength, 0 to 1, of the ground's shadow at `position`.
 fn fade(light: &Light, position: Vec3A) -> f32 {
     let (low, high) = light.stage.bounds;
     let outside = (position - position.clamp(low, high)).with_z(0.0).length();
     1.0 - smooth(FADE[0], FADE[1], outside)
 }
 
-/// The sRGB pixel of a linear colour times its opacity, and the opacity.
+/// Encodes a linear colour times its opacity, and the opacity, as an sRGB pixel.
 fn encode(color: Vec4) -> [u8; 4] {
     let opacity = color.w.clamp(0.0, 1.0);
     let straight = color.truncate() / opacity.max(1e-6);

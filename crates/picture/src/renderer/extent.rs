@@ -1,4 +1,4 @@
-//! The room that scenes take, so that several pictures can share a camera.
+//! Extent of scenes, so that several renders can share a camera.
 
 use super::points::spread;
 use super::stage::{Stage, sphere};
@@ -6,18 +6,18 @@ use burgeon_base::error::Result;
 use burgeon_scene::Scene;
 use glam::{DAffine3, DMat3, DVec3, Vec3A};
 
-/// Directions in which the farthest point is kept. The camera's margin is larger than what lies between them.
+/// Number of directions for which the farthest point is stored. The camera's margin exceeds the error in between.
 const DIRECTIONS: usize = 512;
 
-/// The room that one or more scenes take.
+/// Extent of one or more scenes.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Extent {
-    /// Points of the scenes (m), the farthest in each of many directions.
+    /// Points of the scenes (m): the farthest in each of many directions.
     points: Vec<DVec3>,
 }
 
 impl Extent {
-    /// The room that `scene` takes; none if it shows nothing. Fails as [`render`](super::render) does.
+    /// Computes the extent of `scene`; empty if the scene shows nothing. Fails as [`render`](super::render) does.
     pub fn of(scene: &Scene) -> Result<Self> {
         let stage = Stage::new(scene)?;
         let back = stage.shrink.inverse();
@@ -33,18 +33,18 @@ impl Extent {
         Ok(Self { points: farthest.into_iter().map(|i| back.transform_point3(hull[i])).collect() })
     }
 
-    /// Makes room for `other`, too.
+    /// Extends the extent by `other`.
     pub fn join(&mut self, other: &Self) {
         self.points.extend_from_slice(&other.points);
     }
 
-    /// Returns the centre and the radius (m) of a sphere around it after the rotation `turn`.
+    /// Returns the centre and the radius (m) of a bounding sphere after the rotation `turn`.
     pub(super) fn sphere(&self, turn: DMat3) -> (DVec3, f64) {
         let (low, high) = super::points::bounds(self.points.iter().map(|point| turn * *point));
         sphere(low, high)
     }
 
-    /// Its points after `shrink`.
+    /// Returns the points of the extent, transformed by `shrink`.
     pub(super) fn points(&self, shrink: &DAffine3) -> Vec<Vec3A> {
         self.points.iter().map(|point| shrink.transform_point3(*point).as_vec3a()).collect()
     }
@@ -63,7 +63,7 @@ mod tests {
         Picture { width: 96, height: 96, azimuth, elevation, ground: false, quality, ..Picture::default() }
     }
 
-    /// Pixels that differ from an empty picture.
+    /// Counts the pixels that differ from an empty render.
     fn seen(image: &burgeon_scene::image::Image) -> usize {
         let empty = render(&Scene::default(), &picture()).unwrap();
         image.pixels().iter().zip(empty.pixels()).filter(|(a, b)| a != b).count()

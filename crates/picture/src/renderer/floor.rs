@@ -1,4 +1,4 @@
-//! How brightly the ground around the model is lit: what the model's underside sees.
+//! Brightness of the ground around the model, which lights the model's underside.
 
 use super::sky::{SUN, Sky};
 use super::stage::Stage;
@@ -6,22 +6,22 @@ use super::sun::Sun;
 use glam::{Vec2, Vec3A};
 use rayon::prelude::*;
 
-/// Cells along each side of the grid.
+/// Number of cells along each side of the grid.
 const CELLS: usize = 72;
 
-/// A grid of brightness on the ground.
+/// Grid of brightness on the ground.
 pub(super) struct Floor {
-    /// The ground's height on the stage, where the radius of the model is 1.
+    /// Height of the ground on the stage, in units of the model's radius.
     pub height: f32,
     corner: Vec2,
-    /// Cells per radius of the model.
+    /// Number of cells per radius of the model.
     scale: Vec2,
-    /// Light of sun and sky compared with that far from the model, row by row.
+    /// Light of sun and sky relative to the light far from the model, row by row.
     light: Vec<f32>,
 }
 
 impl Floor {
-    /// The ground at `height` below the model, lit by `sun` and `sky`.
+    /// Computes the ground at `height` below the model, lit by `sun` and `sky`.
     pub(super) fn new(stage: &Stage, sun: &Sun, sky: &Sky, height: f32) -> Self {
         let (low, high) = (stage.bounds.0.truncate() - 1.0, stage.bounds.1.truncate() + 1.0);
         let scale = Vec2::splat(CELLS as f32) / (high - low);
@@ -43,8 +43,8 @@ impl Floor {
         Self { height, corner: low, scale, light }
     }
 
-    /// The light on the ground where `direction`, which points down, meets it from `point`; 1 is that far
-    /// from the model.
+    /// Returns the light on the ground at the point where the ray from `point` in `direction`, which points down, meets
+    /// it. The value 1 is the light far from the model.
     pub(super) fn light(&self, point: Vec3A, direction: Vec3A) -> f32 {
         let hit = point + direction * ((self.height - point.z).min(0.0) / direction.z);
         let at = (hit.truncate() - self.corner) * self.scale - 0.5;
@@ -60,7 +60,7 @@ impl Floor {
     }
 }
 
-/// Each cell's mean with its neighbours.
+/// Averages each cell with its neighbours.
 fn blur(cells: &[f32]) -> Vec<f32> {
     let near = |i: usize| [i.saturating_sub(1), i, (i + 1).min(CELLS - 1)];
     (0..CELLS * CELLS)

@@ -1,15 +1,15 @@
-//! The frame of a depth map: parallel projection along the light, fitted to the model.
+//! Projection of a depth map: parallel to the light and fitted to the model.
 
 use glam::{Affine3A, Mat3A, Vec3A};
 
-/// A parallel projection of the stage onto a grid of texels.
+/// Parallel projection of the stage onto a grid of texels.
 #[derive(Debug, Clone)]
 pub(super) struct LightProjection {
-    /// From the stage to texels to the right and downwards, and the distance along the light, 0 or more.
+    /// Transform from the stage to texels, to the right and downwards, and to the distance along the light, 0 or more.
     pub to_texels: Affine3A,
-    /// Texels in a row.
+    /// Number of texels in a row.
     pub width: usize,
-    /// Rows.
+    /// Number of rows.
     pub height: usize,
     /// Side of a texel, in the stage's units.
     pub texel: f32,
@@ -18,7 +18,7 @@ pub(super) struct LightProjection {
 }
 
 impl LightProjection {
-    /// The frame for light from `direction`, a unit vector, with about `side` times `side` texels.
+    /// Fits a projection for light from `direction`, a unit vector, with about `side` times `side` texels.
     pub(super) fn fit(hull: &[Vec3A], direction: Vec3A, side: f32) -> Self {
         let upright = if direction.z.abs() > 0.99 { Vec3A::Y } else { Vec3A::Z };
         let right = upright.cross(direction).normalize();
@@ -34,7 +34,7 @@ impl LightProjection {
         let pad = Vec3A::splat(0.005);
         let (low, high) = (low - pad, high + pad);
         let size = high - low;
-        // A long narrow model has a long narrow map, with square texels.
+        // A long narrow model gets a long narrow map with square texels.
         let texel = ((size.x * size.y).sqrt() / side).max(size.x.max(size.y) / (8.0 * side));
         let count = |length: f32| (length / texel).ceil().max(1.0) as usize;
         let scale = Mat3A::from_diagonal(glam::Vec3::new(1.0 / texel, 1.0 / texel, 1.0));
@@ -48,7 +48,7 @@ impl LightProjection {
         }
     }
 
-    /// The number of texels.
+    /// Returns the number of texels.
     pub(super) fn texels(&self) -> usize {
         self.width * self.height
     }

@@ -1,8 +1,8 @@
-//! The renderer, in order: the scene is checked and moved to the origin (`stage`), a viewpoint is chosen (`view`) and the
-//! camera fitted (`camera`); depth maps are drawn from the sun (`sun`) and from many directions of the sky
-//! (`sky`), and from them how the ground is lit (`floor`); the camera's samples learn which triangle they see
-//! (`visible`), as far as it is neither translucent nor cut out there (`coverage`); each pixel's triangles become points on a surface (`surface`), are lit (`shade`) and mixed
-//! into a colour (`develop`).
+//! Renderer, in the order of its steps: check the scene and move it to the origin (`stage`); choose a viewpoint
+//! (`view`) and fit the camera (`camera`); draw depth maps from the sun (`sun`) and from many directions of the sky
+//! (`sky`), and compute the light on the ground from them (`floor`); find the triangle that each sample of the camera
+//! sees (`visible`), skipping the samples that translucent and cut-out surfaces do not cover (`coverage`); convert each
+//! pixel's triangles to points on surfaces (`surface`), shade them (`shade`) and mix their colours (`develop`).
 
 mod camera;
 mod clip;

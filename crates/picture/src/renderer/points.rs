@@ -1,14 +1,14 @@
-//! The few points that tell how far a model reaches.
+//! Small set of points that determine the extent of a model.
 
 use burgeon_scene::{Mesh, Scene};
 use glam::{DVec3, Vec3, Vec3A};
 use rayon::prelude::*;
 
-/// Cells along each side of the grid that thins out points.
+/// Number of cells along each side of the grid that reduces the number of points.
 const CELLS: usize = 32;
 
-/// For each mesh the points that matter to its reach: all of them where it stands a few times, else the
-/// farthest in each of many directions. Points that are not finite are left out; so are meshes not shown.
+/// Returns for each mesh the points that determine its extent: all of them if the mesh has few instances, otherwise the
+/// farthest in each of many directions. Points that are not finite and meshes that are not shown are skipped.
 pub(super) fn outlines(scene: &Scene) -> Vec<Vec<Vec3>> {
     let mut uses = vec![0_usize; scene.meshes.len()];
     for instance in &scene.instances {
@@ -39,7 +39,7 @@ fn outline(mesh: &Mesh, uses: usize) -> Vec<Vec3> {
     farthest.into_iter().map(|i| points[i]).collect()
 }
 
-/// Direction `i` of `count`, evenly spread over the sphere on a spiral.
+/// Returns direction `i` of `count` directions, evenly distributed over the sphere along a spiral.
 pub(super) fn spread(i: usize, count: usize) -> DVec3 {
     let z = 1.0 - (2.0 * i as f64 + 1.0) / count as f64;
     let (sin, cos) = (i as f64 * 2.399_963_229_728_653).sin_cos();
@@ -47,7 +47,7 @@ pub(super) fn spread(i: usize, count: usize) -> DVec3 {
     DVec3::new(r * cos, r * sin, z)
 }
 
-/// The lowest and highest corner of the box around `points`; zero without points.
+/// Returns the minimum and maximum corner of the bounding box of `points`; zero if there are no points.
 pub(super) fn bounds(points: impl Iterator<Item = DVec3>) -> (DVec3, DVec3) {
     points
         .filter(|point| point.is_finite())
@@ -57,8 +57,8 @@ pub(super) fn bounds(points: impl Iterator<Item = DVec3>) -> (DVec3, DVec3) {
         .unwrap_or_default()
 }
 
-/// A few thousand points whose convex hull holds `points`: the corners of the boxes around those that share a
-/// cell of a coarse grid over `bounds`.
+/// Returns a few thousand points whose convex hull contains `points`: the corners of the bounding boxes of the points
+/// in each cell of a coarse grid over `bounds`.
 pub(super) fn hull(points: impl Iterator<Item = Vec3A>, bounds: (Vec3A, Vec3A)) -> Vec<Vec3A> {
     let mut cells: Vec<Option<(Vec3A, Vec3A)>> = vec![None; CELLS * CELLS * CELLS];
     let last = CELLS as f32 - 1.0;
@@ -73,7 +73,7 @@ pub(super) fn hull(points: impl Iterator<Item = Vec3A>, bounds: (Vec3A, Vec3A)) 
     boxes.flat_map(|(low, high)| (0..8).map(move |corner| pick(corner, low, high))).collect()
 }
 
-/// Corner 0 to 7 of the box from `low` to `high`.
+/// Returns corner 0 to 7 of the box from `low` to `high`.
 fn pick(corner: usize, low: Vec3A, high: Vec3A) -> Vec3A {
     let choose = |axis: usize| if corner >> axis & 1 == 0 { low[axis] } else { high[axis] };
     Vec3A::new(choose(0), choose(1), choose(2))

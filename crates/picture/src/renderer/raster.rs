@@ -1,32 +1,31 @@
-//! Which samples a triangle covers.
+//! Rasterisation: the samples that a triangle covers.
 //!
-//! Corners are rounded to 1/256 of a sample, after which everything is exact: triangles that share an edge
-//! leave no gap and cover no sample twice.
+//! Corners are rounded to 1/256 of a sample, after which the computation is exact: triangles that share an edge leave
+//! no gap and cover no sample twice.
 
 use glam::Vec3A;
 use std::ops::Range;
 
-/// Parts of a sample that coordinates are rounded to.
+/// Subdivisions of a sample to which coordinates are rounded.
 const FINE: f64 = 256.0;
 
-/// Where the samples are.
+/// Positions of the samples.
 #[derive(Debug, Clone)]
 pub(super) struct RasterGrid<'a> {
-    /// Samples in a row.
+    /// Number of samples in a row.
     pub width: usize,
-    /// The rows that are wanted.
+    /// Range of rows to cover.
     pub rows: Range<usize>,
-    /// How far (1/256 sample) the samples of a row are right of whole coordinates; rows take turns. Their
-    /// number is a power of two.
+    /// Horizontal offsets (1/256 sample) of the samples of a row, used by the rows in turn. Their number is a power of
+    /// two.
     pub shifts: &'a [f64],
 }
 
 impl RasterGrid<'_> {
-    /// Calls `row` with the row, the range of samples in it and the third coordinate at the first of them and
-    /// its growth per sample, for each row of `triangle`. The first two coordinates of a corner are in
-    /// samples.
+    /// Calls `row` for each row that `triangle` covers: with the row, the range of samples in it, the third coordinate
+    /// at the first sample and its increment per sample. The first two coordinates of a corner are in samples.
     ///
-    /// Which way round the triangle runs does not matter.
+    /// The orientation of the triangle is ignored.
     #[inline]
     pub(super) fn cover(&self, triangle: [Vec3A; 3], mut row: impl FnMut(usize, Range<usize>, f32, f32)) {
         let [a, b, c] = triangle;
@@ -43,7 +42,7 @@ impl RasterGrid<'_> {
             return;
         }
         let (ax, bx, cx) = (snap(a.x), snap(b.x), snap(c.x));
-        // Most triangles of large models fall between the samples.
+        // Most triangles of large models cover no sample.
         let (leftmost, rightmost) = (ax.min(bx).min(cx), ax.max(bx).max(cx));
         if let [shift] = self.shifts
             && ceil(((leftmost - shift) / FINE).max(0.0)) as f64 > (rightmost - shift) / FINE
@@ -85,7 +84,7 @@ impl RasterGrid<'_> {
     }
 }
 
-/// A line through two corners: a point is inside if `slope * x + rise * y + offset >= 0`, all whole numbers.
+/// Line through two corners. A point is inside if `slope * x + rise * y + offset >= 0`; all numbers are integers.
 struct RasterEdge {
     slope: f64,
     rise: f64,
@@ -94,21 +93,21 @@ struct RasterEdge {
     cut: f64,
 }
 
-/// Quotients of the whole numbers in question are whole or differ by more than this from whole numbers, and
-/// are computed with a smaller error. With it `ceil` and `floor` are exact.
+/// Tolerance that makes `ceil` and `floor` exact. The quotients of the integers in question either are integers or
+/// differ from integers by more than this value, and are computed with a smaller error.
 const SLACK: f64 = 1e-10;
 
 impl RasterEdge {
-    /// The edge from the first to the second point of a triangle whose area has the sign `turn`.
+    /// Creates the edge from the first to the second point of a triangle whose area has the sign `turn`.
     #[inline]
     fn new(x0: f64, y0: f64, x1: f64, y1: f64, turn: f64) -> Self {
         let (dx, dy) = ((x1 - x0) * turn, (y1 - y0) * turn);
-        // A sample on an edge belongs to one of its two triangles, and they run along it in opposite ways.
+        // A sample on an edge belongs to only one of its two triangles, which traverse the edge in opposite directions.
         let own = if dy > 0.0 || (dy == 0.0 && dx > 0.0) { 0.0 } else { 1.0 };
         Self { slope: -dy, rise: dx, offset: dy * x0 - dx * y0 - own, cut: 1.0 / (dy * FINE) }
     }
 
-    /// Narrows the samples `left` to `right`, not yet rounded, of the row at `y` to those inside.
+    /// Narrows the interval `left` to `right`, not rounded, of samples in the row at `y` to the samples inside.
     #[inline]
     fn bound(&self, y: f64, shift: f64, left: &mut f64, right: &mut f64) {
         let value = self.rise * y + self.offset + self.slope * shift;
@@ -122,14 +121,14 @@ impl RasterEdge {
     }
 }
 
-/// The nearest whole number, for less than 2^51.
+/// Rounds to the nearest integer; `x` must be less than 2^51.
 #[inline]
 fn round(x: f64) -> f64 {
     const WHOLE: f64 = 6_755_399_441_055_744.0;
     (x + WHOLE) - WHOLE
 }
 
-/// The least whole number not below `x`, for 0 or more.
+/// Rounds `x` up to an integer; `x` must not be negative.
 #[inline]
 fn ceil(x: f64) -> i64 {
     let down = x as i64;

@@ -8,20 +8,19 @@ use burgeon_scene::Scene;
 use burgeon_scene::image::Image;
 use glam::DVec3;
 
-/// The picture of `scene` as sRGB with straight opacity; opaque unless the background is clear.
+/// Renders `scene` as sRGB with straight alpha; opaque unless the background is clear.
 ///
-/// Corners with a coordinate that is not finite hide their triangles. Fails if the size is zero or beyond
-/// 16384, a texture cannot be read, or the scene names a mesh, material or corner that it does not have.
+/// Triangles with a corner that is not finite are skipped. Fails if the size is zero or exceeds 16384, if a texture
+/// cannot be read, or if the scene refers to a mesh, material or corner that does not exist.
 pub fn render(scene: &Scene, picture: &Picture) -> Result<Image> {
     render_within(scene, None, picture, &Stop::default())
 }
 
-/// The picture of `scene` by a camera that sees all of `extent`, as large as it stands there, unless `stop` asks for
-/// an end; without an extent the camera is fitted to the scene.
+/// Renders `scene` with a camera that sees all of `extent`. Without an extent the camera is fitted to the scene.
 ///
-/// Pictures of several scenes within one extent, with the same `picture`, have the same camera, so that what is
-/// larger looks larger. Where `picture` names no direction, the shape of the extent decides. Fails as [`render`]
-/// does, and with the reason of a stop.
+/// Renders of several scenes with the same extent and the same `picture` share a camera, so that sizes can be compared.
+/// If `picture` specifies no direction, the shape of the extent determines it. Fails as [`render`] does, and if `stop`
+/// requests cancellation.
 pub fn render_within(
     scene: &Scene,
     extent: Option<&Extent>,
@@ -53,7 +52,7 @@ pub fn render_within(
     };
     let sun = sun::Sun::new(&stage, eye, &detail);
     let sky = sky::Sky::new(&stage, &sun, &detail, picture.ground);
-    // A little below the model, so that what lies on the ground is not mixed with it.
+    // Slightly below the model, so that surfaces on the ground do not merge with it.
     let height = stage.bounds.0.z - 0.0005;
     let floor = picture.ground.then(|| floor::Floor::new(&stage, &sun, &sky, height));
     let light = shade::Light {
@@ -65,6 +64,6 @@ pub fn render_within(
         floor: floor.as_ref(),
     };
     let image = develop::develop(&light, picture, &detail);
-    // What was stopped has left everything out that was still to be done.
+    // A cancelled render is incomplete.
     stop.check().map(|()| image)
 }

@@ -1,9 +1,9 @@
-//! Small scenes for the tests of this stage.
+//! Small scenes for the tests of the renderer.
 
 use burgeon_scene::{Instance, Material, Mesh, Normal, Part, Scene};
 use glam::{DAffine3, DVec3, Vec2, Vec3};
 
-/// A scene of one mesh at the origin.
+/// Returns a scene with one mesh at the origin.
 pub(super) fn scene_of(part: Part, material: Material) -> Scene {
     let mut scene = Scene::default();
     let index = scene.material(&material);
@@ -12,7 +12,7 @@ pub(super) fn scene_of(part: Part, material: Material) -> Scene {
     scene
 }
 
-/// Mesh 0 put at `place`.
+/// Returns an instance of mesh 0 at `place`.
 pub(super) fn instance(place: DVec3) -> Instance {
     let transform = DAffine3::from_translation(place);
     Instance {
@@ -37,7 +37,7 @@ pub(super) fn quad(part: &mut Part, corners: [Vec3; 4]) {
     part.triangles.extend([[first, first + 1, first + 2], [first, first + 2, first + 3]]);
 }
 
-/// Adds the walls and lids of a prism between two rings of equally many points, counter-clockwise from above.
+/// Adds the walls and caps of a prism between two rings with the same number of points, counter-clockwise from above.
 pub(super) fn prism(part: &mut Part, low: &[Vec3], high: &[Vec3]) {
     let count = low.len();
     for i in 0..count {
@@ -59,7 +59,7 @@ pub(super) fn prism(part: &mut Part, low: &[Vec3], high: &[Vec3]) {
     }
 }
 
-/// A ring of `sides` points.
+/// Returns a ring of `sides` points.
 pub(super) fn ring(sides: usize, radius: f32, turn: f32, z: f32) -> Vec<Vec3> {
     (0..sides)
         .map(|i| turn + i as f32 * std::f32::consts::TAU / sides as f32)
@@ -67,7 +67,7 @@ pub(super) fn ring(sides: usize, radius: f32, turn: f32, z: f32) -> Vec<Vec3> {
         .collect()
 }
 
-/// Boxes with sides of 2 m, their centres at `places`.
+/// Returns boxes with sides of 2 m and centres at `places`.
 pub(super) fn boxes(places: &[DVec3]) -> Scene {
     let mut part = Part::default();
     let turn = std::f32::consts::FRAC_PI_4;
@@ -78,7 +78,7 @@ pub(super) fn boxes(places: &[DVec3]) -> Scene {
     scene
 }
 
-/// A stack of `levels` six-sided slabs of 3 m, each turned against the one below.
+/// Returns a stack of `levels` hexagonal slabs of 3 m, each rotated relative to the slab below.
 pub(super) fn twisted_tower(levels: usize) -> Scene {
     let mut part = Part::default();
     for level in 0..levels {

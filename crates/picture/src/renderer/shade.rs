@@ -1,4 +1,4 @@
-//! How a point on a surface looks in the light of sun, sky and ground.
+//! Shading of a point on a surface in the light of sun, sky and ground.
 
 use super::camera::Camera;
 use super::floor::Floor;
@@ -10,47 +10,47 @@ use super::texture::SampledTexture;
 use glam::{Vec2, Vec3, Vec3A};
 use std::f32::consts::{PI, TAU};
 
-/// The part of light that passes through leaves.
+/// Fraction of light that passes through leaves.
 const THROUGH: f32 = 0.32;
 
-/// All that shading needs to know.
+/// Inputs of shading.
 pub(super) struct Light<'a> {
-    /// The model.
+    /// Model on its stage.
     pub stage: &'a Stage<'a>,
-    /// Of each material.
+    /// Textures of the materials.
     pub textures: &'a [Option<SampledTexture>],
-    /// Where it is seen from.
+    /// Camera of the render.
     pub camera: &'a Camera,
-    /// The sun.
+    /// Sun with its depth map.
     pub sun: &'a Sun,
-    /// The sky.
+    /// Sky with its depth maps.
     pub sky: &'a Sky,
-    /// The ground, if there is one.
+    /// Ground, if there is one.
     pub floor: Option<&'a Floor>,
 }
 
-/// A surface that a part of a pixel sees, and the light that it has gathered.
+/// Surface that a part of a pixel sees, with the light that it has gathered.
 #[derive(Debug)]
 pub(super) struct Fragment {
-    /// The surface.
+    /// Visible point of the surface.
     pub surface: SurfacePoint,
-    /// Its turn and how many take turns in using the maps of the sky and the lookups in the sun's.
+    /// Index and number of the fragments that share the sky maps and the lookups in the sun's map.
     pub share: (usize, usize),
-    /// A number from 0 to 1 that varies from pixel to pixel.
+    /// Number from 0 to 1 that varies from pixel to pixel.
     pub noise: f32,
-    /// Irradiance by the sky, and the same if nothing were in the way.
+    /// Irradiance by the sky, and the same without occluders.
     sky: [Vec3A; 2],
-    /// The visible part of what the surface mirrors, and the same if nothing were in the way.
+    /// Visible part of the reflected surroundings, and the same without occluders.
     mirrored: [f32; 2],
 }
 
 impl Fragment {
-    /// A fragment without light.
+    /// Creates a fragment without light.
     pub(super) fn new(surface: SurfacePoint, noise: f32) -> Self {
         Self { surface, share: (0, 1), noise, sky: [Vec3A::ZERO; 2], mirrored: [0.0; 2] }
     }
 
-    /// Whether another `surface` in the same pixel would look the same.
+    /// Returns true if another `surface` in the same pixel would look the same.
     pub(super) fn joins(&self, surface: &SurfacePoint) -> bool {
         let own = &self.surface;
         own.material == surface.material
@@ -59,14 +59,14 @@ impl Fragment {
             && (own.position - surface.position).length_squared() < 1e-5
     }
 
-    /// The part of the sky's light that arrives, for each colour.
+    /// Returns the fraction of the sky's light that arrives, for each colour.
     fn openness(&self) -> Vec3 {
         let [seen, all] = self.sky;
         Vec3::from(seen / all.max(Vec3A::splat(1e-6)))
     }
 }
 
-/// What of a fragment the sky needs to know, close together in memory.
+/// Data of a fragment for sky lookups, compact in memory.
 struct Probe {
     point: Vec3A,
     plane: Vec3A,
@@ -95,7 +95,7 @@ impl Probe {
 }
 
 impl Light<'_> {
-    /// Collects the light of all directions of the sky for `fragments`, which are close together.
+    /// Accumulates the light of all directions of the sky for `fragments`, which are close together.
     pub(super) fn gather(&self, fragments: &mut [Fragment]) {
         let count = self.sky.maps.len();
         let mut probes: Vec<Probe> =
@@ -107,7 +107,7 @@ impl Light<'_> {
                     continue;
                 }
                 let facing = probe.normal.dot(map.direction).max(0.0);
-                // A lobe this wide takes in enough directions to be smooth, for any roughness.
+                // A lobe of this width contains enough directions to be smooth, for any roughness.
                 let lobe = probe.mirror.dot(map.direction).max(0.0).powi(4);
                 if facing <= 0.0 && lobe < 0.01 {
                     continue;
@@ -128,8 +128,8 @@ impl Light<'_> {
         }
     }
 
-    /// How bright what lies in an unblocked `direction` from `point` is, compared with the open sky's or
-    /// the open ground's there.
+    /// Returns the brightness in an unoccluded `direction` from `point`, relative to the open sky or the open ground in
+    /// that direction.
     fn strength(&self, point: Vec3A, direction: Vec3A) -> f32 {
         match self.floor {
             Some(floor) if direction.z < 0.0 => floor.light(point, direction),
@@ -137,7 +137,7 @@ impl Light<'_> {
         }
     }
 
-    /// The light that `fragment` sends to the camera, after [`Light::gather`].
+    /// Returns the light that `fragment` sends to the camera, after [`Light::gather`].
     pub(super) fn color(&self, fragment: &Fragment) -> Vec3 {
         let surface = &fragment.surface;
         let diffuse = surface.base * (1.0 - surface.metallic);
@@ -154,7 +154,7 @@ impl Light<'_> {
             let light = SUN * (toward * seen);
             color += light * (diffuse * (kept / PI) + self.gloss(surface, glossy, facing, toward));
         } else if surface.thin {
-            // What shines through a leaf is more saturated than what it reflects.
+            // Light that shines through a leaf is more saturated than light that the leaf reflects.
             let seen = self.sun_seen(fragment, -surface.normal);
             color += SUN * diffuse * diffuse.powf(0.35) * (-toward * seen * 1.6 * THROUGH / PI);
         }
@@ -165,19 +165,19 @@ impl Light<'_> {
 
         let [seen, all] = fragment.mirrored;
         let unblocked = if all > 1e-3 { seen / all } else { open.element_sum() / 3.0 };
-        // What stands in the way of a reflection is the model itself, in the shade more often than not.
+        // The occluder of a reflection is the model itself, usually in the shade.
         let blocker = self.sky.open(surface.normal) * open * (0.25 / PI) * surface.base.lerp(Vec3::ONE, 0.3);
         let reflected = blocker.lerp(self.sky.reflection(surface.mirror(), surface.roughness), unblocked);
         color + reflected * mirror_part(glossy, surface.roughness, facing)
     }
 
-    /// The ground's brightness at `fragment` compared with its brightness without the model.
+    /// Returns the ground's brightness at `fragment`, relative to its brightness without the model.
     pub(super) fn ground(&self, fragment: &Fragment) -> Vec3 {
         let sky = self.sky.open(Vec3A::Z);
         let sun = SUN * self.sun.direction.z;
         let seen = self.sun_seen(fragment, Vec3A::Z);
         let part = (sky * bounced(fragment.openness(), Vec3::splat(0.5)) + sun * seen) / (sky + sun);
-        // Half as blue as it would be, since the eye takes the sky's light for white.
+        // Halve the blue tint, because the eye perceives the sky's light as white.
         part.lerp(Vec3::splat(part.element_sum() / 3.0), 0.5)
     }
 
@@ -185,8 +185,8 @@ impl Light<'_> {
         self.sun.visibility(fragment.surface.rounded, normal, fragment.noise * TAU, fragment.share)
     }
 
-    /// The sun's highlight for unit irradiance: GGX with the height-correlated Smith term and Schlick's
-    /// Fresnel.
+    /// Returns the sun's highlight for unit irradiance: GGX with the height-correlated Smith term and Schlick's Fresnel
+    /// approximation.
     fn gloss(&self, surface: &SurfacePoint, glossy: Vec3, facing: f32, toward: f32) -> Vec3 {
         let half = (surface.view + self.sun.direction).normalize_or(surface.normal);
         let (across, along) = (surface.normal.dot(half).max(0.0), surface.view.dot(half).max(0.0));
@@ -202,7 +202,7 @@ impl Light<'_> {
     }
 }
 
-/// The part of the surroundings' light that a surface mirrors.
+/// Returns the fraction of the surroundings' light that a surface reflects specularly.
 ///
 /// Method: Karis, "Physically based shading on mobile", 2014.
 fn mirror_part(glossy: Vec3, roughness: f32, facing: f32) -> Vec3 {
@@ -212,8 +212,8 @@ fn mirror_part(glossy: Vec3, roughness: f32, facing: f32) -> Vec3 {
     glossy * (-1.04 * a + r[2]) + Vec3::splat((1.04 * a + r[3]).max(0.0))
 }
 
-/// The part of the light that arrives in a crease that is `open` to this part and sends on light by its
-/// `albedo`.
+/// Returns the fraction of light that reaches a crease after multiple bounces, if the fraction `open` is unoccluded and
+/// the surface has this `albedo`.
 ///
 /// Method: Jimenez et al., "Practical realtime strategies for accurate indirect occlusion", 2016.
 fn bounced(open: Vec3, albedo: Vec3) -> Vec3 {

@@ -1,7 +1,7 @@
-//! Light from all around: the sky above, the sunlit ground below, and which of it reaches a point.
+//! Light from all directions: the sky above, the sunlit ground below, and the part of both that reaches a point.
 //!
-//! Depth maps are drawn from directions spread over the sphere. A point sees the light of a direction if it
-//! is not behind what the map shows there; the sum over the maps is the light with its soft shadows.
+//! Depth maps are drawn from directions distributed over the sphere. A point receives the light of a direction if it is
+//! not behind the surface in the map. The sum over the maps is the light with its soft shadows.
 
 use super::coverage::Coverage;
 use super::detail::RenderDetail;
@@ -18,37 +18,37 @@ pub(super) const SUN: Vec3 = Vec3::new(2.90, 2.74, 2.48);
 const ZENITH: Vec3 = Vec3::new(0.31, 0.36, 0.45);
 /// Radiance of the sky just above the horizon.
 const HORIZON: Vec3 = Vec3::new(0.45, 0.47, 0.49);
-/// The part of light that the ground sends back.
+/// Fraction of light that the ground reflects.
 const GROUND: Vec3 = Vec3::new(0.46, 0.44, 0.41);
-/// The largest distance in a map, whose texels are whole numbers.
+/// Largest distance in a map, whose texels are integers.
 const FARTHEST: f32 = 65_000.0;
-/// Half the angle (rad) between neighbouring directions, about.
+/// Approximate half angle (rad) between neighbouring directions.
 const SPREAD: f32 = 0.165;
-/// The part of directions that point below the horizon.
+/// Fraction of directions that point below the horizon.
 const BELOW: f32 = 0.26;
 
-/// The sky with its maps.
+/// Sky with its maps.
 pub(super) struct Sky {
-    /// One for each direction.
+    /// Maps, one for each direction.
     pub maps: Vec<SkySample>,
-    /// How far to lift a point off its surface before looking it up, in the stage's units.
+    /// Distance to lift a point off its surface before a lookup, in the stage's units.
     pub lift: f32,
     /// Unshadowed irradiance of planes that face along +x, -x, +y, -y, +z, -z.
     open: [Vec3; 6],
     sun: Vec3A,
 }
 
-/// What one direction shows and shines.
+/// Light and depth map of one direction.
 pub(super) struct SkySample {
-    /// The unit vector towards the light.
+    /// Unit vector towards the light.
     pub direction: Vec3A,
-    /// Radiance times the solid angle that the direction stands for.
+    /// Radiance times the solid angle that the direction represents.
     pub light: Vec3A,
-    /// A point in the unit disc towards which to move lookups, turned from pixel to pixel.
+    /// Offset of lookups in the unit disc, rotated from pixel to pixel.
     jitter: Vec2,
-    /// What a surface may lie behind itself, in units of depth.
+    /// Tolerance against self-shadowing, in units of depth.
     bias: f32,
-    /// Texels aside for each unit of depth.
+    /// Horizontal distance of lookups (texels) per unit of depth.
     spread: f32,
     frame: LightProjection,
     depths: Vec<u16>,
@@ -58,7 +58,7 @@ impl Sky {
     /// Draws the maps.
     pub(super) fn new(stage: &Stage, sun: &Sun, detail: &RenderDetail, ground: bool) -> Self {
         let count = detail.sky_maps;
-        // Without a ground the light from below is that of a white studio, even and weak.
+        // Without a ground, the light from below is weak and uniform, as in a white studio.
         let below = if ground {
             GROUND * (SUN * sun.direction.z + Vec3::splat(1.1)) / std::f32::consts::PI
         } else {
@@ -85,7 +85,7 @@ impl Sky {
         Self { maps, lift, open, sun: sun.direction }
     }
 
-    /// Irradiance of a plane with unit `normal` that nothing shades, from the six of the axes.
+    /// Returns the unshadowed irradiance of a plane with unit `normal`, interpolated from the six axis directions.
     ///
     /// Method: McTaggart, "Half-Life 2 / Valve source shading", 2004 (the ambient cube).
     pub(super) fn open(&self, normal: Vec3A) -> Vec3 {
@@ -94,7 +94,7 @@ impl Sky {
         side(0) + side(1) + side(2)
     }
 
-    /// The part of the sky's light, 0 to 1, that reaches level ground at `point`.
+    /// Returns the fraction of the sky's light, 0 to 1, that reaches level ground at `point`.
     pub(super) fn openness(&self, point: Vec3A) -> f32 {
         let above = self.maps.iter().filter(|map| map.direction.z > 0.0);
         let (seen, all) = above.fold((0.0, 0.0), |(seen, all), map| {
@@ -104,13 +104,13 @@ impl Sky {
         seen / f32::max(all, 1e-6)
     }
 
-    /// What a surface of this `roughness` reflects from `direction` if nothing is in the way.
+    /// Returns the light that a surface of this `roughness` reflects from `direction` without occluders.
     pub(super) fn reflection(&self, direction: Vec3A, roughness: f32) -> Vec3 {
         let blur = 0.04 + 0.8 * roughness;
         let above = smooth(-blur, blur, direction.z);
         let sky = sky_light(direction.with_z(direction.z.max(0.0)), self.sun);
         let floor = GROUND * (SUN * self.sun.z + Vec3::splat(1.1)) / std::f32::consts::PI;
-        // A bright strip high on the side away from the sun, as photographers put behind what shines.
+        // A bright strip high on the side opposite to the sun, as photographers place behind shiny objects.
         let across = Vec3A::new(-self.sun.x, -self.sun.y, 0.35).normalize().dot(direction);
         let strip = 0.55 * smooth(0.88 - 0.5 * blur, 0.94 + 0.3 * blur, across) / (1.0 + 2.0 * roughness);
         floor.lerp(sky + strip, above)
@@ -154,10 +154,10 @@ impl SkySample {
         Self { direction, light, jitter, bias, spread, frame, depths }
     }
 
-    /// Whether the direction's light reaches `point`, which is lifted off its surface.
+    /// Returns true if the direction's light reaches `point`, which is lifted off its surface.
     ///
-    /// `spin` is a unit vector that turns the jitter. A direction stands for the part of the sky around it,
-    /// so a point far behind what blocks it looks again a little aside, which softens the shadow's edge.
+    /// `spin` is a unit vector that rotates the jitter. A direction represents the part of the sky around it, so a
+    /// point far behind its occluder is looked up again at a small distance, which softens the shadow's edge.
     #[inline]
     pub(super) fn reaches(&self, point: Vec3A, spin: Vec2) -> bool {
         let at = self.frame.to_texels.transform_point3a(point);
@@ -166,7 +166,7 @@ impl SkySample {
         gap <= 0.0 || at.z - self.bias <= self.depth(at.truncate() + aside * (gap * self.spread))
     }
 
-    /// The distance of what the light falls on at `texel`; infinite if that is nothing.
+    /// Returns the depth of the lit surface at `texel`; infinite if there is none.
     #[inline]
     fn depth(&self, texel: Vec2) -> f32 {
         let (x, y) = (texel.x, texel.y);
@@ -180,15 +180,15 @@ impl SkySample {
     }
 }
 
-/// Radiance of the sky in `direction`: bluish overhead, whiter at the horizon, brighter towards the sun.
+/// Returns the radiance of the sky in `direction`: bluish overhead, whiter at the horizon, brighter towards the sun.
 fn sky_light(direction: Vec3A, sun: Vec3A) -> Vec3 {
     let height = direction.z.clamp(0.0, 1.0);
     let glow = direction.dot(sun).max(0.0).powi(3) * 0.35;
     HORIZON.lerp(ZENITH, height.powf(0.6)) * (1.0 + glow) + Vec3::new(0.10, 0.07, 0.03) * glow
 }
 
-/// Direction `i` of `count` and the solid angle it stands for. Any run of successive ones is spread over the
-/// sphere; above the horizon they are denser towards the zenith, whose light falls on most.
+/// Returns direction `i` of `count` and the solid angle that it represents. Any sequence of successive directions is
+/// distributed over the sphere. Above the horizon they are denser towards the zenith, which lights most surfaces.
 ///
 /// Method: Roberts, "The unreasonable effectiveness of quasirandom sequences", 2018.
 fn direction(i: usize, count: usize) -> (Vec3A, f32) {
@@ -207,7 +207,7 @@ fn direction(i: usize, count: usize) -> (Vec3A, f32) {
     (Vec3A::new(r * cos, r * sin, z), angle / count as f32)
 }
 
-/// 0 below `low`, 1 above `high`, smooth between.
+/// Interpolates smoothly from 0 at or below `low` to 1 at or above `high`.
 pub(super) fn smooth(low: f32, high: f32, x: f32) -> f32 {
     let t = ((x - low) / (high - low)).clamp(0.0, 1.0);
     t * t * (3.0 - 2.0 * t)

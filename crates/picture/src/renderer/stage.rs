@@ -1,7 +1,7 @@
-//! The scene made ready to be rendered: checked, turned upright, moved to the origin and shrunk to unit size.
+//! Scene prepared for rendering: checked, rotated upright, moved to the origin and scaled to unit size.
 //!
-//! Instances are not unfolded: a triangle is known by its number in the order of instances, parts and
-//! triangles, and found again by searching the draws.
+//! Instances are not expanded. A triangle is identified by its number in the order of instances, parts and triangles,
+//! and is found by a search in the draws.
 
 use super::clip::clip;
 use super::extent::Extent;
@@ -13,64 +13,64 @@ use burgeon_scene::{Material, Part, Scene};
 use glam::{Affine3A, DAffine3, DMat3, DVec3, Mat3A, Vec3A};
 use std::ops::Range;
 
-/// A scene around the origin, in units of the radius of the sphere around its box.
+/// Scene around the origin, in units of the radius of the sphere around its box.
 pub(super) struct Stage<'a> {
-    /// The parts of all instances in order; their triangles are numbered without gaps.
+    /// Parts of all instances in order; their triangles are numbered consecutively.
     pub draws: Vec<DrawCall<'a>>,
-    /// The scene's materials.
+    /// Materials of the scene.
     pub materials: &'a [Material],
-    /// The lowest and the highest corner of the box around the model.
+    /// Minimum and maximum corner of the model's bounding box.
     pub bounds: (Vec3A, Vec3A),
-    /// Points whose convex hull holds the model, hardly larger than the model.
+    /// Points whose convex hull contains the model and is hardly larger.
     pub hull: Vec<Vec3A>,
-    /// From the world to the stage.
+    /// Transform from the world to the stage.
     pub shrink: DAffine3,
     count: u32,
     outlines: Vec<Vec<glam::Vec3>>,
     places: Vec<(usize, Affine3A)>,
-    /// Asks for an end: from then on nothing is drawn any more.
+    /// Cancellation signal. After cancellation nothing more is drawn.
     pub stop: &'a Stop,
 }
 
-/// One part of one instance.
+/// Part of an instance.
 pub(super) struct DrawCall<'a> {
-    /// Its triangles.
+    /// Part with the triangles.
     pub part: &'a Part,
-    /// From the mesh's coordinates to the stage's.
+    /// Transform from the mesh's coordinates to the stage's.
     pub place: Affine3A,
-    /// The same, exactly: corners that meshes share stay one point, wherever their origins are.
+    /// Transform at double precision: corners shared by meshes coincide, regardless of the meshes' origins.
     exact: DAffine3,
-    /// The number of its first triangle.
+    /// Number of its first triangle.
     pub first: u32,
-    /// Whether the placement turns counter-clockwise into clockwise.
+    /// Set if the transform reverses the orientation of triangles.
     pub mirrored: bool,
-    /// The material's opacity, 0 to 1.
+    /// Opacity of the material, 0 to 1.
     pub opacity: f32,
-    /// The material's texture, if it does not cover all of a surface.
+    /// Texture of the material, if it has holes.
     pub cutout: Option<&'a SampledTexture>,
-    /// Whether both sides are seen.
+    /// Set if both sides are visible.
     pub double_sided: bool,
 }
 
-/// A triangle, or a part of one that was clipped, as a view shows it.
+/// Triangle, or a clipped part of one, after projection to a view.
 pub(super) struct ProjectedTriangle {
-    /// The triangle's number.
+    /// Number of the triangle.
     pub number: u32,
-    /// The corners after the projection.
+    /// Corners after the projection.
     pub corners: [Vec3A; 3],
-    /// For each corner its weights of the triangle's own corners, if the triangle was clipped.
+    /// Weights of each corner relative to the triangle's own corners, if the triangle was clipped.
     pub weights: Option<[Vec3A; 3]>,
 }
 
 impl<'a> Stage<'a> {
-    /// Checks `scene` and finds its size. Fails if an index is out of range or triangles are too many to number.
+    /// Checks `scene` and measures it. Fails if an index is out of range or if the triangles are too many to number.
     pub(super) fn new(scene: &'a Scene) -> Result<Self> {
         static NEVER: Stop = Stop::new();
         Self::within(scene, &[], None, &NEVER)
     }
 
-    /// As [`new`](Self::new), with the `textures` of the materials, and around the middle of `extent` and in units of
-    /// its radius.
+    /// Prepares `scene` as [`new`](Self::new) does, with the `textures` of the materials, relative to the centre and
+    /// the radius of `extent`.
     pub(super) fn within(
         scene: &'a Scene,
         textures: &'a [Option<SampledTexture>],
@@ -134,12 +134,12 @@ impl<'a> Stage<'a> {
         Ok(stage)
     }
 
-    /// The number of triangles, instances counted each.
+    /// Returns the number of triangles, counted for each instance.
     pub(super) fn triangles(&self) -> usize {
         self.count as usize
     }
 
-    /// Points of the model that reach as far as the model does in every direction, within a percent.
+    /// Returns points whose extent in every direction equals the model's extent to within a percent.
     pub(super) fn points(&self) -> impl Iterator<Item = Vec3A> {
         self.places
             .iter()
@@ -149,23 +149,23 @@ impl<'a> Stage<'a> {
             .filter(|point| point.is_finite())
     }
 
-    /// The numbers of all triangles, cut into ranges of work for one thread.
+    /// Returns the numbers of all triangles, divided into ranges of work for one thread.
     pub(super) fn batches(&self) -> Vec<Range<u32>> {
         let size = 8192;
         (0..self.count.div_ceil(size)).map(|i| i * size..((i + 1) * size).min(self.count)).collect()
     }
 
-    /// The draw that triangle `number` belongs to, and the triangle's index in its part.
+    /// Returns the draw that contains triangle `number`, and the triangle's index in its part.
     pub(super) fn find(&self, number: u32) -> (&DrawCall<'a>, usize) {
         let index = self.draws.partition_point(|draw| draw.first <= number) - 1;
         let draw = &self.draws[index];
         (draw, (number - draw.first) as usize)
     }
 
-    /// Calls `emit` with the draw and each triangle in `numbers`, its corners taken through `view` and `project`.
+    /// Calls `emit` with the draw and each triangle in `numbers`, its corners transformed by `view` and `project`.
     ///
-    /// Triangles with a corner that `project` does not show are clipped at the plane at the distance `near`, if there is
-    /// one. Triangles with a corner that is not finite are skipped.
+    /// Triangles with a corner that `project` cannot project are clipped at the plane at the distance `near`, if given.
+    /// Triangles with a corner that is not finite are skipped.
     pub(super) fn each_triangle(
         &self,
         numbers: Range<u32>,
@@ -193,7 +193,7 @@ impl<'a> Stage<'a> {
                 triangles.clone().flatten().fold((u32::MAX, 0), |(a, b), i| (a.min(i), b.max(i)));
             let (least, most) = (least as usize, most as usize);
             let positions = &draw.part.positions;
-            // Neighbours share corners, so moving the whole range is cheaper unless the range is sparse.
+            // Neighbours share corners, so transforming the whole range is cheaper unless the range is sparse.
             let dense = most - least < 3 * triangles.len();
             if dense {
                 corners.clear();
@@ -215,7 +215,7 @@ impl<'a> Stage<'a> {
                     continue;
                 };
                 clip(placed, near, |corners, weights| {
-                    // A corner that rounding puts behind the plane is on it.
+                    // Rounding can place a corner behind the plane, so move it onto the plane.
                     let corners = corners.map(|corner| project(corner.with_z(corner.z.max(near))));
                     emit(draw, ProjectedTriangle { number, corners, weights: Some(weights) });
                 });
@@ -224,25 +224,25 @@ impl<'a> Stage<'a> {
     }
 }
 
-/// The middle and the radius of the sphere around the box from `low` to `high`.
+/// Returns the centre and the radius of the sphere around the box from `low` to `high`.
 pub(super) fn sphere(low: DVec3, high: DVec3) -> (DVec3, f64) {
     let half = (high - low).length() / 2.0;
-    // A model without size, such as a point, is shown as if it measured a metre.
+    // A model without size, such as a point, is shown as if it had a radius of 1 m.
     ((low + high) / 2.0, if half > 1e-9 { half } else { 1.0 })
 }
 
-/// `place` at double precision.
+/// Converts `place` to double precision.
 fn to_double(place: &Affine3A) -> DAffine3 {
     DAffine3 { matrix3: place.matrix3.as_dmat3(), translation: place.translation.as_dvec3() }
 }
 
-/// `place` at single precision.
+/// Converts `place` to single precision.
 fn to_single(place: &DAffine3) -> Affine3A {
     let matrix = place.matrix3.as_mat3();
     Affine3A { matrix3: Mat3A::from(matrix), translation: place.translation.as_vec3a() }
 }
 
-/// Refuses indices that point at nothing.
+/// Fails if an index of the scene is out of range.
 fn check(scene: &Scene) -> Result<()> {
     for (number, instance) in scene.instances.iter().enumerate() {
         if instance.mesh >= scene.meshes.len() {

@@ -1,4 +1,4 @@
-//! The sun: where it stands, and how much of it is seen from a point.
+//! The sun: its direction, and the fraction of it that is visible from a point.
 
 use super::coverage::Coverage;
 use super::detail::RenderDetail;
@@ -10,30 +10,29 @@ use glam::{Vec2, Vec3A};
 use rayon::prelude::*;
 use std::sync::atomic::{AtomicU32, Ordering};
 
-/// How far the sun stands to the left of the viewer (degrees).
+/// Azimuth of the sun to the left of the viewer (degrees).
 const ASIDE: f64 = 58.0;
-/// Its height above the horizon (degrees).
+/// Elevation of the sun above the horizon (degrees).
 const HEIGHT: f64 = 43.0;
-/// Growth of the half-shadow's radius with the distance from what throws it. The real sun's is 0.005; a
-/// larger one looks like thin haze.
+/// Growth of the penumbra's radius per distance from the occluder. The real sun's is 0.005; a larger value looks like
+/// thin haze.
 const SOFTNESS: f32 = 0.018;
-/// Largest radius of the half-shadow, in the stage's units.
+/// Maximum radius of the penumbra, in the stage's units.
 const WIDEST: f32 = 0.02;
 
-/// The sun and its depth map.
+/// Sun with its depth map.
 pub(super) struct Sun {
-    /// The unit vector towards it.
+    /// Unit vector towards the sun.
     pub direction: Vec3A,
     frame: LightProjection,
     depths: Vec<f32>,
-    /// Where lookups go for a full pixel, within the unit disc; every part of it in order is spread over the
-    /// disc.
+    /// Offsets of the lookups for a full pixel, within the unit disc. Any consecutive part of them is distributed over
+    /// the disc.
     disc: Vec<Vec2>,
 }
 
 impl Sun {
-    /// The sun behind the left shoulder of a viewer at `eye`, so that every picture has a light and a dark
-    /// side.
+    /// Places the sun behind the left shoulder of a viewer at `eye`, so that every render has a light and a dark side.
     pub(super) fn new(stage: &Stage, eye: Viewpoint, detail: &RenderDetail) -> Self {
         let place = Viewpoint { azimuth: eye.azimuth + ASIDE.to_radians(), elevation: HEIGHT.to_radians() };
         let direction = place.direction().as_vec3a();
@@ -52,7 +51,7 @@ impl Sun {
                     let coverage = Coverage::of(draw, &triangle, [4, 4], false);
                     grid.cover(triangle.corners, |y, xs, z, growth| {
                         for (i, x) in xs.enumerate() {
-                            // The bits of numbers that are not negative are ordered as they are.
+                            // The bit patterns of non-negative floats have the same order as the floats.
                             let depth = (z + growth * i as f32).max(0.0).to_bits();
                             let texel = &texels[y * width + x];
                             if depth < texel.load(Ordering::Relaxed) && coverage.covers(x, y, 128.0) {
@@ -67,25 +66,25 @@ impl Sun {
         Self { direction, frame, depths, disc: disc(detail.sun_taps) }
     }
 
-    /// The depth of what the sun lights at texel `x`, `y`; infinite where that is nothing.
+    /// Returns the depth of the lit surface at texel `x`, `y`; infinite if there is none.
     fn depth(&self, x: f32, y: f32) -> f32 {
         let inside = x >= 0.0 && y >= 0.0 && x < self.frame.width as f32 && y < self.frame.height as f32;
         if inside { self.depths[y as usize * self.frame.width + x as usize] } else { f32::INFINITY }
     }
 
-    /// Whether the sun reaches `point`, not on a surface, as far as a single lookup tells.
+    /// Returns true if the sun reaches `point`, which is not on a surface, according to a single lookup.
     pub(super) fn reaches(&self, point: Vec3A) -> bool {
         let at = self.frame.to_texels.transform_point3a(point);
         self.depth(at.x, at.y) > at.z - 2.0 * self.frame.texel
     }
 
-    /// The part of the sun, 0 to 1, seen from `point` on a surface with the unit normal `normal` towards the
-    /// sun.
+    /// Returns the fraction of the sun, 0 to 1, visible from `point` on a surface with the unit normal `normal` towards
+    /// the sun.
     ///
-    /// `turn` (rad) turns the pattern of lookups; vary it from pixel to pixel. `share` is the point's turn
-    /// among those that share a pixel and how many these are; each then gets fewer lookups. Method:
-    /// percentage-closer soft shadows (Fernando, 2005) with each lookup compared with the surface's own
-    /// plane, so that wide patterns do not shade it.
+    /// `turn` (rad) rotates the pattern of lookups; vary it from pixel to pixel. `share` is the index of the point
+    /// among those that share a pixel, and their number; each point then gets fewer lookups. Method: percentage-closer
+    /// soft shadows (Fernando, 2005). Each lookup is compared with the surface's own plane, so that a wide pattern does
+    /// not shade the surface.
     pub(super) fn visibility(&self, point: Vec3A, normal: Vec3A, turn: f32, share: (usize, usize)) -> f32 {
         let (place, share) = share;
         let texel = self.frame.texel;
@@ -93,7 +92,7 @@ impl Sun {
         let at = self.frame.to_texels.transform_point3a(lifted);
         let tilt = self.frame.to_texels.matrix3 * normal;
         let facing = (tilt.z).min(-0.08);
-        // Rows of the matrix are stretched by 1 / texel, so the slope per texel takes that out twice.
+        // Rows of the matrix are scaled by 1 / texel, so the slope per texel is multiplied by texel twice.
         let slope = [-tilt.x * texel * texel / facing, -tilt.y * texel * texel / facing];
         let steepest = 6.0 * texel;
         let slope = slope.map(|s| s.clamp(-steepest, steepest));
@@ -124,7 +123,7 @@ impl Sun {
     }
 }
 
-/// Points spread evenly over the unit disc, and so is any run of them.
+/// Returns points distributed evenly over the unit disc; so is any consecutive part of them.
 fn disc(count: usize) -> Vec<Vec2> {
     let fraction = |i: usize, factor: f64| (0.5 + factor * i as f64).fract() as f32;
     (0..count)

@@ -1,38 +1,38 @@
-//! The point of a surface that a pixel sees.
+//! Surface point that a pixel sees.
 
 use super::camera::Camera;
 use super::stage::Stage;
 use super::texture::SampledTexture;
 use glam::{Vec2, Vec3, Vec3A};
 
-/// A point on the model or the ground with what its shading needs.
+/// Point on the model or the ground, with the data for shading.
 #[derive(Debug, Clone)]
 pub(super) struct SurfacePoint {
-    /// Where it is on the stage.
+    /// Position on the stage.
     pub position: Vec3A,
-    /// The same on the smooth surface that the normals describe, for shadows without the triangles' corners.
+    /// Position on the smooth surface that the normals describe, for shadows without facets.
     pub rounded: Vec3A,
-    /// The unit normal of the triangle, towards the camera.
+    /// Unit normal of the triangle, towards the camera.
     pub plane: Vec3A,
-    /// The unit normal for shading, towards the camera.
+    /// Unit normal for shading, towards the camera.
     pub normal: Vec3A,
-    /// The unit vector towards the camera.
+    /// Unit vector towards the camera.
     pub view: Vec3A,
-    /// Index of the material; none for the ground.
+    /// Index of the material; `None` for the ground.
     pub material: Option<usize>,
     /// Linear colour.
     pub base: Vec3,
-    /// 0 or 1, or between.
+    /// Metallic fraction, 0 to 1.
     pub metallic: f32,
     /// Perceptual roughness.
     pub roughness: f32,
-    /// Light given off.
+    /// Emitted light.
     pub emissive: Vec3,
-    /// Whether light from behind shines through, as with leaves.
+    /// Set if light from behind shines through, as with leaves.
     pub thin: bool,
 }
 
-/// A triangle on the stage.
+/// Triangle on the stage.
 struct StageTriangle {
     a: Vec3A,
     ab: Vec3A,
@@ -41,8 +41,8 @@ struct StageTriangle {
 }
 
 impl StageTriangle {
-    /// The weights of the second and third corner where `ray` from `eye` meets the triangle's plane; those of
-    /// its middle if the triangle is seen edge-on.
+    /// Returns the weights of the second and third corner at the intersection of `ray` from `eye` with the triangle's
+    /// plane; the weights of the centroid if the triangle is seen edge-on.
     fn weights(&self, eye: Vec3A, ray: Vec3A) -> Vec2 {
         let steep = self.cross.dot(ray);
         let size = self.cross.length_squared();
@@ -55,7 +55,7 @@ impl StageTriangle {
 }
 
 impl SurfacePoint {
-    /// What pixel coordinates `place` show of triangle `number`.
+    /// Returns the point of triangle `number` at pixel coordinates `place`.
     pub(super) fn seen(
         stage: &Stage,
         textures: &[Option<SampledTexture>],
@@ -69,7 +69,7 @@ impl SurfacePoint {
         let [a, b, c] = triangle.map(|i| draw.place.transform_point3a(Vec3A::from(part.positions[i])));
         let corners = StageTriangle { a, ab: b - a, ac: c - a, cross: (b - a).cross(c - a) };
         let exact = corners.weights(camera.eye, camera.ray(place[0], place[1]));
-        // The middle of the samples may lie a little outside the triangle.
+        // The centre of the samples may be slightly outside the triangle.
         let inside = exact.max(Vec2::ZERO);
         let inside = inside / (inside.x + inside.y).max(1.0);
         let position = a + corners.ab * inside.x + corners.ac * inside.y;
@@ -112,12 +112,12 @@ impl SurfacePoint {
         }
     }
 
-    /// The unit vector towards what the surface mirrors.
+    /// Returns the direction of reflection of the view vector.
     pub(super) fn mirror(&self) -> Vec3A {
         self.normal * (2.0 * self.normal.dot(self.view)) - self.view
     }
 
-    /// The point of the ground at `position`.
+    /// Returns the point of the ground at `position`.
     pub(super) fn ground(position: Vec3A, camera: &Camera) -> Self {
         Self {
             position,
@@ -135,7 +135,7 @@ impl SurfacePoint {
     }
 }
 
-/// `position` moved out to the planes through the triangle's corners that `normals` describe.
+/// Moves `position` outwards to the planes through the triangle's corners that `normals` describe.
 ///
 /// Method: Hanika, "Hacking the shadow terminator", Ray Tracing Gems II, 2021.
 fn rounded(position: Vec3A, corners: [Vec3A; 3], normals: [Vec3A; 3], weights: [f32; 3]) -> Vec3A {
@@ -144,7 +144,7 @@ fn rounded(position: Vec3A, corners: [Vec3A; 3], normals: [Vec3A; 3], weights: [
     position - outward
 }
 
-/// `normal` turned towards `view` just so far that it does not face away from it.
+/// Rotates `normal` towards `view` just enough that it does not face away from it.
 fn bend(normal: Vec3A, view: Vec3A) -> Vec3A {
     let facing = normal.dot(view);
     if facing >= 0.03 { normal } else { (normal + view * (0.03 - facing)).normalize_or(view) }

@@ -1,4 +1,4 @@
-//! What a picture must show, checked on small ones.
+//! Tests of small renders.
 
 use super::samples::{boxes, instance, prism, quad, ring, scene_of, twisted_tower};
 use super::{render, render_within};
@@ -8,7 +8,7 @@ use burgeon_scene::image::Image;
 use burgeon_scene::{Material, Part, Scene, Texture, Upright};
 use glam::{DAffine3, DVec3, Vec3};
 
-/// A small picture from the south-east on a transparent background, without a ground.
+/// Returns the settings of a small render from the south-east with a transparent background and without a ground.
 fn small() -> Picture {
     Picture {
         width: 96,
@@ -22,7 +22,7 @@ fn small() -> Picture {
     }
 }
 
-/// The mean brightness, 0 to 255, of the opaque pixels in columns `xs` and rows `ys`.
+/// Returns the mean brightness, 0 to 255, of the opaque pixels in columns `xs` and rows `ys`.
 fn brightness(image: &Image, xs: std::ops::Range<u32>, ys: std::ops::Range<u32>) -> f64 {
     let pixels = ys.flat_map(|y| xs.clone().map(move |x| image.pixel(x, y)));
     let opaque: Vec<[u8; 4]> = pixels.filter(|pixel| pixel[3] == 255).collect();
@@ -31,7 +31,7 @@ fn brightness(image: &Image, xs: std::ops::Range<u32>, ys: std::ops::Range<u32>)
     sum / (3.0 * opaque.len() as f64)
 }
 
-/// Each pixel with its column and row.
+/// Returns each pixel with its column and row.
 fn places(image: &Image) -> impl Iterator<Item = (u32, u32, [u8; 4])> {
     let rows = 0..image.height();
     rows.flat_map(move |y| (0..image.width()).map(move |x| (x, y, image.pixel(x, y))))
@@ -41,7 +41,7 @@ fn covered(image: &Image) -> usize {
     image.pixels().iter().filter(|pixel| pixel[3] > 0).count()
 }
 
-/// A square of 4 m standing on the x axis, its front to the south.
+/// Returns a vertical square of 4 m on the x axis whose front faces south.
 fn wall(material: Material) -> Scene {
     let mut part = Part::default();
     let corners = [[-2.0, 0.0], [2.0, 0.0], [2.0, 4.0], [-2.0, 4.0]];
@@ -72,7 +72,7 @@ fn a_crease_is_darker_than_the_open_floor() {
     let mut part = Part::default();
     quad(&mut part, [[-2.0, -4.0], [2.0, -4.0], [2.0, 0.0], [-2.0, 0.0]].map(|[x, y]| Vec3::new(x, y, 0.0)));
     quad(&mut part, [[-2.0, 0.0], [2.0, 0.0], [2.0, 2.0], [-2.0, 2.0]].map(|[x, z]| Vec3::new(x, 0.0, z)));
-    // From the south the sun stands in the south-west and lights all of the floor.
+    // For a view from the south, the sun is in the south-west and lights the whole floor.
     let picture = Picture { azimuth: Some(180.0), elevation: Some(60.0), ..small() };
     let image = render(&scene_of(part, Material::default()), &picture).unwrap();
     let floor = |y: u32| brightness(&image, 40..56, y..y + 2);
@@ -87,7 +87,7 @@ fn the_number_of_threads_does_not_change_a_byte() {
     let material = scene.material(&glass);
     let mut part = Part { material, ..Part::default() };
     prism(&mut part, &ring(5, 11.0, 0.0, 0.0), &ring(5, 11.0, 0.5, 14.0));
-    // The same again: of two surfaces in one place always the same is seen.
+    // Duplicate the part: of two coincident surfaces, the same one must always be visible.
     scene.meshes[0].parts.extend([part.clone(), part]);
     scene
         .instances
@@ -205,12 +205,12 @@ fn a_missing_texture_is_an_error_that_names_the_file() {
     assert!(error.to_string().contains("no/such/brick.png"), "{error}");
 }
 
-/// From in front.
+/// Returns the settings of a render from the south.
 fn front() -> Picture {
     Picture { azimuth: Some(180.0), elevation: Some(0.0), ..small() }
 }
 
-/// A picture of the wall with a texture of one repetition over all of it.
+/// Renders the wall with a texture that is repeated once over its area.
 fn papered(pixel: impl Fn(u32, u32) -> [u8; 4], base_color: [f32; 4], picture: &Picture) -> Image {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("leaf.png");
@@ -222,13 +222,13 @@ fn papered(pixel: impl Fn(u32, u32) -> [u8; 4], base_color: [f32; 4], picture: &
 
 #[test]
 fn what_a_texture_leaves_out_is_not_there() {
-    // The left half is there; what is not seen is black, as programs for painting leave it.
+    // The left half is opaque. The invisible pixels are black, as image editors write them.
     let half = |x: u32, _| if x < 32 { [230, 230, 230, 255] } else { [0; 4] };
     let image = papered(half, [1.0; 4], &front());
     let whole = papered(|_, _| [230, 230, 230, 255], [1.0; 4], &front());
     let (some, all) = (covered(&image), covered(&whole));
     assert!((some * 2).abs_diff(all) < all / 20, "{some} of {all}");
-    // No dark seam where it ends.
+    // The edge has no dark seam.
     let row = |image: &Image| {
         let middle = image.height() / 2;
         let row = (0..image.width()).map(|x| image.pixel(x, middle));
@@ -247,7 +247,7 @@ fn fine_holes_let_through_as_much_as_they_are() {
     let opacity = |image: &Image| image.pixels().iter().map(|pixel| f64::from(pixel[3])).sum::<f64>();
     let part = opacity(&image) / opacity(&whole);
     assert!((0.2..0.3).contains(&part), "{part}");
-    // A translucent material with holes lets through more.
+    // A translucent material with holes is more transparent.
     let part = opacity(&papered(dots, [1.0, 1.0, 1.0, 0.5], &picture)) / opacity(&whole);
     assert!((0.09..0.16).contains(&part), "{part}");
 }
@@ -258,7 +258,7 @@ fn the_shadow_of_what_is_cut_out_has_its_holes() {
     let bars = |x: u32, _| if (x / 8).is_multiple_of(2) { [200, 200, 200, 255] } else { [0; 4] };
     let (barred, whole) =
         (papered(bars, [1.0; 4], &picture), papered(|_, _| [200, 200, 200, 255], [1.0; 4], &picture));
-    // The sun stands on the left, so the shadow goes on to the right of the wall.
+    // The sun is on the left, so the shadow continues to the right of the wall.
     let edge = places(&whole).filter(|(_, _, pixel)| pixel[3] == 255).map(|(x, ..)| x).max().unwrap();
     let shadow = |image: &Image| {
         let beside = places(image).filter(|(x, ..)| *x > edge + 2);
@@ -276,7 +276,7 @@ fn a_picture_that_nobody_waits_for_is_given_up() {
     assert_eq!(error.message(), "the page has gone");
 }
 
-/// The cap of a sphere of 100 m around `up`, its triangles facing outwards.
+/// Returns the cap of a sphere with a radius of 100 m around `up`, with its triangles facing outwards.
 fn cap(up: DVec3) -> Scene {
     let (right, ahead) = up.any_orthonormal_pair();
     let mut part = Part::default();
@@ -301,15 +301,15 @@ fn a_part_of_a_planet_is_seen_from_above_it_wherever_it_lies() {
         let mut scene = cap(up);
         scene.upright = Upright::new(up, DVec3::Z);
         let image = render(&scene, &picture).unwrap();
-        // It is square, and may be turned against north.
+        // The cap is square, and may be rotated relative to north.
         let part = covered(&image) as f64 / from_the_top as f64;
         assert!((0.5..2.0).contains(&part), "up is {up}: {part}");
-        // It is lit from above, too.
+        // The light must also come from above.
         assert!(brightness(&image, 40..56, 40..56) > 60.0, "up is {up}");
     }
 }
 
-/// Directions all over the sphere, straight down among them.
+/// Returns directions all over the sphere, including straight down.
 fn directions() -> impl Iterator<Item = DVec3> {
     let golden = 2.399_963_229_728_653_f64;
     std::iter::once(DVec3::NEG_Z).chain((0..).map(move |i| {
@@ -321,7 +321,7 @@ fn directions() -> impl Iterator<Item = DVec3> {
 
 #[test]
 fn a_plain_that_reaches_behind_the_camera_is_clipped_and_not_dropped() {
-    // A plain of two triangles and the same of 20,000: looked at from eye height, both look the same.
+    // A plane of two triangles and a plane of 20,000 triangles must look the same from eye height.
     let plain = |cells: i32| {
         let mut part = Part::default();
         let side = 4000.0 / cells as f32;

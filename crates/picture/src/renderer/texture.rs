@@ -1,4 +1,4 @@
-//! Image files laid over surfaces.
+//! Textures: image files on surfaces.
 
 use super::tone;
 use burgeon_base::error::{Error, Result};
@@ -7,17 +7,17 @@ use burgeon_scene::image::{self, Image};
 use glam::{Vec2, Vec3, Vec4};
 use std::io::Read;
 
-/// Lookups along a stretched footprint, at most.
+/// Maximum number of lookups along an elongated footprint.
 const STRETCH: f32 = 8.0;
 
-/// An image in several sizes.
+/// Mipmap: an image in several sizes.
 #[derive(Debug)]
 pub(super) struct SampledTexture {
-    /// Each half as large as the one before, the last a single pixel; sRGB and opacity, from the top row down.
+    /// Levels, each half as large as the previous one, down to a single pixel; sRGB and opacity, from the top row down.
     levels: Vec<TextureLevel>,
     /// Width and height (m) of one repetition.
     size: Vec2,
-    /// Whether it does not cover all of a surface.
+    /// Set if the texture has transparent pixels.
     holes: bool,
 }
 
@@ -28,7 +28,7 @@ struct TextureLevel {
     pixels: Vec<[u8; 4]>,
 }
 
-/// The texture of each material. Fails if a file cannot be read or a size is not positive.
+/// Loads the texture of each material. Fails if a file cannot be read or a size is not positive.
 pub(super) fn load(materials: &[Material]) -> Result<Vec<Option<SampledTexture>>> {
     materials.iter().map(|material| material.texture.as_ref().map(SampledTexture::read).transpose()).collect()
 }
@@ -55,12 +55,12 @@ impl SampledTexture {
         Ok(Self { levels, size: Vec2::new(texture.size[0] as f32, texture.size[1] as f32), holes })
     }
 
-    /// Whether it does not cover all of a surface.
+    /// Returns true if the texture has transparent pixels.
     pub(super) fn has_holes(&self) -> bool {
         self.holes
     }
 
-    /// Which size of the image has pixels as large as samples that are so far (m) from one another.
+    /// Returns the level whose pixels are as large as the given distances (m) between samples.
     pub(super) fn level_of(&self, beside: [Vec2; 2]) -> usize {
         let pixels = Vec2::new(self.levels[0].width as f32, self.levels[0].height as f32);
         let [across, along] = beside.map(|side| (side / self.size * pixels).length_squared());
@@ -68,15 +68,15 @@ impl SampledTexture {
         (level as usize).min(self.levels.len() - 1)
     }
 
-    /// The opacity at `uv` (m) in an image of this size, by number.
+    /// Returns the opacity at `uv` (m) in the image of this `level`.
     pub(super) fn alpha(&self, uv: Vec2, level: usize) -> f32 {
         self.levels[level].mix(uv / self.size, |pixel| Vec4::splat(f32::from(pixel[3]) / 255.0)).w
     }
 
-    /// The linear colour at `uv` (m), averaged over the footprint with the sides `across` and `along` (m), as far as
-    /// there is something.
+    /// Returns the linear colour at `uv` (m), averaged over the footprint with the sides `across` and `along` (m) and
+    /// weighted by opacity.
     ///
-    /// The size of the image that is looked up follows the shorter side; several lookups follow the longer.
+    /// The shorter side selects the level; several lookups cover the longer side.
     pub(super) fn color(&self, uv: Vec2, across: Vec2, along: Vec2) -> Vec3 {
         let pixels = Vec2::new(self.levels[0].width as f32, self.levels[0].height as f32);
         let (mut long, mut short) = (across / self.size, along / self.size);
@@ -104,7 +104,7 @@ impl SampledTexture {
     }
 }
 
-/// The image of a texture, from its file unless it has none.
+/// Decodes the image of a texture, from its content if it has no file.
 fn open(texture: &burgeon_scene::Texture) -> Result<Image> {
     match &texture.content {
         Some(content) => image::decode(content),
@@ -118,7 +118,7 @@ fn read(texture: &burgeon_scene::Texture) -> std::io::Result<Vec<u8>> {
     Ok(bytes)
 }
 
-/// The linear colour of a pixel times its opacity, and the opacity.
+/// Converts a pixel to a linear colour times its opacity, and the opacity.
 fn linear([red, green, blue, alpha]: [u8; 4]) -> Vec4 {
     let color = [red, green, blue].map(|byte| tone::decode(f32::from(byte) / 255.0));
     let alpha = f32::from(alpha) / 255.0;
@@ -126,18 +126,18 @@ fn linear([red, green, blue, alpha]: [u8; 4]) -> Vec4 {
 }
 
 impl TextureLevel {
-    /// The linear colour of a pixel times its opacity, and the opacity.
+    /// Returns a pixel as a linear colour times its opacity, and the opacity.
     fn linear(&self, x: usize, y: usize) -> Vec4 {
         linear(self.pixels[y * self.width + x])
     }
 
-    /// The colour at `at`, in repetitions to the right and upwards, mixed from the four nearest pixels, times its
-    /// opacity, and the opacity.
+    /// Returns the colour at `at` (repetitions to the right and upwards), interpolated from the four nearest pixels,
+    /// times its opacity, and the opacity.
     fn color(&self, at: Vec2) -> Vec4 {
         self.mix(at, linear)
     }
 
-    /// What `value` makes of the four pixels nearest to `at`, mixed.
+    /// Interpolates the results of `value` for the four pixels nearest to `at`.
     #[inline]
     fn mix(&self, at: Vec2, value: impl Fn([u8; 4]) -> Vec4) -> Vec4 {
         let x = (at.x - at.x.floor()) * self.width as f32 - 0.5;
@@ -152,7 +152,7 @@ impl TextureLevel {
         upper.lerp(lower, ty)
     }
 
-    /// The image at half the size; `None` for a single pixel.
+    /// Returns the image at half the size; `None` for a single pixel.
     fn half(&self) -> Option<Self> {
         if self.width <= 1 && self.height <= 1 {
             return None;
@@ -165,7 +165,7 @@ impl TextureLevel {
                 + self.linear(right, y)
                 + self.linear(x, bottom)
                 + self.linear(right, bottom);
-            // What is not seen has no part in the colour.
+            // Transparent pixels do not contribute to the colour.
             let [red, green, blue] =
                 (sum.truncate() / sum.w.max(f32::MIN_POSITIVE)).to_array().map(tone::encode);
             [red, green, blue, (sum.w / 4.0 * 255.0 + 0.5) as u8]

@@ -1,11 +1,11 @@
-//! From light to the colours of a screen.
+//! Tone mapping: converts light to display colours.
 
 use glam::Vec3;
 
-/// Compresses light of any strength to 0 to 1, keeping hue and saturation of what is not glaring.
+/// Compresses light of any strength to 0 to 1, preserving the hue and saturation of colours that are not glaring.
 ///
-/// Method: Khronos Group, "PBR Neutral Tone Mapper", 2024, with half of its contrast in the shadows, which
-/// makes dark colours too strong.
+/// Method: Khronos Group, "PBR Neutral Tone Mapper", 2024, with half of its contrast in the shadows, because the full
+/// contrast makes dark colours too strong.
 pub(super) fn compress(light: Vec3) -> Vec3 {
     const START: f32 = 0.8 - 0.02;
     const DESATURATION: f32 = 0.15;
@@ -23,14 +23,14 @@ pub(super) fn compress(light: Vec3) -> Vec3 {
     (light * (compressed / peak)).lerp(Vec3::splat(compressed), faded)
 }
 
-/// The sRGB byte of a linear value from 0 to 1.
+/// Converts a linear value from 0 to 1 to an sRGB byte.
 pub(super) fn encode(linear: f32) -> u8 {
     let x = linear.clamp(0.0, 1.0);
     let curved = if x <= 0.003_130_8 { 12.92 * x } else { 1.055 * x.powf(1.0 / 2.4) - 0.055 };
     (curved * 255.0 + 0.5) as u8
 }
 
-/// The linear value, 0 to 1, of an sRGB value from 0 to 1.
+/// Converts an sRGB value from 0 to 1 to a linear value.
 pub(super) fn decode(curved: f32) -> f32 {
     if curved <= 0.040_45 { curved / 12.92 } else { ((curved + 0.055) / 1.055).powf(2.4) }
 }

@@ -1,34 +1,33 @@
-//! Where to look from: the viewpoint that shows a model of unknown shape best.
+//! Default viewpoint, chosen from the shape of the model.
 
 use super::super::settings::Picture;
 use glam::{DMat3, DVec3, Vec3A};
 
-/// A standing model is flat if its thickness is below this part of its next larger extent.
+/// Maximum thickness of a flat vertical model, relative to its next larger extent.
 const WALL: f64 = 0.15;
-/// The same for a lying model; what is higher has sides worth seeing.
+/// Maximum relative thickness of a flat horizontal model. A higher model has sides worth showing.
 const PLAN: f64 = 0.02;
-/// The same for what is flat, as a map is.
+/// Maximum relative thickness of a model that is shown as a plan, such as a map.
 const FLAT: f64 = 0.002;
 
-/// The direction to the camera.
+/// Direction to the camera.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Viewpoint {
-    /// From north clockwise (rad).
+    /// Azimuth from north, clockwise (rad).
     pub azimuth: f64,
-    /// Above the horizon (rad).
+    /// Elevation above the horizon (rad).
     pub elevation: f64,
 }
 
 impl Viewpoint {
-    /// The unit vector towards the camera.
+    /// Returns the unit vector towards the camera.
     pub(super) fn direction(self) -> DVec3 {
         let (sin, cos) = self.azimuth.sin_cos();
         DVec3::new(sin * self.elevation.cos(), cos * self.elevation.cos(), self.elevation.sin())
     }
 }
 
-/// The viewpoint that `picture` asks for, and where it asks for nothing, the one that suits a model with this
-/// `hull`.
+/// Returns the viewpoint that `picture` specifies. Unspecified angles are chosen to suit a model with this `hull`.
 pub(super) fn viewpoint(hull: &[Vec3A], picture: &Picture) -> Viewpoint {
     let points: Vec<DVec3> = hull.iter().map(|point| point.as_dvec3()).collect();
     let (azimuth, elevation) = suitable(&points);
@@ -38,11 +37,11 @@ pub(super) fn viewpoint(hull: &[Vec3A], picture: &Picture) -> Viewpoint {
     }
 }
 
-/// Azimuth and elevation (degrees) from which `points` are seen well.
+/// Returns the azimuth and elevation (degrees) from which `points` are seen well.
 fn suitable(points: &[DVec3]) -> (f64, f64) {
     let (normal, thickness, breadth) = thinnest(points);
     if thickness < WALL * breadth && normal.z.abs() < 0.5 {
-        // A standing curve or wall is seen from in front, a little from the side to show that it has depth.
+        // A vertical curve or wall is shown from the front, slightly from the side to reveal its depth.
         let toward =
             if normal.y > 0.0 || (normal.y.abs() < 1e-6 && normal.x < 0.0) { -normal } else { normal };
         return (toward.x.atan2(toward.y).to_degrees().rem_euclid(360.0) - 12.0, 10.0);
@@ -57,11 +56,11 @@ fn suitable(points: &[DVec3]) -> (f64, f64) {
     let extent = |axis: DVec3| reach(points, axis).1;
     let wide = extent(DVec3::X).max(extent(DVec3::Y)).max(1e-9);
     let slender = (extent(DVec3::Z) / wide).clamp(0.1, 3.0);
-    // From 38 degrees for a low city through 22 for a cube to 14 for a tower.
+    // From 38 degrees for a low city to 22 for a cube and 14 for a tower.
     (150.0, 22.0 - 16.0 * slender.log10() * if slender < 1.0 { 1.0 } else { 1.05 })
 }
 
-/// The direction in which `points` reach least, how far they reach in it, and the next larger extent.
+/// Returns the direction of the smallest extent of `points`, that extent, and the next larger extent.
 fn thinnest(points: &[DVec3]) -> (DVec3, f64, f64) {
     let axes = principal_axes(points);
     let mut extents: Vec<(f64, DVec3)> = axes.into_iter().map(|axis| (reach(points, axis).1, axis)).collect();
@@ -69,7 +68,7 @@ fn thinnest(points: &[DVec3]) -> (DVec3, f64, f64) {
     (extents[0].1, extents[0].0, extents[1].0)
 }
 
-/// The least coordinate of `points` along `axis` and the distance from it to the greatest.
+/// Returns the minimum coordinate of `points` along `axis`, and the distance to the maximum.
 fn reach(points: &[DVec3], axis: DVec3) -> (f64, f64) {
     let (low, high) = points
         .iter()
@@ -78,7 +77,7 @@ fn reach(points: &[DVec3], axis: DVec3) -> (f64, f64) {
     (low, (high - low).max(0.0))
 }
 
-/// The eigenvectors of the points' covariance, by Jacobi rotations.
+/// Returns the eigenvectors of the points' covariance, computed by Jacobi rotations.
 fn principal_axes(points: &[DVec3]) -> [DVec3; 3] {
     let mean = points.iter().sum::<DVec3>() / points.len().max(1) as f64;
     let mut matrix = DMat3::ZERO;

@@ -1,4 +1,4 @@
-//! Which triangle each sample of the camera sees.
+//! Visibility: the triangle that each sample of the camera sees.
 
 use super::camera::Camera;
 use super::coverage::Coverage;
@@ -10,17 +10,17 @@ use rayon::prelude::*;
 use std::ops::Range;
 use std::sync::atomic::{AtomicU64, Ordering};
 
-/// A sample that sees no triangle.
+/// Value of a sample that sees no triangle.
 const NOTHING: u64 = u64::MAX;
 
-/// The samples of some rows of pixels.
+/// Samples of some rows of pixels.
 pub(super) struct Visible {
-    /// The first row of pixels.
+    /// First row of pixels.
     pub first: usize,
-    /// Depth in the upper half, the triangle's number in the lower: the least is in front, and of two at the
-    /// same depth the earlier, whichever thread comes first.
+    /// Depth in the upper half, the triangle's number in the lower half. The minimum is the front triangle; of two
+    /// triangles at the same depth, the one with the lower number, independent of the order of threads.
     samples: Vec<AtomicU64>,
-    /// Samples in a row.
+    /// Number of samples in a row.
     stride: usize,
     columns: usize,
     rows: usize,
@@ -28,7 +28,7 @@ pub(super) struct Visible {
 }
 
 impl Visible {
-    /// Looks at `stage` through the rows `pixels` of a picture that is `width` pixels wide.
+    /// Draws `stage` in the rows `pixels` of an image that is `width` pixels wide.
     pub(super) fn new(
         stage: &Stage,
         camera: &Camera,
@@ -51,7 +51,7 @@ impl Visible {
             stage.each_triangle(numbers, &camera.view, project, near, |draw, triangle| {
                 let [a, b, c] = triangle.corners;
                 let turn = (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
-                // Outside faces run clockwise on the picture, whose y points down, unless they are mirrored.
+                // Front faces are clockwise in the image, whose y axis points down, unless they are mirrored.
                 if ((turn > 0.0) != draw.mirrored) && !draw.double_sided {
                     return;
                 }
@@ -72,8 +72,8 @@ impl Visible {
         Self { first: pixels.start, samples, stride, columns, rows, shifts }
     }
 
-    /// Calls `see` with the triangle's number, if any, and the place (pixels) of each sample of a pixel; `y`
-    /// is counted in the whole picture.
+    /// Calls `see` for each sample of a pixel, with the triangle's number, if any, and the sample's position (pixels);
+    /// `y` counts from the top of the whole image.
     pub(super) fn each_sample(&self, x: usize, y: usize, mut see: impl FnMut(Option<u32>, [f32; 2])) {
         for row in 0..self.rows {
             let start = ((y - self.first) * self.rows + row) * self.stride + x * self.columns;
@@ -91,7 +91,7 @@ impl Visible {
     }
 }
 
-/// How far (1/256 sample) each of `rows` rows is shifted, so that a steep edge passes one sample at a time.
+/// Returns the offset (1/256 sample) of each of `rows` rows, chosen so that a steep edge crosses one sample at a time.
 /// The order is that of reversed bits, which keeps neighbouring rows apart.
 fn shifts(rows: usize) -> Vec<f64> {
     let bits = rows.trailing_zeros();

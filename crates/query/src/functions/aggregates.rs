@@ -1,4 +1,4 @@
-//! Functions of all rows of a group.
+//! Aggregate functions of geometries.
 
 use std::panic::AssertUnwindSafe;
 use std::sync::Arc;
@@ -11,15 +11,15 @@ use super::call::{FunctionResult, value};
 use crate::connection::ConnectionState;
 use burgeon_spatial::Geometry;
 
-/// Their names.
+/// Names of the functions.
 pub(super) const NAMES: [&str; 2] = ["ST_Collect", "ST_Union"];
 
-/// What is made of the geometries of a group.
+/// The way in which the geometries of a group are combined.
 #[derive(Clone, Copy)]
 enum Gathering {
-    /// They stay as they are, beside each other.
+    /// Collection of the unchanged geometries.
     Collect,
-    /// They become one.
+    /// Union of the geometries.
     Union,
 }
 
@@ -28,7 +28,7 @@ struct GeometryGathering {
     gathering: Gathering,
 }
 
-/// The geometries so far, and the memory that they take.
+/// The geometries so far, and the size (bytes) of their blobs.
 type GeometryGroup = AssertUnwindSafe<(Vec<Geometry>, usize)>;
 
 fn failed(message: String) -> rusqlite::Error {
@@ -77,10 +77,10 @@ impl Aggregate<GeometryGroup, Value> for GeometryGathering {
     }
 }
 
-/// The most that is gathered (bytes).
+/// Maximum size (bytes) of a group's geometries.
 const MOST_BYTES: usize = 200_000_000;
 
-/// Gives a connection these functions.
+/// Registers the functions with a connection.
 pub(super) fn register(connection: &Connection, state: &Arc<ConnectionState>) -> rusqlite::Result<()> {
     let flags = FunctionFlags::SQLITE_UTF8 | FunctionFlags::SQLITE_DETERMINISTIC;
     for (name, gathering) in NAMES.into_iter().zip([Gathering::Collect, Gathering::Union]) {

@@ -1,4 +1,4 @@
-//! A geometry as functions get it.
+//! Geometry arguments of functions.
 
 use std::sync::OnceLock;
 
@@ -7,27 +7,27 @@ use burgeon_spatial::{Geometry, PreparedGeometry};
 
 use crate::{blob, plane};
 
-/// A geometry that was read, and what was made of it.
+/// A geometry that was read, and values derived from it on demand.
 #[derive(Debug)]
 pub(crate) struct GeometryArgument {
-    /// The geometry.
+    /// Geometry.
     pub geometry: Geometry,
     flat: OnceLock<geo::Geometry<f64>>,
     prepared: OnceLock<PreparedGeometry>,
 }
 
 impl GeometryArgument {
-    /// The geometry in a blob. Fails with the reason.
+    /// Reads the geometry in a blob. Fails with the reason.
     pub(crate) fn read(bytes: &[u8], budget: &Budget) -> Result<Self, String> {
         blob::read(bytes, budget).map(Self::from)
     }
 
-    /// The geometry as seen from above.
+    /// Returns the geometry in two dimensions, in `geo`'s types.
     pub(crate) fn flat(&self) -> &geo::Geometry<f64> {
         self.flat.get_or_init(|| plane::flat(&self.geometry))
     }
 
-    /// The geometry, ready to be compared with others.
+    /// Returns the geometry prepared for comparisons with others.
     pub(crate) fn prepared(&self) -> &PreparedGeometry {
         self.prepared.get_or_init(|| PreparedGeometry::new(&self.geometry))
     }

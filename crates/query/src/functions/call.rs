@@ -1,4 +1,4 @@
-//! One call of a function: its arguments on the way in, its result on the way out.
+//! Calls of a function: reading arguments and writing the result.
 
 use std::rc::Rc;
 use std::sync::Arc;
@@ -15,21 +15,21 @@ use crate::index::SpatialIndex;
 use burgeon_base::locks::LockRecovery;
 use burgeon_spatial::Geometry;
 
-/// What a function gives.
+/// The result of a function.
 pub(crate) enum FunctionResult {
-    /// NULL.
+    /// Null.
     Nothing,
-    /// True or false.
+    /// Boolean.
     Boolean(bool),
-    /// A number.
+    /// Number.
     Number(f64),
-    /// A whole number.
+    /// Integer.
     Count(usize),
-    /// Text.
+    /// String.
     Text(String),
-    /// A geometry, in the reference system of the arguments.
+    /// Geometry, in the reference system of the arguments.
     Geometry(Geometry),
-    /// A geometry in the reference system with a code, or in the run's.
+    /// Geometry in the reference system with a code, or in the run's.
     Placed(Geometry, Option<u32>),
     /// Bytes.
     Bytes(Vec<u8>),
@@ -48,12 +48,12 @@ pub(crate) struct FunctionCall<'a> {
     state: &'a ConnectionState,
 }
 
-/// An error that a statement ends with.
+/// Creates the error with which a statement ends.
 fn failed(message: String) -> rusqlite::Error {
     rusqlite::Error::UserFunctionError(message.into())
 }
 
-/// Runs a function.
+/// Runs a function. Returns null if an argument is null.
 pub(super) fn run(
     function: &'static SpatialFunction,
     context: &Context<'_>,
@@ -73,7 +73,8 @@ pub(super) fn run(
     }
 }
 
-/// The reference system that all geometries among the arguments have, if it is not the run's. Fails if they have several.
+/// Returns the common reference system of all geometry arguments, if it is not the run's. Fails if they have different
+/// ones.
 fn foreign(context: &Context<'_>) -> Result<Option<u32>, String> {
     let mut found: Option<Option<u32>> = None;
     for index in 0..context.len() {
@@ -87,7 +88,7 @@ fn foreign(context: &Context<'_>) -> Result<Option<u32>, String> {
     Ok(found.flatten())
 }
 
-/// Runs a function that gives a list of geometries.
+/// Runs a function that returns a list of geometries.
 pub(super) fn run_list(
     context: &Context<'_>,
     state: &ConnectionState,
@@ -111,7 +112,7 @@ pub(super) fn run_list(
     Ok(KeyList(Rc::new(values)))
 }
 
-/// What SQLite gets.
+/// Converts a result to a value of SQLite.
 pub(super) fn value(output: FunctionResult) -> rusqlite::Result<Value> {
     Ok(match output {
         FunctionResult::Nothing => Value::Null,
@@ -126,7 +127,7 @@ pub(super) fn value(output: FunctionResult) -> rusqlite::Result<Value> {
 }
 
 impl FunctionCall<'_> {
-    /// How many arguments there are.
+    /// Returns the number of arguments.
     pub(super) fn len(&self) -> usize {
         self.context.len()
     }
@@ -146,20 +147,20 @@ impl FunctionCall<'_> {
         )
     }
 
-    /// Why a geometry is none that the function takes.
+    /// Returns the message that a geometry is not of the required type.
     pub(super) fn wrong_geometry(&self, index: usize, wanted: &str) -> String {
         let (name, takes) = (self.function.name, self.function.takes);
         format!("argument {} must be {wanted}: {name}{takes}", index + 1)
     }
 
-    /// A geometry.
+    /// Returns an argument as a geometry.
     pub(super) fn geometry(&self, index: usize) -> Result<Arc<GeometryArgument>, String> {
         match self.context.get_raw(index) {
             ValueRef::Blob(bytes) => {
                 let read = self.state.geometry(bytes);
                 read.map_err(|why| format!("the geometry of argument {} {why}", index + 1))
             }
-            // As PostGIS takes it.
+            // PostGIS also accepts well-known text.
             ValueRef::Text(text) => {
                 let text = std::str::from_utf8(text).map_err(|_| self.wrong(index, "a geometry"))?;
                 let read = Geometry::from_wkt_within(text, &self.state.budget());
@@ -170,7 +171,7 @@ impl FunctionCall<'_> {
         }
     }
 
-    /// The bounds of a geometry, if it has any.
+    /// Returns the bounds of a geometry argument, if it is not empty.
     pub(super) fn bounds(&self, index: usize) -> Result<Option<[f64; 4]>, String> {
         if let ValueRef::Blob(bytes) = self.context.get_raw(index)
             && let Some(bounds) = blob::told_bounds(bytes)
@@ -181,17 +182,17 @@ impl FunctionCall<'_> {
         Ok(bounds(&parsed))
     }
 
-    /// A number.
+    /// Returns an argument as a number.
     pub(super) fn number(&self, index: usize) -> Result<f64, String> {
         number(self.context.get_raw(index)).ok_or_else(|| self.wrong(index, "a number"))
     }
 
-    /// The same, or `other` if there is no such argument.
+    /// Returns an argument as a number, or `other` if there is no such argument.
     pub(super) fn number_or(&self, index: usize, other: f64) -> Result<f64, String> {
         if index < self.len() { self.number(index) } else { Ok(other) }
     }
 
-    /// Text.
+    /// Returns an argument as a string.
     pub(super) fn text(&self, index: usize) -> Result<&str, String> {
         match self.context.get_raw(index) {
             ValueRef::Text(text) => std::str::from_utf8(text).map_err(|_| self.wrong(index, "a text")),
@@ -199,7 +200,7 @@ impl FunctionCall<'_> {
         }
     }
 
-    /// Bytes.
+    /// Returns an argument as bytes.
     pub(super) fn bytes(&self, index: usize) -> Result<&[u8], String> {
         match self.context.get_raw(index) {
             ValueRef::Blob(bytes) => Ok(bytes),
@@ -207,7 +208,7 @@ impl FunctionCall<'_> {
         }
     }
 
-    /// The code of the reference system of a geometry, if it is not the run's.
+    /// Returns the code of the reference system of a geometry argument, if it is not the run's.
     pub(super) fn foreign(&self, index: usize) -> Option<u32> {
         match self.context.get_raw(index) {
             ValueRef::Blob(bytes) => blob::foreign(bytes),
@@ -215,12 +216,12 @@ impl FunctionCall<'_> {
         }
     }
 
-    /// What a connection knows.
+    /// Returns the state of the connection.
     pub(super) fn state(&self) -> &ConnectionState {
         self.state
     }
 
-    /// What may be taken.
+    /// Returns the budget of the statement.
     pub(super) fn budget(&self) -> Arc<burgeon_base::budget::Budget> {
         self.state.budget()
     }
@@ -240,7 +241,7 @@ fn bounds(parsed: &GeometryArgument) -> Option<[f64; 4]> {
     Some([low.x, low.y, high.x, high.y])
 }
 
-/// The greatest of the arguments that are not NULL, or the least.
+/// Returns the greatest or the least of the arguments that are not null.
 pub(super) fn extreme(context: &Context<'_>, greater: bool) -> rusqlite::Result<Value> {
     let mut best: Option<Value> = None;
     for index in 0..context.len() {
@@ -265,7 +266,7 @@ pub(super) fn extreme(context: &Context<'_>, greater: bool) -> rusqlite::Result<
     Ok(best.unwrap_or(Value::Null))
 }
 
-/// Gives a connection the functions that statements are rewritten with.
+/// Registers the functions that rewritten statements use to query indexes.
 pub(super) fn register_index(connection: &Connection, state: &Arc<ConnectionState>) -> rusqlite::Result<()> {
     let flags = FunctionFlags::SQLITE_UTF8 | FunctionFlags::SQLITE_DETERMINISTIC;
     let own = Arc::clone(state);
@@ -302,10 +303,10 @@ pub(super) fn register_index(connection: &Connection, state: &Arc<ConnectionStat
     })
 }
 
-/// The index that the first argument names.
+/// Returns the index that the first argument names.
 fn index(context: &Context<'_>, state: &ConnectionState) -> rusqlite::Result<Arc<SpatialIndex>> {
     state.budget().tick().map_err(|error| failed(error.message().to_owned()))?;
-    // Kept as long as the statement runs.
+    // SQLite keeps the auxiliary data while the statement runs.
     let found = context.get_or_create_aux(0, |name| -> Result<Arc<SpatialIndex>, rusqlite::Error> {
         let name = name.as_str().map_err(|error| failed(error.to_string()))?;
         if let Some(own) = state.own_indexes.lock().recover().get(name) {
@@ -317,7 +318,7 @@ fn index(context: &Context<'_>, state: &ConnectionState) -> rusqlite::Result<Arc
     Ok(Arc::clone(&found))
 }
 
-/// The geometry of the second argument.
+/// Returns the geometry of the second argument.
 fn geometry(
     context: &Context<'_>,
     state: &ConnectionState,
@@ -340,7 +341,7 @@ fn geometry(
     }
 }
 
-/// The bounds of the second argument, which may be empty; nothing if it is NULL.
+/// Returns the bounds of the second argument, where the inner `None` is an empty geometry and the outer one null.
 fn asked(context: &Context<'_>, state: &ConnectionState) -> rusqlite::Result<Option<Option<[f64; 4]>>> {
     if let ValueRef::Blob(bytes) = context.get_raw(1)
         && blob::foreign(bytes).is_none()
@@ -351,12 +352,12 @@ fn asked(context: &Context<'_>, state: &ConnectionState) -> rusqlite::Result<Opt
     Ok(geometry(context, state)?.map(|parsed| bounds(&parsed)))
 }
 
-/// Keys as a list that a statement reads.
+/// Returns keys as a list for `rarray`.
 pub(super) fn keys(keys: &[i64]) -> KeyList {
     KeyList(Rc::new(keys.iter().map(|key| Value::Integer(*key)).collect()))
 }
 
-/// A list that a statement reads.
+/// A list for `rarray`.
 pub(super) struct KeyList(pub(super) Array);
 
 impl rusqlite::ToSql for KeyList {

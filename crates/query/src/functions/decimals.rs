@@ -1,6 +1,6 @@
-//! Numbers as decimal texts: as PostgreSQL and PostGIS write them, and rounded as people do.
+//! Decimal notation of numbers: formatted as PostgreSQL and PostGIS do, and rounded half away from zero.
 
-/// The digits of a number, without zeros at the end, and the power of ten of the first of them.
+/// The digits of a number, without trailing zeros, and the power of ten of the first digit.
 struct Digits {
     negative: bool,
     digits: Vec<u8>,
@@ -8,7 +8,7 @@ struct Digits {
 }
 
 impl Digits {
-    /// The fewest digits that tell a finite number from all others.
+    /// Returns the fewest digits that identify a finite number.
     fn shortest(number: f64) -> Self {
         let text = format!("{:e}", number.abs());
         let (mantissa, exponent) = text.split_once('e').unwrap_or((&text, "0"));
@@ -16,7 +16,7 @@ impl Digits {
         Self { negative: number.is_sign_negative(), digits, exponent: exponent.parse().unwrap_or(0) }
     }
 
-    /// Rounds to so many digits behind the point, which may be negative; what lies in the middle away from zero.
+    /// Rounds to `decimals` digits after the point, which may be negative; halves are rounded away from zero.
     fn round(&mut self, decimals: i32) {
         let count = i64::from(self.exponent) + 1 + i64::from(decimals);
         let Ok(count) = usize::try_from(count) else {
@@ -58,7 +58,7 @@ impl Digits {
         self.digits.iter().all(|digit| *digit == 0)
     }
 
-    /// Without an exponent.
+    /// Writes the number without an exponent.
     fn plain(&self) -> String {
         let mut text = String::new();
         let digit = |index: i32| {
@@ -81,7 +81,7 @@ impl Digits {
         text
     }
 
-    /// With an exponent of at least `width` digits.
+    /// Writes the number with an exponent of at least `width` digits.
     fn scientific(&self, width: usize) -> String {
         let mut text = String::new();
         for (index, digit) in self.digits.iter().enumerate() {
@@ -95,7 +95,7 @@ impl Digits {
     }
 }
 
-/// A number as PostgreSQL writes a `double precision`.
+/// Formats a number like a `double precision` of PostgreSQL.
 pub(super) fn float_text(number: f64) -> String {
     if number.is_nan() {
         return "NaN".into();
@@ -112,7 +112,7 @@ pub(super) fn float_text(number: f64) -> String {
     if digits.negative { format!("-{text}") } else { text }
 }
 
-/// A coordinate as PostGIS writes it, with at most so many digits behind the point.
+/// Formats a coordinate like PostGIS, with at most `decimals` digits after the point.
 pub(super) fn coordinate_text(number: f64, decimals: i32) -> String {
     let mut digits = Digits::shortest(number);
     let large = number.abs() <= 1e-8 || number.abs() >= 1e15;
@@ -120,7 +120,7 @@ pub(super) fn coordinate_text(number: f64, decimals: i32) -> String {
         return "0".into();
     }
     let text = if large {
-        // The digits of the mantissa are counted then.
+        // In this notation, `decimals` applies to the mantissa.
         let exponent = std::mem::take(&mut digits.exponent);
         digits.round(decimals);
         digits.exponent += exponent;
@@ -132,7 +132,7 @@ pub(super) fn coordinate_text(number: f64, decimals: i32) -> String {
     if digits.negative && !digits.is_zero() { format!("-{text}") } else { text }
 }
 
-/// A number rounded to so many digits behind the point as `numeric` is: what lies in the middle goes away from zero.
+/// Rounds a number to `decimals` digits after the point like a `numeric`: halves are rounded away from zero.
 pub(super) fn round_decimal(number: f64, decimals: i32) -> f64 {
     if !number.is_finite() {
         return number;
@@ -143,7 +143,7 @@ pub(super) fn round_decimal(number: f64, decimals: i32) -> f64 {
     if digits.negative && rounded != 0.0 { -rounded } else { rounded }
 }
 
-/// A `double precision` as `numeric`, which has 15 digits of it.
+/// Converts a `double precision` to `numeric`, which keeps 15 digits.
 pub(super) fn as_numeric(number: f64) -> f64 {
     if number.is_finite() { format!("{number:.14e}").parse().unwrap_or(number) } else { number }
 }

@@ -1,4 +1,4 @@
-//! Where geometries come from, and the forms in which they go out.
+//! Functions that create geometries, and functions that convert them to other formats.
 
 use burgeon_data::Crs;
 use burgeon_geometry::Rings;
@@ -9,7 +9,7 @@ use super::parts::sound;
 use super::table::{ONE, function};
 use super::{FunctionCall, FunctionResult, SpatialFunction};
 
-/// Where geometries come from, and what is read of them.
+/// Functions for creating and converting geometries.
 pub(super) const FORMS: &[SpatialFunction] = &[
     function("ST_MakePoint", (2, 3), "(east, north [, up])", "geometry", "A point.", point),
     function("ST_Point", (2, 3), "(east, north [, srid])", "geometry", "A point.", |call| {
@@ -148,14 +148,14 @@ fn point(call: &FunctionCall<'_>) -> Result<FunctionResult, String> {
     sound(Geometry::point(DVec3::new(call.number(0)?, call.number(1)?, call.number_or(2, 0.0)?)))
 }
 
-/// A geometry in the reference system whose code is the argument `index`, if there is one.
+/// Returns a geometry in the reference system of argument `index`, if there is such an argument.
 fn placed(call: &FunctionCall<'_>, index: usize, geometry: Geometry) -> Result<FunctionResult, String> {
     geometry.check().map_err(|error| error.message().to_owned())?;
     let own = if index < call.len() { code(call, index)? } else { call.foreign(0) };
     Ok(FunctionResult::Placed(geometry, own))
 }
 
-/// A code of EPSG's; nothing if it is that of the run, or 0, or if the run has no projection.
+/// Reads an EPSG code. Returns `None` if it is the run's or 0, or if the run has no projection.
 fn code(call: &FunctionCall<'_>, index: usize) -> Result<Option<u32>, String> {
     let number = call.number(index)?;
     if number.fract() != 0.0 || !(0.0..1e6).contains(&number) {
@@ -171,7 +171,7 @@ fn code(call: &FunctionCall<'_>, index: usize) -> Result<Option<u32>, String> {
     Ok(Some(code))
 }
 
-/// The digits behind the point that the second argument asks for.
+/// Returns the number of digits after the point in the second argument, or `other`.
 fn digits(call: &FunctionCall<'_>, other: i32) -> Result<i32, String> {
     let number = call.number_or(1, f64::from(other))?;
     #[allow(clippy::cast_possible_truncation, reason = "it is small then")]

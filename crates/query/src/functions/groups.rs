@@ -1,4 +1,4 @@
-//! Functions of all rows of a group besides those that gather geometries: truth, lists, boxes and clusters.
+//! Aggregate functions that do not combine geometries: booleans, lists, boxes and clusters.
 
 use std::panic::AssertUnwindSafe;
 use std::sync::Arc;
@@ -20,18 +20,18 @@ use crate::connection::ConnectionState;
 use burgeon_base::budget::Budget;
 use burgeon_base::locks::LockRecovery;
 
-/// The names of those that statements may call, and of those that they are rewritten to.
+/// Names of the functions that statements may call, and of those in rewritten statements.
 pub(super) const NAMES: [&str; 7] =
     ["array_agg", BOOLEAN_LIST, "bool_and", "bool_or", "ST_Extent", "burgeon_clusters", "burgeon_cluster"];
 
-/// The name of `array_agg` where it gathers booleans.
+/// Name of `array_agg` in rewritten statements if it collects booleans.
 pub(crate) const BOOLEAN_LIST: &str = "burgeon_booleans";
 
 fn failed(message: impl Into<String>) -> rusqlite::Error {
     rusqlite::Error::UserFunctionError(message.into().into())
 }
 
-/// Whether all rows are true, or any.
+/// The aggregates `bool_and` and `bool_or`.
 struct Truth {
     all: bool,
 }
@@ -57,7 +57,7 @@ impl Aggregate<Option<bool>, Option<bool>> for Truth {
     }
 }
 
-/// A list of values, as JSON.
+/// The aggregate of a list of values, as JSON.
 struct List {
     booleans: bool,
     state: Arc<ConnectionState>,
@@ -92,7 +92,7 @@ impl Aggregate<String, Option<String>> for List {
     }
 }
 
-/// A text as JSON.
+/// Quotes a string as JSON.
 fn quoted(text: &str) -> String {
     let mut made = String::from("\"");
     for letter in text.chars() {
@@ -147,7 +147,7 @@ impl Aggregate<GroupExtent, Value> for ExtentOfAll {
             return Ok(Value::Null);
         };
         let at = |x: f64, y: f64| DVec3::new(x, y, 0.0);
-        // As PostGIS makes a geometry of a box.
+        // PostGIS converts a degenerate box to a point or a line.
         let made = if west == east && south == north {
             Geometry::point(at(west, south))
         } else if west == east || south == north {
@@ -160,7 +160,7 @@ impl Aggregate<GroupExtent, Value> for ExtentOfAll {
     }
 }
 
-/// The geometries of a partition, and the number of the clusters that were found in it.
+/// The geometries of a partition, and the number of the clusters found in it.
 #[derive(Default)]
 struct ClusterPartition {
     geometries: Vec<Option<Arc<GeometryArgument>>>,
@@ -258,13 +258,14 @@ impl WindowAggregate<AssertUnwindSafe<ClusterPartition>, Option<i64>> for Cluste
     }
 }
 
-/// Finds the clusters of points in dense places, and gives that of each row.
+/// Finds clusters of geometries by density, and returns the cluster of each row.
 ///
-/// A geometry with enough others around it belongs to the cluster of each such other that is near, and one with too few to
-/// the first cluster that comes near. Numbers follow the rows, as in PostGIS.
+/// A geometry with at least the minimum number of neighbours is a core, and joins the clusters of neighbouring cores.
+/// Other neighbours of a core join the first cluster that reaches them. Clusters are numbered in the order of the rows,
+/// as in PostGIS.
 ///
-/// Method: Ester, Kriegel, Sander and Xu, "A density-based algorithm for discovering clusters in large spatial databases
-/// with noise", 1996.
+/// Method: Ester, Kriegel, Sander and Xu, "A density-based algorithm for discovering clusters in large spatial
+/// databases with noise", 1996.
 fn clusters(partition: &ClusterPartition, budget: &Budget) -> Result<Vec<Option<u32>>, String> {
     let ClusterPartition { geometries, distance, least, .. } = partition;
     let boxed = |(index, geometry): (usize, &Option<Arc<GeometryArgument>>)| {
@@ -325,7 +326,7 @@ fn root(parents: &mut [usize], mut index: usize) -> usize {
     index
 }
 
-/// Puts the smaller of two sets into the larger one, and of equal ones the later into the earlier.
+/// Merges the smaller of two sets into the larger one, and of equally large sets the later one into the earlier one.
 fn unite(parents: &mut [usize], sizes: &mut [usize], a: usize, b: usize) {
     let (a, b) = (root(parents, a), root(parents, b));
     if a == b {
@@ -336,7 +337,7 @@ fn unite(parents: &mut [usize], sizes: &mut [usize], a: usize, b: usize) {
     sizes[to] += sizes[from];
 }
 
-/// Gives a connection all of them.
+/// Registers the functions with a connection.
 pub(super) fn register(connection: &Connection, state: &Arc<ConnectionState>) -> rusqlite::Result<()> {
     let flags = FunctionFlags::SQLITE_UTF8 | FunctionFlags::SQLITE_DETERMINISTIC;
     connection.create_aggregate_function("bool_and", 1, flags, Truth { all: true })?;
@@ -347,7 +348,7 @@ pub(super) fn register(connection: &Connection, state: &Arc<ConnectionState>) ->
     connection.create_aggregate_function("ST_Extent", 1, flags, ExtentOfAll { state: Arc::clone(state) })?;
     connection.create_window_function("burgeon_clusters", 3, flags, Clusters { state: Arc::clone(state) })?;
     let own = Arc::clone(state);
-    // Its first argument is another number in each run.
+    // The function is not deterministic, because its first argument differs between runs.
     let flags = FunctionFlags::SQLITE_UTF8;
     connection.create_scalar_function("burgeon_cluster", 2, flags, move |context| {
         let index = |place: usize| match context.get_raw(place) {

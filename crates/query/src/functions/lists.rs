@@ -1,4 +1,4 @@
-//! Functions that give several rows, as lists that `rarray` reads: the parts of geometries, and numbers.
+//! Functions that return several rows, as lists for `rarray`: the parts of geometries, and series of numbers.
 
 use std::rc::Rc;
 use std::sync::Arc;
@@ -14,7 +14,7 @@ use super::call::{KeyList, keys, run_list};
 use super::parts::members;
 use crate::connection::ConnectionState;
 
-/// The functions of PostGIS, and those that statements are rewritten to.
+/// Functions of PostGIS, and their names in rewritten statements.
 pub(crate) const NAMES: [(&str, &str); 6] = [
     ("st_dump", "burgeon_dump"),
     ("st_dumppoints", "burgeon_dump_points"),
@@ -24,10 +24,10 @@ pub(crate) const NAMES: [(&str, &str); 6] = [
     ("generate_series", "burgeon_series"),
 ];
 
-/// The most parts of a geometry, and numbers of a series.
+/// Maximum number of parts of a geometry, and of numbers of a series.
 const MOST: usize = 10_000_000;
 
-/// The single geometries of a geometry, in order.
+/// Collects the single geometries of a geometry, in order.
 fn singles(geometry: &Geometry, found: &mut Vec<Geometry>) {
     match geometry {
         Geometry::Collection(_)
@@ -46,7 +46,7 @@ fn parts(geometry: &Geometry, each: impl Fn(&Geometry, &mut Vec<Geometry>)) -> V
     found
 }
 
-/// The rings of polygons as lines that end where they begin, and lines as they are.
+/// Returns the rings of polygons as closed lines, and lines unchanged.
 fn lines(geometry: &Geometry) -> Vec<Vec<DVec3>> {
     let ring = |ring: &Vec<DVec3>| ring.iter().chain(ring.first()).copied().collect();
     match geometry {
@@ -57,7 +57,7 @@ fn lines(geometry: &Geometry) -> Vec<Vec<DVec3>> {
     }
 }
 
-/// The parts of a geometry of which none has more than `most` points, by halves of its box as PostGIS makes them.
+/// Divides a geometry into parts with at most `most` points, by halving its box as PostGIS does.
 fn subdivided(
     geometry: &Geometry,
     most: usize,
@@ -85,7 +85,7 @@ fn subdivided(
     let size = high - low;
     let along_x = size.x > size.y;
     let middle = (low + high) / 2.0;
-    // What lies on a border of a half belongs to both.
+    // Geometry on the common border of the halves belongs to both.
     for upper in [false, true] {
         let (mut from, mut to) = (low, high);
         let bound = if upper { &mut from } else { &mut to };
@@ -144,7 +144,7 @@ fn series(context: &Context<'_>) -> Result<KeyList, String> {
     Ok(KeyList(Rc::new(values)))
 }
 
-/// Gives a connection all of them.
+/// Registers the functions with a connection.
 pub(super) fn register(connection: &Connection, state: &Arc<ConnectionState>) -> rusqlite::Result<()> {
     type Parts = fn(&Geometry) -> Vec<Geometry>;
     let flags = FunctionFlags::SQLITE_UTF8 | FunctionFlags::SQLITE_DETERMINISTIC;

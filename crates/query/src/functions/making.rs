@@ -1,4 +1,4 @@
-//! What is made of geometries.
+//! Functions that derive geometries from others.
 
 use burgeon_geometry::Rings;
 use burgeon_spatial::{BufferCap, BufferJoin, BufferOptions, Geometry};
@@ -9,21 +9,21 @@ use super::parts::{closed, collected, members, place, sound};
 use super::table::{ONE, PAIR, function};
 use super::{FunctionCall, FunctionResult, SpatialFunction};
 
-/// A geometry made of one.
+/// Calls a method of one geometry that returns a geometry.
 macro_rules! made {
     ($method:ident) => {
         |call| Ok(FunctionResult::Geometry(call.geometry(0)?.geometry.$method()))
     };
 }
 
-/// A geometry made of two.
+/// Calls a method of two geometries that returns a geometry.
 macro_rules! made_of_two {
     ($method:ident) => {
         |call| Ok(FunctionResult::Geometry(call.geometry(0)?.geometry.$method(&call.geometry(1)?.geometry)))
     };
 }
 
-/// What is made of others.
+/// Functions that derive geometries from others.
 pub(super) const MAKERS: &[SpatialFunction] = &[
     function(
         "ST_Buffer",
@@ -330,7 +330,7 @@ fn boundary(geometry: &Geometry) -> Geometry {
     }
 }
 
-/// The ends that an odd number of lines have.
+/// Returns the ends that belong to an odd number of lines.
 fn ends(lines: &[Vec<DVec3>]) -> Geometry {
     let mut ends: Vec<DVec3> = Vec::new();
     for end in lines.iter().flat_map(|line| line.first().into_iter().chain(line.last())) {
@@ -349,7 +349,7 @@ fn end(geometry: &Geometry, first: bool) -> FunctionResult {
     found.map_or(FunctionResult::Nothing, |at| FunctionResult::Geometry(Geometry::point(*at)))
 }
 
-/// A number that counts from 1, or 0; nothing of a negative one.
+/// Returns a number that counts from 1, or 0, or `None` if it is negative.
 fn nth(call: &FunctionCall<'_>, index: usize) -> Result<Option<usize>, String> {
     let number = call.number(index)?;
     #[allow(
@@ -360,7 +360,7 @@ fn nth(call: &FunctionCall<'_>, index: usize) -> Result<Option<usize>, String> {
     Ok((number >= 0.0).then_some(number as usize))
 }
 
-/// The point at a part of a line's length, as seen from above.
+/// Returns the point at a fraction of a line's horizontal length.
 fn along(points: &[DVec3], part: f64) -> Option<DVec3> {
     let steps =
         || points.windows(2).map(|pair| (pair[0], pair[1], pair[0].truncate().distance(pair[1].truncate())));
@@ -409,7 +409,7 @@ fn reverse(geometry: &mut Geometry) {
     }
 }
 
-/// The options of a buffer, as PostGIS has them.
+/// Reads the options of a buffer, in PostGIS's notation.
 fn buffer_options(call: &FunctionCall<'_>) -> Result<BufferOptions, String> {
     let mut options = BufferOptions::default();
     let segments = |number: f64| {

@@ -1,4 +1,4 @@
-//! What is measured on a geometry, and told of it.
+//! Functions that measure and describe geometries.
 
 use burgeon_geometry::Rings;
 use burgeon_spatial::Geometry;
@@ -8,14 +8,14 @@ use super::parts::{members, place};
 use super::table::{ONE, function};
 use super::{FunctionCall, FunctionResult, SpatialFunction};
 
-/// One of the four bounds.
+/// Returns one of the four bounds.
 macro_rules! bound {
     ($index:literal) => {
         |call| Ok(call.bounds(0)?.map(|bounds| bounds[$index]).into())
     };
 }
 
-/// What is measured.
+/// Functions that measure and describe geometries.
 pub(super) const MEASURES: &[SpatialFunction] = &[
     function("ST_Area", (1, 1), ONE, "number", "The area of polygons; 0 of all else.", |call| {
         Ok(FunctionResult::Number(call.geometry(0)?.geometry.area()))
@@ -139,7 +139,7 @@ pub(super) const MEASURES: &[SpatialFunction] = &[
     ),
 ];
 
-/// The least and the greatest height, if there are heights.
+/// Returns the minimum and the maximum height, if there are heights.
 fn heights(call: &FunctionCall<'_>) -> Result<Option<[f64; 2]>, String> {
     let parsed = call.geometry(0)?;
     let all = || parsed.geometry.points().map(|point| point.z);

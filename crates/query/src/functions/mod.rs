@@ -1,7 +1,7 @@
-//! Functions for geometries, with the names and meanings of PostGIS.
+//! Functions of geometries, with the names and meanings of PostGIS.
 //!
-//! Each stands in one table with its name, what it takes and gives, and its help; SQLite gets them from there, and so does
-//! the book. Nothing comes of nothing: where an argument is NULL, so is the result.
+//! Each function is an entry of one table, with its name, arguments, result and help. SQLite and the book both use this
+//! table. If an argument is null, the result is null.
 
 mod aggregates;
 mod argument;

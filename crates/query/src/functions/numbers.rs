@@ -1,4 +1,5 @@
-//! Functions of numbers, which SQLite has only where it is built so, as PostgreSQL's: what has no value is an error.
+//! Functions of numbers like PostgreSQL's, because they are optional in SQLite. A result that does not exist is an
+//! error.
 
 use rusqlite::Connection;
 use rusqlite::functions::{Context, FunctionFlags};
@@ -6,13 +7,13 @@ use rusqlite::types::{Value, ValueRef};
 
 use super::texts::wrong;
 
-/// A function of one number, by its name.
+/// The name of a function of one number, and its implementation.
 type UnaryFunction = (&'static str, fn(f64) -> f64);
 
-/// A function of two.
+/// The name of a function of two numbers, and its implementation.
 type BinaryFunction = (&'static str, fn(f64, f64) -> f64);
 
-/// Those of one number.
+/// Functions of one number.
 const OF_ONE: [UnaryFunction; 26] = [
     ("acos", f64::acos),
     ("acosh", f64::acosh),
@@ -42,7 +43,7 @@ const OF_ONE: [UnaryFunction; 26] = [
     ("trunc", f64::trunc),
 ];
 
-/// Those of two.
+/// Functions of two numbers.
 const OF_TWO: [BinaryFunction; 5] = [
     ("atan2", f64::atan2),
     ("log", |base, number| number.ln() / base.ln()),
@@ -54,7 +55,7 @@ const OF_TWO: [BinaryFunction; 5] = [
     ("power", f64::powf),
 ];
 
-/// Gives a connection all of them.
+/// Registers the functions with a connection.
 pub(super) fn register(connection: &Connection) -> rusqlite::Result<()> {
     let flags = FunctionFlags::SQLITE_UTF8 | FunctionFlags::SQLITE_DETERMINISTIC;
     for (name, run) in OF_ONE {
@@ -69,7 +70,7 @@ pub(super) fn register(connection: &Connection) -> rusqlite::Result<()> {
     connection.create_scalar_function("pi", 0, flags, |_| Ok(std::f64::consts::PI))
 }
 
-/// What a function gives: NULL if an argument is. Fails if there is no such number.
+/// Returns the result of a function, or null if an argument is null. Fails if the result is not a finite number.
 fn called(context: &Context<'_>, name: &str, run: impl Fn([f64; 2]) -> f64) -> rusqlite::Result<Value> {
     let failed = |why: String| rusqlite::Error::UserFunctionError(format!("{name}: {why}").into());
     let mut numbers = [0.0; 2];

@@ -1,5 +1,5 @@
-//! Operators and casts as PostgreSQL has them, which statements are rewritten to: nothing is taken for a number that is
-//! none, numbers are rounded, and a division by zero is an error.
+//! Operators and casts with the meaning of PostgreSQL, for rewritten statements: strings are not implicitly converted
+//! to numbers, numbers are rounded, and a division by zero is an error.
 
 use rusqlite::Connection;
 use rusqlite::functions::{Context, FunctionFlags};
@@ -8,10 +8,10 @@ use rusqlite::types::{Value, ValueRef};
 use super::decimals::{as_numeric, float_text, round_decimal};
 use super::texts::{lower, wrong};
 
-/// Runs with arguments of which none is NULL.
+/// The body of an operator, which is called with arguments that are not null.
 type OperatorBody = fn(&Context<'_>) -> Result<Value, String>;
 
-/// The operators with the number of their arguments.
+/// Operators, with the number of their arguments.
 const OPERATORS: [(&str, i32, OperatorBody); 15] = [
     ("abs", 1, |context| {
         Ok(match whole_or_real(context, 0)? {
@@ -90,7 +90,7 @@ const OPERATORS: [(&str, i32, OperatorBody); 15] = [
     }),
 ];
 
-/// The names of those that only rewritten statements use.
+/// Returns the names of the functions that rewritten statements use.
 pub(super) fn names() -> impl Iterator<Item = &'static str> {
     OPERATORS.iter().map(|(name, ..)| *name).chain(["burgeon_like", "burgeon_ilike"])
 }
@@ -149,7 +149,7 @@ fn parse(text: &[u8], kind: &str) -> Result<f64, String> {
     number.ok_or_else(|| format!("invalid input syntax for type {kind}: {text:?}"))
 }
 
-/// A whole number: of a text that is one, and of any number as `round` has it.
+/// Converts an argument to an integer: a string must be an integer, and other numbers are rounded with `round`.
 fn whole(context: &Context<'_>, round: fn(f64) -> f64) -> Result<Value, String> {
     let number = match context.get_raw(0) {
         ValueRef::Integer(number) => return Ok(Value::Integer(number)),
@@ -167,7 +167,7 @@ fn whole(context: &Context<'_>, round: fn(f64) -> f64) -> Result<Value, String> 
     if number.abs() < 9.2e18 { Ok(Value::Integer(number as i64)) } else { Err("integer out of range".into()) }
 }
 
-/// Whether a text is like a pattern, in which `%` stands for any letters and `_` for one.
+/// Reports whether a string matches a pattern, in which `%` stands for any characters and `_` for one character.
 fn is_like(text: &[char], pattern: &[char], escape: Option<char>) -> Result<bool, String> {
     /// A part of a pattern.
     enum PatternPart {
@@ -188,7 +188,7 @@ fn is_like(text: &[char], pattern: &[char], escape: Option<char>) -> Result<bool
             letter => PatternPart::Letter(*letter),
         });
     }
-    // The last `%`, and where in the text what follows it was tried.
+    // The part after the last `%`, and the position in the text at which it was tried.
     let (mut at, mut part, mut last) = (0, 0, None);
     while at < text.len() {
         match parts.get(part) {
@@ -228,7 +228,7 @@ fn like(context: &Context<'_>, any_case: bool) -> Result<Value, String> {
     Ok(Value::Integer(i64::from(is_like(&text(0)?, &text(1)?, escape)?)))
 }
 
-/// Gives a connection all of them.
+/// Registers the functions with a connection.
 pub(super) fn register(connection: &Connection) -> rusqlite::Result<()> {
     let flags = FunctionFlags::SQLITE_UTF8 | FunctionFlags::SQLITE_DETERMINISTIC;
     let called = |context: &Context<'_>, name: &str, run: &dyn Fn() -> Result<Value, String>| {
@@ -279,7 +279,7 @@ mod tests {
             assert_eq!(like(text, pattern), Ok(false), "{text} {pattern}");
         }
         assert!(like("a", "b\\").is_ok() || like("a", "a\\").is_err());
-        // What would take forever by trying everything.
+        // A search by trying every combination would take too long here.
         assert_eq!(like(&"a".repeat(3000), &format!("{}b", "%a".repeat(200))), Ok(false));
     }
 }

@@ -1,11 +1,11 @@
-//! Parts of geometries, as several functions take them.
+//! Helpers for the parts of geometries.
 
 use burgeon_spatial::{Geometry, union_all};
 use glam::DVec3;
 
 use super::{FunctionCall, FunctionResult};
 
-/// The place of a point; nothing of an empty one. Fails for all else.
+/// Returns the position of a point argument, or `None` if it is empty. Fails for other geometries.
 pub(super) fn place(call: &FunctionCall<'_>, index: usize) -> Result<Option<DVec3>, String> {
     match &call.geometry(index)?.geometry {
         Geometry::Point(place) => Ok(*place),
@@ -13,7 +13,7 @@ pub(super) fn place(call: &FunctionCall<'_>, index: usize) -> Result<Option<DVec
     }
 }
 
-/// Its own geometries; itself if it is a single one.
+/// Returns the members of a geometry, or the geometry itself if it is a single one.
 pub(super) fn members(geometry: &Geometry) -> Vec<Geometry> {
     match geometry {
         Geometry::MultiPoint(points) => points.iter().map(|at| Geometry::point(*at)).collect(),
@@ -24,7 +24,7 @@ pub(super) fn members(geometry: &Geometry) -> Vec<Geometry> {
     }
 }
 
-/// Geometries beside each other: single ones of one kind as a multi form, others as a collection.
+/// Combines geometries: single ones of one type to a multi-geometry, others to a collection.
 pub(super) fn collected(geometries: Vec<Geometry>) -> Geometry {
     let same = geometries.windows(2).all(|pair| pair[0].kind() == pair[1].kind());
     let single = |geometry: &Geometry| {
@@ -51,7 +51,7 @@ pub(super) fn collected(geometries: Vec<Geometry>) -> Geometry {
     }
 }
 
-/// Single geometries as one: itself if there is one alone.
+/// Combines single geometries, or returns the geometry itself if there is only one.
 pub(super) fn collected_single(mut geometries: Vec<Geometry>) -> Geometry {
     match geometries.len() {
         1 => geometries.swap_remove(0),
@@ -59,13 +59,13 @@ pub(super) fn collected_single(mut geometries: Vec<Geometry>) -> Geometry {
     }
 }
 
-/// The union of geometries. Fails with the reason.
+/// Returns the union of geometries. Fails with the reason.
 #[allow(clippy::unnecessary_wraps, reason = "what is made of many may come to fail")]
 pub(super) fn united(geometries: &[Geometry]) -> Result<Geometry, String> {
     Ok(union_all(geometries))
 }
 
-/// A ring as a line.
+/// Returns a ring as a closed line.
 pub(super) fn closed(ring: &[DVec3]) -> Geometry {
     Geometry::Line(ring.iter().chain(ring.first()).copied().collect())
 }

@@ -1,4 +1,4 @@
-//! Which functions statements may call, and how a connection gets them.
+//! The functions that statements may call, and their registration with a connection.
 
 use std::sync::Arc;
 
@@ -9,7 +9,7 @@ use crate::connection::ConnectionState;
 
 use super::{FUNCTIONS, SpatialFunction, aggregates, call, groups, lists, numbers, operators, texts};
 
-/// Functions of SQLite that statements may call: those that give the same each time, and reach nothing.
+/// Functions of SQLite that statements may call: deterministic functions without access to files or settings.
 const ALLOWED: [&str; 86] = [
     "->",
     "->>",
@@ -99,15 +99,15 @@ const ALLOWED: [&str; 86] = [
     "least",
 ];
 
-/// Functions that the rewriting of statements uses.
+/// Index functions of rewritten statements.
 const OWN: [&str; 3] = ["burgeon_near", "burgeon_nearest", "burgeon_nearest_one"];
 
-/// The function with a name, in whatever letters.
+/// Returns the function with a name, ignoring case.
 pub(crate) fn find(name: &str) -> Option<&'static SpatialFunction> {
     FUNCTIONS.iter().find(|function| function.name.eq_ignore_ascii_case(name))
 }
 
-/// Whether statements may call a function.
+/// Reports whether statements may call a function.
 pub(crate) fn is_allowed(name: &str) -> bool {
     find(name).is_some()
         || ALLOWED.iter().chain(&OWN).any(|known| known.eq_ignore_ascii_case(name))
@@ -116,7 +116,7 @@ pub(crate) fn is_allowed(name: &str) -> bool {
         || lists::NAMES.iter().any(|(_, own)| own.eq_ignore_ascii_case(name))
 }
 
-/// The names of all functions that statements may call.
+/// Returns the names of all functions that statements may call.
 pub(crate) fn names() -> impl Iterator<Item = &'static str> {
     let own = groups::NAMES.into_iter().chain(texts::names()).chain(operators::names());
     let own = own.filter(|name| !name.starts_with("burgeon_"));
@@ -124,7 +124,7 @@ pub(crate) fn names() -> impl Iterator<Item = &'static str> {
     all.chain(own).chain(lists::NAMES.iter().map(|(name, _)| *name)).chain(["ST_ClusterDBSCAN"])
 }
 
-/// Gives a connection all functions.
+/// Registers all functions with a connection.
 pub(crate) fn register(connection: &Connection, state: &Arc<ConnectionState>) -> rusqlite::Result<()> {
     let flags = FunctionFlags::SQLITE_UTF8 | FunctionFlags::SQLITE_DETERMINISTIC;
     for function in FUNCTIONS {
@@ -154,7 +154,7 @@ mod tests {
     #[test]
     fn every_function_is_named_once_and_says_what_it_does() {
         let mut names: Vec<String> = names().map(str::to_ascii_lowercase).collect();
-        // ST_Collect and ST_Union are of two geometries, and of all of a group.
+        // ST_Collect and ST_Union exist both for two geometries and as aggregates.
         let before = names.len();
         names.sort_unstable();
         names.dedup();
@@ -176,7 +176,7 @@ mod tests {
         let there: rusqlite::Result<Vec<String>> =
             statement.query_map([], |row| row.get(0)).unwrap().collect();
         let there = there.unwrap();
-        // Words of the language, and what is added elsewhere.
+        // The list has keywords, and functions registered elsewhere.
         let others = ["greatest", "least", "rarray", "if", "json_each", "->", "->>"];
         let lacking: Vec<_> = ALLOWED
             .iter()
@@ -188,7 +188,7 @@ mod tests {
             found("SELECT degrees(pi()) + ceil(1.2) + floor(-0.5) + power(2, 3) + mod(7, 4)"),
             Some(192.0)
         );
-        // As in PostgreSQL, where the result of ceil divides as a number with a fraction.
+        // As in PostgreSQL, the result of ceil is not an integer in a division.
         assert_eq!(found("SELECT 7 / ceil(2) + log(100) + log(2, 8)"), Some(8.5));
         assert_eq!([found("SELECT ln(NULL)"), found("SELECT mod(NULL, 0)")], [None; 2]);
         for sql in

@@ -1,4 +1,4 @@
-//! What is asked of two geometries: whether they meet, and how far they are from each other.
+//! Relations between two geometries: predicates and distances.
 
 use std::f64::consts::TAU;
 
@@ -9,7 +9,7 @@ use super::parts::place;
 use super::table::{PAIR, function};
 use super::{FunctionCall, FunctionResult, SpatialFunction};
 
-/// A predicate of two geometries that fails where their boxes do not meet.
+/// Implements a predicate of two geometries that is false if their boxes do not intersect.
 macro_rules! meeting {
     ($method:ident) => {
         |call| {
@@ -21,7 +21,7 @@ macro_rules! meeting {
     };
 }
 
-/// What is asked of two.
+/// Relations between two geometries.
 pub(super) const RELATIONS: &[SpatialFunction] = &[
     function("ST_Intersects", (2, 2), PAIR, "boolean", "Whether they share a point.", |call| {
         if !boxes_meet(call)? {
@@ -196,7 +196,7 @@ pub(super) const RELATIONS: &[SpatialFunction] = &[
     ),
 ];
 
-/// How far two boxes are from each other.
+/// Returns the distance between two boxes.
 fn apart(a: [f64; 4], b: [f64; 4]) -> f64 {
     let axis = |axis: usize| (b[axis] - a[axis + 2]).max(a[axis] - b[axis + 2]).max(0.0);
     axis(0).hypot(axis(1))

@@ -1,12 +1,12 @@
-//! Fewer points.
+//! Simplification of geometries.
 
 use burgeon_geometry::Rings;
 use burgeon_geometry::planar::{self, foot};
 use burgeon_spatial::Geometry;
 use glam::DVec3;
 
-/// A geometry with fewer points: none that is left out was farther than `distance` from what stays. Rings of which fewer
-/// than three points are left go.
+/// Simplifies a geometry: no removed point is farther than `distance` from the result. Rings with fewer than three
+/// points are removed.
 pub(super) fn simplified(geometry: &Geometry, distance: f64) -> Geometry {
     let line = |points: &[DVec3]| planar::simplified(points, distance, aside);
     let rings = |rings: &Rings| {
@@ -17,7 +17,7 @@ pub(super) fn simplified(geometry: &Geometry, distance: f64) -> Geometry {
             (index, kept)
         });
         let kept: Vec<(usize, Vec<DVec3>)> = kept.filter(|(_, ring)| ring.len() >= 3).collect();
-        // Without its border there is no area.
+        // Without its outer ring, a polygon is empty.
         match kept.first() {
             Some((0, _)) => Rings(kept.into_iter().map(|(_, ring)| ring).collect()),
             _ => Rings(Vec::new()),
@@ -37,7 +37,7 @@ pub(super) fn simplified(geometry: &Geometry, distance: f64) -> Geometry {
     }
 }
 
-/// How far a point is from the way between two others, as seen from above.
+/// Returns the horizontal distance of a point from the line between two others.
 fn aside(point: DVec3, way: [DVec3; 2]) -> f64 {
     let part = foot(way, point.truncate());
     let [from, to] = way.map(DVec3::truncate);

@@ -9,17 +9,17 @@ use super::{FunctionCall, FunctionResult};
 /// A function that statements may call.
 #[derive(Debug, Clone, Copy)]
 pub struct SpatialFunction {
-    /// Its name; letters may be small or large.
+    /// Name, which is not case-sensitive.
     pub name: &'static str,
-    /// What it takes.
+    /// Arguments.
     pub takes: &'static str,
-    /// What it gives.
+    /// Type of the result.
     pub gives: &'static str,
-    /// What it does.
+    /// Description.
     pub doc: &'static str,
-    /// The least number of arguments.
+    /// Minimum number of arguments.
     pub(crate) least: u8,
-    /// The greatest.
+    /// Maximum number of arguments.
     pub(crate) most: u8,
     pub(crate) run: fn(&FunctionCall<'_>) -> Result<FunctionResult, String>,
 }
@@ -32,7 +32,7 @@ impl std::fmt::Debug for FunctionCall<'_> {
 
 type FunctionBody = fn(&FunctionCall<'_>) -> Result<FunctionResult, String>;
 
-/// A row of the table.
+/// Creates a row of the table.
 pub(super) const fn function(
     name: &'static str,
     (least, most): (u8, u8),
@@ -43,15 +43,15 @@ pub(super) const fn function(
 ) -> SpatialFunction {
     SpatialFunction { name, takes, gives, doc, least, most, run }
 }
-/// What takes two geometries.
+/// Arguments of functions of two geometries.
 pub(super) const PAIR: &str = "(geometry, geometry)";
-/// What takes one.
+/// Arguments of functions of one geometry.
 pub(super) const ONE: &str = "(geometry)";
 
-/// The functions by what they are for.
+/// Functions by topic.
 const ROOMS: [&[SpatialFunction]; 4] = [RELATIONS, MEASURES, MAKERS, FORMS];
 
-/// How many functions there are.
+/// Number of functions.
 const COUNT: usize = RELATIONS.len() + MEASURES.len() + MAKERS.len() + FORMS.len();
 
 const fn all() -> [SpatialFunction; COUNT] {

@@ -1,4 +1,4 @@
-//! Geometries as texts: well-known text and GeoJSON, letter by letter as PostGIS writes them.
+//! Geometries as text: well-known text and GeoJSON, with exactly the output of PostGIS.
 
 use std::fmt::Write as _;
 
@@ -9,9 +9,9 @@ use glam::DVec3;
 use super::decimals::coordinate_text;
 use super::parts::members;
 
-/// A way to write the parts of geometries.
+/// The format of the parts of geometries.
 struct Form {
-    /// What begins and ends a list, what stands between its members, and between the numbers of a point.
+    /// Start and end of a list, separator of its members, and separator of a point's numbers.
     marks: [&'static str; 4],
     heights: bool,
     digits: i32,
@@ -32,7 +32,7 @@ impl Form {
     }
 }
 
-/// The well-known text of a geometry, with at most so many digits behind the point.
+/// Returns the well-known text of a geometry, with at most `digits` digits after the point.
 pub(super) fn well_known(geometry: &Geometry, digits: i32) -> String {
     let form = Form { marks: ["(", ")", ",", " "], heights: geometry.has_heights(), digits };
     let mut text = String::new();
@@ -68,7 +68,7 @@ fn write_text(geometry: &Geometry, form: &Form, text: &mut String) {
     });
 }
 
-/// Whether a single geometry has no points.
+/// Reports whether a geometry is a single one without points.
 fn is_void(geometry: &Geometry) -> bool {
     matches!(geometry, Geometry::Point(_) | Geometry::Line(_) | Geometry::Polygon(_)) && geometry.is_empty()
 }
@@ -77,7 +77,7 @@ fn closed(ring: &[DVec3]) -> Vec<DVec3> {
     ring.iter().chain(ring.first()).copied().collect()
 }
 
-/// The GeoJSON of a geometry in the reference system with a code, which is 0 if there is none.
+/// Returns the GeoJSON of a geometry in the reference system with a code, or 0 if there is none.
 pub(super) fn geojson(geometry: &Geometry, digits: i32, code: u32) -> String {
     let form = Form { marks: ["[", "]", ",", ","], heights: geometry.has_heights(), digits };
     let mut text = String::new();
@@ -96,7 +96,7 @@ fn write_json(geometry: &Geometry, form: &Form, code: u32, text: &mut String) {
         Geometry::Collection(_) => "GeometryCollection",
     };
     let _ = write!(text, "{{\"type\":\"{name}\",");
-    // Longitude and latitude are what GeoJSON has anyway.
+    // GeoJSON has longitude and latitude by default.
     if !matches!(code, 0 | 4326) {
         let _ = write!(text, "\"crs\":{{\"type\":\"name\",\"properties\":{{\"name\":\"EPSG:{code}\"}}}},");
     }

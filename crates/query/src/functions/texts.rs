@@ -1,5 +1,5 @@
-//! Functions of texts as PostgreSQL has them: letters of any alphabet, places counted from 1, and nothing taken for a text
-//! that is none.
+//! Functions of strings like PostgreSQL's: Unicode characters, positions counted from 1, and no implicit conversion to
+//! strings.
 
 use rusqlite::Connection;
 use rusqlite::functions::{Context, FunctionFlags};
@@ -7,10 +7,10 @@ use rusqlite::types::{Value, ValueRef};
 
 use super::decimals::float_text;
 
-/// What a function gets, and what it gives or why not.
+/// The body of a function, which returns a value or the reason for a failure.
 type TextFunction = fn(&TextCall<'_>) -> Result<Value, String>;
 
-/// The functions with the least and the greatest number of their arguments.
+/// Functions, with the minimum and the maximum number of their arguments.
 const FUNCTIONS: [(&str, i32, i32, TextFunction); 25] = [
     ("ascii", 1, 1, |call| {
         Ok(Value::Integer(call.text(0)?.chars().next().map_or(0, |letter| i64::from(u32::from(letter)))))
@@ -73,7 +73,7 @@ const FUNCTIONS: [(&str, i32, i32, TextFunction); 25] = [
         let found = text.find(call.text(1)?).map_or(0, |at| text[..at].chars().count() + 1);
         Ok(Value::Integer(i64::try_from(found).unwrap_or(i64::MAX)))
     }),
-    // The parser takes the other two for one expression.
+    // The parser treats the other two as one expression.
     ("burgeon_substr", 2, 3, part),
     ("substr", 2, 3, part),
     ("substring", 2, 3, part),
@@ -90,10 +90,10 @@ const FUNCTIONS: [(&str, i32, i32, TextFunction); 25] = [
     ("upper", 1, 1, |call| Ok(Value::Text(call.text(0)?.chars().map(upper).collect()))),
 ];
 
-/// The longest text (bytes) that is made.
+/// Maximum length (bytes) of a result.
 const LONGEST: usize = 100_000_000;
 
-/// Names of functions that statements may call.
+/// Returns the names of the functions that statements may call.
 pub(super) fn names() -> impl Iterator<Item = &'static str> {
     FUNCTIONS.iter().map(|(name, ..)| *name).chain(["concat", "concat_ws"])
 }
@@ -119,7 +119,7 @@ impl TextCall<'_> {
     }
 }
 
-/// The error for an argument of another type.
+/// Returns the error message for an argument of another type.
 pub(super) fn wrong(index: usize, wanted: &str, found: ValueRef<'_>) -> String {
     let found = match found {
         ValueRef::Null => "NULL",
@@ -138,7 +138,7 @@ fn length(call: &TextCall<'_>) -> Result<Value, String> {
     Ok(Value::Integer(i64::try_from(call.text(0)?.chars().count()).unwrap_or(i64::MAX)))
 }
 
-/// How many letters are kept: `most`, or all but so many if it is negative.
+/// Returns the number of characters to keep: `most`, or all except the absolute value of `most` if it is negative.
 fn kept(text: &str, most: i64) -> usize {
     let count = text.chars().count();
     let least = usize::try_from(most.unsigned_abs()).unwrap_or(usize::MAX);
@@ -172,7 +172,7 @@ fn trimmed(call: &TextCall<'_>, begin: bool, end: bool) -> Result<Value, String>
     Ok(Value::Text(text.to_owned()))
 }
 
-/// The part of a text from a place that is counted from 1, which may lie before it.
+/// Returns the part of a string from a position, which is counted from 1 and may be before the start.
 fn part(call: &TextCall<'_>) -> Result<Value, String> {
     let (text, from) = (call.text(0)?, call.whole(1)?);
     let end = match call.0.len() > 2 {
@@ -190,7 +190,7 @@ fn part(call: &TextCall<'_>) -> Result<Value, String> {
     Ok(Value::Text(text.chars().skip(begin).take(end.saturating_sub(begin)).collect()))
 }
 
-/// A letter in its small form, if that is one letter.
+/// Returns a character in lower case, if that is a single character.
 pub(super) fn lower(letter: char) -> char {
     if letter == '\u{130}' {
         return 'i';
@@ -202,10 +202,10 @@ pub(super) fn lower(letter: char) -> char {
     }
 }
 
-/// A letter in its large form, if that is one letter.
+/// Returns a character in upper case, if that is a single character.
 fn upper(letter: char) -> char {
     let code = u32::from(letter);
-    // Greek letters with an iota below have one beside them as a title.
+    // Greek letters with iota subscript have a single title-case character.
     let titled = match code {
         0x1f80..=0x1f87 | 0x1f90..=0x1f97 | 0x1fa0..=0x1fa7 => char::from_u32(code + 8),
         0x1fb3 | 0x1fc3 | 0x1ff3 => char::from_u32(code + 9),
@@ -219,7 +219,7 @@ fn upper(letter: char) -> char {
     }
 }
 
-/// A value as a text in a concatenation.
+/// Converts a value to a string for concatenation.
 fn joined(value: ValueRef<'_>) -> Result<Option<String>, String> {
     Ok(match value {
         ValueRef::Null => None,
@@ -230,7 +230,7 @@ fn joined(value: ValueRef<'_>) -> Result<Option<String>, String> {
     })
 }
 
-/// Gives a connection all of them.
+/// Registers the functions with a connection.
 pub(super) fn register(connection: &Connection) -> rusqlite::Result<()> {
     let flags = FunctionFlags::SQLITE_UTF8 | FunctionFlags::SQLITE_DETERMINISTIC;
     let failed = |name: &str, why: String| {

@@ -7,19 +7,19 @@ use std::time::Duration;
 use burgeon_base::error::{Error, Result};
 use burgeon_base::text::shown;
 
-/// What addresses begin with.
+/// Schemes of addresses.
 const SCHEMES: [&str; 2] = ["postgres://", "postgresql://"];
 
-/// The port of a server whose address names none.
+/// Default port of a server.
 const PORT: u16 = 5432;
 
-/// How long a connection may take to come about, unless the address says otherwise.
+/// Default connection timeout.
 const CONNECT: Duration = Duration::from_secs(10);
 
-/// The options that may stand behind the question mark.
+/// Options that may follow the question mark.
 const OPTIONS: [&str; 5] = ["sslmode", "sslrootcert", "connect_timeout", "answer_timeout", "search_path"];
 
-/// The ways to encrypt a connection and to verify its server, as libpq names them.
+/// The modes of encryption and server verification, named as in libpq.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub enum EncryptionMode {
     /// No encryption.
@@ -31,7 +31,7 @@ pub enum EncryptionMode {
     Require,
     /// Encryption, with a certificate that a known authority has signed.
     VerifyCa,
-    /// The same, with a certificate that is made out to the host.
+    /// Encryption, with a certificate that a known authority has signed and that is issued to the host.
     VerifyFull,
 }
 
@@ -45,26 +45,26 @@ impl EncryptionMode {
     ];
 }
 
-/// Where a database is, and who asks. It never shows its password.
+/// The address of a database, with the user. Its password is never displayed.
 #[derive(Clone, PartialEq, Eq)]
 pub struct ServerAddress {
-    /// Who asks; nobody in particular if it is empty.
+    /// Name of the user. If empty, any user.
     pub user: String,
-    /// The machine.
+    /// Host name.
     pub host: String,
-    /// Its port.
+    /// Port.
     pub port: u16,
-    /// The database.
+    /// Name of the database.
     pub database: String,
-    /// The encryption of connections.
+    /// Encryption of connections.
     pub encryption: EncryptionMode,
-    /// The file with the certificates of authorities; those of the system if there is none.
+    /// File with the certificates of authorities. If omitted, those of the system.
     pub authorities: Option<PathBuf>,
-    /// The time that a connection may take to come about.
+    /// Connection timeout.
     pub connect_timeout: Duration,
-    /// The time that a statement may take; that of the run if there is none.
+    /// Time limit of a statement. If omitted, the time limit of the run.
     pub answer_timeout: Option<Duration>,
-    /// The schemas in which tables are found by their names alone; those of the server's settings if there are none.
+    /// Schemas in which tables are found by unqualified names. If empty, the server's setting.
     pub search_path: Vec<String>,
     password: Option<String>,
 }
@@ -94,13 +94,13 @@ impl fmt::Debug for ServerAddress {
 }
 
 impl ServerAddress {
-    /// Whether a text is the address of a server, and not the name of a file.
+    /// Returns true if a string is the address of a server, and not a file name.
     pub fn is_address(text: &str) -> bool {
         SCHEMES.iter().any(|scheme| text.starts_with(scheme))
     }
 
-    /// Reads `postgres://user:password@host:port/database?option=value`, of which user, password, port and options may be
-    /// left out.
+    /// Parses `postgres://user:password@host:port/database?option=value`. User, password, port and options are
+    /// optional.
     pub fn parse(text: &str) -> Result<Self> {
         let (address, layer) = Self::split(text)?;
         match layer {
@@ -112,9 +112,9 @@ impl ServerAddress {
         }
     }
 
-    /// Reads an address and the layer behind the colon that may follow the database.
+    /// Parses an address, and the layer after a colon that may follow the database.
     pub fn split(text: &str) -> Result<(Self, Option<String>)> {
-        // Whatever is wrong, a password is not part of what is said.
+        // Messages never contain the password.
         let wrong = |why: &str| {
             Error::argument(format!("the address of a database {why}"))
                 .help("write postgres://user@host/database, and a layer behind a colon")
@@ -132,7 +132,7 @@ impl ServerAddress {
             Some((user, password)) => (user, Some(decoded(password))),
             None => (user, None),
         };
-        // An address of IPv6 has colons of its own.
+        // An IPv6 address contains colons.
         let bracketed = host.strip_prefix('[').and_then(|host| host.split_once(']'));
         let (host, port) = match bracketed {
             Some((host, port)) => (host, port.strip_prefix(':')),
@@ -165,10 +165,10 @@ impl ServerAddress {
         Ok((address, layer))
     }
 
-    /// Sets an option that stands behind the question mark.
+    /// Sets an option that follows the question mark.
     fn set(&mut self, name: &str, value: &str) -> Result<()> {
         let wrong = |allowed: &str| {
-            // What stands there may have been meant as something else.
+            // The value may belong to something else, so it is not shown.
             Error::argument(format!(
                 "the option {name} of the address of a database has a value that is not known"
             ))
@@ -185,7 +185,7 @@ impl ServerAddress {
                 let names = EncryptionMode::ALL.map(|(name, _)| name).join(", ");
                 self.encryption = known.ok_or_else(|| wrong(&format!("... with one of {names}")))?.1;
             }
-            // libpq's name for the certificates of the system.
+            // In libpq, this name selects the certificates of the system.
             "sslrootcert" if value == "system" => self.authorities = None,
             "sslrootcert" if !value.is_empty() => self.authorities = Some(value.into()),
             "sslrootcert" => return Err(wrong("FILE")),
@@ -202,7 +202,7 @@ impl ServerAddress {
             }
             _ => {
                 let is_name = name.chars().all(|letter| letter.is_ascii_lowercase() || letter == '_');
-                // Anything else may be the rest of a password.
+                // Any other name may be a part of a password.
                 let name = if is_name { shown(name).into_owned() } else { "that is no name".to_owned() };
                 return Err(Error::not_found(
                     "option",
@@ -216,8 +216,8 @@ impl ServerAddress {
         Ok(())
     }
 
-    /// The address among `allowed` that this one means: that of the same database, with the user and the password that
-    /// were allowed. Fails with the remedy if there is none.
+    /// Returns the address among `allowed` with the same database, and the allowed user and password. Fails with a
+    /// remedy if there is none.
     pub fn allowed<'a>(&self, allowed: &'a [Self]) -> Result<&'a Self> {
         let same = |other: &&'a Self| {
             (&other.host, other.port, &other.database) == (&self.host, self.port, &self.database)
@@ -229,13 +229,13 @@ impl ServerAddress {
         })
     }
 
-    /// The password, if there is one.
+    /// Returns the password, if there is one.
     pub(super) fn password(&self) -> Option<&str> {
         self.password.as_deref()
     }
 }
 
-/// Text with `%41` and the like as what they stand for.
+/// Decodes the percent-encoding of a string, such as `%41`.
 fn decoded(text: &str) -> String {
     let bytes = text.as_bytes();
     let (mut made, mut at) = (Vec::with_capacity(bytes.len()), 0);

@@ -1,4 +1,4 @@
-//! Values on their way to the server and back.
+//! The conversion of values to and from the server.
 
 use std::error::Error as StdError;
 use std::sync::Arc;
@@ -13,12 +13,12 @@ use burgeon_base::budget::Budget;
 
 type BoxedError = Box<dyn StdError + Sync + Send>;
 
-/// A value that is handed over, in the coordinates of the server.
+/// The value of a parameter, in the coordinates of the server.
 #[derive(Debug)]
 pub(super) struct BoundCell(pub(super) Cell);
 
 impl BoundCell {
-    /// Whether it can be handed over as a type.
+    /// Returns true if the value can be passed as a type.
     pub(super) fn fits(&self, kind: &Type) -> bool {
         let number = |text: &str| text.trim().parse::<f64>().ok();
         match &self.0 {
@@ -82,14 +82,14 @@ impl ToSql for BoundCell {
     to_sql_checked!();
 }
 
-/// A value as it comes, with geometries in the coordinates of the server.
+/// A value received from the server, with geometries in the coordinates of the server.
 pub(super) enum ServerCell {
     Cell(Cell),
-    /// What is no geometry that can be read, and why.
+    /// Geometry that cannot be read, with the reason.
     Unreadable(String),
 }
 
-/// The names of types, besides `geometry`, whose values come as they are; others can be made text.
+/// Names of the types, besides `geometry`, whose values can be read directly; others can be cast to text.
 pub(super) const COME_AS_THEY_ARE: [&str; 17] = [
     "bool", "bpchar", "bytea", "citext", "float4", "float8", "int2", "int4", "int8", "json", "jsonb", "name",
     "numeric", "oid", "text", "uuid", "varchar",
@@ -124,7 +124,7 @@ impl<'a> FromSql<'a> for ServerCell {
             Type::FLOAT4 => Cell::Number(f32::from_sql(kind, raw)?.into()),
             Type::FLOAT8 => Cell::Number(f64::from_sql(kind, raw)?),
             Type::NUMERIC => numeric(raw).map_or(Cell::Null, Cell::Number),
-            // A byte tells the version.
+            // The first byte is the version.
             Type::JSONB => text(raw.get(1..).unwrap_or_default()),
             Type::JSON => text(raw),
             Type::UUID => Cell::Text(uuid(raw).into()),
@@ -156,7 +156,8 @@ impl<'a> FromSql<'a> for ServerCell {
     }
 }
 
-/// A number of any length as the nearest of ours: groups of four digits, and where the point stands.
+/// Converts a number of arbitrary precision to the nearest `f64`. It is stored as groups of four digits and the
+/// position of the decimal point.
 fn numeric(raw: &[u8]) -> Option<f64> {
     let word = |index: usize| Some(i16::from_be_bytes(raw.get(2 * index..2 * index + 2)?.try_into().ok()?));
     let (count, weight, sign) = (word(0)?, word(1)?, word(2)?);
@@ -164,7 +165,7 @@ fn numeric(raw: &[u8]) -> Option<f64> {
         (0..usize::try_from(count).ok()?).map(|index| Some(format!("{:04}", word(index + 4)?))).collect();
     let exponent = 4 * (i32::from(weight) - i32::from(count) + 1);
     let minus = if sign == 0x4000 { "-" } else { "" };
-    // Not a number, and endless ones.
+    // The remaining signs are NaN and infinities.
     if !matches!(sign, 0 | 0x4000) {
         return None;
     }
@@ -184,7 +185,7 @@ mod tests {
     use super::*;
     use proptest::prelude::*;
 
-    /// Types whose values are read, and one that is not.
+    /// Types whose values can be read, and one whose values cannot.
     const KINDS: [Type; 16] = [
         Type::BOOL,
         Type::INT2,
@@ -212,7 +213,7 @@ mod tests {
         ) {
             for is_number in [false, true] {
                 if is_number {
-                    // As numbers of any length begin that have so many groups of digits.
+                    // The prefix is the header of a number with this many groups of digits.
                     raw.splice(0..0, [0, groups, 0, 1, 0, 0, 0, 0]);
                 }
                 let read = KINDS.map(|kind| ServerCell::from_sql(&kind, &raw));

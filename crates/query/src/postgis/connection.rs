@@ -1,4 +1,4 @@
-//! One connection to a server. Everything that waits for the server ends with the run's limits and with its own timeouts.
+//! A connection to a server. Every wait for the server ends at the run's limits and at its own timeouts.
 
 use std::future::{Future, poll_fn};
 use std::pin::pin;
@@ -21,55 +21,55 @@ use crate::place::Move;
 use burgeon_base::budget::Budget;
 use burgeon_base::error::{Error, Result};
 
-/// How often is looked whether a question is to end.
+/// Interval between two checks of the budget.
 const PERIOD: Duration = Duration::from_millis(20);
 
-/// How long a server may take to hear that nobody waits any more.
+/// Maximum time for a server to receive a cancellation.
 const GRACE: Duration = Duration::from_millis(300);
 
-/// How long a server may take to end a transaction.
+/// Maximum time for a server to end a transaction.
 const ENDING: Duration = Duration::from_secs(2);
 
-/// How many prepared statements a connection keeps.
+/// Maximum number of prepared statements that a connection keeps.
 const MOST_STATEMENTS: usize = 200;
 
-/// A statement, the values of its parameters, and how they are moved on their way.
+/// A statement, the values of its parameters, and the transformation of geometries.
 pub(super) struct AskedStatement<'a> {
     pub(super) sql: &'a str,
-    /// The reference system of geometries that are handed over.
+    /// Reference system of geometry parameters.
     pub(super) srid: u32,
     pub(super) given: &'a dyn Fn(&str) -> Result<Cell>,
     pub(super) place: &'a Move<'a>,
 }
 
-/// A connection, the runtime that drives it, and the statements that it has prepared.
+/// A connection, the runtime that drives it, and its prepared statements.
 pub(super) struct ServerConnection {
     client: Client,
     statements: FxHashMap<String, Statement>,
     encryption: Encryption,
     address: ServerAddress,
-    /// Is there until this is dropped.
+    /// Runtime, present until the connection is dropped.
     runtime: Option<Runtime>,
 }
 
 impl Drop for ServerConnection {
     fn drop(&mut self) {
-        // A name that is still being looked up is not waited for.
+        // Does not wait for a pending name lookup.
         if let Some(runtime) = self.runtime.take() {
             runtime.shutdown_background();
         }
     }
 }
 
-/// The reason why work on a connection came to no end.
+/// The reason why work on a connection did not finish.
 enum WaitFailure {
-    /// A limit of the run.
+    /// Limit of the run.
     Over(Error),
-    /// Its own time.
+    /// Timeout of the connection.
     Late,
 }
 
-/// Lets a runtime work until the work ends, the budget does, or `most` is over.
+/// Drives a runtime until the work finishes, the budget is exceeded, or the time `most` has passed.
 fn wait<T>(
     runtime: &Runtime,
     budget: Option<&Budget>,
@@ -93,7 +93,7 @@ fn wait<T>(
 }
 
 impl ServerConnection {
-    /// Connects, in no more time than the address and the budget allow.
+    /// Connects within the time that the address and the budget allow.
     pub(super) fn new(
         config: &Config,
         address: &ServerAddress,
@@ -108,7 +108,7 @@ impl ServerConnection {
         let connected = wait(&runtime, Some(budget), most, config.connect(encryption.clone()));
         let result = match connected {
             Ok(Ok((client, connection))) => {
-                // What ends it, the next question is told.
+                // An error that ends the connection is reported to the next query.
                 runtime.spawn(async move { drop(connection.await) });
                 return Ok(Self {
                     client,
@@ -126,7 +126,8 @@ impl ServerConnection {
         Err(result.into())
     }
 
-    /// Asks, and gives the rows. After a failure that is not the statement's the connection is of no use any more.
+    /// Runs a statement and returns the rows. After a failure that is not caused by the statement, the connection is
+    /// unusable.
     pub(super) fn ask(
         &mut self,
         asked: &AskedStatement<'_>,
@@ -155,14 +156,14 @@ impl ServerConnection {
         result
     }
 
-    /// Tells the server that nobody waits any more.
+    /// Asks the server to cancel the statement.
     fn cancel(&self, runtime: &Runtime) {
         let token = self.client.cancel_token();
-        // Whether it hears that or not, nobody waits for it.
+        // The result does not matter: the connection is not used again.
         let _ = wait(runtime, None, GRACE, token.cancel_query(self.encryption.clone()));
     }
 
-    /// Ends the transaction of a question. Returns whether the connection can be used again.
+    /// Ends the transaction of a query. Returns true if the connection can be used again.
     pub(super) fn end(&mut self, done: bool, budget: &Budget) -> bool {
         let Some(runtime) = &self.runtime else { return false };
         let sql = if done { "COMMIT" } else { "ROLLBACK" };
@@ -186,7 +187,8 @@ impl ServerConnection {
         };
         let bound = cells(&inferred.names)?;
         let prepared = self.prepare(&inferred).await;
-        // Where the server cannot tell, or takes a value for what it is not, it is told.
+        // If the server cannot infer the types, or infers types that do not fit the values, they are specified
+        // explicitly.
         let fits =
             |statement: &Statement| statement.params().iter().zip(&bound).all(|(kind, cell)| cell.fits(kind));
         let (statement, written) = match prepared {

@@ -26,7 +26,7 @@ use tokio_postgres::tls::{ChannelBinding, MakeTlsConnect, TlsConnect, TlsStream}
 use super::{EncryptionMode, ServerAddress};
 use burgeon_base::error::{Error, Result};
 
-/// The bundles of certificates that systems have, in the order in which they are looked for.
+/// Certificate bundles of operating systems, in the order of the search.
 const BUNDLES: [&str; 6] = [
     "/etc/ssl/certs/ca-certificates.crt",
     "/etc/pki/tls/certs/ca-bundle.crt",
@@ -36,14 +36,14 @@ const BUNDLES: [&str; 6] = [
     "/usr/local/etc/openssl/cert.pem",
 ];
 
-/// Encrypts the connections to a server.
+/// The encryption of the connections to a server.
 #[derive(Clone)]
 pub(super) struct Encryption {
     config: Arc<ClientConfig>,
 }
 
 impl Encryption {
-    /// The encryption that an address asks for. Fails if the certificates of authorities cannot be read.
+    /// Creates the encryption that an address specifies. Fails if the certificates of authorities cannot be read.
     pub(super) fn new(address: &ServerAddress) -> Result<Self> {
         let provider = Arc::new(ring::default_provider());
         let verifier: Arc<dyn ServerCertVerifier> = match address.encryption {
@@ -74,7 +74,7 @@ impl Encryption {
     }
 }
 
-/// The way to ask a server for encryption.
+/// Returns the TLS mode for a mode of encryption.
 pub(super) fn mode(encryption: EncryptionMode) -> SslMode {
     match encryption {
         EncryptionMode::Disable => SslMode::Disable,
@@ -83,7 +83,7 @@ pub(super) fn mode(encryption: EncryptionMode) -> SslMode {
     }
 }
 
-/// The certificates of authorities in a file, or those of the system.
+/// Reads the certificates of authorities in a file, or those of the system.
 fn authorities(file: Option<&Path>) -> Result<(RootCertStore, Vec<CertificateDer<'static>>)> {
     let named = std::env::var_os("SSL_CERT_FILE").map(std::path::PathBuf::from);
     let known = BUNDLES.iter().map(Path::new).find(|path| path.is_file());
@@ -99,7 +99,7 @@ fn authorities(file: Option<&Path>) -> Result<(RootCertStore, Vec<CertificateDer
     let (mut roots, mut known) = (RootCertStore::empty(), Vec::new());
     for certificate in CertificateDer::pem_slice_iter(&text) {
         let certificate = certificate.map_err(|error| unread(&error.to_string()))?;
-        // A system may have certificates that are of no use here.
+        // The system's bundle may contain unusable certificates, which are skipped.
         let added = roots.add(certificate.clone());
         if file.is_some() {
             added.map_err(|error| unread(&error.to_string()))?;
@@ -109,19 +109,19 @@ fn authorities(file: Option<&Path>) -> Result<(RootCertStore, Vec<CertificateDer
     if roots.is_empty() { Err(unread("it holds none")) } else { Ok((roots, known)) }
 }
 
-/// Reports whether a certificate was refused since it is that of an authority.
+/// Reports whether a certificate was refused because it is the certificate of an authority.
 fn is_authority(error: &OtherError) -> bool {
     matches!(error.0.downcast_ref(), Some(webpki::Error::CaUsedAsEndEntity))
 }
 
-/// Verifies the certificate of a server as far as an address asks.
+/// The verifier of server certificates, as strict as an address specifies.
 #[derive(Debug)]
 struct ServerVerifier {
     provider: Arc<CryptoProvider>,
     chain: Option<ChainVerifier>,
 }
 
-/// Verifies that a certificate comes from an authority, or is one itself.
+/// The verifier that a certificate is signed by an authority, or is the certificate of an authority.
 #[derive(Debug)]
 struct ChainVerifier {
     chain: Arc<WebPkiServerVerifier>,
@@ -144,11 +144,12 @@ impl ServerCertVerifier for ServerVerifier {
             return Ok(ServerCertVerified::assertion());
         };
         match chain.verify_server_cert(end_entity, intermediates, server_name, ocsp_response, now) {
-            // The name is looked at last.
+            // The name is verified last, so all other checks have passed.
             Err(TlsError::InvalidCertificate(
                 CertificateError::NotValidForName | CertificateError::NotValidForNameContext { .. },
             )) if !names => Ok(ServerCertVerified::assertion()),
-            // A server whose own certificate is that of the authority is known as well; its time is looked at before this.
+            // A server may use the certificate of an authority itself. Its validity period is verified before this
+            // error.
             Err(TlsError::InvalidCertificate(CertificateError::Other(error)))
                 if is_authority(&error) && known.contains(end_entity) =>
             {
@@ -200,7 +201,7 @@ where
     }
 }
 
-/// A handshake that is about to begin.
+/// A handshake that has not begun.
 pub(super) struct Handshake {
     config: Arc<ClientConfig>,
     name: ServerName<'static>,

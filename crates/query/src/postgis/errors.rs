@@ -1,4 +1,4 @@
-//! What is told of a server that is not there, and of a statement that it does not take.
+//! Errors of unreachable servers, and of statements that a server refuses.
 
 use std::time::Duration;
 
@@ -11,7 +11,7 @@ use crate::rewrite::{Catalogue, find_word};
 use burgeon_base::error::{Error, Limit};
 use burgeon_base::text::{listed, shown};
 
-/// Whether the connection is gone, and not the statement wrong.
+/// Returns true if the connection is lost, so that the statement is not the cause.
 pub(super) fn is_lost(error: &tokio_postgres::Error) -> bool {
     let ended = [SqlState::ADMIN_SHUTDOWN, SqlState::CRASH_SHUTDOWN, SqlState::CANNOT_CONNECT_NOW];
     error.is_closed()
@@ -23,7 +23,7 @@ fn has_io(error: &tokio_postgres::Error) -> bool {
     error.source().is_some_and(|source| source.is::<std::io::Error>())
 }
 
-/// The error of a server that cannot be reached.
+/// Creates the error for a server that cannot be reached.
 pub(super) fn unreachable(address: &ServerAddress, error: &tokio_postgres::Error) -> Error {
     let why = cause(error);
     let failed = Error::unavailable(format!("the database {address} cannot be reached: {why}"));
@@ -38,13 +38,13 @@ pub(super) fn unreachable(address: &ServerAddress, error: &tokio_postgres::Error
     failed.help("start the server, or check the address that --database names")
 }
 
-/// The error of a server that accepts a connection, or a question, and does not answer in time.
+/// Creates the error for a server that accepts a connection or a query but does not answer in time.
 pub(super) fn late(address: &ServerAddress, most: Duration, option: &str) -> Error {
     Error::unavailable(format!("the database {address} has not answered for {} s", most.as_secs_f64()))
         .help(format!("check the server, or wait longer: {address}?{option}=SECONDS behind --database"))
 }
 
-/// The innermost reason.
+/// Returns the innermost cause.
 fn cause(error: &tokio_postgres::Error) -> String {
     use std::error::Error as _;
     match (error.as_db_error(), error.source()) {
@@ -54,7 +54,7 @@ fn cause(error: &tokio_postgres::Error) -> String {
     }
 }
 
-/// The error of a statement `sql` that was asked as `asked`.
+/// Converts the server's error in the statement `sql`, which was sent as `asked`.
 pub(super) fn server_error(
     address: &ServerAddress,
     error: &tokio_postgres::Error,
@@ -70,7 +70,7 @@ pub(super) fn server_error(
             .help("ask for columns that are numbers, texts, true or false, or geometries");
     };
     let message = told.message();
-    // The word at which the server stopped, as it stands in what was written.
+    // The server reports a position in the sent statement, so the word at this position is searched in the original.
     let word = match told.position() {
         Some(ErrorPosition::Original(position)) => {
             let begin = usize::try_from(*position).unwrap_or(0).saturating_sub(1);

@@ -14,14 +14,15 @@ use burgeon_base::text::{listed, shown};
 use burgeon_data::{Attribute, Crs, FeatureTable, LayerListing, Listing, SourceOptions};
 
 impl Server {
-    /// Reads what is `wanted` of a layer, whose table statements see no more of, in the order of its keys, as [`Source::read`](burgeon_data::Source::read) does.
+    /// Reads the selected part of a layer in the order of its keys, as [`Source::read`](burgeon_data::Source::read)
+    /// does. Later statements see only this part of its table.
     ///
-    /// Fails if there is no such table, and if it has no geometries.
+    /// Fails if there is no such table, or if the table has no geometries.
     pub fn read(&self, wanted: &SourceOptions) -> Result<FeatureTable> {
         self.table(wanted)?.finished(wanted)
     }
 
-    /// Lists its layers, as [`Listing::read`] lists those of a file.
+    /// Lists the layers, as [`Listing::read`] lists the layers of a file.
     pub fn listing(&self, budget: &Arc<Budget>) -> Result<Listing> {
         let before = budget.taken();
         let tables = self.known(budget)?.catalogue.values();
@@ -42,7 +43,7 @@ impl Server {
         Ok(Listing { file: self.address().to_string(), format: "PostGIS", layers })
     }
 
-    /// Reads what is `wanted` of a layer, which may be nothing.
+    /// Reads the selected part of a layer, which may be empty.
     fn table(&self, wanted: &SourceOptions) -> Result<FeatureTable> {
         let budget = &wanted.budget;
         let known = self.known(budget)?;
@@ -80,13 +81,13 @@ impl Server {
             sql += &format!(", {}{}", quoted(name), if foreign { "::text" } else { "" });
         }
         let place = match &table.place {
-            // Its plain name may mean something else by now.
+            // The unqualified name may refer to another table by now.
             Some((schema, name)) => format!("{}.{}", quoted(schema), quoted(name)),
             None => quoted(&table.name),
         };
         let mut rows = format!(" FROM {place}");
         if let Some(condition) = &wanted.condition {
-            // The line's end ends a comment.
+            // The line break ends a comment in the condition.
             rows += &format!(" WHERE (\n{condition}\n)");
         }
         let limited = match (wanted.limit, wanted.kind, wanted.within) {
@@ -128,7 +129,7 @@ impl Server {
     }
 }
 
-/// The rows as features, without those whose geometry cannot be read.
+/// Converts the rows to features, without those whose geometry cannot be read.
 fn features(answer: &ServerAnswer, mut table: FeatureTable, wanted: &SourceOptions) -> Result<FeatureTable> {
     let id = match &wanted.id {
         Some(id) => Some(table.names.iter().position(|name| name == id).ok_or_else(|| {

@@ -1,8 +1,8 @@
-//! Questions that are put to a PostGIS server.
+//! Queries of a PostGIS server.
 //!
-//! Comes in: the address of a server that the user allows, statements with named parameters. Goes out: the same rows that
-//! the database within the program gives, and layers. Transactions are read-only, values are bound, connections are kept
-//! and used again; a connection that was lost is opened once more. Every wait for a server ends with the run's limits.
+//! Input: the address of a server that the user allows, and statements with named parameters. Output: the same rows as
+//! from the internal database, and layers. Transactions are read-only, values are bound, and connections are reused; a
+//! lost connection is reopened once. Every wait for a server ends at the run's limits.
 
 mod address;
 mod cells;

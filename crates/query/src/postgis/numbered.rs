@@ -1,26 +1,26 @@
-//! Named parameters as numbered ones.
+//! The conversion of named parameters to numbered ones.
 
 use crate::cell::Cell;
 use crate::rewrite::placeholder_ranges;
 
-/// A statement whose names behind `$` are numbers, and the name of each.
+/// A statement with numbered parameters, and the name of each number.
 pub(super) struct NumberedStatement {
-    /// With `$1` in place of names.
+    /// SQL with `$1` instead of names.
     pub sql: String,
-    /// The names, in the order of their numbers.
+    /// Names, in the order of their numbers.
     pub names: Vec<String>,
 }
 
-/// How values are handed over.
+/// The source of parameter types.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub(super) enum ParameterTypes {
-    /// As what the server takes each for where it stands.
+    /// Types inferred by the server from the context.
     Inferred,
-    /// As what they are.
+    /// Types of the values.
     Told,
 }
 
-/// Numbers the parameters of a statement; geometries have the reference system `srid`.
+/// Numbers the parameters of a statement. Geometries get the reference system `srid`.
 pub(super) fn numbered(
     sql: &str,
     types: ParameterTypes,

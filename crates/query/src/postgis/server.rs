@@ -1,4 +1,4 @@
-//! A server: its connections, and what is asked of it.
+//! A server: its connections and queries.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt;
@@ -22,29 +22,29 @@ use burgeon_base::locks::LockRecovery;
 use burgeon_base::text::shown;
 use burgeon_data::{Crs, ReferenceFrame};
 
-/// How long a server may be silent behind a line that is dead.
+/// Maximum silence of a server before the connection is considered dead.
 const SILENCE: Duration = Duration::from_secs(30);
 
-/// How many connections are kept.
+/// Maximum number of idle connections that are kept.
 const MOST_IDLE: usize = 16;
 
-/// A server that questions are put to.
+/// A server that can be queried.
 pub struct Server {
     address: ServerAddress,
     config: Config,
     idle: Mutex<Vec<ServerConnection>>,
     known: OnceLock<ServerTables>,
-    /// What is seen of tables that were read, by their names in small letters: statements, or nothing where it is all.
+    /// Visible part of each table that was read, by lower-case name: statements, or `None` for the whole table.
     seen: Mutex<BTreeMap<String, BTreeSet<Option<String>>>>,
 }
 
-/// The rows of an answer, and what of them cannot be read, which stands as null.
+/// The rows of a result, and the cells that cannot be read, which are null in the rows.
 pub(super) struct ServerAnswer {
     pub(super) rows: QueryAnswer,
     pub(super) faults: Vec<CellFault>,
 }
 
-/// A geometry that cannot be read: its row and column, from 0, and why.
+/// A geometry that cannot be read: its row and column, from 0, and the reason.
 pub(super) struct CellFault {
     pub(super) row: usize,
     pub(super) column: usize,
@@ -57,11 +57,11 @@ impl fmt::Debug for Server {
     }
 }
 
-/// Why there are no rows.
+/// The reason for a failed query.
 pub(super) enum ServerFailure {
-    /// For a reason of ours.
+    /// Error of Burgeon.
     Told(Error),
-    /// For one of the server's, which was asked this.
+    /// Error of the server, and the statement that was sent.
     Server(tokio_postgres::Error, String),
 }
 
@@ -72,7 +72,7 @@ impl From<Error> for ServerFailure {
 }
 
 impl Server {
-    /// The server at an address, which is reached when it is first asked. No question takes longer than `most`.
+    /// Creates the server at an address. The first query connects to it. No query takes longer than `most`.
     pub fn new(address: &ServerAddress, most: Option<Duration>) -> Self {
         let mut config = Config::new();
         config
@@ -107,19 +107,19 @@ impl Server {
         }
     }
 
-    /// Its address.
+    /// Returns the address.
     pub fn address(&self) -> &ServerAddress {
         &self.address
     }
 
-    /// The names of its tables, in the order of the alphabet.
+    /// Returns the names of the tables, in alphabetical order.
     pub fn tables(&self, budget: &Arc<Budget>) -> Result<Vec<String>> {
         let tables = self.known(budget)?.catalogue.values().filter(|table| !table.is_alias);
         Ok(tables.map(|table| table.name.clone()).collect())
     }
 
-    /// The rows that a statement asks for, as [`Database::query`](crate::Database::query) gives them, with geometries in
-    /// metres of `frame`.
+    /// Returns the rows of a statement, as [`Database::query`](crate::Database::query) does, with geometries in metres
+    /// of `frame`.
     pub fn query(
         &self,
         sql: &str,
@@ -134,7 +134,7 @@ impl Server {
         let srid = known.system(sql);
         let crs = Crs::epsg(srid);
         let place = match frame {
-            // What has no reference system is as it is.
+            // Geometries without a reference system are not transformed.
             Some(_) if srid == 0 => Move::nowhere(),
             Some(frame) => {
                 Move::between(frame, &crs.map_err(|error| error.about(&self.address.to_string()))?)?
@@ -171,13 +171,13 @@ impl Server {
         Ok(Arc::new(answer))
     }
 
-    /// Lets statements see no more of a table than what was read of it.
+    /// Limits the visible part of a table to the part that was read.
     pub(super) fn see(&self, table: &str, select: Option<String>) {
         let mut seen = self.seen.lock().recover();
         seen.entry(table.to_ascii_lowercase()).or_default().insert(select);
     }
 
-    /// What a statement sees of the tables that it names. Fails if several parts of one were read.
+    /// Returns the visible part of each table that a statement names. Fails if several parts of a table were read.
     fn chosen(&self, sql: &str) -> Result<ChosenRows> {
         let seen = self.seen.lock().recover();
         let mut chosen = ChosenRows::new();
@@ -193,7 +193,7 @@ impl Server {
         Ok(chosen)
     }
 
-    /// What the server has, asked once.
+    /// Returns the server's tables, which are queried once.
     pub(super) fn known(&self, budget: &Arc<Budget>) -> Result<&ServerTables> {
         if let Some(known) = self.known.get() {
             return Ok(known);
@@ -220,7 +220,8 @@ impl Server {
         Ok(self.known.get_or_init(|| ServerTables::read(&answer.rows)))
     }
 
-    /// Asks on one connection, and once more on a new one where that was lost before there were rows.
+    /// Runs a statement on a connection. If a reused connection is lost before there are rows, retries once on a new
+    /// one.
     pub(super) fn asked(
         &self,
         sql: &str,
@@ -237,12 +238,12 @@ impl Server {
             None => self.connect(budget)?,
         };
         let mut done = connection.ask(&statement, budget);
-        // Reading once more changes nothing.
+        // Statements only read, so they can be repeated.
         if again && matches!(&done, Err(ServerFailure::Server(error, _)) if is_lost(error)) {
             connection = self.connect(budget)?;
             done = connection.ask(&statement, budget);
         }
-        // A connection that did not answer in time has an answer to come.
+        // A connection that did not answer in time still has a pending answer, so it is not reused.
         let told = matches!(&done, Err(ServerFailure::Told(_)));
         if !told && connection.end(done.is_ok(), budget) {
             let mut idle = self.idle.lock().recover();

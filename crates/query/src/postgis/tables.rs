@@ -1,4 +1,4 @@
-//! The tables that a server has.
+//! The tables of a server.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -6,11 +6,11 @@ use super::cells::COME_AS_THEY_ARE;
 use crate::cell::{Cell, QueryAnswer};
 use crate::rewrite::{Catalogue, TableInfo, find_word};
 
-/// Gives the schema that PostGIS is in, if it is there.
+/// Query for the schema of PostGIS, if it is installed.
 pub(super) const POSTGIS: &str = "SELECT n.nspname::text FROM pg_extension e JOIN pg_namespace n ON n.oid = e.extnamespace \
     WHERE e.extname = 'postgis'";
 
-/// The statement that gives the tables that the user may read: columns, keys and how many rows there may be. PostGIS is in
+/// Returns the query for the tables that the user may read: columns, keys and estimated numbers of rows. PostGIS is in
 /// `schema`.
 pub(super) fn query(schema: &str) -> String {
     let postgis = crate::connection::quoted(schema);
@@ -31,13 +31,13 @@ pub(super) fn query(schema: &str) -> String {
     )
 }
 
-/// What the server has.
+/// The tables of a server.
 pub(super) struct ServerTables {
-    /// The tables by their names in small letters: those of the search path with and without their schemas.
+    /// Tables by lower-case name: those of the search path with and without their schemas.
     pub(super) catalogue: Catalogue,
-    /// The reference system of each table.
+    /// Reference system of each table.
     pub(super) systems: BTreeMap<String, u32>,
-    /// The tables and columns whose values have to be made text.
+    /// Tables and columns whose values must be cast to text.
     pub(super) foreign: BTreeSet<(String, String)>,
 }
 
@@ -58,7 +58,7 @@ impl ServerTables {
         tables
     }
 
-    /// Adds a column of the table that statements call `called`.
+    /// Adds a column of the table that is named `called` in statements.
     fn add(&mut self, called: &str, schema: &str, is_alias: bool, row: &[Cell]) {
         let [_, _, Cell::Text(table), _, Cell::Text(column), Cell::Text(kind), rows, key, srid, is_enum] =
             row
@@ -95,11 +95,11 @@ impl ServerTables {
         }
     }
 
-    /// The reference system of the first table with geometries that a statement names.
+    /// Returns the reference system of the first table with geometries that a statement names.
     pub(super) fn system(&self, sql: &str) -> u32 {
         let named = self.systems.iter().filter_map(|(name, srid)| {
             let schema = name.split_once('.').map(|(schema, _)| schema);
-            // A table with its schema is meant rather than one of the search path.
+            // A table with its schema takes precedence over a table of the search path.
             let is_plain = schema.is_none();
             schema.is_none_or(|schema| find_word(sql, schema).is_some()).then_some(())?;
             Some((find_word(sql, name)?, is_plain, *srid))

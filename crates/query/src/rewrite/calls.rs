@@ -1,4 +1,4 @@
-//! Calls of functions: what they take, and what SQLite calls them.
+//! Calls of functions: the types of their arguments, and their names in SQLite.
 
 use sqlparser::ast::{
     Expr, Function, FunctionArg, FunctionArgExpr, FunctionArgumentClause, FunctionArguments, Ident,
@@ -14,7 +14,7 @@ use crate::functions::BOOLEAN_LIST;
 use burgeon_base::error::Result;
 
 impl Expressions<'_, '_> {
-    /// Types the call of a function, and writes it as SQLite has it.
+    /// Types a call of a function, and rewrites it for SQLite.
     pub(super) fn function(&mut self, expression: &mut Expr, scope: &TypeScope<'_>) -> Result<SqlType> {
         let place = expression.clone();
         let Expr::Function(function) = expression else { return Ok(SqlType::Unknown) };
@@ -55,7 +55,7 @@ impl Expressions<'_, '_> {
             }
             signatures::Takes::Anything => false,
         });
-        // The first argument alone decides where others are of another kind.
+        // For functions of strings, only the type of the first argument matters.
         let wrong = wrong.filter(|_| takes != signatures::Takes::Texts || kinds.first() == wrong);
         if wrong.is_some() {
             let kinds: Vec<&str> = kinds.iter().map(|kind| kind.name()).collect();
@@ -66,7 +66,7 @@ impl Expressions<'_, '_> {
             }));
         }
         let given = gives(&kinds);
-        // A list keeps what is true or false apart from numbers.
+        // A list of booleans must differ from a list of numbers.
         if name == "array_agg"
             && kinds.first() == Some(&SqlType::Boolean)
             && let Expr::Function(function) = expression
@@ -78,7 +78,7 @@ impl Expressions<'_, '_> {
     }
 }
 
-/// Writes the call of a function that SQLite has otherwise.
+/// Rewrites a call of a function that is different in SQLite.
 fn rewritten_call(expression: &mut Expr, name: &str, kinds: &[SqlType]) -> Result<()> {
     let Expr::Function(Function { args: FunctionArguments::List(list), over: None, filter: None, .. }) =
         &mut *expression
@@ -101,7 +101,7 @@ fn rewritten_call(expression: &mut Expr, name: &str, kinds: &[SqlType]) -> Resul
         ("round", [number, decimals]) => format!("burgeon_round_decimal({number}, {decimals})"),
         ("concat", values) => {
             for (value, kind) in values.iter_mut().zip(kinds) {
-                // PostgreSQL gives a letter here, unlike in `||`.
+                // PostgreSQL converts a boolean to a letter here, unlike in `||`.
                 if *kind == SqlType::Boolean {
                     **value = made(&format!("substr(burgeon_truth({value}), 1, 1)"), value)?;
                 }

@@ -1,4 +1,4 @@
-//! Casts as PostgreSQL has them.
+//! Casts with the meaning of PostgreSQL.
 
 use sqlparser::ast::{CastKind, DataType, Expr, Value};
 
@@ -9,7 +9,7 @@ use burgeon_base::error::Result;
 use burgeon_base::text::shown;
 
 impl Expressions<'_, '_> {
-    /// Types a cast, and writes it as a function that rounds and refuses as PostgreSQL does.
+    /// Types a cast, and rewrites it as a function that rounds and fails like PostgreSQL.
     pub(super) fn cast(&mut self, expression: &mut Expr, scope: &TypeScope<'_>) -> Result<SqlType> {
         use SqlType as T;
         let place = expression.clone();
@@ -19,7 +19,7 @@ impl Expressions<'_, '_> {
         }
         let name = data_type.to_string();
         let from = self.expression(expr, scope)?;
-        // A type that the grammar knows by another name.
+        // The grammar may have another name for the type.
         let Some(to) = SqlType::named(&name) else {
             return match data_type {
                 DataType::Custom(name, _) if name.to_string().eq_ignore_ascii_case("geography") => {
@@ -60,7 +60,7 @@ impl Expressions<'_, '_> {
             T::Double => format!("burgeon_number({expr})"),
             T::Text => {
                 let text = match (from, &**expr) {
-                    // As it is written, with zeros at its end.
+                    // The literal is used as written, with its trailing zeros.
                     (T::Numeric, Expr::Value(value)) => format!("'{value}'"),
                     (from, expr) => as_text(expr, from)?.to_string(),
                 };
@@ -80,7 +80,7 @@ impl Expressions<'_, '_> {
     }
 }
 
-/// A value as a text.
+/// Converts a value to a string.
 pub(super) fn as_text(expression: &Expr, kind: SqlType) -> Result<Expr> {
     Ok(match kind {
         SqlType::Text | SqlType::Literal | SqlType::List => expression.clone(),
@@ -89,7 +89,7 @@ pub(super) fn as_text(expression: &Expr, kind: SqlType) -> Result<Expr> {
     })
 }
 
-/// A text in quotes as the number that stands beside it.
+/// Converts a quoted string to a number of the type of the other operand.
 pub(super) fn as_number(expression: &Expr, other: SqlType) -> Result<Expr> {
     let Expr::Value(value) = expression else { return Ok(expression.clone()) };
     let Value::SingleQuotedString(text) = &value.value else { return Ok(expression.clone()) };
@@ -108,13 +108,13 @@ pub(super) fn as_number(expression: &Expr, other: SqlType) -> Result<Expr> {
     }
 }
 
-/// The digits behind the point of `numeric(8, 2)`.
+/// Returns the scale of a type such as `numeric(8, 2)`.
 fn scale(name: &str) -> Option<i32> {
     let inside = name.split_once('(')?.1.trim_end_matches(')');
     inside.split_once(',').map_or(Some(0), |(_, scale)| scale.trim().parse().ok())
 }
 
-/// The length of `varchar(8)`.
+/// Returns the length of a type such as `varchar(8)`.
 fn length(name: &str) -> Option<u32> {
     name.split_once('(')?.1.trim_end_matches(')').trim().parse().ok()
 }

@@ -1,4 +1,4 @@
-//! Tables of which a script reads a part: on a server, statements see that part alone, as of files.
+//! Tables of which a script reads a part. On a server, statements see only this part, as with files.
 
 use std::collections::BTreeMap;
 
@@ -9,10 +9,10 @@ use super::parse::{SyntaxTree, parse};
 use super::scope::{quoted, table};
 use super::walk::{StatementPartMut, walk_mut};
 
-/// What is seen of tables, as a statement: by their names in small letters.
+/// The visible part of tables as a SELECT statement, by lower-case name.
 pub(crate) type ChosenRows = BTreeMap<String, String>;
 
-/// Puts in what is seen of the tables that a query names.
+/// Replaces the tables that a query names with their visible parts.
 pub(super) fn put_in(query: &mut Query, tables: &Catalogue, chosen: &ChosenRows) {
     if !chosen.is_empty() {
         walk_mut(query, |part| {
@@ -25,7 +25,7 @@ pub(super) fn put_in(query: &mut Query, tables: &Catalogue, chosen: &ChosenRows)
     }
 }
 
-/// What is seen of the table that stands behind FROM, if that is less than all.
+/// Returns the visible part of a table after FROM, if it is not the whole table.
 fn seen(factor: &mut TableFactor, tables: &Catalogue, chosen: &ChosenRows) -> Option<TableFactor> {
     let TableFactor::Table { name, alias, args: None, .. } = factor else { return None };
     let known = table(name, tables)?;
@@ -39,7 +39,7 @@ fn seen(factor: &mut TableFactor, tables: &Catalogue, chosen: &ChosenRows) -> Op
     Some(part)
 }
 
-/// What stands behind FROM.
+/// Returns the first relation after FROM.
 fn first_relation(parsed: SyntaxTree) -> Option<TableFactor> {
     match *parsed.query.body {
         SetExpr::Select(mut select) => Some(select.from.pop()?.relation),

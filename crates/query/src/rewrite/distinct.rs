@@ -1,4 +1,4 @@
-//! `DISTINCT ON`, which SQLite has not, as the first row of each window.
+//! `DISTINCT ON`, which SQLite lacks, as the first row of each window.
 
 use sqlparser::ast::{
     Distinct, Expr, Ident, OrderBy, OrderByExpr, OrderByKind, Query, SelectItem,
@@ -12,7 +12,7 @@ use super::substitute::each_query;
 use super::typing::column_name;
 use burgeon_base::error::{Error, Result};
 
-/// Writes each `DISTINCT ON` as a query of the first rows of windows.
+/// Rewrites each `DISTINCT ON` as a query of the first rows of windows.
 pub(super) fn rewrite(query: &mut Query, tables: &Catalogue) -> Result<()> {
     each_query(query, |query| {
         let is_on = matches!(&*query.body, SetExpr::Select(select) if matches!(select.distinct, Some(Distinct::On(_))));
@@ -46,7 +46,7 @@ fn windowed(query: &Query, tables: &Catalogue) -> Option<Query> {
             _ => return None,
         }
     }
-    // What an order or a key calls a column by its name or its number.
+    // An order or a key may refer to a column by its name or its number.
     let meant = |expression: &Expr| match expression {
         Expr::Value(value) => match &value.value {
             Value::Number(number, _) => {
@@ -70,7 +70,7 @@ fn windowed(query: &Query, tables: &Catalogue) -> Option<Query> {
     for key in &given {
         order.push(OrderByExpr { expr: meant(&key.expr)?, ..key.clone() });
     }
-    // As PostgreSQL has it: what is not known is greater than all else.
+    // As in PostgreSQL, null is greater than all other values.
     for key in order.iter_mut().filter(|key| key.options.nulls_first.is_none()) {
         let falls = matches!(key.options.sort, Some(sqlparser::ast::OrderBySort::Desc));
         key.options.nulls_first = Some(falls);
@@ -107,7 +107,7 @@ fn windowed(query: &Query, tables: &Catalogue) -> Option<Query> {
         .enumerate()
         .map(|(index, (name, _))| format!("burgeon_c{} AS {}", index + 1, quoted(name)))
         .collect();
-    // The groups come in the order of their keys, as where PostgreSQL sorts.
+    // The groups are sorted by their keys, as if PostgreSQL sorts them.
     let sorted: Vec<String> = match order.is_empty() {
         true => (1..=parts.len()).map(|index| format!("burgeon_p{index} NULLS LAST")).collect(),
         false => order
@@ -131,7 +131,7 @@ fn windowed(query: &Query, tables: &Catalogue) -> Option<Query> {
     Some(made)
 }
 
-/// The columns of all relations, or of one.
+/// Returns the columns of all relations, or of one.
 fn all(relations: &[FromItem<'_>], owner: Option<&str>) -> Option<Vec<(String, Expr)>> {
     let mut columns = Vec::new();
     for relation in relations {

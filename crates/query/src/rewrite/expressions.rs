@@ -1,4 +1,4 @@
-//! The types of expressions, and what PostgreSQL means by them in SQLite's words.
+//! The types of expressions, and their translation from PostgreSQL to SQLite.
 
 use sqlparser::ast::{
     BinaryOperator, CaseWhen, CeilFloorKind, DateTimeField, Expr, FunctionArg, FunctionArgExpr, Query,
@@ -11,12 +11,12 @@ use super::types::SqlType;
 use super::typing::{TypeScope, Typing, error_at};
 use burgeon_base::error::{Error, Result};
 
-/// Types expressions of a statement.
+/// The typing of a statement's expressions.
 pub(super) struct Expressions<'a, 'b> {
     pub(super) typing: &'a mut Typing<'b>,
 }
 
-/// The error for what there is only on a server.
+/// Creates the error for a feature that only servers support.
 pub(super) fn unsupported(expression: &Expr, what: &str, remedy: &str) -> Error {
     error_at(expression, &format!("{what} is not supported here")).help(remedy)
 }
@@ -26,7 +26,7 @@ impl<'a, 'b> Expressions<'a, 'b> {
         Self { typing }
     }
 
-    /// Types a condition, which `clause` has.
+    /// Types the condition of a `clause`.
     pub(super) fn condition(
         &mut self,
         expression: &mut Expr,
@@ -45,7 +45,7 @@ impl<'a, 'b> Expressions<'a, 'b> {
         Ok(())
     }
 
-    /// Types an expression, and writes it as SQLite takes it.
+    /// Types an expression, and rewrites it for SQLite.
     pub(super) fn expression(&mut self, expression: &mut Expr, scope: &TypeScope<'_>) -> Result<SqlType> {
         use SqlType as T;
         Ok(match expression {
@@ -253,7 +253,7 @@ impl<'a, 'b> Expressions<'a, 'b> {
             Op::Plus | Op::Minus | Op::Multiply | Op::Divide | Op::Modulo => {
                 self.arithmetic(expression, scope)
             }
-            // PostgreSQL's power, and SQLite's lack of it.
+            // This operator is the power in PostgreSQL; SQLite has none.
             Op::PGExp | Op::BitwiseXor => {
                 *expression = made(&format!("power({left}, {right})"), expression)?;
                 self.expression(expression, scope)
@@ -324,7 +324,7 @@ impl<'a, 'b> Expressions<'a, 'b> {
         Ok(kind)
     }
 
-    /// Types two values that are compared; a text in quotes becomes what it is compared with.
+    /// Types two values that are compared; a quoted string takes the type of the other value.
     fn compared(
         &mut self,
         left: &mut Expr,
@@ -338,7 +338,7 @@ impl<'a, 'b> Expressions<'a, 'b> {
             kind if kind.is_number() => Some(0),
             T::Text => Some(1),
             T::Geometry => Some(2),
-            // Numbers are compared with what is true or false as SQLite has it, 1 or 0.
+            // SQLite stores booleans as 1 or 0, so they can be compared with numbers.
             T::Boolean => Some(0),
             T::List => Some(3),
             _ => None,
@@ -359,7 +359,7 @@ impl<'a, 'b> Expressions<'a, 'b> {
                     _ => as_number(side, other)?,
                 };
             } else if own == T::Unknown && other.is_number() && is_placeholder(side) {
-                // A text is taken for a number if it is one.
+                // A parameter with a string value is converted to a number.
                 *side = made(
                     &format!("CASE typeof({side}) WHEN 'text' THEN burgeon_number({side}) ELSE {side} END"),
                     side,
@@ -414,7 +414,7 @@ impl<'a, 'b> Expressions<'a, 'b> {
     }
 }
 
-/// An expression that was written here.
+/// Parses an expression that Burgeon wrote.
 pub(super) fn made(text: &str, instead: &Expr) -> Result<Expr> {
     parse::expression(text).ok_or_else(|| {
         error_at(instead, "this is too deep to be read").help("write fewer brackets within one another")
@@ -426,7 +426,7 @@ pub(super) fn no_operator(expression: &Expr, what: &str) -> Error {
         .help("a cast makes one type of another: name::integer, height::text")
 }
 
-/// The query that an expression is.
+/// Returns the query of a subquery expression.
 fn query_of(expression: &Expr) -> Option<&Query> {
     match expression {
         Expr::Nested(inner) => query_of(inner),

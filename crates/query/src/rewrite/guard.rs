@@ -1,4 +1,4 @@
-//! What a statement may reach on a server: tables that are known, and functions of a list.
+//! The names that a statement may use on a server: known tables, and functions of a list.
 
 use std::ops::ControlFlow;
 
@@ -14,11 +14,11 @@ use crate::functions;
 use burgeon_base::error::{Error, Result};
 use burgeon_base::text::{listed, shown};
 
-/// Functions that stand behind FROM.
+/// Functions that may follow FROM.
 const OF_ROWS: [&str; 6] =
     ["generate_series", "unnest", "st_dump", "st_dumppoints", "st_dumpsegments", "st_dumprings"];
 
-/// Functions of PostgreSQL that others have not.
+/// Further functions of PostgreSQL.
 const OTHERS: [&str; 18] = [
     "array_agg",
     "array_length",
@@ -40,7 +40,7 @@ const OTHERS: [&str; 18] = [
     "string_to_array",
 ];
 
-/// Words that PostgreSQL takes for functions.
+/// Keywords that PostgreSQL evaluates like functions.
 const NEVER_THE_SAME: [&str; 11] = [
     "current_catalog",
     "current_date",
@@ -55,7 +55,7 @@ const NEVER_THE_SAME: [&str; 11] = [
     "user",
 ];
 
-/// Fails if a statement is none that asks for rows, or names a table or a function that it may not.
+/// Fails if a statement does not return rows, or names a forbidden table or function.
 pub(crate) fn check(sql: &str, catalogue: &Catalogue) -> Result<()> {
     let checked = with_stack(|| {
         let tree = parse(sql).map_err(|error| {
@@ -67,7 +67,7 @@ pub(crate) fn check(sql: &str, catalogue: &Catalogue) -> Result<()> {
     checked.unwrap_or_else(|| Err(Error::system("cannot start a thread")))
 }
 
-/// What the parser says, with the place first.
+/// Reformats the parser's message, with the position first.
 fn unread(message: &str) -> String {
     let message = message.trim_start_matches("sql parser error: ").replacen("Expected", "expected", 1);
     let Some((what, at)) = message.rsplit_once(" at Line: ") else {
@@ -92,7 +92,7 @@ fn checked(query: &Query, sql: &str, catalogue: &Catalogue) -> Result<()> {
 struct Guard<'a> {
     sql: &'a str,
     catalogue: &'a Catalogue,
-    /// The tables that the statement declares.
+    /// Tables that the statement declares.
     own: Vec<String>,
 }
 
@@ -111,7 +111,7 @@ impl Guard<'_> {
         let written = name.to_string();
         let plain = written.trim_matches('"').to_ascii_lowercase();
         let of_list = |name: &str| OF_ROWS.contains(&name) || OTHERS.contains(&name);
-        // Functions of geometries reach nothing, but for those that read rasters or networks.
+        // Functions of geometries are harmless, except those that read rasters or networks.
         let spatial = plain.strip_prefix("st_").is_some_and(|rest| {
             rest.chars().all(|letter| letter.is_ascii_alphanumeric() || letter == '_')
                 && !["fromgdalraster", "asgdalraster"].contains(&rest)
@@ -142,7 +142,7 @@ impl Guard<'_> {
             return self.never_the_same(&name.value);
         }
         let Expr::Function(function) = expression else { return Ok(()) };
-        // Such as CURRENT_TIMESTAMP, which is never the same.
+        // Functions without parentheses, such as CURRENT_TIMESTAMP, are not deterministic.
         if matches!(function.args, FunctionArguments::None) {
             return self.never_the_same(&function.name.to_string());
         }

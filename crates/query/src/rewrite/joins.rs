@@ -1,8 +1,9 @@
-//! Spatial conditions that an index answers: of each, the boxes are compared first.
+//! Spatial conditions that use an index: their boxes are compared first.
 //!
-//! Where `P(a.geom, b.geom)` must hold and can do so only where boxes meet, or are near, `b.fid IN (...)` is added, with the
-//! keys of the rows whose boxes do. SQLite then looks `b` up by its key for each row of `a`. Which of the two is looked
-//! up is decided here, since SQLite knows nothing of either: the one of which more rows are left without it.
+//! If a required condition `P(a.geom, b.geom)` implies that the boxes intersect, or are near, then `b.fid IN (...)` is
+//! added, with the keys of the rows whose boxes do so. SQLite then looks up `b` by key for each row of `a`. The choice
+//! of the table to look up is made here, because SQLite lacks statistics of both: it is the table with more remaining
+//! rows.
 
 use std::ops::ControlFlow;
 
@@ -16,38 +17,39 @@ use super::scope::{
 use super::walk::{StatementPart, walk};
 use super::{TableInfo, parse};
 
-/// How many rows something is taken to have of which that is not known.
+/// Assumed number of rows of an unknown relation.
 const UNKNOWN_ROWS: f64 = 1000.0;
 
-/// What is left by a condition: that a column equals something, any other, and one that an index answers.
+/// Assumed fraction of rows that remain after a condition: equality of a column, any other condition, and a condition
+/// with an index.
 const LEFT: [f64; 3] = [0.02, 0.3, 0.01];
 
-/// Where a condition stands.
+/// The position of a condition.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum ConditionPlace {
-    /// Behind WHERE.
+    /// Condition after WHERE.
     Where,
-    /// Behind ON of a join: the number of the comma and of the join.
+    /// Condition after ON of a join: the number of the item in FROM, and of the join.
     On(usize, usize),
 }
 
-/// A way to look rows up by their keys.
+/// A way to look up rows by key.
 enum Lookup {
-    /// The rows whose boxes in the index are near those of a geometry.
+    /// Lookup of the rows whose boxes in the index are near the box of a geometry.
     Near {
-        /// The index.
+        /// Name of the index.
         index: String,
-        /// The geometry.
+        /// Geometry, as SQL.
         other: String,
-        /// How far the boxes may be from each other.
+        /// Maximum distance between the boxes, as SQL.
         distance: String,
     },
-    /// The row with a key.
+    /// Lookup of the row with a key.
     Key(String),
 }
 
 impl Lookup {
-    /// The keys as a query.
+    /// Returns the keys as a query.
     fn sql(&self) -> String {
         match self {
             Self::Near { index, other, distance } => {
@@ -58,13 +60,13 @@ impl Lookup {
     }
 }
 
-/// One side of a spatial condition whose table can be looked up.
+/// A side of a spatial condition, whose table can be looked up.
 struct ConditionSide<'a> {
     relation: usize,
     table: &'a TableInfo,
-    /// The ways to look its rows up; those that any of them gives may meet the condition.
+    /// Lookups of its rows; a row that any of them returns may satisfy the condition.
     lookups: Vec<Lookup>,
-    /// What these speak of.
+    /// Relations that the lookups depend on.
     needs: Vec<usize>,
 }
 
@@ -74,7 +76,7 @@ struct SpatialCondition<'a> {
     sides: Vec<ConditionSide<'a>>,
 }
 
-/// Adds conditions on boxes to a query; gives the names of the indexes that they ask.
+/// Adds conditions on boxes to a query, and returns the names of the indexes that they use.
 pub(super) fn index(select: &mut Select, tables: &Catalogue) -> Vec<String> {
     let relations = relations(select, tables);
     let mut found = Vec::new();
@@ -103,7 +105,7 @@ pub(super) fn index(select: &mut Select, tables: &Catalogue) -> Vec<String> {
             format!("{}.{} IN ({})", quoted(&alias.value), quoted(key), keys.join(" UNION ")),
         ));
     };
-    // What is compared with a constant comes first: it decides which table the others begin with.
+    // Comparisons with a constant come first, because they determine the table to start with.
     for condition in &found {
         for side in condition.sides.iter().filter(|side| side.needs.is_empty()) {
             if !looked_up[side.relation] {
@@ -115,7 +117,7 @@ pub(super) fn index(select: &mut Select, tables: &Catalogue) -> Vec<String> {
     }
     for condition in &found {
         let open = condition.sides.iter().filter(|side| !side.needs.is_empty() && !looked_up[side.relation]);
-        // Of equal ones the one that stands later.
+        // Among equally large tables, the later one is looked up.
         let best = open
             .max_by(|a, b| rows[a.relation].total_cmp(&rows[b.relation]).then(a.relation.cmp(&b.relation)));
         if let Some(side) = best {
@@ -132,7 +134,7 @@ fn rows(relation: &FromItem<'_>) -> f64 {
     relation.table.map_or(UNKNOWN_ROWS, |table| table.rows as f64)
 }
 
-/// All conditions of a query.
+/// Returns all conditions of a query.
 fn sites(select: &Select) -> Vec<(ConditionPlace, &Expr)> {
     let mut sites = Vec::new();
     for (comma, item) in select.from.iter().enumerate() {
@@ -146,7 +148,7 @@ fn sites(select: &Select) -> Vec<(ConditionPlace, &Expr)> {
     sites
 }
 
-/// Puts a condition before those of a site.
+/// Inserts a condition before the conditions at a position.
 fn attach(select: &mut Select, site: ConditionPlace, condition: &str) -> bool {
     let place = match site {
         ConditionPlace::Where => select.selection.as_mut(),
@@ -165,7 +167,7 @@ fn attach(select: &mut Select, site: ConditionPlace, condition: &str) -> bool {
     true
 }
 
-/// Counts fewer rows for a condition on one table alone.
+/// Reduces the estimated number of rows for a condition on a single table.
 fn weigh(part: &Expr, relations: &[FromItem<'_>], rows: &mut [f64]) {
     let [only] = mentioned(part, relations)[..] else { return };
     let equals =
@@ -173,7 +175,7 @@ fn weigh(part: &Expr, relations: &[FromItem<'_>], rows: &mut [f64]) {
     rows[only] *= LEFT[usize::from(!equals)];
 }
 
-/// What an index can do for a condition.
+/// Returns the sides of a condition for which an index can be used.
 fn spatial<'a>(
     part: &Expr,
     site: ConditionPlace,
@@ -194,7 +196,7 @@ fn spatial<'a>(
     (!sides.is_empty()).then_some(SpatialCondition { site, sides })
 }
 
-/// The parts of a condition of which one must hold.
+/// Returns the parts of a condition of which at least one must hold.
 fn disjuncts(condition: &Expr) -> Vec<&Expr> {
     match condition {
         Expr::BinaryOp { left, op: BinaryOperator::Or, right } => {
@@ -207,7 +209,7 @@ fn disjuncts(condition: &Expr) -> Vec<&Expr> {
     }
 }
 
-/// The ways to look up the rows of a relation that meet one of several conditions, if there is one for each.
+/// Returns the lookups of a relation's rows for a disjunction, if there is one for each part.
 fn any<'a>(
     parts: &[&Expr],
     relation: usize,
@@ -236,11 +238,11 @@ fn any<'a>(
     let mut all = all?;
     all.needs.sort_unstable();
     all.needs.dedup();
-    // Keys alone are looked up by SQLite.
+    // SQLite itself looks up keys.
     all.lookups.iter().any(|lookup| matches!(lookup, Lookup::Near { .. })).then_some(all)
 }
 
-/// The row of a relation whose key equals something.
+/// Returns the lookup of a relation's row by an equality of its key.
 fn keyed<'a>(
     part: &Expr,
     relation: usize,
@@ -266,10 +268,11 @@ fn keyed<'a>(
     fits.then(|| ConditionSide { relation, table, lookups: vec![Lookup::Key(other.to_string())], needs })
 }
 
-/// Whether a condition at a site may decide which rows of a relation there are.
+/// Reports whether a condition at a position may filter the rows of a relation.
 fn is_allowed(relation: usize, site: ConditionPlace, relations: &[FromItem<'_>]) -> bool {
     let place = relations[relation].place;
-    // The condition of an outer join says which of its own rows belong to one that is there already.
+    // The condition of an outer join only selects the rows to join, and does not filter the rows of the other
+    // relations.
     match site {
         ConditionPlace::Where => !relations[relation].optional,
         ConditionPlace::On(comma, join) => {
@@ -289,7 +292,7 @@ fn side<'a>(
 ) -> Option<ConditionSide<'a>> {
     let (relation, table, column) = geometry_column(own, relations)?;
     table.key.as_ref()?;
-    // The distance is asked before the row is there.
+    // The distance is evaluated before the row is available.
     if distance.is_some_and(|distance| !mentioned(distance, relations).is_empty()) {
         return None;
     }
@@ -303,7 +306,7 @@ fn side<'a>(
     fits.then(|| ConditionSide { relation, table, lookups: vec![lookup], needs })
 }
 
-/// Whether an expression may be computed once more: one that holds no query of its own.
+/// Reports whether an expression may be evaluated again: it contains no subquery.
 fn is_plain(expression: &Expr) -> bool {
     let walked = walk(expression, |part| match part {
         StatementPart::Query(_) => ControlFlow::Break(()),
@@ -312,7 +315,7 @@ fn is_plain(expression: &Expr) -> bool {
     walked.is_continue()
 }
 
-/// The two geometries of a condition that holds only where their boxes meet, or are no farther than a distance.
+/// Returns the two geometries of a condition that implies that their boxes intersect, or are within a distance.
 fn near(part: &Expr) -> Option<(&Expr, &Expr, Option<&Expr>)> {
     use BinaryOperator as Op;
     match part {
@@ -344,7 +347,7 @@ fn is_one(expression: &Expr) -> bool {
         || matches!(&value.value, Value::Number(number, _) if number == "1")
 }
 
-/// The geometries that `measured` is the distance of.
+/// Returns the geometries of a comparison of their distance `measured` with a limit.
 fn within<'a>(measured: &'a Expr, distance: &'a Expr) -> Option<(&'a Expr, &'a Expr, Option<&'a Expr>)> {
     let measured = if let Expr::Nested(inner) = measured { inner } else { measured };
     let (name, arguments) = call(measured)?;

@@ -1,8 +1,8 @@
-//! Subqueries behind LATERAL, which SQLite has not: each becomes an expression, a scalar subquery, or a join.
+//! LATERAL subqueries, which SQLite lacks: each becomes an expression, a scalar subquery, or a join.
 //!
 //! - Without FROM, its columns are expressions.
-//! - An aggregate gives one row: each column is a scalar subquery.
-//! - Rows of one table are joined by their keys: `b.fid IN (SELECT ... ORDER BY ... LIMIT 3)`.
+//! - An aggregate has one row: each column is a scalar subquery.
+//! - Rows of one table are joined by key: `b.fid IN (SELECT ... ORDER BY ... LIMIT 3)`.
 
 use sqlparser::ast::{
     Expr, JoinOperator, OrderByKind, Query, Select, SelectItem, SetExpr, TableFactor, TableWithJoins, Value,
@@ -16,14 +16,14 @@ use super::typing::column_name;
 use super::{order, walk};
 use burgeon_base::error::{Error, Result};
 
-/// What a subquery behind LATERAL becomes.
+/// The replacement of a LATERAL subquery.
 struct LateralForm {
     substitutions: Vec<Substitution>,
-    /// The relation in its place, and the condition of its join.
+    /// Relation that replaces it, and the condition of its join.
     join: Option<(TableFactor, Expr)>,
 }
 
-/// Writes subqueries behind LATERAL as SQLite has them.
+/// Rewrites LATERAL subqueries for SQLite.
 pub(super) fn flatten(query: &mut Query, tables: &Catalogue) -> Result<()> {
     each_query(query, |query| {
         let Some(select) = select_of(query) else { return Ok(()) };
@@ -36,7 +36,7 @@ pub(super) fn flatten(query: &mut Query, tables: &Catalogue) -> Result<()> {
         let mut kept: Vec<TableWithJoins> = Vec::new();
         for mut item in std::mem::take(&mut select.from) {
             let joins = std::mem::take(&mut item.joins);
-            // A comma joins as CROSS JOIN does.
+            // A comma is equivalent to CROSS JOIN.
             match flattened(&item.relation, tables, &known)? {
                 Some(LateralForm { substitutions: more, join }) => {
                     substitutions.extend(more);
@@ -74,7 +74,8 @@ pub(super) fn flatten(query: &mut Query, tables: &Catalogue) -> Result<()> {
                             None => kept.push(TableWithJoins { relation: join.relation, joins: Vec::new() }),
                         }
                     }
-                    // One row for each: the join needs no relation, and a condition of its own is one on it.
+                    // There is exactly one row: the join needs no relation, and its condition becomes a condition of
+                    // the query.
                     None => {
                         let outer =
                             matches!(join.join_operator, JoinOperator::Left(_) | JoinOperator::LeftOuter(_));
@@ -187,7 +188,7 @@ fn flattened(factor: &TableFactor, tables: &Catalogue, known: &[String]) -> Resu
     joined(subquery, select, &owner, tables, columns, starred, substitution).map(Some)
 }
 
-/// The column that an expression behind ORDER BY means by its name or its number.
+/// Returns the column that an ORDER BY expression refers to by its name or its number.
 fn meant<'c>(key: &Expr, columns: &'c [(String, Expr)]) -> Option<&'c (String, Expr)> {
     match key {
         Expr::Identifier(name) => columns.iter().find(|(known, _)| known.eq_ignore_ascii_case(&name.value)),
@@ -201,7 +202,7 @@ fn meant<'c>(key: &Expr, columns: &'c [(String, Expr)]) -> Option<&'c (String, E
     }
 }
 
-/// A join with the rows of one table that a subquery gives.
+/// Creates a join with the rows of one table that a subquery returns.
 fn joined(
     subquery: &Query,
     select: &Select,
@@ -219,7 +220,7 @@ fn joined(
     let Some(key) = &table.key else { return Err(unsupported("with a table without a key")) };
     let mut keys = subquery.clone();
     if let Some(OrderByKind::Expressions(order)) = keys.order_by.as_mut().map(|order| &mut order.kind) {
-        // Its columns go, so what it orders by is written out.
+        // The columns are removed, so the expressions of the order are written out.
         for key in order {
             if let Some((_, expression)) = meant(&key.expr, &columns) {
                 key.expr = Expr::Nested(Box::new(expression.clone()));
@@ -234,7 +235,7 @@ fn joined(
     let relation = format!("{} AS {}", quoted(&table.name), quoted(owner));
     let parsed = parse::expression(&condition).zip(parse::relation(&relation));
     let Some((condition, relation)) = parsed else { return Err(unsupported("so deep")) };
-    // What the subquery calls its table is the relation now.
+    // The alias in the subquery is replaced with the name of the relation.
     let renamed = |expression: &Expr| {
         let mut holder = parse::holder(expression.clone());
         let mut change = |part: &mut Expr| match part {
@@ -256,7 +257,7 @@ fn joined(
     };
     let computed = columns.into_iter().filter_map(|(name, expression)| {
         let made = renamed(&expression);
-        // A column of the table is there by its own name.
+        // A column of the table is available under its own name.
         let same = matches!(&made, Expr::CompoundIdentifier(names)
             if names.len() == 2 && names[0].value == owner && names[1].value.eq_ignore_ascii_case(&name));
         (!same || !starred).then(|| substitution(name, made))

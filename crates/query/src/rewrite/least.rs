@@ -1,7 +1,8 @@
-//! The least distance of a group, `min(ST_Distance(a.geom, b.geom)) ... GROUP BY a.fid`, as the distance of the nearest row.
+//! The minimum distance of a group, `min(ST_Distance(a.geom, b.geom)) ... GROUP BY a.fid`, as the distance to the
+//! nearest row.
 //!
-//! Where a table is joined for nothing but the least distance to it, each row of the others needs its nearest row alone:
-//! `min((SELECT ST_Distance(a.geom, b.geom) FROM b ORDER BY ... LIMIT 1))`, which an index answers.
+//! If a table is joined only for the minimum distance to it, each row of the other tables needs only its nearest row:
+//! `min((SELECT ST_Distance(a.geom, b.geom) FROM b ORDER BY ... LIMIT 1))`, which uses an index.
 
 use sqlparser::ast::{Expr, JoinConstraint, JoinOperator, Query, SetExpr, TableFactor};
 
@@ -13,22 +14,22 @@ use super::substitute::select_of;
 use super::walk::{StatementPart, walk, walk_expressions};
 use std::ops::ControlFlow;
 
-/// Rewrites a query whose aggregates are least distances to one table.
+/// Rewrites a query whose aggregates are minimum distances to one table.
 pub(super) fn rewrite(query: &mut Query, tables: &Catalogue) {
     if let Some(made) = rewritten(query, tables) {
         *query = made;
     }
 }
 
-/// The table that is asked for the nearest alone.
+/// The table of which only the nearest row is needed.
 struct NearestTable {
-    /// Its place behind FROM.
+    /// Position after FROM.
     place: (usize, usize),
-    /// Its name and what it is called.
+    /// Name and alias.
     relation: String,
-    /// What its rows must meet.
+    /// Conditions on its rows.
     conditions: Vec<String>,
-    /// Whether rows without any stay.
+    /// Set if rows without a match are kept.
     optional: bool,
 }
 
@@ -41,7 +42,7 @@ fn rewritten(query: &Query, tables: &Catalogue) -> Option<Query> {
     if items.len() < 2 || items.iter().any(|item| item.table.is_none() || item.alias.is_none()) {
         return None;
     }
-    // All aggregates are least distances to one relation, and nothing else speaks of it.
+    // All aggregates must be minimum distances to one relation, and no other expression may refer to it.
     let mut target: Option<usize> = None;
     let mut fits = true;
     let mut distances: Vec<Expr> = Vec::new();
@@ -78,7 +79,7 @@ fn rewritten(query: &Query, tables: &Catalogue) -> Option<Query> {
         true => String::new(),
         false => format!(" WHERE {}", nearest.conditions.join(" AND ")),
     };
-    // The conditions that are not the table's stay.
+    // Conditions that do not involve the table remain.
     let own = |expression: &&Expr| mentioned(expression, &items).contains(&target);
     let mut kept: Vec<String> = selection
         .iter()
@@ -119,7 +120,8 @@ fn rewritten(query: &Query, tables: &Catalogue) -> Option<Query> {
     Some(made)
 }
 
-/// The relation whose geometry a distance is to, and the distance. Of two the one that stands later.
+/// Returns the relation to whose geometry a distance is measured, and the distance. Of two relations, it is the later
+/// one.
 fn distance_to(expression: &Expr, items: &[FromItem<'_>]) -> Option<(usize, Expr)> {
     let (name, arguments) = call(expression)?;
     let [a, b] = arguments.as_slice() else { return None };
@@ -138,10 +140,10 @@ fn distance_to(expression: &Expr, items: &[FromItem<'_>]) -> Option<(usize, Expr
 
 fn is_other_aggregate(expression: &Expr) -> bool {
     let Some((name, _)) = call(expression) else {
-        // Filters, windows and stars are not looked into.
+        // Calls with filters, windows or stars are not analysed, so they count as aggregates.
         return matches!(expression, Expr::Function(_));
     };
-    // The least and the greatest do not depend on how often a row is there.
+    // These aggregates do not depend on the number of duplicate rows.
     !matches!(name.as_str(), "min" | "max" | "bool_or" | "bool_and") && super::order::is_aggregate(expression)
 }
 
@@ -189,7 +191,7 @@ fn nearest(
             take(on, &mut conditions, true);
         }
     }
-    // Other joins may speak of it.
+    // Other joins may refer to the table.
     for (index, other) in from.iter().enumerate() {
         for (place, joined) in other.joins.iter().enumerate() {
             if (index, place + 1) != item.place
@@ -200,7 +202,7 @@ fn nearest(
         }
     }
     if let Some(selection) = selection {
-        // What is asked behind WHERE of a row that may be missing is asked of the row that is not there, too.
+        // A condition after WHERE also applies to the null row of an outer join.
         if optional && mentioned(selection, items).contains(&target) {
             return None;
         }

@@ -1,5 +1,5 @@
-//! Subqueries that are joined by their geometries with each other: one of them is computed first, as a table with keys, so
-//! that an index can answer the join.
+//! Subqueries that are joined with each other by their geometries: one of them is materialized first, as a table with
+//! keys, so that the join can use an index.
 
 use std::hash::BuildHasher as _;
 use std::ops::ControlFlow;
@@ -18,10 +18,10 @@ use super::typing;
 use super::walk::{StatementPart, walk};
 use super::{Catalogue, TableInfo};
 
-/// The key of a table that was made of a subquery.
+/// Name of the key of a materialized subquery.
 const KEY: &str = "burgeon_key";
 
-/// The functions of two geometries that an index answers.
+/// Functions of two geometries that can use an index.
 const FUNCTIONS: [&str; 12] = [
     "st_intersects",
     "st_contains",
@@ -37,16 +37,16 @@ const FUNCTIONS: [&str; 12] = [
     "geometry_overlaps",
 ];
 
-/// A table that is made of a subquery before a statement is asked.
+/// A subquery that is materialized as a table before the statement runs.
 #[derive(Debug, Clone)]
 pub(crate) struct MadeTable {
-    /// What is known of it.
+    /// Description of the table.
     pub info: TableInfo,
-    /// The subquery.
+    /// SQL of the subquery.
     pub sql: String,
 }
 
-/// Puts the subqueries that a query declares in the place of their names where they are joined by geometries.
+/// Replaces the names of declared subqueries with the subqueries themselves if they are joined by geometries.
 pub(super) fn inline(query: &mut Query, tables: &Catalogue) {
     let Some(with) = query.with.clone().filter(|with| !with.recursive) else { return };
     let SetExpr::Select(select) = &mut *query.body else { return };
@@ -77,7 +77,7 @@ pub(super) fn inline(query: &mut Query, tables: &Catalogue) {
     }
 }
 
-/// Makes tables of the subqueries behind FROM that need an index; adds them to `tables`.
+/// Materializes the subqueries after FROM that need an index, and adds them to `tables`.
 pub(super) fn make(select: &mut Select, tables: &mut Catalogue) -> Vec<MadeTable> {
     let mut made = Vec::new();
     for called in wanted(select, tables) {
@@ -90,7 +90,7 @@ pub(super) fn make(select: &mut Select, tables: &mut Catalogue) -> Vec<MadeTable
             _ => None,
         });
         let Some(table) = found.and_then(|subquery| table(&subquery, tables)) else { continue };
-        // A star must not give the key.
+        // A star must not include the key.
         if !expand_stars(select, tables, &called, &table.info) {
             continue;
         }
@@ -108,7 +108,7 @@ pub(super) fn make(select: &mut Select, tables: &mut Catalogue) -> Vec<MadeTable
     made
 }
 
-/// The names of subqueries whose geometries are compared with those of others, of which none is a table.
+/// Returns the names of subqueries whose geometries are compared with those of other subqueries.
 fn wanted(select: &Select, tables: &Catalogue) -> Vec<String> {
     let items = relations(select, tables);
     let unknown = |name: &Ident| {
@@ -135,7 +135,7 @@ fn wanted(select: &Select, tables: &Catalogue) -> Vec<String> {
                     _ => None,
                 };
                 let known = [a, b].iter().any(|side| geometry_column(side, &items).is_some());
-                // Of two the one that stands later is looked up.
+                // Of two subqueries, the later one is looked up.
                 if let (false, Some(index)) = (known, side(a).max(side(b)))
                     && [a, b].iter().any(|other| side(other) != Some(index))
                 {
@@ -158,7 +158,7 @@ fn wanted(select: &Select, tables: &Catalogue) -> Vec<String> {
     found.into_iter().filter_map(|index| Some(items[index].alias.as_ref()?.value.clone())).collect()
 }
 
-/// The table that is made of a subquery, if that speaks of nothing outside and its columns are known.
+/// Returns the table of a subquery, if it does not depend on outer columns, and its columns are known.
 fn table(subquery: &Query, tables: &Catalogue) -> Option<MadeTable> {
     let mut typed = subquery.clone();
     let columns: ColumnTypes = typing::type_query(&mut typed, tables).ok()?;
@@ -191,7 +191,7 @@ fn table(subquery: &Query, tables: &Catalogue) -> Option<MadeTable> {
     Some(MadeTable { info, sql })
 }
 
-/// Whether a query names no column of what stands around it.
+/// Reports whether a query does not refer to columns of an outer query.
 fn is_closed(query: &Query, tables: &Catalogue) -> bool {
     let (mut owners, mut columns): (Vec<String>, Vec<String>) = (Vec::new(), Vec::new());
     let mut known = true;
@@ -228,7 +228,7 @@ fn is_closed(query: &Query, tables: &Catalogue) -> bool {
     walked.is_continue()
 }
 
-/// Names the columns in the place of stars. Returns whether that was possible.
+/// Replaces stars with the names of the columns. Returns true if this was possible.
 fn expand_stars(select: &mut Select, tables: &Catalogue, called: &str, info: &TableInfo) -> bool {
     let is_star =
         |item: &SelectItem| matches!(item, SelectItem::Wildcard(_) | SelectItem::QualifiedWildcard(..));

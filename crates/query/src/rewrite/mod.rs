@@ -1,7 +1,7 @@
-//! Statements as people write them, made into statements that use the index and give rows in one order.
+//! The rewriting of statements, so that they use indexes and return rows in a fixed order.
 //!
-//! Comes in: a statement and the tables that there are. Goes out: the statement that the database is asked. What is added
-//! follows from what is there already, or settles what was left open, so that the rows stay the same.
+//! Input: a statement and the available tables. Output: the statement that the database runs. Added conditions are
+//! implied by existing ones, or fix an unspecified order, so the rows stay the same.
 
 mod calls;
 mod casts;

@@ -1,7 +1,7 @@
-//! The nearest rows: `ORDER BY ST_Distance(t.geom, ...) LIMIT 1` is answered by an index.
+//! Nearest rows: `ORDER BY ST_Distance(t.geom, ...) LIMIT 1` uses an index.
 //!
-//! Of one table without conditions it is the nearest row itself. With a condition, those rows are taken that are
-//! nearest, more and more until enough of them meet it; should too few do so, all.
+//! Without a condition, the result of a query of one table is the nearest row itself. With a condition, an increasing
+//! number of nearest rows is tested until enough of them satisfy it; if too few do, all rows are tested.
 
 use sqlparser::ast::{
     Expr, GroupByExpr, LimitClause, OrderBy, OrderByExpr, OrderByKind, OrderBySort, Query, Select,
@@ -12,11 +12,11 @@ use super::operators::call;
 use super::scope::{geometry_column, mentioned, quoted, relations, text};
 use super::{Catalogue, order, parse};
 
-/// How many rows are looked at, one after the other, where there is a condition: so many times those that are wanted, and
-/// so many more. What few rows meet is found among all.
+/// Numbers of nearest rows to test in turn for a condition: a multiple of the wanted rows, and an additional number. If
+/// too few rows satisfy the condition, all rows are tested.
 const STEPS: [(usize, usize); 3] = [(1, 64), (8, 1024), (64, 16_384)];
 
-/// Lets an index answer a query, and gives its name. The order of the rows is settled then.
+/// Rewrites a query to use an index, and returns the index's name. Also fixes the order of the rows.
 pub(super) fn index(query: &mut Query, tables: &Catalogue) -> Option<String> {
     let answer = asked(query, tables)?;
     let SetExpr::Select(select) = &mut *query.body else { return None };
@@ -30,11 +30,11 @@ pub(super) fn index(query: &mut Query, tables: &Catalogue) -> Option<String> {
 }
 
 struct NearestAnswer {
-    /// The index that is asked.
+    /// Name of the index.
     index: String,
-    /// What stands behind WHERE.
+    /// Condition after WHERE.
     condition: String,
-    /// Whether it leaves one row alone.
+    /// Set if at most one row remains.
     only: bool,
 }
 
@@ -97,7 +97,7 @@ fn asked(query: &Query, tables: &Catalogue) -> Option<NearestAnswer> {
     Some(NearestAnswer { index: name, condition, only })
 }
 
-/// What an order calls by the name of a column, or by its number.
+/// Returns the expression that an order refers to by the name or the number of a column.
 fn meant<'a>(key: &'a Expr, select: &'a Select) -> &'a Expr {
     let found = match key {
         Expr::Identifier(name) => select.projection.iter().find_map(|item| match item {
@@ -123,7 +123,7 @@ fn meant<'a>(key: &'a Expr, select: &'a Select) -> &'a Expr {
     found.unwrap_or(key)
 }
 
-/// Whether each row of the table gives one of the result.
+/// Reports whether each row of the table gives one row of the result.
 fn is_plain(select: &Select) -> bool {
     let grouped = !matches!(&select.group_by, GroupByExpr::Expressions(keys, _) if keys.is_empty());
     select.distinct.is_none() && !grouped && select.having.is_none() && !order::aggregates(select)
@@ -136,7 +136,7 @@ fn ordered(order: &OrderBy) -> Option<&[OrderByExpr]> {
     }
 }
 
-/// How many rows are wanted, and left out before: a number, or a sum.
+/// Returns the number of wanted rows plus the offset, as a number or a sum.
 fn count(limit: &LimitClause) -> Option<String> {
     let (limit, offset) = match limit {
         LimitClause::LimitOffset { limit: Some(limit), offset, .. } => {

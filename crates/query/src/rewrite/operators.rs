@@ -2,7 +2,7 @@
 
 use sqlparser::ast::{Expr, Function, FunctionArg, FunctionArgExpr, FunctionArguments};
 
-/// The name in small letters and the arguments of a plain call of a function.
+/// Returns the lower-case name and the arguments of a plain call of a function.
 pub(super) fn call(expression: &Expr) -> Option<(String, Vec<&Expr>)> {
     let Expr::Function(Function {
         name, args: FunctionArguments::List(list), filter: None, over: None, ..

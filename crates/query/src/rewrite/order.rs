@@ -1,4 +1,5 @@
-//! One order of rows, whatever way a database goes: what a statement leaves open is decided by keys, and by all columns.
+//! A fixed order of rows, independent of the database's plan: an unspecified order is completed with keys, or with all
+//! columns.
 
 use std::ops::ControlFlow;
 
@@ -13,10 +14,10 @@ use super::walk::{StatementPart, walk};
 use super::{Catalogue, Dialect, parse};
 use crate::functions::BOOLEAN_LIST;
 
-/// The most columns that rows are ordered by.
+/// Maximum number of columns by which rows are ordered.
 const MOST_COLUMNS: usize = 64;
 
-/// Functions of many rows.
+/// Aggregate functions.
 const AGGREGATES: [&str; 18] = [
     "avg",
     "count",
@@ -38,7 +39,8 @@ const AGGREGATES: [&str; 18] = [
     "st_memunion",
 ];
 
-/// Has rows that are equal in what a query orders by ordered too, and those that are cut off where it orders by nothing.
+/// Completes the order of a query, so that rows with equal keys are ordered too, and so that LIMIT without ORDER BY is
+/// deterministic.
 pub(super) fn settle(query: &mut Query, tables: &Catalogue, dialect: Dialect) {
     let (given, cut) = (query.order_by.is_some(), query.limit_clause.is_some());
     if !given && !cut {
@@ -50,7 +52,7 @@ pub(super) fn settle(query: &mut Query, tables: &Catalogue, dialect: Dialect) {
         .get_or_insert_with(|| OrderBy { kind: OrderByKind::Expressions(Vec::new()), interpolate: None });
     let OrderByKind::Expressions(keys) = &mut order.kind else { return };
     if dialect == Dialect::Sqlite {
-        // As PostgreSQL has it: what is not known is greater than all else.
+        // As in PostgreSQL, null is greater than all other values.
         for key in keys.iter_mut().filter(|key| key.options.nulls_first.is_none()) {
             key.options.nulls_first = Some(matches!(key.options.sort, Some(OrderBySort::Desc)));
         }
@@ -61,7 +63,8 @@ pub(super) fn settle(query: &mut Query, tables: &Catalogue, dialect: Dialect) {
     }
 }
 
-/// What decides last: the keys of all tables where each row of theirs gives one, or all columns.
+/// Returns the final sort keys: the keys of all tables if each combination of their rows gives one row, otherwise all
+/// columns.
 fn last_resort(query: &Query, tables: &Catalogue) -> Vec<OrderByExpr> {
     let key = |text: &str| {
         let expr = parse::expression(text)?;
@@ -88,7 +91,7 @@ fn numbers(count: usize, key: impl Fn(&str) -> Option<OrderByExpr>) -> Vec<Order
     (1..=count.min(MOST_COLUMNS)).filter_map(|number| key(&number.to_string())).collect()
 }
 
-/// How many columns there are; nothing where a star hides it.
+/// Returns the number of columns, or `None` if it is hidden by a star.
 fn columns(body: &SetExpr) -> Option<usize> {
     match body {
         SetExpr::Select(select) => {
@@ -103,12 +106,12 @@ fn columns(body: &SetExpr) -> Option<usize> {
     }
 }
 
-/// Whether rows are not grouped by anything.
+/// Returns true if there is no GROUP BY.
 pub(super) fn is_ungrouped(keys: &GroupByExpr) -> bool {
     matches!(keys, GroupByExpr::Expressions(keys, _) if keys.is_empty())
 }
 
-/// Whether many rows give one.
+/// Reports whether the projection contains an aggregate.
 pub(super) fn aggregates(select: &Select) -> bool {
     let walked = walk(&select.projection, |part| match part {
         StatementPart::Expression(expression) if is_aggregate(expression) => ControlFlow::Break(()),
@@ -117,10 +120,10 @@ pub(super) fn aggregates(select: &Select) -> bool {
     walked.is_break()
 }
 
-/// Whether an expression is the call of a function of many rows.
+/// Reports whether an expression is a call of an aggregate function.
 pub(super) fn is_aggregate(expression: &Expr) -> bool {
     let Expr::Function(function) = expression else { return false };
-    // With several arguments these are functions of one row.
+    // With several arguments, these are scalar functions.
     let of_one_row = call(expression).is_some_and(|(name, arguments)| {
         matches!(name.as_str(), "max" | "min" | "st_collect" | "st_union") && arguments.len() > 1
     });

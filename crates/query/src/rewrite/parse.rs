@@ -1,4 +1,4 @@
-//! Reads statements: in the words that SQLite and PostgreSQL share, with operators of PostGIS.
+//! Parses statements: in the common grammar of SQLite and PostgreSQL, with the operators of PostGIS.
 
 use sqlparser::ast::{BinaryOperator, Expr, Parens, Query, SetExpr, TableFactor, Values};
 use sqlparser::dialect::Dialect as Grammar;
@@ -8,13 +8,13 @@ use sqlparser::tokenizer::{Location, Token, TokenWithSpan, Tokenizer};
 
 use super::walk::asks_for_rows;
 
-/// The most words of a statement that is read: more could nest too deep.
+/// Maximum number of tokens of a statement that is parsed: more could be nested too deeply.
 const MOST_TOKENS: usize = 10_000;
 
-/// How deep parentheses may nest.
+/// Maximum nesting depth of parentheses.
 const DEEPEST: usize = 60;
 
-/// What is read of both databases.
+/// The common grammar of both databases.
 #[derive(Debug)]
 struct SharedGrammar;
 
@@ -75,16 +75,16 @@ impl Grammar for SharedGrammar {
     }
 }
 
-/// A statement that asks for rows.
+/// A statement that returns rows.
 pub(crate) struct SyntaxTree {
-    /// It.
+    /// Query.
     pub query: Box<Query>,
 }
 
-/// What is wrong with a statement, and the line and column where, counted from 1; 0 where that is not known.
+/// The error of a statement that cannot be parsed. The message contains the line and column, if known.
 #[derive(Debug, Clone)]
 pub(crate) struct SyntaxError {
-    /// In the parser's words.
+    /// Message of the parser.
     #[cfg_attr(not(feature = "postgis"), allow(dead_code, reason = "SQLite tells of its errors itself"))]
     pub message: String,
 }
@@ -94,7 +94,7 @@ fn tokens(sql: &str) -> Result<Vec<TokenWithSpan>, SyntaxError> {
     let tokens = tokens.map_err(|error| SyntaxError { message: error.to_string() })?;
     let mut joined: Vec<TokenWithSpan> = Vec::with_capacity(tokens.len());
     for token in tokens {
-        // SQLite's quoted name `[1]` is a place in an array right behind another name.
+        // A quoted name `[1]` of SQLite is an array index if it directly follows another name.
         if let (Some(TokenWithSpan { token: Token::Word(before), span }), Token::Word(word)) =
             (joined.last_mut(), &token.token)
             && word.quote_style == Some('[')
@@ -112,7 +112,7 @@ fn tokens(sql: &str) -> Result<Vec<TokenWithSpan>, SyntaxError> {
     Ok(joined)
 }
 
-/// Reads a statement, which must ask for rows.
+/// Parses a statement, which must return rows.
 pub(crate) fn parse(sql: &str) -> Result<SyntaxTree, SyntaxError> {
     let tokens = tokens(sql)?;
     if tokens.len() > MOST_TOKENS {
@@ -126,7 +126,7 @@ pub(crate) fn parse(sql: &str) -> Result<SyntaxTree, SyntaxError> {
         return wrong("it says nothing");
     }
     let unread = |error: ParserError| SyntaxError { message: error.to_string() };
-    // The parser's own way to read statements would bring all statements of all databases into the program.
+    // The parser's own entry point for statements would link the statements of all databases into the program.
     let query = parser.parse_query().map_err(unread)?;
     let ended = parser.consume_token(&Token::SemiColon);
     while parser.consume_token(&Token::SemiColon) {}
@@ -145,13 +145,13 @@ pub(crate) fn parse(sql: &str) -> Result<SyntaxTree, SyntaxError> {
     }
 }
 
-/// Reads an expression that was made here.
+/// Parses an expression that Burgeon wrote.
 pub(super) fn expression(text: &str) -> Option<Expr> {
     let parser = Parser::new(&SharedGrammar).with_recursion_limit(2 * DEEPEST).try_with_sql(text);
     parser.ok()?.parse_expr().ok()
 }
 
-/// Reads what may stand behind FROM, which was made here.
+/// Parses a relation after FROM that Burgeon wrote.
 pub(super) fn relation(text: &str) -> Option<TableFactor> {
     let parsed = parse(&format!("SELECT 1 FROM {text}")).ok()?;
     match *parsed.query.body {
@@ -160,7 +160,7 @@ pub(super) fn relation(text: &str) -> Option<TableFactor> {
     }
 }
 
-/// A query that holds an expression, so that it can be walked over.
+/// Wraps an expression in a query, so that it can be walked.
 pub(super) fn holder(expression: Expr) -> Query {
     let values = Values {
         explicit_row: false,
@@ -181,7 +181,7 @@ pub(super) fn holder(expression: Expr) -> Query {
     }
 }
 
-/// The expression that a query holds.
+/// Returns the expression wrapped in a query.
 pub(super) fn held(query: Query) -> Option<Expr> {
     match *query.body {
         SetExpr::Values(mut values) => values.rows.pop()?.content.pop(),
@@ -189,7 +189,7 @@ pub(super) fn held(query: Query) -> Option<Expr> {
     }
 }
 
-/// Where names behind `$` stand in a statement (bytes).
+/// Returns the positions (bytes) of the names after `$` in a statement.
 #[cfg(feature = "postgis")]
 pub(crate) fn placeholder_ranges(sql: &str) -> Vec<(usize, usize)> {
     let found = tokens(sql).unwrap_or_default().into_iter().filter_map(|token| match &token.token {
@@ -202,7 +202,7 @@ pub(crate) fn placeholder_ranges(sql: &str) -> Vec<(usize, usize)> {
     found.collect()
 }
 
-/// Where a second statement begins (bytes), if there is one.
+/// Returns the position (bytes) of a second statement, if there is one.
 pub(crate) fn second_statement(sql: &str) -> Option<usize> {
     let mut ended = false;
     for token in tokens(sql).ok()? {
@@ -216,7 +216,7 @@ pub(crate) fn second_statement(sql: &str) -> Option<usize> {
     None
 }
 
-/// Where a name, or a parameter with its `$`, stands first in a statement (bytes).
+/// Returns the first position (bytes) of a name, or of a parameter with its `$`, in a statement.
 pub(crate) fn find_word(sql: &str, word: &str) -> Option<usize> {
     let name = word.rsplit('.').next().unwrap_or(word);
     let found = tokens(sql).ok()?.into_iter().find(|token| match &token.token {
@@ -227,8 +227,8 @@ pub(crate) fn find_word(sql: &str, word: &str) -> Option<usize> {
     found.map(|token| offset(sql, token.span.start))
 }
 
-/// Lists the words of a statement that may be names of tables, with their schema if they have one: those behind FROM, JOIN,
-/// a comma or a parenthesis.
+/// Lists the words of a statement that may be names of tables, with their schema if given: those after FROM, JOIN, a
+/// comma or a parenthesis.
 pub(crate) fn table_words(sql: &str) -> Vec<String> {
     let Ok(tokens) = tokens(sql) else { return Vec::new() };
     let tokens: Vec<Token> = tokens.into_iter().map(|token| token.token).collect();
@@ -256,7 +256,7 @@ pub(crate) fn table_words(sql: &str) -> Vec<String> {
     words
 }
 
-/// The byte at a line and column, which are counted from 1, columns in characters.
+/// Converts a line and a column, counted from 1 with columns in characters, to a byte position.
 fn offset(sql: &str, at: Location) -> usize {
     let line = usize::try_from(at.line.saturating_sub(1)).unwrap_or(0);
     let column = usize::try_from(at.column.saturating_sub(1)).unwrap_or(0);

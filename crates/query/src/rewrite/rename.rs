@@ -1,4 +1,4 @@
-//! Names of tables that mean tables of other names.
+//! The renaming of tables in statements.
 
 use std::borrow::Cow;
 
@@ -10,8 +10,8 @@ use super::statement::with_stack;
 use super::walk::{StatementPartMut, walk_mut};
 use burgeon_base::error::{Error, Result};
 
-/// Puts the second name of each pair in the place of the first one, which may have a schema; columns are still found by the
-/// first. Tables that the statement declares itself hide others.
+/// Replaces the first name of each pair, which may have a schema, with the second. Columns can still be qualified with
+/// the first name. Tables that the statement declares take precedence.
 pub(crate) fn rename_tables(sql: &str, names: &[(&str, Cow<'_, str>)]) -> Result<String> {
     let done = with_stack(|| {
         let mut query = parse(sql).map_err(|error| error.message)?.query;
@@ -40,7 +40,7 @@ pub(crate) fn rename_tables(sql: &str, names: &[(&str, Cow<'_, str>)]) -> Result
     })
 }
 
-/// Returns the last part of a name, and all of it.
+/// Returns the last part of a name, and the whole name.
 fn read(name: &ObjectName) -> Option<(String, String)> {
     let parts = name.0.iter().map(|part| Some(part.as_ident()?.value.clone()));
     let parts: Vec<String> = parts.collect::<Option<_>>()?;

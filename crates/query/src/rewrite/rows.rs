@@ -1,4 +1,4 @@
-//! Functions that give several rows, behind FROM or in a projection, as lists that SQLite reads.
+//! Functions that return several rows, after FROM or in a projection, as lists that SQLite reads.
 
 use sqlparser::ast::{
     AccessExpr, Expr, Function, FunctionArguments, Query, Select, SelectItem, TableAlias, TableFactor,
@@ -13,10 +13,10 @@ use super::walk::walk_expressions;
 use crate::functions::ROW_FUNCTIONS;
 use burgeon_base::error::Result;
 
-/// The columns of what ST_Dump and the like give, and what they are of a list.
+/// Columns of the results of ST_Dump and similar functions, and the corresponding columns of a list.
 const DUMPED: [(&str, &str); 3] = [("geom", "value"), ("path[1]", "rowid"), ("path", "rowid")];
 
-/// Writes functions of rows as lists.
+/// Rewrites functions of rows as lists.
 pub(super) fn expand(query: &mut Query, tables: &Catalogue) -> Result<()> {
     each_query(query, |query| {
         if let Some(select) = select_of(query) {
@@ -30,7 +30,7 @@ pub(super) fn expand(query: &mut Query, tables: &Catalogue) -> Result<()> {
     })
 }
 
-/// Substitutes columns, and has those of the projection keep their names.
+/// Substitutes columns, and keeps the names of the columns of the projection.
 fn substitute_named(query: &mut Query, found: &[Substitution]) {
     let plain = |item: &SelectItem| match item {
         SelectItem::UnnamedExpr(expression) => Some((column_name(expression), expression.to_string())),
@@ -50,7 +50,7 @@ fn substitute_named(query: &mut Query, found: &[Substitution]) {
     }
 }
 
-/// The function that SQLite has in place of one that gives rows.
+/// Returns the function of SQLite that replaces a function of rows.
 fn own(name: &str) -> Option<(&'static str, &'static str)> {
     let plain = name.trim_matches('"').to_ascii_lowercase();
     ROW_FUNCTIONS.iter().find(|(known, _)| *known == plain).copied()
@@ -98,7 +98,8 @@ fn in_from(select: &mut Select, tables: &Catalogue) -> Vec<Substitution> {
     found
 }
 
-/// Adds a list for the function of rows in a projection; gives nothing to substitute, since each call is replaced.
+/// Adds a list for the function of rows in a projection. Returns no substitutions, because each call is replaced
+/// directly.
 fn in_projection(query: &mut Query, _: &Catalogue) -> Result<Vec<Substitution>> {
     let Some(select) = select_of(query) else { return Ok(Vec::new()) };
     let mut calls: Vec<String> = Vec::new();
@@ -127,7 +128,7 @@ fn in_projection(query: &mut Query, _: &Catalogue) -> Result<Vec<Substitution>> 
             let column = match (plain.starts_with("st_dump"), column) {
                 (true, Some((_, column))) => *column,
                 (false, None) => "value",
-                // It is taken apart one level further up.
+                // The field access around the call is handled later in the walk.
                 _ => return,
             };
             let text = format!("{own}({list})");
@@ -148,7 +149,7 @@ fn in_projection(query: &mut Query, _: &Catalogue) -> Result<Vec<Substitution>> 
         if let Some(made) = parse::held(holder) {
             *expression = made;
         }
-        // A column keeps the name that it had.
+        // A column keeps its name.
         if let (SelectItem::UnnamedExpr(expression), true) = (&*item, calls.len() > before) {
             *item = SelectItem::ExprWithAlias {
                 expr: expression.clone(),

@@ -1,4 +1,4 @@
-//! What stands behind FROM, and what an expression speaks of.
+//! The relations after FROM, and the relations that an expression refers to.
 
 use std::ops::ControlFlow;
 
@@ -7,26 +7,26 @@ use sqlparser::ast::{Expr, Ident, JoinConstraint, JoinOperator, ObjectName, Quer
 use super::walk::{StatementPart, walk};
 use super::{Catalogue, TableInfo};
 
-/// Something behind FROM.
+/// A relation after FROM.
 pub(super) struct FromItem<'a> {
-    /// What it is called there; nothing if that is not known.
+    /// Alias or name, if known.
     pub alias: Option<Ident>,
-    /// What is known of it; nothing of a query in its place.
+    /// Table, or `None` for a subquery.
     pub table: Option<&'a TableInfo>,
-    /// Where it stands: the number of the comma, and of the join behind it, from 1.
+    /// Position: the number of the item in FROM, and of the join, from 1.
     pub place: (usize, usize),
-    /// Whether its rows may be missing.
+    /// Set if its rows may be missing.
     pub optional: bool,
 }
 
-/// The tables that a query means by their names: those that it declares itself hide others.
+/// Returns the tables that a query can name: tables that it declares hide others.
 pub(super) fn visible(query: &Query, catalogue: &Catalogue) -> Catalogue {
     let declared = declared(query);
     let seen = catalogue.iter().filter(|(name, _)| !declared.contains(name));
     seen.map(|(name, table)| (name.clone(), table.clone())).collect()
 }
 
-/// The names of the tables that a query declares itself, in small letters.
+/// Returns the lower-case names of the tables that a query declares.
 pub(super) fn declared(query: &Query) -> Vec<String> {
     let mut names = Vec::new();
     let _ = walk(query, |part| {
@@ -39,13 +39,13 @@ pub(super) fn declared(query: &Query) -> Vec<String> {
     names
 }
 
-/// The table that a name means, which may have a schema.
+/// Returns the table with a name, which may have a schema.
 pub(super) fn table<'a>(name: &ObjectName, tables: &'a Catalogue) -> Option<&'a TableInfo> {
     let parts: Option<Vec<&str>> = name.0.iter().map(|part| Some(part.as_ident()?.value.as_str())).collect();
     tables.get(&parts?.join(".").to_ascii_lowercase())
 }
 
-/// All that stands behind FROM.
+/// Returns all relations after FROM.
 pub(super) fn relations<'a>(select: &Select, tables: &'a Catalogue) -> Vec<FromItem<'a>> {
     let mut relations = Vec::new();
     for (comma, item) in select.from.iter().enumerate() {
@@ -81,7 +81,7 @@ fn relation<'a>(factor: &TableFactor, tables: &'a Catalogue, place: (usize, usiz
     FromItem { alias, table, place, optional: false }
 }
 
-/// The condition of a join.
+/// Returns the condition of a join.
 pub(super) fn condition(operator: &JoinOperator) -> Option<&Expr> {
     match operator {
         JoinOperator::Join(JoinConstraint::On(on))
@@ -93,7 +93,7 @@ pub(super) fn condition(operator: &JoinOperator) -> Option<&Expr> {
     }
 }
 
-/// The same, to be changed.
+/// Returns the condition of a join for modification.
 pub(super) fn condition_mut(operator: &mut JoinOperator) -> Option<&mut Expr> {
     match operator {
         JoinOperator::Join(JoinConstraint::On(on))
@@ -105,7 +105,7 @@ pub(super) fn condition_mut(operator: &mut JoinOperator) -> Option<&mut Expr> {
     }
 }
 
-/// Which of the relations an expression speaks of, or may speak of.
+/// Returns the relations that an expression refers to, or may refer to.
 pub(super) fn mentioned(expression: &Expr, relations: &[FromItem<'_>]) -> Vec<usize> {
     let mut found = vec![false; relations.len()];
     let _ = walk(expression, |part| {
@@ -120,7 +120,7 @@ pub(super) fn mentioned(expression: &Expr, relations: &[FromItem<'_>]) -> Vec<us
     found.iter().enumerate().filter(|(_, found)| **found).map(|(index, _)| index).collect()
 }
 
-/// Whether an expression is a column of a relation, or may be.
+/// Reports whether an expression is a column of a relation, or may be.
 fn speaks_of(expression: &Expr, relation: &FromItem<'_>) -> bool {
     match expression {
         Expr::CompoundIdentifier(parts) => match parts.as_slice() {
@@ -139,12 +139,12 @@ fn is_row_id(name: &str) -> bool {
     ["rowid", "oid", "_rowid_"].iter().any(|known| name.eq_ignore_ascii_case(known))
 }
 
-/// Whether `owner` is what a relation is called, or may be.
+/// Reports whether `owner` is the name of a relation, or may be.
 fn names(relation: &FromItem<'_>, owner: &Ident) -> bool {
     relation.alias.as_ref().is_none_or(|alias| alias.value.eq_ignore_ascii_case(&owner.value))
 }
 
-/// The relation and the column of geometries that an expression is, and nothing else.
+/// Returns the relation and the geometry column of an expression that is only a geometry column.
 pub(super) fn geometry_column<'a>(
     expression: &Expr,
     relations: &[FromItem<'a>],
@@ -162,7 +162,7 @@ pub(super) fn geometry_column<'a>(
             Some((index, table, table.geometry(&column.value)?))
         }
         Expr::Identifier(name) => {
-            // Where something is not known, the name may be its.
+            // The name may belong to a relation whose columns are unknown.
             if relations.iter().any(|relation| relation.table.is_none()) {
                 return None;
             }
@@ -177,17 +177,17 @@ pub(super) fn geometry_column<'a>(
     }
 }
 
-/// A name as it stands in a statement.
+/// Quotes a name for a statement.
 pub(super) fn quoted(name: &str) -> String {
     format!("\"{}\"", name.replace('"', "\"\""))
 }
 
-/// A text as it stands in a statement.
+/// Quotes a string for a statement.
 pub(super) fn text(text: &str) -> String {
     format!("'{}'", text.replace('\'', "''"))
 }
 
-/// The parts of a condition that must all hold.
+/// Returns the parts of a condition that must all hold.
 pub(super) fn conjuncts(condition: &Expr) -> Vec<&Expr> {
     use sqlparser::ast::BinaryOperator::And;
     let (mut parts, mut open) = (Vec::new(), vec![condition]);

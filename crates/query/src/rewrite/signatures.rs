@@ -1,23 +1,23 @@
-//! The types that functions take and give.
+//! The types of the arguments and results of functions.
 
 use super::types::SqlType;
 use crate::functions;
 
-/// What a function takes.
+/// The types of a function's arguments.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Takes {
     /// Values of any type.
     Anything,
     /// Numbers.
     Numbers,
-    /// A text, and whatever else.
+    /// A string, followed by values of any type.
     Texts,
 }
 
 /// The types of a function.
 pub(super) struct FunctionSignature {
     pub(super) takes: Takes,
-    /// Gives the type of the result for those of the arguments.
+    /// Function from the types of the arguments to the type of the result.
     pub(super) gives: fn(&[SqlType]) -> SqlType,
 }
 
@@ -53,17 +53,17 @@ fn list(_: &[SqlType]) -> SqlType {
     SqlType::List
 }
 
-/// That of the first argument.
+/// Returns the type of the first argument.
 fn same(kinds: &[SqlType]) -> SqlType {
     kinds.first().copied().unwrap_or_default()
 }
 
-/// That of any of the arguments.
+/// Returns the common type of the arguments.
 fn any(kinds: &[SqlType]) -> SqlType {
     kinds.iter().copied().reduce(SqlType::or).unwrap_or_default()
 }
 
-/// A decimal of decimals, and otherwise a binary number.
+/// Returns a decimal type for decimals, and otherwise a binary type.
 fn rounded(kinds: &[SqlType]) -> SqlType {
     match kinds {
         [SqlType::Numeric | SqlType::Literal, ..] | [_, _] => SqlType::Numeric,
@@ -71,7 +71,7 @@ fn rounded(kinds: &[SqlType]) -> SqlType {
     }
 }
 
-/// The average of whole numbers is a decimal.
+/// Returns the type of an average, which is a decimal for integers.
 fn average(kinds: &[SqlType]) -> SqlType {
     match kinds {
         [SqlType::Integer | SqlType::Numeric] => SqlType::Numeric,
@@ -79,7 +79,7 @@ fn average(kinds: &[SqlType]) -> SqlType {
     }
 }
 
-/// The type of a function with a name in small letters.
+/// Returns the types of a function with a lower-case name.
 pub(super) fn find(name: &str) -> FunctionSignature {
     use Takes::{Anything, Numbers, Texts};
     let signature = |takes: Takes, gives: fn(&[SqlType]) -> SqlType| FunctionSignature { takes, gives };
@@ -122,7 +122,7 @@ pub(super) fn find(name: &str) -> FunctionSignature {
         | "printf" | "quote" | "string_agg" | "typeof" => signature(Anything, text),
         "bool_and" | "bool_or" | "every" => signature(Anything, boolean),
         "array_agg" => signature(Anything, list),
-        // What operators and casts were written as.
+        // These functions replace operators and casts.
         "burgeon_whole" | "burgeon_whole_decimal" => signature(Anything, integer),
         "burgeon_number" | "burgeon_quotient" | "burgeon_round" => signature(Anything, double),
         "burgeon_decimal" | "burgeon_round_decimal" => signature(Anything, numeric),

@@ -1,4 +1,4 @@
-//! A statement that is rewritten, and what is known of the tables that it is about.
+//! The rewriting of a statement, and the description of its tables.
 
 use std::collections::BTreeMap;
 
@@ -11,78 +11,78 @@ use super::{distinct, joins, lateral, least, nearest, order, rows, scope, typing
 use burgeon_base::error::Result;
 use sqlparser::ast::{Expr, Query, SelectItem, SetExpr};
 
-/// How much stack (bytes) the parser and what works on its trees have: as deep as a statement of so many words can be.
+/// Stack size (bytes) for the parser and for work on its trees: enough for the deepest statement of the maximum length.
 const STACK: usize = 256 << 20;
 
-/// What is known of a table.
+/// The description of a table.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct TableInfo {
-    /// Its name.
+    /// Name.
     pub name: String,
-    /// The column of whole numbers that tells its rows apart.
+    /// Integer column that identifies the rows.
     pub key: Option<String>,
-    /// The columns with geometries.
+    /// Geometry columns.
     pub geometries: Vec<String>,
     /// All columns.
     pub columns: Vec<String>,
-    /// The types of the columns, as far as they are known.
+    /// Types of the columns, as far as known.
     pub kinds: Vec<SqlType>,
-    /// How many rows it has.
+    /// Number of rows.
     pub rows: usize,
-    /// Its schema and its name there, on a server.
+    /// Schema and name on a server.
     pub place: Option<(String, String)>,
-    /// Whether it is the same table as another one, whose name is shorter.
+    /// Set if the table is an alias of another one with a shorter name.
     pub is_alias: bool,
 }
 
 impl TableInfo {
-    /// Whether it has a column called `name`.
+    /// Returns true if the table has a column named `name`.
     pub(super) fn has(&self, name: &str) -> bool {
         self.columns.iter().any(|known| known.eq_ignore_ascii_case(name))
     }
 
-    /// Its column of geometries called `name`.
+    /// Returns the geometry column named `name`.
     pub(super) fn geometry(&self, name: &str) -> Option<&str> {
         self.geometries.iter().find(|known| known.eq_ignore_ascii_case(name)).map(String::as_str)
     }
 }
 
-/// Tables by their names in small letters.
+/// Tables by lower-case name.
 pub(crate) type Catalogue = BTreeMap<String, TableInfo>;
 
-/// Who is asked.
+/// The database that runs a statement.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Dialect {
-    /// The database within the program.
+    /// Internal database.
     Sqlite,
-    /// A PostGIS server.
+    /// PostGIS server.
     #[cfg(feature = "postgis")]
     Postgis,
 }
 
-/// A statement that is ready to be asked.
+/// A statement that is ready to run.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct RewrittenQuery {
-    /// What is asked.
+    /// SQL to run.
     pub sql: String,
-    /// Whether an index is used that the statement as it was written would not use.
+    /// Set if the statement uses an index that the original would not use.
     pub indexed: bool,
-    /// These indexes, by table and column, and whether each is asked for the nearest.
+    /// Indexes, by table and column, each with a flag for nearest-neighbour searches.
     pub indexes: Vec<(String, bool)>,
-    /// The tables that are made of subqueries first.
+    /// Subqueries to materialize first.
     pub made: Vec<MadeTable>,
-    /// Whether the rows come in an order that the statement decides.
+    /// Set if the statement determines the order of the rows.
     pub ordered: bool,
-    /// The columns of the rows, if they are known.
+    /// Columns of the rows, if known.
     pub columns: ColumnTypes,
-    /// Their names where a statement gives none, as PostgreSQL has them.
+    /// Names of columns without a name in the statement, as PostgreSQL names them.
     pub names: Vec<Option<String>>,
 }
 
-/// Rewrites a statement for who is asked; `None` if it cannot be read here, which does not mean that it is wrong. Fails if
-/// it compares or computes with what it cannot, or asks for what there is only on a server.
+/// Rewrites a statement for a database. Returns `None` if it cannot be parsed here, although it may be valid. Fails if
+/// it compares or computes with values of wrong types, or uses features that only servers support.
 ///
-/// Of tables among `chosen`, no more is seen than these statements give.
+/// Limits the tables among `chosen` to the rows of their statements.
 pub(crate) fn rewrite(
     sql: &str,
     catalogue: &Catalogue,
@@ -96,7 +96,7 @@ pub(crate) fn rewrite(
     done.unwrap_or(Ok(None))
 }
 
-/// Runs `work` with as much stack as a statement may need.
+/// Runs `work` with the stack that a statement may need.
 pub(super) fn with_stack<T: Send>(work: impl FnOnce() -> T + Send) -> Option<T> {
     std::thread::scope(|scope| {
         let thread = std::thread::Builder::new().name("sql".into()).stack_size(STACK);
@@ -104,7 +104,7 @@ pub(super) fn with_stack<T: Send>(work: impl FnOnce() -> T + Send) -> Option<T> 
     })
 }
 
-/// Rewrites what was parsed.
+/// Rewrites a parsed statement.
 fn rewritten(
     parsed: &mut SyntaxTree,
     catalogue: &Catalogue,
@@ -169,8 +169,8 @@ fn rewritten(
     })
 }
 
-/// The names of columns that are no columns of tables and have none of their own; empty where a star hides how many there
-/// are.
+/// Returns the names of columns that are neither table columns nor have an alias. Empty if a star hides the number of
+/// columns.
 fn names(query: &Query) -> Vec<Option<String>> {
     let SetExpr::Select(select) = &*query.body else { return Vec::new() };
     let name = |item: &SelectItem| match item {
@@ -182,7 +182,7 @@ fn names(query: &Query) -> Vec<Option<String>> {
     select.projection.iter().map(name).collect::<Option<_>>().unwrap_or_default()
 }
 
-/// Has a server give boxes as geometries: it has no binary form of them.
+/// Casts boxes to geometries on a server, because boxes have no binary format.
 fn extent(query: &mut Query) {
     let change = |part: StatementPartMut<'_>| {
         if let StatementPartMut::Select(select) = part {

@@ -1,18 +1,18 @@
-//! Puts expressions in the place of columns.
+//! The substitution of columns by expressions.
 
 use sqlparser::ast::{AccessExpr, Expr, Ident, Query, Select, SetExpr, TableFactor};
 
 use super::walk::{StatementPartMut, walk_expressions};
 
-/// A column and what stands in its place.
+/// A column and its replacement.
 pub(super) struct Substitution {
-    /// What the column's relation is called.
+    /// Alias of the column's relation.
     pub(super) owner: String,
-    /// The column.
+    /// Name of the column.
     pub(super) column: String,
-    /// Whether the name of the column alone means it.
+    /// Set if the unqualified name identifies the column.
     pub(super) alone: bool,
-    /// What is meant.
+    /// Replacement.
     pub(super) expression: Expr,
 }
 
@@ -24,11 +24,11 @@ impl Substitution {
             Expr::CompoundIdentifier(names) => {
                 matches!(names.as_slice(), [owner, column] if is(owner, &self.owner) && is(column, &self.column))
             }
-            // (dump).geom
+            // The expression is a field access such as (dump).geom.
             Expr::CompoundFieldAccess { root, access_chain } => {
                 let root = if let Expr::Nested(inner) = &**root { inner } else { root };
                 let [AccessExpr::Dot(column)] = access_chain.as_slice() else { return false };
-                // The column alone may have been put in already.
+                // The column name may already be replaced.
                 matches!(&**root, Expr::Identifier(owner) if is(owner, &self.owner))
                     && (matches!(column, Expr::Identifier(name) if is(name, &self.column))
                         || *column == self.expression)
@@ -38,7 +38,7 @@ impl Substitution {
     }
 }
 
-/// Puts expressions in the place of columns in a query whose body is a select, but not in what it declares.
+/// Replaces columns with expressions in a query whose body is a select, except in the queries that it declares.
 pub(super) fn substitute(query: &mut Query, substitutions: &[Substitution]) {
     let mut change = |expression: &mut Expr| {
         if let Some(found) = substitutions.iter().find(|it| it.matches(expression)) {
@@ -50,7 +50,7 @@ pub(super) fn substitute(query: &mut Query, substitutions: &[Substitution]) {
     query.with = with;
 }
 
-/// The select of a query that is one and nothing else.
+/// Returns the select of a query, if its body is a select.
 pub(super) fn select_of(query: &mut Query) -> Option<&mut Select> {
     match &mut *query.body {
         SetExpr::Select(select) => Some(select),
@@ -58,14 +58,14 @@ pub(super) fn select_of(query: &mut Query) -> Option<&mut Select> {
     }
 }
 
-/// Every relation behind FROM, with what joins it.
+/// Returns every relation after FROM, including joined ones.
 pub(super) fn factors(select: &mut Select) -> impl Iterator<Item = &mut TableFactor> {
     select.from.iter_mut().flat_map(|item| {
         std::iter::once(&mut item.relation).chain(item.joins.iter_mut().map(|join| &mut join.relation))
     })
 }
 
-/// Applies `change` to the selects of a query, the inner before the outer.
+/// Applies `change` to the queries of a statement, the inner before the outer.
 pub(super) fn each_query(
     query: &mut Query,
     mut change: impl FnMut(&mut Query) -> burgeon_base::error::Result<()>,

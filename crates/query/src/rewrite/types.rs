@@ -1,31 +1,31 @@
-//! The types of columns and expressions, as PostgreSQL would see them.
+//! The types of columns and expressions, as in PostgreSQL.
 
 /// The type of a value.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub(crate) enum SqlType {
-    /// Not known before the statement runs, such as that of a parameter.
+    /// Unknown until the statement runs, such as the type of a parameter.
     #[default]
     Unknown,
-    /// A text in quotes, which is taken for what stands beside it.
+    /// Quoted string, whose type depends on its context.
     Literal,
-    /// True or false.
+    /// Boolean.
     Boolean,
-    /// A whole number.
+    /// Integer.
     Integer,
-    /// A decimal number.
+    /// Decimal number.
     Numeric,
-    /// A binary number.
+    /// Binary number.
     Double,
-    /// A text.
+    /// String.
     Text,
-    /// A geometry.
+    /// Geometry.
     Geometry,
-    /// A list of values.
+    /// List of values.
     List,
 }
 
 impl SqlType {
-    /// Its name in messages.
+    /// Returns the name for messages.
     pub(super) fn name(self) -> &'static str {
         match self {
             Self::Unknown | Self::Literal => "unknown",
@@ -39,29 +39,29 @@ impl SqlType {
         }
     }
 
-    /// Reports whether it is a number.
+    /// Reports whether the type is numeric.
     pub(super) fn is_number(self) -> bool {
         matches!(self, Self::Integer | Self::Numeric | Self::Double)
     }
 
-    /// Reports whether it is known, and not only written as a text.
+    /// Reports whether the type is known, and not a quoted string.
     pub(super) fn is_known(self) -> bool {
         !matches!(self, Self::Unknown | Self::Literal)
     }
 
-    /// The type of numbers that are computed of two.
+    /// Returns the type of the result of arithmetic.
     pub(super) fn with(self, other: Self) -> Self {
         match (self, other) {
             (Self::Double, other) | (other, Self::Double) if other.is_number() => Self::Double,
             (Self::Numeric, other) | (other, Self::Numeric) if other.is_number() => Self::Numeric,
             (Self::Integer, Self::Integer) => Self::Integer,
-            // A text in quotes is taken for what the other one is.
+            // A quoted string takes the type of the other operand.
             (Self::Literal, other) | (other, Self::Literal) if other.is_number() => other,
             _ => Self::Unknown,
         }
     }
 
-    /// The type of a value that is one of several.
+    /// Returns the common type of two alternatives.
     pub(super) fn or(self, other: Self) -> Self {
         match (self, other) {
             (a, b) if a == b => a,
@@ -71,7 +71,7 @@ impl SqlType {
         }
     }
 
-    /// The type of a column that was declared so in a file.
+    /// Returns the type of a column with this declaration in a file.
     pub(crate) fn declared(kind: &str) -> Self {
         let kind = kind.to_ascii_uppercase();
         let is = |words: &[&str]| words.iter().any(|word| kind.contains(word));
@@ -85,7 +85,7 @@ impl SqlType {
         }
     }
 
-    /// The type that a cast or a declaration in a statement names; `None` if it is not known here.
+    /// Returns the type named by a cast or a declaration in a statement, or `None` if it is unknown here.
     pub(super) fn named(name: &str) -> Option<Self> {
         let name = name.to_ascii_lowercase();
         let plain = name.split('(').next().unwrap_or_default().trim();
@@ -101,5 +101,5 @@ impl SqlType {
     }
 }
 
-/// The columns of a table or a query, with their names; `None` if they are not known.
+/// The columns of a table or a query, with their names, or `None` if they are unknown.
 pub(crate) type ColumnTypes = Option<Vec<(String, SqlType)>>;

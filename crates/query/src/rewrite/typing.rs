@@ -1,7 +1,8 @@
-//! Gives a statement the meaning that it has in PostgreSQL: finds the types of its expressions, refuses what compares or
-//! computes with the wrong ones, and writes operators, casts and functions so that SQLite does the same.
+//! Gives a statement the meaning that it has in PostgreSQL: determines the types of its expressions, refuses
+//! comparisons and computations of wrong types, and rewrites operators, casts and functions so that SQLite does the
+//! same.
 //!
-//! Where a type is not known, as of parameters, the functions that are written in look at the values.
+//! If a type is unknown, such as that of a parameter, the inserted functions check the values.
 
 use sqlparser::ast::{
     Expr, Fetch, GroupByExpr, Ident, LimitClause, ObjectName, OrderBy, OrderByExpr, OrderByKind, Query,
@@ -14,20 +15,20 @@ use super::scope::{condition_mut, table};
 use super::types::{ColumnTypes, SqlType};
 use burgeon_base::error::{Error, Result};
 
-/// What stands behind FROM, by its name.
+/// A relation after FROM with its columns.
 pub(super) struct TypedRelation {
     alias: Option<String>,
     columns: ColumnTypes,
 }
 
-/// What an expression can speak of.
+/// The relations that an expression can refer to.
 pub(super) struct TypeScope<'a> {
     relations: Vec<TypedRelation>,
     outer: Option<&'a TypeScope<'a>>,
 }
 
 impl TypeScope<'_> {
-    /// The type of the column `name`, of the relation `owner` if that is said.
+    /// Returns the type of the column `name`, of the relation `owner` if given.
     pub(super) fn column(&self, owner: Option<&str>, name: &str) -> SqlType {
         let mut open = Some(self);
         while let Some(scope) = open {
@@ -46,7 +47,7 @@ impl TypeScope<'_> {
                             None => {}
                         }
                     }
-                    // It may be its.
+                    // The column may belong to this relation.
                     None if meant => return SqlType::Unknown,
                     _ => {}
                 }
@@ -57,14 +58,14 @@ impl TypeScope<'_> {
     }
 }
 
-/// Finds types, and writes in what they ask for.
+/// The typing of a statement, which rewrites expressions by their types.
 pub(super) struct Typing<'a> {
     tables: &'a Catalogue,
-    /// The tables that the statement declares itself, the last one last.
+    /// Tables that the statement declares, in order.
     declared: Vec<(String, ColumnTypes)>,
 }
 
-/// Types a statement; gives the columns of its rows.
+/// Types a statement, and returns the columns of its rows.
 pub(super) fn type_query(query: &mut Query, tables: &Catalogue) -> Result<ColumnTypes> {
     let nothing = TypeScope { relations: Vec::new(), outer: None };
     Typing { tables, declared: Vec::new() }.query(query, &nothing)
@@ -189,7 +190,7 @@ impl Typing<'_> {
         Ok(columns)
     }
 
-    /// Types a column of a projection, and adds what it gives.
+    /// Types an item of a projection, and adds its columns.
     fn projected(
         &mut self,
         item: &mut SelectItem,
@@ -283,7 +284,7 @@ impl Typing<'_> {
     }
 }
 
-/// A text in quotes that is a column is a text.
+/// Returns the type of a column; a quoted string becomes a string.
 fn settled(kind: SqlType) -> SqlType {
     if kind == SqlType::Literal { SqlType::Text } else { kind }
 }
@@ -302,7 +303,7 @@ fn all(relations: &[TypedRelation], meant: impl Fn(&TypedRelation) -> bool) -> C
     Some(columns)
 }
 
-/// What SQLite takes in place of FETCH, and of OFFSET alone.
+/// Rewrites FETCH, and OFFSET without LIMIT, for SQLite.
 fn limit(query: &mut Query) {
     let number = |text: &str| Expr::Value(Value::Number(text.into(), false).into());
     if let Some(Fetch { with_ties: false, percent: false, quantity }) = &query.fetch {
@@ -327,7 +328,7 @@ fn limit(query: &mut Query) {
     }
 }
 
-/// The name that PostgreSQL gives a column without one.
+/// Returns the name that PostgreSQL gives to a column without an alias.
 pub(super) fn column_name(expression: &Expr) -> String {
     let last = |name: &ObjectName| {
         let part = name.0.last().and_then(|part| part.as_ident());
@@ -387,7 +388,7 @@ fn shown_name(name: &Ident) -> String {
     if name.quote_style.is_some() { name.value.clone() } else { name.value.to_ascii_lowercase() }
 }
 
-/// An error about an expression, with its place in the statement.
+/// Creates an error about an expression, with its position in the statement.
 pub(super) fn error_at(expression: &Expr, message: &str) -> Error {
     let start = expression.span().start;
     let place = match start.line {

@@ -1,7 +1,7 @@
 //! Walks over the parts of a statement.
 //!
-//! The parser's own walk is made anew for each type that visits, over all that SQL may be; so there is one type for those
-//! who look and one for those who change.
+//! The parser's walk is compiled again for each visitor type, over all of SQL. So there is only one visitor type for
+//! reading and one for changing.
 
 use std::ops::ControlFlow;
 
@@ -11,29 +11,29 @@ use sqlparser::ast::{
 
 /// A part of a statement.
 pub(super) enum StatementPart<'a> {
-    /// A query, whole or within another.
+    /// Query, the outermost or a nested one.
     Query(&'a Query),
-    /// An expression.
+    /// Expression.
     Expression(&'a Expr),
-    /// What stands behind FROM.
+    /// Relation after FROM.
     #[cfg_attr(not(feature = "postgis"), expect(dead_code, reason = "looked at before a server is asked"))]
     TableFactor(&'a TableFactor),
-    /// The name of a table.
+    /// Name of a table.
     #[cfg_attr(not(feature = "postgis"), expect(dead_code, reason = "looked at before a server is asked"))]
     Relation(&'a ObjectName),
 }
 
-/// A part of a statement, to be changed.
+/// A part of a statement for modification.
 pub(super) enum StatementPartMut<'a> {
-    /// A query, whole or within another.
+    /// Query, the outermost or a nested one.
     Query(&'a mut Query),
-    /// What stands between SELECT and ORDER BY.
+    /// Select, the part of a query before ORDER BY.
     Select(&'a mut Select),
-    /// What stands behind FROM.
+    /// Relation after FROM.
     TableFactor(&'a mut TableFactor),
 }
 
-/// Shows `look` the parts of `tree`, the outer before the inner, until it breaks.
+/// Calls `look` with the parts of `tree`, the outer before the inner, until it breaks.
 pub(super) fn walk(
     tree: &impl Visit,
     mut look: impl FnMut(StatementPart<'_>) -> ControlFlow<()>,
@@ -41,12 +41,12 @@ pub(super) fn walk(
     tree.visit(&mut PartVisitor(&mut look))
 }
 
-/// Gives `change` the parts of `query`, the inner before the outer.
+/// Calls `change` with the parts of `query`, the inner before the outer.
 pub(super) fn walk_mut(query: &mut Query, mut change: impl FnMut(StatementPartMut<'_>)) {
     let _ = VisitMut::visit(query, &mut PartMutVisitor(&mut change));
 }
 
-/// Gives `change` the expressions of `query`, the inner before the outer.
+/// Calls `change` with the expressions of `query`, the inner before the outer.
 pub(super) fn walk_expressions(query: &mut Query, change: &mut dyn FnMut(&mut Expr)) {
     let _ = VisitMut::visit(query, &mut ExpressionVisitor(change));
 }
@@ -62,7 +62,7 @@ impl VisitorMut for ExpressionVisitor<'_> {
     }
 }
 
-/// Whether each query in `tree` asks for rows.
+/// Reports whether each query in `tree` only returns rows.
 pub(super) fn asks_for_rows(tree: &Query) -> bool {
     let asks = |body: &SetExpr| {
         !matches!(body, SetExpr::Insert(_) | SetExpr::Update(_) | SetExpr::Delete(_) | SetExpr::Merge(_))

@@ -1,4 +1,4 @@
-//! What else SQLite writes otherwise: clusters over windows, and names for the columns of subqueries.
+//! Other differences of SQLite: clusters over windows, and names for the columns of subqueries.
 
 use sqlparser::ast::{
     Expr, Function, FunctionArguments, Ident, Query, SelectItem, SetExpr, TableFactor, WindowSpec, WindowType,
@@ -12,7 +12,7 @@ use super::typing::{column_name, error_at};
 use super::walk::walk_expressions;
 use burgeon_base::error::Result;
 
-/// Writes `ST_ClusterDBSCAN(...) OVER (...)` as the cluster of a row among those of its partition.
+/// Rewrites `ST_ClusterDBSCAN(...) OVER (...)` as the cluster of a row among those of its partition.
 pub(super) fn cluster(query: &mut Query, tables: &Catalogue) -> Result<()> {
     each_query(query, |query| {
         let Some(select) = select_of(query) else { return Ok(()) };
@@ -80,7 +80,7 @@ pub(super) fn cluster(query: &mut Query, tables: &Catalogue) -> Result<()> {
     })
 }
 
-/// Gives the columns of subqueries behind FROM the names that stand behind their aliases.
+/// Gives the columns of subqueries after FROM the names that follow their aliases.
 pub(super) fn rename(query: &mut Query) -> Result<()> {
     each_query(query, |query| {
         let Some(select) = select_of(query) else { return Ok(()) };

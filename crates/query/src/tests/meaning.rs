@@ -1,8 +1,8 @@
-//! Expressions mean what they mean in PostgreSQL: each gives the same value there, or is refused in both.
+//! Expressions have the same meaning as in PostgreSQL: each gives the same value, or both refuse it.
 
 use super::*;
 
-/// Expressions on the houses of the town. Those that PostgreSQL refuses begin with `!`, and are refused here.
+/// Expressions on the houses of the town. Those that start with `!` are refused here and by PostgreSQL.
 pub(super) const EXPRESSIONS: [&str; 263] = [
     // Casts and rounding.
     "2.7::integer",
@@ -164,7 +164,7 @@ pub(super) const EXPRESSIONS: [&str; 263] = [
     "'' LIKE '%'",
     "!levels LIKE '3%'",
     "!height ILIKE '3%'",
-    // Texts.
+    // Strings.
     "upper('ä')",
     "upper('Straße')",
     "lower('ÄΣ')",
@@ -275,7 +275,7 @@ pub(super) const EXPRESSIONS: [&str; 263] = [
     "ST_Relate('POLYGON((0 0,2 0,2 2,0 2,0 0))'::geometry, 'POINT(1 1)'::geometry)",
 ];
 
-/// Whole statements that both take.
+/// Statements that both accept.
 pub(super) const STATEMENTS: [&str; 34] = [
     "SELECT count(*), sum(levels), avg(levels), max(name), min(height) FROM houses",
     "SELECT bool_or(part), bool_and(part), every(levels > 0) FROM houses",
@@ -313,7 +313,7 @@ pub(super) const STATEMENTS: [&str; 34] = [
     "SELECT count(*), 1 + 1, levels::text, CASE WHEN part THEN 1 END, max(fid) FROM houses WHERE fid = 3 GROUP BY levels, part",
 ];
 
-/// The town in the projection of its package, and that.
+/// Returns the town in the projection of its package, and the projection.
 pub(super) fn framed(folder: &Path, houses: usize) -> (Database, burgeon_data::ReferenceFrame) {
     let crs = burgeon_data::Crs::epsg(3067).unwrap();
     let frame = burgeon_data::ReferenceFrame::around(&crs, [385_000.0, 6_672_000.0], "the town").unwrap();
@@ -325,7 +325,7 @@ pub(super) fn framed(folder: &Path, houses: usize) -> (Database, burgeon_data::R
     (database, frame)
 }
 
-/// The value of an expression for some houses, or that it is refused.
+/// Returns a statement with the value of an expression for some houses. A leading `!` is removed.
 pub(super) fn statement(expression: &str) -> String {
     format!("SELECT fid, {} AS it FROM houses WHERE fid <= 6", expression.trim_start_matches('!'))
 }

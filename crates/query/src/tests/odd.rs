@@ -1,9 +1,9 @@
-//! Geometries that nobody expects, in every function and in tables of mixed kinds.
+//! Unusual geometries, in every function and in tables of mixed types.
 
 use super::*;
 use crate::functions::FUNCTIONS;
 
-/// Empty, without extent, invalid, far away, mixed, with heights and with measures.
+/// Geometries that are empty, without extent, invalid, far away, mixed, with heights, and with measures.
 const ODD: [&str; 21] = [
     "POINT EMPTY",
     "LINESTRING EMPTY",
@@ -28,7 +28,7 @@ const ODD: [&str; 21] = [
     "POLYGON ((0 0, 3e-309 0, 3e-309 3e-309, 0 0))",
 ];
 
-/// What a parameter with a name gets, number `turn` of what is tried.
+/// Returns the arguments to try for a parameter with this name, in attempt `turn`.
 fn argument(name: &str, turn: usize) -> Vec<String> {
     let numbers = ["0", "-1.5", "2", "1e300", "0.5"];
     match name {
@@ -130,7 +130,7 @@ fn a_row_whose_geometry_cannot_be_read_is_named() {
     SQL, line 1, column 8: ST_Area: the geometry of argument 1 ends too early
     "
     );
-    // What nobody asks for is nobody's fault.
+    // An invalid geometry that is not read causes no error.
     assert_eq!(
         database.query("SELECT fid FROM houses WHERE fid = 17", &[], &budget()).unwrap().rows.len(),
         1

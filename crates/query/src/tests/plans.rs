@@ -1,8 +1,8 @@
-//! Spatial questions as people write them use an index, which SQLite's plan shows.
+//! Spatial queries in common notations use an index, as SQLite's plan shows.
 
 use super::*;
 
-/// Each form, and what is looked up by its key.
+/// Statements, and the table whose rows are found by key.
 const FORMS: [(&str, &str); 32] = [
     ("SELECT a.fid, b.fid FROM houses a JOIN houses b ON ST_Intersects(a.geom, b.geom)", "b"),
     ("SELECT a.fid, b.fid FROM houses a, houses b WHERE ST_Intersects(a.geom, b.geom)", "b"),

@@ -1,9 +1,10 @@
-//! The same statements give the same rows here and on a server, if `BURGEON_POSTGIS` names one that may be filled.
+//! The same statements give the same rows here and on a server, if `BURGEON_POSTGIS` names a server to which data may
+//! be written.
 
 use super::*;
 use crate::postgis::{Server, ServerAddress};
 
-/// The server's address, or nothing where there is none to test with.
+/// Returns the server's address, or `None` without a server for tests.
 fn address() -> Option<ServerAddress> {
     let found = std::env::var("BURGEON_POSTGIS").ok();
     if found.is_none() {
@@ -12,7 +13,7 @@ fn address() -> Option<ServerAddress> {
     found.map(|address| ServerAddress::parse(&address).unwrap())
 }
 
-/// A connection that may write.
+/// Returns a connection that may write.
 fn writer() -> postgres::Client {
     postgres::Client::connect(&std::env::var("BURGEON_POSTGIS").unwrap(), postgres::NoTls).unwrap()
 }
@@ -72,7 +73,7 @@ const LAYERS: [(&str, &str); 3] = [
     ("lamps", "lit bool"),
 ];
 
-/// Statements that both take.
+/// Statements that both accept.
 const STATEMENTS: [&str; 36] = [
     "SELECT * FROM houses",
     "SELECT fid, name, height, levels, part FROM houses WHERE levels > 2",
@@ -152,8 +153,8 @@ fn a_server_gives_the_same_rows() {
     odd(&address);
 }
 
-/// Expressions that give something else here, as the book tells: GeoJSON names the projection of the run also for geometries that a
-/// statement makes, and boxes run counter-clockwise.
+/// Expressions with a different result here, as the book documents: GeoJSON names the run's projection also for
+/// geometries that a statement creates, and boxes run counter-clockwise.
 const DIFFERENT: [&str; 6] = [
     "ST_AsGeoJSON(geom)",
     "ST_AsGeoJSON(ST_MakePoint(1.0 / 3, 2, 3))",
@@ -163,8 +164,8 @@ const DIFFERENT: [&str; 6] = [
     "ST_AsText(ST_Envelope(geom))",
 ];
 
-/// Expressions and statements mean the same here and there but for those that are known to be [`DIFFERENT`], and those that are
-/// refused there are refused here.
+/// Checks that expressions and statements have the same meaning here and on the server, except those in [`DIFFERENT`],
+/// and that those refused by the server are refused here.
 fn meaning(folder: &Path, server: &Server) {
     let (database, frame) = meaning::framed(folder, 400);
     let mut different = String::new();
@@ -193,7 +194,7 @@ fn meaning(folder: &Path, server: &Server) {
     assert!(different.is_empty(), "{different}");
 }
 
-/// Tables of other schemas are layers, and are found by their whole names or by the search path.
+/// Checks that tables of other schemas are layers, and are found by their qualified names or by the search path.
 fn schemas(address: &ServerAddress) {
     writer()
         .batch_execute(
@@ -238,7 +239,8 @@ fn schemas(address: &ServerAddress) {
     writer().batch_execute("DROP SCHEMA burgeon_other CASCADE").unwrap();
 }
 
-/// Connections are encrypted as the address asks, where `BURGEON_POSTGIS_CA` names the certificate of the server's authority.
+/// Checks that connections are encrypted as the address specifies, if `BURGEON_POSTGIS_CA` names the certificate of the
+/// server's authority.
 fn encryption(address: &ServerAddress) {
     let Ok(authority) = std::env::var("BURGEON_POSTGIS_CA") else {
         eprintln!("left out: BURGEON_POSTGIS_CA names no certificate");
@@ -273,7 +275,7 @@ fn encryption(address: &ServerAddress) {
     }
 }
 
-/// Whether two values are the same but for what engines round otherwise.
+/// Reports whether two values are equal, except for rounding differences between engines.
 fn same(a: &Cell, b: &Cell) -> bool {
     match (a, b) {
         (Cell::Number(a), Cell::Number(b)) => (a - b).abs() <= 1e-6 * (1.0 + a.abs().min(1e3)),
@@ -288,7 +290,7 @@ fn same(a: &Cell, b: &Cell) -> bool {
     }
 }
 
-/// A server is only read, and what a statement says is only a question.
+/// Checks that a server is only read, and that a statement can only be a query.
 fn safety(server: &Server) {
     for sql in [
         "DELETE FROM houses",
@@ -358,7 +360,7 @@ fn safety(server: &Server) {
     -> SQL: operator does not exist: integer + text
       help: No operator matches the given name and argument types. You might need to add exp...
     ");
-    // A question that never ends.
+    // The query is endless.
     let begin = std::time::Instant::now();
     let endless =
         "SELECT count(*) FROM houses a, houses b, houses c, houses d WHERE ST_Distance(a.geom, d.geom) > 1";
@@ -371,7 +373,7 @@ fn safety(server: &Server) {
     assert_eq!(error.kind().code(), "limit.memory", "{error}");
 }
 
-/// A connection that is lost is opened once more; a server that is not there is told of.
+/// Checks that a lost connection is reopened once, and that an unreachable server is reported.
 fn lost(server: &Server) {
     server.query("SELECT fid FROM lamps", &[], None, &budget()).unwrap();
     writer()
@@ -389,7 +391,7 @@ fn lost(server: &Server) {
             && error.to_string().contains("postgres://me@127.0.0.1:1/nothing"),
         "{error}"
     );
-    // In the middle of a question, which is asked once more.
+    // The connection is lost during a query, which is repeated.
     let sql = "SELECT count(*) AS n FROM houses a, houses b WHERE a.fid < 60 AND ST_Distance(ST_Buffer(a.geom, 3), ST_Buffer(b.geom, 2)) > 1";
     let known = server.query(sql, &[], None, &budget()).unwrap();
     std::thread::scope(|scope| {
@@ -406,7 +408,8 @@ fn lost(server: &Server) {
     });
 }
 
-/// Types that others use too, and geometries that cannot be read: their rows are named, and the others stay.
+/// Checks types that other programs also use, and geometries that cannot be read: their rows are named, and other rows
+/// are returned.
 fn odd(address: &ServerAddress) {
     writer()
         .batch_execute(
@@ -467,7 +470,7 @@ fn odd(address: &ServerAddress) {
     writer().batch_execute("DROP TABLE odd; DROP TYPE odd_kind; DROP DOMAIN odd_size").unwrap();
 }
 
-/// A table is a layer.
+/// Checks that a table is a layer.
 fn layers(server: &Server) {
     let read = |layer: Option<&str>, condition: Option<&str>, limit: Option<usize>| {
         let wanted = burgeon_data::SourceOptions {
@@ -485,7 +488,7 @@ fn layers(server: &Server) {
     assert_eq!(table.features[1].id, "2");
     let some = read(Some("houses"), Some("height > 10 AND part"), Some(7)).unwrap();
     assert_eq!(some.features.len(), 7);
-    // Two parts of one table cannot both be meant.
+    // Two parts of one table are ambiguous.
     let error = server.query("SELECT count(*) AS n FROM houses", &[], None, &budget()).unwrap_err();
     assert_eq!(error.message(), "there are two tables called houses");
     let server = &Server::new(&address().unwrap(), None);

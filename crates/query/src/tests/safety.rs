@@ -1,4 +1,4 @@
-//! What statements may not do, and what is said of those that are wrong.
+//! Forbidden statements, and the errors of invalid ones.
 
 use super::*;
 use std::time::{Duration, Instant};
@@ -90,7 +90,7 @@ fn a_question_that_never_ends_is_stopped() {
         assert!(begin.elapsed() < Duration::from_secs(5), "{sql}");
         assert_eq!(error.kind().code(), "limit.time", "{sql}: {error}");
     }
-    // The connection is good for others.
+    // The connection remains usable.
     assert_eq!(database.query("SELECT 1 AS one", &[], &budget()).unwrap().rows, [[Cell::Number(1.0)]]);
 }
 
@@ -112,7 +112,7 @@ fn rows_and_values_take_no_more_memory_than_there_is() {
     assert!(database.query(&long, &[], &small()).is_err());
     let many = format!("SELECT {}", "'x',".repeat(100_000));
     assert!(database.query(&many, &[], &small()).is_err());
-    // What was counted is given back with the rows.
+    // The memory of the rows is released with them.
     let budget = budget();
     let answer = database.query("SELECT * FROM houses", &[], &budget).unwrap();
     assert!(budget.taken() > 1000);

@@ -1,8 +1,8 @@
-//! A rewritten statement gives the rows that it gives as it was written.
+//! A rewritten statement gives the same rows as the original.
 
 use super::*;
 
-/// The rows of a statement that was not rewritten.
+/// Returns the rows of a statement that is not rewritten.
 fn plainly(database: &Database, sql: &str, parameters: &[(&str, Cell)]) -> Vec<Vec<Cell>> {
     let mut rows = database.query_plainly(sql, parameters, &budget()).unwrap().rows.clone();
     rows.sort_by(|a, b| {
@@ -13,7 +13,7 @@ fn plainly(database: &Database, sql: &str, parameters: &[(&str, Cell)]) -> Vec<V
 
 fn both(database: &Database, sql: &str, parameters: &[(&str, Cell)]) -> usize {
     let mut rewritten = database.query(sql, parameters, &budget()).unwrap().rows.clone();
-    // True and false are known as such only where the statement was read.
+    // Booleans are recognized only if the statement was parsed.
     for cell in rewritten.iter_mut().flatten() {
         if let Cell::Boolean(value) = cell {
             *cell = Cell::Number(f64::from(u8::from(*value)));
@@ -63,7 +63,7 @@ fn statements_give_the_same_rows_with_and_without_an_index() {
     for predicate in predicates {
         let on = predicate.replace("{a}", "a.geom").replace("{b}", "b.geom");
         for (a, b) in tables {
-            // What no index answers takes long.
+            // Predicates without an index are slow.
             if predicate.contains(" OR ") && a != "lamps" {
                 continue;
             }
@@ -77,7 +77,7 @@ fn statements_give_the_same_rows_with_and_without_an_index() {
                     "SELECT count(*), ST_AsText(ST_Envelope(ST_Collect(b.geom))) FROM {a} a CROSS JOIN {b} b WHERE {on} AND b.fid = 7"
                 ),
             ] {
-                // What no index answers takes long.
+                // Predicates without an index are slow.
                 if predicate.contains(" OR a.fid") || predicate.contains("NOT") {
                     continue;
                 }
@@ -109,7 +109,7 @@ fn the_nearest_are_those_of_all_distances() {
             both(&database, &sql, &[]);
             count += 1;
         }
-        // The nearest alone is found without any distance of SQLite's.
+        // The single nearest row is found without SQLite computing any distance.
         let sql = format!(
             "SELECT a.fid, (SELECT b.fid FROM {b} b ORDER BY b.geom <-> a.geom LIMIT 1) AS n FROM {a} a WHERE a.geom IS NOT NULL"
         );
@@ -142,7 +142,7 @@ fn rows_come_in_one_order_whatever_is_left_open() {
     };
     assert_eq!(fids("SELECT levels FROM houses LIMIT 7"), ["1", "2", "3", "4", "5", "1", "2"]);
     assert_eq!(fids("SELECT fid FROM houses ORDER BY levels LIMIT 4"), ["1", "6", "11", "16"]);
-    // What is not known comes last, and first where the order is turned round.
+    // Nulls come last, and first in descending order.
     assert_eq!(fids("SELECT fid FROM houses ORDER BY name LIMIT 2"), ["2", "11"]);
     assert_eq!(fids("SELECT fid FROM houses ORDER BY name DESC LIMIT 2"), ["1", "4"]);
     assert_eq!(fids("SELECT DISTINCT levels FROM houses"), ["1", "2", "3", "4", "5"]);
@@ -203,7 +203,7 @@ fn statements_of_any_form_give_the_same_rows() {
         .run(&statement, |(form, [a, b, c], p, q, r)| {
             let p = p.replace('X', "a.geom").replace('Y', "b.geom");
             let q = q.replace('X', "b.geom").replace('Y', "c.geom");
-            // The form's own letters go first, as conditions have letters, too.
+            // The placeholders of the form are replaced first, because conditions contain placeholders as well.
             let words = form.split(' ').map(|word| match word.trim_matches(['(', ')', ',']) {
                 "A" => word.replace('A', a),
                 "B" => word.replace('B', b),
@@ -279,7 +279,7 @@ fn subqueries_laterals_and_least_distances_give_the_rows_of_plain_statements() {
     ];
     let (mut count, mut total) = (0, 0);
     for (written, plain) in pairs {
-        // Twice, as tables of subqueries may be kept.
+        // Runs twice, because materialized subqueries may be kept.
         for _ in 0..2 {
             let answer = database.query(written, &parameters, &budget());
             let answer = answer.unwrap_or_else(|error| panic!("{written}: {error}"));

@@ -1,5 +1,5 @@
-//! Servers that accept and do not answer, stop in the middle, or give a byte now and then: nobody waits longer than the
-//! run's time, or than the address allows.
+//! Servers that accept and do not answer, stop midway, or send a byte now and then: no wait exceeds the run's time
+//! limit, or the timeouts of the address.
 
 use std::io::{Read, Write};
 use std::net::{TcpListener, TcpStream};
@@ -8,16 +8,16 @@ use std::time::{Duration, Instant};
 use super::*;
 use crate::postgis::{Server, ServerAddress};
 
-/// What a server does with a connection.
+/// The behaviour of a server on a connection.
 type Manner = fn(TcpStream) -> std::io::Result<()>;
 
-/// The answer to a question whether it encrypts: it does not.
+/// Answers the encryption request: the server does not encrypt.
 fn refuse_encryption(stream: &mut TcpStream) -> std::io::Result<()> {
     stream.read_exact(&mut [0; 8])?;
     stream.write_all(b"N")
 }
 
-/// Reads what a client says first.
+/// Reads the startup message of a client.
 fn startup(stream: &mut TcpStream) -> std::io::Result<()> {
     let mut length = [0; 4];
     stream.read_exact(&mut length)?;
@@ -25,20 +25,20 @@ fn startup(stream: &mut TcpStream) -> std::io::Result<()> {
     stream.read_exact(&mut vec![0; rest])
 }
 
-/// Lets the client in.
+/// Accepts the client.
 fn welcome(stream: &mut TcpStream) -> std::io::Result<()> {
     refuse_encryption(stream)?;
     startup(stream)?;
     stream.write_all(b"R\0\0\0\x08\0\0\0\0K\0\0\0\x0c\0\0\0\x01\0\0\0\x02Z\0\0\0\x05I")
 }
 
-/// Keeps a connection open, and says no more.
+/// Keeps a connection open without sending anything.
 fn silence(mut stream: TcpStream) -> std::io::Result<()> {
     while stream.read(&mut [0; 1000])? > 0 {}
     Ok(())
 }
 
-/// Gives a byte now and then.
+/// Sends a byte now and then.
 fn trickle(mut stream: TcpStream, bytes: &[u8]) -> std::io::Result<()> {
     for byte in bytes.iter().cycle() {
         stream.write_all(&[*byte])?;
@@ -82,7 +82,7 @@ const MANNERS: [(&str, Manner); 7] = [
     }),
 ];
 
-/// A server of a manner, and its port.
+/// Starts a server with a behaviour, and returns its port.
 fn serve(manner: Manner) -> u16 {
     let listener = TcpListener::bind("127.0.0.1:0").unwrap();
     let port = listener.local_addr().unwrap().port();

@@ -1,9 +1,9 @@
-//! What stands in the place of decoders and encoders where a program is built without pictures.
+//! Stubs of decoders and encoders, for builds without the feature `pictures`.
 
 use super::{Image, ImageKind};
 use burgeon_base::error::{Error, Result};
 
-/// Fails: pictures are not there.
+/// Fails, because images cannot be decoded or encoded.
 pub fn check() -> Result<()> {
     Err(Error::left_out("pictures", "pictures"))
 }
@@ -28,9 +28,9 @@ pub fn encode_indexed(_image: &Image, _most: usize) -> Result<Vec<u8>> {
     check().map(|()| Vec::new())
 }
 
-/// Whether the pixels of a file have an opacity, as the chunks before a PNG's pixels say.
+/// Returns true if the pixels of a file have an alpha channel, according to the chunks before a PNG's pixels.
 ///
-/// Fails if the content is neither PNG nor JPEG, or ends before that is told.
+/// Fails if the content is neither PNG nor JPEG, or if it ends before the pixels.
 pub fn has_alpha(bytes: &[u8]) -> Result<bool> {
     match ImageKind::of(bytes) {
         Some(ImageKind::Png) => {
@@ -41,9 +41,9 @@ pub fn has_alpha(bytes: &[u8]) -> Result<bool> {
     }
 }
 
-/// The same of a PNG behind its signature; `None` if it ends before its pixels.
+/// Returns the same for a PNG after its signature; `None` if it ends before its pixels.
 fn png_has_alpha(mut chunks: &[u8]) -> Option<bool> {
-    // A channel for opacity; grey and colours without one may say in a chunk which of them are not there.
+    // Flag of an alpha channel. Grey and colour images without one may declare transparent values in a chunk.
     const OPACITY: u8 = 4;
     loop {
         let (length, rest) = chunks.split_first_chunk::<4>()?;
@@ -56,7 +56,7 @@ fn png_has_alpha(mut chunks: &[u8]) -> Option<bool> {
             b"IDAT" => return Some(false),
             _ => {}
         }
-        // Behind the content stands a checksum.
+        // A checksum follows the content.
         chunks = rest.get(length + 4..)?;
     }
 }

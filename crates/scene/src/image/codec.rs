@@ -11,17 +11,17 @@ use zune_jpeg::JpegDecoder;
 use super::{Image, ImageKind, PaletteImage};
 use burgeon_base::error::{Error, Limit, Result};
 
-/// The most memory (bytes) that the pixels of a file may take.
+/// Maximum memory (bytes) for the pixels of a file.
 const MOST: usize = 512 << 20;
 
-/// Pictures are there.
+/// Succeeds, because images can be decoded and encoded.
 pub fn check() -> Result<()> {
     Ok(())
 }
 
-/// The image in a PNG or JPEG file with this content.
+/// Decodes a PNG or JPEG file with this content.
 ///
-/// Fails if it is neither, is damaged, or is larger than 512 MB of pixels.
+/// Fails if the content is neither, is damaged, or has more than 512 MB of pixels.
 pub fn decode(bytes: &[u8]) -> Result<Image> {
     match ImageKind::of(bytes) {
         Some(ImageKind::Png) => decode_png(bytes),
@@ -30,7 +30,7 @@ pub fn decode(bytes: &[u8]) -> Result<Image> {
     }
 }
 
-/// Whether the pixels of a file have an opacity.
+/// Returns true if the pixels of a file have an alpha channel.
 ///
 /// Fails if the content is neither PNG nor JPEG, or is damaged before its pixels.
 pub fn has_alpha(bytes: &[u8]) -> Result<bool> {
@@ -44,17 +44,17 @@ pub fn has_alpha(bytes: &[u8]) -> Result<bool> {
     }
 }
 
-/// `image` as a PNG file.
+/// Encodes `image` as a PNG file.
 pub fn encode(image: &Image) -> Result<Vec<u8>> {
     write([image.width(), image.height()], ColorType::Rgba, image.bytes())
 }
 
-/// The red, green and blue `channels` of an opaque image as a PNG file.
+/// Encodes the red, green and blue `channels` of an opaque image as a PNG file.
 pub fn encode_opaque(width: u32, height: u32, channels: &[u8]) -> Result<Vec<u8>> {
     write([width, height], ColorType::Rgb, channels)
 }
 
-/// `image` as a small PNG file of at most `most` colours, from 1 to 256, without its opacity.
+/// Encodes `image` as a small PNG file with at most `most` colours, from 1 to 256, without its opacity.
 pub fn encode_indexed(image: &Image, most: usize) -> Result<Vec<u8>> {
     let failed = |error| Error::internal(format!("an image cannot be written as PNG: {error}"));
     let PaletteImage { colors, pixels } = PaletteImage::of(image, most);
@@ -87,7 +87,7 @@ fn write([width, height]: [u32; 2], color: ColorType, channels: &[u8]) -> Result
 
 type PngReader<'a> = png::Reader<Cursor<&'a [u8]>>;
 
-/// Opens a PNG; its samples will have 8 or 16 bits, and no palette.
+/// Opens a PNG; its samples will have 8 or 16 bits and no palette.
 fn open_png(bytes: &[u8]) -> Result<PngReader<'_>> {
     let mut decoder = png::Decoder::new_with_limits(Cursor::new(bytes), png::Limits { bytes: MOST });
     decoder.set_transformations(Transformations::EXPAND);
@@ -128,7 +128,7 @@ fn decode_jpeg(bytes: &[u8]) -> Result<Image> {
     image(side(width)?, side(height)?, color, &samples)
 }
 
-/// An image of pixels that have 1 to 4 samples: grey or colours, with an opacity or without.
+/// Creates an image from pixels with 1 to 4 samples: grey or colour, with or without alpha.
 fn image(width: u32, height: u32, each: usize, samples: &[u8]) -> Result<Image> {
     let pixel = |samples: &[u8]| match *samples {
         [grey] => [grey, grey, grey, 255],
@@ -141,7 +141,7 @@ fn image(width: u32, height: u32, each: usize, samples: &[u8]) -> Result<Image> 
     Image::from_pixels(width, height, pixels).ok_or_else(|| damaged("it has too few pixels"))
 }
 
-/// The nearest sample of 8 bits.
+/// Rounds a sample to 8 bits.
 fn narrow(sample: u16) -> u8 {
     let nearest = (u32::from(sample) + 128) / 257;
     u8::try_from(nearest).unwrap_or(u8::MAX)
@@ -160,7 +160,7 @@ mod tests {
     use super::*;
     use image::{DynamicImage, ImageFormat};
 
-    /// Colours that differ from pixel to pixel.
+    /// Returns an image whose colours differ from pixel to pixel.
     fn many(width: u32, height: u32) -> Image {
         let byte = |number: u32| number.wrapping_mul(2_654_435_761).to_be_bytes()[0];
         Image::from_fn(width, height, |x, y| [0, 1, 2, 3].map(|channel| byte(x * 7 + y * 131 + channel * 17)))

@@ -1,7 +1,7 @@
-//! Images: pixels in memory, and the PNG and JPEG files that hold them.
+//! Images: pixels in memory, and the PNG and JPEG files that store them.
 //!
-//! Files are told apart by their first bytes ([`ImageKind::of`]). They are decoded and encoded where the feature
-//! `pictures` is on; without it, what needs that says so.
+//! File types are detected by the first bytes ([`ImageKind::of`]). Decoding and encoding require the feature
+//! `pictures`; without it, these functions fail.
 
 #[cfg_attr(feature = "pictures", path = "codec.rs")]
 #[cfg_attr(not(feature = "pictures"), path = "absent.rs")]

@@ -1,20 +1,20 @@
-//! Fewer colours for an image, so that its file is small.
+//! Reduction of an image's colours, so that its file is small.
 
 use super::Image;
 
-/// An image of few colours: the colours, and the number of each pixel's.
+/// Image with a palette.
 pub struct PaletteImage {
-    /// Red, green and blue, at most 256.
+    /// Palette of at most 256 colours: red, green and blue.
     pub colors: Vec<[u8; 3]>,
-    /// A number into `colors` for each pixel, row by row.
+    /// Index into `colors` for each pixel, row by row.
     pub pixels: Vec<u8>,
 }
 
 impl PaletteImage {
-    /// `image` in at most `most` colours, from 1 to 256; opacity is left out.
+    /// Reduces `image` to at most `most` colours, from 1 to 256; the opacity is dropped.
     ///
-    /// Method: Heckbert, "Color image quantization for frame buffer display", 1982. Each box of colours is cut at the middle
-    /// of its pixels, along its longest side.
+    /// Method: Heckbert, "Color image quantization for frame buffer display", 1982. Each box of colours is cut at the
+    /// median of its pixels, along its longest side.
     pub fn of(image: &Image, most: usize) -> Self {
         let mut pixels: Vec<(usize, [u8; 3])> =
             image.pixels().iter().map(|pixel| [pixel[0], pixel[1], pixel[2]]).enumerate().collect();
@@ -22,7 +22,7 @@ impl PaletteImage {
         while boxes.len() < most.clamp(1, 256) {
             let longest =
                 boxes.iter().enumerate().map(|(number, range)| (side(&pixels[range.clone()]), number));
-            // The longest side first, and of these the box with more pixels.
+            // Cut the box with the longest side, weighted by its number of pixels.
             let cut = longest.filter(|((length, _), _)| *length > 0).max_by_key(|((length, _), number)| {
                 let range = &boxes[*number];
                 (usize::from(*length) * (range.len().ilog2() as usize + 1), usize::MAX - number)
@@ -54,7 +54,7 @@ impl PaletteImage {
     }
 }
 
-/// The longest side of the box around some colours, and its channel.
+/// Returns the length of the longest side of the bounding box of some colours, and its channel.
 fn side(pixels: &[(usize, [u8; 3])]) -> (u8, usize) {
     let length = |channel: usize| {
         let values = pixels.iter().map(|(_, color)| color[channel]);

@@ -1,8 +1,8 @@
-//! Images of 8 bits a channel, and which kinds of files they come in.
+//! Images with 8 bits per channel, and the formats of image files.
 
 use bytemuck::cast_slice;
 
-/// Pixels in rows from the top, each from the left: sRGB, and straight opacity.
+/// Pixels in rows from the top, each from the left: sRGB and straight alpha.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Image {
     width: u32,
@@ -11,62 +11,62 @@ pub struct Image {
 }
 
 impl Image {
-    /// An image of one colour.
+    /// Creates an image of one colour.
     pub fn filled(width: u32, height: u32, color: [u8; 4]) -> Self {
         Self::from_fn(width, height, |_, _| color)
     }
 
-    /// An image of the colours that `color` gives for each column and row.
+    /// Creates an image from a function that returns the colour for each column and row.
     pub fn from_fn(width: u32, height: u32, color: impl Fn(u32, u32) -> [u8; 4]) -> Self {
         let row = |y: u32| (0..width).map(move |x| (x, y));
         let pixels = (0..height).flat_map(row).map(|(x, y)| color(x, y)).collect();
         Self { width, height, pixels }
     }
 
-    /// An image of `pixels`; `None` if they are not as many as it has places.
+    /// Creates an image from `pixels`; `None` if their number does not match the size.
     pub fn from_pixels(width: u32, height: u32, pixels: Vec<[u8; 4]>) -> Option<Self> {
         let places = (width as usize).checked_mul(height as usize)?;
         (places == pixels.len()).then_some(Self { width, height, pixels })
     }
 
-    /// How many columns it has.
+    /// Returns the number of columns.
     pub fn width(&self) -> u32 {
         self.width
     }
 
-    /// How many rows it has.
+    /// Returns the number of rows.
     pub fn height(&self) -> u32 {
         self.height
     }
 
-    /// All pixels, row by row.
+    /// Returns all pixels, row by row.
     pub fn pixels(&self) -> &[[u8; 4]] {
         &self.pixels
     }
 
-    /// All channels of all pixels, row by row.
+    /// Returns all channels of all pixels, row by row.
     pub fn bytes(&self) -> &[u8] {
         cast_slice(&self.pixels)
     }
 
-    /// The pixel in column `x` of row `y`, which have to be within the image.
+    /// Returns the pixel in column `x` of row `y`. Panics if they are outside the image.
     pub fn pixel(&self, x: u32, y: u32) -> [u8; 4] {
         self.row(y)[x as usize]
     }
 
-    /// The pixels of row `y`, which has to be within the image.
+    /// Returns the pixels of row `y`. Panics if the row is outside the image.
     pub fn row(&self, y: u32) -> &[[u8; 4]] {
         let width = self.width as usize;
         &self.pixels[y as usize * width..][..width]
     }
 
-    /// The same, to be changed.
+    /// Returns the pixels of row `y` for modification. Panics if the row is outside the image.
     pub fn row_mut(&mut self, y: u32) -> &mut [[u8; 4]] {
         let width = self.width as usize;
         &mut self.pixels[y as usize * width..][..width]
     }
 
-    /// Puts as much of `other` as there is room for over this, with its upper left corner at `left`, `top`.
+    /// Copies `other` over this image with its upper left corner at `left`, `top`, as far as it fits.
     pub fn put(&mut self, other: &Self, left: u32, top: u32) {
         for (y, row) in (top..self.height).zip(0..other.height) {
             let from = (left as usize).min(self.width as usize);
@@ -76,7 +76,7 @@ impl Image {
     }
 }
 
-/// A format of image files.
+/// Format of image files.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum ImageKind {
     /// PNG.
@@ -86,7 +86,7 @@ pub enum ImageKind {
 }
 
 impl ImageKind {
-    /// What a file with this content is by its first bytes; `None` if it is neither PNG nor JPEG.
+    /// Detects the format of a file with this content by its first bytes; `None` if it is neither PNG nor JPEG.
     pub fn of(bytes: &[u8]) -> Option<Self> {
         match bytes {
             [0x89, b'P', b'N', b'G', b'\r', b'\n', 0x1a, b'\n', ..] => Some(Self::Png),
@@ -95,7 +95,7 @@ impl ImageKind {
         }
     }
 
-    /// `png` or `jpg`.
+    /// Returns `png` or `jpg`.
     pub fn extension(self) -> &'static str {
         match self {
             Self::Png => "png",
@@ -103,7 +103,7 @@ impl ImageKind {
         }
     }
 
-    /// The media type, such as `image/png`.
+    /// Returns the media type, such as `image/png`.
     pub fn media_type(self) -> &'static str {
         match self {
             Self::Png => "image/png",

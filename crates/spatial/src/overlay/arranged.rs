@@ -1,4 +1,4 @@
-//! The ways of two geometries in a subdivision of the plane.
+//! Lines and rings of two geometries in a subdivision of the plane.
 
 use burgeon_base::error::Result;
 use burgeon_geometry::overlay::{Subdivision, SubdivisionEdge, WayKind};
@@ -6,26 +6,26 @@ use rustc_hash::FxHashMap;
 
 use super::operand::Operand;
 
-/// Two geometries whose edges all end where they meet.
+/// Two geometries whose edges end where they meet.
 pub(super) struct OperandArrangement {
     pub(super) subdivision: Subdivision,
-    /// The lines and rings.
+    /// Lines and rings.
     pub(super) ways: Vec<ArrangedWay>,
-    /// By geometry: the nodes that are its points.
+    /// Nodes of the points of each geometry.
     pub(super) points: [Vec<u32>; 2],
 }
 
 /// A line or ring.
 pub(super) struct ArrangedWay {
-    /// The first geometry or the second.
+    /// Index of the geometry: 0 or 1.
     pub(super) geometry: usize,
     pub(super) is_ring: bool,
-    /// The nodes along it.
+    /// Nodes along the line or ring.
     pub(super) nodes: Vec<u32>,
 }
 
 impl OperandArrangement {
-    /// Fails if the work of this thread is to stop.
+    /// Arranges two operands; fails if the work of this thread is cancelled.
     pub(super) fn new(operands: &[Operand; 2]) -> Result<Self> {
         let ways: Vec<_> = operands.iter().enumerate().flat_map(|(layer, it)| it.ways(layer)).collect();
         let subdivision = Subdivision::new(&ways)?;
@@ -43,7 +43,7 @@ impl OperandArrangement {
         Ok(made)
     }
 
-    /// The numbers of edges by their nodes, the lesser one first.
+    /// Returns the index of each edge by its nodes, the lower one first.
     #[allow(
         clippy::cast_possible_truncation,
         reason = "nodes are numbered by 32 bits, and edges are as many"
@@ -54,12 +54,12 @@ impl OperandArrangement {
     }
 }
 
-/// Nodes, the lesser one first.
+/// Returns two nodes, the lower one first.
 pub(super) fn key([a, b]: [u32; 2]) -> [u32; 2] {
     [a.min(b), a.max(b)]
 }
 
-/// By geometry: whether it is above an edge, and below.
+/// Returns, for each geometry, whether it lies above and below an edge.
 pub(super) fn sides(edge: &SubdivisionEdge) -> [[bool; 2]; 2] {
     [0, 1].map(|geometry| [edge.above[geometry] != 0, edge.below[geometry] != 0])
 }

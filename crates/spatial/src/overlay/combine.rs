@@ -1,8 +1,8 @@
-//! The four set operations, by what lies in one geometry and in the other.
+//! The four set operations, based on membership in both geometries.
 //!
-//! Method: every edge of the subdivision, and every node of it, lies in a geometry or not, and so do the areas to both
-//! sides of an edge. The operation says whether each is part of the result; of that, lines are what does not lie along
-//! its areas, and points what does not lie on its lines.
+//! Method: for every edge and node of the subdivision, and for the areas on both sides of an edge, membership
+//! in each geometry is known. The operation decides which of these belong to the result. Edges of the result
+//! that do not border its areas become lines, and nodes that its areas and lines do not cover become points.
 
 use burgeon_base::error::Result;
 use burgeon_geometry::overlay::{SubdivisionEdge, overlay};
@@ -24,7 +24,7 @@ enum Operation {
 }
 
 impl Operation {
-    /// Whether what lies in the first or in the second is part of the result.
+    /// Returns true if a point with this membership in both geometries belongs to the result.
     fn keeps(self, [first, second]: [bool; 2]) -> bool {
         match self {
             Self::Intersection => first && second,
@@ -35,7 +35,7 @@ impl Operation {
     }
 }
 
-/// The set operations of OGC Simple Features, for geometries of any kinds.
+/// Set operations of OGC Simple Features, for geometries of any type.
 ///
 /// ```
 /// use burgeon_spatial::Geometry;
@@ -51,8 +51,8 @@ impl Operation {
 /// # Ok::<(), burgeon_base::error::Error>(())
 /// ```
 impl Geometry {
-    /// What both have in common: areas where they overlap, lines along which they touch, points in which they meet.
-    /// Empty if they have nothing in common.
+    /// Computes the intersection of both geometries: areas where they overlap, lines along which they touch,
+    /// points in which they meet. Empty if they do not intersect.
     pub fn intersection(&self, other: &Self) -> Self {
         let apart = self
             .bounds()
@@ -64,28 +64,28 @@ impl Geometry {
         combine(self, other, Operation::Intersection, self.dimension().min(other.dimension()))
     }
 
-    /// What one of them has.
+    /// Computes the union of both geometries.
     pub fn union(&self, other: &Self) -> Self {
         combine(self, other, Operation::Union, self.dimension().max(other.dimension()))
     }
 
-    /// What it has and the other one has not.
+    /// Computes this geometry minus the other.
     pub fn difference(&self, other: &Self) -> Self {
         combine(self, other, Operation::Difference, self.dimension())
     }
 
-    /// What one of them has and the other one has not.
+    /// Computes the symmetric difference: the points of exactly one of both geometries.
     pub fn sym_difference(&self, other: &Self) -> Self {
         combine(self, other, Operation::Symmetric, self.dimension().max(other.dimension()))
     }
 
-    /// Its areas, lines and points without what lies twice: areas that overlap become one.
+    /// Removes duplicates from the areas, lines and points: overlapping areas are merged.
     pub fn dissolved(&self) -> Self {
         self.union(&Self::default())
     }
 }
 
-/// The union of all of `geometries`: at once, which is faster than one by one.
+/// Computes the union of all `geometries` at once, which is faster than pairwise unions.
 ///
 /// ```
 /// use burgeon_spatial::{Geometry, union_all};
@@ -99,11 +99,12 @@ pub fn union_all<'a>(geometries: impl IntoIterator<Item = &'a Geometry>) -> Geom
     Geometry::Collection(geometries.into_iter().filter(|it| it.is_sound()).cloned().collect()).dissolved()
 }
 
-/// The result of an operation; empty of the dimension if it has nothing, and once the work of this thread is to stop.
+/// Computes an operation; returns an empty geometry of `dimension` if the result is empty or if the work of
+/// this thread is cancelled.
 fn combine(one: &Geometry, two: &Geometry, operation: Operation, dimension: usize) -> Geometry {
     let operands = [one, two].map(Operand::for_overlay);
     let [a, b] = &operands;
-    // Of areas alone only what they have in common may be less than an area.
+    // Of all operations on two areas, only the intersection can have lines and points.
     let made = if a.is_of_areas() && b.is_of_areas() && operation != Operation::Intersection {
         overlay(&area_of(&a.areas), &area_of(&b.areas), |is_in| operation.keeps(is_in))
             .map(|areas| geometry_of(&areas))
@@ -114,7 +115,7 @@ fn combine(one: &Geometry, two: &Geometry, operation: Operation, dimension: usiz
     if made.is_empty() { Geometry::empty(dimension) } else { with_heights(made, &[one, two]) }
 }
 
-/// The areas, lines and points of the result.
+/// Computes the areas, lines and points of the result.
 fn combine_all(operands: &[Operand; 2], operation: Operation) -> Result<Geometry> {
     let arranged = OperandArrangement::new(operands)?;
     let areas = arranged.subdivision.areas(|around| operation.keeps(around.map(|count| count != 0)));
@@ -128,12 +129,12 @@ fn combine_all(operands: &[Operand; 2], operation: Operation) -> Result<Geometry
     Ok(Geometry::gathered(parts))
 }
 
-/// The nodes of the lines and points of the result that its areas have not.
+/// Returns the nodes of the lines and points of the result that its areas do not cover.
 fn lines_and_points(arranged: &OperandArrangement, operation: Operation) -> (Vec<Vec<u32>>, Vec<u32>) {
     let subdivision = &arranged.subdivision;
     let labels: Vec<EdgeLabel> =
         subdivision.edges.iter().map(|edge| EdgeLabel::new(edge, operation)).collect();
-    // By node: whether it lies in each geometry, and whether the result has it already.
+    // Membership of each node in both geometries, and whether the result already covers it.
     let mut nodes = vec![NodeLabel::default(); subdivision.places.len()];
     for (edge, label) in subdivision.edges.iter().zip(&labels) {
         for node in edge.ends {
@@ -160,22 +161,22 @@ fn lines_and_points(arranged: &OperandArrangement, operation: Operation) -> (Vec
     (runs(arranged, &labels), points)
 }
 
-/// A node in the result.
+/// A node of the result.
 #[derive(Debug, Clone, Copy, Default)]
 struct NodeLabel {
     is_in: [bool; 2],
-    /// Whether a line or an area of the result reaches it.
+    /// Set if a line or an area of the result touches it.
     is_covered: bool,
     is_met: bool,
 }
 
-/// An edge in the result.
+/// An edge of the result.
 struct EdgeLabel {
-    /// By geometry: whether it lies in it, borders counted in.
+    /// Membership in each geometry, including its border.
     is_in: [bool; 2],
-    /// Whether it is part of the lines of the result.
+    /// Set if the edge is part of the lines of the result.
     is_line: bool,
-    /// Whether an area of the result lies beside it.
+    /// Set if an area of the result borders the edge.
     is_beside_area: bool,
 }
 
@@ -188,7 +189,8 @@ impl EdgeLabel {
     }
 }
 
-/// The nodes along the lines of the result: each as far as one way leads along edges that are part of it.
+/// Returns the nodes along the lines of the result: maximal runs of edges of the result along one line or
+/// ring.
 fn runs(arranged: &OperandArrangement, labels: &[EdgeLabel]) -> Vec<Vec<u32>> {
     if !labels.iter().any(|label| label.is_line) {
         return Vec::new();
@@ -212,7 +214,7 @@ fn runs(arranged: &OperandArrangement, labels: &[EdgeLabel]) -> Vec<Vec<u32>> {
             }
             open = is_part;
         }
-        // A line that ends where its ring began goes on there.
+        // A line that ends at the start of its ring continues there.
         if way.is_ring
             && first
             && open

@@ -1,4 +1,4 @@
-//! Areas to and from other types.
+//! Conversion of areas to and from other types.
 
 use burgeon_geometry::Rings;
 use burgeon_geometry::overlay::PolygonArea;
@@ -7,12 +7,12 @@ use glam::DVec2;
 
 use crate::Geometry;
 
-/// The polygons of `geo` as an area.
+/// Converts polygons of `geo` to an area.
 pub(crate) fn area_of(polygons: &MultiPolygon) -> PolygonArea {
     polygons.iter().map(Rings::from).collect()
 }
 
-/// An area as polygons of `geo`.
+/// Converts an area to polygons of `geo`.
 pub(super) fn polygons_of(area: &PolygonArea) -> MultiPolygon {
     let string = |ring: &Vec<DVec2>| {
         let mut line: LineString = ring.iter().map(|at| Coord { x: at.x, y: at.y }).collect();
@@ -27,7 +27,7 @@ pub(super) fn polygons_of(area: &PolygonArea) -> MultiPolygon {
     MultiPolygon::new(area.iter().map(polygon).collect())
 }
 
-/// The simplest geometry of an area.
+/// Returns the simplest geometry of an area.
 pub(crate) fn geometry_of(area: &PolygonArea) -> Geometry {
     match &area[..] {
         [] => Geometry::empty(2),

@@ -1,7 +1,8 @@
-//! Set operations on geometries of any kinds.
+//! Set operations on geometries of any type.
 //!
-//! Comes in: two geometries. Goes out: the area, the lines and the points that both have, either, or only one. All comes of
-//! one [subdivision](burgeon_geometry::overlay::Subdivision) of the plane by the edges of both.
+//! Input: two geometries. Output: their intersection, union, difference or symmetric difference as areas,
+//! lines and points. All operations use one [subdivision](burgeon_geometry::overlay::Subdivision) of the
+//! plane by the edges of both.
 
 mod arranged;
 mod combine;

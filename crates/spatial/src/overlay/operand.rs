@@ -1,4 +1,4 @@
-//! A geometry as its areas, lines and points, with nothing of them twice.
+//! Operands of set operations: the areas, lines and points of a geometry, without duplicates.
 
 use burgeon_base::budget::Budget;
 use burgeon_geometry::overlay::{Fill, LayerWay, WayKind, fill, ring_ways, unite};
@@ -12,12 +12,12 @@ use crate::Geometry;
 use crate::plane::{Plane, collect_lines, collect_points};
 use crate::ways::multi_polygon_flaw;
 
-/// One of the two that an operation takes.
+/// One of the two operands of an operation.
 pub(crate) struct Operand {
     pub(crate) areas: MultiPolygon,
     pub(crate) lines: Vec<Vec<DVec2>>,
     pub(crate) points: Vec<DVec2>,
-    /// Whether the areas are those that were given, corner by corner: none had to be computed.
+    /// Set if the areas have exactly the input corners, because no area had to be computed.
     pub(crate) are_given: bool,
 }
 
@@ -31,7 +31,8 @@ impl Operand {
         made
     }
 
-    /// The operand of a set operation, in absolute coordinates. Of a single polygon the rings may cross each other.
+    /// Creates the operand of a set operation, in global coordinates. The rings of a single polygon may cross
+    /// each other.
     pub(super) fn for_overlay(geometry: &Geometry) -> Self {
         let mut made = Self::undissolved(Plane::absolute(), geometry);
         if made.areas.0.len() > 1 {
@@ -46,7 +47,7 @@ impl Operand {
             collect_lines(geometry, &mut |line| {
                 let line: Vec<DVec2> = line.iter().map(|point| plane.flat(*point)).collect();
                 match line.first() {
-                    // A line without length is its place.
+                    // A line without length becomes a point.
                     Some(first) if line.iter().all(|place| place == first) => points.push(*first),
                     Some(_) => lines.push(line),
                     None => {}
@@ -59,7 +60,7 @@ impl Operand {
         Self { areas, lines, points, are_given: false }
     }
 
-    /// Its lines, rings and points, in this order; points are one way.
+    /// Returns the lines, rings and points, in this order, with all points as one way.
     pub(super) fn ways(&self, layer: usize) -> Vec<LayerWay> {
         let line = |places: &Vec<DVec2>| LayerWay { layer, kind: WayKind::Line, places: places.clone() };
         let mut ways: Vec<LayerWay> = self.lines.iter().map(line).collect();
@@ -73,10 +74,10 @@ impl Operand {
     }
 }
 
-/// Below this (m²) it is looked at whether a ring goes around anything.
+/// Area (m²) below which rings are tested for an interior.
 const NARROW: f64 = 1e-9;
 
-/// Those areas that have a width, and the rings of those that go back the way they came, which are lines.
+/// Separates areas with an interior from the rings of collapsed areas, which become lines.
 pub(crate) fn with_width(areas: MultiPolygon) -> (MultiPolygon, Vec<geo::LineString>) {
     let (thin, wide): (Vec<_>, Vec<_>) = areas.into_iter().partition(|area| {
         twice_area(area.exterior().coords().copied()).abs() < NARROW
@@ -85,27 +86,28 @@ pub(crate) fn with_width(areas: MultiPolygon) -> (MultiPolygon, Vec<geo::LineStr
     (MultiPolygon(wide), thin.into_iter().map(|area| area.into_inner().0).collect())
 }
 
-/// Areas whose rings neither cross nor overlap: as they are if that holds already, else all that the rings go around.
+/// Returns areas whose rings neither cross nor overlap: unchanged if possible, otherwise the union of all
+/// areas.
 pub(crate) fn dissolved(areas: MultiPolygon) -> MultiPolygon {
     if are_disjoint(&areas) { areas } else { united(&areas) }
 }
 
-/// Whether the rings of areas neither cross nor overlap.
+/// Returns true if the rings of areas neither cross nor overlap.
 fn are_disjoint(areas: &MultiPolygon) -> bool {
-    // A ring that goes back the way it came is not asked after.
+    // Collapsed rings are not accepted.
     let has_width = |ring: &geo::LineString| !is_flat(ring.0.iter().map(|at| DVec2::new(at.x, at.y)));
     let are_wide = |it: &geo::Polygon| has_width(it.exterior()) && it.interiors().iter().all(has_width);
     areas.iter().all(are_wide) && matches!(multi_polygon_flaw(areas, &Budget::default()), Ok(None))
 }
 
-/// Below this (m) an extent is none: products of such coordinates are too small for numbers to hold them.
+/// Minimum extent (m) of an operand: products of smaller coordinates underflow.
 pub(crate) const LEAST_EXTENT: f64 = 1e-15;
 
 fn has_extent(areas: &MultiPolygon) -> bool {
     areas.bounding_rect().is_some_and(|around| around.width().max(around.height()) >= LEAST_EXTENT)
 }
 
-/// The union of polygons; nothing once the work of this thread is to stop.
+/// Computes the union of polygons; empty if the work of this thread is cancelled.
 fn united(areas: &MultiPolygon) -> MultiPolygon {
     if !has_extent(areas) {
         return MultiPolygon::new(Vec::new());
@@ -113,7 +115,7 @@ fn united(areas: &MultiPolygon) -> MultiPolygon {
     polygons_of(&unite(area_of(areas)).unwrap_or_default())
 }
 
-/// The area that rings enclose, by a rule; nothing once the work of this thread is to stop.
+/// Computes the area that rings enclose by a fill rule; empty if the work of this thread is cancelled.
 pub(crate) fn filled(areas: &MultiPolygon, rule: Fill) -> MultiPolygon {
     if !has_extent(areas) {
         return MultiPolygon::new(Vec::new());

@@ -1,13 +1,13 @@
-//! The dimensionally extended nine-intersection model of two geometries.
+//! Dimensionally extended nine-intersection model of two geometries.
 //!
 //! Source: E. Clementini and others, "A small set of formal topological relationships suitable for end-user
-//! interaction", 1993; the boundary of lines is made of places where an odd number of them end.
+//! interaction", 1993. The boundary of lines consists of the points where an odd number of lines end.
 
 use super::arranged::{OperandArrangement, sides};
 use super::operand::Operand;
 use crate::Geometry;
 
-/// The position of a place relative to a geometry.
+/// Position of a point relative to a geometry.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum TopologicalPosition {
     Interior,
@@ -15,21 +15,21 @@ enum TopologicalPosition {
     Exterior,
 }
 
-/// A node in both geometries.
+/// State of a node in both geometries.
 #[derive(Debug, Clone, Copy, Default)]
 struct NodeState {
     is_met: bool,
-    /// A piece here lies within an area, along a ring, or along a line.
+    /// Edges at the node lie within an area, along a ring, or along a line.
     area: [bool; 2],
     ring: [bool; 2],
     line: [bool; 2],
-    /// How many lines end here.
+    /// Number of lines that end here.
     ends: [usize; 2],
     point: [bool; 2],
 }
 
-/// By interior, boundary and exterior of the first geometry and then of the second, row by row: the dimension in which
-/// they meet, as a letter. Nothing meets once the work of this thread is to stop.
+/// Computes the dimensions in which the interior, boundary and exterior of the first geometry intersect those
+/// of the second, row by row, as characters. Nothing intersects if the work of this thread is cancelled.
 pub(crate) fn relate(one: &Geometry, two: &Geometry) -> [u8; 9] {
     let mut cells = [b'F'; 9];
     cells[8] = b'2';
@@ -80,7 +80,7 @@ pub(crate) fn relate(one: &Geometry, two: &Geometry) -> [u8; 9] {
         points.iter().for_each(|node| nodes[*node as usize].point[geometry] = true);
     }
     for (number, node) in (0..).zip(&nodes) {
-        // The corner of an area without width is none.
+        // The corner of a collapsed area is not a node of the geometry.
         if !node.is_met && node.point == [false; 2] {
             continue;
         }

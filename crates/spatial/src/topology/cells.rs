@@ -1,7 +1,7 @@
-//! The dimensionally extended nine-intersection model of two geometries of one dimension each.
+//! Dimensionally extended nine-intersection model of two geometries of one dimension each.
 //!
 //! Source: E. Clementini and others, "A small set of formal topological relationships suitable for end-user
-//! interaction", 1993; the boundary of lines is made of places where an odd number of them end.
+//! interaction", 1993. The boundary of lines consists of the points where an odd number of lines end.
 
 use std::cmp::Ordering;
 
@@ -11,13 +11,13 @@ use super::prepared::{PreparedGeometry, TopologyParts, is_among};
 use crate::overlay;
 use crate::ways::{Contacts, WalkSides, WayEdges, is_on_any, place_in};
 
-/// The places of the interior, the boundary and the exterior in a row of cells.
+/// Indices of the interior, the boundary and the exterior in a row of cells.
 const INTERIOR: usize = 0;
 const BOUNDARY: usize = 1;
 const EXTERIOR: usize = 2;
 
-/// The dimensions in which interiors, boundaries and exteriors of two geometries meet, row by row of the first: `F`, `0`,
-/// `1` or `2`.
+/// Dimensions in which the interiors, boundaries and exteriors of two geometries intersect, by row of the
+/// first geometry: `F`, `0`, `1` or `2`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct RelationCells([[u8; 3]; 3]);
 
@@ -35,7 +35,7 @@ impl RelationCells {
         }
     }
 
-    /// Notes where it holds.
+    /// Records a dimension if a condition is true.
     fn note_if(&mut self, holds: bool, first: usize, second: usize, dimension: u8) {
         if holds {
             self.note(first, second, dimension);
@@ -53,9 +53,11 @@ impl RelationCells {
     }
 }
 
-/// By interior, boundary and exterior of the first geometry and then of the second, row by row: the dimension in which
-/// they meet, as a letter. Where borders of two areas cross, the dimension in which they meet is told only if `all` is
-/// asked for; else it is 0.
+/// Computes the dimensions in which the interior, boundary and exterior of the first geometry intersect those
+/// of the second, row by row, as characters.
+///
+/// If the borders of two areas cross, the dimension of their intersection is computed only if `all` is set;
+/// otherwise it is 0.
 pub(crate) fn relate(one: &PreparedGeometry, two: &PreparedGeometry, all: bool) -> [u8; 9] {
     use TopologyParts::{Areas, Lines, Mixed, None, Points};
     let cells = match (one.parts(), two.parts()) {
@@ -72,7 +74,7 @@ pub(crate) fn relate(one: &PreparedGeometry, two: &PreparedGeometry, all: bool) 
     cells.letters()
 }
 
-/// A geometry and nothing.
+/// Returns the relation of a geometry to an empty geometry.
 fn alone(parts: &TopologyParts) -> RelationCells {
     let mut cells = RelationCells::new();
     match parts {
@@ -138,7 +140,7 @@ fn area_and_line(
     cells
 }
 
-/// Where a place lies to areas.
+/// Returns the row of a point relative to areas.
 fn row_in_area(areas: &WayEdges, place: DVec2) -> usize {
     match place_in(areas, place) {
         Ordering::Greater => INTERIOR,
@@ -147,7 +149,7 @@ fn row_in_area(areas: &WayEdges, place: DVec2) -> usize {
     }
 }
 
-/// WayEdges, and where the lines of which they are end.
+/// A geometry with the edges of its lines, and the points where an odd number of lines end.
 type LineParts<'a> = (&'a PreparedGeometry, &'a WayEdges, &'a [DVec2]);
 
 fn lines(one: LineParts<'_>, two: LineParts<'_>) -> RelationCells {
@@ -170,7 +172,7 @@ fn lines(one: LineParts<'_>, two: LineParts<'_>) -> RelationCells {
     cells
 }
 
-/// A geometry and places.
+/// Returns the relation of a geometry to points.
 fn with_points(parts: &TopologyParts, places: &[DVec2]) -> RelationCells {
     let mut cells = RelationCells::new();
     for place in places {

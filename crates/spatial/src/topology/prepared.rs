@@ -1,4 +1,4 @@
-//! A geometry as it is compared with others.
+//! Geometries prepared for many comparisons.
 
 use std::sync::OnceLock;
 
@@ -9,7 +9,7 @@ use crate::overlay::Operand;
 use crate::plane::Plane;
 use crate::ways::WayEdges;
 
-/// A geometry that is compared with many others: what that takes of it alone is done once.
+/// A geometry that is compared with many others; data that depend only on this geometry are computed once.
 ///
 /// ```
 /// use burgeon_spatial::{Geometry, PreparedGeometry};
@@ -22,29 +22,29 @@ use crate::ways::WayEdges;
 /// ```
 #[derive(Debug, Clone)]
 pub struct PreparedGeometry {
-    /// As it was given.
+    /// Original geometry.
     pub(crate) whole: Geometry,
     pub(crate) bounds: Option<[DVec2; 2]>,
     pub(crate) is_sound: bool,
-    /// That of the geometry, whose empty parts count too.
+    /// Dimension of the geometry, including its empty parts.
     pub(crate) dimension: usize,
     parts: OnceLock<TopologyParts>,
-    /// What its areas are divided into, for points at random: corners in its plane.
+    /// Triangles of its areas for random points, with corners in the coordinates of its plane.
     pub(crate) triangles: OnceLock<Vec<[DVec2; 3]>>,
 }
 
-/// What a geometry is made of.
+/// Components of a geometry.
 #[derive(Debug, Clone)]
 pub(super) enum TopologyParts {
-    /// Nothing.
+    /// No components.
     None,
-    /// Places, each once, in order.
+    /// Distinct points, sorted.
     Points(Vec<DVec2>),
-    /// Ways of edges, and the places where an odd number of them ends, in order.
+    /// Edges of lines, and the sorted points where an odd number of lines end.
     Lines(WayEdges, Vec<DVec2>),
-    /// Rings, with the area to their left.
+    /// Rings with the area to their left.
     Areas(WayEdges),
-    /// Several of these, or areas that had to be computed, whose corners are rounded.
+    /// Components of several dimensions, or computed areas, whose corners are rounded.
     Mixed,
 }
 
@@ -61,7 +61,7 @@ impl PreparedGeometry {
         }
     }
 
-    /// What it is made of; nothing if it is not sound.
+    /// Returns the components; none if the geometry is not sound.
     pub(super) fn parts(&self) -> &TopologyParts {
         self.parts
             .get_or_init(|| if self.is_sound { TopologyParts::new(&self.whole) } else { TopologyParts::None })
@@ -72,7 +72,7 @@ impl TopologyParts {
     fn new(geometry: &Geometry) -> Self {
         let plane = Plane::of(&[geometry]);
         let Operand { areas, lines, mut points, are_given } = Operand::new(plane, geometry);
-        // Of the two zeros there is only one behind a sum.
+        // Adding 0 turns -0 into 0.
         let back = |place: DVec2| plane.back(place).truncate() + 0.0;
         match [areas.0.is_empty(), lines.is_empty(), points.is_empty()] {
             [true, true, true] => Self::None,
@@ -104,12 +104,12 @@ impl TopologyParts {
     }
 }
 
-/// Puts places in an order in which equal ones are neighbours.
+/// Sorts points so that equal points are adjacent.
 fn sort(places: &mut [DVec2]) {
     places.sort_unstable_by(|a, b| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)));
 }
 
-/// Whether a place is among those that are in order.
+/// Returns true if sorted points contain a point.
 pub(super) fn is_among(places: &[DVec2], place: DVec2) -> bool {
     let first = places.partition_point(|it| it.x < place.x || it.x == place.x && it.y < place.y);
     places.get(first) == Some(&place)

@@ -1,4 +1,5 @@
-//! Relations against the arrangement's, which rounds, where nothing is there to be rounded; and where there is.
+//! Tests of relations against the arrangement, which rounds: on a grid without rounding, and in cases with
+//! rounding.
 
 use glam::DVec3;
 use proptest::prelude::*;
@@ -13,7 +14,7 @@ fn is_on_grid(geometry: &Geometry) -> bool {
     geometry.is_valid() && geometry.points().all(|point| point.fract() == DVec3::ZERO)
 }
 
-/// Areas, lines and points on a small grid, so that much meets.
+/// Returns areas, lines and points on a small grid, so that geometries often meet.
 fn geometry() -> impl Strategy<Value = Geometry> {
     let ring = || prop::collection::vec(corner(), 3..7);
     let polygon = move || ring().prop_filter_map("no polygon", |ring| Geometry::polygon(vec![ring]));
@@ -51,7 +52,8 @@ proptest! {
 
 #[test]
 fn edges_that_cross_where_a_geometry_touches_itself_have_what_is_there_beside_them() {
-    // In (3 3) the first touches itself, and a side of the second leads along it there and then into it.
+    // The first geometry touches itself in (3 3), and a side of the second runs along it there and then into
+    // it.
     let first = "MULTIPOLYGON (((4 2, 2 1, 3 3, 0 0, 5 1, 4 2)), ((4 5, 1 5, 4 2, 4 5)))";
     let second = "MULTIPOLYGON (((2 1, 4 5, 4 2, 2 1)), ((0 0, 2 1, 1 1, 0 0)))";
     let [first, second] = [first, second].map(|text| Geometry::from_wkt(text).unwrap());
@@ -60,7 +62,8 @@ fn edges_that_cross_where_a_geometry_touches_itself_have_what_is_there_beside_th
 
 #[test]
 fn what_is_a_rounding_apart_is_apart() {
-    // The corner of the second lies on the first one's side, and as little as can be beside it.
+    // The corner of the second lies on a side of the first, or next to it by the smallest possible
+    // difference.
     let first = Geometry::from_wkt(
         "POLYGON ((600000 6000000, 600010 6000000, 600010 6000010, 600000 6000010, 600000 6000000))",
     )

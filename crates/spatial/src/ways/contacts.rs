@@ -1,4 +1,4 @@
-//! Where the edges of two geometries meet.
+//! Contacts: the intersections of the edges of two geometries.
 
 use std::cmp::Ordering;
 
@@ -7,10 +7,10 @@ use glam::DVec2;
 use super::edges::{DirectedEdge, WayEdges};
 use super::locate::{begins_inside, is_between, is_on, place_in, side};
 
-/// A place where an edge of one geometry meets an edge of the other.
+/// A point where an edge of one geometry meets an edge of the other.
 #[derive(Debug, Clone, Copy)]
 struct Contact {
-    /// The edges, by geometry.
+    /// Edge of each geometry.
     edges: [usize; 2],
     place: DVec2,
 }
@@ -22,18 +22,18 @@ struct SharedPart {
     ends: [DVec2; 2],
 }
 
-/// All places where two geometries meet.
+/// All contacts of two geometries.
 #[derive(Debug, Default)]
 pub(crate) struct Contacts {
-    /// Edges that cross between their ends, by geometry, where neither geometry has a corner.
+    /// Edges of each geometry that cross in their interiors, where neither geometry has a corner.
     crossings: Vec<[usize; 2]>,
-    /// Whether edges share a part on which they lead the same way, and opposite ways.
+    /// Presence of shared parts with the same direction, and with opposite directions.
     pub(crate) shares: [bool; 2],
     contacts: Vec<Contact>,
     parts: Vec<SharedPart>,
 }
 
-/// What of a geometry lies inside of areas, outside, or on their border.
+/// Positions of a geometry's edges relative to areas: inside, outside, or neither if they lie on the border.
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct WalkSides {
     pub(crate) inside: bool,
@@ -41,13 +41,13 @@ pub(crate) struct WalkSides {
 }
 
 impl WalkSides {
-    /// Of what lies on both sides.
+    /// Edges on both sides.
     pub(crate) const BOTH: Self = Self { inside: true, outside: true };
 }
 
 impl Contacts {
-    /// The contacts of two geometries with these bounds and edges; without any but the first where edges cross, if
-    /// `until_crossing`.
+    /// Computes the contacts of two geometries with these bounds and edges; with `until_crossing`, it stops
+    /// at the first crossing.
     pub(crate) fn new(
         (one, first): (Option<[DVec2; 2]>, &WayEdges),
         (two, second): (Option<[DVec2; 2]>, &WayEdges),
@@ -79,27 +79,27 @@ impl Contacts {
         made
     }
 
-    /// Whether there are none.
+    /// Returns true if there are no contacts.
     pub(crate) fn is_empty(&self) -> bool {
         !self.cross() && self.contacts.is_empty()
     }
 
-    /// Whether edges cross between their ends.
+    /// Returns true if edges cross in their interiors.
     pub(crate) fn cross(&self) -> bool {
         !self.crossings.is_empty()
     }
 
-    /// Whether edges share a part.
+    /// Returns true if edges share a part.
     pub(crate) fn has_shared(&self) -> bool {
         self.shares != [false; 2]
     }
 
-    /// The places where ends of edges meet the other geometry.
+    /// Returns the points where ends of edges meet the other geometry.
     pub(crate) fn places(&self) -> impl Iterator<Item = DVec2> + '_ {
         self.contacts.iter().map(|contact| contact.place)
     }
 
-    /// Notes how two edges, of the first and of the second geometry, meet.
+    /// Records the contacts of an edge of the first geometry and an edge of the second.
     fn meet(&mut self, edges: [usize; 2], [e, f]: [&DirectedEdge; 2], geometries: [&WayEdges; 2]) {
         let [p, q] = [side(f.from, f.to, e.from), side(f.from, f.to, e.to)];
         if p == q && p != Ordering::Equal {
@@ -124,7 +124,7 @@ impl Contacts {
         }
     }
 
-    /// Notes how two edges on one line meet.
+    /// Records the contacts of two collinear edges.
     fn meet_along(&mut self, edges: [usize; 2], e: &DirectedEdge, f: &DirectedEdge) {
         let order = |a: &DVec2, b: &DVec2| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y));
         let sorted = |edge: &DirectedEdge| match order(&edge.from, &edge.to) {
@@ -144,7 +144,7 @@ impl Contacts {
         }
     }
 
-    /// The contacts of the edges of a geometry, the first or the second, one edge after the other.
+    /// Returns the contacts, sorted by the edges of the first (0) or the second (1) geometry.
     pub(crate) fn of(&self, geometry: usize) -> SortedContacts<'_> {
         let mut contacts: Vec<&Contact> = self.contacts.iter().collect();
         contacts.sort_by_key(|contact| contact.edges[geometry]);
@@ -154,8 +154,8 @@ impl Contacts {
     }
 }
 
-/// The corner of one of the geometries, or the end of a line, that lies where two edges cross: there a geometry touches itself,
-/// and what is to the sides of an edge is not the same before and behind the crossing.
+/// Returns the corner or line end of either geometry at the crossing of two edges. There a geometry touches
+/// itself, and the sides of an edge differ before and after the crossing.
 fn corner_on(e: &DirectedEdge, f: &DirectedEdge, geometries: [&WayEdges; 2]) -> Option<DVec2> {
     let (low, high) = (e.low().max(f.low()), e.high().min(f.high()));
     let mut found = None;
@@ -168,7 +168,7 @@ fn corner_on(e: &DirectedEdge, f: &DirectedEdge, geometries: [&WayEdges; 2]) -> 
     found
 }
 
-/// Contacts by the edges of one geometry.
+/// Contacts, sorted by the edges of one geometry.
 pub(crate) struct SortedContacts<'a> {
     geometry: usize,
     contacts: Vec<&'a Contact>,
@@ -182,7 +182,7 @@ impl SortedContacts<'_> {
         &self.contacts[begin..begin + count]
     }
 
-    /// Whether the other geometry has a piece of an edge.
+    /// Returns true if the other geometry shares a piece of an edge.
     fn has(&self, edge: usize, piece: [DVec2; 2]) -> bool {
         let begin = self.parts.partition_point(|it| it.edges[self.geometry] < edge);
         let parts = self.parts[begin..].iter().take_while(|it| it.edges[self.geometry] == edge);
@@ -192,11 +192,11 @@ impl SortedContacts<'_> {
         })
     }
 
-    /// The pieces that contacts divide an edge into.
+    /// Returns the pieces into which contacts divide an edge.
     fn pieces(&self, number: usize, edge: &DirectedEdge) -> Vec<[DVec2; 2]> {
         let mut stops: Vec<DVec2> = self.on(number).iter().map(|contact| contact.place).collect();
         stops.extend([edge.from, edge.to]);
-        // All are on one line.
+        // All points are collinear.
         stops.sort_unstable_by(|a, b| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)));
         stops.dedup();
         if stops.first() != Some(&edge.from) {
@@ -205,7 +205,7 @@ impl SortedContacts<'_> {
         stops.windows(2).map(|pair| [pair[0], pair[1]]).collect()
     }
 
-    /// Whether a part of the edges is not part of the other geometry's.
+    /// Returns true if a part of the edges does not belong to the other geometry.
     pub(crate) fn has_own(&self, edges: &WayEdges) -> bool {
         edges.edges.iter().enumerate().any(|(number, edge)| {
             self.on(number).len() < 2
@@ -213,11 +213,12 @@ impl SortedContacts<'_> {
         })
     }
 
-    /// On which sides of the other geometry's border, which they nowhere cross between their ends, edges lie.
+    /// Determines on which sides of the other geometry's border the edges lie; the edges do not cross it in
+    /// their interiors.
     pub(crate) fn walk(&self, edges: &WayEdges, areas: &WayEdges) -> WalkSides {
         let mut sides = WalkSides::default();
         for way in edges.ways() {
-            // Where the last piece was, if nothing has been met since.
+            // Side of the last piece, if no contact followed.
             let mut known = None;
             for number in way {
                 let edge = &edges.edges[number];

@@ -1,25 +1,25 @@
-//! The edges of lines and rings, found by a tree where they are many.
+//! Edges of lines and rings, with a tree for large numbers.
 
 use std::sync::OnceLock;
 
 use glam::DVec2;
 use rstar::{AABB, RTree, RTreeObject};
 
-/// From so many edges on they are asked by a tree.
+/// Minimum number of edges for the search with a tree.
 const MANY: usize = 64;
 
-/// An edge, from place to place; never without length.
+/// A directed edge with a length.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct DirectedEdge {
     pub(crate) from: DVec2,
     pub(crate) to: DVec2,
 }
 
-/// The edges of ways, one way after the other.
+/// Edges of consecutive lines or rings.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct WayEdges {
     pub(crate) edges: Vec<DirectedEdge>,
-    /// By way: the number behind its last edge.
+    /// End index of the edges of each line or ring.
     ends: Vec<usize>,
     tree: OnceLock<RTree<NumberedEdge>>,
 }
@@ -60,13 +60,13 @@ impl WayEdges {
         made
     }
 
-    /// The numbers of the edges of each way.
+    /// Returns the range of edges of each line or ring.
     pub(crate) fn ways(&self) -> impl Iterator<Item = std::ops::Range<usize>> + '_ {
         let begins = std::iter::once(0).chain(self.ends.iter().copied());
         begins.zip(&self.ends).map(|(begin, end)| begin..*end)
     }
 
-    /// Calls `each` with the edges whose boxes meet a box, and their numbers.
+    /// Calls `each` with the edges whose bounding boxes intersect a box, and their indices.
     pub(crate) fn meeting(&self, low: DVec2, high: DVec2, mut each: impl FnMut(usize, &DirectedEdge)) {
         if self.edges.len() < MANY {
             for (number, edge) in self.edges.iter().enumerate() {

@@ -1,4 +1,4 @@
-//! Where places lie to areas and lines, by exact predicates.
+//! Positions of points relative to areas and lines, by exact predicates.
 
 use std::cmp::Ordering;
 
@@ -7,7 +7,7 @@ use glam::DVec2;
 
 use super::edges::{DirectedEdge, WayEdges};
 
-/// On which side of the way from `a` to `b` a place is: greater is the left.
+/// Returns the side of the line from `a` to `b` on which a point lies: greater is left.
 ///
 /// Method: J. Shewchuk, "Adaptive precision floating-point arithmetic and fast robust geometric predicates", 1997.
 pub(crate) fn side(a: DVec2, b: DVec2, place: DVec2) -> Ordering {
@@ -19,17 +19,17 @@ pub(crate) fn side(a: DVec2, b: DVec2, place: DVec2) -> Ordering {
     }
 }
 
-/// Whether a place that is on the line of an edge is on the edge; its ends are.
+/// Returns true if a point on the line of an edge lies on the edge, including its ends.
 pub(crate) fn is_between(edge: &DirectedEdge, place: DVec2) -> bool {
     edge.low().cmple(place).all() && place.cmple(edge.high()).all()
 }
 
-/// Whether a place is on an edge.
+/// Returns true if a point lies on an edge.
 pub(crate) fn is_on(edge: &DirectedEdge, place: DVec2) -> bool {
     is_between(edge, place) && side(edge.from, edge.to, place) == Ordering::Equal
 }
 
-/// Where a place lies to areas: greater is inside, equal on their border.
+/// Returns the position of a point relative to areas: greater is inside, equal is on the border.
 pub(crate) fn place_in(areas: &WayEdges, place: DVec2) -> Ordering {
     let mut winding = 0;
     let mut touches = false;
@@ -49,20 +49,20 @@ pub(crate) fn place_in(areas: &WayEdges, place: DVec2) -> Ordering {
     }
 }
 
-/// Whether a place is on one of the edges.
+/// Returns true if a point lies on one of the edges.
 pub(crate) fn is_on_any(edges: &WayEdges, place: DVec2) -> bool {
     let mut found = false;
     edges.meeting(place, place, |_, edge| found = found || is_on(edge, place));
     found
 }
 
-/// Whether the way from `from`, which is on the border of areas, to `to` begins inside of them. `around` are the edges of
-/// the border that `from` is on; none of them leads the same way.
+/// Returns true if the line from `from`, on the border of areas, to `to` begins inside them. `around` are the
+/// border edges through `from`; none of them has the same direction.
 ///
-/// Method: the border that is met first when one turns to the right from that way: what leads away from `from` has the
-/// area to the side that one comes from, and what comes to it has not.
+/// Method: rotating clockwise from the line's direction, the first border edge decides: if it leaves `from`,
+/// the area lies on the side of the line, if it arrives at `from`, it does not.
 pub(crate) fn begins_inside(around: impl Iterator<Item = DirectedEdge>, from: DVec2, to: DVec2) -> bool {
-    // What is to the right comes before what is behind, and that before what is to the left.
+    // Directions to the right come before the opposite direction, and that before directions to the left.
     let turn = |way: DVec2| match side(from, to, way) {
         Ordering::Less => 0,
         Ordering::Equal => 1,

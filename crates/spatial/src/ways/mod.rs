@@ -1,7 +1,7 @@
-//! Lines and rings as edges, and how they lie to each other, decided by exact predicates.
+//! Lines and rings as edges, and their relative positions, decided by exact predicates.
 //!
-//! Comes in: ways of places. Goes out: where edges meet, on which side of areas places and edges lie, and what is wrong
-//! with areas. Nothing is rounded: where edges cross between their ends is never computed.
+//! Input: lines and rings as points. Output: intersections of edges, sides of areas on which points and edges
+//! lie, and defects of areas. Nothing is rounded: crossings within edges are never computed.
 
 mod contacts;
 mod edges;

@@ -1,7 +1,8 @@
-//! Flaws of areas: rings that cross or overlap, holes that are not inside, and an inside that does not hang together.
+//! Defects of areas: crossing or overlapping rings, holes outside, and disconnected interiors.
 //!
-//! Edges are asked by a tree which others they meet, and rings and polygons by another; only those whose boxes meet are
-//! compared, each pair where the smaller of the two is. So areas with many parts take no longer than their edges do.
+//! A tree finds intersecting edges, and another finds rings and polygons with intersecting bounding boxes;
+//! each pair is compared within the smaller of the two. Areas with many parts therefore take time in
+//! proportion to their edges.
 
 use geo::{Coord, Intersects, Line, LineString, MultiPolygon, Polygon};
 use glam::DVec2;
@@ -14,14 +15,14 @@ use super::locate::is_on;
 use burgeon_base::budget::Budget;
 use burgeon_base::error::Result;
 
-/// The border of an area, with the area to its left, and its bounds.
+/// The border of an area, which lies to its left, and its bounds.
 struct AreaBorder {
     edges: WayEdges,
     bounds: [DVec2; 2],
 }
 
-/// Why a polygon whose outer ring is counter-clockwise and whose holes are clockwise is not valid; none if it is. Fails
-/// where the budget ends.
+/// Returns the reason why a polygon with a counter-clockwise outer ring and clockwise holes is invalid;
+/// `None` if it is valid. Fails if the budget is exceeded.
 pub(crate) fn polygon_flaw(polygon: &Polygon, budget: &Budget) -> Result<Option<String>> {
     let outer = AreaBorder::new([(polygon.exterior(), false)]);
     if let Some(flaw) = outer.ring_flaw(budget)? {
@@ -63,19 +64,20 @@ pub(crate) fn polygon_flaw(polygon: &Polygon, budget: &Budget) -> Result<Option<
     Ok(None)
 }
 
-/// Whether the rings of a polygon, which neither cross nor overlap, divide its inside where they touch.
+/// Returns true if the rings of a polygon, which neither cross nor overlap, divide its interior where they
+/// touch.
 ///
-/// Method: rings and the places where they touch are the vertices of a graph, in which each ring is joined to its places.
-/// A cycle in it goes around a part of the inside.
+/// Method: rings and the points where they touch are the vertices of a graph that connects each ring to its
+/// points. A cycle in the graph encloses a part of the interior.
 fn is_divided(polygon: &Polygon, budget: &Budget) -> Result<bool> {
     let rings = std::iter::once(polygon.exterior()).chain(polygon.interiors());
     let rings: Vec<Vec<DVec2>> =
         rings.map(|ring| ring.0.iter().map(|at| DVec2::new(at.x, at.y) + DVec2::ZERO).collect()).collect();
     let edges = WayEdges::new(&rings);
-    // By edge: its ring.
+    // Ring of each edge.
     let owners: Vec<usize> =
         edges.ways().enumerate().flat_map(|(ring, edges)| edges.map(move |_| ring)).collect();
-    // Rings by the places where they touch others.
+    // Rings by the points where they touch others.
     let mut touches: Vec<([u64; 2], usize)> = Vec::new();
     for (number, edge) in edges.edges.iter().enumerate() {
         budget.tick()?;
@@ -102,7 +104,7 @@ fn is_divided(polygon: &Polygon, budget: &Budget) -> Result<bool> {
     Ok(false)
 }
 
-/// The first of the rings that are joined to a ring.
+/// Returns the representative of the rings that are connected to a ring.
 fn root(first: &mut [usize], mut ring: usize) -> usize {
     while first[ring] != ring {
         first[ring] = first[first[ring]];
@@ -111,7 +113,8 @@ fn root(first: &mut [usize], mut ring: usize) -> usize {
     ring
 }
 
-/// Why polygons are not the parts of a valid area; none if they are. Fails where the budget ends.
+/// Returns the reason why polygons do not form a valid area; `None` if they do. Fails if the budget is
+/// exceeded.
 pub(crate) fn multi_polygon_flaw(polygons: &MultiPolygon, budget: &Budget) -> Result<Option<String>> {
     for (number, polygon) in polygons.iter().enumerate() {
         if let Some(flaw) = polygon_flaw(polygon, budget)? {
@@ -140,7 +143,7 @@ pub(crate) fn multi_polygon_flaw(polygons: &MultiPolygon, budget: &Budget) -> Re
 }
 
 impl AreaBorder {
-    /// Of rings, each with whether it is to be turned.
+    /// Creates a border from rings, each with a flag that reverses it.
     fn new<'a>(rings: impl IntoIterator<Item = (&'a LineString, bool)>) -> Self {
         let places = |(ring, is_turned): (&LineString, bool)| {
             let mut places: Vec<DVec2> = ring.0.iter().map(|at| DVec2::new(at.x, at.y)).collect();
@@ -158,7 +161,7 @@ impl AreaBorder {
         Self { edges, bounds }
     }
 
-    /// What is wrong with its only ring.
+    /// Returns the defect of its only ring.
     fn ring_flaw(&self, budget: &Budget) -> Result<Option<&'static str>> {
         if self.edges.edges.len() < 3 {
             return Ok(Some("must have at least 3 distinct points"));
@@ -171,7 +174,7 @@ impl AreaBorder {
             budget.tick()?;
             let mut meets = false;
             self.edges.meeting(edge.low(), edge.high(), |other, found| {
-                // Those before and behind it share an end with it.
+                // The adjacent edges share an end with the edge.
                 let is_apart = other != number && edge.from != found.to && edge.to != found.from;
                 meets = meets || is_apart && line(edge).intersects(&line(found));
             });
@@ -186,7 +189,8 @@ impl AreaBorder {
         Contacts::new((Some(self.bounds), &self.edges), (Some(other.bounds), &other.edges), true)
     }
 
-    /// The dimension of what two areas have in common: 2 if they overlap, 1 if only their borders share a part, else none.
+    /// Returns the dimension of the intersection of two areas: 2 if they overlap, 1 if only their borders
+    /// share a part, otherwise `None`.
     fn common(&self, other: &Self) -> Option<usize> {
         let contacts = self.contacts(other);
         let [(few, less), (many, more)] = match self.edges.edges.len() <= other.edges.edges.len() {
@@ -196,7 +200,8 @@ impl AreaBorder {
         let overlap = contacts.cross()
             || contacts.shares[0]
             || contacts.of(few).walk(&less.edges, &more.edges).inside
-            // Without a border in its inside, the larger one is as a whole inside of the smaller one or outside.
+            // The border of the smaller area is not inside the larger one, so the larger one lies as a whole
+            // inside or outside the smaller one.
             || more.lies_in_box_of(less) && contacts.of(many).walk(&more.edges, &less.edges).inside;
         if overlap { Some(2) } else { contacts.has_shared().then_some(1) }
     }
@@ -207,7 +212,7 @@ impl AreaBorder {
     }
 }
 
-/// The boxes of areas, with their numbers.
+/// Bounding boxes of areas, with their indices.
 struct BoxTree(RTree<GeomWithData<Rectangle<[f64; 2]>, usize>>);
 
 impl BoxTree {
@@ -219,7 +224,7 @@ impl BoxTree {
         Self(RTree::bulk_load(boxes.collect()))
     }
 
-    /// The numbers behind `number` of those whose boxes meet that of `area`, in order.
+    /// Returns the sorted indices greater than `number` of areas whose boxes intersect the box of `area`.
     fn behind(&self, number: usize, area: &AreaBorder) -> Vec<usize> {
         let [low, high] = area.bounds.map(|place| place.to_array());
         let near = self.0.locate_in_envelope_intersecting(&AABB::from_corners(low, high));
@@ -242,7 +247,8 @@ mod tests {
     use crate::Geometry;
     use crate::plane::Plane;
 
-    /// A ring of few corners on a small grid, so that much meets, and most of them without crossing themselves.
+    /// Returns a ring with few corners on a small grid, so that rings often meet; most do not cross
+    /// themselves.
     fn ring() -> impl Strategy<Value = Vec<DVec3>> {
         let corner = || (0..7i32, 0..7i32).prop_map(|(x, y)| DVec3::new(f64::from(x), f64::from(y), 0.0));
         let rectangle = (0..7i32, 0..7i32, 1..4i32, 1..4i32).prop_map(|(x, y, width, depth)| {
@@ -253,7 +259,7 @@ mod tests {
         prop_oneof![2 => prop::collection::vec(corner(), 3..4), 1 => prop::collection::vec(corner(), 3..7), 3 => rectangle]
     }
 
-    /// Areas whose rings all go around something: what is flat, `geo` takes for valid.
+    /// Returns areas whose rings all have an interior: `geo` considers flat rings valid.
     fn area() -> impl Strategy<Value = Geometry> {
         let has_width = |ring: &Vec<DVec3>| burgeon_geometry::planar::twice_area(ring.iter().copied()) != 0.0;
         let ring = move || ring().prop_filter("it is flat", has_width);
@@ -278,7 +284,7 @@ mod tests {
         fn areas_are_valid_where_geo_says_so(area in area()) {
             let expected = Plane::of(&[&area]).geo(&area).check_validation();
             if area.validity_reason().is_some_and(|reason| reason.contains("not connected")) {
-                // `geo` does not look at it; the rings are the border of several polygons, unless more is wrong.
+                // `geo` does not test it; without other defects, the rings border several polygons.
                 if expected.is_ok() {
                     prop_assert!(area.make_valid().num_geometries() > area.num_geometries(), "{}", area);
                 }
@@ -291,7 +297,7 @@ mod tests {
         }
     }
 
-    /// How many pieces of work, in thousands, it takes to find out that these are valid.
+    /// Returns the work, in thousands of steps, to check that a geometry is valid.
     fn work(area: &Geometry) -> usize {
         let count = Arc::new(AtomicUsize::new(0));
         let counted = Arc::clone(&count);

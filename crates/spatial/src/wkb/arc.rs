@@ -1,29 +1,32 @@
-//! Circular arcs as lines.
+//! Conversion of circular arcs to lines.
 //!
-//! Source: ISO/IEC 13249-3 (SQL/MM), circular strings: each arc is told by its ends and a point between them.
+//! Source: ISO/IEC 13249-3 (SQL/MM), circular strings: each arc is defined by its ends and a point between
+//! them.
 
 use std::f64::consts::PI;
 
 use glam::{DVec2, DVec3};
 
-/// How far (m) a line may be from the arc that it stands for.
+/// Maximum distance (m) of a line from its arc.
 pub const NEAR: f64 = 0.01;
 
-/// The most pieces of half an arc: enough for a radius of 8,000 km.
+/// Maximum number of pieces of half an arc: sufficient for a radius of 8,000 km.
 const MOST: f64 = 65_536.0;
 
-/// Adds the points of the arc from `from` by `by` to `to`, without the first, so that lines between them are at most
-/// `near` from it; all three are among them. Heights change evenly from each to the next. Fails where `room` does, which
-/// is asked for so many points before they are made.
+/// Adds the points of the arc from `from` via `by` to `to`, without the first, so that the lines between them
+/// are at most `near` from the arc.
 ///
-/// Where both ends are the same place, it is a circle, and `by` lies opposite. What lies on one line stays one.
+/// All three points are included. Heights are interpolated linearly between them. Fails if `room` does, which
+/// is called with a number of points before they are created.
+///
+/// If both ends are equal, the arc is a circle, and `by` is opposite to them. Collinear points form a line.
 pub fn add_arc<E>(
     points: &mut Vec<DVec3>,
     [from, by, to]: [DVec3; 3],
     near: f64,
     mut room: impl FnMut(usize) -> Result<(), E>,
 ) -> Result<(), E> {
-    // All as seen from the first point.
+    // Coordinates relative to the first point.
     let start = from.truncate();
     let [a, b] = [by, to].map(|point| point.truncate() - start);
     let is_circle = b == DVec2::ZERO;
@@ -38,11 +41,13 @@ pub fn add_arc<E>(
         points.extend([by, to]);
         return Ok(());
     }
-    // To the left if the point between lies to the right of the way from end to end.
+    // The arc turns left if the middle point lies to the right of the line between the ends.
     let side = if is_circle || twice > 0.0 { 1.0 } else { -1.0 };
-    // A line over an angle is radius * (1 - cos(angle / 2)) from its arc. Of a large radius nothing is left of that cosine.
+    // A chord over an angle is radius * (1 - cos(angle / 2)) from its arc; for a large radius that cosine
+    // would be 1.
     let piece = 4.0 * (near / (2.0 * radius)).sqrt().asin();
-    // The angle at the centre is twice that at the third point, which a difference of directions from afar is not.
+    // The central angle is twice the inscribed angle, which is more accurate than a difference of directions
+    // from afar.
     let seen = |one: DVec2, two: DVec2| match is_circle {
         true => PI,
         false => 2.0 * one.perp_dot(two).abs().atan2(one.dot(two)),
@@ -116,14 +121,15 @@ mod tests {
 
     #[test]
     fn arcs_that_are_nearly_straight_have_no_more_points_than_a_centimetre_takes() {
-        // A millimetre off a line of 2,000 km, and less than rounding leaves of it.
+        // A millimetre off a line of 2,000 km, and less than the rounding error.
         for off in [1e-3, 1e-9, 1e-300] {
             let given = [[0.0; 3], [1e6, off, 0.0], [2e6, 0.0, 0.0]];
             assert_eq!(arc(given), given.map(DVec3::from));
             let far = given.map(|[x, y, z]| [x + 0.1, y - 1e6, z]);
             assert_eq!(arc(far).len(), 3);
         }
-        // 0.8 m off it, each half a quarter of that from its chord: five pieces of less than a centimetre each.
+        // 0.8 m off: each half is a quarter of that from its chord, so five pieces of less than a centimetre
+        // each.
         assert_eq!(arc([[0.0; 3], [1e6, 0.8, 0.0], [2e6, 0.0, 0.0]]).len(), 1 + 2 * 5);
     }
 

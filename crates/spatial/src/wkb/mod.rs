@@ -1,4 +1,4 @@
-//! Well-known binary: geometries as databases store them.
+//! Well-known binary: the format of geometries in databases.
 
 mod arc;
 mod read;

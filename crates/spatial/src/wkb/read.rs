@@ -1,9 +1,10 @@
-//! Geometries from well-known binary: that of ISO and the extended one, in both byte orders, with Z and M.
+//! Reader of well-known binary: ISO and extended, in both byte orders, with Z and M.
 //!
-//! Curves become lines: their straight parts stay as they are, their arcs are divided.
+//! Curves become lines: straight parts stay unchanged, arcs are divided.
 //!
-//! The reader is our own, since it must be bounded: 13 bytes that claim 2^32 points make others ask for the memory of
-//! all of them, which ends the program. Here room is made for what is there.
+//! The reader is implemented here because it must be bounded: 13 bytes that claim 2^32 points make other
+//! readers allocate memory for all of them, which ends the program. This reader allocates only for the data
+//! that exist.
 
 use burgeon_base::budget::Budget;
 use burgeon_base::error::{Error, Result as BurgeonResult};
@@ -13,11 +14,13 @@ use super::{NEAR, add_arc};
 use crate::{DEEPEST, Geometry};
 
 impl Geometry {
-    /// The geometry that well-known binary tells of; M and the number of a reference system are left out, and curves
-    /// become lines within a centimetre of them where the unit is a metre.
+    /// Reads a geometry from well-known binary.
     ///
-    /// Fails if it ends too early, is nested deeper than [`DEEPEST`], is of a type that is not known, or has a coordinate
-    /// that is not finite.
+    /// M and the number of a reference system are skipped. Curves become lines within a centimetre of them if
+    /// the unit is a metre.
+    ///
+    /// Fails if the data end too early, are nested deeper than [`DEEPEST`], have an unknown type, or have a
+    /// coordinate that is not finite.
     pub fn from_wkb(bytes: &[u8]) -> BurgeonResult<Self> {
         let geometry = read(bytes, NEAR, &Budget::default()).map_err(|why| {
             Error::data(format!("well-known binary {why}")).help("give what ST_AsBinary gives")
@@ -27,16 +30,16 @@ impl Geometry {
     }
 }
 
-/// The geometry that well-known binary tells of, whatever its coordinates are. Fails with the reason, as a clause that
-/// follows the name of what was read.
+/// Reads a geometry from well-known binary with any coordinates. Fails with the reason, as a clause that
+/// follows the name of the source.
 ///
-/// Arcs become lines that are at most `near` (in its own units) from them.
+/// Arcs become lines that are at most `near` (in the unit of the data) from them.
 pub fn read(bytes: &[u8], near: f64, budget: &Budget) -> Result<Geometry, String> {
     let mut reader = WkbReader { bytes, little: true, near, budget };
     reader.geometry(|_| true, 0)
 }
 
-/// The number of the reference system that extended well-known binary names.
+/// Returns the number of the reference system in extended well-known binary.
 pub fn srid(bytes: &[u8]) -> Option<u32> {
     let read = |from: usize| {
         let word: [u8; 4] = bytes.get(from..from + 4)?.try_into().ok()?;
@@ -47,7 +50,7 @@ pub fn srid(bytes: &[u8]) -> Option<u32> {
 
 const ENDS: &str = "ends too early";
 
-/// The types that may stand in a place.
+/// Filter of the allowed types of a part.
 type TypeFilter = fn(u32) -> bool;
 
 struct WkbReader<'a> {
@@ -57,7 +60,7 @@ struct WkbReader<'a> {
     budget: &'a Budget,
 }
 
-/// What stands before each geometry: its type, and whether its points have Z and M.
+/// Header of a geometry: its type, and whether its points have Z and M.
 #[derive(Clone, Copy)]
 struct GeometryHeader {
     kind: u32,
@@ -66,7 +69,7 @@ struct GeometryHeader {
 }
 
 impl GeometryHeader {
-    /// How long (bytes) each of its points is.
+    /// Returns the size (bytes) of each point.
     fn point_size(self) -> usize {
         16 + 8 * (usize::from(self.z) + usize::from(self.m))
     }
@@ -89,7 +92,8 @@ impl WkbReader<'_> {
         Ok(if self.little { f64::from_le_bytes(bytes) } else { f64::from_be_bytes(bytes) })
     }
 
-    /// A number of items that take at least `size` bytes each, so that a wrong one asks for no memory.
+    /// Reads a number of items of at least `size` bytes each, so that a wrong number causes no large
+    /// allocation.
     fn count(&mut self, size: usize) -> Result<usize, String> {
         let count = self.u32()? as usize;
         if count > self.bytes.len() / size {
@@ -103,7 +107,7 @@ impl WkbReader<'_> {
         if head.m {
             self.f64()?;
         }
-        // Some programs write a height that is not known so.
+        // Some programs write NaN for an unknown height.
         Ok(if point.z.is_nan() { point.with_z(0.0) } else { point })
     }
 
@@ -116,8 +120,7 @@ impl WkbReader<'_> {
         Ok(points)
     }
 
-    /// The points of a ring; the last one is left out where it is the first one again, so that there is no room for it
-    /// either.
+    /// Reads the points of a ring, and drops a last point that repeats the first before it takes up memory.
     fn ring(&mut self, head: GeometryHeader) -> Result<Vec<DVec3>, String> {
         let count = self.count(head.point_size())?;
         let mut points: Vec<DVec3> = Vec::with_capacity(count.saturating_sub(1));
@@ -139,7 +142,7 @@ impl WkbReader<'_> {
         Ok(rings)
     }
 
-    /// The head of a geometry of a type that is `allowed` here.
+    /// Reads the header of a geometry whose type is `allowed`.
     fn head(&mut self, allowed: TypeFilter) -> Result<GeometryHeader, String> {
         self.little = match self.take::<1>()? {
             [0] => false,
@@ -160,7 +163,8 @@ impl WkbReader<'_> {
         Ok(GeometryHeader { kind, z, m })
     }
 
-    /// One geometry. Lines of one point are empty, as are polygons without three points; such holes are left out.
+    /// Reads a geometry. Lines of one point become empty, as do polygons without three points; such holes are
+    /// omitted.
     fn geometry(&mut self, allowed: TypeFilter, depth: usize) -> Result<Geometry, String> {
         self.budget.tick().map_err(|error| error.message().to_owned())?;
         if depth > DEEPEST {
@@ -170,7 +174,7 @@ impl WkbReader<'_> {
         Ok(match head.kind {
             1 => {
                 let point = self.point(head)?;
-                // So is an empty point written.
+                // An empty point is written as NaN coordinates.
                 Geometry::Point((!(point.x.is_nan() && point.y.is_nan())).then_some(point))
             }
             2 | 8 | 9 => Geometry::line(self.curve_of(head)?).unwrap_or(Geometry::empty(1)),
@@ -212,7 +216,7 @@ impl WkbReader<'_> {
         })
     }
 
-    /// The parts that stand in a geometry, as `each` wants them.
+    /// Reads the parts of a geometry, converted by `each`.
     fn members<T>(
         &mut self,
         allowed: TypeFilter,
@@ -226,13 +230,13 @@ impl WkbReader<'_> {
         Ok(members)
     }
 
-    /// The points of a curve of a type that is `allowed` here.
+    /// Reads the points of a curve whose type is `allowed`.
     fn curve(&mut self, allowed: TypeFilter) -> Result<Vec<DVec3>, String> {
         let head = self.head(allowed)?;
         self.curve_of(head)
     }
 
-    /// The points of a line, a circular string or a compound of these, whose head has been read.
+    /// Reads the points of a line, a circular string or a compound curve after its header.
     fn curve_of(&mut self, head: GeometryHeader) -> Result<Vec<DVec3>, String> {
         match head.kind {
             8 => {
@@ -257,7 +261,7 @@ impl WkbReader<'_> {
                 let mut points: Vec<DVec3> = Vec::new();
                 for _ in 0..self.count(9)? {
                     let part = self.curve(|kind| matches!(kind, 2 | 8))?;
-                    // Each begins where the one before it ends.
+                    // Each part begins at the end of the previous one.
                     let same = points.last().is_some_and(|last| part.first() == Some(last));
                     points.extend(part.into_iter().skip(usize::from(same)));
                 }

@@ -1,4 +1,4 @@
-//! What is read of well-known binary, and that nothing makes the reader panic.
+//! Tests of the reader of well-known binary, and tests that no input makes it panic.
 
 use burgeon_base::budget::Budget;
 use glam::DVec3;
@@ -6,7 +6,7 @@ use glam::DVec3;
 use super::{NEAR, read};
 use crate::Geometry;
 
-/// Well-known binary made of words and numbers.
+/// Returns well-known binary made of words and numbers.
 fn body(little: bool, code: u32, words: &[Result<f64, u32>]) -> Vec<u8> {
     let mut bytes = vec![u8::from(little)];
     for word in [Err(code)].iter().chain(words) {
@@ -65,11 +65,11 @@ fn what_is_cut_short_or_wrong_is_refused_without_asking_for_memory() {
     for code in [0, 13, 14, 18, 99, 4001] {
         assert!(parts(&body(true, code, &[Err(0)])).is_err(), "{code}");
     }
-    // A multi-polygon that contains itself would nest without end.
+    // A multi-polygon within a multi-polygon could nest without limit.
     let nested = body(true, 6, &[Err(1)]).into_iter().chain(body(true, 6, &[Err(0)])).collect::<Vec<_>>();
     assert!(parts(&nested).is_err());
 }
-/// Well-known binary of a type, with the parts that it is made of behind their number.
+/// Returns well-known binary of a type, with its parts after their number.
 fn of_parts(code: u32, parts: &[Vec<u8>]) -> Vec<u8> {
     let count = u32::try_from(parts.len()).unwrap();
     [body(true, code, &[Err(count)]), parts.concat()].concat()
@@ -107,7 +107,7 @@ fn curves_and_collections_become_lines_and_polygons() {
     );
     let kinds: Vec<_> = read(&all).iter().map(|part| part.kind().name()).collect();
     assert_eq!(kinds, ["point", "line", "line", "line", "polygon", "polygon", "polygon"]);
-    // A surface of curves takes no points, and a compound no polygons.
+    // A circular string of two points and a compound curve with a polygon are invalid.
     assert!(parts(&of_parts(9, &[square])).is_err());
     assert!(parts(&of_points(8, &[[0.0, 0.0], [1.0, 1.0]])).is_err());
     let mut nested = of_parts(7, &[]);

@@ -1,4 +1,4 @@
-//! Geometries as well-known binary.
+//! Writer of well-known binary.
 
 use burgeon_geometry::Rings;
 use glam::DVec3;
@@ -6,7 +6,7 @@ use glam::DVec3;
 use crate::Geometry;
 
 impl Geometry {
-    /// Its well-known binary, little-endian: that of ISO, with Z where a point has a height.
+    /// Returns ISO well-known binary, little-endian, with Z if a point has a height.
     ///
     /// ```
     /// use burgeon_spatial::Geometry;
@@ -22,7 +22,8 @@ impl Geometry {
         bytes
     }
 
-    /// Its extended well-known binary, as PostGIS takes it, little-endian, with the number of a reference system.
+    /// Returns extended well-known binary, as PostGIS uses it, little-endian, with the number of a reference
+    /// system.
     pub fn to_ewkb(&self, srid: Option<u32>) -> Vec<u8> {
         let mut bytes = Vec::new();
         let heights = self.has_heights();
@@ -31,7 +32,7 @@ impl Geometry {
     }
 }
 
-/// The flag of extended binary that says that a reference system follows.
+/// Flag of extended binary for the number of a reference system.
 const SRID: u32 = 0x2000_0000;
 
 fn write(geometry: &Geometry, bytes: &mut Vec<u8>, heights: bool, of_z: u32, srid: Option<u32>) {
@@ -40,7 +41,7 @@ fn write(geometry: &Geometry, bytes: &mut Vec<u8>, heights: bool, of_z: u32, sri
     bytes.extend(srid.into_iter().flat_map(u32::to_le_bytes));
     let kind = |kind: crate::GeometryKind| kind.code() + of_z;
     match geometry {
-        // So is an empty point written.
+        // An empty point is written as NaN coordinates.
         Geometry::Point(point) => place(bytes, point.unwrap_or(DVec3::NAN), heights),
         Geometry::Line(line) => points(bytes, line, heights),
         Geometry::Polygon(polygon) => rings(bytes, polygon, heights),
@@ -91,7 +92,7 @@ fn points(bytes: &mut Vec<u8>, points: &[DVec3], heights: bool) {
     points.iter().for_each(|point| place(bytes, *point, heights));
 }
 
-/// Rings with the first point of each again at its end.
+/// Writes rings, each with its first point repeated at its end.
 fn rings(bytes: &mut Vec<u8>, rings: &Rings, heights: bool) {
     count(bytes, rings.len());
     for ring in rings.iter() {

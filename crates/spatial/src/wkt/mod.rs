@@ -1,4 +1,4 @@
-//! Well-known text: geometries as people write them.
+//! Well-known text: the human-readable format of geometries.
 
 mod read;
 mod write;

@@ -1,6 +1,7 @@
-//! Geometries from well-known text.
+//! Reader of well-known text.
 //!
-//! The reader is our own, since it must be bounded: texts that nest without end overflow the stacks of others.
+//! The reader is implemented here because it must be bounded: deeply nested texts overflow the stacks of
+//! other readers.
 
 use burgeon_base::budget::Budget;
 use burgeon_base::error::{Error, Result};
@@ -12,11 +13,12 @@ use crate::wkb::{NEAR, add_arc};
 use crate::{DEEPEST, FARTHEST, Geometry};
 
 impl Geometry {
-    /// The geometry that well-known text tells of, in any of its forms: with Z, M or both, of which M is left out,
-    /// behind `SRID=...;`, which is left out too, and with curves, which become lines within a centimetre of them where
-    /// the unit is a metre.
+    /// Reads a geometry from well-known text.
     ///
-    /// Fails with the place in the text and what should be there.
+    /// Z, M or both are supported; M is skipped, and so is a leading `SRID=...;`. Curves become lines within
+    /// a centimetre of them if the unit is a metre.
+    ///
+    /// Fails with the location in the text and the expected content.
     ///
     /// Source: OGC 06-103r4, Simple Feature Access, clause 7; ISO/IEC 13249-3 for curves.
     ///
@@ -34,7 +36,7 @@ impl Geometry {
         Self::from_wkt_within(text, &Budget::default())
     }
 
-    /// The same, if it takes no more than the budget.
+    /// Reads a geometry from well-known text, if it does not exceed the budget.
     pub fn from_wkt_within(text: &str, budget: &Budget) -> Result<Self> {
         let mut reader = WktReader { text, at: 0, budget };
         reader.skip_reference();
@@ -42,13 +44,13 @@ impl Geometry {
         if reader.peek().is_some() {
             return Err(reader.expected("the end"));
         }
-        // An arc may lead farther than the points that it is given by.
+        // An arc may extend beyond its defining points.
         geometry.check()?;
         Ok(geometry)
     }
 }
 
-/// What the points of a geometry have besides a place, as far as its name tells.
+/// Additional ordinates of the points of a geometry, as far as its name defines them.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Ordinates {
     Any,
@@ -68,7 +70,7 @@ impl WktReader<'_> {
         &self.text[self.at..]
     }
 
-    /// The next letter that is no space.
+    /// Returns the next character that is not white space.
     fn peek(&mut self) -> Option<char> {
         let rest = self.rest();
         self.at += rest.len() - rest.trim_start().len();
@@ -81,7 +83,7 @@ impl WktReader<'_> {
         there
     }
 
-    /// The next word, in capitals; empty if there is none.
+    /// Reads the next word, in capitals; empty if no word follows.
     fn word(&mut self) -> String {
         self.peek();
         let length = self.rest().bytes().take_while(u8::is_ascii_alphabetic).count();
@@ -115,7 +117,7 @@ impl WktReader<'_> {
             .help("write POINT (1 2), LINESTRING (0 0, 5 0) or POLYGON ((0 0, 4 0, 4 3, 0 0))")
     }
 
-    /// Whether a list follows that is not empty; it is opened then.
+    /// Opens a list; returns false if it is empty.
     fn open(&mut self) -> Result<bool> {
         if self.take('(') {
             return Ok(true);
@@ -128,7 +130,7 @@ impl WktReader<'_> {
         Err(self.expected("\"(\" or EMPTY"))
     }
 
-    /// The items of a list up to its end.
+    /// Reads the items of a list up to its end.
     fn list<T>(&mut self, mut item: impl FnMut(&mut Self) -> Result<T>) -> Result<Vec<T>> {
         let mut items = Vec::new();
         if !self.open()? {
@@ -187,7 +189,7 @@ impl WktReader<'_> {
         self.list(|reader| reader.point(ordinates))
     }
 
-    /// The points of a line, of which there are none or at least two.
+    /// Reads the points of a line: none or at least two.
     fn line(&mut self, ordinates: Ordinates) -> Result<Vec<DVec3>> {
         let points = self.points(ordinates)?;
         if points.len() == 1 {
@@ -201,7 +203,7 @@ impl WktReader<'_> {
         self.list(|reader| reader.points(ordinates))
     }
 
-    /// A polygon of rings, which end where they begin or not.
+    /// Creates a polygon from rings that may repeat their first point.
     fn polygon(&mut self, rings: Vec<Vec<DVec3>>) -> Result<burgeon_geometry::Rings> {
         if rings.iter().all(Vec::is_empty) {
             return Ok(burgeon_geometry::Rings::default());
@@ -209,11 +211,11 @@ impl WktReader<'_> {
         opened(rings.into()).ok_or_else(|| self.expected("a third point in the ring before this"))
     }
 
-    /// A name, and what its points have.
+    /// Reads a name and its ordinates.
     fn head(&mut self) -> Result<(String, Ordinates)> {
         let from = self.at;
         let mut name = self.word();
-        // As in POINTZ.
+        // The suffix may follow without a space, as in POINTZ.
         for (end, ordinates) in [("ZM", Ordinates::Zm), ("Z", Ordinates::Z), ("M", Ordinates::M)] {
             if let Some(short) = name.strip_suffix(end)
                 && is_known(short)
@@ -293,7 +295,8 @@ impl WktReader<'_> {
         })
     }
 
-    /// A member of a compound curve, of a curve polygon or of a multi-curve: a line without its name, or a named curve.
+    /// Reads a member of a compound curve, a curve polygon or a multi-curve: a line without its name, or a
+    /// named curve.
     fn curve(&mut self, ordinates: Ordinates) -> Result<Vec<DVec3>> {
         let from = self.at;
         if matches!(self.peek(), Some('(')) {
@@ -315,7 +318,7 @@ impl WktReader<'_> {
         }
     }
 
-    /// The points of a curve whose name has been read.
+    /// Reads the points of a curve after its name.
     fn curve_of(&mut self, name: &str, ordinates: Ordinates) -> Result<Vec<DVec3>> {
         if name == "CIRCULARSTRING" {
             let given = self.points(ordinates)?;
@@ -344,7 +347,7 @@ impl WktReader<'_> {
             reader.curve(ordinates)
         })?;
         for part in parts {
-            // Each begins where the one before it ends.
+            // Each part begins at the end of the previous one.
             let same = points.last().is_some_and(|last| part.first() == Some(last));
             points.extend(part.into_iter().skip(usize::from(same)));
         }
@@ -352,13 +355,13 @@ impl WktReader<'_> {
     }
 }
 
-/// Lines without the empty ones.
+/// Returns the lines that are not empty.
 fn lines(mut lines: Vec<Vec<DVec3>>) -> Geometry {
     lines.retain(|line| !line.is_empty());
     Geometry::MultiLine(lines)
 }
 
-/// Polygons without the empty ones.
+/// Returns the polygons that are not empty.
 fn polygons(mut polygons: Vec<burgeon_geometry::Rings>) -> Geometry {
     polygons.retain(|rings| !rings.is_empty());
     Geometry::MultiPolygon(polygons)

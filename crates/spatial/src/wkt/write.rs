@@ -1,4 +1,4 @@
-//! Geometries as well-known text.
+//! Writer of well-known text.
 
 use std::fmt::{self, Write};
 
@@ -8,8 +8,8 @@ use glam::DVec3;
 use crate::Geometry;
 
 impl Geometry {
-    /// Its well-known text: every number as the shortest decimal that reads back the same, and heights where a point
-    /// has one.
+    /// Returns well-known text: every number as the shortest decimal that reads back the same, with heights
+    /// if a point has one.
     ///
     /// ```
     /// use burgeon_spatial::Geometry;
@@ -23,7 +23,7 @@ impl Geometry {
         self.to_string()
     }
 
-    /// The same, cut short behind `most` letters or a few more.
+    /// Returns well-known text, truncated with "..." after about `most` bytes.
     pub fn to_short_wkt(&self, most: usize) -> String {
         let mut text = Short { text: String::new(), most };
         match write!(text, "{self}") {
@@ -33,7 +33,7 @@ impl Geometry {
     }
 }
 
-/// A text that takes no more than so many letters.
+/// A string with a maximum length.
 struct Short {
     text: String,
     most: usize,
@@ -113,7 +113,7 @@ fn list<T>(
     Ok(())
 }
 
-/// Rings with the first point of each again at its end.
+/// Writes rings, each with its first point repeated at its end.
 fn write_rings(rings: &Rings, heights: bool, f: &mut fmt::Formatter<'_>) -> fmt::Result {
     list(rings.iter(), f, |ring, f| {
         f.write_str("(")?;

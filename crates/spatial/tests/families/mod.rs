@@ -1,16 +1,16 @@
-//! Families of geometries for which set operations are hard, and what holds of each result.
+//! Families of geometries that are difficult for set operations, and checks of the results.
 
 use burgeon_spatial::{BufferOptions, Geometry, union_all};
 use glam::{DVec2, DVec3};
 
-/// The places at which each family is tried (m): the origin, a national grid, and far away.
+/// Locations at which each family is tested (m): the origin, a national grid, and far away.
 pub(crate) const PLACES: [(&str, DVec2); 3] = [
     ("origin", DVec2::ZERO),
     ("national", DVec2::new(450_000.0, 6_800_000.0)),
     ("far", DVec2::new(1e7, 1e7)),
 ];
 
-/// A family: its name, and what is wrong with one case of it.
+/// A family: its name, and a function that returns the defect of one case.
 pub(crate) type Family = (&'static str, fn(&mut Dice, DVec2) -> Option<String>);
 
 /// All families.
@@ -37,12 +37,12 @@ impl Dice {
         bits ^ (bits >> 31)
     }
 
-    /// A number from `low` to `high`.
+    /// Returns a number from `low` to `high`.
     pub(crate) fn number(&mut self, low: f64, high: f64) -> f64 {
         low + (high - low) * ((self.next() >> 11) as f64 / (1_u64 << 53) as f64)
     }
 
-    /// A whole number from `low` to `high`, both included.
+    /// Returns an integer from `low` to `high`, both included.
     pub(crate) fn count(&mut self, low: u64, high: u64) -> u64 {
         low + self.next() % (high - low + 1)
     }
@@ -69,7 +69,7 @@ fn star(dice: &mut Dice, middle: DVec2, radius: f64, corners: u64) -> Vec<DVec2>
     (0..corners).map(corner).collect()
 }
 
-/// A valid polygon, some with holes.
+/// Returns a valid polygon, sometimes with holes.
 pub(crate) fn simple(dice: &mut Dice, middle: DVec2, radius: f64) -> Geometry {
     loop {
         let corners = dice.count(3, 14);
@@ -93,17 +93,17 @@ pub(crate) fn simple(dice: &mut Dice, middle: DVec2, radius: f64) -> Geometry {
     }
 }
 
-/// What is wrong with geometries that were made: each is to be valid.
+/// Returns the reason why one of the results is invalid.
 fn invalid(made: &[(&str, &Geometry)]) -> Option<String> {
     made.iter().find_map(|(what, made)| made.validity_reason().map(|reason| format!("{what}: {reason}")))
 }
 
-/// What is wrong with an area (m²), which is to be as expected to within 1e-9 of a size.
+/// Reports an area (m²) that differs from the expected one by more than 1e-9 of a size.
 fn off(what: &str, found: f64, expected: f64, size: f64) -> Option<String> {
     ((found - expected).abs() > 1e-9 * size).then(|| format!("{what}: {found}, not {expected}"))
 }
 
-/// What is wrong with the set operations on two areas.
+/// Returns the defect of the set operations on two areas.
 pub(crate) fn all_operations(a: &Geometry, b: &Geometry) -> Option<String> {
     let (both, either) = (a.intersection(b), a.union(b));
     let (first, second, one) = (a.difference(b), b.difference(a), a.sym_difference(b));
@@ -164,7 +164,7 @@ fn random_pairs(dice: &mut Dice, place: DVec2) -> Option<String> {
     all_operations(&one, &other)
 }
 
-/// Copies of a polygon that are moved by at most 2e-6 m, as a whole or corner by corner.
+/// Returns copies of a polygon that are moved by at most 2e-6 m, as a whole or corner by corner.
 pub(crate) fn copies(dice: &mut Dice, place: DVec2, count: u64) -> Vec<Geometry> {
     let radius = dice.of(&[10.0, 100.0]);
     let first = simple(dice, place, radius);
@@ -184,14 +184,14 @@ fn nearly_equal(dice: &mut Dice, place: DVec2) -> Option<String> {
     let all = copies(dice, place, count);
     let made = union_all(&all);
     let least = all.iter().map(Geometry::area).fold(0.0, f64::max);
-    // Nothing reaches farther than 4e-6 m beyond any of them.
+    // No copy extends more than 4e-6 m beyond another.
     let most = least + 1e-5 * all[0].perimeter();
     let is_wrong = made.area() < least * (1.0 - 1e-9) || made.area() > most || made.num_geometries() != 1;
     invalid(&[("union", &made)])
         .or_else(|| is_wrong.then(|| format!("{}, not {least} to {most}", made.area())))
 }
 
-/// Areas that are narrower than 1e-9 of their extent, and wider than coordinates are rounded.
+/// Tests areas that are narrower than 1e-9 of their extent, and wider than the rounding error of coordinates.
 fn slivers(dice: &mut Dice, place: DVec2) -> Option<String> {
     let long = dice.of(&[10.0, 100.0, 1000.0]);
     let turn = DVec2::from_angle(dice.number(0.0, std::f64::consts::TAU));
@@ -249,17 +249,18 @@ fn buffers(dice: &mut Dice, place: DVec2) -> Option<String> {
         .map(|wrong| format!("{wrong} at {distance} of {area}"))
 }
 
-/// Chains of holes that touch one another and perhaps the outer ring.
+/// Returns chains of holes that touch one another and sometimes the outer ring, and whether they divide the
+/// area.
 pub(crate) fn holes(dice: &mut Dice, place: DVec2) -> (Geometry, bool) {
     let (columns, rows) = (dice.count(2, 6), dice.count(2, 6));
     let corner = |x: u64, y: u64| DVec2::new(x as f64, y as f64);
     let turn = [DVec2::X, DVec2::Y, DVec2::new(0.5, 0.25)][dice.count(0, 2) as usize];
-    // Powers of two and sums of them are exact everywhere.
+    // Powers of two and their sums are exact everywhere.
     let at = |at: DVec2| place + at.x * turn + at.y * turn.perp();
     let high = corner(columns, rows);
     let outer = [corner(0, 0), corner(columns, 0), high, corner(0, rows)];
     let mut rings = vec![outer.map(at).to_vec()];
-    // Diamonds between the middles of the edges of cells: neighbours share a corner.
+    // Diamonds between the midpoints of the edges of cells: neighbours share a corner.
     let mut cells = vec![vec![false; rows as usize]; columns as usize];
     for x in 0..columns {
         for y in 0..rows {
@@ -271,7 +272,7 @@ pub(crate) fn holes(dice: &mut Dice, place: DVec2) -> (Geometry, bool) {
             }
         }
     }
-    // Joined to neighbours and to the border: whether something is joined twice.
+    // Joined to neighbours and to the border; a second connection divides the area.
     let count = (columns * rows) as usize;
     let mut first: Vec<usize> = (0..=count).collect();
     fn root(first: &[usize], mut index: usize) -> usize {

@@ -1,15 +1,16 @@
-//! The network that the benches grow: streets from the tips of others, with side streets, until it is large enough.
+//! The network that the benches grow: streets start at the ends of other streets, with side streets, up to a given
+//! size.
 
 use std::collections::VecDeque;
 
 use burgeon_streets::{Constraints, Fate, Obstacles, StreetAttributes, StreetNetwork};
 use glam::DVec2;
 
-/// A generator of numbers: xorshift.
+/// Random number generator (xorshift).
 pub(crate) struct Numbers(pub(crate) u64);
 
 impl Numbers {
-    /// The next one, from 0 to `limit`.
+    /// Returns the next number, from 0 to `limit`.
     pub(crate) fn below(&mut self, limit: f64) -> f64 {
         self.0 ^= self.0 << 13;
         self.0 ^= self.0 >> 7;
@@ -18,7 +19,7 @@ impl Numbers {
     }
 }
 
-/// A network of `size` pieces, and how often a street was proposed.
+/// Grows a network of `size` segments; returns it with the number of proposed streets.
 pub(crate) fn grown(size: usize) -> (StreetNetwork, usize) {
     let mut random = Numbers(0x9E37_79B9_7F4A_7C15);
     let mut network = StreetNetwork::new(Constraints::default(), Obstacles::default()).unwrap();

@@ -9,48 +9,48 @@ use crate::grid::{GridPlace, foot};
 use crate::network::{PieceId, StreetAttributes, StreetNetwork, StreetPiece};
 use burgeon_base::error::{Error, Limit, Result};
 
-/// How far (m) a street may lie from its line, besides an end that is led onto another street.
+/// Maximum distance (m) between a street and its input line, except at an end that is moved onto another street.
 pub(super) const TOLERANCE: f64 = 0.1;
 
-/// A street that exists.
+/// Existing street.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ExistingStreet {
-    /// Its positions (m) one after another.
+    /// Positions (m) along the street.
     pub line: Vec<DVec2>,
-    /// Its width, lanes, level and depth.
+    /// Width, lanes, level and depth.
     pub attributes: StreetAttributes,
-    /// Whether it leads over water.
+    /// Marks a bridge over water.
     pub is_bridge: bool,
     /// Display name for reports.
     pub name: String,
 }
 
-/// A part of an existing street that is not in the network.
+/// Part of an existing street that could not be added.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ExistingLoss {
-    /// The name of the street.
+    /// Name of the street.
     pub name: String,
-    /// Where the part begins (m); `None` if the street has no usable position.
+    /// Start of the part (m); `None` if the street has no usable position.
     pub at: Option<DVec2>,
-    /// Its length (m); infinite if it has no usable end.
+    /// Length (m); infinite if the part has no usable end.
     pub length: f64,
-    /// Why it is missing.
+    /// Reason for the loss.
     pub why: ExistingLossReason,
 }
 
-/// Why a part of an existing street is missing.
+/// Reason why a part of an existing street could not be added.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum ExistingLossReason {
-    /// A position is not finite, or too far from the origin.
+    /// Position not finite, or too far from the origin.
     Outside,
-    /// It is a single position, or shorter than 3 cm.
+    /// Single position, or shorter than 3 cm.
     NoLength,
-    /// It crosses another street even after rounding.
+    /// Crossing with another street that remains after rounding.
     Unresolved,
 }
 
 impl ExistingLossReason {
-    /// Its name in scripts.
+    /// Returns the name in scripts.
     pub fn name(self) -> &'static str {
         match self {
             Self::Outside => "outside",
@@ -60,40 +60,39 @@ impl ExistingLossReason {
     }
 }
 
-/// What became of existing streets.
+/// Report on the addition of existing streets.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct ExistingReport {
-    /// The length (m) of all lines, as far as their positions are usable.
+    /// Total length (m) of the lines between usable positions.
     pub asked: f64,
-    /// The missing parts, in the order of the streets.
+    /// Missing parts, in the order of the streets.
     pub losses: Vec<ExistingLoss>,
 }
 
 impl ExistingReport {
-    /// The length (m) that is in the network; lines on one another count each.
+    /// Returns the added length (m); lines that overlap are all counted.
     pub fn added(&self) -> f64 {
         let lost = self.losses.iter().map(|loss| loss.length).filter(|length| length.is_finite());
         self.asked - lost.sum::<f64>()
     }
 }
 
-/// A part of a street whose positions are all on the grid.
+/// Part of a street with all positions on the grid.
 #[derive(Debug, Clone)]
 pub(crate) struct StreetStrand {
-    /// The number of its street.
+    /// Index of the street.
     pub(crate) street: usize,
     pub(crate) level: i32,
-    /// Its length (m) as it was given.
+    /// Length (m) of the input.
     pub(crate) length: f64,
     pub(crate) places: Vec<GridPlace>,
 }
 
 impl StreetNetwork {
-    /// Adds existing streets, and reports every part that is missing.
+    /// Adds existing streets, and reports each part that could not be added.
     ///
-    /// Where two lie on one another, the one of the least depth counts, and of two of these the wider one. A junction that no
-    /// street leads to yet moves onto an existing street within half a metre. Fails if there are more pieces than the network
-    /// may have.
+    /// If two streets overlap, the smaller depth takes precedence, then the greater width. A junction without streets
+    /// moves onto an existing street within 0.5 m. Fails if the number of segments would exceed the maximum.
     ///
     /// ```
     /// use burgeon_streets::{Constraints, ExistingStreet, Obstacles, StreetAttributes, StreetNetwork};
@@ -131,7 +130,7 @@ impl StreetNetwork {
         for street in order {
             strands.extend(strands_of(street, &streets[street], &mut report.asked, &mut losses));
         }
-        // What is in the network already counts first.
+        // Segments already in the network take precedence.
         let (given, mut all) = self.take_pieces();
         all.extend(
             strands.into_iter().map(|strand| StreetStrand { street: strand.street + given.len(), ..strand }),
@@ -146,7 +145,7 @@ impl StreetNetwork {
         Ok(report)
     }
 
-    /// Takes all pieces out of the network, as streets and their strands.
+    /// Removes all segments from the network; returns them as streets and strands.
     fn take_pieces(&mut self) -> (Vec<StrandSource<'static>>, Vec<StreetStrand>) {
         let pieces: Vec<PieceId> = self.pieces().map(|(piece, _)| piece).collect();
         let (mut given, mut strands) = (Vec::new(), Vec::new());
@@ -161,7 +160,7 @@ impl StreetNetwork {
         (given, strands)
     }
 
-    /// Adds the pieces of strands that meet only at their vertices.
+    /// Adds the segments of strands that meet only at their vertices.
     fn add_strands(
         &mut self,
         streets: &[StrandSource<'_>],
@@ -210,7 +209,7 @@ impl StreetNetwork {
         Ok(())
     }
 
-    /// Moves a junction that no street leads to onto the street at most [`END`] away, if there is one.
+    /// Moves a junction without streets onto the nearest street within [`END`], if there is one.
     fn move_onto_street(&mut self, junction: u32, bare: &[u32]) {
         if !self.junctions[junction as usize].pieces.is_empty() {
             return;
@@ -233,7 +232,7 @@ impl StreetNetwork {
     }
 }
 
-/// What a strand is a part of.
+/// Street that a strand is part of.
 struct StrandSource<'a> {
     attributes: StreetAttributes,
     is_bridge: bool,
@@ -248,7 +247,7 @@ impl<'a> StrandSource<'a> {
     }
 }
 
-/// The parts of a street whose positions are usable, on the grid.
+/// Converts the usable positions of a street to strands on the grid.
 fn strands_of(
     number: usize,
     street: &ExistingStreet,
@@ -283,5 +282,5 @@ fn strands_of(
     strands
 }
 
-/// What is less wide (m) than this becomes a single place.
+/// Minimum extent (m); a smaller part collapses to a single position.
 const LEAST: f64 = 0.04;

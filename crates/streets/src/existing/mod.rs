@@ -1,8 +1,8 @@
-//! Streets that exist before a network grows, such as those of a survey.
+//! Streets that exist before a network grows, such as surveyed streets.
 //!
-//! An existing street is a fact: it is added where it lies, to within 0.1 m, whatever the constraints ask of streets
-//! that grow. Lines of one level meet in junctions where they cross or touch. Lines of different levels meet only where one
-//! of them ends on a vertex of the other.
+//! An existing street is a fact: it is added at its position, to within 0.1 m, even if it violates the constraints on
+//! streets that grow. Lines of the same level meet in junctions where they cross or touch. Lines of different levels
+//! meet only if one of them ends on a vertex of the other.
 
 mod insertion;
 mod noding;

@@ -1,8 +1,8 @@
-//! Lines that meet only at their vertices: every crossing becomes a vertex of both lines.
+//! Noding: lines meet only at their vertices, and each crossing becomes a vertex of both lines.
 //!
-//! Method: snap rounding (J. Hobby, "Practical segment intersection with finite precision output", 1999) in whole numbers:
-//! every segment is led through the centre of each hot pixel that it touches, which are those of vertices and of
-//! crossings. Crossings are rounded exactly, so no two segments of the result cross.
+//! Method: snap rounding (J. Hobby, "Practical segment intersection with finite precision output", 1999) in integers:
+//! each segment is routed through the centre of each hot pixel that it touches. The hot pixels are those of vertices
+//! and of crossings. Crossings are rounded exactly, so no two segments of the result cross.
 
 use rstar::primitives::{GeomWithData, Line as IndexLine};
 use rstar::{AABB, RTree};
@@ -11,10 +11,10 @@ use rustc_hash::FxHashSet;
 use super::insertion::StreetStrand;
 use crate::grid::{GridPlace, PER_METRE, WholePlace, touch};
 
-/// How often lines are led through pixels; once is enough by the method, and the second time proves it.
+/// Maximum number of rounds; the method needs one, and the second confirms it.
 const ROUNDS: usize = 8;
 
-/// A segment: the number of its strand, that of its first vertex, and its ends.
+/// Segment: its strand, the index of its first vertex, and its ends.
 #[derive(Clone, Copy)]
 struct NodingEdge {
     strand: usize,
@@ -24,8 +24,8 @@ struct NodingEdge {
 
 type EdgeIndex = RTree<GeomWithData<IndexLine<[f64; 2]>, usize>>;
 
-/// Adds vertices where strands of one level meet. Gives the segments that cross others all the same, as the number of their
-/// strand and of their first vertex; there is none as far as anyone knows.
+/// Adds vertices where strands of one level meet. Returns the segments that still cross others, as strand and first
+/// vertex; no such case is known.
 pub(crate) fn node(strands: &mut [StreetStrand]) -> Vec<(usize, usize)> {
     let mut levels: Vec<i32> = strands.iter().map(|strand| strand.level).collect();
     levels.sort_unstable();
@@ -79,7 +79,7 @@ fn index_of(edges: &[NodingEdge]) -> EdgeIndex {
     RTree::bulk_load(items.collect())
 }
 
-/// The numbers of the segments whose boxes meet that of a segment, in order.
+/// Returns the sorted indices of the segments whose bounding boxes intersect that of a segment.
 fn near(index: &EdgeIndex, ends: [GridPlace; 2]) -> impl Iterator<Item = usize> {
     let [a, b] = ends.map(GridPlace::metres);
     let around = AABB::from_corners(a.min(b).to_array(), a.max(b).to_array());
@@ -89,7 +89,8 @@ fn near(index: &EdgeIndex, ends: [GridPlace; 2]) -> impl Iterator<Item = usize> 
     found.into_iter()
 }
 
-/// The vertex that two segments lack: where they cross or touch but at ends that they share; `None` if they lack none.
+/// Returns the missing vertex of two segments: the point where they cross or touch other than at shared ends; `None` if
+/// no vertex is missing.
 fn meeting([a, b]: [GridPlace; 2], [c, d]: [GridPlace; 2]) -> Option<GridPlace> {
     let shared = [a, b].into_iter().filter(|end| *end == c || *end == d).count();
     let lies_on = |end: GridPlace, [from, to]: [GridPlace; 2]| {
@@ -99,7 +100,7 @@ fn meeting([a, b]: [GridPlace; 2], [c, d]: [GridPlace; 2]) -> Option<GridPlace> 
         if shared != 1 {
             return None;
         }
-        // Two that leave one place in one direction: the nearer end lies on the other.
+        // Two segments that leave one point in the same direction: the nearer end lies on the other segment.
         let on = [a, b].into_iter().find(|end| lies_on(*end, [c, d]));
         return on.or_else(|| [c, d].into_iter().find(|end| lies_on(*end, [a, b])));
     }
@@ -108,7 +109,7 @@ fn meeting([a, b]: [GridPlace; 2], [c, d]: [GridPlace; 2]) -> Option<GridPlace> 
     on.or_else(|| crossing([a, b], [c, d]))
 }
 
-/// The place nearest to where two segments cross that are not parallel.
+/// Returns the grid position nearest to the crossing of two segments; `None` if they are parallel.
 fn crossing([a, b]: [GridPlace; 2], [c, d]: [GridPlace; 2]) -> Option<GridPlace> {
     let [[ax, ay], [bx, by], [cx, cy], [dx, dy]] = [a, b, c, d].map(|end| end.steps().map(i128::from));
     let ([east, north], [other_east, other_north]) = ([bx - ax, by - ay], [dx - cx, dy - cy]);
@@ -124,9 +125,9 @@ fn crossing([a, b]: [GridPlace; 2], [c, d]: [GridPlace; 2]) -> Option<GridPlace>
     Some(GridPlace::of_steps([along(ax, east)?, along(ay, north)?]))
 }
 
-/// Tells if a segment touches the pixel around a place.
+/// Returns true if a segment touches the pixel around a position.
 fn touches([a, b]: [GridPlace; 2], pixel: GridPlace) -> bool {
-    // In half steps from its centre the pixel reaches from -1 to 1.
+    // In half steps from its centre, the pixel extends from -1 to 1.
     let [x, y] = pixel.steps();
     let [[ax, ay], [bx, by]] = [a, b]
         .map(GridPlace::steps)
@@ -136,7 +137,7 @@ fn touches([a, b]: [GridPlace; 2], pixel: GridPlace) -> bool {
     within(ax, bx) && within(ay, by) && (ax * by - ay * bx).abs() <= east.abs() + north.abs()
 }
 
-/// Leads segments through the hot pixels that they touch; tells if any was changed.
+/// Routes segments through the hot pixels that they touch; returns true if any segment was changed.
 fn lead_through(
     strands: &mut [StreetStrand],
     level: i32,
@@ -177,7 +178,7 @@ fn lead_through(
     is_changed
 }
 
-/// How far along a segment a place lies, times the length of the segment, in whole numbers.
+/// Returns the position of a point along a segment, multiplied by the segment's length (squared grid steps).
 fn along(a: GridPlace, b: GridPlace, place: GridPlace) -> i128 {
     let [[ax, ay], [bx, by], [x, y]] = [a, b, place].map(|at| at.steps().map(i128::from));
     (bx - ax) * (x - ax) + (by - ay) * (y - ay)

@@ -1,4 +1,5 @@
-//! What is nearly one place becomes one: vertices side by side, ends just before another line, and vertices beside a line.
+//! Snapping of positions that are almost equal: adjacent vertices, ends just before another line, and vertices next to
+//! a line.
 
 use rstar::primitives::{GeomWithData, Line as IndexLine};
 use rstar::{AABB, RTree};
@@ -10,12 +11,12 @@ use crate::grid::{GridPlace, PER_METRE, WholePlace, foot};
 use burgeon_geometry::planar;
 use glam::DVec2;
 
-/// Vertices that are nearer (m) are one, and a line goes through a vertex that is nearer.
+/// Snap distance (m) between vertices, and between a line and a vertex.
 const NEAR: f64 = 0.03;
-/// A line that ends nearer (m) than this to another one ends on it.
+/// Snap distance (m) between the end of a line and another line.
 pub(super) const END: f64 = 0.5;
 
-/// Makes one place of what is nearly one, and leaves out vertices on which nothing depends.
+/// Merges positions that are almost equal, and removes vertices without effect.
 pub(super) fn snap(strands: &mut [StreetStrand]) {
     unite_vertices(strands);
     simplify(strands);
@@ -26,7 +27,7 @@ pub(super) fn snap(strands: &mut [StreetStrand]) {
     }
 }
 
-/// Vertices that are known, by level and cell.
+/// Known vertices, by level and cell.
 #[derive(Default)]
 struct KnownVertices {
     cells: FxHashMap<(i32, [i64; 2]), SmallVec<[GridPlace; 2]>>,
@@ -39,7 +40,7 @@ impl KnownVertices {
         place.steps().map(|steps| steps.div_euclid(wide))
     }
 
-    /// The known vertex of a level that is nearest to a place and within `NEAR`.
+    /// Returns the nearest known vertex of a level within `NEAR` of a position.
     fn near(&self, level: i32, place: GridPlace) -> Option<GridPlace> {
         let [x, y] = Self::cell(place);
         let around = (-1..=1).flat_map(|east| (-1..=1).map(move |north| [x + east, y + north]));
@@ -64,7 +65,7 @@ fn unite_vertices(strands: &mut [StreetStrand]) {
         for (index, place) in places.iter_mut().enumerate() {
             let mut found = known.near(*level, *place);
             if found.is_none() && (index == 0 || index == last) {
-                // A bridge ends where a street of another level has a vertex.
+                // A bridge may end at a vertex of a street of another level.
                 found = levels.iter().find_map(|other| known.near(*other, *place));
             }
             match found {
@@ -76,7 +77,7 @@ fn unite_vertices(strands: &mut [StreetStrand]) {
     }
 }
 
-/// How many strands use each vertex; one that a strand uses twice counts twice.
+/// Counts the uses of each vertex by strands; a strand that uses a vertex twice counts twice.
 fn uses(strands: &[StreetStrand]) -> FxHashMap<GridPlace, u32> {
     let mut uses = FxHashMap::default();
     for place in strands.iter().flat_map(|strand| &strand.places) {
@@ -85,7 +86,7 @@ fn uses(strands: &[StreetStrand]) -> FxHashMap<GridPlace, u32> {
     uses
 }
 
-/// Leaves out vertices that are within the tolerance of the line between others and belong to one strand alone.
+/// Removes vertices that belong to a single strand and are within the tolerance of the simplified line.
 fn simplify(strands: &mut [StreetStrand]) {
     let uses = uses(strands);
     for strand in strands {
@@ -108,7 +109,7 @@ fn simplify(strands: &mut [StreetStrand]) {
     }
 }
 
-/// Vertices to add to strands: the strand, the segment, how far along it from 0 to 1, and where.
+/// Vertices to add to strands: strand, segment, parameter along the segment (0 to 1), and position.
 type NewVertices = Vec<(usize, usize, f64, GridPlace)>;
 
 fn add_vertices(strands: &mut [StreetStrand], mut added: NewVertices) {
@@ -137,7 +138,7 @@ fn around(at: DVec2, margin: f64) -> AABB<[f64; 2]> {
     AABB::from_corners((at - margin).to_array(), (at + margin).to_array())
 }
 
-/// Leads ends that no other strand shares onto the nearest line within [`END`].
+/// Moves ends that no other strand shares onto the nearest line within [`END`].
 fn lead_ends(strands: &mut [StreetStrand]) {
     let uses = uses(strands);
     let index = segments(strands);
@@ -187,7 +188,7 @@ fn lead_ends(strands: &mut [StreetStrand]) {
     add_vertices(strands, added);
 }
 
-/// Leads lines through the vertices of others that are within [`NEAR`] of them, so that no piece is shorter than that.
+/// Routes lines through the vertices of other lines within [`NEAR`], so no segment is shorter than that.
 fn lead_past_vertices(strands: &mut [StreetStrand]) {
     let index = segments(strands);
     let mut added = NewVertices::new();

@@ -1,4 +1,5 @@
-//! Existing streets of every kind that towns have: each stays where it is, and streets of one level meet only at junctions.
+//! Tests of existing streets of all types found in towns: each street keeps its position, and streets of one level meet
+//! only at junctions.
 
 use std::f64::consts::TAU;
 
@@ -13,7 +14,7 @@ use crate::network::{PieceId, StreetAttributes, StreetNetwork};
 use crate::tests::TestNumbers;
 use crate::{Constraints, Obstacles};
 
-/// A street of a kind with a level.
+/// Returns a street of a width (m) and a level.
 pub(crate) fn street(line: &[DVec2], width: f64, level: i32) -> ExistingStreet {
     let attributes = StreetAttributes { width, sidewalk: width / 5.0, level, ..StreetAttributes::default() };
     ExistingStreet {
@@ -28,8 +29,8 @@ pub(crate) fn network() -> StreetNetwork {
     StreetNetwork::new(Constraints::default(), Obstacles::default()).expect("defaults")
 }
 
-/// Streets as towns have them, at random: crossings, forks of any angle, roundabouts, double carriageways, ends just before and
-/// just behind others, streets on one another, bridges, tunnels, curves and tangles.
+/// Returns random streets as found in towns: crossings, forks of any angle, roundabouts, dual carriageways, ends just
+/// before or just beyond other streets, overlapping streets, bridges, tunnels, curves and tangles.
 pub(crate) fn town(seed: u64) -> Vec<ExistingStreet> {
     let mut random = TestNumbers(seed.wrapping_mul(0x9E37_79B9_7F4A_7C15) | 1);
     let mut below = move |limit: f64| random.below(limit);
@@ -64,7 +65,7 @@ pub(crate) fn town(seed: u64) -> Vec<ExistingStreet> {
                 streets.push(street(&ring, width, 0));
             }
             3 => {
-                // Two carriageways, and what joins and crosses them.
+                // Two carriageways, and a street that joins and crosses them.
                 let apart = way.perp() * (1.0 + below(14.0));
                 streets.push(street(&[from, from + way * length], width, 0));
                 streets.push(street(&[from + apart, from + apart + way * length], width, 0));
@@ -72,7 +73,7 @@ pub(crate) fn town(seed: u64) -> Vec<ExistingStreet> {
                 streets.push(street(&[middle - apart * 3.0, middle + apart * 4.0], width, 0));
             }
             4 => {
-                // Ends just before another street, or just behind it.
+                // Streets that end just before another street, or just beyond it.
                 streets.push(street(&[from, from + way * length], width, 0));
                 for _ in 0..3 {
                     let at = from
@@ -82,7 +83,7 @@ pub(crate) fn town(seed: u64) -> Vec<ExistingStreet> {
                 }
             }
             5 => {
-                // A bridge or a tunnel, from a street on the ground to another.
+                // A bridge or a tunnel between two streets on the ground.
                 let level = if below(1.0) < 0.6 { 1 } else { -1 };
                 let (a, b) = (from, from + way * length);
                 streets.push(street(&[a - way * 40.0, a], width, 0));
@@ -97,7 +98,7 @@ pub(crate) fn town(seed: u64) -> Vec<ExistingStreet> {
                 streets.push(street(&arc.collect::<Vec<_>>(), width, 0));
             }
             7 => {
-                // Partly on one another.
+                // Two streets that partly overlap.
                 streets.push(street(&[from, from + way * length], width, 0));
                 streets.push(street(&[from + way * length * 0.3, from + way * length * 1.4], width * 0.8, 0));
             }
@@ -112,7 +113,7 @@ pub(crate) fn town(seed: u64) -> Vec<ExistingStreet> {
     streets
 }
 
-/// Fails if a place on a line is farther than the tolerance from the pieces of its level.
+/// Fails if a point on a line is farther than the tolerance from the segments of its level.
 fn check_covered(network: &StreetNetwork, streets: &[ExistingStreet], about: &str) {
     for street in streets {
         for pair in street.line.windows(2) {
@@ -120,7 +121,7 @@ fn check_covered(network: &StreetNetwork, streets: &[ExistingStreet], about: &st
             for step in 0..=count {
                 let at = pair[0].lerp(pair[1], f64::from(step) / f64::from(count.max(1)));
                 let (_, off) = network.nearest_of_level(at, street.attributes.level).expect("a street");
-                // The piece whose end is led onto another street turns by as much.
+                // A segment whose end moves onto another street turns by that distance.
                 let most = END;
                 assert!(off <= most + 0.06, "{about}: {} is {off} m off at {at}", street.name);
             }
@@ -128,7 +129,7 @@ fn check_covered(network: &StreetNetwork, streets: &[ExistingStreet], about: &st
     }
 }
 
-/// Fails if pieces of one level meet but at junctions, or if two of them join the same junctions.
+/// Fails if segments of one level meet other than at junctions, or if two of them join the same junctions.
 pub(crate) fn check_planar(network: &StreetNetwork, about: &str) {
     let pieces: Vec<PieceId> = network.pieces().map(|(id, _)| id).collect();
     for (index, &a) in pieces.iter().enumerate() {
@@ -149,7 +150,7 @@ pub(crate) fn check_planar(network: &StreetNetwork, about: &str) {
     }
 }
 
-/// Streets of the level 0 alone.
+/// Returns statistics of the streets of level 0.
 fn on_ground(network: &StreetNetwork) -> [usize; 4] {
     let ground: Vec<PieceId> =
         network.pieces().map(|(id, _)| id).filter(|id| network.is_on_ground(*id)).collect();
@@ -216,7 +217,7 @@ fn streets_of_different_levels_cross_without_a_junction_and_join_at_their_ends()
     ];
     assert_eq!(network.add_existing(&streets).expect("room").losses, []);
     assert_eq!((network.size(), network.components()), (5, 3));
-    // A street that grows passes below the bridge, too.
+    // A growing street also passes below the bridge.
     let start = network.begin(DVec2::new(60.0, -20.0)).expect("free ground");
     let small = StreetAttributes { width: 6.0, ..StreetAttributes::default() };
     let growth = network.grow(start, DVec2::new(160.0, -25.0), small).expect("room");
@@ -292,7 +293,7 @@ fn the_same_streets_again_are_nothing_new() {
         assert_eq!(network.add_existing(&streets).expect("room").losses, []);
         assert_eq!((network.size(), network.components(), network.has_existing()), (6, 2, true));
     }
-    // What grew before stays as well, and has junctions with what is added.
+    // Streets that grew earlier remain, and are joined to the added street.
     let start = network.begin(DVec2::new(150.0, -60.0)).expect("free ground");
     let grown = network.grow(start, DVec2::new(230.0, -60.0), streets[1].attributes).expect("room");
     assert_eq!(grown.fate, crate::Fate::Built);

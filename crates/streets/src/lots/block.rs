@@ -1,4 +1,4 @@
-//! Blocks: what streets enclose, or areas of data, with the streets that they are on.
+//! Blocks: areas enclosed by streets, or areas from data, with their adjacent streets.
 
 use glam::DVec2;
 
@@ -7,48 +7,50 @@ use crate::network::{PieceId, StreetNetwork};
 use crate::surface::SurfaceOptions;
 use burgeon_geometry::{Plan, Polygon, Rings};
 
-/// A street turns by more than this (degrees) where another side of a block begins.
+/// Turn (degrees) of a street above which another side of a block begins.
 const TURN: f64 = 35.0;
-/// A side does not turn away from its first edge by more than this (degrees).
+/// Maximum turn (degrees) of a side away from its first edge.
 const BEND: f64 = 55.0;
 
-/// An edge leads away from a street if its ends differ by more than this part of its length in how far they are from it.
+/// Minimum difference between the distances of an edge's ends from a street, as a fraction of the edge's length, at
+/// which the edge leads away from the street.
 const LEADS_AWAY: f64 = 0.5;
-/// An edge that leads away is on a street all the same if no place of it is farther (m): so are cut corners.
+/// Maximum distance (m) at which an edge that leads away is still adjacent to a street, such as a cut corner.
 const BESIDE: f64 = 2.0;
 
-/// A block lies at its streets if one of its edges is nearer (m), and what is then farther (m) is on no street.
+/// Distance (m) within which an edge must be for the block to adjoin its streets. In such a block, edges farther than
+/// `BEHIND` (m) are adjacent to no street.
 const AT_STREET: f64 = 0.5;
 const BEHIND: f64 = 2.0;
 
-/// A side of a block: edges that follow one another along a street.
+/// Side of a block: consecutive edges along a street.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct BlockSide {
-    /// The piece of a street that most of it is on; none if nobody knows.
+    /// Street segment along most of the side; `None` if unknown.
     pub piece: Option<PieceId>,
-    /// Its length (m).
+    /// Length (m).
     pub length: f64,
 }
 
-/// An area to divide into lots.
+/// Area to divide into lots.
 #[derive(Debug, Clone, PartialEq)]
 pub struct StreetBlock {
-    /// What it is called, wherever it stands in a list: the metres of its middle, unless it has a name.
+    /// Identifier, independent of the order of a list: the block's name, or the rounded position (m) of its centre.
     pub id: String,
-    /// Its rings (m), the outer one first, counter-clockwise.
+    /// Rings (m), the outer one first, counter-clockwise.
     pub rings: Rings<DVec2>,
-    /// Its sides on streets.
+    /// Sides along streets.
     pub sides: Vec<BlockSide>,
-    /// For each edge of each ring, the side that it is on.
+    /// Side of each edge of each ring.
     pub(crate) edge_sides: Vec<Vec<Option<u32>>>,
-    /// For each edge of each ring, the piece of a street that it is on.
+    /// Adjacent street segment of each edge of each ring.
     edge_pieces: Vec<Vec<Option<PieceId>>>,
-    /// The middle lines (m) of the pieces that its sides are on, with half of their widths (m), by side.
+    /// Centrelines (m) of the adjacent segments, with their half widths (m), by side.
     side_lines: Vec<Vec<([DVec2; 2], f64)>>,
 }
 
 impl StreetBlock {
-    /// The area (m²) that it has in common with another.
+    /// Returns the area (m²) of the intersection with another block.
     pub fn common_area(&self, other: &Self) -> f64 {
         let [Ok(own), Ok(other)] = [self, other].map(|block| Polygon::new(block.rings.clone())) else {
             return 0.0;
@@ -56,14 +58,15 @@ impl StreetBlock {
         own.area() - own.without(&[other]).iter().map(Polygon::area).sum::<f64>()
     }
 
-    /// How far (m) a place on one of its sides is from the edge of the street there; 0 if nobody knows of a street.
+    /// Returns the distance (m) of a position on a side from the edge of the adjacent street; 0 if the street is
+    /// unknown.
     pub(super) fn off_street(&self, side: u32, place: DVec2) -> f64 {
         let lines = self.side_lines.get(side as usize).into_iter().flatten();
         let off = lines.map(|(line, half)| crate::grid::foot(place, *line).0 - half);
         off.reduce(f64::min).unwrap_or(0.0)
     }
 
-    /// The piece of a street that a place on one of its sides is on.
+    /// Returns the adjacent street segment at a position on a side.
     pub(super) fn piece_at(&self, side: u32, place: DVec2) -> Option<PieceId> {
         let mut best = (f64::INFINITY, None);
         for (ring, (sides, pieces)) in self.rings.iter().zip(self.edge_sides.iter().zip(&self.edge_pieces)) {
@@ -81,22 +84,23 @@ impl StreetBlock {
     }
 }
 
-/// What an edge is on.
+/// Street adjacent to an edge.
 #[derive(Clone, Copy)]
 struct EdgeStreet {
     piece: Option<PieceId>,
     way: DVec2,
-    /// How far (m) the farther end of the edge is from that of the street.
+    /// Distance (m) of the edge's farther end from the street's edge.
     off: f64,
 }
 
 impl StreetNetwork {
-    /// The areas between the sidewalks, each with its sides on streets. Faces of which nothing is left are none.
+    /// Returns the areas between the sidewalks, each with its sides along streets. Faces without remaining area are
+    /// omitted.
     pub fn lot_blocks(&self, options: SurfaceOptions) -> Vec<StreetBlock> {
         let rings = self.blocks(options).into_iter();
         let mut blocks: Vec<StreetBlock> =
             rings.filter_map(|rings| self.block(None, &rings, f64::INFINITY)).collect();
-        // One around another may have the same middle.
+        // A block around another may have the same centre.
         let mut known = rustc_hash::FxHashMap::<String, u32>::default();
         for block in &mut blocks {
             let count = known.entry(block.id.clone()).or_default();
@@ -108,8 +112,9 @@ impl StreetNetwork {
         blocks
     }
 
-    /// The block that rings (m) enclose, whose edges within `reach` (m) of a street are on it; all are, if there are no
-    /// streets. Rings that meet are repaired; `None` if they enclose nothing.
+    /// Returns the block enclosed by rings (m). Edges within `reach` (m) of a street are adjacent to it; without
+    /// streets, all edges of the outer ring count as adjacent. Rings that intersect are repaired; `None` if they
+    /// enclose no area.
     pub fn block(&self, id: Option<&str>, rings: &Rings<DVec2>, reach: f64) -> Option<StreetBlock> {
         let polygon = enclosed(rings)?;
         let rings = Rings::from(&polygon);
@@ -129,13 +134,13 @@ impl StreetNetwork {
                 if self.size() > 0 {
                     return self.street_beside(edge, reach);
                 }
-                // Nobody knows of streets in a courtyard.
+                // Edges around a courtyard have no known streets.
                 let way = (edge[1] - edge[0]).normalize_or_zero();
                 (number == 0).then_some(EdgeStreet { piece: None, way, off: 0.0 })
             });
             streets.push(of_ring.collect());
         }
-        // Where a block lies at its streets, what is farther away is behind something, such as a river along the street.
+        // If a block adjoins its streets, edges farther away are behind an obstacle, such as a river along the street.
         let nearest =
             streets.iter().flatten().flatten().map(|street| street.off).fold(f64::INFINITY, f64::min);
         if reach.is_finite() && nearest < AT_STREET {
@@ -161,13 +166,13 @@ impl StreetNetwork {
         Some(StreetBlock { id, rings, sides, edge_sides, edge_pieces, side_lines })
     }
 
-    /// The street that an edge is on: the one whose edge is nearest to its middle.
+    /// Returns the street adjacent to an edge: the street with the edge nearest to the midpoint.
     fn street_beside(&self, [a, b]: [DVec2; 2], reach: f64) -> Option<EdgeStreet> {
         let middle = (a + b) / 2.0;
         let along = (b - a).normalize_or_zero();
         let beyond = |piece: PieceId| {
             let (distance, _) = crate::grid::foot(middle, self.line(piece));
-            // Of streets that are as near, it is the one that it runs along.
+            // Of streets at the same distance, the one parallel to the edge is preferred.
             let [from, to] = self.line(piece);
             let turned = along.perp_dot((to - from).normalize_or_zero()).abs();
             distance - self.half(piece) + turned * 0.5
@@ -184,7 +189,7 @@ impl StreetNetwork {
             }
         };
         let [from, to] = self.line(piece);
-        // What begins at a street and leads away from it, as the bank of a river does, is not on it.
+        // An edge that starts at a street and leads away from it, such as a river bank, is not adjacent to it.
         let off = |at: DVec2| crate::grid::foot(at, [from, to]).0 - self.half(piece);
         let [begin, end] = [off(a), off(b)];
         if reach.is_finite() {
@@ -200,7 +205,7 @@ impl StreetNetwork {
     }
 }
 
-/// What rings enclose: themselves where they keep apart.
+/// Returns the area enclosed by rings; the rings themselves if they are simple.
 fn enclosed(rings: &Rings<DVec2>) -> Option<Polygon> {
     let polygon = Polygon::new(rings.clone()).ok();
     let places =
@@ -209,12 +214,12 @@ fn enclosed(rings: &Rings<DVec2>) -> Option<Polygon> {
     if fine.is_some_and(|rings| fine::are_simple(&rings)) && polygon.is_some() {
         return polygon;
     }
-    // What runs the wrong way encloses nothing.
+    // A ring with the wrong orientation encloses no area.
     Polygon::new(Rings(vec![rings.first()?.clone()])).ok()?;
     Some(Plan::new(&rings.at_height(0.0)).ok()?.flat())
 }
 
-/// The centre of mass (m) of what the outer ring encloses.
+/// Returns the centroid (m) of the area inside the outer ring.
 fn middle(polygon: &Polygon) -> DVec2 {
     let Some(outer) = polygon.outer() else { return DVec2::ZERO };
     let from = outer[0];
@@ -228,7 +233,7 @@ fn middle(polygon: &Polygon) -> DVec2 {
     from + sum / area
 }
 
-/// Joins edges on streets to sides; gives for each edge its side.
+/// Joins edges along streets to sides; returns the side of each edge.
 fn sides_of(ring: &[DVec2], streets: &[Option<EdgeStreet>], sides: &mut Vec<BlockSide>) -> Vec<Option<u32>> {
     let count = ring.len();
     let length = |index: usize| ring[index].distance(ring[(index + 1) % count]);
@@ -243,7 +248,7 @@ fn sides_of(ring: &[DVec2], streets: &[Option<EdgeStreet>], sides: &mut Vec<Bloc
     let start = (0..count).find(|index| breaks(*index)).unwrap_or(0);
     let mut found = vec![None; count];
     let mut first = DVec2::ZERO;
-    // The longest edge of the present side, whose street is the side's.
+    // Longest edge of the current side; its street becomes the street of the side.
     let mut longest = 0.0;
     for offset in 0..count {
         let index = (start + offset) % count;

@@ -1,18 +1,18 @@
-//! Lots by boxes: a cell is cut across the smallest box around it, again and again.
+//! Lots by boxes: a cell is repeatedly cut across its smallest bounding box.
 //!
-//! Method: C. Vanegas and others, "Procedural generation of parcels in urban modeling", 2012, with the difference that a
-//! cut is only made where all that comes of it is good.
+//! Method: C. Vanegas and others, "Procedural generation of parcels in urban modeling", 2012, with one difference: a
+//! cut is made only if all resulting pieces are good.
 
 use super::divide::Division;
 use super::measure::{CellBox, extent};
 use super::options::LotPattern;
 use super::partition::{CellId, CellRings, CornerId, Cut};
 
-/// Where along a box a cut is tried, in turn.
+/// Positions of a cut along a box, in the order in which they are tried.
 const SHARES: [f64; 5] = [0.5, 0.42, 0.58, 0.33, 0.67];
 
 impl Division<'_> {
-    /// Divides a cell and what comes of it, until all are small and short enough or cannot be cut.
+    /// Divides a cell and the resulting pieces until all are small and short enough or cannot be cut.
     pub(super) fn by_boxes(&mut self, cell: CellId) {
         let mut due = vec![cell];
         while let Some(cell) = self.next(&mut due) {
@@ -32,23 +32,23 @@ impl Division<'_> {
         }
     }
 
-    /// Whether a cell is more times as long as wide than a lot may be.
+    /// Returns true if the elongation of a cell exceeds the maximum for a lot.
     pub(super) fn is_long(&self, rings: &[Vec<CornerId>]) -> bool {
         let around = self.partition.box_around(rings);
         around.is_some_and(|around| around.elongation() > self.options.elongation)
     }
 
-    /// The cut across the box of a cell, or else along it, of which all pieces are good.
+    /// Returns a cut across the box of a cell, or otherwise along it, whose pieces are all good.
     fn across_box(&mut self, cell: CellId, rings: &CellRings) -> Option<Cut> {
         let around = self.partition.box_around(rings)?;
         let jitter = (self.draw() - 0.5) * self.options.jitter * 0.5;
-        // What is long or thin may be cut into what is less so.
+        // A long or thin cell may be cut into pieces that are less so.
         let longest = (around.elongation() * 0.8).max(self.options.elongation);
         let bounds = [longest, self.options.min_width.min(around.size.y * 0.99)];
         for (axis, length) in [(around.along, around.size.x), (around.along.perp(), around.size.y)] {
             let middle = around.middle.dot(axis);
             let shares = SHARES.iter().map(|share| middle + (share + jitter - 0.5) * length);
-            // What lies around streets is to fall apart through them first.
+            // A cell with holes, such as an area around streets, is first cut through the holes.
             let holes = rings[1..].iter().map(|hole| {
                 let [low, high] = extent(hole.iter().map(|corner| self.partition.at(*corner)), axis);
                 low + (high - low) * (0.5 + jitter)
@@ -64,7 +64,7 @@ impl Division<'_> {
         None
     }
 
-    /// The cut that leaves lots of the usual depth along the front, and a court behind them.
+    /// Returns the cut that leaves lots of the usual depth along the front, and a court behind them.
     fn behind_front(&mut self, cell: CellId, rings: &CellRings) -> Option<Cut> {
         let fronts = self.partition.fronts(rings, None);
         let front = fronts.iter().max_by(|a, b| a.length.total_cmp(&b.length))?;
@@ -88,7 +88,8 @@ impl Division<'_> {
         (has_lot && cut.pieces.iter().all(all)).then_some(cut)
     }
 
-    /// Whether a piece can be a lot that is not more than so many times as long as wide, and at least so wide (m), or many lots.
+    /// Returns true if a piece can be one or more lots: it has access to a street, at most the elongation `longest`,
+    /// and at least the width `least` (m).
     fn is_good(&self, piece: &CellRings, cut: &Cut, [longest, least]: [f64; 2]) -> bool {
         let area = self.partition.area(piece);
         let fits = |around: CellBox| around.elongation() <= longest && around.size.y >= least;

@@ -1,4 +1,4 @@
-//! A block that is being divided, and the lots that come of it.
+//! Division of a block, and the resulting lots.
 
 use glam::DVec2;
 
@@ -9,23 +9,23 @@ use super::partition::{CellId, CornerId, Cut, Partition};
 use crate::network::PieceId;
 use burgeon_geometry::{Line, Rings};
 
-/// What a part of a block is for.
+/// Use of a part of a block.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum LotUse {
-    /// To be built on: it has access from a street.
+    /// Building site with access to a street.
     Building,
-    /// A whole block without buildings.
+    /// Whole block without buildings.
     Park,
-    /// Behind the lots, without access from a street.
+    /// Area behind the lots without access to a street.
     Court,
-    /// Too small or too long for a building.
+    /// Area too small or too long for a building.
     Rest,
-    /// An obstacle reaches into it.
+    /// Area that intersects an obstacle.
     Blocked,
 }
 
 impl LotUse {
-    /// Its name in scripts.
+    /// Returns the name in scripts.
     pub fn name(self) -> &'static str {
         match self {
             Self::Building => "building",
@@ -37,38 +37,38 @@ impl LotUse {
     }
 }
 
-/// A part of a block.
+/// Part of a block.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Lot {
-    /// Which one of its block, from 1.
+    /// Number within the block, from 1.
     pub number: usize,
-    /// What it is for.
+    /// Use of the lot.
     pub purpose: LotUse,
-    /// Its rings (m), the outer one counter-clockwise. They share their corners with those of its neighbours.
+    /// Rings (m), the outer one counter-clockwise. Adjacent lots share their corners.
     pub rings: Rings<DVec2>,
-    /// Its area (m²).
+    /// Area (m²).
     pub area: f64,
-    /// Where it is on streets (m), with the lot on the left: its front first.
+    /// Boundary along streets (m), with the lot on the left; the longest front first.
     pub fronts: Vec<Line>,
-    /// The length (m) of its front.
+    /// Length (m) of the first front.
     pub front_length: f64,
-    /// The piece of a street that its front is on.
+    /// Street segment adjacent to the first front.
     pub piece: Option<PieceId>,
-    /// The middle of its front (m).
+    /// Midpoint of the first front (m).
     pub access: DVec2,
-    /// The direction from its front to the street.
+    /// Direction from the first front to the street.
     pub facing: DVec2,
-    /// How far it reaches (m) along its front.
+    /// Extent (m) along the first front.
     pub width: f64,
-    /// How far it reaches (m) behind its front.
+    /// Extent (m) perpendicular to the first front.
     pub depth: f64,
-    /// Whether it is on two streets, or where one turns.
+    /// Set if the lot is on two streets, or at a bend of one.
     pub is_corner: bool,
-    /// How many times the smallest box around it is as long as wide.
+    /// Ratio of length to width of the smallest bounding box.
     pub elongation: f64,
 }
 
-/// A block on its way to lots.
+/// Block that is being divided.
 pub(super) struct Division<'a> {
     pub(super) partition: Partition,
     pub(super) options: &'a LotOptions,
@@ -77,10 +77,10 @@ pub(super) struct Division<'a> {
 }
 
 impl StreetBlock {
-    /// Divides it. `random` draws numbers from 0 to 1; all that is drawn is drawn here, so that a stream of the block's own
-    /// makes its lots independent of all others.
+    /// Divides the block into lots. `random` returns numbers from 0 to 1. All random numbers are drawn within this
+    /// call, so a separate stream for each block makes its lots independent of all other blocks.
     ///
-    /// The lots are disjoint and fill the block; those to be built on have a front of at least the least width.
+    /// The lots are disjoint and fill the block. Each building lot has a front of at least the minimum width.
     ///
     /// ```
     /// use burgeon_geometry::Rings;
@@ -103,7 +103,8 @@ impl StreetBlock {
         self.divide_while(options, random, &|| true).unwrap_or_default()
     }
 
-    /// The same for as long as `goes_on` says so, which is asked before each cut; `None` if it does not.
+    /// Divides the block like [`Self::divide`] while `goes_on` returns true; `goes_on` is called before each cut.
+    /// Returns `None` if it returns false.
     pub fn divide_while(
         &self,
         options: &LotOptions,
@@ -120,7 +121,7 @@ impl StreetBlock {
         match options.pattern {
             LotPattern::Boxes => division.by_boxes(0),
             LotPattern::Strips | LotPattern::Skeleton => {
-                // What has no skeleton on the grid is divided all the same.
+                // A block without a skeleton on the grid is divided by boxes.
                 if division.by_strips(self).is_none() {
                     division.by_boxes(0);
                 }
@@ -138,17 +139,17 @@ impl Division<'_> {
         (self.random)()
     }
 
-    /// The next one that is due; none once nobody waits for the lots any more.
+    /// Returns the next cell to process; `None` if the division was cancelled.
     pub(super) fn next(&self, due: &mut Vec<CellId>) -> Option<CellId> {
         if (self.goes_on)() { due.pop() } else { None }
     }
 
-    /// Whether a piece has a front of at least the least width.
+    /// Returns true if a piece has a front of at least the minimum width.
     pub(super) fn has_access(&self, piece: &[Vec<CornerId>], cut: Option<&Cut>) -> bool {
         self.partition.fronts(piece, cut).iter().any(|front| front.length >= self.options.min_width)
     }
 
-    /// Joins neighbours without any access.
+    /// Joins adjacent cells without access to a street.
     fn merge_courts(&mut self) {
         let is_court = |division: &Self, cell: CellId| {
             let rings = division.partition.rings(cell);
@@ -166,7 +167,7 @@ impl Division<'_> {
         }
     }
 
-    /// Joins what can neither be a lot nor a court to the neighbour with the longest border to it.
+    /// Joins each cell that is neither a valid lot nor a court to the neighbour with the longest shared border.
     fn merge_small(&mut self) {
         let is_fine = |division: &Self, rings: &[Vec<CornerId>]| {
             let fronts = division.partition.fronts(rings, None);
@@ -183,7 +184,7 @@ impl Division<'_> {
             if rings.is_empty() || is_fine(self, rings) {
                 continue;
             }
-            // What has a front does not become a part of a court while it borders on a lot.
+            // A cell with a front is joined to a court only if no neighbour is a lot.
             let has_front =
                 |cell: CellId| !self.partition.fronts(self.partition.rings(cell), None).is_empty();
             let own = has_front(cell);

@@ -1,14 +1,14 @@
-//! Places on a grid of about a micrometre, on which the borders of lots are decided exactly.
+//! Positions on a grid of about one micrometre, with exact tests for the borders of lots.
 
 use burgeon_geometry::planar::edges;
 use glam::DVec2;
 
 use crate::grid::{FARTHEST, WholePlace, touch};
 
-/// How many steps of the grid are a metre: 2^20.
+/// Number of grid steps per metre: 2^20.
 const PER_METRE: f64 = 1_048_576.0;
 
-/// A place on the grid. Its metres are exact in 64 bits of floating point.
+/// Position on the grid. Its coordinates in metres are exact in 64-bit floating point.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub(crate) struct FinePlace {
     x: i64,
@@ -16,7 +16,7 @@ pub(crate) struct FinePlace {
 }
 
 impl FinePlace {
-    /// The nearest to `place` (m); `None` if that is not finite or too far from the origin.
+    /// Returns the grid position nearest to `place` (m); `None` if it is not finite or too far from the origin.
     pub(crate) fn nearest(place: DVec2) -> Option<Self> {
         let within = place.is_finite() && place.abs().max_element() <= FARTHEST + 10_000.0;
         #[allow(clippy::cast_possible_truncation, reason = "within 2^40 steps")]
@@ -26,7 +26,7 @@ impl FinePlace {
         })
     }
 
-    /// Where it lies (m), exactly.
+    /// Returns the exact coordinates (m).
     #[allow(clippy::cast_precision_loss, reason = "within 2^40 steps")]
     pub(crate) fn metres(self) -> DVec2 {
         DVec2::new(self.x as f64, self.y as f64) / PER_METRE
@@ -52,12 +52,13 @@ impl WholePlace for FinePlace {
     }
 }
 
-/// On which side of the way from `a` to `b` a place lies: 1 on the left, 0 on their line, -1 on the right.
+/// Returns the side of the directed line from `a` to `b` on which a position is: 1 on the left, 0 on the line, -1 on
+/// the right.
 pub(crate) fn side(a: FinePlace, b: FinePlace, place: FinePlace) -> i32 {
     place.side_of(a, b)
 }
 
-/// Whether two edges have a place in common that is not an end of both.
+/// Returns true if two edges share a point that is not an end of both.
 pub(crate) fn meet([a, b]: [FinePlace; 2], [c, d]: [FinePlace; 2]) -> bool {
     let apart = |a: i64, b: i64, c: i64, d: i64| a.max(b) < c.min(d) || c.max(d) < a.min(b);
     if apart(a.x, b.x, c.x, d.x) || apart(a.y, b.y, c.y, d.y) {
@@ -70,7 +71,7 @@ pub(crate) fn meet([a, b]: [FinePlace; 2], [c, d]: [FinePlace; 2]) -> bool {
     touch([a, b], [c, d])
 }
 
-/// Whether a place is inside a ring, whichever way that runs; on its border the answer may be either.
+/// Returns true if a position is inside a ring of either orientation; the result on the border is unspecified.
 pub(crate) fn is_inside(ring: &[FinePlace], place: FinePlace) -> bool {
     let crossed = edges(ring).filter(|[a, b]| {
         let upwards = a.y <= place.y && place.y < b.y;
@@ -80,7 +81,7 @@ pub(crate) fn is_inside(ring: &[FinePlace], place: FinePlace) -> bool {
     crossed.count() % 2 == 1
 }
 
-/// Whether no two edges of some rings meet but at the end of both, which only neighbours in a ring have in common.
+/// Returns true if edges of the rings meet only at common ends, and only adjacent edges of a ring share an end.
 pub(crate) fn are_simple(rings: &[Vec<FinePlace>]) -> bool {
     let mut all: Vec<[FinePlace; 2]> = Vec::new();
     let mut corners: Vec<FinePlace> = Vec::new();
@@ -98,9 +99,9 @@ pub(crate) fn are_simple(rings: &[Vec<FinePlace>]) -> bool {
     are_apart(all)
 }
 
-/// Whether no two edges meet but at the end of both.
+/// Returns true if edges meet only at the ends of both.
 ///
-/// Method: edges from left to right, each held against those that begin before it ends.
+/// Method: sweep from left to right; each edge is tested against the edges that begin before it ends.
 pub(crate) fn are_apart(mut edges: Vec<[FinePlace; 2]>) -> bool {
     edges.sort_unstable_by_key(|[a, b]| a.x.min(b.x));
     edges.iter().enumerate().all(|(index, edge)| {

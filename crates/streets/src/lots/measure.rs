@@ -1,31 +1,31 @@
-//! What is measured on a cell: the box around it, and where it is on streets.
+//! Measurements of a cell: its bounding box, and its fronts along streets.
 
 use glam::DVec2;
 
 use super::partition::{CornerId, Cut, Partition};
 use burgeon_geometry::planar;
 
-/// Places that are farther from a street by less (m) are as near as others.
+/// Tolerance (m) for distances from a street that count as equal.
 const AS_NEAR: f64 = 0.5;
 
-/// A box around a cell, turned so that it is as small as can be.
+/// Oriented bounding box of minimum area around a cell.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct CellBox {
     pub(super) middle: DVec2,
-    /// The direction of its longer sides.
+    /// Direction of the longer sides.
     pub(super) along: DVec2,
-    /// Its length and its width (m), the greater first.
+    /// Length and width (m), the greater first.
     pub(super) size: DVec2,
 }
 
 impl CellBox {
-    /// How many times it is as long as wide.
+    /// Returns the ratio of length to width.
     pub(super) fn elongation(&self) -> f64 {
         self.size.x / self.size.y.max(1e-9)
     }
 }
 
-/// A run of edges on one side of the block.
+/// Run of edges along one side of the block.
 #[derive(Debug, Clone)]
 pub(super) struct FrontRun {
     pub(super) side: u32,
@@ -34,8 +34,8 @@ pub(super) struct FrontRun {
 }
 
 impl FrontRun {
-    /// The place (m) half of the way along it, or along the longest part of it that is as near to the street as any, where that
-    /// is `off` (m) from it.
+    /// Returns the midpoint (m) of the front, or of its longest part that is nearest to the street, with distances (m)
+    /// from `off`.
     pub(super) fn access(&self, off: impl Fn(DVec2) -> f64) -> DVec2 {
         let middle = middle(&self.points);
         let nearest = self.points.iter().map(|at| off(*at)).fold(f64::INFINITY, f64::min);
@@ -60,13 +60,13 @@ impl FrontRun {
         best.1
     }
 
-    /// Its direction from end to end, with the cell on its left.
+    /// Returns the direction from end to end, with the cell on the left.
     pub(super) fn way(&self) -> DVec2 {
         (self.points[self.points.len() - 1] - self.points[0]).normalize_or_zero()
     }
 }
 
-/// The place (m) half of the way along a line of a point or more.
+/// Returns the point (m) halfway along a line of at least one point.
 fn middle(points: &[DVec2]) -> DVec2 {
     let mut left = points.windows(2).map(|pair| pair[0].distance(pair[1])).sum::<f64>() / 2.0;
     for pair in points.windows(2) {
@@ -79,7 +79,7 @@ fn middle(points: &[DVec2]) -> DVec2 {
     points[0]
 }
 
-/// The extent (m) of places along a direction: the least and the greatest.
+/// Returns the minimum and maximum (m) of positions along a direction.
 pub(super) fn extent(places: impl IntoIterator<Item = DVec2>, way: DVec2) -> [f64; 2] {
     let range = [f64::INFINITY, f64::NEG_INFINITY];
     places.into_iter().fold(range, |[low, high], at| {
@@ -89,15 +89,15 @@ pub(super) fn extent(places: impl IntoIterator<Item = DVec2>, way: DVec2) -> [f6
 }
 
 impl Partition {
-    /// The corners (m) of the outer ring of a cell.
+    /// Returns the corners (m) of the outer ring of a cell.
     pub(super) fn outline<'a>(&'a self, rings: &'a [Vec<CornerId>]) -> impl Iterator<Item = DVec2> + 'a {
         rings.first().into_iter().flatten().map(|corner| self.at(*corner))
     }
 
-    /// The smallest box around a cell; `None` of one without area.
+    /// Returns the smallest bounding box of a cell; `None` if the cell has no area.
     ///
-    /// Method: one of its sides is along an edge of the hull (H. Freeman and R. Shapira, "Determining the minimum-area
-    /// encasing rectangle for an arbitrary closed curve", 1975).
+    /// Method: one side of the box is along an edge of the hull (H. Freeman and R. Shapira, "Determining the
+    /// minimum-area encasing rectangle for an arbitrary closed curve", 1975).
     pub(super) fn box_around(&self, rings: &[Vec<CornerId>]) -> Option<CellBox> {
         let hull = planar::hull(self.outline(rings))?;
         let boxes = planar::edges(&hull).filter_map(|[a, b]| {
@@ -114,12 +114,12 @@ impl Partition {
         boxes.min_by(|a, b| a.size.element_product().total_cmp(&b.size.element_product()))
     }
 
-    /// Where a cell is on streets: runs of edges, each on one side of the block.
+    /// Returns the fronts of a cell: runs of edges, each along one side of the block.
     pub(super) fn fronts(&self, rings: &[Vec<CornerId>], cut: Option<&Cut>) -> Vec<FrontRun> {
         let mut runs = Vec::new();
         for ring in rings {
             let sides: Vec<Option<u32>> = planar::edges(ring).map(|edge| self.side(edge, cut)).collect();
-            // Begin where a run begins, so that none is told in two.
+            // Start at the beginning of a run, so that no run is split in two.
             let begins = |index: &usize| sides[*index] != sides[(*index + ring.len() - 1) % ring.len()];
             let start = (0..ring.len()).find(begins).unwrap_or(0);
             let mut last = None;

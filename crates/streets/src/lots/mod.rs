@@ -1,10 +1,11 @@
-//! From blocks to lots: areas that are disjoint, fill their block, and have fronts on streets.
+//! Division of blocks into lots: areas that are disjoint, fill their block, and have fronts along streets.
 //!
-//! Comes in: the blocks of a network or areas of data, [`LotOptions`], and random numbers of whoever asks. Goes out:
-//! [`Lot`]s. It never looks from one block at another, so a change in one leaves the lots of all others.
+//! Input: the blocks of a network or areas from data, [`LotOptions`], and random numbers from the caller. Output:
+//! [`Lot`]s. Each block is divided independently, so a change in one block does not affect the lots of others.
 //!
-//! Corners lie on a grid of 2^-20 m, on which all borders are decided exactly: lots share corners and whole edges, no
-//! edges meet but at their ends, and areas add up to those of the block but for the rounding of corners on its border.
+//! Corners are on a grid of 2^-20 m, on which all borders are tested exactly: lots share corners and whole edges, edges
+//! meet only at their ends, and the areas add up to the area of the block, except for the rounding of corners on its
+//! border.
 
 mod block;
 mod boxes;

@@ -1,50 +1,50 @@
-//! What lots are to be like.
+//! Options for lots.
 
 use burgeon_base::error::{Error, Result};
 
-/// How a block is divided.
+/// Method of dividing a block.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum LotPattern {
-    /// By cuts across the smallest box, again and again.
+    /// Repeated cuts across the smallest bounding box.
     #[default]
     Boxes,
-    /// By strips of lots along the streets, around a court.
+    /// Strips of lots along the streets, around a court.
     Strips,
-    /// By strips of lots along the streets, which meet behind.
+    /// Strips of lots along the streets that meet at the back.
     Skeleton,
 }
 
 impl LotPattern {
-    /// All of them with their names in scripts.
+    /// All patterns with their names in scripts.
     pub const ALL: [(&str, Self); 3] =
         [("boxes", Self::Boxes), ("strips", Self::Strips), ("skeleton", Self::Skeleton)];
 }
 
-/// What lots are to be like.
+/// Options for lots.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LotOptions {
-    /// How a block is divided.
+    /// Method of dividing a block.
     pub pattern: LotPattern,
-    /// How wide (m) lots usually are along the street.
+    /// Usual width (m) along the street.
     pub width: f64,
-    /// The least front (m).
+    /// Minimum front length (m).
     pub min_width: f64,
-    /// How deep (m) they usually are.
+    /// Usual depth (m).
     pub depth: f64,
-    /// The area (m²) above which a lot is divided.
+    /// Area (m²) above which a lot is divided.
     pub area: f64,
-    /// The least area (m²).
+    /// Minimum area (m²).
     pub min_area: f64,
-    /// How many times a lot may be as long as wide.
+    /// Maximum ratio of length to width.
     pub elongation: f64,
-    /// How much sizes vary: 0 for not at all, up to 1.
+    /// Variation of sizes, from 0 for none to 1.
     pub jitter: f64,
-    /// The share of the blocks that are parks.
+    /// Fraction of the blocks that are parks.
     pub parks: f64,
 }
 
 impl LotOptions {
-    /// Lots that are usually `width` (m) by `depth` (m).
+    /// Creates options for lots that are usually `width` (m) by `depth` (m).
     pub fn new(width: f64, depth: f64) -> Self {
         Self {
             pattern: LotPattern::Boxes,
@@ -59,7 +59,7 @@ impl LotOptions {
         }
     }
 
-    /// Fails if no lot could be like that, and says why.
+    /// Checks that the values are in range and consistent; the error names the field.
     pub fn check(&self) -> Result<()> {
         let ranges = [
             ("width", self.width, 1.0, 500.0, "m"),

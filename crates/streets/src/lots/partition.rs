@@ -1,4 +1,4 @@
-//! A block in cells that share their corners: they are disjoint and leave nothing out, whatever is cut.
+//! Partition of a block into cells with shared corners: after any cut, the cells are disjoint and cover the block.
 
 use glam::DVec2;
 use rustc_hash::{FxHashMap, FxHashSet};
@@ -6,45 +6,46 @@ use rustc_hash::{FxHashMap, FxHashSet};
 use super::fine::{self, FinePlace};
 use burgeon_geometry::planar::{edges, twice_area};
 
-/// The number of a corner.
+/// Index of a corner.
 pub(super) type CornerId = u32;
-/// The number of a cell.
+/// Index of a cell.
 pub(super) type CellId = u32;
-/// The corners of a cell's rings: the outer one first, counter-clockwise, the holes clockwise.
+/// Corners of a cell's rings: the outer ring first, counter-clockwise; the holes clockwise.
 pub(super) type CellRings = Vec<Vec<CornerId>>;
 
-/// A crossing nearer (m) than this to a corner is that corner.
+/// Distance (m) from a corner below which a crossing uses that corner.
 const NEAR: f64 = 0.02;
 
 /// Cells that fill a block.
 ///
-/// What two cells have in common are corners and whole edges, each of which has one of them on either side. So nothing
-/// is in two cells, and their areas add up, although corners lie on a grid.
+/// Two cells share only corners and whole edges, and each shared edge has one of the cells on either side. So the cells
+/// never overlap, and their areas add up even though corners are on a grid.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Partition {
     places: Vec<FinePlace>,
-    /// None where a cell was cut or joined.
+    /// Cells by index; `None` for a cell that was cut or joined.
     cells: Vec<Option<CellRings>>,
-    /// The cell on the left of each edge.
+    /// Cell on the left of each edge.
     beside: FxHashMap<[CornerId; 2], CellId>,
-    /// The side of the block that an edge is on.
+    /// Side of the block for each edge along it.
     sides: FxHashMap<[CornerId; 2], u32>,
 }
 
-/// A cell as it would be cut.
+/// Cut of a cell that is not yet applied.
 #[derive(Debug, Clone)]
 pub(super) struct Cut {
     cell: CellId,
     /// Edges that get a corner between their ends.
     splits: Vec<([CornerId; 2], CornerId)>,
-    /// What the cell falls apart into.
+    /// Resulting cells.
     pub(super) pieces: Vec<CellRings>,
 }
 
 impl Partition {
-    /// A block with one cell; `sides` gives the side that each edge of each ring is on, if that is on a street.
+    /// Creates a partition with one cell; `sides` contains the side of each edge of each ring, if the edge is along a
+    /// street.
     ///
-    /// `None` if the rings meet, or run the wrong way.
+    /// Returns `None` if the rings intersect or have the wrong orientation.
     pub(super) fn new(rings: &[Vec<DVec2>], sides: &[Vec<Option<u32>>]) -> Option<Self> {
         let mut partition = Self::default();
         let mut cell = CellRings::new();
@@ -99,8 +100,9 @@ impl Partition {
         id
     }
 
-    /// Puts faces in the place of the first cell: they are of `places`, of which the first ones are its corners, in order.
-    /// Gives the cell of each face, or none if it has no area. `None` if they do not fill the cell without meeting.
+    /// Replaces the first cell by faces. The first of `places` are the cell's corners, in order. Returns the cell of
+    /// each face, or `None` for a face without area. Returns `None` as a whole if the faces do not fill the cell or if
+    /// they intersect.
     pub(super) fn tile(&mut self, places: &[DVec2], faces: &[Vec<usize>]) -> Option<Vec<Option<CellId>>> {
         let whole = self.area(self.rings(0));
         let known = self.places.len();
@@ -131,7 +133,7 @@ impl Partition {
             sum += area;
             cells.push(Some(tiled.push(vec![ring])));
         }
-        // Rounded, a corner of one face may lie beyond an edge of another.
+        // After rounding, a corner of one face may be beyond an edge of another.
         if (sum - whole).abs() > 2e-7 * whole || !tiled.are_apart() {
             return None;
         }
@@ -139,44 +141,44 @@ impl Partition {
         Some(cells)
     }
 
-    /// Whether the borders of cells meet in their corners alone.
+    /// Returns true if the borders of cells meet only at their corners.
     fn are_apart(&self) -> bool {
         let borders = self.cells().flat_map(|(_, rings)| rings).flat_map(|ring| edges(ring));
         let once = borders.filter(|[a, b]| a < b || !self.beside.contains_key(&[*b, *a]));
         fine::are_apart(once.map(|edge| edge.map(|corner| self.places[corner as usize])).collect())
     }
 
-    /// The cell on the left of an edge.
+    /// Returns the cell on the left of an edge.
     pub(super) fn beside(&self, edge: [CornerId; 2]) -> Option<CellId> {
         self.beside.get(&edge).copied()
     }
 
-    /// The cells, in the order in which they came to be.
+    /// Returns the cells in order of creation.
     pub(super) fn cells(&self) -> impl Iterator<Item = (CellId, &CellRings)> {
         (0..).zip(&self.cells).filter_map(|(id, cell)| Some((id, cell.as_ref()?)))
     }
 
-    /// The rings of a cell; none if it was cut or joined.
+    /// Returns the rings of a cell; empty if it was cut or joined.
     pub(super) fn rings(&self, cell: CellId) -> &[Vec<CornerId>] {
         self.cells[cell as usize].as_deref().unwrap_or_default()
     }
 
-    /// Where a corner is (m).
+    /// Returns the position of a corner (m).
     pub(super) fn at(&self, corner: CornerId) -> DVec2 {
         self.places[corner as usize].metres()
     }
 
-    /// The area (m²) inside a ring; negative if it is clockwise.
+    /// Returns the area (m²) inside a ring; negative if the ring is clockwise.
     fn ring_area(&self, ring: &[CornerId]) -> f64 {
         twice_area(ring.iter().map(|corner| self.at(*corner))) / 2.0
     }
 
-    /// The area (m²) of a cell, or of what would be one.
+    /// Returns the area (m²) of a cell, or of a possible cell.
     pub(super) fn area(&self, rings: &[Vec<CornerId>]) -> f64 {
         rings.iter().map(|ring| self.ring_area(ring)).sum()
     }
 
-    /// The side of the block that an edge is on, also if it is a part of one that `cut` would divide.
+    /// Returns the side of the block along an edge, including parts of an edge that `cut` would divide.
     pub(super) fn side(&self, edge: [CornerId; 2], cut: Option<&Cut>) -> Option<u32> {
         let whole = || {
             let splits = &cut?.splits;
@@ -186,8 +188,8 @@ impl Partition {
         self.sides.get(&edge).copied().or_else(whole)
     }
 
-    /// A cell as the line through `at` in the direction `way` would cut it; `None` if it would not fall apart, or if
-    /// that cannot be done on the grid.
+    /// Plans the cut of a cell along the line through `at` in the direction `way`; `None` if the line does not divide
+    /// the cell, or if the cut is not possible on the grid.
     pub(super) fn cut(&mut self, cell: CellId, at: DVec2, way: DVec2) -> Option<Cut> {
         let mut rings = self.cells[cell as usize].clone()?;
         let mut splits = Vec::new();
@@ -230,7 +232,8 @@ impl Partition {
         Some(Cut { cell, splits, pieces })
     }
 
-    /// Whether chords meet nothing of a cell, and edges that are bent by a corner nothing on either side.
+    /// Returns true if the chords intersect no edge of a cell, and if edges with a new corner intersect nothing on
+    /// either side.
     fn is_free(
         &self,
         cell: CellId,
@@ -249,7 +252,7 @@ impl Partition {
             return false;
         }
         splits.iter().all(|([a, b], v)| {
-            // Behind an edge that is nobody else's there may be a cell, only nearer than the grid tells.
+            // An edge without an adjacent cell may still have a cell behind it, closer than the grid resolution.
             let others: Vec<[CornerId; 2]> = match self.beside.get(&[*b, *a]) {
                 Some(other) if *other == cell => return true,
                 Some(other) => self.rings(*other).iter().flat_map(|ring| edges(ring)).collect(),
@@ -264,7 +267,7 @@ impl Partition {
         })
     }
 
-    /// The cells that rings become where chords divide them.
+    /// Returns the cells into which chords divide rings.
     fn pieces(&self, rings: &CellRings, chords: &[[CornerId; 2]]) -> Option<Vec<CellRings>> {
         let mut next: FxHashMap<[CornerId; 2], CornerId> = FxHashMap::default();
         let mut across: FxHashMap<CornerId, CornerId> = FxHashMap::default();
@@ -314,7 +317,7 @@ impl Partition {
         (outer.len() > 1).then_some(outer)
     }
 
-    /// Cuts a cell; gives its pieces, in the order of the cut's.
+    /// Applies a cut; returns the resulting cells in the order of the cut's pieces.
     pub(super) fn commit(&mut self, cut: Cut) -> Vec<CellId> {
         for (edge @ [a, b], v) in cut.splits {
             if let Some(side) = self.sides.remove(&edge) {
@@ -346,7 +349,7 @@ impl Partition {
         rings
     }
 
-    /// The cells that have an edge in common with a cell, each with the length (m) of all such edges.
+    /// Returns the cells that share an edge with a cell, each with the total length (m) of the shared edges.
     pub(super) fn neighbors(&self, cell: CellId) -> Vec<(CellId, f64)> {
         let mut found: Vec<(CellId, f64)> = Vec::new();
         for [a, b] in self.rings(cell).iter().flat_map(|ring| edges(ring)) {
@@ -360,7 +363,7 @@ impl Partition {
         found
     }
 
-    /// Cells as one, or `None` if that would meet itself in a corner or fall apart.
+    /// Returns the union of cells; `None` if it would touch itself at a corner or fall apart.
     fn joined(&self, cells: &[CellId]) -> Option<CellRings> {
         let all = cells.iter().flat_map(|cell| self.rings(*cell)).flat_map(|ring| edges(ring));
         let all: Vec<[CornerId; 2]> = all.collect();
@@ -391,7 +394,7 @@ impl Partition {
         (self.is_cell(&rings) && fine::are_simple(&places)).then_some(rings)
     }
 
-    /// Joins cells; gives the one that they become, or `None` if that would meet itself in a corner or fall apart.
+    /// Joins cells; returns the resulting cell, or `None` if it would touch itself at a corner or fall apart.
     pub(super) fn join(&mut self, cells: &[CellId]) -> Option<CellId> {
         let rings = self.joined(cells)?;
         for cell in cells {

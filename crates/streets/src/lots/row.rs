@@ -1,4 +1,5 @@
-//! What a row of buildings that touch takes of a lot: all of it up to a depth behind its front, but for a joint.
+//! Part of a lot for a row of adjoining buildings: the lot up to a depth behind its front, minus a joint along its
+//! border.
 
 use glam::DVec2;
 
@@ -6,12 +7,12 @@ use super::divide::Lot;
 use super::fine::{self, FinePlace};
 use burgeon_geometry::{Polygon, Rings, planar};
 
-/// A corner moves at most so many times as far as the edges beside it.
+/// Maximum displacement of a corner, as a multiple of the inset distance.
 const SHARP: f64 = 4.0;
 
 impl Lot {
-    /// The parts of it that are at least `joint` (m) inside of its border and at most `depth` (m) behind its front; none if it
-    /// has no front. Those of different lots keep apart.
+    /// Returns the parts of the lot that are at least `joint` (m) inside its border and at most `depth` (m) behind its
+    /// front; empty if the lot has no front. Parts of different lots do not touch.
     pub fn row(&self, depth: f64, joint: f64) -> Vec<Polygon> {
         if self.fronts.is_empty() {
             return Vec::new();
@@ -26,8 +27,7 @@ impl Lot {
     }
 }
 
-/// What is left of one ring when its edges move inwards by `distance` (m), where all of them stay and none meets another;
-/// `None` where that is not so.
+/// Insets a single ring by `distance` (m) if all edges remain and none intersect; otherwise returns `None`.
 fn inset(rings: &Rings<DVec2>, distance: f64) -> Option<Polygon> {
     let [ring] = &rings[..] else { return None };
     let count = ring.len();
@@ -45,7 +45,7 @@ fn inset(rings: &Rings<DVec2>, distance: f64) -> Option<Polygon> {
     ((0..count).all(stays) && fine::are_simple(&[fine])).then(|| Polygon::new(Rings(vec![moved])).ok())?
 }
 
-/// The parts of a polygon that are at most at `last` (m) along a direction.
+/// Returns the parts of a polygon up to the coordinate `last` (m) along a direction.
 fn before(part: Polygon, way: DVec2, last: f64) -> Vec<Polygon> {
     let beyond = |at: &DVec2| at.dot(way) > last;
     let count = part.points().filter(beyond).count();

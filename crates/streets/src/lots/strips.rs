@@ -1,7 +1,7 @@
-//! Lots by strips: along each side of a block runs a strip, which is cut across; behind the strips may be a court.
+//! Lots by strips: a strip along each side of a block is cut across into lots; a court may remain behind the strips.
 //!
-//! Method: the faces of the straight skeleton, joined for each side, give the strips; where two meet at a corner, the
-//! longer one takes what lies behind the other (C. Vanegas and others, "Procedural generation of parcels in urban
+//! Method: the faces of the straight skeleton, joined per side, form the strips. If two strips meet at a corner, the
+//! longer one takes the area behind the other (C. Vanegas and others, "Procedural generation of parcels in urban
 //! modeling", 2012).
 
 use glam::DVec2;
@@ -14,11 +14,11 @@ use super::partition::{CellId, CellRings, CornerId};
 use burgeon_geometry::skeleton::{Pace, Skeleton};
 use burgeon_geometry::{Polygon, Rings};
 
-/// A court is at least this part of the depth of lots wide, to both sides of its middle.
+/// Minimum half width of a court, as a fraction of the lot depth.
 const COURT: f64 = 0.35;
 
 impl Division<'_> {
-    /// Divides a block; `None` if its skeleton cannot be had, and nothing was done.
+    /// Divides a block; returns `None` without changes if the skeleton cannot be computed.
     pub(super) fn by_strips(&mut self, block: &StreetBlock) -> Option<()> {
         let polygon = Polygon::new(Rings::clone(&block.rings)).ok()?;
         let sides: Vec<Option<u32>> = block.edge_sides.iter().flatten().copied().collect();
@@ -42,7 +42,7 @@ impl Division<'_> {
                 self.slice(strip, side);
             }
         }
-        // What lies on a short side of its strip may reach far behind it, and a shallow strip along its street.
+        // A lot at a short side of its strip may extend far behind it, and a shallow strip far along its street.
         let cells = self.partition.cells();
         let great = cells
             .filter(|(_, rings)| self.partition.area(rings) > self.options.area * 1.3 || self.is_long(rings));
@@ -54,7 +54,7 @@ impl Division<'_> {
         Some(())
     }
 
-    /// Joins the cells of a side, in whichever order they touch.
+    /// Joins the cells of a side in any order in which they touch.
     fn strip(&mut self, mut parts: Vec<CellId>) -> Option<CellId> {
         if let Some(strip) = self.partition.join(&parts) {
             return Some(strip);
@@ -74,7 +74,7 @@ impl Division<'_> {
         Some(strip)
     }
 
-    /// How deep (m) strips are in a block of which every place is within `half` (m) of its border.
+    /// Returns the depth (m) of strips in a block whose points are all within `half` (m) of its border.
     fn strip_depth(&mut self, half: f64) -> f64 {
         let usual = match self.options.pattern {
             LotPattern::Skeleton => self.options.width * self.options.elongation * 0.75,
@@ -83,7 +83,7 @@ impl Division<'_> {
         if half > usual * (1.0 + COURT) { usual } else { f64::INFINITY }
     }
 
-    /// Cuts off what lies behind `depth` (m) from an edge of the block; gives what is left.
+    /// Cuts off the area beyond `depth` (m) from an edge of the block; returns the remaining cell.
     fn before_court(&mut self, cell: CellId, [a, b]: [DVec2; 2], depth: f64) -> CellId {
         let way = (b - a).normalize_or_zero();
         if !depth.is_finite() {
@@ -99,7 +99,7 @@ impl Division<'_> {
         pieces.into_iter().zip(fronts).find(|(_, is_front)| *is_front).map_or(cell, |(piece, _)| piece)
     }
 
-    /// Gives the corner between two strips to the longer of their sides, for each two that meet.
+    /// Gives the corner between two adjacent strips to the strip of the longer side.
     fn settle_corners(&mut self, strips: &mut [Option<CellId>], block: &StreetBlock) {
         for index in 0..strips.len() {
             let Some(strip) = strips[index] else { continue };
@@ -119,8 +119,8 @@ impl Division<'_> {
         }
     }
 
-    /// Cuts the loser's strip across from the inner end of the border and joins the corner to the winner's; gives both. Where
-    /// too little would be left, the winner takes all of it.
+    /// Cuts the loser's strip across at the inner end of the border, and joins the corner to the winner's strip;
+    /// returns both. If too little would remain, the winner takes the whole strip.
     fn give_corner(
         &mut self,
         strips: &[Option<CellId>],
@@ -129,7 +129,7 @@ impl Division<'_> {
         let (taker, giver) = (strips[winner]?, strips[loser]?);
         let border = self.border(giver, taker);
         let ends = [*border.first()?, *border.last()?];
-        // One end of the border is a corner of the block, or near one; the other is inside.
+        // One end of the border is at or near a corner of the block; the other is inside.
         let on_front = |corner: CornerId| self.is_on_front(corner, giver) && self.is_on_front(corner, taker);
         let [outer, inner] = match ends.map(on_front) {
             [true, false] => ends,
@@ -166,7 +166,8 @@ impl Division<'_> {
         Some([Some(joined), Some(pieces[1 - corner])])
     }
 
-    /// The corners along which two cells meet, in the order of the first one's ring; none if they meet in several places.
+    /// Returns the corners along which two cells meet, in the order of the first cell's ring; empty if they meet along
+    /// several borders.
     fn border(&self, a: CellId, b: CellId) -> Vec<CornerId> {
         let mut chain: Vec<CornerId> = Vec::new();
         for ring in self.partition.rings(a) {
@@ -185,7 +186,7 @@ impl Division<'_> {
         chain
     }
 
-    /// Whether a corner of a cell ends one of its edges on a street.
+    /// Returns true if a corner of a cell is an end of one of its edges along a street.
     fn is_on_front(&self, corner: CornerId, cell: CellId) -> bool {
         let edges = self.partition.rings(cell).iter().flat_map(|ring| burgeon_geometry::planar::edges(ring));
         edges.into_iter().any(|edge| edge.contains(&corner) && self.partition.side(edge, None).is_some())
@@ -221,7 +222,7 @@ impl Division<'_> {
     }
 }
 
-/// The direction of the edge of a front that is nearest to a place, and how far (m) along the front that is.
+/// Returns the direction of the edge of a front that is nearest to a position, and its distance (m) along the front.
 fn nearest_way(front: &FrontRun, place: DVec2) -> Option<(DVec2, f64)> {
     let mut passed = 0.0;
     let mut best: Option<(f64, DVec2, f64)> = None;
@@ -238,7 +239,7 @@ fn nearest_way(front: &FrontRun, place: DVec2) -> Option<(DVec2, f64)> {
     best.map(|(_, way, along)| (way, along))
 }
 
-/// The place (m) so far along a front, and the direction there.
+/// Returns the position (m) at a distance along a front, and the direction there.
 fn point_along(front: &FrontRun, along: f64) -> Option<(DVec2, DVec2)> {
     let mut left = along;
     for pair in front.points.windows(2) {

@@ -1,4 +1,4 @@
-//! Lots at random, held against all that they promise.
+//! Tests of random lots against all guarantees.
 
 use glam::DVec2;
 
@@ -13,7 +13,7 @@ fn places(lot: &Lot) -> Vec<Vec<FinePlace>> {
     lot.rings.iter().map(ring).collect()
 }
 
-/// Asserts all that lots promise, exactly.
+/// Asserts all guarantees for lots exactly.
 pub(super) fn check(block: &StreetBlock, lots: &[Lot], options: &LotOptions) {
     let whole = Polygon::new(block.rings.clone()).expect("a block").area();
     let sum: f64 = lots.iter().map(|lot| lot.area).sum();
@@ -58,7 +58,7 @@ pub(super) fn check(block: &StreetBlock, lots: &[Lot], options: &LotOptions) {
     }
 }
 
-/// A polygon whose corners lie around a place at random distances.
+/// Returns a polygon whose corners are at random distances around a centre.
 fn star(random: &mut TestNumbers, size: f64) -> Rings<DVec2> {
     let count = 3 + random.below(20.0) as usize;
     let middle = DVec2::new(random.below(4000.0) - 2000.0, random.below(4000.0) - 2000.0);
@@ -88,7 +88,8 @@ fn lots_of_polygons_at_random_are_disjoint_and_fill_them() {
     assert!(count > 5000, "{count} lots");
 }
 
-/// The same with corners on its edges, or off them by about as much as rounding, and with corners cut off and bent again.
+/// Returns the rings with additional corners on their edges or off them by about the rounding error, and with corners
+/// cut off and bent.
 fn bent(random: &mut TestNumbers, rings: &Rings<DVec2>) -> Rings<DVec2> {
     let ring = &rings.0[0];
     let mut bent = Vec::new();
@@ -112,7 +113,7 @@ fn lots_of_polygons_with_corners_that_hardly_turn_are_disjoint_and_fill_them() {
         let plain = star(&mut random, [40.0, 120.0, 300.0][number % 3]);
         let rings = bent(&mut random, &plain);
         let Some(mut block) = empty.block(None, &rings, 6.0) else { continue };
-        // As beside water, some sides are on no street.
+        // As next to water, some sides have no street.
         let dry: Vec<bool> = block.sides.iter().map(|_| random.below(1.0) < 0.6).collect();
         block
             .edge_sides
@@ -153,7 +154,7 @@ fn lots_of_networks_at_random_have_fronts_on_their_streets() {
     assert!(long * 200 < count, "{long} of {count} lots are too long");
 }
 
-/// A river at random: a band along a winding line, whose banks have a point every few metres.
+/// Returns a random river: a band along a winding line whose banks have a point every few metres.
 fn river(random: &mut TestNumbers) -> Option<Polygon> {
     let from = DVec2::new(random.below(300.0) - 150.0, random.below(300.0) - 150.0);
     let heading = random.below(6.3);
@@ -238,7 +239,7 @@ fn terraces_keep_apart_inside_of_their_lots() {
                     count += 1;
                     area_of_rows += part.area();
                 }
-                // What is left by general means is as great, but for corners that are blunt there.
+                // The general method yields the same area, except for corners that it blunts.
                 let [low, high] = whole.bounds().expect("corners");
                 let (size, last) = ((high - low).length(), lot.access.dot(inwards) + depth);
                 let from = inwards * last + inwards.perp() * inwards.perp().dot((low + high) / 2.0);
@@ -279,7 +280,7 @@ fn thin_blocks_are_cut_into_lots_that_are_short_enough() {
     }
 }
 
-/// Numbers that follow from the id of a block.
+/// Returns a random number stream derived from the id of a block.
 fn stream_of(id: &str) -> TestNumbers {
     TestNumbers(id.bytes().fold(7_u64, |sum, byte| sum.wrapping_mul(31) + u64::from(byte)) | 1)
 }
@@ -336,7 +337,7 @@ fn a_street_elsewhere_leaves_the_lots_of_a_block_as_they_were() {
         let gone = before.keys().filter(|id| !after.contains_key(*id)).count();
         let same =
             before.iter().filter(|(id, lots)| after.get(*id).is_some_and(|now| same_lots(now, lots))).count();
-        // The blocks on both sides of it, and those at the junctions that are none any more.
+        // The blocks on both sides of the street, and those at junctions that no longer exist.
         assert!(
             before.len() - same <= 6,
             "{} of {} blocks have other lots",
@@ -348,7 +349,7 @@ fn a_street_elsewhere_leaves_the_lots_of_a_block_as_they_were() {
     assert!(changed > 10, "{changed} blocks gone");
 }
 
-/// Whether lots are where they were, whatever the numbers of their streets.
+/// Returns true if lots are unchanged, ignoring the numbers of their streets.
 fn same_lots(a: &[Lot], b: &[Lot]) -> bool {
     a.len() == b.len() && a.iter().zip(b).all(|(a, b)| a.rings == b.rings && a.number == b.number)
 }

@@ -1,4 +1,4 @@
-//! The parts that cover the streets of a level: a rectangle for each piece, and what bends, corners and ends add.
+//! Parts that cover the streets of a level: a rectangle for each segment, plus bends, corners and ends.
 
 use std::f64::consts::{PI, TAU};
 
@@ -12,39 +12,39 @@ use crate::network::{JunctionId, PieceId, StreetNetwork};
 use crate::shape::room_around;
 use burgeon_geometry::planar::contains;
 
-/// Bends by less (radians) have a mitre in place of an arc.
+/// Angle (radians) below which a bend has a mitre instead of an arc.
 const MITRED: f64 = 0.35;
-/// Corners of a smaller radius (m) are cut off straight, this far (m) apart.
+/// Radius (m) below which a corner is cut off straight, at this distance (m).
 const LEAST_RADIUS: f64 = 1.0;
-/// How much of a piece its corners may take.
+/// Maximum fraction of a segment that its corners may take.
 const SHARE: f64 = 0.9;
 
-/// An area that a street covers.
+/// Area covered by a street.
 #[derive(Debug, Clone)]
 pub(super) struct CoverPart {
-    /// Whether it is a part of the carriageway, or of the whole street.
+    /// `Kerb` for a part of the carriageway, `Edge` for a part of the whole street.
     pub(super) line: StreetLine,
     pub(super) depth: u32,
-    /// Its outline (m), counter-clockwise.
+    /// Outline (m), counter-clockwise.
     pub(super) ring: Vec<DVec2>,
 }
 
-/// The parts of a level, and those of the ground that its ends lie on.
+/// Parts of a level, and parts of the streets on the ground at its ends.
 pub(super) struct CoverIndex {
     pub(super) parts: Vec<CoverPart>,
     index: RTree<GeomWithData<Rectangle<[f64; 2]>, usize>>,
-    /// How many of the parts are of the level itself; the others take what they cover away from it.
+    /// Number of parts that belong to the level itself; the other parts are subtracted.
     own: usize,
 }
 
-/// What covers a place.
+/// Surface at a position.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum StreetCover {
     /// No street.
     Free,
-    /// A sidewalk.
+    /// Sidewalk.
     Walk,
-    /// The carriageway of a street of this depth.
+    /// Carriageway of a street of this depth.
     Carriageway(u32),
 }
 
@@ -53,7 +53,7 @@ impl CoverIndex {
         let mut parts = parts_of(network, options, |of| of == level, |_| true);
         let own = parts.len();
         if level > 0 {
-            // Where it comes down, it ends at the streets on the ground.
+            // Where the level meets the ground, it ends at the streets there.
             let is_end = |junction: JunctionId| {
                 let levels = || {
                     network.junctions[junction as usize]
@@ -74,7 +74,7 @@ impl CoverIndex {
         Self { parts, index, own }
     }
 
-    /// What covers a place.
+    /// Returns the surface at a position.
     pub(super) fn at(&self, place: DVec2) -> StreetCover {
         let mut covered = StreetCover::Free;
         for item in self.index.locate_in_envelope_intersecting(&AABB::from_point(place.to_array())) {
@@ -98,7 +98,7 @@ impl CoverIndex {
     }
 }
 
-/// The parts of the streets of some levels at some junctions.
+/// Returns the parts of the streets of some levels at some junctions.
 fn parts_of(
     network: &StreetNetwork,
     options: MergeOptions,
@@ -133,7 +133,7 @@ fn parts_of(
     parts
 }
 
-/// Adds what lies between the rectangles of the streets at a junction.
+/// Adds the parts between the rectangles of the streets at a junction.
 fn junction_parts(
     network: &StreetNetwork,
     junction: JunctionId,
@@ -146,7 +146,7 @@ fn junction_parts(
         all.iter().copied().filter(|(piece, _)| network.attributes(*piece).level >= 0).collect();
     let depth = |index: usize| network.attributes(arms[index].0).depth;
     if let [(piece, arm)] = arms[..] {
-        // The mouth of a tunnel is open.
+        // The mouth of a tunnel remains open.
         if all.len() == 1 && !network.constraints.square_ends {
             let far = network.across(piece, junction);
             let room = network.length(piece)
@@ -184,7 +184,7 @@ fn junction_parts(
     }
 }
 
-/// What the outside of a bend adds, as seen from the junction.
+/// Returns the part added by the outside of a bend, relative to the junction.
 fn wedge(first: Arm, second: Arm, angle: f64, line: StreetLine) -> Vec<DVec2> {
     let (a, b) = (first.aside(line), second.aside(line));
     let swept = angle - PI;
@@ -203,7 +203,7 @@ fn wedge(first: Arm, second: Arm, angle: f64, line: StreetLine) -> Vec<DVec2> {
     ring
 }
 
-/// What the rounding of a corner adds, as seen from the junction; `None` if there is no room.
+/// Returns the part added by the rounding of a corner, relative to the junction; `None` if there is no space.
 fn fillet(
     [first, second]: [Arm; 2],
     angle: f64,
@@ -224,7 +224,7 @@ fn fillet(
     let round = radius.min(free * tangent);
     let corner = left(first, meets[0], a);
     if round < LEAST_RADIUS {
-        // So far from the corner that what lies behind is wide enough to be seen.
+        // At this distance from the corner, the area behind is wide enough to be visible.
         let along = free.min(LEAST_RADIUS / tangent);
         return Some(vec![corner, left(first, meets[0] + along, a), left(second, meets[1] + along, -b)]);
     }

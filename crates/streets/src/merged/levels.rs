@@ -1,4 +1,4 @@
-//! Merged surfaces by level, and the cache of the last ones.
+//! Merged surfaces by level, with a cache of the most recent result.
 
 use std::sync::{Arc, Mutex};
 
@@ -10,14 +10,14 @@ use crate::network::StreetNetwork;
 use burgeon_base::locks::LockRecovery;
 use burgeon_geometry::Rings;
 
-/// The surfaces of all levels on the ground and above it.
+/// Surfaces of all levels on and above the ground.
 #[derive(Debug, Default)]
 pub(crate) struct MergedStreets {
-    /// That on the ground first, if there is one.
+    /// Levels in ascending order: the ground first, if there are streets on it.
     pub(crate) levels: Vec<MergedLevel>,
 }
 
-/// The surfaces of the streets of one level, which share all their vertices.
+/// Surfaces of the streets of one level, with shared vertices.
 #[derive(Debug, Default)]
 pub(crate) struct MergedLevel {
     pub(crate) level: i32,
@@ -27,36 +27,36 @@ pub(crate) struct MergedLevel {
     pub(crate) carriageways: Vec<(u32, Vec<[u32; 3]>)>,
     /// Triangles of sidewalks.
     pub(crate) walks: Vec<[u32; 3]>,
-    /// Edges between a carriageway, on the right, and what is no carriageway.
+    /// Edges of carriageways, with the carriageway on the right.
     pub(crate) kerbs: Vec<[u32; 2]>,
-    /// Edges between the streets, on the right, and what lies beside them.
+    /// Outer edges of streets, with the street on the right.
     pub(crate) edges: Vec<[u32; 2]>,
-    /// The blocks; only on the ground.
+    /// Blocks; only on the ground.
     pub(crate) blocks: Vec<MergedBlock>,
 }
 
-/// An area that streets enclose.
+/// Area enclosed by streets.
 #[derive(Debug, Default)]
 pub(crate) struct MergedBlock {
-    /// Its rings (m), the outer one first, counter-clockwise.
+    /// Rings (m), the outer one first, counter-clockwise.
     pub(crate) rings: Rings<DVec2>,
-    /// Its triangles, by the points of the level.
+    /// Triangles, as indices into the points of the level.
     pub(crate) triangles: Vec<[u32; 3]>,
 }
 
-/// What surfaces depend on besides the network.
+/// Options that affect the surfaces, in addition to the network.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct MergeOptions {
-    /// The radius (m) of circles to turn in at dead ends.
+    /// Radius (m) of turning circles at dead ends.
     pub(crate) turning: f64,
-    /// The greatest length (m) of an edge; infinite where the streets are level.
+    /// Maximum length (m) of an edge; infinite if the streets are level.
     pub(crate) longest: f64,
 }
 
-/// For each piece, how far (m) from its ends it is not free of other streets.
+/// Distance (m) from both ends within which each segment overlaps other streets.
 pub(crate) type ClearLengths = Arc<[[f64; 2]]>;
 
-/// What was made last, with the version of the network.
+/// Most recent results, with the version of the network.
 #[derive(Debug, Default)]
 pub(crate) struct MergeCache {
     surfaces: Mutex<Option<(u64, MergeOptions, Arc<MergedStreets>)>>,
@@ -64,14 +64,14 @@ pub(crate) struct MergeCache {
 }
 
 impl Clone for MergeCache {
-    /// An empty one: the copy may become another network.
+    /// Creates an empty cache, because the copy of the network may change.
     fn clone(&self) -> Self {
         Self::default()
     }
 }
 
 impl StreetNetwork {
-    /// The merged surfaces of a network with existing streets; `None` of one that has grown as a whole.
+    /// Returns the merged surfaces of a network with existing streets; `None` for a network that was grown completely.
     pub(crate) fn merged(&self, options: MergeOptions) -> Option<Arc<MergedStreets>> {
         if !self.has_existing() {
             return None;
@@ -92,7 +92,7 @@ impl StreetNetwork {
         Some(merged)
     }
 
-    /// For each piece, how far (m) from its ends it is not free of other streets.
+    /// Returns the distance (m) from both ends within which each segment overlaps other streets.
     pub(crate) fn clear_lengths(&self) -> ClearLengths {
         let mut known = self.merge_cache.clear.lock().recover();
         if let Some((version, lengths)) = known.as_ref()

@@ -1,4 +1,4 @@
-//! Areas out of triangles: which hang together, and the rings around them.
+//! Areas made of triangles: connected components, and their boundary rings.
 
 use glam::DVec2;
 use rustc_hash::{FxHashMap, FxHashSet};
@@ -8,7 +8,7 @@ use super::mesh::MeshTriangle;
 use burgeon_geometry::Rings;
 use burgeon_geometry::planar::twice_area;
 
-/// The areas that no street covers and streets enclose, as the numbers of their triangles.
+/// Returns the areas without streets that streets enclose, as indices of triangles.
 pub(super) fn components(triangles: &[MeshTriangle], covered: &[StreetCover]) -> Vec<Vec<u32>> {
     let mut seen = vec![false; triangles.len()];
     let mut found = Vec::new();
@@ -41,7 +41,8 @@ pub(super) fn components(triangles: &[MeshTriangle], covered: &[StreetCover]) ->
     found
 }
 
-/// The rings around triangles that hang together, the outer one first and counter-clockwise; they may touch at corners.
+/// Returns the boundary rings of connected triangles, the outer one first and counter-clockwise; the rings may touch at
+/// corners.
 pub(super) fn loops(triangles: &[[u32; 3]], points: &[DVec2]) -> Rings<DVec2> {
     let sides = triangles.iter().flat_map(|[a, b, c]| [[*a, *b], [*b, *c], [*c, *a]]);
     let all: FxHashSet<[u32; 2]> = sides.collect();
@@ -56,7 +57,7 @@ pub(super) fn loops(triangles: &[[u32; 3]], points: &[DVec2]) -> Rings<DVec2> {
         let mut path: Vec<u32> = vec![first];
         while let Some(here) = path.last().copied() {
             let Some(to) = next.get_mut(&here).and_then(Vec::pop) else { break };
-            // What comes back to a place that it has been at is a ring of its own.
+            // A path that returns to an earlier point closes a separate ring.
             if let Some(begin) = path.iter().rposition(|at| *at == to) {
                 rings.push(path.split_off(begin));
                 path.push(to);
@@ -72,7 +73,7 @@ pub(super) fn loops(triangles: &[[u32; 3]], points: &[DVec2]) -> Rings<DVec2> {
     Rings(rings)
 }
 
-/// A ring without the places that lie exactly on the line between the places beside them.
+/// Removes points that are exactly on the line between their neighbours.
 fn straightened(ring: Vec<DVec2>) -> Vec<DVec2> {
     let count = ring.len();
     let is_turn = |index: &usize| {

@@ -1,7 +1,7 @@
-//! One triangulation of what the streets of a level cover, and of the blocks between them.
+//! One triangulation of the area that the streets of a level cover, and of the blocks between them.
 //!
-//! Method: the borders of all parts meet at vertices on the grid (snap rounding); of them those stay that have different
-//! surfaces on both sides, and a constrained Delaunay triangulation of these is divided into surfaces triangle by triangle.
+//! Method: the borders of all parts are noded on the grid (snap rounding). Only borders between different surfaces are
+//! kept. A constrained Delaunay triangulation of these borders is divided into surfaces, triangle by triangle.
 
 use std::collections::BTreeMap;
 
@@ -19,12 +19,12 @@ use crate::network::StreetNetwork;
 use burgeon_geometry::Rings;
 use burgeon_geometry::planar::twice_area;
 
-/// How far (m) to both sides of a border it is asked what covers it.
+/// Distance (m) from both sides of a border at which its surfaces are tested.
 const ASIDE: f64 = 0.002;
-/// An area between streets is no block if it is narrower (m) on average, or smaller (m²): it is paved.
+/// Minimum mean width (m) and minimum area (m²) of a block; smaller areas between streets are paved.
 const LEAST_BLOCK: [f64; 2] = [2.5, 15.0];
 
-/// The surfaces of the streets of a level.
+/// Computes the surfaces of the streets of a level.
 pub(super) fn level(network: &StreetNetwork, level: i32, options: MergeOptions) -> MergedLevel {
     let cover = CoverIndex::new(network, level, options);
     let mut borders: Vec<StreetStrand> = Vec::new();
@@ -45,7 +45,7 @@ pub(super) fn level(network: &StreetNetwork, level: i32, options: MergeOptions) 
     made
 }
 
-/// The borders of what has another surface beside it, of the streets or of their carriageways.
+/// Returns the borders between different surfaces, of whole streets or of their carriageways.
 fn borders_of(cover: &CoverIndex, line: StreetLine) -> Vec<StreetStrand> {
     let mut strands: Vec<StreetStrand> = Vec::new();
     for part in cover.parts.iter().filter(|part| part.line == line) {
@@ -79,7 +79,7 @@ fn borders_of(cover: &CoverIndex, line: StreetLine) -> Vec<StreetStrand> {
     kept
 }
 
-/// The edges in pieces of at most so many metres.
+/// Divides edges into parts of at most `longest` (m).
 fn divided(edges: Vec<[GridPlace; 2]>, longest: f64) -> Vec<[GridPlace; 2]> {
     if longest.is_infinite() {
         return edges;
@@ -98,7 +98,7 @@ fn divided(edges: Vec<[GridPlace; 2]>, longest: f64) -> Vec<[GridPlace; 2]> {
         .flat_map(divide)
         .map(|ends| StreetStrand { street: 0, level: 0, length: 0.0, places: ends.to_vec() })
         .collect();
-    // Rounding may have moved a place over another edge.
+    // Rounding may have moved a point over another edge.
     node(&mut strands);
     let mut edges: Vec<[GridPlace; 2]> = strands
         .iter()
@@ -111,19 +111,19 @@ fn divided(edges: Vec<[GridPlace; 2]>, longest: f64) -> Vec<[GridPlace; 2]> {
     edges
 }
 
-/// A triangle: its corners, counter-clockwise, and the triangle beyond each of its edges, from corner to corner.
+/// Triangle: its corners, counter-clockwise, and the triangle beyond each of its edges, in the same order.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct MeshTriangle {
     pub(super) corners: [u32; 3],
     pub(super) beyond: [Option<u32>; 3],
 }
 
-/// The triangulation of all within the hull of some edges; adds its vertices to `points`.
+/// Triangulates the convex hull of the edges; adds the vertices to `points`.
 fn triangulated(edges: &[[GridPlace; 2]], points: &mut Vec<DVec2>) -> Vec<MeshTriangle> {
     let mut places: Vec<GridPlace> = edges.iter().flatten().copied().collect();
     places.sort_unstable();
     places.dedup();
-    // Near the origin all of their digits count.
+    // Coordinates relative to the centre keep all their digits.
     let middle = match (places.first(), places.last()) {
         (Some(first), Some(last)) => first.metres().midpoint(last.metres()).round(),
         _ => return Vec::new(),
@@ -132,7 +132,7 @@ fn triangulated(edges: &[[GridPlace; 2]], points: &mut Vec<DVec2>) -> Vec<MeshTr
     let vertices =
         places.iter().map(|place| place.metres() - middle).map(|at| Point2::new(at.x, at.y)).collect();
     let constraints = edges.iter().filter_map(|[a, b]| Some([*numbers.get(a)?, *numbers.get(b)?])).collect();
-    // Edges that would cross others, of which there is none by construction, are left out.
+    // Edges that would cross others are skipped; there are none by construction.
     let Ok(mesh) =
         ConstrainedDelaunayTriangulation::<Point2<f64>>::try_bulk_load_cdt(vertices, constraints, |_| {})
     else {
@@ -160,7 +160,7 @@ fn triangulated(edges: &[[GridPlace; 2]], points: &mut Vec<DVec2>) -> Vec<MeshTr
         .collect()
 }
 
-/// Puts triangles into the surfaces that they are of, and finds the edges between these.
+/// Assigns triangles to surfaces, and finds the edges between surfaces.
 fn sort_out(cover: &CoverIndex, triangles: &[MeshTriangle], has_blocks: bool, made: &mut MergedLevel) {
     let middle = |triangle: &MeshTriangle| {
         triangle.corners.map(|corner| made.points[corner as usize]).iter().sum::<DVec2>() / 3.0
@@ -206,7 +206,7 @@ fn sort_out(cover: &CoverIndex, triangles: &[MeshTriangle], has_blocks: bool, ma
     for (triangle, own) in triangles.iter().zip(&covered) {
         for side in 0..3 {
             let beyond = triangle.beyond[side].map_or(StreetCover::Free, |beyond| covered[beyond as usize]);
-            // With its own triangle on the right.
+            // The triangle itself is on the right of the edge.
             let edge = [triangle.corners[(side + 1) % 3], triangle.corners[side]];
             if is_carriageway(*own) && !is_carriageway(beyond) {
                 made.kerbs.push(edge);

@@ -1,9 +1,9 @@
-//! Surfaces of networks with existing streets, whose junctions may be nearer to one another than their corners are wide, and
-//! whose streets may lie side by side.
+//! Surfaces of networks with existing streets. Their junctions may be closer together than their corners are wide, and
+//! their streets may overlap or run side by side.
 //!
-//! Comes in: a network. Goes out, level by level, one triangulation of all that its streets cover, in which every edge is
-//! shared: carriageways, sidewalks and the blocks between them. Each street, bend, corner and end is a small part; what
-//! belongs to which surface is decided by the parts that cover it, so no two streets are too near for it.
+//! Input: a network. Output: for each level, one triangulation of the area that its streets cover, with shared edges:
+//! carriageways, sidewalks, and the blocks between them. Each street, bend, corner and end is a small part. The parts
+//! that cover a triangle determine its surface, so streets can be arbitrarily close to each other.
 
 mod cover;
 mod levels;

@@ -1,17 +1,17 @@
-//! How much of each piece is free of other streets, so that something can be painted on it or stand beside it.
+//! Length of each segment that is free of other streets, for markings and objects along it.
 
 use glam::DVec2;
 
 use crate::grid::foot;
 use crate::network::{JunctionId, PieceId, StreetNetwork};
 
-/// How closely (m) a piece is looked at.
+/// Sampling distance (m) along a segment.
 const STEP: f64 = 1.0;
-/// Streets of which one goes on in the other turn by less than this (degrees).
+/// Maximum turn (degrees) at which one street continues in another.
 const GOES_ON: f64 = 20.0;
 
-/// For each piece, how far (m) from its first and from its last junction other streets of its level reach into it; as much as
-/// it is long, in all, if nothing of it is free.
+/// Returns the distance (m) from the first and from the last junction within which other streets of the same level
+/// overlap each segment. The two distances add up to the segment's length if no part is free.
 pub(crate) fn clear_lengths(network: &StreetNetwork) -> Vec<[f64; 2]> {
     let mut lengths = vec![[0.0; 2]; network.pieces.len()];
     let streets = street_numbers(network);
@@ -21,14 +21,14 @@ pub(crate) fn clear_lengths(network: &StreetNetwork) -> Vec<[f64; 2]> {
     lengths
 }
 
-/// Tells if a street goes on at a junction of two pieces, and only turns a little.
+/// Returns true if a street continues at a junction of two segments with only a slight turn.
 pub(crate) fn goes_on(network: &StreetNetwork, junction: JunctionId) -> bool {
     let [a, b] = network.junctions[junction as usize].pieces[..] else { return false };
     let same = network.attributes(a) == network.attributes(b) && network.is_bridge(a) == network.is_bridge(b);
     same && (-network.leaves(a, junction)).angle_to(network.leaves(b, junction)).abs().to_degrees() < GOES_ON
 }
 
-/// By piece, the number of the street that it is a part of from one junction to the next.
+/// Returns the street number of each segment; a street ends at a junction where it does not continue.
 fn street_numbers(network: &StreetNetwork) -> Vec<u32> {
     let mut numbers = vec![u32::MAX; network.pieces.len()];
     for (number, way) in (0..).zip(network.ways_between(|junction| !goes_on(network, junction))) {
@@ -57,7 +57,7 @@ fn clear_length(network: &StreetNetwork, piece: PieceId, streets: &[u32]) -> [f6
         let asides = [-half, -half / 2.0, 0.0, half / 2.0, half].map(|aside| at + way.perp() * aside);
         others.iter().all(|(other, reach)| asides.iter().all(|place| foot(*place, *other).0 >= *reach))
     };
-    // The longest stretch of free places.
+    // The longest stretch of free samples.
     let (mut best, mut begin) = ([0, 0], None);
     for index in 0..=count + 1 {
         if index <= count && is_free(&index) {

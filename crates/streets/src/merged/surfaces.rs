@@ -12,16 +12,16 @@ use crate::profile::StreetProfiles;
 use crate::surface::{StreetDeck, StreetFooting, StreetSurface, StreetSurfaces, SurfaceOptions};
 use burgeon_geometry::Rings;
 
-/// The greatest length (m) of an edge where streets are not level.
+/// Maximum length (m) of an edge if streets are not level.
 const LONGEST: f64 = 12.0;
-/// How far apart (m) piers stand at most, and how far (m) they keep from the streets below.
+/// Maximum distance (m) between piers, and minimum distance (m) between a pier and the streets below.
 const BAY: f64 = 24.0;
 const BESIDE: f64 = 1.5;
-/// A street that lies lower (m) over the ground has no piers.
+/// Minimum height (m) above the ground at which a street has piers.
 const LEAST_PIER: f64 = 3.0;
 
 impl StreetNetwork {
-    /// What merged surfaces are made for.
+    /// Returns the options for merged surfaces.
     pub(crate) fn merge_options(&self, options: SurfaceOptions, profiles: &StreetProfiles) -> MergeOptions {
         MergeOptions {
             turning: options.turning,
@@ -29,7 +29,7 @@ impl StreetNetwork {
         }
     }
 
-    /// The positions (m) of a level at the heights of its streets.
+    /// Returns the points (m) of a level at the heights of its streets.
     fn raised(&self, level: &MergedLevel, profiles: &StreetProfiles) -> Vec<DVec3> {
         if profiles.is_flat() {
             return level.points.iter().map(|at| at.extend(0.0)).collect();
@@ -37,7 +37,7 @@ impl StreetNetwork {
         level.points.iter().map(|at| at.extend(self.height_of(*at, level.level, profiles))).collect()
     }
 
-    /// The height (m) of the nearest street of a level.
+    /// Returns the height (m) of the nearest street of a level.
     fn height_of(&self, at: DVec2, level: i32, profiles: &StreetProfiles) -> f64 {
         let nearest = self.nearest_of_level(at, level);
         nearest.map_or(0.0, |(piece, _)| profiles.near(self, piece, at))
@@ -67,7 +67,7 @@ impl StreetNetwork {
         }
     }
 
-    /// What carries a level.
+    /// Returns the deck that carries a level.
     fn deck(&self, level: &MergedLevel, points: &[DVec3], profiles: &StreetProfiles) -> StreetDeck {
         let mut triangles = level.walks.clone();
         triangles.extend(level.carriageways.iter().flat_map(|(_, triangles)| triangles));
@@ -89,7 +89,7 @@ impl StreetNetwork {
         }
     }
 
-    /// Where piers stand below the streets of a level: between the streets that they pass over.
+    /// Returns the piers below the streets of a level, placed between the streets below.
     fn piers(&self, level: i32, profiles: &StreetProfiles) -> Vec<(DVec3, DVec2)> {
         let mut piers = Vec::new();
         for (piece, _) in self.pieces().filter(|(_, piece)| piece.attributes.level == level) {
@@ -124,7 +124,7 @@ impl StreetNetwork {
         level.blocks.iter().map(|block| block.rings.iter().map(raised).collect()).collect()
     }
 
-    /// What a junction lies on: a circle as wide as its widest street on the ground.
+    /// Returns the footing of a junction: a circle with the diameter of its widest street on the ground.
     pub(crate) fn round_footing(
         &self,
         junction: JunctionId,
@@ -141,7 +141,7 @@ impl StreetNetwork {
     }
 }
 
-/// A surface out of some triangles between points.
+/// Builds a surface from some triangles.
 fn part(points: &[DVec3], triangles: &[[u32; 3]], depth: u32) -> StreetSurface {
     let mut surface = StreetSurface { depth, ..StreetSurface::default() };
     let mut numbers: FxHashMap<u32, u32> = FxHashMap::default();

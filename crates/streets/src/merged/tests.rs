@@ -1,4 +1,5 @@
-//! Surfaces of existing streets: they meet edge to edge, whatever lies beside or in one another.
+//! Tests of the surfaces of existing streets: adjacent surfaces share their edges even if streets overlap or run side
+//! by side.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -11,7 +12,7 @@ use burgeon_geometry::planar::twice_area;
 
 const OPTIONS: MergeOptions = MergeOptions { turning: 0.0, longest: f64::INFINITY };
 
-/// What is wrong with the surfaces of a level, if anything is.
+/// Returns a description of the first error in the surfaces of a level, if any.
 fn fault(level: &MergedLevel) -> Option<String> {
     let of_streets = level.carriageways.iter().flat_map(|(_, triangles)| triangles).chain(&level.walks);
     let all: Vec<[u32; 3]> =
@@ -27,7 +28,7 @@ fn fault(level: &MergedLevel) -> Option<String> {
             }
         }
     }
-    // Whatever has nothing beside it borders on the outside of all streets.
+    // An edge without an adjacent triangle is on the outer border of the streets.
     let edges: BTreeSet<[u32; 2]> = level.edges.iter().copied().collect();
     let mut ways: BTreeMap<u32, i32> = BTreeMap::new();
     for [a, b] in sides.iter().filter(|[a, b]| !sides.contains(&[*b, *a])) {
@@ -51,7 +52,7 @@ fn surfaces_of_every_kind_of_street_meet_edge_to_edge() {
         for level in &merged.levels {
             assert_eq!(fault(level), None, "seed {seed}, level {}", level.level);
         }
-        // The middles of streets are carriageways.
+        // The centres of streets are carriageways.
         for (piece, known) in
             network.pieces().filter(|(id, piece)| piece.attributes.level == 0 && id % 7 == 0)
         {

@@ -1,29 +1,29 @@
-//! The rule table that is searched for, and the map that it makes.
+//! The rule table during the search, and its map.
 //!
-//! Cells are numbered along the Z curve: the quadrants of cell `b` are cells `4 * b` to `4 * b + 3` of the next level,
-//! so the cells below any cell lie side by side.
+//! Cells are numbered along the Z curve: the quadrants of cell `b` are cells `4 * b` to `4 * b + 3` of the
+//! next level, so the descendants of any cell are contiguous.
 
-/// What a symbol becomes.
+/// Successor of a symbol.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct SymbolRule {
-    /// The symbol of each quadrant.
+    /// Symbol of each quadrant.
     pub symbols: [usize; 4],
-    /// What is added to the height (of 0 to 1), as a multiple of the decay.
+    /// Addition to the height (0 to 1), as a multiple of the decay.
     pub change: [f64; 4],
-    /// What the decay is multiplied by.
+    /// Factor of the decay.
     pub factor: [f64; 4],
 }
 
-/// Rules without names and chance. The whole is symbol 0 with a decay of 1.
+/// Rules without names and random choices. The root cell has symbol 0 and a decay of 1.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Code {
-    /// What each symbol becomes.
+    /// Successor of each symbol.
     pub rules: Vec<SymbolRule>,
-    /// The height of the whole, where the lowest of the target is 0 and the highest 1.
+    /// Height of the root cell, on a scale where the target ranges from 0 to 1.
     pub height: f64,
 }
 
-/// The cells of one level.
+/// Cells of one level.
 #[derive(Debug, Clone, Default)]
 pub(super) struct CellLevel {
     pub symbols: Vec<usize>,
@@ -32,7 +32,7 @@ pub(super) struct CellLevel {
 }
 
 impl Code {
-    /// The cells of levels 0 to `levels`.
+    /// Returns the cells of levels 0 to `levels`.
     pub(super) fn cells(&self, levels: usize) -> Vec<CellLevel> {
         let root = CellLevel { symbols: vec![0], heights: vec![self.height], decays: vec![1.0] };
         let mut all = vec![root];
@@ -55,8 +55,8 @@ impl Code {
         all
     }
 
-    /// What each symbol adds to a cell of decay 1 that is divided `count` times more, for each `count` up to `levels`:
-    /// symbol after symbol.
+    /// Returns the relief that each symbol adds to a cell of decay 1 after `count` more divisions, for each
+    /// `count` up to `levels`, one symbol after the other.
     pub(super) fn reliefs(&self, levels: usize) -> Vec<Vec<f64>> {
         let mut all = vec![vec![0.0; self.rules.len()]];
         for level in 0..levels {
@@ -75,8 +75,8 @@ impl Code {
         all
     }
 
-    /// Gives the factors into and out of each symbol the same greatest size, by stretching what the symbol makes; the map
-    /// stays as it is. So factors that would have to be too great are so only where a rule comes back to itself.
+    /// Equalizes the maximum factors into and out of each symbol by scaling its relief; the map does not
+    /// change. Afterwards, excessive factors remain only in cycles of rules.
     pub(super) fn balance(&mut self) {
         for symbol in 1..self.rules.len() {
             let (mut into, mut out) = (0.0f64, 0.0f64);
@@ -107,7 +107,7 @@ impl Code {
         }
     }
 
-    /// How many quadrants of rules in use become each symbol; the whole counts as one.
+    /// Returns the number of quadrants of used rules with each symbol; the root counts as one.
     pub(super) fn uses(&self) -> Vec<usize> {
         let mut uses = vec![0; self.rules.len()];
         uses[0] = 1;
@@ -123,7 +123,7 @@ impl Code {
         uses
     }
 
-    /// The same without symbols that are not in use, in the order in which the whole comes to them.
+    /// Removes unused symbols, and numbers the others in breadth-first order from the root.
     pub(super) fn tidy(&self) -> Self {
         let mut order = vec![0];
         let mut next = 0;
@@ -143,7 +143,7 @@ impl Code {
         Self { rules: order.iter().map(rule).collect(), height: self.height }
     }
 
-    /// The same with numbers of six decimals, which are shorter to write.
+    /// Rounds all numbers to six decimals, which are shorter to write.
     pub(super) fn rounded(&self) -> Self {
         let round = |number: f64| (number * 1e6).round() / 1e6;
         let rule = |rule: &SymbolRule| SymbolRule {
@@ -155,7 +155,7 @@ impl Code {
     }
 }
 
-/// The place of a cell along the Z curve.
+/// Returns the index of a cell along the Z curve.
 pub(super) fn along(x: usize, y: usize) -> usize {
     let spread = |number: usize| (0..16).map(|bit| (number >> bit & 1) << (2 * bit)).sum::<usize>();
     spread(x) + 2 * spread(y)

@@ -1,7 +1,8 @@
-//! Fitting: a rule table whose map is like a height map.
+//! Fitting: the search for a rule table whose map resembles a height map.
 //!
-//! Comes in: a [`Target`], and how long to [`Search`]. Goes out: a [`FitResult`] table, which tells its error and writes
-//! itself as a module for scripts. It reads no clock and no files: who calls it says when to stop.
+//! Input: a [`Target`], and the parameters of a [`Search`]. Output: a [`FitResult`], with the error of its
+//! table and the table as a Luau module. This module reads no clock and no files: the caller decides when to
+//! stop.
 
 mod code;
 mod moves;

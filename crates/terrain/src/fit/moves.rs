@@ -1,35 +1,36 @@
-//! Changes of which symbols a rule table has: another symbol for a quadrant, two symbols out of one, one out of two.
+//! Changes to the symbols of a rule table: another symbol for a quadrant, a split of one symbol into two, a
+//! merger of two symbols.
 
 use super::code::{CellLevel, Code};
 use super::solve::{MOST, dot, improve, misfit};
 use super::targets::{self, number};
 use burgeon_base::random::Stream;
 
-/// What is to be fitted, scaled to 0..1, along the Z curve.
+/// Target of the fit, scaled to 0..1, along the Z curve.
 pub(super) struct Problem {
-    /// How often the whole is divided.
+    /// Number of divisions of the root cell.
     pub levels: usize,
-    /// The height of each cell.
+    /// Target height of each cell.
     pub wanted: Vec<f64>,
-    /// The sum of the heights below each cell of each level.
+    /// Sum of the target heights below each cell of each level.
     sums: Vec<Vec<f64>>,
 }
 
-/// What a quadrant of a rule may become.
+/// A possible successor of a quadrant of a rule.
 #[derive(Debug, Clone, Copy)]
 struct QuadrantChoice {
     symbol: usize,
     change: f64,
     factor: f64,
-    /// How much of the squared height that is left it explains.
+    /// Reduction of the squared error.
     gain: f64,
 }
 
-/// A quadrant of the rule of a symbol.
+/// A quadrant of a rule: symbol and index of the quadrant.
 type QuadrantPlace = (usize, usize);
 
 impl Problem {
-    /// The problem of a map along the Z curve with 4 to the power of `levels` cells.
+    /// Creates the problem of a map along the Z curve with 4 to the power of `levels` cells.
     pub(super) fn new(wanted: Vec<f64>, levels: usize) -> Self {
         let mut sums = vec![wanted.clone()];
         for _ in 0..levels {
@@ -40,13 +41,13 @@ impl Problem {
         Self { levels, wanted, sums }
     }
 
-    /// How far the map of `code` is from what is wanted, each scaled to 0..1.
+    /// Returns the error of the map of `code` relative to the target, each scaled to 0..1.
     pub(super) fn error(&self, code: &Code) -> f64 {
         let cells = code.cells(self.levels);
         targets::error(&self.wanted, &cells[self.levels].heights)
     }
 
-    /// Better numbers for `code`, in at most `steps` steps.
+    /// Improves the numbers of `code` in at most `steps` steps.
     pub(super) fn improve(&self, code: &mut Code, steps: usize) {
         improve(code, &self.wanted, self.levels, steps);
     }
@@ -55,10 +56,10 @@ impl Problem {
         misfit(&code.cells(self.levels), &self.wanted)
     }
 
-    /// For each symbol, what each quadrant of the rules of `wanted` symbols would best become with it; nothing for rules
-    /// that are not in use.
+    /// Computes, for each quadrant of the rules of `wanted` symbols, the best numbers with each symbol; empty
+    /// for unused rules.
     ///
-    /// What a symbol itself makes is taken to stay as it is.
+    /// The relief of each symbol is assumed to stay the same.
     fn survey(&self, code: &Code, wanted: impl Fn(usize) -> bool) -> Vec<Vec<QuadrantChoice>> {
         let cells = code.cells(self.levels);
         let reliefs = code.reliefs(self.levels - 1);
@@ -92,7 +93,7 @@ impl Problem {
         sums.iter().map(Sums::choices).collect()
     }
 
-    /// Gives a quadrant of a rule another symbol, one that seems good.
+    /// Assigns another promising symbol to a quadrant of a rule.
     pub(super) fn turn(&self, code: &mut Code, stream: &mut Stream) {
         let survey = self.survey(code, |_| true);
         let mut turns: Vec<(f64, QuadrantPlace, QuadrantChoice)> = Vec::new();
@@ -108,7 +109,8 @@ impl Problem {
         }
     }
 
-    /// Does without one of the symbols in use, likely one that others can well replace. Gives its number.
+    /// Eliminates one of the used symbols, preferably one that others can replace well, and returns its
+    /// index.
     pub(super) fn retire(&self, code: &mut Code, stream: &mut Stream) -> Option<usize> {
         let survey = self.survey(code, |_| true);
         let mut goers = Vec::new();
@@ -134,8 +136,8 @@ impl Problem {
         Some(*gone)
     }
 
-    /// Makes `spare`, which is not in use or the next new symbol, a second one of a symbol that stands in several
-    /// places, for one of these: likely one where much is missing. Then both are fitted anew.
+    /// Splits a symbol that occurs in several quadrants: one of these, preferably one with a large error,
+    /// gets the copy `spare`, which is unused or the next new symbol. Then both symbols are fitted again.
     pub(super) fn split(&self, code: &mut Code, spare: usize, stream: &mut Stream) {
         let uses = code.uses();
         let several = places(code, |symbol| uses[symbol] > 1);
@@ -162,7 +164,7 @@ impl Problem {
         self.refit(code, symbol);
     }
 
-    /// Gives each quadrant of a rule what seems best, where that is better.
+    /// Assigns the best successor to each quadrant of a rule, if that reduces the error.
     pub(super) fn refit(&self, code: &mut Code, symbol: usize) {
         let survey = self.survey(code, |known| known == symbol);
         let mut misfit = self.misfit(code);
@@ -178,7 +180,7 @@ impl Problem {
         }
     }
 
-    /// What is missing (squared) below each quadrant of each rule, summed over the levels.
+    /// Returns the squared error below each quadrant of each rule, summed over the levels.
     fn missing(&self, code: &Code) -> Vec<f64> {
         let cells: Vec<CellLevel> = code.cells(self.levels);
         let heights = &cells[self.levels].heights;
@@ -194,14 +196,15 @@ impl Problem {
     }
 }
 
-/// Of the equations for the change and the factor of a quadrant, for each symbol that it may become.
+/// Sums of the equations for the change and the factor of a quadrant, for each possible symbol.
 #[derive(Clone)]
 struct Sums {
-    /// The squared decays.
+    /// Sum of the squared decays.
     cover: f64,
-    /// The heights that are wanted, times the decays.
+    /// Sum of the target heights multiplied by the decays.
     height: f64,
-    /// The relief and its square, times the squared decays, and the relief times the heights, for each symbol.
+    /// For each symbol: the relief and its square, multiplied by the squared decays, and the relief
+    /// multiplied by the heights.
     by: Vec<[f64; 3]>,
 }
 
@@ -210,7 +213,7 @@ impl Sums {
         Self { cover: 0.0, height: 0.0, by: vec![[0.0; 3]; symbols] }
     }
 
-    /// What the quadrant would best become with each symbol.
+    /// Returns the best numbers of the quadrant for each symbol.
     fn choices(&self) -> Vec<QuadrantChoice> {
         let (cover, height) = (self.cover, self.height);
         if cover <= 1e-12 {
@@ -232,7 +235,7 @@ impl Sums {
     }
 }
 
-/// A number below `count`, each less likely than the one before, `less` times.
+/// Returns a random number below `count`, each value less likely than the previous one by the factor `less`.
 fn rank(count: usize, less: f64, stream: &mut Stream) -> usize {
     let mut rank = 0;
     while rank + 1 < count && stream.uniform() < less {
@@ -248,12 +251,12 @@ fn set(code: &mut Code, (symbol, quadrant): QuadrantPlace, choice: QuadrantChoic
     rule.factor[quadrant] = choice.factor;
 }
 
-/// The symbols in use; the first is the whole.
+/// Returns the used symbols; the first is the root.
 fn used(code: &Code) -> Vec<usize> {
     code.uses().iter().enumerate().filter(|(_, uses)| **uses > 0).map(|(symbol, _)| symbol).collect()
 }
 
-/// The quadrants of rules in use that become a symbol which `wanted` takes.
+/// Returns the quadrants of used rules whose symbol satisfies `wanted`.
 fn places(code: &Code, wanted: impl Fn(usize) -> bool) -> Vec<QuadrantPlace> {
     let all = used(code).into_iter().flat_map(|symbol| (0..4).map(move |quadrant| (symbol, quadrant)));
     all.filter(|(symbol, quadrant)| wanted(code.rules[*symbol].symbols[*quadrant])).collect()

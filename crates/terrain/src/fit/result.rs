@@ -1,4 +1,4 @@
-//! A rule table that was found, as a world and as a module of Luau.
+//! Result of a fit: a rule table, as a world and as a Luau module.
 
 use std::fmt::Write as _;
 use std::sync::Arc;
@@ -11,7 +11,7 @@ use crate::{Area, LevelRules, NumberRange, Quadrants, RuleTable, Rules, Tables, 
 use burgeon_base::error::Result;
 use burgeon_rewriting::Symbol;
 
-/// A rule table whose map is like a target.
+/// A rule table whose map resembles a target.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FitResult {
     code: Code,
@@ -19,34 +19,34 @@ pub struct FitResult {
     height: f64,
     decay: f64,
     error: f64,
-    /// How many tables were tried to find it.
+    /// Number of tables that were tried.
     pub tried: usize,
 }
 
 impl FitResult {
-    /// `code`, which makes a map from 0 to 1, for the heights of `target`.
+    /// Creates a result from `code`, which makes a map from 0 to 1, for the height range of `target`.
     pub(super) fn new(code: Code, target: &Target) -> Self {
         let code = code.tidy().rounded();
         let (low, high) = target.range();
         let (height, decay) = (low + code.height * (high - low), high - low);
         let levels = target.across().trailing_zeros();
         let mut fitted = Self { code, levels, height, decay, error: f64::INFINITY, tried: 0 };
-        // A table without systems is never refused.
+        // A table without systems never fails.
         fitted.error = fitted.map().map_or(f64::INFINITY, |heights| target.error(&heights));
         fitted
     }
 
-    /// How far its map is from the target, as [`Target::error`] tells it.
+    /// Returns the error relative to the target, as defined by [`Target::error`].
     pub fn error(&self) -> f64 {
         self.error
     }
 
-    /// How many symbols it has.
+    /// Returns the number of symbols.
     pub fn symbols(&self) -> usize {
         self.code.rules.len()
     }
 
-    /// Its heights (m), row by row from the north-west, as many as the target has.
+    /// Returns the heights (m) of the map, row by row from the north-west, in the size of the target.
     pub fn map(&self) -> Result<Vec<f64>> {
         let world = World {
             corner: DVec2::ZERO,
@@ -69,7 +69,7 @@ impl FitResult {
         Ok(world.cells(self.levels, area, &Tables)?.heights)
     }
 
-    /// The rule table.
+    /// Returns the rule table.
     fn table(&self) -> RuleTable {
         let rule = |rule: &super::code::SymbolRule| {
             vec![Quadrants {
@@ -85,8 +85,8 @@ impl FitResult {
         }
     }
 
-    /// A module of Luau that returns the table, its start, and the height (m) and the decay (m) of the whole; `told`
-    /// are the lines of a comment at its top.
+    /// Returns a Luau module with the table, its start symbol, and the height (m) and the decay (m) of the
+    /// root cell; `told` are the lines of its leading comment.
     pub fn module(&self, told: &[String]) -> String {
         let mut text = String::from("--!strict\n");
         for line in told {
@@ -96,7 +96,7 @@ impl FitResult {
             text += "\n";
         }
         let numbers = |numbers: [f64; 4]| numbers.map(|number| format!("{number:?}")).join(", ");
-        // Writing into a string cannot fail.
+        // Writing to a string cannot fail.
         let _ = writeln!(
             text,
             "return {{\n  start = \"A\",\n  levels = {},\n  height = {:?},\n  decay = {:?},\n  rules = {{",
@@ -115,7 +115,7 @@ impl FitResult {
     }
 }
 
-/// The name of a symbol by its number: A to Z, then A1 to Z1, and so on.
+/// Returns the name of a symbol by its index: A to Z, then A1 to Z1, and so on.
 fn name(symbol: usize) -> String {
     let letter = char::from(b"ABCDEFGHIJKLMNOPQRSTUVWXYZ"[symbol % 26]);
     match symbol / 26 {

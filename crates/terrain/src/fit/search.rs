@@ -1,9 +1,10 @@
-//! The search for a rule table: several tables change side by side, and the best of them is kept.
+//! Search for a rule table: several tables change in parallel, and the best is kept.
 //!
-//! Each begins with one symbol for all cells. Symbols are split where most is missing until there are enough, as a
-//! codebook of vector quantisation grows (Linde, Buzo and Gray, "An algorithm for vector quantizer design", 1980).
-//! Then symbols are retired, split and exchanged at random; what is not much worse is kept, at last only what is
-//! better. After each change the numbers are solved for.
+//! Each table begins with one symbol for all cells. Symbols are split where the error is largest until their
+//! number is sufficient, as a codebook of vector quantization grows (Linde, Buzo and Gray, "An algorithm for
+//! vector quantizer design", 1980). Then symbols are eliminated, split and exchanged at random. Slightly
+//! worse tables are accepted at first, only better ones at the end of a cycle. After each change the numbers
+//! are optimized.
 
 use rayon::prelude::*;
 
@@ -13,30 +14,30 @@ use super::result::FitResult;
 use super::targets::{Target, number};
 use burgeon_base::random::Stream;
 
-/// How many cells across the search looks at, at most; what it finds is improved and measured on the whole target.
+/// Maximum number of cells per side in the search; its results are improved and measured on the whole target.
 const COARSE: usize = 64;
 
-/// How many tables change side by side.
+/// Number of tables that change in parallel.
 const CHAINS: u64 = 8;
 
-/// How many changes each table makes between two looks at all of them.
+/// Number of changes of each table per round.
 const CHANGES: usize = 12;
 
-/// How many rounds the tables take from bold to careful changes.
+/// Number of rounds per cycle, from large to small accepted errors.
 const CYCLE: usize = 40;
 
-/// How long and how hard to search.
+/// Parameters of a search.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Search {
-    /// The seed of all random numbers.
+    /// Random seed.
     pub seed: u64,
-    /// The most symbols that the table may have, at least 1.
+    /// Maximum number of symbols of the table, at least 1.
     pub symbols: usize,
-    /// The most rounds.
+    /// Maximum number of rounds.
     pub rounds: usize,
-    /// The error that is small enough to stop, as a part of the target's range of heights.
+    /// Error that ends the search, as a fraction of the target's height range.
     pub enough: f64,
-    /// How many rounds without a better table are enough to stop.
+    /// Number of rounds without improvement that ends the search.
     pub patience: usize,
 }
 
@@ -46,7 +47,7 @@ impl Default for Search {
     }
 }
 
-/// A table on its way.
+/// State of one table.
 struct SearchState {
     code: Code,
     error: f64,
@@ -57,10 +58,10 @@ struct SearchState {
 }
 
 impl Search {
-    /// The best rule table that is found for `target`, until `stop` says that it is over.
+    /// Searches for the best rule table for `target`, until `stop` returns true or a limit is reached.
     ///
-    /// `tell` is told of the best table after each round. The same for the same search and target, on any number of
-    /// threads, unless `stop` ends it.
+    /// Calls `tell` with the best table after each round. The result depends only on the search and the
+    /// target, not on the number of threads, unless `stop` ends the search.
     ///
     /// ```
     /// use burgeon_terrain::fit::{Search, Target};
@@ -128,7 +129,7 @@ impl Search {
                 break;
             }
             if round % CYCLE == CYCLE - 1 {
-                // Each cycle goes on from the better half.
+                // Each cycle continues with the better half.
                 let (good, bad) = chains.split_at_mut(usize::try_from(CHAINS / 2).unwrap_or(1));
                 for (good, bad) in good.iter_mut().zip(bad) {
                     (good.code, good.error) = (good.best.clone(), good.least);
@@ -142,7 +143,7 @@ impl Search {
 }
 
 impl SearchState {
-    /// Some changes; those that make the error greater by up to `boldness` (a part of it) are kept too.
+    /// Makes several changes; accepts those that increase the error by up to the fraction `boldness`.
     fn round(&mut self, problem: &Problem, symbols: usize, boldness: f64, stop: &(dyn Fn() -> bool + Sync)) {
         for _ in 0..CHANGES {
             if stop() {
@@ -175,7 +176,7 @@ impl SearchState {
     }
 }
 
-/// `target` as the search sees it, `across` cells across.
+/// Creates the problem of `target`, reduced to `across` cells per side.
 fn problem(target: &Target, across: usize) -> Problem {
     let (low, high) = target.range();
     let part = target.across() / across;

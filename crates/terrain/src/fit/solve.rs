@@ -1,24 +1,26 @@
-//! The best numbers for a rule table whose symbols stand fast.
+//! Optimization of the numbers of a rule table with fixed symbols.
 //!
-//! Method: Levenberg and Marquardt's damped least squares. The relief of a quadrant within a cell below it is that of the
-//! cell's symbol, scaled and raised, so the equations are gathered from the cells of the tree and not from its leaves.
+//! Method: damped least squares (Levenberg and Marquardt). The relief of a quadrant within a cell below it is
+//! the scaled and raised relief of the cell's symbol, so the equations are accumulated over the cells of the
+//! tree instead of its leaves.
 
 use smallvec::SmallVec;
 
 use super::code::{CellLevel, Code};
 use super::targets::number;
 
-/// The greatest factor of a decay: below 1, so that heights converge however deep the cells are.
+/// Maximum factor of a decay: less than 1, so that heights converge at any depth.
 pub(super) const MOST: f64 = 0.95;
 
-/// The mean of the squared difference between a map and `target`.
+/// Returns the mean squared difference between a map and `target`.
 pub(super) fn misfit(cells: &[CellLevel], target: &[f64]) -> f64 {
     let heights = &cells[cells.len() - 1].heights;
     let squares: f64 = heights.iter().zip(target).map(|(height, wanted)| (height - wanted).powi(2)).sum();
     squares / number(target.len())
 }
 
-/// Makes the map of `code` more like `target`, along the Z curve, in at most `steps` steps; never less.
+/// Reduces the difference between the map of `code` and `target`, along the Z curve, in at most `steps`
+/// steps; never increases it.
 pub(super) fn improve(code: &mut Code, target: &[f64], levels: usize, steps: usize) {
     let mut best = misfit(&code.cells(levels), target);
     let mut damping = 1e-3;
@@ -46,7 +48,7 @@ pub(super) fn improve(code: &mut Code, target: &[f64], levels: usize, steps: usi
     }
 }
 
-/// The numbers of `code` after a step.
+/// Returns `code` with its numbers after a step.
 fn stepped(code: &Code, step: &[f64]) -> Code {
     let mut made = code.clone();
     made.height += step[0];
@@ -58,31 +60,32 @@ fn stepped(code: &Code, step: &[f64]) -> Code {
     made
 }
 
-/// The normal equations of all numbers: the height of the whole, then change and factor of each quadrant of each rule.
+/// Normal equations of all numbers: the height of the root, then the change and the factor of each quadrant
+/// of each rule.
 struct Equations {
     size: usize,
     matrix: Vec<f64>,
     right: Vec<f64>,
 }
 
-/// What the equations are gathered from.
+/// Input of the equations.
 struct EquationSource<'a> {
     code: &'a Code,
     cells: &'a [CellLevel],
     reliefs: &'a [Vec<f64>],
-    /// The sum of each relief and of its squares.
+    /// Sum of each relief and of its squares.
     sums: &'a [Vec<(f64, f64)>],
-    /// What the height of each cell lacks.
+    /// Missing height of each cell.
     missing: &'a [f64],
 }
 
 /// A quadrant on the path to a cell.
 #[derive(Clone, Copy)]
 struct PathQuadrant {
-    /// The number that its change is; its factor is the next one.
+    /// Index of its change among the numbers; its factor follows.
     change: usize,
     decay: f64,
-    /// Its relief within the cell is `base` and `scale` times the relief of the cell.
+    /// Linear relation: its relief within the cell is `base` plus `scale` times the relief of the cell.
     base: f64,
     scale: f64,
 }
@@ -112,7 +115,7 @@ impl Equations {
         all
     }
 
-    /// Adds what follows from the cells below `cell`; `above` are the quadrants on the path to it.
+    /// Adds the terms of the cells below `cell`; `above` are the quadrants on the path to it.
     fn descend(&mut self, known: &EquationSource<'_>, level: usize, cell: usize, above: &[PathQuadrant]) {
         let below = known.cells.len() - level - 2;
         let count = 1 << (2 * below);
@@ -153,16 +156,17 @@ impl Equations {
         }
     }
 
-    /// Adds the product of what two numbers do, of which one stands above the other on a path.
+    /// Adds the product of the effects of two numbers, of which one is above the other on a path.
     fn add(&mut self, one: usize, other: usize, product: f64) {
-        // The same number in two places of a path has both products.
+        // A number that occurs twice on a path contributes both products.
         let product = if one == other { 2.0 * product } else { product };
         self.matrix[one.max(other) * self.size + one.min(other)] += product;
     }
 
-    /// The step that they ask for; the more `damping`, the shorter.
+    /// Solves the equations for a step; more `damping` makes it shorter. `None` if they are not positive
+    /// definite.
     ///
-    /// Method: Cholesky's decomposition.
+    /// Method: Cholesky decomposition.
     fn solve(&self, damping: f64) -> Option<Vec<f64>> {
         let size = self.size;
         let mut lower = self.matrix.clone();
@@ -198,7 +202,7 @@ impl Equations {
     }
 }
 
-/// The sum of the products; in eight sums, which a processor forms side by side.
+/// Returns the dot product, in eight partial sums for SIMD instructions.
 pub(super) fn dot(one: &[f64], other: &[f64]) -> f64 {
     let mut sums = [0.0; 8];
     let (ones, others) = (one.chunks_exact(8), other.chunks_exact(8));

@@ -1,15 +1,15 @@
-//! Height maps to be fitted: five that are known by name, and any other as its heights.
+//! Height maps as targets of a fit: five named maps, and arbitrary heights.
 
 use crate::octaves;
 use burgeon_base::error::{Error, Result};
 
-/// How many cells across the maps are that are known by name.
+/// Number of cells per side of the named maps.
 const ACROSS: usize = 128;
 
-/// The height (m) at a place: how far (0 to 1) it is from the west and from the south.
+/// Function of the height (m) at a position: fractions (0 to 1) from the west and from the south.
 type Formula = fn(f64, f64) -> f64;
 
-/// The maps that are known by name.
+/// Named maps.
 const NAMED: [(&str, Formula); 5] =
     [("hill", hill), ("ridge", ridge), ("crater", crater), ("plain", plain), ("mountains", mountains)];
 
@@ -21,9 +21,9 @@ pub struct Target {
 }
 
 impl Target {
-    /// A map of `across` x `across` `heights` (m), row by row from the north-west.
+    /// Creates a map of `across` x `across` `heights` (m), row by row from the north-west.
     ///
-    /// Fails unless `across` is a power of two from 2 to 2048, and all heights are there and finite.
+    /// Fails unless `across` is a power of two from 2 to 2048, and the heights are complete and finite.
     pub fn new(across: usize, heights: Vec<f64>) -> Result<Self> {
         check_across(across)?;
         if heights.len() != across * across {
@@ -40,9 +40,9 @@ impl Target {
         Ok(Self { across, heights })
     }
 
-    /// The map that `name` stands for: hill, ridge, crater, plain or mountains.
+    /// Returns the map named `name`: hill, ridge, crater, plain or mountains.
     ///
-    /// Fails with the nearest name if there is none.
+    /// Fails with the nearest name if the name is unknown.
     pub fn named(name: &str) -> Result<Self> {
         let names = || NAMED.iter().map(|(name, _)| *name);
         let Some((_, height)) = NAMED.iter().find(|(known, _)| *known == name) else {
@@ -56,11 +56,11 @@ impl Target {
         Self::new(ACROSS, heights)
     }
 
-    /// A map of `across` x `across` cells out of one of `columns` x `rows` `heights` (m), row by row from the
-    /// north-west, stretched to a square: means where cells become larger, straight lines between the middles of
-    /// cells where they become smaller.
+    /// Creates a map of `across` x `across` cells from a map of `columns` x `rows` `heights` (m), row by row
+    /// from the north-west, stretched to a square. Larger cells have mean heights, smaller cells are
+    /// interpolated linearly between cell centres.
     ///
-    /// Fails as [`new`](Self::new) does, and if `columns` x `rows` heights are not there.
+    /// Fails like [`new`](Self::new), or if the number of heights is not `columns` x `rows`.
     pub fn resample(columns: usize, rows: usize, heights: &[f64], across: usize) -> Result<Self> {
         if columns == 0 || rows == 0 || columns.checked_mul(rows) != Some(heights.len()) {
             let count = heights.len();
@@ -80,29 +80,29 @@ impl Target {
         Self::new(across, cells.collect())
     }
 
-    /// How many cells there are along a side.
+    /// Returns the number of cells per side.
     pub fn across(&self) -> usize {
         self.across
     }
 
-    /// The heights (m), row by row from the north-west.
+    /// Returns the heights (m), row by row from the north-west.
     pub fn heights(&self) -> &[f64] {
         &self.heights
     }
 
-    /// The least and the greatest height (m).
+    /// Returns the minimum and maximum height (m).
     pub fn range(&self) -> (f64, f64) {
         range(&self.heights)
     }
 
-    /// How far this is from the map `heights` of as many cells: the root mean square of the difference, once each has
-    /// been scaled to 0..1 by its own least and greatest; a flat map is 0 everywhere.
+    /// Returns the error of the map `heights` with the same number of cells: the root mean square of the
+    /// difference, after scaling each map to 0..1 by its own minimum and maximum. A flat map is 0 everywhere.
     pub fn error(&self, heights: &[f64]) -> f64 {
         error(&self.heights, heights)
     }
 }
 
-/// Refuses a number of cells along a side that quadrants cannot have.
+/// Fails unless the number of cells per side can be divided into quadrants.
 fn check_across(across: usize) -> Result<()> {
     if across.is_power_of_two() && (2..=2048).contains(&across) {
         return Ok(());
@@ -111,7 +111,7 @@ fn check_across(across: usize) -> Result<()> {
         .help("its cells across are a power of two from 2 to 2048"))
 }
 
-/// How far two maps are from each other, as [`Target::error`] tells it.
+/// Returns the error between two maps, as defined by [`Target::error`].
 pub(super) fn error(one: &[f64], other: &[f64]) -> f64 {
     let scaled = |(low, high): (f64, f64)| {
         move |height: f64| if high > low { (height - low) / (high - low) } else { 0.0 }
@@ -121,19 +121,20 @@ pub(super) fn error(one: &[f64], other: &[f64]) -> f64 {
     (squares / number(one.len().max(1))).sqrt()
 }
 
-/// The least and the greatest of `heights`.
+/// Returns the minimum and maximum of `heights`.
 pub(super) fn range(heights: &[f64]) -> (f64, f64) {
     heights
         .iter()
         .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), height| (low.min(*height), high.max(*height)))
 }
 
-/// Which of `from` cells make each of `to` cells along a side, and how much of each.
+/// Returns, for each of `to` cells per side, the cells of `from` that it covers and their weights.
 fn weights(from: usize, to: usize) -> Vec<Vec<(usize, f64)>> {
     let step = number(from) / number(to.max(1));
     let mut all = Vec::with_capacity(to);
     for cell in 0..to {
-        // A cell is as wide as the larger of the two, so it holds what it covers or lies between two middles.
+        // A cell is as wide as the larger of both sizes, so it averages the cells it covers or interpolates
+        // between two centres.
         let width = step.max(1.0);
         let middle = (number(cell) + 0.5) * step;
         let (low, high) = (middle - width / 2.0, middle + width / 2.0);
@@ -162,35 +163,38 @@ pub(super) fn number(count: usize) -> f64 {
     count as f64
 }
 
-/// The bell curve: 1 at 0, and 0.61 at `width`.
+/// Returns the bell curve: 1 at 0, and 0.61 at `width`.
 fn bell(distance: f64, width: f64) -> f64 {
     (-0.5 * (distance / width).powi(2)).exp()
 }
 
-/// A round hill, 300 m high, with its top at the middle.
+/// Returns a round hill, 300 m high, with its top at the centre.
 fn hill(x: f64, y: f64) -> f64 {
     300.0 * bell((x - 0.5).hypot(y - 0.5), 0.18)
 }
 
-/// A ridge of 250 m from the south-west to the north-east, steeper to the north, lower towards its ends.
+/// Returns a ridge of 250 m from the south-west to the north-east, steeper to the north, lower towards its
+/// ends.
 fn ridge(x: f64, y: f64) -> f64 {
     let (along, beside) = (0.9 * (x - 0.5) + 0.44 * (y - 0.5), 0.9 * (y - 0.5) - 0.44 * (x - 0.5));
     250.0 * bell(beside, if beside > 0.0 { 0.09 } else { 0.15 }) * (1.0 - 1.2 * along * along)
 }
 
-/// A crater: a rim of 120 m at 0.28 of the square from the middle, and a floor 80 m below the ground around it.
+/// Returns a crater: a rim of 120 m at 0.28 of the square from the centre, and a floor 80 m below the
+/// surrounding ground.
 fn crater(x: f64, y: f64) -> f64 {
     let distance = (x - 0.5).hypot(y - 0.5);
     120.0 * bell(distance - 0.28, 0.07) - 80.0 * bell(distance, 0.16)
 }
 
-/// A plain: three long waves, 10 m high in all.
+/// Returns a plain: three long waves, 10 m high in total.
 fn plain(x: f64, y: f64) -> f64 {
     let wave = |turns: f64| (std::f64::consts::TAU * turns).sin();
     2.5 * wave(0.9 * x + 0.4 * y) + 1.5 * wave(0.7 * y - 1.2 * x + 0.2) + wave(1.3 * x + 1.7 * y + 0.6)
 }
 
-/// A mountain range of up to 1800 m from the west to the east: peaks and passes of ridged noise along its crest.
+/// Returns a mountain range of up to 1800 m from the west to the east: peaks and passes of ridged noise along
+/// its crest.
 fn mountains(x: f64, y: f64) -> f64 {
     let place = glam::DVec2::new(x, y);
     let crest = 0.5 + 0.12 * (std::f64::consts::TAU * 0.8 * x).sin();

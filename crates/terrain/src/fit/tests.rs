@@ -1,4 +1,4 @@
-//! Searches of a few rounds, which do not look at the clock.
+//! Tests of searches with a few rounds, which do not depend on time.
 
 use super::*;
 
@@ -39,7 +39,7 @@ fn the_seed_decides_and_threads_do_not() {
 
 #[test]
 fn what_a_table_can_make_is_found() {
-    // A slope is one symbol: each quadrant is the whole at half its height.
+    // A slope needs one symbol: each quadrant is the whole at half its height.
     let heights = (0..64 * 64).map(|at| f64::from(at % 64) * 2.0 - f64::from(at / 64) + 7.0).collect();
     let fitted = run(&Search { symbols: 1, ..search(2) }, &Target::new(64, heights).unwrap());
     assert!(fitted.error() < 1e-3 && fitted.symbols() == 1, "{}", fitted.error());

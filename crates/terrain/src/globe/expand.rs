@@ -1,8 +1,8 @@
-//! Expands cells of several faces and levels at once: a level after the other, so that the surface runs smoothly
+//! Expansion of cells of several faces and levels at once: level by level, so that the surface is smooth
 //! across the edges of the cube.
 //!
-//! What a cell becomes depends on the world and its place alone. Where three faces meet, a cell that would be the
-//! fourth has the mean of the two beside it.
+//! The successor of a cell depends only on the world and the cell's position. Where three faces meet, the
+//! missing fourth cell has the mean of the two adjacent cells.
 
 use super::faces::{CubeCell, cell};
 use crate::block::{Area, Block};
@@ -13,11 +13,11 @@ use burgeon_rewriting::ModuleKey;
 /// An area of each face.
 pub(super) type Areas = [Area; 6];
 
-/// No cells.
+/// Empty area.
 pub(super) const NONE: Area = Area { x: 0, y: 0, columns: 0, rows: 0 };
 
-/// Expands the cells of `wanted`, by level, which may lie beyond one side of their faces. Calls `found` for each level
-/// with its cells, where there are any wanted.
+/// Expands the cells of `wanted`, by level, which may lie beyond one side of their faces. Calls `found` with
+/// the cells of each level that has wanted cells.
 pub(super) fn expand(
     world: &World,
     wanted: &[Areas],
@@ -54,7 +54,7 @@ pub(super) fn expand(
     Ok(())
 }
 
-/// The cells of `needed`, out of those above them.
+/// Divides the cells above, and returns the cells of `needed`.
 fn divided(
     world: &World,
     above: &[Block],
@@ -87,7 +87,7 @@ fn divided(
     Ok(made)
 }
 
-/// The numbers of the cells of `area`, which may lie beyond the sides of `face`.
+/// Returns the values of the cells of `area`, which may extend beyond the sides of `face`.
 pub(super) fn padded(blocks: &[Block], face: usize, area: Area, of: fn(&Block) -> &[f64]) -> Vec<f64> {
     let across = World::across(blocks[face].level);
     let known = |(face, x, y): CubeCell| {
@@ -116,7 +116,7 @@ pub(super) fn padded(blocks: &[Block], face: usize, area: Area, of: fn(&Block) -
     numbers
 }
 
-/// The number of a cell that may lie beyond one side of its face, or beyond two.
+/// Returns the value of a cell that may lie beyond one or two sides of its face.
 fn number((face, x, y): CubeCell, across: i64, known: &dyn Fn(CubeCell) -> Option<f64>) -> f64 {
     let within = |at: i64| at.clamp(0, across - 1);
     if within(x) != x && within(y) != y {
@@ -126,7 +126,7 @@ fn number((face, x, y): CubeCell, across: i64, known: &dyn Fn(CubeCell) -> Optio
     known((face, x, y)).unwrap_or(0.0)
 }
 
-/// The areas within their faces: what lies beyond a side is of the face there.
+/// Clips the areas to their faces, and adds the parts beyond a side to the adjacent face.
 fn settled(areas: &Areas, across: i64) -> Areas {
     let clipped = |area: Area| {
         let span = |first: i64, count: usize| {

@@ -1,18 +1,18 @@
-//! The six faces of a cube, and which side of each meets which side of another.
+//! The six faces of a cube, and the adjacency of their sides.
 
-/// A face: which way its columns, its rows (backwards) and its outside go, and what lies beyond its sides.
+/// A face: its axes and its adjacent sides.
 pub(super) struct CubeFace {
-    /// East, north and out.
+    /// East, north and outward directions.
     pub axes: [[i8; 3]; 3],
-    /// Beyond its west, east, north and south.
+    /// Adjacent sides beyond its west, east, north and south.
     beyond: [FaceSide; 4],
 }
 
-/// The side of another face that a side meets.
+/// The adjacent side of another face.
 struct FaceSide {
     face: usize,
     side: usize,
-    /// Whether columns or rows count the other way along it.
+    /// Set if columns or rows run in the opposite direction along it.
     reversed: bool,
 }
 
@@ -29,7 +29,7 @@ const fn reversed(face: usize, side: usize) -> FaceSide {
     FaceSide { face, side, reversed: true }
 }
 
-/// The faces: four around, the north pole's and the south pole's.
+/// The faces: four around the equator, the north pole and the south pole.
 pub(super) static FACES: [CubeFace; 6] = [
     CubeFace {
         axes: [[0, 1, 0], [0, 0, 1], [1, 0, 0]],
@@ -60,7 +60,8 @@ pub(super) static FACES: [CubeFace; 6] = [
 /// A cell or a corner of cells: the face, the column from its west and the row from its north.
 pub(super) type CubeCell = (usize, i64, i64);
 
-/// The cell that a cell of a face with `across` cells a side is, where it may lie beyond one side; `None` beyond two.
+/// Converts a cell that may lie beyond one side of a face with `across` cells per side to the cell of the
+/// adjacent face; `None` beyond two sides.
 pub(super) fn cell((face, x, y): CubeCell, across: i64) -> Option<CubeCell> {
     let last = across - 1;
     let outside = |at: i64| if at < 0 { -1 - at } else { at - across };
@@ -72,8 +73,8 @@ pub(super) fn cell((face, x, y): CubeCell, across: i64) -> Option<CubeCell> {
     }
 }
 
-/// The corner that a corner of cells of a face with `across` cells a side is, where it may lie beyond one side; `None`
-/// beyond two.
+/// Converts a corner of cells that may lie beyond one side of a face with `across` cells per side to the
+/// corner of the adjacent face; `None` beyond two sides.
 pub(super) fn corner((face, x, y): CubeCell, across: i64) -> Option<CubeCell> {
     let outside = |at: i64| if at < 0 { -at } else { at - across };
     match (side(x, across, WEST), side(y, across, NORTH)) {
@@ -84,7 +85,8 @@ pub(super) fn corner((face, x, y): CubeCell, across: i64) -> Option<CubeCell> {
     }
 }
 
-/// All that a corner of cells is: itself, and on the rim of its face what the faces beyond call it.
+/// Returns all names of a corner of cells: its own, and on the boundary of its face also those of the
+/// adjacent faces.
 pub(super) fn aliases((face, x, y): CubeCell, across: i64) -> impl Iterator<Item = CubeCell> {
     let on = |at: i64, low: usize| match at {
         0 => Some(low),
@@ -96,12 +98,12 @@ pub(super) fn aliases((face, x, y): CubeCell, across: i64) -> impl Iterator<Item
     [Some((face, x, y)), one, other].into_iter().flatten()
 }
 
-/// The side beyond which a column or row from 0 to `last` lies: this one, or the next.
+/// Returns the side beyond which a column or row outside 0 to `last` lies: `low` or the next side.
 fn side(at: i64, last: i64, low: usize) -> Option<usize> {
     if at < 0 { Some(low) } else { (at > last).then_some(low + 1) }
 }
 
-/// What lies beyond a side, so far from it and so far along it.
+/// Returns the cell or corner beyond a side, by its distance from the side and its position along it.
 fn beyond(face: usize, side: usize, (depth, along): (i64, i64), last: i64) -> CubeCell {
     let FaceSide { face, side, reversed } = FACES[face].beyond[side];
     let along = if reversed { last - along } else { along };

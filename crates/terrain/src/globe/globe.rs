@@ -1,9 +1,9 @@
-//! The tiles of a globe that are expanded, and the surface over them.
+//! Expanded tiles of a globe, and the surface over them.
 //!
-//! As over flat ground, the surface runs through the corners of cells, and a finer tile follows a coarser one where
-//! they meet. A corner on an edge of the cube is a corner of two faces, or of three: all of them ask the coarsest tile
-//! around it, or the one on the first face, so that they agree to the last bit. Corners are numbered in the grid of the
-//! smallest cells of any tile.
+//! As on flat ground, the surface passes through the corners of cells, and a finer tile follows a coarser one
+//! where they meet. A corner on an edge of the cube belongs to two or three faces: all of them use the
+//! coarsest adjacent tile, or the tile on the first face, so that they agree to the last bit. Corners are
+//! numbered in the grid of the smallest cells of any tile.
 
 use std::sync::Arc;
 
@@ -22,25 +22,25 @@ use crate::world::{Divide, World};
 use burgeon_base::MemoryOwner;
 use burgeon_base::error::Result;
 
-/// A sphere whose six faces are divided, and the tiles of it that are expanded.
+/// A sphere with six divided faces, and its expanded tiles.
 #[derive(Clone)]
 pub struct Globe {
     world: Arc<World>,
     radius: f64,
-    /// The height (m) of the water, if there is any.
+    /// Height (m) of the water, if any.
     sea: Option<f64>,
     tree: Tree,
-    /// By leaf of the tree.
+    /// Tile of each leaf of the tree.
     tiles: Vec<Arc<Tile>>,
-    /// The level of the smallest cells.
+    /// Level of the smallest cells.
     finest: u32,
-    /// The height (m) of the highest mountains, once it is needed.
+    /// Height (m) of the highest mountains, once it is computed.
     highest: Option<f64>,
 }
 
 impl Globe {
-    /// A globe of this radius (m) and height of the water (m) with nothing expanded. `world` says how each of its faces
-    /// is divided.
+    /// Creates a globe of this radius (m) and height of the water (m), without expanded tiles. `world`
+    /// defines the rules of each face.
     pub fn new(world: World, radius: f64, sea: Option<f64>) -> Self {
         let world = World { corner: DVec2::ZERO, size: side(radius), ..world };
         Self {
@@ -54,25 +54,25 @@ impl Globe {
         }
     }
 
-    /// How its faces are divided.
+    /// Returns the rules of the faces as a world.
     pub fn world(&self) -> &World {
         &self.world
     }
 
-    /// Its radius (m).
+    /// Returns the radius (m).
     pub fn radius(&self) -> f64 {
         self.radius
     }
 
-    /// The height (m) of the water, if there is any.
+    /// Returns the height (m) of the water, if any.
     pub fn sea(&self) -> Option<f64> {
         self.sea
     }
 
-    /// Expands what a view shows and contracts everything else. From below its clearance, the eye is raised to it.
+    /// Expands the visible part and contracts everything else. An eye below its clearance is raised to it.
     ///
-    /// Heights depend on the globe and their places alone, and the tiles on the globe and the view. Fails if there would
-    /// be too many.
+    /// Heights depend only on the globe and their positions, and tiles only on the globe and the view. Fails
+    /// if there would be too many heights.
     pub fn focus(&mut self, view: &GlobeView, divide: &dyn Divide) -> Result<()> {
         let levels = view.levels.min(DEEPEST);
         let eye = match view.eye {
@@ -92,7 +92,7 @@ impl Globe {
         let known: FxHashMap<Leaf, &Arc<Tile>> = self.tree.leaves.iter().copied().zip(&self.tiles).collect();
         let mut tiles: Vec<Option<Arc<Tile>>> =
             tree.leaves.iter().map(|leaf| known.get(leaf).map(|tile| Arc::clone(tile))).collect();
-        // The missing ones by the level of their cells.
+        // Missing tiles by the level of their cells.
         let mut missing: Vec<Vec<usize>> = Vec::new();
         let mut wanted: Vec<Areas> = Vec::new();
         for (index, (face, place)) in tree.leaves.iter().enumerate() {
@@ -132,7 +132,8 @@ impl Globe {
         Ok(())
     }
 
-    /// The height (m) that mountains reach, as a coarse look at all of the globe has it, and as much again.
+    /// Returns an upper bound of the height (m) of mountains: twice the maximum of a coarse expansion of the
+    /// whole globe.
     fn survey(&self, divide: &dyn Divide) -> Result<f64> {
         let across = 1 << DETAIL;
         let mut wanted = vec![[NONE; 6]; DETAIL as usize + 1];
@@ -145,7 +146,7 @@ impl Globe {
         Ok(2.0 * self.shown(highest).max(0.0))
     }
 
-    /// The height (m) of the ground below `eye`, as cells that were divided `levels` times have it.
+    /// Returns the height (m) of the ground below `eye`, at a depth of `levels` divisions.
     fn probe(&self, eye: DVec3, levels: u32, divide: &dyn Divide) -> Result<f64> {
         let (face, x, y) = spot(eye, levels).0;
         let mut wanted = vec![[NONE; 6]; levels as usize + 1];
@@ -157,47 +158,48 @@ impl Globe {
         Ok(height)
     }
 
-    /// The height (m) that is seen where the ground has this one: that of the water, if it is higher.
+    /// Returns the visible height (m) for a height of the ground: the height of the water, if it is higher.
     #[inline]
     pub fn shown(&self, height: f64) -> f64 {
         self.sea.map_or(height, |sea| height.max(sea))
     }
 
-    /// The tiles and their faces.
+    /// Returns the tiles with their faces.
     pub fn tiles(&self) -> impl Iterator<Item = (usize, &Tile)> {
         self.tree.leaves.iter().map(|(face, _)| *face).zip(self.tiles.iter().map(|tile| &**tile))
     }
 
-    /// Whether a point (m) is above the horizon of an eye (m): the angle between them is not greater than those from each
-    /// to where a line through it touches the sphere.
+    /// Returns true if a point (m) is above the horizon of an eye (m): the angle between both is at most the
+    /// sum of their angles to the tangent points on the sphere.
     pub(super) fn is_above_horizon(&self, eye: DVec3, point: DVec3) -> bool {
         let to_touch = |at: DVec3| (self.radius / at.length().max(self.radius)).acos();
         eye.angle_between(point) <= to_touch(eye) + to_touch(point)
     }
 
-    /// The number of heights that are expanded.
+    /// Returns the number of expanded heights.
     pub fn heights(&self) -> usize {
         self.tiles.iter().map(|tile| tile.heights()).sum()
     }
 
-    /// The level of the smallest cells.
+    /// Returns the level of the smallest cells.
     pub fn finest(&self) -> u32 {
         self.finest
     }
 
-    /// The number of the tile that holds one of the smallest cells.
+    /// Returns the index of the tile that contains one of the smallest cells.
     #[inline]
     pub(super) fn holder(&self, cell: CubeCell) -> Option<usize> {
         self.tree.holder(cell, self.finest)
     }
 
-    /// A tile and its face.
+    /// Returns a tile with its face.
     #[inline]
     pub(super) fn tile(&self, index: usize) -> (usize, &Tile) {
         (self.tree.leaves[index].0, &self.tiles[index])
     }
 
-    /// Of the tiles that touch a corner the one with the largest cells, and what its face calls the corner.
+    /// Returns the tile with the largest cells among the tiles at a corner, and the corner's name on the face
+    /// of that tile.
     pub(super) fn coarsest(&self, (face, x, y): CubeCell) -> Option<(&Tile, CubeCell)> {
         let across = World::across(self.finest);
         if (0..across).contains(&x) && (0..across).contains(&y) {
@@ -223,7 +225,7 @@ impl Globe {
         best.map(|(index, spot)| (&*self.tiles[index], spot))
     }
 
-    /// The height (m) of the ground at a corner of the smallest cells.
+    /// Returns the height (m) of the ground at a corner of the smallest cells.
     pub(super) fn corner(&self, spot: CubeCell) -> f64 {
         let Some((tile, (face, x, y))) = self.coarsest(spot) else { return 0.0 };
         let shift = self.finest - tile.level();
@@ -231,17 +233,18 @@ impl Globe {
         if (x | y) & mask == 0 {
             return tile.corner(x >> shift, y >> shift);
         }
-        // Between the corners of larger cells.
+        // The corner lies between the corners of larger cells.
         let part = |at: i64| fraction(at & mask, shift);
         self.between(tile, (face, x >> shift, y >> shift), DVec2::new(part(x), part(y)))
     }
 
-    /// The height (m) of the ground within a cell of `tile`, at `part` of the way to the east and to the south.
+    /// Returns the height (m) of the ground within a cell of `tile`, at the fraction `part` to the east and
+    /// to the south.
     fn between(&self, tile: &Tile, (face, x, y): CubeCell, part: DVec2) -> f64 {
         let shift = self.finest - tile.level();
         let at = |right: i64, down: i64| self.corner((face, (x + right) << shift, (y + down) << shift));
         let (east, south) = (part.x, part.y);
-        // Along an edge of the cell, its ends alone count.
+        // Along an edge of the cell, only the ends of the edge matter.
         if east == 0.0 {
             return if south == 0.0 { at(0, 0) } else { mix(at(0, 0), at(0, 1), south) };
         }
@@ -269,7 +272,8 @@ impl Globe {
         }
     }
 
-    /// The tile in a direction, the cell of it, and how far (0 to 1) to the east and to the south in that cell.
+    /// Returns the tile in a direction, its cell, and the position (0 to 1) to the east and to the south
+    /// within the cell.
     fn find(&self, direction: DVec3) -> Option<(&Tile, CubeCell, DVec2)> {
         let (face, x, y) = spot(direction, self.finest).0;
         let (_, tile) = self.tile(self.holder((face, x, y))?);
@@ -277,19 +281,20 @@ impl Globe {
         Some((tile, cell, part))
     }
 
-    /// The height (m) of the ground in a direction; `None` where nothing is expanded.
+    /// Returns the height (m) of the ground in a direction; `None` outside the expanded area.
     pub fn height(&self, direction: DVec3) -> Option<f64> {
         let (tile, cell, part) = self.find(direction)?;
         Some(self.between(tile, cell, part))
     }
 
-    /// The symbol of the cell in a direction; `None` where nothing is expanded.
+    /// Returns the symbol of the cell in a direction; `None` outside the expanded area.
     pub fn symbol(&self, direction: DVec3) -> Option<&str> {
         let (tile, (_, x, y), _) = self.find(direction)?;
         Some(self.world.name(tile.level(), tile.symbol(x, y)))
     }
 
-    /// The direction (a unit vector) of a corner of the smallest cells, by its name on the first face that has it.
+    /// Returns the direction (a unit vector) of a corner of the smallest cells, computed on the first face
+    /// that has the corner.
     #[allow(clippy::cast_precision_loss, reason = "columns and rows are below 2^53")]
     pub(super) fn direction(&self, spot: CubeCell) -> DVec3 {
         let across = World::across(self.finest);
@@ -298,12 +303,12 @@ impl Globe {
         direction(face, DVec2::new(at(x), -at(y)))
     }
 
-    /// Where the ground or the water is (m) at a corner of the smallest cells.
+    /// Returns the position (m) of the ground or the water at a corner of the smallest cells.
     pub(super) fn point(&self, spot: CubeCell) -> DVec3 {
         self.direction(spot) * (self.radius + self.shown(self.corner(spot)))
     }
 
-    /// The way up (a unit vector) from the ground or the water at a corner of the smallest cells.
+    /// Returns the normal (a unit vector) of the ground or the water at a corner of the smallest cells.
     pub(super) fn normal(&self, spot: CubeCell) -> DVec3 {
         let Some((tile, (face, x, y))) = self.coarsest(spot) else { return self.direction(spot) };
         let across = World::across(self.finest);
@@ -317,7 +322,7 @@ impl Globe {
     }
 }
 
-/// The direction (a unit vector) of a place on a tile: from 0 to 1 to the east and to the south.
+/// Returns the direction (a unit vector) of a position on a tile, from 0 to 1 to the east and to the south.
 #[allow(clippy::cast_precision_loss, reason = "columns and rows are below 2^53")]
 pub fn within(face: usize, tile: &Tile, part: DVec2) -> DVec3 {
     let across = World::across(tile.place.level) as f64;
@@ -325,7 +330,8 @@ pub fn within(face: usize, tile: &Tile, part: DVec2) -> DVec3 {
     direction(face, DVec2::new(along.x, -along.y))
 }
 
-/// The cell of `level` in a direction, and how far (0 to 1) to the east and to the south in it.
+/// Returns the cell of `level` in a direction, and the position (0 to 1) to the east and to the south within
+/// it.
 #[allow(clippy::cast_precision_loss, clippy::cast_possible_truncation, reason = "columns are below 2^31")]
 fn spot(way: DVec3, level: u32) -> (CubeCell, DVec2) {
     let (face, at) = place(way);

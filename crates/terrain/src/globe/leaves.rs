@@ -1,4 +1,4 @@
-//! Which cells of the six faces are tiles: the nearer to the eye, the smaller.
+//! Selection of the tiles of the six faces: smaller tiles closer to the eye.
 
 use glam::{DVec2, DVec3};
 
@@ -8,28 +8,28 @@ use crate::view::MOST_HEIGHTS;
 use crate::world::World;
 use burgeon_base::error::{Error, Limit, Result};
 
-/// How often each tile is divided.
+/// Number of divisions of each tile.
 pub const DETAIL: u32 = 6;
 
-/// How often a face may be divided in all.
+/// Maximum number of divisions of a face.
 pub const DEEPEST: u32 = 28;
 
-/// From where a globe is seen, and how closely.
+/// Viewpoint and detail of a globe.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Sight {
-    /// Where the eye is (m, from the middle of the globe, with the ground below it at the radius); four radii away on
-    /// all sides, if it is left out.
+    /// Position of the eye (m, from the centre of the globe, with the ground below it at the radius); `None`
+    /// for a distance of four radii on all sides.
     pub eye: Option<DVec3>,
-    /// A tile is divided while the eye is nearer to it than so many times its size.
+    /// Distance of the eye below which a tile is divided, as a multiple of the tile's size.
     pub closeness: f64,
-    /// How often a face is divided at most, the cells of tiles included.
+    /// Maximum number of divisions of a face, including the cells of tiles.
     pub levels: u32,
-    /// The height (m) of the highest mountains, if tiles below the horizon of the eye are not divided.
+    /// Height (m) of the highest mountains, if tiles below the horizon of the eye are not divided.
     pub highest: Option<f64>,
 }
 
 impl Sight {
-    /// True if no mountain on a tile rises above the horizon of the eye.
+    /// Returns true if no mountain on a tile rises above the horizon of the eye.
     fn is_hidden(&self, radius: f64, leaf: Leaf) -> bool {
         let (Some(eye), Some(highest)) = (self.eye, self.highest) else { return false };
         let (middle, reach) = ball(leaf);
@@ -39,29 +39,29 @@ impl Sight {
     }
 }
 
-/// A tile and its face.
+/// A tile with its face.
 pub(super) type Leaf = (usize, TilePlace);
 
-/// What a cell of a face is: divided further, or a tile.
+/// State of a cell of a face: divided further, or a tile.
 #[derive(Debug, Clone, Copy)]
 enum Link {
     Divided(usize),
     Leaf(usize),
 }
 
-/// The quadtrees of six faces.
+/// Quadtrees of the six faces.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Tree {
-    /// Of each face, if there are any tiles.
+    /// Root of each face; empty without tiles.
     roots: Vec<Link>,
-    /// North-west, north-east, south-west and south-east.
+    /// Quadrants: north-west, north-east, south-west and south-east.
     divided: Vec<[Link; 4]>,
-    /// The tiles.
+    /// Tiles.
     pub leaves: Vec<Leaf>,
 }
 
 impl Tree {
-    /// The tiles of a globe with this radius (m) that are seen. Fails if that would be too much.
+    /// Selects the visible tiles of a globe with this radius (m). Fails if there would be too many heights.
     pub(super) fn new(radius: f64, sight: &Sight) -> Result<Self> {
         let mut tree = Self::default();
         for face in 0..6 {
@@ -97,7 +97,8 @@ impl Tree {
         Ok(Link::Divided(index))
     }
 
-    /// The number of the tile that holds a cell of a face at `level`, which is not above that of the tile.
+    /// Returns the index of the tile that contains a cell of a face at `level`, which must not be above the
+    /// level of the tile.
     #[inline]
     pub(super) fn holder(&self, (face, x, y): (usize, i64, i64), level: u32) -> Option<usize> {
         let mut link = *self.roots.get(face)?;
@@ -115,15 +116,16 @@ impl Tree {
     }
 }
 
-/// The distance (m) of the eye from a tile on the sphere, or less.
+/// Returns a lower bound of the distance (m) of the eye from a tile on the sphere.
 fn distance(radius: f64, sight: &Sight, leaf: Leaf) -> f64 {
-    // From four radii one sees the ground three radii away.
+    // From four radii, the nearest ground is three radii away.
     let Some(eye) = sight.eye else { return 3.0 * radius };
     let (middle, reach) = ball(leaf);
     (eye.distance(middle * radius) - reach * radius).max(0.0)
 }
 
-/// The direction of the middle of a tile on the unit sphere, and how far from it its corners are at most.
+/// Returns the direction of the centre of a tile on the unit sphere, and the maximum distance of its corners
+/// from it.
 #[allow(clippy::cast_precision_loss, reason = "columns and rows are below 2^53")]
 pub(super) fn ball((face, TilePlace { level, y, x }): Leaf) -> (DVec3, f64) {
     let across = World::across(level) as f64;

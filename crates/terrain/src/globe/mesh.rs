@@ -1,10 +1,11 @@
-//! Triangles over a globe, few where it is even, within a stated error and without gaps.
+//! Triangulation of a globe, coarse where it is even, within an error limit and without gaps.
 //!
-//! As over flat ground, triangles are halved at the middle of their longest side. What lies on an edge of the cube is
-//! halved on both faces. A triangle is also halved while the sphere bulges out of it by more than the error allows.
+//! As on flat ground, triangles are halved at the midpoint of their longest side. Sides on an edge of the
+//! cube are halved on both faces. A triangle is also halved while the sphere bulges out of it by more than
+//! the error limit.
 //!
-//! All points lie on a grid that is as fine as the numbers of the coarsest tile at them, and origins lie on it too, so
-//! that neighbours have exactly the same points.
+//! All points lie on a grid with the precision of the coarsest adjacent tile, and so do origins, so that
+//! neighbours have exactly the same points.
 
 use glam::{DVec3, Vec2};
 use rayon::prelude::*;
@@ -22,34 +23,34 @@ use burgeon_scene::Part;
 /// A triangulation of a globe.
 pub struct GlobeMesh<'a> {
     globe: &'a Globe,
-    /// One for each tile.
+    /// Height grid of each tile.
     grids: Vec<HeightGrid>,
-    /// The corners where triangles are halved, by their names on the first face that has them.
+    /// Corners where triangles are halved, by their names on the first face that has them.
     halved: FxHashSet<u64>,
-    /// How far triangles may be from the ground, in sizes of the cells there.
+    /// Error limit relative to the size of the cells.
     error: f64,
 }
 
-/// The triangles over one tile.
+/// Triangles over one tile.
 #[derive(Debug, Default)]
 pub struct Pieces {
-    /// What the points of the parts are told from (m, from the middle of the globe).
+    /// Origin of the points of the parts (m, from the centre of the globe).
     pub origin: DVec3,
-    /// Those of ground.
+    /// Triangles of the ground.
     pub land: Part,
-    /// Those of water.
+    /// Triangles of the water.
     pub water: Part,
 }
 
 impl Pieces {
-    /// Whether there are no triangles.
+    /// Returns true if there are no triangles.
     pub fn is_empty(&self) -> bool {
         self.land.triangles.is_empty() && self.water.triangles.is_empty()
     }
 }
 
 impl<'a> GlobeMesh<'a> {
-    /// The fewest triangles from which the ground is nowhere farther than `error`, in sizes of the cells there.
+    /// Computes the coarsest triangulation within `error` of the ground, relative to the size of the cells.
     pub fn new(globe: &'a Globe, error: f64) -> Self {
         let tiles: Vec<(usize, &Tile)> = globe.tiles().collect();
         let owner = MemoryOwner::current();
@@ -69,22 +70,23 @@ impl<'a> GlobeMesh<'a> {
         mesh
     }
 
-    /// The name of a corner on the first face that has it, as one number.
+    /// Returns the name of a corner on the first face that has it, as one number.
     fn key(&self, spot: CubeCell) -> u64 {
         let (face, x, y) = aliases(spot, World::across(self.globe.finest())).min().unwrap_or(spot);
         (face as u64) << 60 | x.cast_unsigned() << 30 | y.cast_unsigned()
     }
 
-    /// Where a triangle of a face has to be halved, if it has.
+    /// Returns the point where a triangle of a face must be halved, if necessary.
     fn want(&self, face: usize, triangle: &RightTriangle) -> Option<CubeCell> {
         let middle = triangle.middle()?;
-        // A point within it, in thirds, tells whose it is.
+        // The tile of the triangle is determined by an inner point, in thirds of a cell.
         let [x, y] = [0, 1].map(|axis| (middle[axis] * 2 + triangle.apex[axis]).div_euclid(3));
         let holder = self.globe.holder((face, x, y))?;
         let (tile, grid) = (self.globe.tile(holder).1, &self.grids[holder]);
         let [low, .., high] = corners(tile.place, self.globe.finest());
         let inside = |corner: GridCorner| (0..2).all(|axis| (low[axis]..=high[axis]).contains(&corner[axis]));
-        // What is larger than a tile is divided anyway; what is as small as its cells lies on its surface.
+        // Triangles larger than a tile are divided anyway; triangles as small as its cells lie on its
+        // surface.
         if ![triangle.a, triangle.b, triangle.apex].into_iter().all(inside)
             || middle.iter().any(|at| at & ((1 << grid.shift) - 1) != 0)
         {
@@ -99,7 +101,8 @@ impl<'a> GlobeMesh<'a> {
         (bulge > error || grid.is_far(triangle, error)).then_some((face, middle[0], middle[1]))
     }
 
-    /// Halves the triangles at a corner; adds to `wanted` where others have to be halved for it, or because of it.
+    /// Halves the triangles at a corner, and adds the points to `wanted` where others must be halved before
+    /// or because of it.
     fn halve(&mut self, spot: CubeCell, wanted: &mut Vec<CubeCell>) {
         if !self.halved.insert(self.key(spot)) {
             return;
@@ -120,17 +123,18 @@ impl<'a> GlobeMesh<'a> {
         }
     }
 
-    /// The triangles over a tile, of which `eye` (m), if there is one, sees any corner above its horizon. The south-west
-    /// corner of the tile gets the texture coordinates `begin` (m), from where they count.
+    /// Returns the triangles over a tile; with `eye` (m), only those with a corner above its horizon.
+    ///
+    /// Texture coordinates (m) begin at `begin` in the tile's south-west corner.
     pub fn write(&self, face: usize, tile: &Tile, begin: f64, eye: Option<DVec3>) -> Pieces {
         let globe = self.globe;
         let own = step(globe, tile);
-        // On the ground in its middle, so that all of it is near.
+        // The origin is on the ground at the centre of the tile, so that all points are near.
         let middle = tile
             .cell((2 * tile.place.x + 1) << (tile.detail - 1), (2 * tile.place.y + 1) << (tile.detail - 1));
         let out = globe.radius() + globe.shown(middle);
         let origin = snapped(ball((face, tile.place)).0 * out, own.max(origin_step(globe.radius())));
-        // Where all of the tile is above the horizon, its triangles need not be asked.
+        // If the whole tile is above the horizon, its triangles need no test.
         let rim =
             corners(tile.place, globe.finest()).map(|[x, y]| globe.direction((face, x, y)) * globe.radius());
         let eye = eye.filter(|eye| !rim.iter().all(|corner| globe.is_above_horizon(*eye, *corner)));
@@ -162,7 +166,7 @@ impl<'a> GlobeMesh<'a> {
         pieces
     }
 
-    /// Adds a corner to a part, and gives its number there.
+    /// Adds a corner to a part, and returns its index.
     #[allow(
         clippy::cast_precision_loss,
         clippy::cast_possible_truncation,
@@ -190,10 +194,10 @@ impl<'a> GlobeMesh<'a> {
     }
 }
 
-/// By how much the square of a length is greater on the sphere than on a face, at most.
+/// Maximum ratio of a squared length on the sphere to that on a face.
 const STRETCH: f64 = 2.0;
 
-/// The heights that are seen at all corners of the cells of a tile.
+/// Returns the visible heights at all corners of the cells of a tile.
 fn grid(globe: &Globe, face: usize, tile: &Tile) -> HeightGrid {
     let shift = globe.finest() - tile.level();
     let own = Tile::own(tile.place, tile.detail);
@@ -209,14 +213,14 @@ fn grid(globe: &Globe, face: usize, tile: &Tile) -> HeightGrid {
     HeightGrid { heights, across, first: [own.x << shift, own.y << shift], shift }
 }
 
-/// The distance (m) of the points of a tile's grid: all that are nearer than four times its size are whole multiples of
-/// it that an f32 holds.
+/// Returns the spacing (m) of a tile's point grid: distances below four times the tile's size are integer
+/// multiples of it, which f32 represents exactly.
 fn step(globe: &Globe, tile: &Tile) -> f64 {
     (globe.world().cell(tile.place.level).log2().ceil() - 21.0).exp2()
 }
 
-/// The distance (m) of the grid that origins lie on: an f32 holds every multiple of it up to four radii, so that files
-/// with such numbers keep tiles together. It is less than the side of the smallest tile of a face.
+/// Returns the spacing (m) of the grid of origins: f32 represents every multiple of it up to four radii, so
+/// that files with f32 numbers keep tiles together. It is less than the side of the smallest tile of a face.
 fn origin_step(radius: f64) -> f64 {
     ((4.0 * radius).log2().ceil() - 24.0).exp2()
 }

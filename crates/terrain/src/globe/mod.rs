@@ -1,7 +1,7 @@
-//! Globes: six faces of a cube, each a quadtree of cells, as the equal parts of a sphere.
+//! Globes: six faces of a cube, each a quadtree of cells, projected to equal parts of a sphere.
 //!
-//! Comes in: a [`World`](super::World) whose rules divide each face, a radius and an eye. Goes out: a [`Globe`] with
-//! heights in any direction, and a [`GlobeMesh`] of it without gaps. Nothing of it shows where the faces meet.
+//! Input: a [`World`](super::World) whose rules divide each face, a radius and an eye. Output: a [`Globe`]
+//! with heights in any direction, and a [`GlobeMesh`] without gaps or visible seams between the faces.
 
 mod expand;
 mod faces;

@@ -1,7 +1,8 @@
-//! A square as a part of a sphere, with equal areas.
+//! Equal-area projection of a square to a part of a sphere.
 //!
-//! Method: Roşca and Plonka, "Uniform spherical grids via equal area projection from the cube to the sphere", 2011:
-//! a square becomes a curved square in the plane, and that, by Lambert's projection, a sixth of the sphere.
+//! Method: Roşca and Plonka, "Uniform spherical grids via equal area projection from the cube to the sphere",
+//! 2011: a square is mapped to a curved square in the plane, and that to a sixth of the sphere by Lambert's
+//! projection.
 
 use std::f64::consts::{FRAC_PI_2, PI, SQRT_2};
 
@@ -9,7 +10,7 @@ use glam::{DVec2, DVec3};
 
 use super::faces::{CubeFace, FACES};
 
-/// The direction (a unit vector) of a place on a face: from -1 to 1 to the east and to the north.
+/// Returns the direction (a unit vector) of a position on a face, from -1 to 1 to the east and to the north.
 pub(super) fn direction(face: usize, place: DVec2) -> DVec3 {
     let [east, north, out] = axes(&FACES[face]);
     let curved = if place.y.abs() <= place.x.abs() {
@@ -23,7 +24,8 @@ pub(super) fn direction(face: usize, place: DVec2) -> DVec3 {
     east * flat.x + north * flat.y + out * (1.0 - square / 2.0)
 }
 
-/// The face that a direction goes through, and the place on it: from -1 to 1 to the east and to the north.
+/// Returns the face that a direction passes through, and the position on it, from -1 to 1 to the east and to
+/// the north.
 pub(super) fn place(direction: DVec3) -> (usize, DVec2) {
     let along = direction.normalize_or(DVec3::X);
     let height = |face: &CubeFace| axes(face)[2].dot(along);
@@ -41,12 +43,12 @@ pub(super) fn place(direction: DVec3) -> (usize, DVec2) {
     (face, square.clamp(DVec2::NEG_ONE, DVec2::ONE))
 }
 
-/// The length of the side of a square that is as large as a face of a sphere with this radius.
+/// Returns the side length of a square with the area of a face of a sphere with this radius.
 pub(super) fn side(radius: f64) -> f64 {
     radius * (PI * 2.0 / 3.0).sqrt()
 }
 
-/// The place in the curved square, where `along` is not below `across`, both without their signs.
+/// Returns the position in the curved square; the absolute value of `along` is at least that of `across`.
 fn curve(along: f64, across: f64) -> DVec2 {
     if along == 0.0 {
         return DVec2::ZERO;
@@ -55,7 +57,7 @@ fn curve(along: f64, across: f64) -> DVec2 {
     DVec2::new(SQRT_2 * cosine - 1.0, SQRT_2 * sine) * (along * SQRT_2.sqrt() / (SQRT_2 - cosine).sqrt())
 }
 
-/// The inverse of [`curve`].
+/// Computes the inverse of [`curve`].
 fn straighten(along: f64, across: f64) -> DVec2 {
     if along == 0.0 {
         return DVec2::ZERO;
@@ -73,7 +75,7 @@ fn axes(face: &CubeFace) -> [DVec3; 3] {
     face.axes.map(|axis| DVec3::from(axis.map(f64::from)))
 }
 
-/// The area of the part of a unit sphere between directions, which go around it counter-clockwise.
+/// Returns the area on a unit sphere between directions, counter-clockwise.
 ///
 /// Method: Van Oosterom and Strackee, "The solid angle of a plane triangle", 1983.
 #[cfg(test)]
@@ -88,7 +90,7 @@ pub(super) fn area(corners: &[DVec3]) -> f64 {
         .sum()
 }
 
-/// How far (degrees) a direction is from the equator of `axis`, without its sign.
+/// Returns the absolute latitude (degrees) of a direction relative to the equator of `axis`.
 pub fn latitude(direction: DVec3, axis: DVec3) -> f64 {
     (FRAC_PI_2 - direction.angle_between(axis)).abs().to_degrees()
 }
@@ -117,7 +119,7 @@ mod tests {
             let begin = DVec2::new(f64::from(cell % across), f64::from(cell / across));
             let at =
                 |x: f64, y: f64| direction(0, (begin + DVec2::new(x, y)) * 2.0 / f64::from(across) - 1.0);
-            // The sides are curves, which `fine` straight ones come near to.
+            // The sides are curves, approximated by `fine` straight segments.
             let measured = |fine: u32| {
                 let side = |of: &dyn Fn(f64) -> DVec3| -> Vec<DVec3> {
                     (0..fine).map(|step| of(f64::from(step) / f64::from(fine))).collect()
@@ -128,13 +130,13 @@ mod tests {
                     side(&|t| at(1.0 - t, 1.0)),
                     side(&|t| at(0.0, 1.0 - t)),
                 ];
-                // The middle first: all triangles turn around it.
+                // The centre comes first, as the apex of all triangles.
                 let mut corners = vec![at(0.5, 0.5)];
                 corners.extend(rim.concat());
                 corners.push(corners[1]);
                 area(&corners)
             };
-            // With twice as many the error is a quarter (Richardson).
+            // Twice as many segments have a quarter of the error (Richardson extrapolation).
             let whole = (4.0 * measured(512) - measured(256)) / 3.0 * f64::from(across * across) * 6.0;
             assert!((whole / (4.0 * PI) - 1.0).abs() < 1e-9, "{cell}: {whole}");
         }

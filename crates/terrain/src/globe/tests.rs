@@ -1,4 +1,4 @@
-//! Globes of random rules, looked at from random places.
+//! Tests of globes with random rules, seen from random points.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -13,7 +13,7 @@ use burgeon_rewriting::{ModuleKey, Symbol};
 
 const RADIUS: f64 = 50_000.0;
 
-/// Rules of two symbols, the same for all quadrants, so that nothing but the faces could make edges.
+/// Returns rules of two symbols, equal for all quadrants, so that only the faces could cause edges.
 fn world(seed: u64, smooth: bool) -> World {
     let rule = |symbol: Symbol, reach: f64, decay: f64| Quadrants {
         weight: 1.0,
@@ -52,12 +52,13 @@ fn way(stream: &mut Stream) -> DVec3 {
     DVec3::new(number(stream), number(stream), number(stream)).normalize()
 }
 
-/// A place above the ground, at a height (m) of any size.
+/// Returns a point above the ground, at a height (m) of random magnitude.
 fn eye(stream: &mut Stream) -> DVec3 {
     way(stream) * (RADIUS + 10f64.powf(1.0 + 4.0 * stream.uniform()))
 }
 
-/// Checks that each edge of the triangles of a globe has exactly one other at its other side, with the same ends.
+/// Asserts that each edge of a globe's triangles has exactly one opposite edge with the same ends; returns
+/// the number of triangles.
 fn check_closed(globe: &Globe, error: f64) -> usize {
     let mesh = GlobeMesh::new(globe, error);
     let mut edges: BTreeMap<[[u64; 3]; 2], i32> = BTreeMap::new();
@@ -165,7 +166,7 @@ fn the_edges_of_the_cube_do_not_show() {
             let found = measured(normal, &other);
             others = (others.0 + found.0, others.1 + found.1);
         }
-        // They are no steeper and no more bent than elsewhere, and no flatter.
+        // Edges are as steep and as bent as other places.
         let (steep, bent) = (edges.0 / others.0, edges.1 / others.1);
         assert!((0.4..2.0).contains(&steep) && bent < 1.5, "{seed}: {edges:?} {others:?}");
     }

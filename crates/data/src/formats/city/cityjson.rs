@@ -1,4 +1,4 @@
-//! Reads CityJSON, and CityJSONSeq, which has an object to a line.
+//! Reader of CityJSON, and of CityJSONSeq with one object per line.
 
 use std::fmt;
 use std::sync::Arc;
@@ -19,22 +19,22 @@ use burgeon_base::budget::Budget;
 use burgeon_base::error::{Error, Result};
 use burgeon_base::text::shown;
 
-/// The largest file (bytes).
+/// Maximum file size (bytes).
 const LARGEST: u64 = 1_000_000_000;
 
-/// How many of the first bytes tell that a file is CityJSON.
+/// Number of first bytes that are searched for CityJSON keys.
 const HEAD: usize = 1024;
 
-/// How many bytes an object of a line takes while it is read, for each of its own.
+/// Memory (bytes) needed while an object is read, per byte of its text.
 const AROUND: usize = 8;
 
-/// A file of CityJSON.
+/// CityJSON file.
 pub(crate) struct CityJson {
     file: DataFile,
     types: Vec<String>,
 }
 
-/// A document: the model, or an object of a sequence.
+/// Document: the model, or an object of a sequence.
 #[derive(Deserialize)]
 struct CityJsonDocument<'a> {
     r#type: Option<String>,
@@ -54,7 +54,7 @@ struct Transform {
     translate: [f64; 3],
 }
 
-/// Objects by their ids, in the order of the file.
+/// Objects by id, in file order.
 struct ObjectList<'a>(Vec<(String, &'a RawValue)>);
 
 impl<'de: 'a, 'a> Deserialize<'de> for ObjectList<'a> {
@@ -80,7 +80,7 @@ impl<'de: 'a, 'a> Deserialize<'de> for ObjectList<'a> {
     }
 }
 
-/// An object as the file has it.
+/// Object as stored in the file.
 #[derive(Deserialize)]
 struct RawObject<'a> {
     #[serde(default)]
@@ -118,7 +118,7 @@ struct SemanticSurface {
     r#type: String,
 }
 
-/// The coordinates of a document.
+/// Vertices of a document.
 struct CityVertices {
     places: Vec<Vec<f64>>,
     transform: Option<Transform>,
@@ -144,7 +144,7 @@ impl CityVertices {
 }
 
 impl CityJson {
-    /// Whether a file that begins so is CityJSON.
+    /// Returns true if a file that begins with `head` is CityJSON.
     pub(crate) fn is_one(head: &[u8]) -> bool {
         let head = String::from_utf8_lossy(&head[..head.len().min(HEAD)]);
         let text = head.trim_start_matches('\u{feff}').trim_start();
@@ -169,13 +169,13 @@ impl CityJson {
             return Err(Error::data(format!("{} is CityJSON without city objects", found.file.name))
                 .help("it needs \"CityObjects\": { \"id\": { \"type\": \"Building\", ... } }"));
         }
-        // Parts are read with what they belong to; they can be asked for too.
+        // Parts are read with their parent object; they can also be requested as a layer.
         types.sort_by_key(|name| name.ends_with("Part"));
         found.types = types;
         Ok(found)
     }
 
-    /// Hands the model to `each`, or the objects of a sequence one by one.
+    /// Calls `each` with the model, or with the objects of a sequence one by one.
     fn each(
         &self,
         wanted: &SourceOptions,
@@ -202,7 +202,7 @@ impl CityJson {
                 .help("convert it: iconv -f ENCODING -t UTF-8 IN > OUT.city.json")
         })?;
         let text = text.trim_start_matches('\u{feff}');
-        // Vertices and boundaries are numbers, of which each takes more than its text.
+        // Vertices and boundaries are numbers, each of which needs more memory than its text.
         let mut documents = serde_json::Deserializer::from_str(text).into_iter::<&RawValue>();
         let mut transform: Option<Transform> = None;
         let mut first = true;
@@ -230,7 +230,7 @@ impl CityJson {
                     .help("it needs \"type\": \"CityJSON\""));
             }
             first = false;
-            // The first one of a sequence tells the transform of all.
+            // The first document of a sequence contains the transform for all.
             match &read.transform {
                 Some(own) => transform = Some(own.clone()),
                 None => read.transform.clone_from(&transform),
@@ -241,7 +241,7 @@ impl CityJson {
     }
 }
 
-/// The type of an object.
+/// Type of an object.
 #[derive(Deserialize, Default)]
 struct ObjectType {
     r#type: Option<String>,
@@ -271,7 +271,7 @@ impl LayeredFile for CityJson {
     }
 }
 
-/// Adds the features of a type that a document holds.
+/// Adds the features of one type in a document.
 fn read_document(
     document: CityJsonDocument<'_>,
     layer: &str,
@@ -309,7 +309,7 @@ fn read_document(
     Ok(())
 }
 
-/// The coordinate system that a reference names. Its coordinates are always east, north and height.
+/// Returns the coordinate system of a reference. Its coordinates are always in the order east, north, height.
 fn named(name: &str) -> Result<Crs> {
     let code = name.rsplit(['/', ':']).next().and_then(|code| code.parse().ok());
     let code: u32 = code.ok_or_else(|| {
@@ -319,7 +319,7 @@ fn named(name: &str) -> Result<Crs> {
     Crs::epsg(code).or_else(|_| Crs::epsg(horizontal(code)))
 }
 
-/// The code of the places in a compound coordinate system that the registry does not have, whose other part are heights.
+/// Returns the horizontal part of a compound coordinate system that the registry does not contain.
 fn horizontal(code: u32) -> u32 {
     match code {
         4979 | 9518 | 9707 => 4326,
@@ -336,7 +336,7 @@ fn horizontal(code: u32) -> u32 {
     }
 }
 
-/// An object with its parts. Fails with the reason.
+/// Returns an object with its parts. Fails with the reason.
 fn object(
     id: &str,
     text: &RawValue,
@@ -362,7 +362,7 @@ fn object(
     Ok(Ok(made.0))
 }
 
-/// An object without its parts, and the ids of its children.
+/// Object without its parts, and the ids of its children.
 type SingleObject = (CityRecord, Vec<String>);
 
 fn single(
@@ -401,7 +401,7 @@ fn single(
     Ok(Ok((made, raw.children)))
 }
 
-/// Rings of a surface, surfaces of a shell, shells of a solid, solids.
+/// Rings of a surface, as vertex indices.
 type SurfaceRings = Vec<Vec<usize>>;
 
 /// Adds a geometry to a shape.
@@ -481,7 +481,7 @@ fn add_geometry(
     Ok(Ok(()))
 }
 
-/// The roles of surfaces, in the order of the boundaries.
+/// Collects the roles of surfaces, in the order of the boundaries.
 fn collect_roles(
     values: &Value,
     surfaces: &[SemanticSurface],

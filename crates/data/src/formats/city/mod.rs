@@ -1,7 +1,7 @@
-//! Models of cities: what CityGML and CityJSON have in common.
+//! City models: common parts of CityGML and CityJSON.
 //!
-//! Comes in: the surfaces of an object in space, with their roles. Goes out: its footprint, and its height. CityJSON is read here,
-//! CityGML by the reader of [GML](super::gml), whose geometries it has.
+//! Input: the surfaces of an object in space, with their roles. Output: its footprint and its height. CityJSON is read
+//! here; CityGML is read by the [GML](super::gml) reader, because it uses GML geometries.
 //!
 //! Source: OGC 12-019, 20-010 and 21-006r2, CityGML 2 and 3; OGC 20-072r5, CityJSON.
 

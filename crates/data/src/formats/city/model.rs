@@ -1,4 +1,4 @@
-//! Objects of a city, and the features that they become.
+//! City objects, and their conversion to features.
 
 use super::shape::CityShape;
 use crate::formats::typing::{TextTypes, as_number};
@@ -6,28 +6,28 @@ use crate::{Attribute, FeatureTable};
 use burgeon_base::budget::Budget;
 use burgeon_base::error::Result;
 
-/// A value of an object.
+/// Value of an object.
 #[derive(Debug, Clone)]
 pub(in crate::formats) enum CityValue {
-    /// A text of XML, which may be a number.
+    /// XML text, which may be a number.
     Text(String),
-    /// What JSON tells.
+    /// JSON value.
     Known(Attribute),
 }
 
-/// An object of a city: a building, a road, a tree.
+/// City object, such as a building, a road, or a tree.
 #[derive(Debug, Default)]
 pub(in crate::formats) struct CityRecord {
-    /// Its id, if it has one.
+    /// Id, if any.
     pub(in crate::formats) id: Option<String>,
     pub(in crate::formats) values: Vec<(String, CityValue)>,
     pub(in crate::formats) shape: CityShape,
-    /// Its parts, such as those of a building.
+    /// Parts, such as building parts.
     pub(in crate::formats) parts: Vec<CityRecord>,
 }
 
 impl CityRecord {
-    /// Adds a text; several of one name are listed.
+    /// Adds a text value; several values of one name are joined in a list.
     pub(in crate::formats) fn add_text(&mut self, name: &str, value: &str) {
         if value.is_empty() {
             return;
@@ -42,10 +42,11 @@ impl CityRecord {
         }
     }
 
-    /// Adds its features to `table`: one of itself, and one of each part that has a geometry, with what the whole knows. If it has
-    /// but a footprint, that is the one of all parts.
+    /// Adds the features of the object to `table`: one for the object itself, and one for each part with a geometry,
+    /// which inherits the attributes of the object. If the object has only a footprint, the parts are omitted, because
+    /// the footprint covers all of them.
     ///
-    /// Fails as [`FeatureTable::push`] does.
+    /// Fails like [`FeatureTable::push`].
     pub(in crate::formats) fn add_to(
         mut self,
         table: &mut FeatureTable,
@@ -80,7 +81,8 @@ impl CityRecord {
         Ok(())
     }
 
-    /// Adds the feature that it is. What it is high, and how many storeys it has, is told under plain names too.
+    /// Adds the feature of the object itself. Its height, ground height and number of storeys are also stored in
+    /// `height`, `ground` and `levels`.
     fn push(
         &self,
         heights: Option<[f64; 2]>,

@@ -1,4 +1,4 @@
-//! The surfaces of an object in space, and its footprint.
+//! Surfaces of an object in space, and its footprint.
 
 use glam::{DVec2, DVec3};
 
@@ -7,21 +7,21 @@ use burgeon_base::budget::Budget;
 use burgeon_base::error::Result;
 use burgeon_spatial::union_all;
 
-/// The role of a surface.
+/// Role of a surface.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(in crate::formats) enum SurfaceRole {
-    /// The footprint that the file tells, without heights.
+    /// Footprint given in the file, without heights.
     Footprint,
-    /// It is on the ground.
+    /// Ground surface.
     Ground,
-    /// It is a roof.
+    /// Roof surface.
     Roof,
-    /// It is something else, or nothing says what it is.
+    /// Other or unknown role.
     Other,
 }
 
 impl SurfaceRole {
-    /// The role that an element or a semantic object called `name` stands for.
+    /// Returns the role of an element or semantic object called `name`.
     pub(in crate::formats) fn named(name: &str) -> Self {
         match name {
             "GroundSurface" => Self::Ground,
@@ -31,19 +31,19 @@ impl SurfaceRole {
     }
 }
 
-/// A flat surface.
+/// Flat surface.
 #[derive(Debug, Clone)]
 pub(in crate::formats) struct CitySurface {
-    /// Its rings: the outer one, and its holes.
+    /// Rings: the outer ring, then the holes.
     pub(in crate::formats) rings: Vec<Vec<DVec3>>,
     pub(in crate::formats) role: SurfaceRole,
-    /// The level of detail, in tenths.
+    /// Level of detail, in tenths.
     pub(in crate::formats) level: u32,
-    /// Whether it is a part of a closed shell, whose surfaces face outwards.
+    /// Set if the surface is part of a closed shell, whose surfaces face outwards.
     pub(in crate::formats) is_solid: bool,
 }
 
-/// The geometry of an object.
+/// Geometry of an object.
 #[derive(Debug, Clone, Default)]
 pub(in crate::formats) struct CityShape {
     pub(in crate::formats) surfaces: Vec<CitySurface>,
@@ -51,13 +51,13 @@ pub(in crate::formats) struct CityShape {
     pub(in crate::formats) points: Vec<DVec3>,
 }
 
-/// Surfaces whose normals are nearer to the horizon than this are walls.
+/// Maximum vertical component of a wall's unit normal.
 const STEEP: f64 = 0.01;
 
-/// The most surfaces that are merged: more are a relief, whose triangles stay as they are.
+/// Maximum number of surfaces that are merged; larger sets are terrain, whose triangles are kept.
 const MOST_MERGED: usize = 5_000;
 
-/// The normal of a ring, as long as its area twice. Method: Newell.
+/// Returns the normal of a ring, with twice the ring's area as its length. Method: Newell.
 fn normal(ring: &[DVec3]) -> DVec3 {
     let Some(first) = ring.first() else { return DVec3::ZERO };
     let next = ring.iter().skip(1).chain([first]);
@@ -65,7 +65,7 @@ fn normal(ring: &[DVec3]) -> DVec3 {
 }
 
 impl CitySurface {
-    /// How far its normal leads upwards, from -1 to 1; 0 for a wall, and for what has no area.
+    /// Returns the vertical component of the unit normal, from -1 to 1; 0 for walls and for surfaces without area.
     fn upward(&self) -> f64 {
         let normal = self.rings.first().map_or(DVec3::ZERO, |ring| normal(ring));
         let part = normal.z / normal.length();
@@ -78,17 +78,17 @@ impl CitySurface {
 }
 
 impl CityShape {
-    /// Whether there is nothing.
+    /// Returns true if there is no geometry.
     pub(in crate::formats) fn is_empty(&self) -> bool {
         self.surfaces.is_empty() && self.lines.is_empty() && self.points.is_empty()
     }
 
-    /// Whether nothing of it has a height of its own: all surfaces are footprints, or of the level of detail 0.
+    /// Returns true if no surface has its own height: all surfaces are footprints or have the level of detail 0.
     pub(in crate::formats) fn is_flat(&self) -> bool {
         self.surfaces.iter().all(|surface| surface.role == SurfaceRole::Footprint || surface.level < 10)
     }
 
-    /// The lowest and the highest place (m) of the most detailed surfaces that have heights.
+    /// Returns the lowest and the highest height (m) of the most detailed surfaces with heights.
     pub(in crate::formats) fn heights(&self) -> Option<[f64; 2]> {
         let has_heights =
             |surface: &&CitySurface| surface.level >= 10 && surface.role != SurfaceRole::Footprint;
@@ -100,8 +100,8 @@ impl CityShape {
         (low < high).then_some([low, high])
     }
 
-    /// The parts of its footprint: that which the file tells, or its ground, or all of its most detailed surfaces as seen from
-    /// above. Lines or points where there are no surfaces.
+    /// Returns the parts of the footprint: the footprint in the file, otherwise the ground surfaces, otherwise the
+    /// projection of the most detailed surfaces. Returns lines or points if there are no surfaces.
     pub(in crate::formats) fn footprint(&self, budget: &Budget) -> Result<Vec<Geometry>> {
         if self.surfaces.is_empty() {
             let lines = self.lines.iter().cloned().filter_map(Geometry::line);
@@ -117,13 +117,13 @@ impl CityShape {
                 return merge(&found, budget);
             }
         }
-        // Of a shell, what faces the ground is its shadow.
+        // The downward surfaces of a shell cover its projection.
         let shell = self.best(|surface| surface.is_solid && surface.upward() < 0.0);
         let found = if shell.is_empty() { self.best(|surface| surface.upward() != 0.0) } else { shell };
         merge(&found, budget)
     }
 
-    /// The most detailed of the surfaces that are `wanted`.
+    /// Returns the most detailed surfaces that satisfy `wanted`.
     fn best(&self, wanted: impl Fn(&CitySurface) -> bool) -> Vec<&CitySurface> {
         let found: Vec<&CitySurface> = self.surfaces.iter().filter(|surface| wanted(surface)).collect();
         let level = found.iter().map(|surface| surface.level).max();
@@ -131,7 +131,7 @@ impl CityShape {
     }
 }
 
-/// The areas that surfaces make together as seen from above, at the height of the lowest of their places.
+/// Returns the union of surfaces in projection from above, at the lowest height of their points.
 fn merge(surfaces: &[&CitySurface], budget: &Budget) -> Result<Vec<Geometry>> {
     let low = surfaces
         .iter()
@@ -148,7 +148,7 @@ fn merge(surfaces: &[&CitySurface], budget: &Budget) -> Result<Vec<Geometry>> {
     budget.check()?;
     let size: usize = polygons.iter().map(|polygon| polygon.points().count()).sum();
     let _held = budget.hold(size * 1000)?;
-    // Far from the origin, sums of areas that touch would be rounded.
+    // Far from the origin, the union of adjacent areas would suffer from rounding.
     let middle = polygons[0].points().next().map_or(DVec2::ZERO, |point| point.truncate()).extend(0.0);
     let shift = |geometry: &mut Geometry, by: DVec3| geometry.points_mut().for_each(|point| *point += by);
     let mut moved = polygons;

@@ -1,4 +1,4 @@
-//! Cities that are made here: the same buildings in CityGML of several versions and in CityJSON.
+//! Tests with generated cities: the same buildings in several versions of CityGML and in CityJSON.
 
 use glam::DVec3;
 
@@ -6,7 +6,7 @@ use super::shape::{CityShape, CitySurface, SurfaceRole};
 use crate::{Attribute, FeatureTable, Geometry, Listing, Source, SourceOptions};
 use burgeon_base::budget::Budget;
 
-/// The faces of a box, each with its role, facing outwards.
+/// Returns the outward faces of a box, each with its role.
 fn faces([x, y, z]: [f64; 3], [a, b, h]: [f64; 3]) -> Vec<(&'static str, Vec<DVec3>)> {
     let at = |corner: [f64; 2], z: f64| DVec3::new(corner[0], corner[1], z);
     let corners = [[x, y], [x + a, y], [x + a, y + b], [x, y + b]];
@@ -105,7 +105,7 @@ fn footprints_heights_and_attributes_come_from_citygml_of_each_level_and_version
             "both",
             &format!("{}{}", solid(1, &faces(HALL.0, [10.0, 8.0, 5.0])), bounded("bldg:boundedBy", 2, &hall)),
         ),
-        // Version 3 has heights in objects, generic attributes with large letters, and boundaries.
+        // Version 3 has heights in objects, generic attributes in capitalised elements, and boundaries.
         of(
             "three",
             &format!(
@@ -232,7 +232,7 @@ fn grounds_of_many_faces_become_one_footprint_far_from_the_origin() {
             let low =
                 origin + DVec3::new(f64::from(cell % columns) * side, f64::from(cell / columns) * side, 0.0);
             let [a, b, c, d] = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]].map(|[x, y]| {
-                // Corners that faces share are the same to the bit, as in files.
+                // Corners shared by faces are bitwise equal, as in files.
                 let round = |value: f64| (value * 1000.0).round() / 1000.0;
                 DVec3::new(round(low.x + x * side), round(low.y + y * side), 3.0)
             });

@@ -1,33 +1,33 @@
-//! Tables of FlatBuffers as they lie in bytes.
+//! FlatBuffers tables in a byte slice.
 
-/// What is wrong with bytes.
+/// Description of the damage in bytes.
 pub(super) type BufferDamage = &'static str;
 
 const ENDS: BufferDamage = "points beyond its end";
 
-/// A table, whose fields are found through a list of offsets.
+/// Table whose fields are located through a list of offsets.
 #[derive(Clone, Copy)]
 pub(super) struct BufferTable<'a> {
     bytes: &'a [u8],
     at: usize,
-    /// Where its fields are, as numbers of two bytes.
+    /// Offsets of the fields, two bytes each.
     fields: &'a [u8],
 }
 
-/// Bytes of a fixed number at a place.
+/// Returns a fixed number of bytes at a position.
 fn fixed<const N: usize>(bytes: &[u8], at: usize) -> Result<[u8; N], BufferDamage> {
     let found = bytes.get(at..).and_then(<[u8]>::first_chunk::<N>);
     found.copied().ok_or(ENDS)
 }
 
-/// The place that the offset at `at` leads to.
+/// Returns the target of the offset at `at`.
 fn follow(bytes: &[u8], at: usize) -> Result<usize, BufferDamage> {
     let offset = u32::from_le_bytes(fixed(bytes, at)?) as usize;
     at.checked_add(offset).filter(|to| *to < bytes.len()).ok_or(ENDS)
 }
 
 impl<'a> BufferTable<'a> {
-    /// The table that `bytes` are.
+    /// Returns the root table of `bytes`.
     pub(super) fn root(bytes: &'a [u8]) -> Result<Self, BufferDamage> {
         Self::new(bytes, follow(bytes, 0)?)
     }
@@ -41,23 +41,23 @@ impl<'a> BufferTable<'a> {
         Ok(Self { bytes, at, fields })
     }
 
-    /// Where a field is, if it is there.
+    /// Returns the position of a field, if it is present.
     fn field(&self, number: usize) -> Option<usize> {
         let offset = u16::from_le_bytes(fixed(self.fields, number * 2).ok()?);
         (offset > 0).then_some(self.at + usize::from(offset))
     }
 
-    /// A field of a fixed number of bytes, if it is there.
+    /// Returns a field with a fixed number of bytes, if it is present.
     pub(super) fn fixed<const N: usize>(&self, number: usize) -> Result<Option<[u8; N]>, BufferDamage> {
         self.field(number).map(|at| fixed(self.bytes, at)).transpose()
     }
 
-    /// The table in a field, if it is there.
+    /// Returns the table in a field, if it is present.
     pub(super) fn table(&self, number: usize) -> Result<Option<Self>, BufferDamage> {
         self.field(number).map(|at| Self::new(self.bytes, follow(self.bytes, at)?)).transpose()
     }
 
-    /// The bytes of a list of items of `size` bytes; none if it is not there.
+    /// Returns the bytes of a list of items of `size` bytes; empty if it is absent.
     pub(super) fn list(&self, number: usize, size: usize) -> Result<&'a [u8], BufferDamage> {
         let Some(at) = self.field(number) else { return Ok(&[]) };
         let at = follow(self.bytes, at)?;
@@ -67,19 +67,19 @@ impl<'a> BufferTable<'a> {
         end.and_then(|end| self.bytes.get(begin..end)).ok_or(ENDS)
     }
 
-    /// The text in a field, if it is there.
+    /// Returns the text in a field, if it is present.
     pub(super) fn text(&self, number: usize) -> Result<Option<String>, BufferDamage> {
         let text = self.list(number, 1)?;
         Ok(self.field(number).map(|_| String::from_utf8_lossy(text).into_owned()))
     }
 
-    /// The tables of a list.
+    /// Returns the tables in a list.
     pub(super) fn tables(
         &self,
         number: usize,
     ) -> Result<impl Iterator<Item = Result<Self, BufferDamage>> + use<'a>, BufferDamage> {
         let (bytes, count) = (self.bytes, self.list(number, 4)?.len() / 4);
-        // The list begins behind its own count.
+        // The items begin after the count.
         let begin = match self.field(number) {
             Some(at) => follow(bytes, at)? + 4,
             None => 0,

@@ -1,4 +1,4 @@
-//! The geometries of FlatGeobuf.
+//! Geometries of FlatGeobuf.
 
 use glam::DVec3;
 
@@ -8,7 +8,8 @@ use crate::Geometry;
 use burgeon_base::budget::Budget;
 use burgeon_spatial::DEEPEST;
 
-/// Adds the parts of a geometry of a kind, which it may tell itself if that is 0. Fails with the reason.
+/// Adds the parts of a geometry of type `kind`; if `kind` is 0, the geometry may contain its own type. Fails with the
+/// reason.
 pub(super) fn read(
     table: &BufferTable<'_>,
     kind: u8,
@@ -50,7 +51,7 @@ pub(super) fn read(
     Ok(())
 }
 
-/// The points of a geometry.
+/// Returns the points of a geometry.
 fn points(table: &BufferTable<'_>, budget: &Budget) -> Result<Vec<DVec3>, String> {
     let broken = |why: BufferDamage| format!("has a geometry that {why}");
     let (places, heights) = (table.list(1, 8).map_err(broken)?, table.list(2, 8).map_err(broken)?);
@@ -63,13 +64,13 @@ fn points(table: &BufferTable<'_>, budget: &Budget) -> Result<Vec<DVec3>, String
         let mut place = doubles(place);
         let mut next = || place.next().unwrap_or_default();
         let (x, y, z) = (next(), next(), heights.next().unwrap_or_default());
-        // Some programs write a height that is not known so.
+        // Some programs write NaN for unknown heights.
         DVec3::new(x, y, if z.is_nan() { 0.0 } else { z })
     });
     Ok(points.collect())
 }
 
-/// The lists of points that a geometry is divided into.
+/// Returns the lists of points into which a geometry is divided.
 fn lists(table: &BufferTable<'_>, budget: &Budget) -> Result<Vec<Vec<DVec3>>, String> {
     let ends = table.list(0, 4).map_err(|why| format!("has a geometry that {why}"))?;
     let all = points(table, budget)?;

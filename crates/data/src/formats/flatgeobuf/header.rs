@@ -1,40 +1,40 @@
-//! The header of a FlatGeobuf: what its features know, how many there are, and in which coordinate system.
+//! FlatGeobuf header: columns, number of features, and coordinate system.
 
 use super::buffer::{BufferDamage, BufferTable};
 use crate::Crs;
 use burgeon_base::error::{Error, Result as Checked};
 use burgeon_base::text::shown;
 
-/// What stands before all features.
+/// Header of the file.
 pub(super) struct LayerHeader {
     pub(super) name: String,
-    /// West, south, east and north, if it tells them.
+    /// West, south, east and north, if present.
     pub(super) bounds: Option<[f64; 4]>,
-    /// The kind of all geometries; 0 if each tells its own.
+    /// Type of all geometries; 0 if each geometry contains its own type.
     pub(super) kind: u8,
     pub(super) columns: Vec<Column>,
-    /// How many features there are; 0 if that is not known.
+    /// Number of features; 0 if unknown.
     pub(super) count: u64,
-    /// How many boxes each box of the index is around; 0 without an index.
+    /// Number of entries per node of the index; 0 without an index.
     pub(super) fan: u64,
     pub(super) crs: Checked<Crs>,
 }
 
-/// An attribute of the features.
+/// Attribute column.
 #[derive(Clone)]
 pub(super) struct Column {
     pub(super) name: String,
     pub(super) kind: u8,
-    /// Whether it tells features apart.
+    /// Marks an id column.
     pub(super) is_key: bool,
 }
 
-/// The number in four bytes.
+/// Converts eight bytes to a number.
 pub(super) fn double(bytes: [u8; 8]) -> f64 {
     f64::from_le_bytes(bytes)
 }
 
-/// Numbers in a list.
+/// Returns the numbers in a list.
 pub(super) fn doubles(bytes: &[u8]) -> impl ExactSizeIterator<Item = f64> {
     bytes.as_chunks().0.iter().copied().map(double)
 }
@@ -63,7 +63,7 @@ impl LayerHeader {
     }
 }
 
-/// The columns in a field of a table.
+/// Returns the columns in a field of a table.
 pub(super) fn columns(table: &BufferTable<'_>, number: usize) -> Result<Vec<Column>, BufferDamage> {
     let column = |table: Result<BufferTable<'_>, BufferDamage>| -> Result<Column, BufferDamage> {
         let table = table?;
@@ -76,7 +76,7 @@ pub(super) fn columns(table: &BufferTable<'_>, number: usize) -> Result<Vec<Colu
     table.tables(number)?.map(column).collect()
 }
 
-/// The coordinate system that a table describes, or why it is not known.
+/// Returns the coordinate system that a table describes, or the reason why it is unknown.
 fn system(table: Option<BufferTable<'_>>) -> Result<Checked<Crs>, BufferDamage> {
     let remedy = "name its EPSG code: source(file, { crs = 3067 })";
     let none = Err(Error::data("the layer has no coordinate system").help(remedy));

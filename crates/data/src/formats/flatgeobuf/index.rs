@@ -1,4 +1,4 @@
-//! The index of a FlatGeobuf: boxes around boxes, down to those of the features.
+//! FlatGeobuf index: a tree of bounding boxes, down to those of the features.
 //!
 //! Source: the FlatGeobuf specification, "packed Hilbert R-tree".
 
@@ -8,15 +8,15 @@ use std::io::{BufReader, Read, Result, Seek, SeekFrom};
 use burgeon_base::budget::Budget;
 use burgeon_base::error::{Error, Result as Checked};
 
-/// How many bytes a box takes.
+/// Size of a box in the index (bytes).
 pub(super) const ENTRY: u64 = 40;
 
-/// A box, and where that lies which it is around.
+/// Bounding box and its target.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct BoxEntry {
     /// West, south, east and north.
     pub(super) bounds: [f64; 4],
-    /// For a feature, where it begins behind the index; for a box, the number of the first that it is around.
+    /// For a feature, its offset after the index; for an inner node, the index of its first child.
     pub(super) to: u64,
 }
 
@@ -33,11 +33,11 @@ impl BoxEntry {
     }
 }
 
-/// Where the levels of an index begin and end, as numbers of boxes: the top first, the features' last.
+/// Begin and end of each level of the index, as box indices: the root first, the features last.
 pub(super) struct Levels(Vec<[u64; 2]>);
 
 impl Levels {
-    /// Those of an index of `count` features; none if that cannot be.
+    /// Computes the levels of an index of `count` features; `None` if the index is impossible.
     pub(super) fn new(count: u64, fan: u64) -> Option<Self> {
         if fan < 2 || count == 0 {
             return None;
@@ -61,22 +61,22 @@ impl Levels {
         Some(Self(levels))
     }
 
-    /// How many boxes there are.
+    /// Returns the number of boxes.
     fn count(&self) -> u64 {
         self.0.last().map_or(0, |[_, end]| *end)
     }
 
-    /// How many bytes the index takes; none if that cannot be.
+    /// Returns the size of the index (bytes); `None` if it is impossible.
     pub(super) fn size(&self) -> Option<u64> {
         self.count().checked_mul(ENTRY)
     }
 
-    /// The number of the first feature's box.
+    /// Returns the index of the first feature's box.
     pub(super) fn leaves(&self) -> u64 {
         self.0.last().map_or(0, |[begin, _]| *begin)
     }
 
-    /// The numbers of the features whose boxes `touch`, and where these begin, in the order of the file.
+    /// Returns the indices of the features whose boxes satisfy `touch`, and their offsets, in file order.
     pub(super) fn search(
         &self,
         file: &File,

@@ -1,10 +1,11 @@
-//! Reads FlatGeobuf, `.fgb`: a layer of features in a row, often with an index of their boxes before them.
+//! Reader of FlatGeobuf, `.fgb`: a layer of consecutive features, often preceded by an index of their bounding boxes.
 //!
-//! Comes in: a file. Goes out: a [`FeatureTable`](crate::FeatureTable). Features are read one by one, and where only those in a box
-//! are wanted, only those that the index has there. What the index and the header tell is compared with what is
-//! there, since a changed byte would otherwise be a place like any other.
+//! Input: a file. Output: a [`FeatureTable`](crate::FeatureTable). Features are read one by one; if only those in a box
+//! are wanted, the index selects them. The information in the index and the header is compared with the features,
+//! because a changed byte would otherwise yield a plausible position.
 //!
-//! The reader is our own, since it must be bounded: counts and offsets are checked before anything is made of them.
+//! The reader is our own, because it must be bounded: counts and offsets are checked before memory is allocated for
+//! them.
 //!
 //! Source: the FlatGeobuf specification, version 3, and the binary format of FlatBuffers.
 

@@ -1,4 +1,4 @@
-//! Reads the features of a FlatGeobuf, one by one.
+//! Reader of FlatGeobuf features.
 
 use std::fs::File;
 use std::io::{BufReader, Read, Seek, SeekFrom};
@@ -12,30 +12,30 @@ use super::index::{BoxEntry, Levels};
 use crate::{Attribute, FeatureTable, Geometry, SourceOptions};
 use burgeon_base::error::{Error, Result};
 
-/// What a file begins with; the fourth byte is the version.
+/// First bytes of a file; the fourth byte is the version.
 const MAGIC: &[u8] = b"fgb\x03fgb";
 
-/// The largest header (bytes).
+/// Maximum header size (bytes).
 const LARGEST_HEADER: u64 = 64 << 20;
 
-/// How much (of its size and place) a feature may lie outside of where it is said to be.
+/// Relative tolerance for positions outside their declared bounds.
 const ROUNDING: f64 = 1e-12;
 
-/// An open FlatGeobuf.
+/// Open FlatGeobuf file.
 pub struct FlatGeobuf {
     file: File,
     name: String,
     layer: String,
     header: LayerHeader,
     levels: Option<Levels>,
-    /// Where the index and the features begin, and the file ends (bytes).
+    /// Offsets of the index and of the features, and the end of the file (bytes).
     index: u64,
     features: u64,
     end: u64,
 }
 
 impl FlatGeobuf {
-    /// Whether a file that begins so is a FlatGeobuf, of any version.
+    /// Returns true if a file that begins with `head` is a FlatGeobuf of any version.
     pub(crate) fn is_one(head: &[u8]) -> bool {
         head.starts_with(b"fgb") && head.get(4..7) == Some(b"fgb")
     }
@@ -109,7 +109,7 @@ impl FlatGeobuf {
         Ok(table)
     }
 
-    /// Reads all features, in their order.
+    /// Reads all features in order.
     fn all(&self, table: &mut FeatureTable, wanted: &SourceOptions) -> Result<()> {
         let mut reader = self.reader(self.features);
         let leaves = self.levels.as_ref().map(|levels| self.index + levels.leaves() * super::index::ENTRY);
@@ -143,7 +143,7 @@ impl FlatGeobuf {
         FgbReader { file, at, name: &self.name, bytes: Vec::new() }
     }
 
-    /// Reads the feature that the reader is at, which has a number and perhaps a box in the index.
+    /// Reads the feature at the reader's position, with its index and, if known, its box in the spatial index.
     fn feature(
         &self,
         reader: &mut FgbReader<'_>,
@@ -178,14 +178,14 @@ impl FlatGeobuf {
         why: &str,
         wanted: &SourceOptions,
     ) -> Result<()> {
-        // It may be that the time is over, and not the feature's fault.
+        // The error may be an exceeded time limit instead of an invalid feature.
         wanted.budget.check()?;
         let error = Error::data(format!("feature {id} of {} {why}", self.name))
             .help("the file is damaged, or holds what is not read; write it anew: ogr2ogr -nlt CONVERT_TO_LINEAR out.fgb FILE");
         table.refuse_at(id, error, bounds)
     }
 
-    /// The parts of a feature's geometry.
+    /// Returns the parts of a feature's geometry.
     fn parts(
         &self,
         bytes: &[u8],
@@ -207,7 +207,7 @@ impl FlatGeobuf {
         Ok(parts)
     }
 
-    /// What a feature knows, and its key if it has one.
+    /// Returns the attributes of a feature, and its key, if any.
     fn attributes(
         &self,
         bytes: &[u8],
@@ -235,20 +235,20 @@ impl FlatGeobuf {
 /// Attributes, and the key among them.
 type PropertyList = (Vec<(usize, Attribute)>, Option<String>);
 
-/// The error for bytes that are not as they should be.
+/// Returns the error for damaged bytes.
 fn damaged(name: &str, why: &str) -> Error {
     Error::data(format!("{name} cannot be read: {why}"))
         .help("the file is damaged or cut short; get it again")
 }
 
-/// Whether a place lies within bounds; NaN does, since others speak of it.
+/// Returns true if a position is within bounds; also for NaN, which is reported elsewhere.
 fn lies([x, y]: [f64; 2], [west, south, east, north]: [f64; 4]) -> bool {
     let slack = |low: f64, high: f64| (low.abs().max(high.abs())) * ROUNDING;
     let (across, along) = (slack(west, east), slack(south, north));
     !(x < west - across || x > east + across || y < south - along || y > north + along)
 }
 
-/// A place in a file that others read too.
+/// Position in a file that is shared with other readers.
 struct FilePosition<'a> {
     file: &'a File,
     at: u64,
@@ -276,7 +276,7 @@ impl Seek for FilePosition<'_> {
     }
 }
 
-/// The file at a place.
+/// Reader at a position in the file.
 struct FgbReader<'a> {
     file: BufReader<FilePosition<'a>>,
     at: u64,
@@ -285,7 +285,7 @@ struct FgbReader<'a> {
 }
 
 impl FgbReader<'_> {
-    /// Goes on at another place.
+    /// Moves to another position.
     fn seek_relative_to(&mut self, at: u64) -> Result<()> {
         let offset = at.cast_signed() - self.at.cast_signed();
         self.file.seek_relative(offset).map_err(|error| damaged(self.name, &error.to_string()))?;
@@ -293,7 +293,7 @@ impl FgbReader<'_> {
         Ok(())
     }
 
-    /// The bytes of the next feature, which ends before `end`.
+    /// Returns the bytes of the next feature, which must end before `end`.
     fn next(&mut self, end: u64, wanted: &SourceOptions) -> Result<&[u8]> {
         let ends = |_| damaged(self.name, &format!("the feature at byte {} is cut short", self.at));
         let mut length = [0; 4];
@@ -312,7 +312,7 @@ impl FgbReader<'_> {
     }
 }
 
-/// Values one behind the other.
+/// Consecutive property values.
 struct PropertyBytes<'a>(&'a [u8]);
 
 impl<'a> PropertyBytes<'a> {
@@ -329,7 +329,7 @@ impl<'a> PropertyBytes<'a> {
         Ok(taken)
     }
 
-    /// The next value; none if it is nothing that scripts can use.
+    /// Returns the next value; `None` if scripts cannot use it.
     #[allow(clippy::cast_precision_loss, reason = "Lua's own numbers are f64")]
     fn value(
         &mut self,

@@ -1,4 +1,4 @@
-//! Files that another program's code writes, and damaged ones.
+//! Tests of files written by another library, and of damaged files.
 
 use std::path::Path;
 
@@ -13,7 +13,7 @@ use burgeon_base::random::Stream;
 use std::sync::Arc;
 use std::time::Duration;
 
-/// A file of geometries in well-known text, each with a number and a name.
+/// Returns a file of geometries in well-known text, each with a number and a name.
 fn made(kind: GeometryType, texts: &[&str], options: FgbWriterOptions<'_>) -> Vec<u8> {
     let mut writer = FgbWriter::create_with_options("town", kind, options).unwrap();
     writer.add_column("height", ColumnType::Double, |_, _| {});
@@ -53,7 +53,7 @@ fn options<'a>(code: i32) -> FgbWriterOptions<'a> {
 }
 
 thread_local! {
-    /// Where a test writes its files.
+    /// Folder for the files of a test.
     static FOLDER: tempfile::TempDir = tempfile::tempdir().unwrap();
 }
 
@@ -76,12 +76,12 @@ const MIXED: [&str; 6] = [
     "MULTIPOLYGON(((385400 6671500, 385440 6671500, 385440 6671540, 385400 6671500)), ((385500 6671500, 385540 6671500, 385540 6671540, 385500 6671500)))",
 ];
 
-/// A file of geometries of all kinds: each of its own type, which the header leaves open.
+/// Returns a file of geometries of all types; the header leaves the type open, and each geometry contains its own.
 fn mixed(options: FgbWriterOptions<'_>) -> Vec<u8> {
     made(GeometryType::Unknown, &MIXED, FgbWriterOptions { detect_type: false, ..options })
 }
 
-/// Geometries as they stand, sorted, since an index orders them anew.
+/// Returns the geometries sorted, because an index changes their order.
 fn shapes(table: &FeatureTable) -> Vec<String> {
     let mut shapes: Vec<String> = table.features.iter().map(|feature| feature.geometry.to_wkt()).collect();
     shapes.sort();
@@ -124,7 +124,7 @@ fn only_what_touches_a_box_is_read_and_the_same_with_and_without_an_index() {
             place.x >= bounds[0] && place.x <= bounds[2] && place.y >= bounds[1] && place.y <= bounds[3]
         });
         assert_eq!((with.features.len(), shapes(&with)), (expected.count(), shapes(&without)));
-        // Ids are those of a reading of all.
+        // Ids are those from reading all features.
         let all = plain(&made(GeometryType::Point, &texts, options(3067))).unwrap();
         for feature in &with.features {
             assert!(
@@ -171,7 +171,7 @@ fn systems_that_are_missing_or_not_known_and_empty_layers_are_told() {
     let crs = SourceOptions { crs: Some(3067), ..SourceOptions::default() };
     let table = read(&made(GeometryType::Point, &["POINT(385400 6671500)"], options(0)), &crs).unwrap();
     assert_eq!(table.crs.unwrap().code, Some(3067));
-    // Two places beside the date line are near each other.
+    // Two positions on both sides of the date line are close to each other.
     let date_line = made(GeometryType::Point, &["POINT(179.99 -16)", "POINT(-179.99 -16)"], options(4326));
     let layer = Layer::new(plain(&date_line).unwrap(), &mut None).unwrap();
     assert!(layer.bounds[1][0] - layer.bounds[0][0] < 3000.0, "{:?}", layer.bounds);
@@ -204,7 +204,7 @@ fn changed_bytes_never_panic_and_changed_places_are_seen() {
         }
         assert!(plain(&good[..at]).is_err());
     }
-    // What is read otherwise in silence are places that stay within their boxes, and kinds.
+    // Changes that remain undetected are positions within their boxes, and types.
     assert!(
         other * 4 < refused + errors,
         "{same} same, {refused} refused, {other} otherwise, {errors} errors"

@@ -1,4 +1,4 @@
-//! The database that a GeoPackage is.
+//! SQLite database of a GeoPackage.
 
 use std::path::Path;
 use std::sync::Arc;
@@ -17,19 +17,19 @@ use rusqlite::limits::Limit;
 use rusqlite::types::ValueRef;
 use rusqlite::{Connection, OptionalExtension};
 
-/// The longest text or blob (bytes) of a file.
+/// Maximum length of a text or blob (bytes).
 const LONGEST: i32 = 200_000_000;
 
-/// How many kibibytes of pages a connection keeps.
+/// Page cache of a connection (KiB).
 const PAGES: i64 = 256;
 
-/// How often is looked whether a query is to end.
+/// Interval of checks for cancelling a query.
 const PERIOD: Duration = Duration::from_millis(20);
 
-/// How long a query that is told to end may go on.
+/// Time for a query to end after it was cancelled.
 const GRACE: Duration = Duration::from_millis(500);
 
-/// An open GeoPackage.
+/// Open GeoPackage.
 pub struct GeoPackage {
     connection: Connection,
     state: Arc<PackageState>,
@@ -37,11 +37,11 @@ pub struct GeoPackage {
     layers: Vec<LayerDescription>,
 }
 
-/// Has `work` done with a connection by a thread of its own, and gives what comes of it.
+/// Runs `work` with a connection in a separate thread, and returns its result.
 ///
-/// SQLite looks for an interrupt only between the steps of a query, of which one may take long: a sort, or a function
-/// over long texts. When the budget is used up, the query is interrupted; if it does not end soon, it is left to itself,
-/// and ends behind the step that it is at.
+/// SQLite checks for an interrupt only between the steps of a query, and one step may take long: a sort, or a function
+/// over long texts. When the budget is exceeded, the query is interrupted. If it does not end soon, it is abandoned,
+/// and ends after its current step.
 pub(in crate::formats) fn watched<T: Send + 'static>(
     connection: Connection,
     budget: &Arc<Budget>,
@@ -50,13 +50,13 @@ pub(in crate::formats) fn watched<T: Send + 'static>(
     let interrupt = connection.get_interrupt_handle();
     let (done, result) = sync_channel(1);
     let begun = std::thread::Builder::new().name("sqlite".into()).spawn(move || {
-        // Nobody may wait any more.
+        // The receiver may already be gone.
         let _ = done.send(work(connection));
     });
     begun.map_err(|error| Error::system(format!("cannot start a thread: {error}")))?;
     loop {
         match result.recv_timeout(PERIOD) {
-            // What was interrupted does not say why.
+            // The error of an interrupted query does not contain the reason.
             Ok(done) => return done.map_err(|error| budget.check().err().unwrap_or(error)),
             Err(RecvTimeoutError::Disconnected) => {
                 return Err(Error::internal("the database gave no answer"));
@@ -64,7 +64,7 @@ pub(in crate::formats) fn watched<T: Send + 'static>(
             Err(RecvTimeoutError::Timeout) => {
                 if let Err(over) = budget.check() {
                     interrupt.interrupt();
-                    // What it says then is that it was interrupted.
+                    // Its result would only report the interrupt.
                     let _ = result.recv_timeout(GRACE);
                     return Err(over);
                 }
@@ -73,7 +73,7 @@ pub(in crate::formats) fn watched<T: Send + 'static>(
     }
 }
 
-/// What the package's own tables say of a layer.
+/// Description of a layer from the package's own tables.
 struct LayerDescription {
     table: String,
     column: String,
@@ -96,7 +96,7 @@ impl GeoPackage {
         budget: &Arc<Budget>,
     ) -> Result<Self> {
         let error = |error: rusqlite::Error| broken(&name, &error);
-        // Rows are read once, in order: no more pages than that takes.
+        // Rows are read once, in order, so a small page cache suffices.
         connection.pragma_update(None, "cache_size", -PAGES).map_err(error)?;
         guard(&mut connection, budget).map_err(error)?;
         let layers = described(&connection).map_err(|error| match error {
@@ -119,7 +119,7 @@ impl GeoPackage {
         let budget = Arc::clone(&wanted.budget);
         watched(connection, &budget, move |connection| {
             let read = Self { connection, state: Arc::clone(&state), name, layers }.table(&layer, &wanted);
-            // What was read of two states may be an error of either.
+            // An error may be caused by reading two different states.
             state.check()?;
             read
         })
@@ -160,7 +160,7 @@ impl GeoPackage {
                 ValueRef::Blob(blob) => match read_blob(blob, near, &wanted.budget) {
                     Ok(parts) => parts,
                     Err(why) => {
-                        // It may be that the time is over, and not the geometry's fault.
+                        // The error may be an exceeded time limit instead of an invalid geometry.
                         wanted.budget.check()?;
                         let error = wrong(&why);
                         table.refuse_at(id, error, envelope(blob))?;
@@ -194,7 +194,7 @@ impl GeoPackage {
     }
 }
 
-/// Lets a connection do nothing but read, within the budget.
+/// Restricts a connection to reading within the budget.
 pub(in crate::formats) fn guard(connection: &mut Connection, budget: &Arc<Budget>) -> rusqlite::Result<()> {
     connection.set_db_config(DbConfig::SQLITE_DBCONFIG_DEFENSIVE, true)?;
     connection.set_db_config(DbConfig::SQLITE_DBCONFIG_TRUSTED_SCHEMA, false)?;
@@ -210,7 +210,7 @@ pub(in crate::formats) fn guard(connection: &mut Connection, budget: &Arc<Budget
     ] {
         connection.set_limit(limit, most)?;
     }
-    // What is sorted stays in memory, where it is counted.
+    // Temporary data stays in memory, where it counts towards the limit.
     connection.pragma_update(None, "temp_store", "MEMORY")?;
     limit_heap(budget.memory());
     let clock = Arc::clone(budget);
@@ -218,39 +218,39 @@ pub(in crate::formats) fn guard(connection: &mut Connection, budget: &Arc<Budget
     connection.authorizer(Some(|context: rusqlite::hooks::AuthContext<'_>| match context.action {
         AuthAction::Select | AuthAction::Read { .. } | AuthAction::Recursive => Authorization::Allow,
         AuthAction::Function { function_name } if function_name != "load_extension" => Authorization::Allow,
-        // Asks for the columns of a table, and changes nothing.
+        // Returns the columns of a table and changes nothing.
         AuthAction::Pragma { pragma_name: "table_info", .. } => Authorization::Allow,
         _ => Authorization::Deny,
     }))
 }
 
-/// Limits the memory (bytes) that SQLite takes in this process for everything but what is read.
+/// Limits the memory (bytes) that SQLite uses in this process, excluding the data that is read.
 fn limit_heap(memory: usize) {
     let most = i64::try_from(memory).unwrap_or(i64::MAX);
     #[allow(unsafe_code, reason = "rusqlite has no way to set this")]
-    // SAFETY: it sets a number that SQLite guards by its own lock.
+    // SAFETY: the call sets a number that SQLite protects with its own lock.
     unsafe {
         rusqlite::ffi::sqlite3_hard_heap_limit64(most);
     }
 }
 
-/// What is known of a layer's table without reading its features.
+/// Properties of a layer's table that are known without reading its features.
 #[derive(Debug)]
 pub struct TableShape {
-    /// The column of whole numbers that tells its rows apart; a view has none.
+    /// Integer primary key column; `None` for a view.
     pub key: Option<String>,
-    /// The column with geometries.
+    /// Geometry column.
     pub geometry: String,
-    /// The names of all columns, and how each was declared.
+    /// Names of all columns, with their declared types.
     pub columns: Vec<(String, String)>,
-    /// How many rows it has.
+    /// Number of rows.
     pub rows: usize,
-    /// The coordinate system, or why it is not known.
+    /// Coordinate system, or the reason why it is unknown.
     pub crs: Result<Crs>,
 }
 
 impl GeoPackage {
-    /// What is known of the layer `layer` of the file at `path`, which messages call `name`.
+    /// Returns the properties of the layer `layer` in the file at `path`, called `name` in messages.
     pub fn shape(path: &Path, name: &str, layer: &str, budget: &Arc<Budget>) -> Result<TableShape> {
         let wanted = SourceOptions { budget: Arc::clone(budget), ..SourceOptions::default() };
         let mut package = Self::open(path, name, &wanted)?;
@@ -268,7 +268,7 @@ impl GeoPackage {
                     if key == 1 && kind.eq_ignore_ascii_case("integer") {
                         shape.key = Some(name.clone());
                     }
-                    // Names mean the same in whatever letters.
+                    // Names are case-insensitive.
                     if name.eq_ignore_ascii_case(&shape.geometry) {
                         shape.geometry.clone_from(&name);
                     }
@@ -286,7 +286,7 @@ impl GeoPackage {
     }
 }
 
-/// The layers of features, in the order of the file.
+/// Returns the feature layers in file order.
 fn described(connection: &Connection) -> rusqlite::Result<Vec<LayerDescription>> {
     let mut statement = connection.prepare(
         "SELECT c.table_name, g.column_name, g.srs_id FROM gpkg_contents c \
@@ -305,7 +305,7 @@ fn described(connection: &Connection) -> rusqlite::Result<Vec<LayerDescription>>
     Ok(layers)
 }
 
-/// The coordinate system with a package's own number.
+/// Returns the coordinate system with a package's own number.
 fn system(connection: &Connection, number: i64) -> rusqlite::Result<Result<Crs>> {
     let found: Option<(Option<String>, Option<String>, Option<i64>)> = connection
         .query_row(
@@ -334,7 +334,7 @@ fn system(connection: &Connection, number: i64) -> rusqlite::Result<Result<Crs>>
     })
 }
 
-/// The columns of a layer besides key and geometry.
+/// Columns of a layer, with the key separate and without the geometry.
 struct LayerColumns {
     names: Vec<String>,
     booleans: Vec<bool>,
@@ -366,7 +366,7 @@ impl LayerColumns {
         }
         sql += &format!(" FROM {}", quoted(layer));
         if let Some(condition) = &wanted.condition {
-            // The line's end ends a comment.
+            // The line break ends a comment in the condition.
             sql += &format!(" WHERE (\n{condition}\n)");
         }
         if self.key.is_some() {
@@ -389,7 +389,7 @@ fn id_text(value: ValueRef<'_>) -> Option<String> {
     }
 }
 
-/// What SQLite says, in its own words.
+/// Returns the message text of an SQLite error.
 pub(super) fn words(error: &rusqlite::Error) -> String {
     match error {
         rusqlite::Error::SqliteFailure(_, Some(text)) => text.clone(),
@@ -399,7 +399,7 @@ pub(super) fn words(error: &rusqlite::Error) -> String {
     }
 }
 
-/// The error of a query, which is the condition's fault if there is one.
+/// Returns the error of a query; it refers to the condition, if there is one.
 pub(in crate::formats) fn refused(shown: &str, wanted: &SourceOptions, error: &rusqlite::Error) -> Error {
     let text = words(error);
     match &wanted.condition {

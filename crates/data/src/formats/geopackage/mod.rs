@@ -1,7 +1,7 @@
-//! Reads GeoPackages, read-only, through SQLite.
+//! Reader of GeoPackages, read-only, through SQLite.
 //!
-//! Comes in: a file. Goes out: a [`FeatureTable`](crate::FeatureTable) of a layer. Nothing is written, and no code of the file
-//! is run.
+//! Input: a file. Output: a [`FeatureTable`](crate::FeatureTable) of a layer. Nothing is written, and no code in the
+//! file is executed.
 //!
 //! Source: OGC 12-128r18, GeoPackage Encoding Standard.
 

@@ -1,4 +1,4 @@
-//! A private copy of a database that a program left in the middle of a change, in which SQLite recovers it.
+//! Private copy of a database that a program left in the middle of a change, in which SQLite recovers it.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -10,15 +10,15 @@ use super::state::{COPIED, PackageStamp, StateFailure, begin, beside};
 use burgeon_base::error::{Error, Result};
 use burgeon_base::files;
 
-/// The number of the next folder of this process.
+/// Number of the next folder of this process.
 static FOLDERS: AtomicUsize = AtomicUsize::new(0);
 
-/// A folder that goes with this.
+/// Folder that is removed when the value is dropped.
 pub(super) struct PrivateCopy(PathBuf);
 
 impl PrivateCopy {
-    /// Copies the database at `path` and the file beside it whose name ends in `suffix`. Gives up while another program is
-    /// writing either.
+    /// Copies the database at `path` and its companion file with `suffix` appended to the name. Fails with `Busy` while
+    /// another program writes either of them.
     pub(super) fn of(path: &Path, suffix: &str, shown: &str) -> std::result::Result<Self, StateFailure> {
         let log = beside(path, suffix);
         let stamps = || [PackageStamp::of(path), PackageStamp::of(&log)];
@@ -83,7 +83,7 @@ impl PrivateCopy {
 
 impl Drop for PrivateCopy {
     fn drop(&mut self) {
-        // What cannot be removed is the system's to remove.
+        // The system removes folders that cannot be removed here.
         let _ = fs::remove_dir_all(&self.0);
     }
 }

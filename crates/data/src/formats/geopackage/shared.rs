@@ -1,4 +1,4 @@
-//! Packages that another process is writing: what is read is one committed state, and nothing is left beside the file.
+//! Tests of packages that another process writes: one committed state is read, and no file is left next to the package.
 
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};
@@ -12,10 +12,10 @@ use crate::{Attribute, FeatureTable, Source, SourceOptions};
 use burgeon_base::budget::Budget;
 use burgeon_base::error::Result;
 
-/// How many rows a layer has, which fill many pages.
+/// Number of rows of a layer; they fill many pages.
 const ROWS: i64 = 300;
 
-/// A package of two layers whose rows all say the number of the batch that wrote them.
+/// Creates a package of two layers whose rows all contain the number of the batch that wrote them.
 fn package(path: &Path, mode: &str) {
     let connection = Connection::open(path).unwrap();
     connection
@@ -47,7 +47,7 @@ fn package(path: &Path, mode: &str) {
     }
 }
 
-/// What another process does with a package. It runs this test alone, with a task in its environment.
+/// Actions of another process on a package. It runs this test alone, with a task in its environment.
 #[test]
 fn the_other_process() {
     let (Ok(task), Ok(path)) = (std::env::var("BURGEON_WRITER"), std::env::var("BURGEON_WRITTEN")) else {
@@ -76,7 +76,7 @@ fn the_other_process() {
                 std::fs::write(&ready, "").unwrap();
             }
         }
-        // One that opens it for each change.
+        // A program that opens the file for each change.
         "visits" => {
             for number in 1.. {
                 batch(&open(), number);
@@ -92,7 +92,7 @@ fn the_other_process() {
             std::thread::sleep(Duration::from_millis(1500));
             connection.execute_batch("COMMIT").unwrap();
         }
-        // It dies in the middle of a change, some of whose pages it has written.
+        // A program that dies in the middle of a change after writing some of its pages.
         "die" => {
             let connection = open();
             let _ = connection.execute_batch(
@@ -101,7 +101,7 @@ fn the_other_process() {
             std::fs::write(&ready, "").unwrap();
             std::process::abort();
         }
-        // It dies with changes in the log that are committed, and one that is not.
+        // A program that dies with committed changes in the log, and one that is not committed.
         "die in log" => {
             let connection = open();
             batch(&connection, 5);
@@ -113,7 +113,7 @@ fn the_other_process() {
     }
 }
 
-/// Another process at work, until this is dropped.
+/// Another process at work, until this value is dropped.
 struct OtherWriter(Child);
 
 impl OtherWriter {
@@ -152,7 +152,7 @@ fn layer(path: &Path, layer: &str, budget: &Arc<Budget>) -> Result<FeatureTable>
     Source::open_within(path, "town.gpkg", &wanted)?.read("town.gpkg", &wanted)
 }
 
-/// The batches that a run sees in both layers, which is one if it sees one state.
+/// Returns the batches that a run reads in both layers; a single batch if it reads one state.
 fn batches(path: &Path, budget: &Arc<Budget>) -> Result<Vec<i64>> {
     let mut seen = Vec::new();
     for name in ["a", "b"] {
@@ -174,7 +174,7 @@ fn within(time: Duration) -> Arc<Budget> {
     Budget::within(time, 500_000_000)
 }
 
-/// The files beside a package.
+/// Returns the files in the folder of a package.
 fn beside(path: &Path) -> Vec<String> {
     let entries = std::fs::read_dir(path.parent().unwrap()).unwrap();
     let mut names: Vec<String> =
@@ -247,7 +247,7 @@ fn what_a_dead_program_has_left_is_taken_back_in_a_copy_alone() {
         let path = folder.path().join("town.gpkg");
         package(&path, mode);
         drop(OtherWriter::start(task, &path));
-        // As of a folder that was copied, where nobody has the file open.
+        // As in a copied folder, where no program has the file open.
         let _ = std::fs::remove_file(folder.path().join("town.gpkg-shm"));
         assert_eq!(beside(&path), ["town.gpkg", left]);
         let before = [&path, &folder.path().join(left)].map(|path| std::fs::read(path).unwrap());
@@ -287,7 +287,7 @@ fn a_large_package_is_read_in_place_and_a_change_meanwhile_is_no_second_state() 
         assert!(state.is_locked(), "{mode}");
         let written = writer.execute_batch("UPDATE a SET batch = 1; UPDATE b SET batch = 1");
         if mode == "delete" {
-            // A writer waits until the run has read.
+            // A writer waits until the run has finished reading.
             assert!(written.is_err());
             assert_eq!(batches(&path, &budget).unwrap(), [0]);
             drop((state, budget));

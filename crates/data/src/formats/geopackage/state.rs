@@ -1,8 +1,9 @@
-//! One committed state of a database file that other programs may be writing, for all readers of a run.
+//! One committed state of a database file for all readers of a run, while other programs may write the file.
 //!
-//! A file of at most 64 MB is copied into memory in one read transaction, so that a writer waits for milliseconds and every
-//! reader sees the same. A larger one is read in place: its read lock lasts as long as the run reads. Nothing is written
-//! beside the file: what a program that ended in the middle of a change has left is recovered in a private copy.
+//! A file of at most 64 MB is copied into memory in one read transaction, so a writer waits only milliseconds and every
+//! reader sees the same state. A larger file is read in place, with a read lock for as long as the run reads. No files
+//! are written next to the database: the leftovers of a program that ended in the middle of a change are recovered in a
+//! private copy.
 //!
 //! Sources: SQLite's documents "File Locking and Concurrency", "Write-Ahead Logging" and "Database File Format".
 
@@ -25,26 +26,26 @@ use burgeon_base::error::{Error, Result};
 use burgeon_base::files::{self, FileLock};
 use burgeon_base::locks::LockRecovery;
 
-/// The largest file (bytes) that is copied.
+/// Maximum size of a file that is copied (bytes).
 pub(super) const COPIED: u64 = 64 << 20;
 
-/// How long to wait for a program that writes.
+/// Maximum time to wait for a program that writes.
 const PATIENCE: Duration = Duration::from_secs(10);
 
-/// How long to wait between two attempts.
+/// Pause between two attempts.
 const PAUSE: Duration = Duration::from_millis(10);
 
-/// How old a file's time must be to tell one write from the next.
+/// Minimum age of a modification time that distinguishes one write from the next.
 const SETTLED: Duration = Duration::from_millis(50);
 
-/// The number of the next copy in memory, which all of the process share.
+/// Number of the next copy in memory; these copies are shared within the process.
 static COPIES: AtomicUsize = AtomicUsize::new(0);
 
-/// The states of the files that the readers of one budget have opened.
+/// States of the files that the readers of one budget have opened.
 #[derive(Default)]
 struct States(Mutex<BTreeMap<PathBuf, Arc<PackageState>>>);
 
-/// One committed state of a database file.
+/// Committed state of a database file.
 pub struct PackageState {
     path: PathBuf,
     shown: String,
@@ -53,17 +54,18 @@ pub struct PackageState {
     keeper: Keeper,
 }
 
-/// The means that keep a state as it is.
+/// Mechanism that keeps a state unchanged.
 enum Keeper {
-    /// The connection that keeps a copy in memory.
+    /// Connection that keeps a copy in memory.
     Copy { _memory: Mutex<Connection> },
-    /// A read transaction on the file, and a connection outside of it that notices commits. The lock is the last to go.
+    /// Read transaction on the file, and a connection outside the transaction that notices commits. The lock is dropped
+    /// last.
     Lock { _transaction: Mutex<Connection>, observer: Mutex<Connection>, version: i64, _lock: FileLock },
-    /// Nothing: nobody has the file open, and its time and size tell if that changes.
+    /// No lock: no program has the file open, and its time and size show if that changes.
     Stamp(PackageStamp),
 }
 
-/// The time, size and identity of a file.
+/// Time, size and identity of a file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct PackageStamp {
     pub(super) length: u64,
@@ -71,11 +73,11 @@ pub(super) struct PackageStamp {
     identity: u64,
 }
 
-/// The reason why an attempt gave no state.
+/// Reason why an attempt returned no state.
 pub(super) enum StateFailure {
     /// Another program is writing.
     Busy,
-    /// Anything that waiting does not help.
+    /// Error that waiting does not resolve.
     Final(Error),
 }
 
@@ -86,27 +88,27 @@ impl From<Error> for StateFailure {
 }
 
 impl PackageStamp {
-    /// Returns the stamp of the file at `path`, if there is one.
+    /// Returns the stamp of the file at `path`, if it exists.
     pub(super) fn of(path: &Path) -> Option<Self> {
         let meta = fs::metadata(path).ok()?;
         Some(Self { length: meta.len(), modified: meta.modified().ok(), identity: files::identity(&meta) })
     }
 
-    /// Reports whether a write from now on gets another time.
+    /// Reports whether a write from now on gets a different time.
     pub(super) fn is_settled(&self) -> bool {
-        // A time in the future is that of another clock.
+        // A time in the future comes from another clock.
         self.modified.and_then(|modified| modified.elapsed().ok()).is_none_or(|age| age > SETTLED)
     }
 }
 
-/// Returns the path of the file beside `path` whose name ends in `suffix`.
+/// Returns the path of the companion file of `path` with `suffix` appended to the name.
 pub(super) fn beside(path: &Path, suffix: &str) -> PathBuf {
     let mut name = path.as_os_str().to_owned();
     name.push(suffix);
     name.into()
 }
 
-/// Opens the database at `path` for reading, as `options` of its address say. Locks are never waited for.
+/// Opens the database at `path` for reading, with URI `options`. Never waits for locks.
 pub(super) fn connect(path: &Path, options: &str) -> rusqlite::Result<Connection> {
     let flags =
         OpenFlags::SQLITE_OPEN_READ_ONLY | OpenFlags::SQLITE_OPEN_NO_MUTEX | OpenFlags::SQLITE_OPEN_URI;
@@ -125,7 +127,8 @@ fn address(path: &Path, options: &str) -> String {
             byte => address.push_str(&format!("%{byte:02x}")),
         }
     }
-    // Without a name the file would be looked for in memory, too, where the main database of a connection is there.
+    // Without the name of a file system, SQLite would also search in memory, where the main database of a connection
+    // is.
     format!("{address}?{options}&vfs={}", if cfg!(windows) { "win32" } else { "unix" })
 }
 
@@ -140,9 +143,9 @@ fn pin(connection: &Connection, schema: &str) -> rusqlite::Result<()> {
 }
 
 impl PackageState {
-    /// Returns the state of the file at `path`, which messages call `shown`: the same one for all readers of `budget`.
+    /// Returns the state of the file at `path`, called `shown` in messages. All readers of `budget` get the same state.
     ///
-    /// Waits for programs that write, but not forever; then the error says that the file is locked.
+    /// Waits for programs that write, up to a limit; then fails with an error that the file is locked.
     pub fn open(path: &Path, shown: &str, budget: &Arc<Budget>) -> Result<Arc<Self>> {
         let states: Arc<States> = budget.share();
         let mut known = states.0.lock().recover();
@@ -175,17 +178,17 @@ impl PackageState {
         }
     }
 
-    /// The address by which SQLite opens the state, for reading.
+    /// Returns the address with which SQLite opens the state for reading.
     pub fn address(&self) -> &str {
         &self.address
     }
 
-    /// A text that is the same for states with the same content, if that can be told.
+    /// Returns a key that is equal for states with equal content, if it can be determined.
     pub fn key(&self) -> Option<&str> {
         self.key.as_deref()
     }
 
-    /// Reports whether another state is the same, or one of the same file with the same content.
+    /// Reports whether another state is identical, or has the same file and the same content.
     pub fn is_same(&self, other: &Self) -> bool {
         std::ptr::eq(self, other) || self.path == other.path && self.key.is_some() && self.key == other.key
     }
@@ -212,8 +215,8 @@ impl PackageState {
         Ok(connection)
     }
 
-    /// Has the transaction of a connection, in which the state is attached as `schema`, see this state. Fails if the file
-    /// has changed.
+    /// Makes the transaction of a connection, in which the state is attached as `schema`, see this state. Fails if the
+    /// file has changed.
     pub fn pin(&self, connection: &Connection, schema: &str) -> Result<()> {
         if self.is_locked() {
             pin(connection, schema).map_err(|error| match failure(error) {
@@ -226,7 +229,7 @@ impl PackageState {
         self.check()
     }
 
-    /// Fails if the file has changed, so that what was read since the state was opened may be of two states.
+    /// Fails if the file has changed, because data read since the state was opened may then be from two states.
     pub fn check(&self) -> Result<()> {
         let same = match &self.keeper {
             Keeper::Copy { .. } => true,
@@ -254,15 +257,15 @@ pub(super) fn broken(name: &str, error: &rusqlite::Error) -> Error {
         .help("the file is damaged or cut short; get it again")
 }
 
-/// An error of SQLite by what helps.
+/// SQLite error, by its remedy.
 enum SqliteFailure {
-    /// Waiting.
+    /// Error that waiting resolves.
     Busy,
-    /// Recovery, which needs to write.
+    /// Error that needs a recovery with write access.
     Unrecovered(rusqlite::Error),
-    /// Reading without locks, as the file system has none.
+    /// Error of a file system without locks, where reading must do without them.
     Unlockable(rusqlite::Error),
-    /// Nothing.
+    /// Error without a remedy.
     Other(rusqlite::Error),
 }
 
@@ -289,7 +292,7 @@ fn failure(error: rusqlite::Error) -> SqliteFailure {
     }
 }
 
-/// One attempt to get the state of a file.
+/// Attempt to get the state of a file.
 struct Attempt<'a> {
     path: &'a Path,
     shown: &'a str,
@@ -306,9 +309,9 @@ impl Attempt<'_> {
         let logged = PackageStamp::of(&beside(self.path, "-wal"));
         let shared = beside(self.path, "-shm").exists();
         match logged {
-            // A program has it open.
+            // A program has the database open.
             Some(_) if shared => self.locked(stamp, true),
-            // A program ended without closing it, or the log was copied with the file.
+            // A program ended without closing the database, or the log was copied together with the file.
             Some(log) if log.length > 0 => match stamp.length > COPIED {
                 true => self.locked(stamp, true),
                 false => self.recovered("-wal"),
@@ -318,16 +321,16 @@ impl Attempt<'_> {
         }
     }
 
-    /// Reports whether changes of the file go into a log when a program opens it.
+    /// Reports whether changes of the file are written to a log when a program opens it.
     fn is_logged(&self) -> Result<bool> {
         let mut head = Vec::new();
         let read = files::read_unlocked(self.path, |file, _| file.take(20).read_to_end(&mut head));
         let cannot = |error| Error::file(self.path, format!("cannot read {}: {error}", self.shown));
-        // A database of this process that reads it in place knows better.
+        // A database connection of this process that reads the file in place already holds its state.
         Ok(read.map_err(cannot)?.is_some() && head.get(18) == Some(&2))
     }
 
-    /// The state as SQLite's locks guard it.
+    /// Returns the state guarded by SQLite's locks.
     fn locked(&self, stamp: PackageStamp, logged: bool) -> std::result::Result<PackageState, StateFailure> {
         let lock = FileLock::announce(self.path)
             .map_err(|error| Error::file(self.path, format!("cannot read {}: {error}", self.shown)))?;
@@ -336,7 +339,7 @@ impl Attempt<'_> {
             let version = data_version(&observer)?;
             let connection = connect(self.path, "mode=ro")?;
             begin(&connection)?;
-            // The observer's number is that of the transaction's state, if nobody has committed in between.
+            // The observer's number belongs to the state of the transaction if there was no commit in between.
             Ok((data_version(&observer)? == version).then_some((connection, observer, version)))
         };
         let (mut connection, observer, version) = match open().map_err(failure) {
@@ -359,7 +362,7 @@ impl Attempt<'_> {
                         ))
                         .help("open the file once in that program, so that it takes the change back, and run again"),
                     )),
-                    // The writer has just closed it.
+                    // The writer has just closed the database.
                     None if logged => Err(StateFailure::Busy),
                     None => Err(broken(self.shown, &error).into()),
                 };
@@ -369,7 +372,7 @@ impl Attempt<'_> {
         if stamp.length <= COPIED {
             let copied = self.copy(&mut connection);
             drop((connection, observer, lock));
-            // Whatever the locks are worth, nobody has written meanwhile. A log is brought home at any time.
+            // This check detects writes even if locks do not work. A log may be written back at any time.
             if !logged && PackageStamp::of(self.path) != Some(stamp) {
                 return Err(StateFailure::Busy);
             }
@@ -389,7 +392,7 @@ impl Attempt<'_> {
         })
     }
 
-    /// The state of a file that nobody has open, or that cannot be locked.
+    /// Returns the state of a file that no program has open, or that cannot be locked.
     fn unlocked(&self, stamp: PackageStamp) -> std::result::Result<PackageState, StateFailure> {
         if !stamp.is_settled() {
             return Err(StateFailure::Busy);
@@ -420,7 +423,7 @@ impl Attempt<'_> {
         Ok(copied?)
     }
 
-    /// The state after what the file with `suffix` beside the database says was done, or taken back.
+    /// Returns the state after applying or rolling back the file with `suffix` next to the database.
     fn recovered(&self, suffix: &str) -> std::result::Result<PackageState, StateFailure> {
         let private = PrivateCopy::of(self.path, suffix, self.shown)?;
         let mut connection =
@@ -428,7 +431,7 @@ impl Attempt<'_> {
         Ok(self.copy(&mut connection)?)
     }
 
-    /// Copies what a connection sees in its transaction.
+    /// Copies the state that a connection sees in its transaction.
     fn copy(&self, connection: &mut Connection) -> Result<PackageState> {
         let failed =
             |error: rusqlite::Error| self.budget.check().err().unwrap_or_else(|| broken(self.shown, &error));
@@ -461,7 +464,7 @@ impl Attempt<'_> {
     }
 }
 
-/// The hash of a database without the numbers that count its commits.
+/// Returns the hash of a database, excluding the numbers that count its commits.
 fn content_key(bytes: &[u8]) -> String {
     let mut hasher = blake3::Hasher::new();
     let head: Vec<u8> = bytes.iter().take(100).copied().collect();

@@ -1,4 +1,4 @@
-//! Packages with curves, and packages of which bytes were changed.
+//! Tests of packages with curves, and of packages with changed bytes.
 
 use rusqlite::Connection;
 
@@ -9,7 +9,7 @@ use std::path::Path;
 use std::sync::Arc;
 use std::time::Duration;
 
-/// A blob of a GeoPackage of a type, with a number of items, and points.
+/// Returns a GeoPackage blob of a type, with a number of items, and points.
 fn blob(kind: u32, count: Option<u32>, points: &[[f64; 2]]) -> Vec<u8> {
     let mut bytes = b"GP\0\x01\0\0\0\0\x01".to_vec();
     bytes.extend(kind.to_le_bytes());
@@ -18,7 +18,7 @@ fn blob(kind: u32, count: Option<u32>, points: &[[f64; 2]]) -> Vec<u8> {
     bytes
 }
 
-/// A package of points and of an arc, in metres or in degrees.
+/// Creates a package of points and an arc, in metres or in degrees.
 fn package(path: &Path, crs: i32, middle: [f64; 2], radius: f64) {
     let connection = Connection::open(path).unwrap();
     connection
@@ -71,7 +71,7 @@ fn changed_bytes_neither_panic_nor_take_long() {
     let whole = std::fs::read(&path).unwrap();
     let (mut stream, mut good, mut bad) = (Stream::new(5), 0, 0);
     let mut dice = |sides: usize| stream.below(sides);
-    // What says something stands in few places.
+    // Only few bytes carry information.
     let places: Vec<usize> = (0..whole.len()).filter(|at| whole[*at] != 0).collect();
     for case in 0..400 {
         let mut changed = whole.clone();

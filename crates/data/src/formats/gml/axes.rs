@@ -1,9 +1,8 @@
-//! Which coordinate systems name north before east.
+//! Coordinate systems whose first coordinate is the northing.
 //!
-//! Source: the EPSG's registry, axes of projected coordinate systems.
+//! Source: the EPSG registry, axes of projected coordinate systems.
 
-/// The first and the last code of systems whose first axis leads north (or south): of all codes between them that are
-/// projected.
+/// First and last codes of ranges in which all projected systems have a north (or south) axis first.
 #[rustfmt::skip]
 const NORTH_FIRST: [[u16; 2]; 125] = [
     [2036, 2036], [2044, 2045], [2065, 2065], [2081, 2083], [2085, 2086], [2091, 2093], [2096, 2098],
@@ -27,7 +26,7 @@ const NORTH_FIRST: [[u16; 2]; 125] = [
     [31275, 31290], [31466, 31469], [31700, 31700],
 ];
 
-/// Whether the coordinates of a projected system are northing and easting.
+/// Returns true if the coordinates of a projected system are northing and easting.
 pub(super) fn is_north_first(code: u16) -> bool {
     let after = NORTH_FIRST.partition_point(|[first, _]| *first <= code);
     after > 0 && code <= NORTH_FIRST[after - 1][1]
@@ -40,7 +39,7 @@ mod tests {
     #[test]
     fn axes_are_those_of_the_registry() {
         let of = |codes: &[u16]| codes.iter().map(|code| is_north_first(*code)).collect::<Vec<_>>();
-        // Gauss-Krueger in Germany, Poland, LAEA of Europe, Sweden.
+        // Gauss-Krueger in Germany, Poland, LAEA Europe, Sweden.
         assert_eq!(of(&[31467, 2180, 3035, 3006]), [true; 4]);
         assert_eq!(of(&[2154, 3763, 3067, 25831, 25832, 3857, 28992, 27700, 1, 65535]), [false; 10]);
         assert!(NORTH_FIRST.iter().is_sorted() && NORTH_FIRST.iter().all(|[first, last]| first <= last));

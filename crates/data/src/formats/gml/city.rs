@@ -1,4 +1,4 @@
-//! The objects of CityGML, whose geometries lie in space.
+//! CityGML objects, whose geometries are in space.
 
 use std::rc::Rc;
 use std::sync::Arc;
@@ -11,26 +11,26 @@ use crate::formats::xml::{Element, Xml, XmlPiece};
 use burgeon_base::error::{Error, Result};
 use burgeon_base::text::shown;
 
-/// An object that is being read.
+/// Object that is being read.
 #[derive(Default)]
 struct OpenObject {
     object: CityRecord,
     system: Option<Rc<Result<NamedSystem>>>,
-    /// Why a geometry of it cannot be read.
+    /// Reason why a geometry cannot be read.
     wrong: Option<String>,
 }
 
-/// Where a geometry stands.
+/// Context of a geometry.
 #[derive(Clone, Copy)]
 struct GeometryPlace {
     role: Option<SurfaceRole>,
-    /// The level of detail, in tenths.
+    /// Level of detail, in tenths.
     level: u32,
     is_solid: bool,
 }
 
-/// Whether what a property holds says nothing of the ground plan of an object: what is inside of it or mounted on it, and what other
-/// programs know of it.
+/// Returns true if a property is irrelevant for the footprint of an object: its interior, its installations, and
+/// references of other programs.
 fn is_beside(name: &str) -> bool {
     const NAMES: [&str; 10] = [
         "externalReference",
@@ -62,7 +62,7 @@ impl FeatureBuilder {
     ) -> Result<()> {
         self.number += 1;
         let before = around.context.clone();
-        // Places have heights unless the file says something else.
+        // Positions have heights unless the file declares otherwise.
         around.context.dimension.get_or_insert(3);
         let read = self.object(xml, element, around);
         around.context = before;
@@ -137,7 +137,7 @@ impl FeatureBuilder {
         self.value(xml, property, (name.to_owned(), place), open, around)
     }
 
-    /// Reads what bounds an object: a box, or a surface with a role.
+    /// Reads a boundary of an object: a box, or a surface with a role.
     fn boundary(&mut self, xml: &mut Xml, open: &mut OpenObject, around: &mut Surroundings) -> Result<()> {
         let depth = xml.depth;
         while let Some(inner) = child(xml, depth)? {
@@ -165,7 +165,7 @@ impl FeatureBuilder {
         Ok(())
     }
 
-    /// Reads a property whose values are texts, properties within it, or geometries.
+    /// Reads a property that contains text, nested properties, or geometries.
     fn value(
         &mut self,
         xml: &mut Xml,
@@ -184,7 +184,7 @@ impl FeatureBuilder {
                         self.geometry(xml, &inner, place, open, around)?;
                         continue;
                     }
-                    // Elements with large first letters are objects, whose names say nothing more.
+                    // Capitalised elements are objects, whose names add no information.
                     let is_object = inner.name.starts_with(|letter: char| letter.is_ascii_uppercase());
                     let name = match (is_object, &*inner.name) {
                         (true, _) | (false, "value") => name.clone(),
@@ -254,7 +254,7 @@ impl FeatureBuilder {
 }
 
 impl GeometryPlace {
-    /// The place of geometries in a property such as `lod2Solid` or `lod0FootPrint`.
+    /// Returns the context of geometries in a property such as `lod2Solid` or `lod0FootPrint`.
     fn of_property(name: &str) -> Self {
         let digits = name
             .strip_prefix("lod")
@@ -266,7 +266,7 @@ impl GeometryPlace {
     }
 }
 
-/// The next element that begins directly within the one that began at `depth`; none where that one ends.
+/// Returns the next child element of the element that began at `depth`; `None` at its end.
 fn child(xml: &mut Xml, depth: usize) -> Result<Option<Element>> {
     loop {
         match xml.next()? {
@@ -277,7 +277,7 @@ fn child(xml: &mut Xml, depth: usize) -> Result<Option<Element>> {
     }
 }
 
-/// Reads a generic attribute, or a set of them: its name is an attribute of its element, or an element in it.
+/// Reads a generic attribute or a set of them. The name is an attribute of the element, or a child element.
 fn generic(xml: &mut Xml, element: &Element, object: &mut CityRecord) -> Result<()> {
     let depth = xml.depth;
     let (mut name, mut value) = (element.attribute("name").map(str::to_owned), None);

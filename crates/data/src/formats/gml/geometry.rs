@@ -1,4 +1,4 @@
-//! The geometries of GML.
+//! GML geometries.
 
 use std::rc::Rc;
 use std::sync::Arc;
@@ -13,11 +13,11 @@ use burgeon_base::error::{Error, Result as Checked};
 use burgeon_base::text::shown;
 use burgeon_spatial::wkb::{NEAR, add_arc};
 
-/// Why a geometry is not read.
+/// Reason why a geometry is not read.
 pub(super) enum GeometryProblem {
-    /// Reading ends.
+    /// Error that ends the reading.
     Stop(Error),
-    /// It is wrong, for this reason.
+    /// Invalid geometry, with the reason.
     Wrong(String),
 }
 
@@ -33,17 +33,17 @@ fn wrong<T>(why: impl Into<String>) -> GeometryResult<T> {
     Err(GeometryProblem::Wrong(why.into()))
 }
 
-/// What holds for coordinates, unless an element within says otherwise.
+/// Context of coordinates; inner elements may override it.
 #[derive(Clone, Default)]
 pub(super) struct GmlContext {
-    /// The coordinate system, or why it is not known.
+    /// Coordinate system, or the reason why it is unknown.
     pub(super) system: Option<Rc<Checked<NamedSystem>>>,
-    /// How many numbers make a place.
+    /// Number of coordinates per position.
     pub(super) dimension: Option<usize>,
 }
 
 impl GmlContext {
-    /// What holds within `element`; `named` gives the coordinate system of a name.
+    /// Returns the context within `element`; `named` returns the coordinate system with a name.
     pub(super) fn within(
         &self,
         element: &Element,
@@ -61,7 +61,7 @@ impl GmlContext {
     }
 }
 
-/// Whether an element called `name` is a geometry.
+/// Returns true if an element called `name` is a geometry.
 pub(super) fn is_geometry(name: &str) -> bool {
     const OTHERS: [&str; 12] = [
         "Point",
@@ -99,19 +99,19 @@ fn is_curve(name: &str) -> bool {
     matches!(name, "LineString" | "LinearRing" | "Ring" | "Curve" | "CompositeCurve" | "OrientableCurve")
 }
 
-/// A piece of a geometry in space.
+/// Piece of a geometry in space.
 pub(super) enum CityPiece {
-    /// The rings of a flat surface, which do not repeat their first places.
+    /// Rings of a flat surface, without repeating the first point at the end.
     Surface(Vec<Vec<DVec3>>),
     Line(Vec<DVec3>),
     Point(DVec3),
 }
 
-/// Reads geometries from a file.
+/// Reader of the geometries in a file.
 pub(super) struct GeometryReader<'x> {
     pub(super) xml: &'x mut Xml,
     pub(super) named: &'x mut dyn FnMut(&str) -> Rc<Checked<NamedSystem>>,
-    /// The coordinate system that was found first.
+    /// First coordinate system that was found.
     pub(super) system: Option<Rc<Checked<NamedSystem>>>,
     pub(super) budget: Arc<Budget>,
 }
@@ -155,8 +155,8 @@ impl GeometryReader<'_> {
         Ok(())
     }
 
-    /// Hands the rings of each polygon of the geometry that `element` begins to `each`, whatever they are parts of, and its lines and
-    /// points.
+    /// Calls `each` with the rings of each polygon of the geometry that `element` begins, including nested polygons,
+    /// and with its lines and points.
     pub(super) fn surfaces(
         &mut self,
         element: &Element,
@@ -176,7 +176,7 @@ impl GeometryReader<'_> {
             name if is_curve(name) => each(CityPiece::Line(self.curve(element, &context)?)),
             "Polygon" | "PolygonPatch" | "Triangle" | "Rectangle" => {
                 let mut rings = self.rings(&context)?;
-                // A ring ends where it begins.
+                // A ring ends at its first point.
                 for ring in rings.iter_mut().filter(|ring| ring.len() > 1 && ring.first() == ring.last()) {
                     ring.pop();
                 }
@@ -198,7 +198,7 @@ impl GeometryReader<'_> {
         Ok(())
     }
 
-    /// The next element that begins within the one that began at `depth`, however deep; none where that one ends.
+    /// Returns the next descendant element of the element that began at `depth`; `None` at its end.
     fn child(&mut self, depth: usize) -> GeometryResult<Option<Element>> {
         loop {
             match self.xml.next()? {
@@ -209,7 +209,7 @@ impl GeometryReader<'_> {
         }
     }
 
-    /// The rings of a polygon: the outer one first.
+    /// Returns the rings of a polygon, the outer one first.
     fn rings(&mut self, context: &GmlContext) -> GeometryResult<Vec<Vec<DVec3>>> {
         let depth = self.xml.depth;
         let (mut rings, mut outer) = (Vec::new(), None);
@@ -237,7 +237,7 @@ impl GeometryReader<'_> {
         Ok(rings)
     }
 
-    /// The places along the curve that `element` begins.
+    /// Returns the points along the curve that `element` begins.
     fn curve(&mut self, element: &Element, context: &GmlContext) -> GeometryResult<Vec<DVec3>> {
         let mut places = match &*element.name {
             "LineString" | "LinearRing" | "LineStringSegment" | "GeodesicString" | "Geodesic" => {
@@ -256,12 +256,12 @@ impl GeometryReader<'_> {
         Ok(places)
     }
 
-    /// The places along the curves and segments within an element, each of which begins where the one before it ends.
+    /// Returns the points along consecutive curves and segments within an element.
     fn chain(&mut self, context: &GmlContext) -> GeometryResult<Vec<DVec3>> {
         let depth = self.xml.depth;
         let mut places: Vec<DVec3> = Vec::new();
         while let Some(inner) = self.child(depth)? {
-            // What has a small first letter is a property of what is around it.
+            // An element with a lower-case first letter is a property of its parent.
             if !inner.name.starts_with(|letter: char| letter.is_ascii_uppercase()) {
                 if is_aside(&inner.name) {
                     self.xml.leave(self.xml.depth - 1)?;
@@ -288,14 +288,14 @@ impl GeometryReader<'_> {
             self.budget.tick()?;
         }
         if element.name == "Circle" {
-            // Three places tell it, of which the last goes on to the first: the other half of its way.
+            // A circle has three points; the second arc leads from the third back to the first.
             let opposite = around(given);
             add_arc(&mut places, [given[2], opposite, given[0]], near, room)?;
         }
         Ok(places)
     }
 
-    /// The places that are told within an element.
+    /// Returns the positions within an element.
     fn places(&mut self, context: &GmlContext) -> GeometryResult<Vec<DVec3>> {
         let depth = self.xml.depth;
         let mut places = Vec::new();
@@ -346,14 +346,14 @@ impl GeometryReader<'_> {
                     places.push(ordered(&place, &inside));
                 }
                 name if is_aside(name) => self.xml.leave(own - 1)?,
-                // A property around places.
+                // A property that contains positions.
                 _ => {}
             }
         }
         Ok(places)
     }
 
-    /// Goes to where the element that began at `depth` ends, which is to hold text alone.
+    /// Reads to the end of the element that began at `depth`, which must contain only text.
     fn end(&mut self, depth: usize) -> GeometryResult<()> {
         match self.xml.next()? {
             XmlPiece::End if self.xml.depth < depth => Ok(()),
@@ -362,7 +362,7 @@ impl GeometryReader<'_> {
     }
 }
 
-/// Whether an element says something beside geometries.
+/// Returns true if an element contains no geometry.
 fn is_aside(name: &str) -> bool {
     matches!(
         name,
@@ -370,7 +370,7 @@ fn is_aside(name: &str) -> bool {
     )
 }
 
-/// The place opposite of the second of three on their circle.
+/// Returns the point opposite the second of three points on their circle.
 fn around(given: &[DVec3]) -> DVec3 {
     let [a, b, c] = [given[0], given[1], given[2]].map(|place| place.truncate());
     let (u, v) = (b - a, c - a);
@@ -379,7 +379,7 @@ fn around(given: &[DVec3]) -> DVec3 {
     (centre + centre - b).extend(given[1].z)
 }
 
-/// How many numbers make a place in a list.
+/// Returns the number of coordinates per position in a list.
 fn dimension(numbers: &[f64], element: &Element, context: &GmlContext) -> GeometryResult<usize> {
     if let Some(told) = context.dimension {
         return Ok(told);
@@ -405,7 +405,7 @@ fn dimension(numbers: &[f64], element: &Element, context: &GmlContext) -> Geomet
     })
 }
 
-/// A place with east first.
+/// Returns a position in the order east, north.
 fn ordered(place: &[f64], context: &GmlContext) -> DVec3 {
     let z = place.get(2).copied().unwrap_or_default();
     match context.known() {
@@ -418,12 +418,12 @@ fn number(text: &str) -> GeometryResult<f64> {
     text.parse().or_else(|_| wrong(format!("has \"{}\" where a number should be", shown(text))))
 }
 
-/// The numbers between blanks.
+/// Parses numbers separated by white space.
 fn numbers(text: &str) -> GeometryResult<Vec<f64>> {
     text.split_ascii_whitespace().map(number).collect()
 }
 
-/// The places of a text of version 2, whose separators may be others.
+/// Parses the positions in a version 2 text, whose separators may be customised.
 fn tuples(text: &str, element: &Element) -> GeometryResult<Vec<Vec<f64>>> {
     let mark = |name: &str, usual: char| {
         let told = element.attribute(name).and_then(|text| text.chars().next());

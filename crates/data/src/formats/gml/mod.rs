@@ -1,11 +1,12 @@
-//! Reads GML, as towns and their services hand it out: collections of features of versions 2 to 3.2, and models of CityGML 1 to 3.
+//! Reader of GML as municipalities and web services publish it: feature collections of versions 2 to 3.2, and CityGML 1
+//! to 3 models.
 //!
-//! Comes in: a file of XML. Goes out: a [`FeatureTable`](crate::FeatureTable) of the features of one type. The file is read as it
-//! comes, twice: once for the types of its features, and once for those of the one that is wanted.
+//! Input: an XML file. Output: a [`FeatureTable`](crate::FeatureTable) of the features of one type. The file is
+//! streamed twice: once for the types of its features, and once for the features of the requested type.
 //!
-//! Nothing that a file names is fetched, and no entity of its own is followed.
+//! External references are not fetched, and entities defined in the file are not expanded.
 //!
-//! Source: OGC 02-069, 03-105r1 and 07-036, Geography Markup Language; OGC 06-103r4 for what coordinates mean.
+//! Source: OGC 02-069, 03-105r1 and 07-036, Geography Markup Language; OGC 06-103r4 for the meaning of coordinates.
 
 mod axes;
 mod city;

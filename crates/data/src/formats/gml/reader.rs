@@ -1,4 +1,4 @@
-//! Reads the features of a collection, one by one.
+//! Reader of the features in a collection.
 
 use std::rc::Rc;
 use std::sync::Arc;
@@ -15,25 +15,25 @@ use burgeon_base::budget::Budget;
 use burgeon_base::error::{Error, Result};
 use burgeon_base::text::shown;
 
-/// An open file of GML.
+/// Open GML file.
 pub(crate) struct GmlFile {
     file: DataFile,
     name: String,
-    /// The types of its features, in their order.
+    /// Feature types in order of appearance.
     types: Vec<String>,
 }
 
-/// What the elements around features are.
+/// Type of an element around features.
 #[derive(Clone, Copy, PartialEq)]
 enum Level {
     Collection,
-    /// A member, which may be one of a model of a city.
+    /// Member, which may be part of a city model.
     Member {
         is_city: bool,
     },
 }
 
-/// The most types of features.
+/// Maximum number of feature types.
 const MOST_TYPES: usize = 1000;
 
 impl GmlFile {
@@ -59,7 +59,7 @@ impl GmlFile {
         Ok(found)
     }
 
-    /// The name of the outermost element.
+    /// Returns the name of the root element.
     fn root(&self, wanted: &SourceOptions) -> Result<String> {
         let mut xml = Xml::new(&self.file.content, &self.name, &wanted.budget)?;
         Ok(match xml.next()? {
@@ -68,7 +68,7 @@ impl GmlFile {
         })
     }
 
-    /// Has `each` read every feature, whose element has begun, until it says that it has enough.
+    /// Calls `each` at the start of every feature until it returns false.
     fn walk(
         &self,
         wanted: &SourceOptions,
@@ -144,7 +144,7 @@ impl LayeredFile for GmlFile {
     }
 }
 
-/// What holds for all features.
+/// Context shared by all features.
 pub(super) struct Surroundings {
     pub(super) context: GmlContext,
     names: FxHashMap<String, Rc<Result<NamedSystem>>>,
@@ -152,7 +152,7 @@ pub(super) struct Surroundings {
 }
 
 impl Surroundings {
-    /// The coordinate system of a name.
+    /// Returns the coordinate system with a name.
     pub(super) fn named(&mut self, name: &str) -> Rc<Result<NamedSystem>> {
         if let Some(known) = self.names.get(name) {
             return Rc::clone(known);
@@ -162,7 +162,7 @@ impl Surroundings {
         system
     }
 
-    /// Looks for the coordinate system in the bounds of what is around features.
+    /// Reads the coordinate system in a `boundedBy` element around features.
     pub(super) fn bounds(&mut self, xml: &mut Xml) -> Result<()> {
         let depth = xml.depth;
         while xml.depth >= depth {
@@ -179,7 +179,7 @@ impl Surroundings {
     }
 }
 
-/// The features that have been read.
+/// Builder of the feature table.
 pub(super) struct FeatureBuilder {
     pub(super) table: FeatureTable,
     pub(super) label: String,
@@ -247,7 +247,7 @@ impl FeatureBuilder {
         }
     }
 
-    /// The table; attributes of which all values are numbers, or true and false, become these.
+    /// Returns the table, with attributes converted to numbers or booleans if all of their values permit it.
     fn finish(mut self) -> Result<FeatureTable> {
         match self.system.as_deref() {
             Some(Ok(system)) => self.table.crs = Ok(system.crs.clone()),
@@ -259,7 +259,7 @@ impl FeatureBuilder {
     }
 }
 
-/// What was found of a feature.
+/// Content of a feature.
 struct FeatureContent {
     parts: Vec<Geometry>,
     values: Vec<(String, String)>,
@@ -268,7 +268,7 @@ struct FeatureContent {
 }
 
 impl FeatureContent {
-    /// Reads the property that `element` begins, whose attribute is called `name`.
+    /// Reads the property that `element` begins; the attribute is called `name`.
     fn property(
         &mut self,
         xml: &mut Xml,
@@ -307,7 +307,7 @@ impl FeatureContent {
         }
         budget.take(100 + name.len() + value.len())?;
         match self.values.iter_mut().find(|(known, _)| *known == name) {
-            // What stands there again is listed.
+            // Repeated values are joined in a list.
             Some((_, known)) => {
                 known.push(';');
                 known.push_str(value);
@@ -318,7 +318,7 @@ impl FeatureContent {
         Ok(())
     }
 
-    /// Reads a geometry; of several of a feature, the one of the greatest extent counts.
+    /// Reads a geometry; of several geometries of a feature, the one of the highest dimension is used.
     fn geometry(
         &mut self,
         xml: &mut Xml,

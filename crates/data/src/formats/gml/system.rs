@@ -1,25 +1,25 @@
-//! What `srsName` means: a coordinate system, and which coordinate comes first.
+//! Interpretation of `srsName`: the coordinate system and the order of coordinates.
 
 use super::axes::is_north_first;
 use crate::Crs;
 use burgeon_base::error::{Error, Result};
 use burgeon_base::text::shown;
 
-/// A coordinate system as a file names it.
+/// Coordinate system named in a file.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct NamedSystem {
     pub(super) crs: Crs,
-    /// Whether the first coordinate is the northing, or the latitude.
+    /// Set if the first coordinate is the northing or the latitude.
     pub(super) north_first: bool,
-    /// Whether it has heights.
+    /// Set if the system has heights.
     pub(super) has_heights: bool,
 }
 
 impl NamedSystem {
-    /// What `name` means; `forced` is the code that holds in its place.
+    /// Interprets `name`; the code `forced` replaces the code in the name.
     ///
-    /// A URN, or an address of opengis.net, has coordinates in the order of the registry; so latitude comes first. In the
-    /// short forms of old, east comes first always.
+    /// A URN or an opengis.net URL implies the axis order of the registry, with latitude first. The older short forms
+    /// always imply east first.
     pub(super) fn named(name: &str, forced: Option<u32>) -> Result<Self> {
         let parts: Vec<&str> = name.split(',').collect();
         let is_compound = parts.len() > 2 && parts[0].ends_with(":crs");
@@ -36,11 +36,11 @@ impl NamedSystem {
     }
 }
 
-/// The EPSG code in a name, and whether the registry's order of coordinates holds.
+/// Returns the EPSG code in a name, and true if the axis order of the registry applies.
 fn code(name: &str) -> Option<(Option<u32>, bool)> {
     let last = |separator: char| name.rsplit(separator).next().and_then(|code| code.parse().ok());
     let lower = name.to_ascii_lowercase();
-    // As German surveyors name them; east comes first.
+    // Names used by German surveyors; east comes first.
     if let Some((_, zone)) = lower.split_once("etrs89_utm") {
         let zone: String = zone.chars().take_while(char::is_ascii_digit).collect();
         return Some((

@@ -1,4 +1,4 @@
-//! Files of all versions, and damaged ones.
+//! Tests of files of all versions, and of damaged files.
 
 use std::sync::Arc;
 use std::time::Duration;
@@ -8,7 +8,7 @@ use burgeon_base::budget::Budget;
 use burgeon_base::error::Result;
 
 thread_local! {
-    /// Where a test writes its files.
+    /// Folder for the files of a test.
     static FOLDER: tempfile::TempDir = tempfile::tempdir().unwrap();
 }
 
@@ -22,7 +22,7 @@ fn plain(text: &str) -> Result<FeatureTable> {
     read(text.as_bytes(), &SourceOptions::default())
 }
 
-/// A collection of version 3.2 with these members.
+/// Returns a version 3.2 collection with these members.
 fn collection(members: &str) -> String {
     format!(
         r#"<?xml version="1.0" encoding="UTF-8"?>
@@ -32,12 +32,12 @@ fn collection(members: &str) -> String {
     )
 }
 
-/// A member whose geometry this is.
+/// Returns a member with this geometry.
 fn house(geometry: &str) -> String {
     format!(r#"<wfs:member><t:House gml:id="h.1"><t:shape>{geometry}</t:shape></t:House></wfs:member>"#)
 }
 
-/// The geometries of a collection with one such house, as well-known text.
+/// Returns the geometries of a collection with one such house as well-known text.
 fn shapes(geometry: &str) -> String {
     match plain(&collection(&house(geometry))) {
         Ok(table) => {
@@ -140,7 +140,7 @@ fn coordinates_are_in_the_order_that_their_system_says() {
     assert_eq!(point("http://www.opengis.net/def/crs/EPSG/0/4326"), "POINT (24.94 60.17)");
     assert_eq!(point("EPSG:4326"), "POINT (60.17 24.94)");
     assert_eq!(point("http://www.opengis.net/gml/srs/epsg.xml#4326"), "POINT (60.17 24.94)");
-    // From what is around the collection, the feature or the geometry.
+    // The name of the system comes from around the collection, the feature or the geometry.
     let bounds = |name: &str| {
         format!(
             "<gml:boundedBy><gml:Envelope srsName='{name}'><gml:lowerCorner>60 24</gml:lowerCorner></gml:Envelope></gml:boundedBy>"

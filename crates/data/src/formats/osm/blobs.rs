@@ -1,4 +1,4 @@
-//! The blobs that an extract is a row of, and how they are unpacked.
+//! Blobs of an extract, and their decompression.
 
 use std::fs::File;
 use std::io::{Read, Seek, SeekFrom};
@@ -13,26 +13,26 @@ use burgeon_base::budget::Budget;
 use burgeon_base::error::{Error, Result};
 use burgeon_base::locks::LockRecovery;
 
-/// The most bytes of a blob's header, and of a blob, packed or not, that the format allows.
+/// Maximum size (bytes) of a blob's header, and of a blob, compressed or not, according to the format.
 const LARGEST_HEADER: usize = 64 << 10;
 const LARGEST: usize = 32 << 20;
 
-/// How many unpacked bytes are kept for what asks for them again.
+/// Maximum number of decompressed bytes that are cached.
 const KEPT: usize = 64 << 20;
 
-/// How many bytes a block may take while it is looked at, besides its own, for each of its own.
+/// Memory needed while a block is processed, per byte of the block.
 const AROUND: usize = 8;
 
-/// What a file has to be read as, of what it may say is needed.
+/// Required features (as declared in a file's header) that this reader supports.
 const KNOWN: [&str; 2] = ["OsmSchema-V0.6", "DenseNodes"];
 
-/// A file of blobs.
+/// File of blobs.
 pub(super) struct BlobFile {
-    /// None where all blocks are there already.
+    /// File on disk; `None` if all blocks are in memory.
     file: Option<Mutex<File>>,
     name: String,
     blobs: Vec<Blob>,
-    /// The bytes of blocks that are kept.
+    /// Number of cached bytes of blocks.
     kept: AtomicUsize,
 }
 
@@ -42,13 +42,14 @@ struct Blob {
     unpacked: OnceLock<Vec<u8>>,
 }
 
-/// Whether a file that begins so is an extract.
+/// Returns true if a file that begins with `head` is an extract.
 pub(super) fn is_extract(head: &[u8]) -> bool {
     head.get(4..15).is_some_and(|found| found == b"\x0a\x09OSMHeader")
 }
 
 impl BlobFile {
-    /// Finds the blobs of `file`, and looks at its header. Fails if it is cut short, or needs what is not known.
+    /// Finds the blobs of `file` and checks its header. Fails if the file is truncated or requires unsupported
+    /// features.
     pub(super) fn open(file: File, name: &str, budget: &Budget) -> Result<Self> {
         let mut found = Self {
             file: Some(Mutex::new(file)),
@@ -65,7 +66,7 @@ impl BlobFile {
             match (&*kind, header.is_some()) {
                 (b"OSMHeader", false) => header = Some(blob),
                 (b"OSMData", true) => found.blobs.push(blob),
-                // Blobs of other kinds are for other programs.
+                // Blobs of other types are for other programs.
                 _ => {}
             }
         }
@@ -74,7 +75,7 @@ impl BlobFile {
         Ok(found)
     }
 
-    /// Blocks that were made of another format, as those of a file.
+    /// Creates a file from blocks that were converted from another format.
     pub(super) fn of_blocks(blocks: Vec<Vec<u8>>, name: &str) -> Self {
         let blobs = (0..).zip(blocks).map(|(at, block)| {
             let size = block.len();
@@ -83,24 +84,25 @@ impl BlobFile {
         Self { file: None, name: name.to_owned(), blobs: blobs.collect(), kept: AtomicUsize::new(0) }
     }
 
-    /// The file, for one reader at a time.
+    /// Locks the file for one reader at a time.
     fn file(&self) -> Result<MutexGuard<'_, File>> {
         let file = self.file.as_ref().ok_or_else(|| Error::internal("a block is not there"))?;
         Ok(file.lock().recover())
     }
 
-    /// How many blocks it has.
+    /// Returns the number of blocks.
     pub(super) fn len(&self) -> usize {
         self.blobs.len()
     }
 
-    /// The error for bytes that are not as they should be.
+    /// Returns the error for damaged bytes.
     pub(super) fn damaged(&self, why: &str) -> Error {
         Error::data(format!("{} cannot be read: {why}", self.name))
             .help("the file is damaged or cut short; get it again")
     }
 
-    /// The kind of the blob whose header is at `at`, where it begins and how long it is; none at the end.
+    /// Reads the header of the blob at `at`; returns its type, the start of its content, and its size. Returns `None`
+    /// at the end.
     fn head(&self, at: u64, budget: &Budget) -> Result<Option<(Vec<u8>, u64, usize)>> {
         budget.tick()?;
         let mut file = self.file()?;
@@ -138,7 +140,7 @@ impl BlobFile {
         Ok(Some((kind.to_vec(), begin, size)))
     }
 
-    /// Has `work` look at the bytes of the block `index`.
+    /// Calls `work` with the bytes of the block `index`.
     pub(super) fn block<T>(
         &self,
         index: usize,
@@ -148,7 +150,7 @@ impl BlobFile {
         let blob = &self.blobs[index];
         self.look(blob, budget, |bytes| {
             work(bytes).map_err(|why| {
-                // It may be that the time is over, and not the block's fault.
+                // The error may be an exceeded time limit instead of a damaged block.
                 budget
                     .check()
                     .err()
@@ -182,13 +184,13 @@ impl BlobFile {
         let result = work(&bytes)?;
         let before = self.kept.fetch_add(size, Ordering::Relaxed);
         if before + size <= KEPT && budget.take(size).is_ok() {
-            // Whoever comes second keeps nothing.
+            // If another thread was faster, its copy is kept.
             let _ = blob.unpacked.set(bytes);
         }
         Ok(result)
     }
 
-    /// What a blob holds and how many bytes that are unpacked; or by what it is packed, if that is not read.
+    /// Returns the content of a blob and its decompressed size, or the name of an unsupported compression.
     fn content<'a>(
         &self,
         blob: &'a [u8],
@@ -221,7 +223,7 @@ impl BlobFile {
         Ok(Ok((content, size)))
     }
 
-    /// Fails if the header block says that something is needed that is not known.
+    /// Fails if the header block requires an unsupported feature.
     fn check(&self, header: &[u8]) -> Result<()> {
         for field in WireFields(header) {
             let field = field.and_then(|(number, field)| if number == 4 { field.bytes() } else { Ok(&[]) });
@@ -246,9 +248,9 @@ enum BlobContent<'a> {
     Deflated(&'a [u8]),
 }
 
-/// Unpacks what becomes exactly `size` bytes.
+/// Decompresses bytes whose decompressed size must be exactly `size`.
 fn inflate(packed: &[u8], size: usize) -> Result<Vec<u8>, WireDamage> {
-    // One more, so that a stream that goes on is told from one that ends.
+    // One additional byte, to detect streams that are longer than declared.
     let mut bytes = Vec::with_capacity(size + 1);
     let mut stream = Decompress::new(true);
     let status = stream.decompress_vec(packed, &mut bytes, FlushDecompress::Finish);

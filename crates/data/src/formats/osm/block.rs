@@ -1,14 +1,14 @@
-//! A block of an extract: its texts, and groups of nodes, ways and relations.
+//! Block of an extract: its strings, and groups of nodes, ways and relations.
 
 use rustc_hash::FxHashMap;
 
 use super::places::Place;
 use super::wire::{Deltas, Varints, WireDamage, WireFields, signed};
 
-/// The numbers of a key and of a value among the texts of a block.
+/// Indices of a key and of a value among the strings of a block.
 pub(super) type TagNumbers = (usize, usize);
 
-/// A block that has been opened.
+/// Open block.
 pub(super) struct OsmBlock<'a> {
     strings: Vec<&'a [u8]>,
     groups: Vec<&'a [u8]>,
@@ -16,27 +16,27 @@ pub(super) struct OsmBlock<'a> {
     offset: [i64; 2],
 }
 
-/// What comes of a visit.
+/// Result of a visit.
 pub(super) type VisitResult<T> = Result<T, WireDamage>;
 
-/// What is done with what a block holds.
+/// Visitor of the elements of a block.
 pub(super) trait Visitor {
-    /// Whether nodes are wanted, with or without their tags.
+    /// Reports which tags of nodes are read; `None` skips all nodes.
     fn wants_nodes(&self) -> Option<WantedTags> {
         None
     }
 
-    /// Takes a node.
+    /// Visits a node.
     fn node(&mut self, _: &OsmBlock<'_>, _id: i64, _: Place, _: &[TagNumbers]) -> VisitResult<()> {
         Ok(())
     }
 
-    /// Takes a way with its nodes.
+    /// Visits a way with its nodes.
     fn way(&mut self, _: &OsmBlock<'_>, _id: i64, _: &[TagNumbers], _nodes: Deltas<'_>) -> VisitResult<()> {
         Ok(())
     }
 
-    /// Takes a relation with the ids of its members, and their types.
+    /// Visits a relation with the ids and the types of its members.
     fn relation(
         &mut self,
         _: &OsmBlock<'_>,
@@ -48,12 +48,12 @@ pub(super) trait Visitor {
     }
 }
 
-/// Whether tags of nodes are read.
+/// Selection of the tags of nodes.
 #[derive(Clone, Copy, PartialEq)]
 pub(super) enum WantedTags {
-    /// They are.
+    /// All tags.
     All,
-    /// Only places are.
+    /// Positions without tags.
     None,
 }
 
@@ -78,17 +78,17 @@ impl<'a> OsmBlock<'a> {
         Ok(block)
     }
 
-    /// The text with a number.
+    /// Returns the string with an index.
     pub(super) fn string(&self, number: usize) -> Result<&'a [u8], WireDamage> {
         self.strings.get(number).copied().ok_or("names a text that it does not have")
     }
 
-    /// For each text, its number among `words` and 1 more; 0 if it is none of them.
+    /// Returns for each string its index in `words` plus 1; 0 if it is not in `words`.
     pub(super) fn numbered(&self, words: &FxHashMap<Vec<u8>, usize>) -> Vec<usize> {
         self.strings.iter().map(|text| words.get(*text).map_or(0, |number| number + 1)).collect()
     }
 
-    /// Hands everything that it holds to `visitor`.
+    /// Passes all elements to `visitor`.
     pub(super) fn visit(&self, visitor: &mut impl Visitor) -> Result<(), WireDamage> {
         let mut tags = Vec::new();
         for group in &self.groups {
@@ -105,11 +105,11 @@ impl<'a> OsmBlock<'a> {
         Ok(())
     }
 
-    /// Which kinds of things it holds.
+    /// Returns the types of elements in the block.
     pub(super) fn holds(&self) -> Result<BlockContents, WireDamage> {
         let mut holds = BlockContents::default();
         for group in &self.groups {
-            // A group holds one kind.
+            // A group contains elements of one type.
             if let Some(field) = WireFields(group).next() {
                 let (number, _) = field?;
                 holds.nodes |= matches!(number, 1 | 2);
@@ -221,14 +221,14 @@ impl<'a> OsmBlock<'a> {
     }
 }
 
-/// Which kinds of things a block holds.
+/// Types of elements in a block.
 #[derive(Clone, Copy, Default)]
 pub(super) struct BlockContents {
     pub(super) nodes: bool,
     pub(super) ways: bool,
 }
 
-/// The lists of keys and of values of a node, a way or a relation.
+/// Lists of keys and values of a node, a way or a relation.
 #[derive(Default)]
 struct TagLists<'a> {
     keys: Varints<'a>,

@@ -1,4 +1,4 @@
-//! What looks through the blocks of an extract: for what tags choose, for ways, and for the places of nodes.
+//! Searches through the blocks of an extract: for features selected by tags, for ways, and for the positions of nodes.
 
 use rustc_hash::{FxHashMap, FxHashSet};
 
@@ -11,15 +11,15 @@ use crate::tags::TagFilter;
 use crate::{GeometryKind, SourceOptions};
 use burgeon_base::budget::Budget;
 
-/// What is wanted of an extract.
+/// Selection of features in an extract.
 pub(super) struct TagChoice {
-    /// What tags have to be: all of these hold.
+    /// Tag filters; all must match.
     filters: Vec<TagFilter>,
-    /// Keys of which a feature has one; none if any feature may be meant.
+    /// Keys of which a feature must have one; `None` if there is no such requirement.
     pub(super) words: Option<FxHashMap<Vec<u8>, usize>>,
-    /// The kind of geometry; any if none.
+    /// Type of geometry; any if `None`.
     kind: Option<GeometryKind>,
-    /// Whether tags decide if a closed way is an area.
+    /// Set if tags decide whether a closed way is an area.
     by_tags: bool,
 }
 
@@ -39,28 +39,28 @@ impl TagChoice {
     }
 }
 
-/// Looks for what is chosen.
+/// Search for selected features.
 pub(super) struct TagSearch<'c> {
     pub(super) choice: &'c TagChoice,
     pub(super) budget: &'c Budget,
-    /// Which texts of the block are keys of which a feature has one.
+    /// For each string of the block, a number above 0 if it is one of the required keys.
     pub(super) class: Option<Vec<usize>>,
     pub(super) records: Vec<OsmRecord>,
 }
 
-/// Fails if reading is to end.
+/// Fails if the reading must end.
 fn told_to_go_on(budget: &Budget) -> VisitResult<()> {
     budget.tick().map_err(|_| "takes too much")
 }
 
-/// The value of a key among tags.
+/// Returns the value of a key among tags.
 fn value_of<'b>(block: &OsmBlock<'b>, tags: &[TagNumbers], key: &str) -> Option<&'b [u8]> {
     let found = tags.iter().find(|(number, _)| block.string(*number) == Ok(key.as_bytes()));
     found.and_then(|(_, value)| block.string(*value).ok())
 }
 
 impl TagSearch<'_> {
-    /// The alternative that holds for tags, if they are chosen.
+    /// Returns the matching alternative, if the tags are selected.
     fn chosen(&self, block: &OsmBlock<'_>, tags: &[TagNumbers]) -> VisitResult<Option<usize>> {
         told_to_go_on(self.budget)?;
         if let Some(class) = &self.class
@@ -103,7 +103,7 @@ impl Visitor for TagSearch<'_> {
     }
 
     fn node(&mut self, block: &OsmBlock<'_>, id: i64, place: Place, tags: &[TagNumbers]) -> VisitResult<()> {
-        // Most nodes are nothing but places of ways.
+        // Most nodes have no tags and only define positions of ways.
         if tags.is_empty() {
             return told_to_go_on(self.budget);
         }
@@ -164,7 +164,7 @@ impl Visitor for TagSearch<'_> {
     }
 }
 
-/// All of some numbers.
+/// Collects the decoded numbers.
 fn all(mut deltas: Deltas<'_>) -> VisitResult<Vec<i64>> {
     let mut numbers = Vec::new();
     while let Some(number) = deltas.next()? {
@@ -173,7 +173,7 @@ fn all(mut deltas: Deltas<'_>) -> VisitResult<Vec<i64>> {
     Ok(numbers)
 }
 
-/// Looks for ways by their ids.
+/// Search for ways by id.
 pub(super) struct WaySearch<'w> {
     pub(super) wanted: &'w FxHashSet<i64>,
     pub(super) found: Vec<(i64, Vec<i64>)>,
@@ -192,7 +192,7 @@ impl Visitor for WaySearch<'_> {
     }
 }
 
-/// Looks for places of nodes by their ids.
+/// Search for the positions of nodes by id.
 pub(super) struct PlaceSearch<'w> {
     pub(super) wanted: &'w FxHashSet<i64>,
     pub(super) found: Vec<(i64, Place)>,

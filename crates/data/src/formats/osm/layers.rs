@@ -1,4 +1,4 @@
-//! The layers that an extract is offered as, by the tags that mappers use for them.
+//! Predefined layers of an extract, defined by the tags that mappers use.
 //!
 //! Source: OpenStreetMap wiki, "Map features".
 
@@ -7,17 +7,18 @@ use std::sync::Arc;
 use crate::GeometryKind;
 use crate::tags::{TagFilter, TagTest};
 
-/// A layer that an extract is offered as.
+/// Predefined layer of an extract.
 pub(super) struct ReadyLayer {
-    /// Its name.
+    /// Name.
     pub(super) name: &'static str,
-    /// The kind of its geometries.
+    /// Type of geometry.
     pub(super) kind: GeometryKind,
-    /// The keys of which a feature has one, each with the values that count; any value but `no` if none is named.
+    /// Keys of which a feature has one, each with its accepted values; if the list is empty, any value except `no` is
+    /// accepted.
     tags: &'static [(&'static str, &'static [&'static str])],
 }
 
-/// All of them.
+/// All layers.
 pub(super) const LAYERS: [ReadyLayer; 14] = [
     ReadyLayer { name: "buildings", kind: GeometryKind::Polygon, tags: &[("building", &[])] },
     ReadyLayer { name: "building_parts", kind: GeometryKind::Polygon, tags: &[("building:part", &[])] },
@@ -108,12 +109,12 @@ pub(super) const LAYERS: [ReadyLayer; 14] = [
 ];
 
 impl ReadyLayer {
-    /// The layer called `name`.
+    /// Returns the layer called `name`.
     pub(super) fn named(name: &str) -> Option<&'static Self> {
         LAYERS.iter().find(|layer| layer.name == name)
     }
 
-    /// What chooses its features: an alternative for each of its keys.
+    /// Returns the filter for its features, with one alternative for each key.
     pub(super) fn filter(&self) -> TagFilter {
         let test = |values: &[&str]| match values {
             [] => TagTest::Set,
@@ -123,13 +124,13 @@ impl ReadyLayer {
         TagFilter { alternatives: alternatives.collect() }
     }
 
-    /// The key of an alternative.
+    /// Returns the key of an alternative.
     pub(super) fn key(&self, alternative: usize) -> Option<&'static str> {
         self.tags.get(alternative).map(|(key, _)| *key)
     }
 }
 
-/// Keys of which any value but `no` makes a closed way an area, where `area` does not tell.
+/// Keys that make a closed way an area with any value except `no`, if it has no tag `area`.
 const AREAS: [&str; 16] = [
     "amenity",
     "area:highway",
@@ -149,13 +150,13 @@ const AREAS: [&str; 16] = [
     "military",
 ];
 
-/// Values of `waterway` that are areas, where the way is closed.
+/// Values of `waterway` that make a closed way an area.
 const WATER_AREAS: [&[u8]; 4] = [b"riverbank", b"dock", b"boatyard", b"dam"];
 
-/// Values of `natural` that are lines, though they may be closed.
+/// Values of `natural` that are lines even if the way is closed.
 const NATURAL_LINES: [&[u8]; 6] = [b"coastline", b"cliff", b"ridge", b"arete", b"tree_row", b"valley"];
 
-/// Whether a closed way is an area, by its tags.
+/// Returns true if the tags of a closed way make it an area.
 pub(super) fn is_area<'v>(value: impl Fn(&str) -> Option<&'v [u8]>) -> bool {
     match value("area") {
         Some(area) => area != b"no",

@@ -1,21 +1,22 @@
-//! What tags mean to scripts: heights and storeys as numbers, shapes and colours of roofs, under names that are plain.
+//! Conversion of tags to attributes for scripts: numeric heights and storeys, roof shapes and colours, under plain
+//! names.
 //!
 //! Source: OpenStreetMap wiki, "Simple 3D Buildings" and "Map features/Units".
 
-/// What a value is read as.
+/// Type of a tag value.
 #[derive(Clone, Copy, PartialEq)]
 enum TagMeaning {
-    /// A length (m).
+    /// Length (m).
     Length,
-    /// A number of something.
+    /// Number.
     Count,
-    /// A direction (degrees from the north, turning right), or a word that stays.
+    /// Direction (degrees clockwise from north), or a word that is kept.
     Bearing,
-    /// A text.
+    /// Text.
     Text,
 }
 
-/// Names of attributes, the keys whose values they are, of which the first that is there counts, and what these mean.
+/// Attribute names, the keys that provide their values (the first key present is used), and the value types.
 const NAMES: [(&str, &[&str], TagMeaning); 20] = [
     ("height", &["height", "building:height", "est_height"], TagMeaning::Length),
     ("min_height", &["min_height", "building:min_height"], TagMeaning::Length),
@@ -43,18 +44,18 @@ const NAMES: [(&str, &[&str], TagMeaning); 20] = [
     ("direction", &["direction"], TagMeaning::Bearing),
 ];
 
-/// What tags mean under a name.
+/// Converted value of a tag.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) enum TagValue<'v> {
-    /// A number.
+    /// Number.
     Number(f64),
-    /// A text.
+    /// Text.
     Text(&'v str),
-    /// Nothing, since this is no number.
+    /// Text that is not a number although one is required.
     Unread(&'v str),
 }
 
-/// What tags mean, name by name; `value` gives the value of a key.
+/// Converts tags to attributes, name by name; `value` returns the value of a key.
 pub(super) fn meanings<'v>(
     value: impl Fn(&str) -> Option<&'v str>,
 ) -> impl Iterator<Item = (&'static str, TagValue<'v>)> {
@@ -74,15 +75,15 @@ pub(super) fn meanings<'v>(
     })
 }
 
-/// Numbers beyond this are mistakes.
+/// Maximum plausible number.
 const GREATEST: f64 = 100_000.0;
 
-/// The first of the values that a text lists.
+/// Returns the first value in a semicolon-separated list.
 fn first(text: &str) -> &str {
     text.split(';').map(str::trim).find(|part| !part.is_empty()).unwrap_or_default()
 }
 
-/// A number with a point or a comma, and what stands behind it.
+/// Returns the number, with a decimal point or comma, at the start of a text, and the rest.
 fn leading(text: &str) -> Option<(f64, &str)> {
     let text = text.trim_start();
     let signed = text.strip_prefix(['-', '+']).unwrap_or(text);
@@ -99,15 +100,15 @@ fn leading(text: &str) -> Option<(f64, &str)> {
     (number.abs() <= GREATEST).then_some((number, text[end..].trim_start()))
 }
 
-/// The number in a text such as `3`, `3.5` or `3;4`.
+/// Parses a number such as `3`, `3.5` or `3;4`.
 fn count(text: &str) -> Option<f64> {
     leading(first(text)).and_then(|(number, rest)| rest.is_empty().then_some(number))
 }
 
-/// The length (m) in a text such as `12`, `12 m`, `12,5m`, `40'`, `5'6"`, `40 ft` or `3;4`.
+/// Parses a length (m) such as `12`, `12 m`, `12,5m`, `40'`, `5'6"`, `40 ft` or `3;4`.
 pub(super) fn length(text: &str) -> Option<f64> {
     let (number, unit) = leading(first(text))?;
-    // Feet and inches are written with many marks.
+    // Feet and inches are written with various characters.
     let feet = ["'", "\u{2032}", "\u{2019}", "ft", "feet", "foot"];
     if let Some(rest) = feet.iter().find_map(|mark| unit.strip_prefix(mark)) {
         let inches = match rest.trim_matches(['.', ' ']) {
@@ -133,7 +134,7 @@ fn is_inch(mark: &str) -> bool {
     matches!(mark, "\"" | "\u{2033}" | "\u{201d}" | "''" | "in" | "inch" | "inches")
 }
 
-/// The direction (degrees) in a text such as `90`, `90°` or `NNE`.
+/// Parses a direction (degrees) such as `90`, `90°` or `NNE`.
 fn bearing(text: &str) -> Option<f64> {
     const POINTS: [&str; 16] =
         ["N", "NNE", "NE", "ENE", "E", "ESE", "SE", "SSE", "S", "SSW", "SW", "WSW", "W", "WNW", "NW", "NNW"];

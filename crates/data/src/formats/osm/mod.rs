@@ -1,10 +1,10 @@
-//! Reads extracts of OpenStreetMap, `.osm.pbf`, and `.osm`, the same as XML.
+//! Reader of OpenStreetMap extracts: `.osm.pbf`, and `.osm`, the XML equivalent.
 //!
-//! Comes in: a file. Goes out: a [`FeatureTable`](crate::FeatureTable) of a layer that tags choose: nodes become points, ways lines
-//! or polygons, multipolygon relations polygons. What cannot be built, as the extract lacks a part of it, is
-//! refused with the reason.
+//! Input: a file. Output: a [`FeatureTable`](crate::FeatureTable) of a layer selected by tags. Nodes become points,
+//! ways become lines or polygons, and multipolygon relations become polygons. Features that cannot be built because
+//! parts are missing in the extract are refused with the reason.
 //!
-//! The reader is our own: blocks are unpacked within bounds and side by side, and only what is wanted is kept of them.
+//! The reader is our own: blocks are decompressed within bounds and in parallel, and only the requested data is kept.
 //!
 //! Source: OpenStreetMap wiki, "PBF Format", and "Relation:multipolygon".
 

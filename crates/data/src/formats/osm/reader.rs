@@ -1,4 +1,5 @@
-//! Reads a layer of an extract: what is chosen by tags, then the ways of its relations, then the places of its nodes.
+//! Reader of a layer in an extract: first the features selected by tags, then the ways of their relations, then the
+//! positions of their nodes.
 
 use rayon::prelude::*;
 use rustc_hash::{FxHashMap, FxHashSet};
@@ -17,7 +18,7 @@ use burgeon_base::budget::Budget;
 use burgeon_base::error::{Error, Result};
 use burgeon_base::text::{listed, shown};
 
-/// An open extract of OpenStreetMap.
+/// Open OpenStreetMap extract.
 pub struct OsmFile {
     blobs: BlobFile,
     name: String,
@@ -25,7 +26,7 @@ pub struct OsmFile {
 }
 
 impl OsmFile {
-    /// Whether a file that begins so is an extract.
+    /// Returns true if a file that begins with `head` is an extract.
     pub(crate) fn is_one(head: &[u8]) -> bool {
         is_extract(head)
     }
@@ -37,7 +38,7 @@ impl OsmFile {
         Ok(Self { blobs: BlobFile::open(file, &name, &wanted.budget)?, name, stem })
     }
 
-    /// Opens an extract that is XML.
+    /// Opens an XML extract.
     pub(crate) fn open_xml(file: &DataFile, wanted: &SourceOptions) -> Result<Self> {
         let blocks = super::xml::blocks(file, &wanted.budget)?;
         Ok(Self {
@@ -88,7 +89,7 @@ impl OsmFile {
         let built: Vec<BuildResult> =
             records.par_iter().map(|record| owner.charge(|| build(record))).collect();
         let records = records.into_iter().zip(built).map(|(record, built)| {
-            // Where a part of the extract is wanted, it matters where a feature lies that cannot be built.
+            // If a box was requested, the position of a feature that cannot be built decides whether it is reported.
             let bounds = built.as_ref().err().map(|_| known_bounds(&record, &ways, &places));
             (record, built, bounds)
         });
@@ -96,7 +97,7 @@ impl OsmFile {
         Ok(table)
     }
 
-    /// What is chosen, in the order of the file.
+    /// Returns the selected features in file order.
     fn records(&self, choice: &TagChoice, budget: &Budget) -> Result<Vec<OsmRecord>> {
         let owner = MemoryOwner::current();
         let found = (0..self.blobs.len()).into_par_iter().map(|index| {
@@ -113,7 +114,7 @@ impl OsmFile {
         Ok(found?.into_iter().flatten().collect())
     }
 
-    /// The nodes of the ways that relations are made of.
+    /// Returns the nodes of the ways that are members of relations.
     fn member_ways(&self, records: &[OsmRecord], budget: &Budget) -> Result<FxHashMap<i64, Vec<i64>>> {
         let wanted: FxHashSet<i64> = records.iter().flat_map(|record| record.shape.ways()).copied().collect();
         if wanted.is_empty() {
@@ -124,7 +125,7 @@ impl OsmFile {
             |holds| holds.ways,
             || WaySearch { wanted: &wanted, found: Vec::new(), budget },
         )?;
-        // Of what stands there twice, the first counts.
+        // Of duplicates, the first is used.
         let mut ways = FxHashMap::default();
         for (id, nodes) in found.into_iter().flat_map(|members| members.found) {
             ways.entry(id).or_insert(nodes);
@@ -132,7 +133,7 @@ impl OsmFile {
         Ok(ways)
     }
 
-    /// The places of all nodes that are needed.
+    /// Returns the positions of all required nodes.
     fn places(
         &self,
         records: &[OsmRecord],
@@ -160,7 +161,7 @@ impl OsmFile {
         Ok(places)
     }
 
-    /// Has a visitor visit each block that holds what it looks for.
+    /// Runs a visitor on each block that may contain what it searches for.
     fn collect<V: Visitor + Send>(
         &self,
         budget: &Budget,
@@ -180,7 +181,7 @@ impl OsmFile {
         (0..self.blobs.len()).into_par_iter().map(|index| owner.charge(|| visit(index))).collect()
     }
 
-    /// Adds what was built to the table, with what its tags mean.
+    /// Adds the built features to the table, with attributes derived from their tags.
     fn fill(
         &self,
         table: &mut FeatureTable,
@@ -195,7 +196,7 @@ impl OsmFile {
             let (parts, lacks) = match built {
                 Ok(built) => built,
                 Err(why) => {
-                    // It may be that the time is over, and not the feature's fault.
+                    // The error may be an exceeded time limit instead of an invalid feature.
                     wanted.budget.check()?;
                     let error = Error::data(format!("{id} of {} {why}", table.shown));
                     table.refuse_at(
@@ -212,7 +213,7 @@ impl OsmFile {
             });
             let before = table.features.len();
             table.push(&id, parts, attributes)?;
-            // What is not wanted is of no interest.
+            // Features that were not requested are not reported.
             if table.features.len() == before {
                 continue;
             }
@@ -277,5 +278,5 @@ impl OsmFile {
     }
 }
 
-/// How a layer is chosen by tags.
+/// Example of selecting a layer by tags.
 const EXAMPLE: &str = "source(\"town.osm.pbf\", { tags = { building = true } })";

@@ -1,8 +1,8 @@
-//! Polygons from the ways of a multipolygon, of which nothing is known but that together they are its border.
+//! Assembly of polygons from the member ways of a multipolygon, which form its border together.
 //!
-//! Method: the ways' segments are a planar graph. What lies inside is told by counting borders (even and odd), so
-//! the roles that members say they have decide nothing. The border of each connected part of the inside is walked;
-//! where a walk comes to a place again, a ring is cut off it: so rings that touch one another in places are told apart.
+//! Method: the segments of the ways form a planar graph. The interior is determined by counting borders (even-odd
+//! rule), so the roles of members are ignored. The border of each connected interior part is traversed. If a walk
+//! returns to a position, a ring is split off, so rings that touch at points are separated.
 
 use std::cmp::Ordering;
 
@@ -11,10 +11,10 @@ use rustc_hash::FxHashMap;
 use super::places::{Place, area};
 use burgeon_base::budget::Budget;
 
-/// Rings of a polygon: the outer one, and its holes. None repeats its first place.
+/// Rings of a polygon: the outer ring, then its holes, without repeating the first position at the end.
 pub(super) type PolygonRings = Vec<Vec<Place>>;
 
-/// The polygons of which `ways` are the border. Fails with the reason.
+/// Assembles the polygons whose border is `ways`. Fails with the reason.
 pub(super) fn assemble<'w>(
     ways: impl Iterator<Item = &'w [Place]>,
     budget: &Budget,
@@ -26,7 +26,8 @@ pub(super) fn assemble<'w>(
     graph.polygons(&walks, &inside, budget)
 }
 
-/// The polygon that a closed way is, or several where it comes to a place again. The last place is the first.
+/// Returns the polygons of a closed way: one, or several if the way passes through a position twice. The last position
+/// equals the first.
 pub(super) fn of_way(places: &[Place], budget: &Budget) -> Result<Vec<PolygonRings>, String> {
     let mut ring = places.to_vec();
     ring.dedup();
@@ -42,12 +43,12 @@ pub(super) fn of_way(places: &[Place], budget: &Budget) -> Result<Vec<PolygonRin
     Ok(vec![vec![ring]])
 }
 
-/// The places and segments of a border. The half-edge `2 * s` leads along the segment `s`, `2 * s + 1` back.
+/// Positions and segments of a border. The half-edge `2 * s` leads along the segment `s`, and `2 * s + 1` leads back.
 struct Graph {
     places: Vec<Place>,
-    /// The numbers of the places that each half-edge leads from.
+    /// Index of the start position of each half-edge.
     from: Vec<usize>,
-    /// The half-edge that follows each along the part to its left.
+    /// Next half-edge along the face to the left of each half-edge.
     next: Vec<usize>,
 }
 
@@ -69,7 +70,7 @@ impl Graph {
             segments.extend(pairs.map(|pair| [pair[0].min(pair[1]), pair[0].max(pair[1])]));
         }
         segments.sort_unstable();
-        // Where two borders run along each other, there is none.
+        // Two borders that coincide cancel out.
         let mut single: Vec<[Place; 2]> = Vec::with_capacity(segments.len());
         for segment in segments {
             match single.last() {
@@ -98,7 +99,7 @@ impl Graph {
         [self.place(2 * segment), self.place(2 * segment + 1)]
     }
 
-    /// Finds what follows each half-edge. Fails where a border ends.
+    /// Computes the successor of each half-edge. Fails if a border ends.
     fn connect(&mut self) -> Result<(), String> {
         let mut around: Vec<usize> = (0..self.from.len()).collect();
         around.sort_unstable_by(|a, b| {
@@ -115,7 +116,7 @@ impl Graph {
             if !count.is_multiple_of(2) {
                 return Err(format!("has a border that ends at {}", shown(self.places[from])));
             }
-            // Whoever comes to a place leaves it by the next way to the right, so that what lies left stays the same.
+            // A walk leaves a position by the next half-edge to the right, so the face to its left stays the same.
             for (at, edge) in here.iter().enumerate() {
                 self.next[edge ^ 1] = here[(at + count - 1) % count];
             }
@@ -124,7 +125,7 @@ impl Graph {
         Ok(())
     }
 
-    /// Fails if segments cross, or lie on each other.
+    /// Fails if segments cross or overlap.
     fn refuse_crossing(&self, budget: &Budget) -> Result<(), String> {
         // Segments are sorted by their western ends.
         let segments: Vec<[Place; 2]> = (0..self.from.len() / 2).map(|at| self.ends(at)).collect();
@@ -138,7 +139,7 @@ impl Graph {
                 let sides =
                     [a.turn(*b, *c), a.turn(*b, *d), c.turn(*d, *a), c.turn(*d, *b)].map(i128::signum);
                 let crosses = sides[0] * sides[1] < 0 && sides[2] * sides[3] < 0;
-                // On one line, they meet in more than a place if each begins before the other one ends.
+                // Collinear segments overlap if each begins before the other one ends.
                 let along = sides == [0; 4] && a.max(c) < b.min(d);
                 if crosses || along {
                     return Err(format!("has borders that cross near {}", shown(*c)));
@@ -148,7 +149,7 @@ impl Graph {
         Ok(())
     }
 
-    /// The walks along the parts of the plane, each of which has one part to its left.
+    /// Returns the walks along the faces; each walk has one face to its left.
     fn walks(&self) -> Walks {
         let mut walks = Walks { begins: Vec::new(), of: vec![usize::MAX; self.next.len()] };
         for begin in 0..self.next.len() {
@@ -160,7 +161,7 @@ impl Graph {
         walks
     }
 
-    /// The half-edges of the walk that begins with one.
+    /// Returns the half-edges of the walk that begins with a half-edge.
     fn walk(&self, begin: usize) -> impl Iterator<Item = usize> {
         let mut next = Some(begin);
         std::iter::from_fn(move || {
@@ -170,14 +171,14 @@ impl Graph {
         })
     }
 
-    /// Which walks have the inside to their left, and what they are parts of.
+    /// Returns for each walk whether the interior is to its left, and its component.
     fn inside(&self, walks: &Walks, budget: &Budget) -> Result<Vec<WalkSide>, String> {
         let mut sides: Vec<Option<WalkSide>> = vec![None; walks.begins.len()];
         for first in 0..walks.begins.len() {
             if sides[first].is_some() {
                 continue;
             }
-            // Whoever crosses a border changes between inside and outside; at first it is not known which is which.
+            // Crossing a border changes between interior and exterior; at first it is unknown which is which.
             let component = first;
             let mut members = Vec::new();
             let mut stack = vec![(first, false)];
@@ -195,7 +196,7 @@ impl Graph {
                     }
                 }
             }
-            // What lies around the component is to the left of the one walk that turns right.
+            // The exterior of the component is to the left of its only clockwise walk.
             let around = |walk: &usize| {
                 let ring: Vec<Place> = self.walk(walks.begins[*walk]).map(|edge| self.place(edge)).collect();
                 area(&ring)
@@ -219,7 +220,7 @@ impl Graph {
         Ok(sides.into_iter().flatten().collect())
     }
 
-    /// The polygons that the walks with the inside to their left are the borders of.
+    /// Returns the polygons bounded by the walks with the interior to their left.
     fn polygons(
         &self,
         walks: &Walks,
@@ -267,7 +268,7 @@ impl Graph {
         if polygons.is_empty() { Err("has no area".to_owned()) } else { Ok(polygons) }
     }
 
-    /// The rings of a walk, none of which comes to a place twice.
+    /// Returns the rings of a walk; no ring passes through a position twice.
     fn rings(&self, begin: usize) -> Vec<Vec<Place>> {
         let mut rings = Vec::new();
         let mut path: Vec<Place> = Vec::new();
@@ -290,23 +291,23 @@ impl Graph {
     }
 }
 
-/// Walks along the parts of the plane.
+/// Walks along the faces of the plane.
 struct Walks {
-    /// The first half-edge of each.
+    /// First half-edge of each walk.
     begins: Vec<usize>,
-    /// The walk of each half-edge.
+    /// Walk of each half-edge.
     of: Vec<usize>,
 }
 
-/// What lies to the left of a walk.
+/// Face to the left of a walk.
 #[derive(Clone, Copy)]
 struct WalkSide {
     is_inside: bool,
-    /// The number of the connected borders that it belongs to.
+    /// Index of the connected component of the border.
     component: usize,
 }
 
-/// The order of directions, turning left from the west.
+/// Compares directions counter-clockwise, starting from the west.
 fn by_angle(a: [i128; 2], b: [i128; 2]) -> Ordering {
     let half = |[x, y]: [i128; 2]| y > 0 || (y == 0 && x > 0);
     half(a).cmp(&half(b)).then_with(|| (b[0] * a[1] - b[1] * a[0]).cmp(&0))
@@ -320,7 +321,7 @@ mod tests {
         ways.iter().map(|way| way.iter().map(|at| Place(*at)).collect()).collect()
     }
 
-    /// Twice the areas of the rings of each polygon.
+    /// Returns twice the areas of the rings of each polygon.
     fn areas(given: &[&[[i64; 2]]]) -> Result<Vec<Vec<i128>>, String> {
         let given = ways(given);
         let made = assemble(given.iter().map(Vec::as_slice), &Budget::default())?;
@@ -342,19 +343,19 @@ mod tests {
         let island: &[[i64; 2]] = &[[4, 4], [6, 4], [6, 6], [4, 6], [4, 4]];
         assert_eq!(areas(&[SQUARE, hole]), Ok(vec![vec![200, -72]]));
         assert_eq!(areas(&[island, hole, SQUARE]), Ok(vec![vec![200, -72], vec![8]]));
-        // A hole that touches the outer ring in a place, and two holes that touch each other.
+        // A hole that touches the outer ring at a point, and two holes that touch each other.
         let touching: &[[i64; 2]] = &[[0, 0], [4, 2], [2, 4], [0, 0]];
         assert_eq!(areas(&[SQUARE, touching]), Ok(vec![vec![200, -12]]));
         let second: &[[i64; 2]] = &[[8, 8], [9, 8], [8, 9], [8, 8]];
         assert_eq!(areas(&[SQUARE, hole, second]), Ok(vec![vec![200, -1, -72]]));
-        // Two holes with a wall between them are one.
+        // Two holes that share a border are merged.
         let left: &[[i64; 2]] = &[[2, 2], [5, 2], [5, 8], [2, 8], [2, 2]];
         let right: &[[i64; 2]] = &[[5, 2], [8, 2], [8, 8], [5, 8], [5, 2]];
         assert_eq!(areas(&[SQUARE, left, right]), Ok(vec![vec![200, -72]]));
-        // A hole that touches the outer ring in two places parts the polygon.
+        // A hole that touches the outer ring at two points divides the polygon.
         let across: &[[i64; 2]] = &[[0, 0], [6, 4], [10, 10], [4, 6], [0, 0]];
         assert_eq!(areas(&[SQUARE, across]), Ok(vec![vec![80], vec![80]]));
-        // Two squares that touch in a place.
+        // Two squares that touch at a point.
         let other: &[[i64; 2]] = &[[10, 10], [12, 10], [12, 12], [10, 12], [10, 10]];
         assert_eq!(areas(&[SQUARE, other]), Ok(vec![vec![200], vec![8]]));
     }

@@ -1,4 +1,4 @@
-//! What was chosen of an extract, and the geometries that come of it.
+//! Features selected in an extract, and the geometries built from them.
 
 use rustc_hash::FxHashMap;
 
@@ -7,38 +7,38 @@ use super::rings;
 use crate::Geometry;
 use burgeon_base::budget::Budget;
 
-/// What the tags of a feature are.
+/// Tags of a feature, as keys and values.
 pub(super) type TagTexts = Vec<(String, String)>;
 
-/// What was chosen.
+/// Selected feature.
 pub(super) struct OsmRecord {
-    /// Its number in OpenStreetMap.
+    /// OpenStreetMap id.
     pub(super) id: i64,
-    /// What its geometry is made of.
+    /// Components of the geometry.
     pub(super) shape: OsmShape,
-    /// Its tags.
+    /// Tags.
     pub(super) tags: TagTexts,
-    /// The alternative of the filter that held.
+    /// Alternative of the filter that matched.
     pub(super) alternative: usize,
 }
 
-/// What a geometry is made of.
+/// Components of a geometry.
 pub(super) enum OsmShape {
-    /// The place of a node.
+    /// Position of a node.
     Point(Place),
-    /// The nodes of a way.
+    /// Nodes of a way.
     Line(Vec<i64>),
-    /// The nodes of a closed way.
+    /// Nodes of a closed way.
     Area(Vec<i64>),
-    /// The ways of a relation.
+    /// Ways of a relation.
     Ways(Vec<i64>),
 }
 
-/// What comes of a shape: its parts, and whether it lacks nodes.
+/// Result of building a shape: its parts, and true if nodes are missing.
 pub(super) type BuildResult = Result<(Vec<Geometry>, bool), String>;
 
 impl OsmRecord {
-    /// The feature's id, as OpenStreetMap's pages have it.
+    /// Returns the feature's id as in OpenStreetMap URLs.
     pub(super) fn name(&self) -> String {
         let kind = match self.shape {
             OsmShape::Point(_) => "node",
@@ -50,7 +50,7 @@ impl OsmRecord {
 }
 
 impl OsmShape {
-    /// The nodes that it is made of.
+    /// Returns the nodes of the shape.
     pub(super) fn nodes(&self) -> &[i64] {
         match self {
             Self::Line(nodes) | Self::Area(nodes) => nodes,
@@ -58,7 +58,7 @@ impl OsmShape {
         }
     }
 
-    /// The ways that it is made of.
+    /// Returns the ways of the shape.
     pub(super) fn ways(&self) -> &[i64] {
         match self {
             Self::Ways(ways) => ways,
@@ -67,7 +67,7 @@ impl OsmShape {
     }
 }
 
-/// Makes geometries of a record.
+/// Builds the geometries of a feature.
 pub(super) fn build(
     record: &OsmRecord,
     ways: &FxHashMap<i64, Vec<i64>>,
@@ -92,7 +92,7 @@ pub(super) fn build(
     }
 }
 
-/// The bounds of what is known of a record (degrees); those of nothing touch no box.
+/// Returns the bounds (degrees) of the known positions of a feature; if there are none, the bounds touch no box.
 pub(super) fn known_bounds(
     record: &OsmRecord,
     ways: &FxHashMap<i64, Vec<i64>>,
@@ -115,7 +115,7 @@ fn polygons(rings: Vec<rings::PolygonRings>) -> Vec<Geometry> {
         .collect()
 }
 
-/// The places of all nodes, of which none may be missing.
+/// Returns the positions of all nodes; fails if any is missing.
 fn all_places(nodes: &[i64], places: &FxHashMap<i64, Place>) -> Result<Vec<Place>, String> {
     let found: Vec<Place> = nodes.iter().filter_map(|node| places.get(node)).copied().collect();
     if let Some(odd) = found.iter().find(|place| !place.is_sane()) {
@@ -127,7 +127,7 @@ fn all_places(nodes: &[i64], places: &FxHashMap<i64, Place>) -> Result<Vec<Place
     }
 }
 
-/// The lines that there are between nodes of which some may be missing.
+/// Returns the lines between consecutive known nodes; nodes may be missing.
 fn lines(nodes: &[i64], places: &FxHashMap<i64, Place>) -> BuildResult {
     let known: Vec<Option<Place>> = nodes.iter().map(|node| places.get(node).copied()).collect();
     let lacking = known.iter().filter(|place| place.is_none()).count();

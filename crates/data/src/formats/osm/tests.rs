@@ -1,4 +1,4 @@
-//! Extracts that are made here, damaged ones, and real ones beside numbers that another program computed.
+//! Tests of generated extracts, damaged extracts, and real extracts with results from another program.
 
 mod extract;
 
@@ -14,7 +14,7 @@ use burgeon_base::error::Result;
 use burgeon_base::random::Stream;
 
 thread_local! {
-    /// Where a test writes its files.
+    /// Folder for the files of a test.
     static FOLDER: tempfile::TempDir = tempfile::tempdir().unwrap();
 }
 
@@ -37,7 +37,7 @@ fn ids(table: &FeatureTable) -> String {
     table.features.iter().map(|feature| feature.id.to_string()).collect::<Vec<_>>().join(" ")
 }
 
-/// A square of nodes around a place, with ids from the first on.
+/// Returns a square of nodes around a position, with ids from `first`.
 fn square(first: i64, [x, y]: [i64; 2], half: i64) -> Vec<(i64, i64, i64)> {
     let corners = [(-1, -1), (1, -1), (1, 1), (-1, 1)];
     corners.iter().zip(first..).map(|((dx, dy), id)| (id, x + dx * half, y + dy * half)).collect()
@@ -49,7 +49,7 @@ fn ring(first: i64) -> Vec<i64> {
 
 const TOWN: [i64; 2] = [250_000_000, 600_000_000];
 
-/// A few buildings, a road, a tree, and a building with a yard that is a relation.
+/// Returns an extract with a few buildings, a road, a tree, and a building with a courtyard as a relation.
 fn town() -> Extract {
     let mut nodes = square(1, TOWN, 1000);
     nodes.extend(square(11, [TOWN[0] + 5000, TOWN[1]], 1000));
@@ -195,7 +195,7 @@ fn what_is_damaged_is_an_error_with_its_place_and_never_a_panic() {
         assert!(read(&good[..at], layer("buildings")).is_err(), "{at}");
     }
     assert!(kept > 2 && refused > 300, "{kept} {refused}");
-    // Bytes that are wrong behind a sound packing.
+    // Invalid bytes in a valid compression.
     let block = town().block();
     let (mut stream, mut kept) = (Stream::new(3), 0);
     for _ in 0..700 {
@@ -303,7 +303,7 @@ fn a_road_over_the_date_line_stays_together() {
     assert!((layer.bounds[1][0] - layer.bounds[0][0] - 2140.0).abs() < 10.0, "{:?}", layer.bounds);
 }
 
-/// The file in the folder of shared data; tells that the test is skipped where there is none.
+/// Returns the path of a file in the folder of shared data; prints that the test is skipped if the file is missing.
 fn shared(name: &str) -> Option<PathBuf> {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared/data").join(name);
     let found = path.is_file().then_some(path);
@@ -313,7 +313,7 @@ fn shared(name: &str) -> Option<PathBuf> {
     found
 }
 
-/// The area within a polygon, in the units of its coordinates.
+/// Returns the area of a polygon in squared coordinate units.
 fn area(geometry: &Geometry) -> f64 {
     let Geometry::Polygon(rings) = geometry else { return 0.0 };
     let ring = |ring: &Vec<glam::DVec3>| {
@@ -326,8 +326,8 @@ fn area(geometry: &Geometry) -> f64 {
 
 #[test]
 fn the_building_areas_of_real_extracts_are_those_of_another_program() {
-    // Layer, areas, those of relations, parts, holes, their area, and the sum of areas times ids modulo 1009, in 1e-10
-    // square degrees, of libosmium's areas.
+    // Layer; numbers of areas, areas of relations, parts and holes; total area, and sum of areas multiplied by ids
+    // modulo 1009 (1e-10 square degrees), all from libosmium's areas.
     let expected = [
         ("Helsinki.osm.pbf", "buildings", [446, 61, 446, 72], 831_333.06, 441_096_665.4),
         ("Helsinki.osm.pbf", "building_parts", [133, 12, 133, 16], 229_170.71, 106_939_563.8),
@@ -361,8 +361,8 @@ fn the_building_areas_of_real_extracts_are_those_of_another_program() {
 
 #[test]
 fn real_layers_have_as_many_features_as_those_that_were_made_of_them_elsewhere() {
-    // Trees and furniture are as many as in the GeoPackages beside them, but for a shelter; of roads, those that leave
-    // the extract are here too, and of greens some kinds more.
+    // The numbers of trees and furniture equal those in the corresponding GeoPackages, except for a shelter. The roads
+    // include those that leave the extract, and the greens include more types.
     for (file, counts) in
         [("Helsinki.osm.pbf", [649, 2046, 2577, 166]), ("monaco-latest.osm.pbf", [415, 981, 2379, 55])]
     {
@@ -455,7 +455,7 @@ fn where_a_box_is_wanted_only_what_lies_in_it_is_reported() {
         (table.refused.len(), table.notes.len())
     };
     assert_eq!((told(None, "buildings"), told(None, "roads")), ((3, 0), (0, 2)));
-    // The relation in the east is not built for a way that is not there, and lies within the box; way/12 does not.
+    // The relation in the east is not built, because a way is missing; it is within the box. way/12 is not.
     let east = around(degrees([TOWN[0] + 5000, TOWN[1]]), 0.0002);
     assert_eq!(told(east, "buildings"), (1, 0));
     let west = around(degrees(TOWN), 0.0002);

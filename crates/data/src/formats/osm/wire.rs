@@ -1,23 +1,23 @@
-//! Protocol buffers as they lie in bytes: fields with numbers, and lists of numbers.
+//! Protocol Buffers decoding: numbered fields, and packed numbers.
 //!
 //! Source: Protocol Buffers, "Encoding".
 
-/// What is wrong with bytes.
+/// Description of the damage in bytes.
 pub(super) type WireDamage = &'static str;
 
 const ENDS: WireDamage = "ends too early";
 
-/// What a field holds.
+/// Content of a field.
 #[derive(Clone, Copy)]
 pub(super) enum WireField<'a> {
-    /// A number.
+    /// Number.
     Number(u64),
-    /// A text, a message or a list of numbers.
+    /// Text, message, or packed numbers.
     Bytes(&'a [u8]),
 }
 
 impl<'a> WireField<'a> {
-    /// Its bytes; fails if it is a number.
+    /// Returns the bytes; fails if the field is a number.
     pub(super) fn bytes(self) -> Result<&'a [u8], WireDamage> {
         match self {
             Self::Bytes(bytes) => Ok(bytes),
@@ -25,7 +25,7 @@ impl<'a> WireField<'a> {
         }
     }
 
-    /// Its number; fails if it is something else.
+    /// Returns the number; fails if the field is something else.
     pub(super) fn number(self) -> Result<u64, WireDamage> {
         match self {
             Self::Number(number) => Ok(number),
@@ -34,7 +34,7 @@ impl<'a> WireField<'a> {
     }
 }
 
-/// The fields of a message, each with its number.
+/// Fields of a message, each with its number.
 pub(super) struct WireFields<'a>(pub(super) &'a [u8]);
 
 impl<'a> Iterator for WireFields<'a> {
@@ -75,7 +75,7 @@ impl<'a> WireFields<'a> {
     }
 }
 
-/// Takes a number from the front of bytes.
+/// Removes a number from the front of bytes.
 #[inline]
 fn varint(bytes: &mut &[u8]) -> Result<u64, WireDamage> {
     let mut number = 0;
@@ -89,25 +89,25 @@ fn varint(bytes: &mut &[u8]) -> Result<u64, WireDamage> {
     Err(if bytes.len() < 10 { ENDS } else { "has a number of more than ten bytes" })
 }
 
-/// The number with a sign that `number` stands for.
+/// Decodes a zigzag-encoded number.
 #[inline]
 pub(super) fn signed(number: u64) -> i64 {
     (number >> 1).cast_signed() ^ -(number & 1).cast_signed()
 }
 
-/// Numbers one behind the other.
+/// Packed numbers.
 #[derive(Clone, Copy, Default)]
 pub(super) struct Varints<'a>(pub(super) &'a [u8]);
 
 impl Varints<'_> {
-    /// The next number, if there is one.
+    /// Returns the next number, if any.
     #[inline]
     pub(super) fn next(&mut self) -> Result<Option<u64>, WireDamage> {
         if self.0.is_empty() { Ok(None) } else { varint(&mut self.0).map(Some) }
     }
 }
 
-/// Numbers of which each is told by how much it differs from the one before.
+/// Delta-encoded numbers.
 #[derive(Clone, Copy, Default)]
 pub(super) struct Deltas<'a> {
     numbers: Varints<'a>,
@@ -119,7 +119,7 @@ impl<'a> Deltas<'a> {
         Self { numbers: Varints(bytes), last: 0 }
     }
 
-    /// The next number, if there is one.
+    /// Returns the next number, if any.
     #[inline]
     pub(super) fn next(&mut self) -> Result<Option<i64>, WireDamage> {
         let Some(step) = self.numbers.next()? else { return Ok(None) };

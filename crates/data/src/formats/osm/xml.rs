@@ -1,4 +1,4 @@
-//! Extracts that are XML, `.osm`: they become the blocks of the packed format, so that both are read in one way.
+//! XML extracts, `.osm`: converted to the blocks of the binary format, so both are read by the same code.
 //!
 //! Source: OpenStreetMap wiki, "OSM XML", and "PBF Format" for the blocks.
 
@@ -11,15 +11,15 @@ use burgeon_base::budget::Budget;
 use burgeon_base::error::{Error, Result};
 use burgeon_base::text::shown;
 
-/// How many nodes, ways or relations make a block.
+/// Maximum number of nodes, ways or relations in a block.
 const OF_BLOCK: usize = 8000;
 
-/// Whether a text that begins so is an extract, or a change of one.
+/// Returns true if the root element `root` is that of an extract.
 pub(in crate::formats) fn is_extract(root: &str) -> bool {
     root == "osm"
 }
 
-/// The blocks that an extract becomes, for which memory is taken.
+/// Converts an extract to blocks, counted in the memory budget.
 pub(super) fn blocks(file: &DataFile, budget: &Arc<Budget>) -> Result<Vec<Vec<u8>>> {
     let mut xml = Xml::new(&file.content, &file.name, budget)?;
     match xml.next()? {
@@ -44,7 +44,7 @@ pub(super) fn blocks(file: &DataFile, budget: &Arc<Budget>) -> Result<Vec<Vec<u8
             xml.leave(xml.depth - 1)?;
             continue;
         }
-        // A group holds one kind.
+        // A group contains elements of one type.
         if block.count == OF_BLOCK || (block.count > 0 && block.kind != kind) {
             budget.take(block.size())?;
             blocks.push(std::mem::take(&mut block).finish());
@@ -59,7 +59,7 @@ pub(super) fn blocks(file: &DataFile, budget: &Arc<Budget>) -> Result<Vec<Vec<u8
     Ok(blocks)
 }
 
-/// The kind of a thing.
+/// Type of an element.
 #[derive(Clone, Copy, Default, PartialEq)]
 enum ThingKind {
     #[default]
@@ -79,20 +79,20 @@ impl ThingKind {
     }
 }
 
-/// A block that is being written.
+/// Block that is being written.
 #[derive(Default)]
 struct BlockWriter {
     kind: ThingKind,
     count: usize,
-    /// The numbers of texts, and the texts as the block has them.
+    /// Indices of the strings, and the encoded strings.
     numbers: FxHashMap<String, u64>,
     texts: Vec<u8>,
-    /// Ways and relations.
+    /// Encoded ways and relations.
     group: Vec<u8>,
     nodes: DenseNodes,
 }
 
-/// Nodes, each by how much it differs from the one before.
+/// Delta-encoded nodes.
 #[derive(Default)]
 struct DenseNodes {
     last: [i64; 3],
@@ -102,7 +102,7 @@ struct DenseNodes {
     tags: Vec<u8>,
 }
 
-/// A whole number in an attribute of an element.
+/// Returns the integer in an attribute of an element.
 fn whole(element: &Element, name: &str, file: &str) -> Result<i64> {
     let text = element.attribute(name).unwrap_or_default();
     text.trim().parse().map_err(|_| {
@@ -111,7 +111,7 @@ fn whole(element: &Element, name: &str, file: &str) -> Result<i64> {
     })
 }
 
-/// Billionths of a degree in an attribute of an element.
+/// Returns the billionths of a degree in an attribute of an element.
 fn degrees(element: &Element, name: &str, file: &str) -> Result<i64> {
     let text = element.attribute(name).unwrap_or_default().trim();
     exact(text).or_else(|| nearest(text)).ok_or_else(|| {
@@ -120,7 +120,7 @@ fn degrees(element: &Element, name: &str, file: &str) -> Result<i64> {
     })
 }
 
-/// The billionths that a decimal number has, where none is lost.
+/// Returns the billionths of a decimal number if they are exact.
 fn exact(text: &str) -> Option<i64> {
     let (sign, digits) = text.strip_prefix('-').map_or((1, text), |digits| (-1, digits));
     let (whole, part) = digits.split_once('.').unwrap_or((digits, ""));
@@ -151,21 +151,21 @@ fn zigzag(number: i64) -> u64 {
     (number << 1 ^ number >> 63).cast_unsigned()
 }
 
-/// Adds a field that holds bytes.
+/// Appends a field that contains bytes.
 fn field(bytes: &mut Vec<u8>, key: u64, content: &[u8]) {
     varint(bytes, key << 3 | 2);
     varint(bytes, content.len() as u64);
     bytes.extend(content);
 }
 
-/// Adds a field that holds a number.
+/// Appends a field that contains a number.
 fn number(bytes: &mut Vec<u8>, key: u64, number: u64) {
     varint(bytes, key << 3);
     varint(bytes, number);
 }
 
 impl BlockWriter {
-    /// Reads a node, a way or a relation, which has begun.
+    /// Reads a node, a way or a relation that has begun.
     fn read(&mut self, xml: &mut Xml, element: &Element, file: &str) -> Result<()> {
         self.count += 1;
         let id = whole(element, "id", file)?;
@@ -223,7 +223,7 @@ impl BlockWriter {
         Ok(())
     }
 
-    /// The number of a text. The first text of a block is empty, for 0 ends the tags of a node.
+    /// Returns the index of a string. The first string of a block is empty, because 0 ends the tags of a node.
     fn text(&mut self, text: String) -> u64 {
         if self.texts.is_empty() {
             field(&mut self.texts, 1, &[]);
@@ -238,7 +238,7 @@ impl BlockWriter {
         }
     }
 
-    /// About how many bytes it becomes.
+    /// Returns the approximate size of the block (bytes).
     fn size(&self) -> usize {
         let DenseNodes { ids, east, north, tags, .. } = &self.nodes;
         100 + self.texts.len() + self.group.len() + ids.len() + east.len() + north.len() + tags.len()
@@ -256,7 +256,7 @@ impl BlockWriter {
         let mut block = Vec::with_capacity(self.texts.len() + self.group.len() + 30);
         field(&mut block, 1, &self.texts);
         field(&mut block, 2, &self.group);
-        // Places are in billionths of a degree.
+        // Positions are in billionths of a degree.
         number(&mut block, 17, 1);
         block
     }

@@ -1,4 +1,4 @@
-//! The attributes of a `.dbf`, row by row.
+//! Attributes of a `.dbf` file, row by row.
 
 use std::borrow::Cow;
 use std::io::{BufReader, Read};
@@ -9,42 +9,43 @@ use crate::{Attribute, FeatureTable};
 use burgeon_base::error::{Error, Result};
 use burgeon_base::text::shown;
 
-/// A column.
+/// Column.
 struct DbfColumn {
-    /// The number of the attribute.
+    /// Index of the attribute.
     name: usize,
     kind: u8,
-    /// Its bytes in a row.
+    /// Range of its bytes in a row.
     place: std::ops::Range<usize>,
 }
 
-/// The rows of a file, from the front.
+/// Rows of a file, from the beginning.
 pub(super) struct DbfReader {
     file: BufReader<ContentReader>,
     columns: Vec<DbfColumn>,
     encoding: TextEncoding,
     row: Vec<u8>,
-    /// How many rows are left.
+    /// Number of remaining rows.
     left: u32,
-    /// How many values were no numbers and no dates, and an example.
+    /// Number of values that are invalid numbers or dates, and an example.
     pub(super) unread: Option<(usize, String)>,
-    /// Whether texts were read in a code page that nothing names.
+    /// Set if texts were decoded with an assumed code page.
     pub(super) guessed: bool,
-    /// The names of columns that are not read, as their values stand in another file.
+    /// Names of columns that are skipped because their values are in another file.
     pub(super) left_out: Vec<String>,
 }
 
-/// The encoding of texts.
+/// Text encoding.
 #[derive(Clone, Copy)]
 pub(super) enum TextEncoding {
     Utf8,
     Page(&'static CodePage),
-    /// UTF-8 where a text can be it, else Windows-1252.
+    /// UTF-8 where the text is valid UTF-8, otherwise Windows-1252.
     Unknown,
 }
 
 impl TextEncoding {
-    /// The encoding that a `.cpg` names, or else the number `mark` in a `.dbf`. Fails with its name if it is not read.
+    /// Returns the encoding named in a `.cpg` file, or otherwise by the number `mark` in the `.dbf` file. Fails with
+    /// its name if it is not supported.
     pub(super) fn named(cpg: Option<&str>, mark: u8) -> std::result::Result<Self, String> {
         let number = match cpg.map(str::trim).filter(|name| !name.is_empty()) {
             Some(name) => match page_of_name(name) {
@@ -61,12 +62,12 @@ impl TextEncoding {
         CodePage::numbered(number).map(Self::Page).ok_or_else(named)
     }
 
-    /// The text that bytes are, and whether its code page was guessed.
+    /// Decodes bytes; the flag is true if the code page was assumed.
     fn decode<'b>(self, bytes: &'b [u8]) -> (Cow<'b, str>, bool) {
         match (self, std::str::from_utf8(bytes)) {
             (Self::Utf8 | Self::Unknown, Ok(text)) => (Cow::Borrowed(text), false),
             (Self::Page(page), _) => (page.decode(bytes), false),
-            // A text of so many bytes may end within a letter.
+            // A text of fixed length may end within a character.
             (Self::Utf8, Err(_)) => (String::from_utf8_lossy(bytes), false),
             (Self::Unknown, Err(_)) => match CodePage::numbered(WESTERN) {
                 Some(page) => (page.decode(bytes), true),
@@ -76,7 +77,7 @@ impl TextEncoding {
     }
 }
 
-/// The number of the code page that a text such as `UTF-8`, `ISO-8859-15`, `CP1252` or `ANSI 1252` names.
+/// Returns the number of the code page with a name such as `UTF-8`, `ISO-8859-15`, `CP1252` or `ANSI 1252`.
 fn page_of_name(name: &str) -> Option<u32> {
     let lower = name.to_ascii_lowercase();
     let plain: String = lower.chars().filter(char::is_ascii_alphanumeric).collect();
@@ -100,7 +101,7 @@ fn page_of_name(name: &str) -> Option<u32> {
     }
 }
 
-/// The number of the code page that the 30th byte of a `.dbf` names.
+/// Returns the number of the code page for the 30th byte of a `.dbf` file.
 #[rustfmt::skip]
 fn page_of_mark(mark: u8) -> Option<u32> {
     Some(match mark {
@@ -129,11 +130,11 @@ fn page_of_mark(mark: u8) -> Option<u32> {
     })
 }
 
-/// A row: none if it is marked as deleted.
+/// Row; `None` if it is marked as deleted.
 pub(super) type DbfRow = Option<Vec<(usize, Attribute)>>;
 
 impl DbfReader {
-    /// Reads the header, whose columns become attributes of `table`. `name` is for messages.
+    /// Reads the header; its columns become attributes of `table`. `name` is used in messages.
     pub(super) fn open(
         file: ContentReader,
         name: &str,
@@ -170,7 +171,7 @@ impl DbfReader {
             let title = field[..11].split(|byte| *byte == 0).next().unwrap_or_default();
             let (title, guessed) = encoding.decode(title.trim_ascii());
             found.guessed |= guessed;
-            // Long texts of some programs have the upper half of their length here.
+            // Some programs store the upper byte of the length of long texts here.
             let upper = if field[11] == b'C' { usize::from(field[17]) << 8 } else { 0 };
             let place = at..at + usize::from(field[16]) + upper;
             at = place.end;
@@ -197,7 +198,7 @@ impl DbfReader {
         Ok(found)
     }
 
-    /// The next row; none at the end, or where the file is cut short.
+    /// Returns the next row; `None` at the end, or if the file is truncated.
     pub(super) fn next(&mut self, table: &mut FeatureTable) -> Option<DbfRow> {
         if self.left == 0 || self.file.read_exact(&mut self.row).is_err() {
             return None;
@@ -234,7 +235,7 @@ impl DbfReader {
     }
 }
 
-/// A value of a row.
+/// Value in a row.
 enum DbfValue<'b> {
     Missing,
     Number(f64),
@@ -303,7 +304,7 @@ mod tests {
             ("88591", 28591),
         ] {
             let known = page_of_name(name.trim());
-            // Mark 87 stands for the code page of the machine, of which nothing is known.
+            // Mark 87 stands for the code page of the machine, which is unknown.
             if name == "LDID/87" {
                 assert_eq!(known, None)
             } else {

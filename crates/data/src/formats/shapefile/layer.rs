@@ -1,4 +1,4 @@
-//! The layer of a shapefile: its geometries beside the rows of its table.
+//! Layer of a shapefile: geometries with the rows of its table.
 
 use super::dbf::DbfReader;
 use super::shp::ShapeReader;
@@ -6,20 +6,20 @@ use crate::content::DataFile;
 use crate::{FeatureTable, SourceOptions};
 use burgeon_base::error::{Error, Result};
 
-/// The files of a layer.
+/// Files of a layer.
 pub(super) struct ShapeFiles {
-    /// The name of the layer.
+    /// Name of the layer.
     pub(super) layer: String,
     pub(super) shp: DataFile,
     pub(super) dbf: Option<DataFile>,
-    /// The coordinate system in well-known text.
+    /// Coordinate system in well-known text.
     pub(super) prj: Option<String>,
-    /// The name of the encoding.
+    /// Name of the encoding.
     pub(super) cpg: Option<String>,
 }
 
 impl ShapeFiles {
-    /// Reads what is `wanted`; messages call the layer `label`.
+    /// Reads the layer, called `label` in messages, as `wanted` specifies.
     pub(super) fn read(&self, label: &str, wanted: &SourceOptions) -> Result<FeatureTable> {
         let damaged = |why: &str| {
             Error::data(format!("{label} cannot be read: {why}"))

@@ -1,6 +1,6 @@
-//! Reads shapefiles: `.shp` with its `.dbf`, `.prj` and `.cpg`, also in a zip.
+//! Reader of shapefiles: `.shp` with its `.dbf`, `.prj` and `.cpg`, also in a zip file.
 //!
-//! Comes in: the files of one layer, or a zip with those of several. Goes out: a [`FeatureTable`](crate::FeatureTable).
+//! Input: the files of one layer, or a zip file with those of several. Output: a [`FeatureTable`](crate::FeatureTable).
 //!
 //! Source: ESRI, "Shapefile Technical Description", 1998; the file format of dBASE III+ with the types of FoxPro.
 

@@ -1,17 +1,17 @@
-//! The coordinate system that the well-known text of a `.prj` means, among those of EPSG's.
+//! Identification of the EPSG coordinate system for the well-known text in a `.prj` file.
 //!
-//! ESRI's texts have names of their own and no codes. So a text is compared by its parameters, and of several systems that have the
-//! same ones, the name decides.
+//! ESRI's texts have their own names and no codes. Therefore the parameters are compared, and if several systems have
+//! the same parameters, the name decides.
 
 use crate::Crs;
 use crate::formats::epsg;
 use burgeon_base::error::{Error, Result};
 use burgeon_base::text::shown;
 
-/// The deepest that brackets may be nested.
+/// Maximum nesting depth of brackets.
 const DEEPEST: usize = 20;
 
-/// The coordinate system of a text; `label` is for messages.
+/// Returns the coordinate system of a text; `label` is used in messages.
 pub(super) fn crs(text: &str, label: &str) -> Result<Crs> {
     let unknown = |name: &str| {
         Error::data(format!(
@@ -23,7 +23,7 @@ pub(super) fn crs(text: &str, label: &str) -> Result<Crs> {
     let Some(node) = PrjNode::read(text) else {
         return Err(unknown(text.lines().next().unwrap_or_default()));
     };
-    // A compound system has heights besides.
+    // A compound system additionally has heights.
     let is_compound = matches!(&*node.word, "COMPD_CS" | "COMPOUNDCRS");
     let node = if is_compound { node.nodes.into_iter().next() } else { Some(node) };
     let Some(node) = node else { return Err(unknown("")) };
@@ -38,7 +38,7 @@ pub(super) fn crs(text: &str, label: &str) -> Result<Crs> {
     let Some(wanted) = Parameters::of(&node) else { return Err(unknown(&name)) };
     let mut best: Option<(f64, u16)> = None;
     epsg::each(|code, text| {
-        // Most entries are of another kind, which their text says first.
+        // Most entries are of another type, which is the first word of their text.
         if !text.starts_with(&node.word) {
             return;
         }
@@ -54,7 +54,7 @@ pub(super) fn crs(text: &str, label: &str) -> Result<Crs> {
     best.map_or_else(|| Err(unknown(&name)), |(_, code)| Crs::epsg(code.into()))
 }
 
-/// A word of well-known text, with what stands in its brackets.
+/// Keyword of well-known text with its bracketed content.
 #[derive(Default)]
 struct PrjNode {
     word: String,
@@ -113,7 +113,7 @@ impl PrjNode {
         self.nodes.iter().find(|node| words.contains(&node.word.as_str()))
     }
 
-    /// The EPSG code that it says it has.
+    /// Returns the EPSG code in the text, if any.
     fn code(&self) -> Option<u32> {
         let node = self.child(&["AUTHORITY", "ID"])?;
         let is_epsg = node.name().eq_ignore_ascii_case("EPSG");
@@ -125,7 +125,7 @@ impl PrjNode {
     }
 }
 
-/// A name in small letters and digits, with years as EPSG's names have them.
+/// Returns a name reduced to lower-case letters and digits, with years as in EPSG names.
 fn plain(name: &str) -> String {
     let mut plain: String = name.to_lowercase().chars().filter(|letter| letter.is_alphanumeric()).collect();
     for (long, short) in
@@ -142,7 +142,7 @@ fn datum(node: &PrjNode) -> String {
     name.strip_prefix('d').map(str::to_owned).unwrap_or(name)
 }
 
-/// How much two names have in common: the part of the pairs of letters of both.
+/// Returns the similarity of two names, from 0 to 1: the fraction of common letter pairs.
 fn likeness(a: &str, b: &str) -> f64 {
     let pairs = |text: &str| text.chars().zip(text.chars().skip(1)).collect::<Vec<_>>();
     let (a, mut b) = (pairs(a), pairs(b));
@@ -154,10 +154,10 @@ fn likeness(a: &str, b: &str) -> f64 {
     2.0 * crate::heights::count(same.count()) / crate::heights::count(all)
 }
 
-/// What decides on coordinates.
+/// Parameters that determine coordinates.
 struct Parameters {
     method: &'static str,
-    /// By their names, which sort.
+    /// Values by name, sorted.
     values: Vec<(&'static str, f64)>,
     ellipsoid: [f64; 2],
     unit: f64,
@@ -187,18 +187,18 @@ impl Parameters {
                 values.push((name, *value));
             }
             if method == "lcc" && !values.iter().any(|(name, _)| *name == "second") {
-                // One parallel is the latitude where it begins.
+                // With one standard parallel, that parallel is the latitude of origin.
                 values.retain(|(name, _)| *name != "first");
             }
         }
-        // Either of two parallels may be called the first.
+        // Either of two parallels may be the first.
         let place = |wanted: &str| values.iter().position(|(name, _)| *name == wanted);
         if let (Some(first), Some(second)) = (place("first"), place("second"))
             && values[first].1 > values[second].1
         {
             (values[first].1, values[second].1) = (values[second].1, values[first].1);
         }
-        // A scale of 1 and offsets of 0 may be left out.
+        // A scale of 1 and offsets of 0 may be omitted.
         values.retain(|(name, value)| {
             let usual = if *name == "scale" { 1.0 } else { 0.0 };
             (value - usual).abs() > 1e-9
@@ -221,7 +221,7 @@ impl Parameters {
     }
 }
 
-/// The one name of a method that has several.
+/// Returns the canonical name of a method that has several names.
 fn method_of(name: &str) -> Option<&'static str> {
     Some(match plain(name).as_str() {
         "transversemercator" | "gausskruger" => "tmerc",

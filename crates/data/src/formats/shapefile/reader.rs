@@ -1,4 +1,4 @@
-//! The files of a shapefile, beside one another in a folder or in a zip.
+//! Files of a shapefile, next to each other in a folder or in a zip file.
 
 use std::io::Read;
 use std::path::Path;
@@ -13,27 +13,27 @@ use burgeon_base::budget::Budget;
 use burgeon_base::error::{Error, Result};
 use burgeon_base::text::shown;
 
-/// The most bytes of a `.prj` or a `.cpg`.
+/// Maximum size of a `.prj` or `.cpg` file (bytes).
 const LARGEST_TEXT: u64 = 1 << 20;
 
-/// Open shapefiles, each a layer.
+/// Open shapefiles, one per layer.
 pub(crate) struct Shapefile {
     name: String,
     layers: Vec<ShapeFiles>,
 }
 
 impl Shapefile {
-    /// Whether a file that begins so is a `.shp`.
+    /// Returns true if a file that begins with `head` is a `.shp` file.
     pub(crate) fn is_one(head: &[u8]) -> bool {
         head.starts_with(&MAGIC)
     }
 
-    /// Opens a `.shp`, and what belongs to it.
+    /// Opens a `.shp` file and its companion files.
     pub(crate) fn open(shp: DataFile) -> Result<Self> {
         let folder = shp.path.canonicalize().ok().and_then(|real| real.parent().map(Path::to_path_buf));
         let [dbf, prj, cpg] = OF_SHAPEFILE.map(|extension| {
             let path = companion(&shp.path, extension);
-            // A link may lead out of the folders that a script may read.
+            // A link may lead out of the folders that the script may read.
             let real = path
                 .canonicalize()
                 .ok()
@@ -47,7 +47,7 @@ impl Shapefile {
         Ok(Self { name, layers: vec![ShapeFiles { layer, shp, dbf, prj, cpg }] })
     }
 
-    /// Opens the shapefiles in a zip, if there are any.
+    /// Opens the shapefiles in a zip file, if there are any.
     pub(crate) fn in_zip(zip: &ZippedFiles, name: &str, budget: &Budget) -> Result<Option<Self>> {
         let mut layers = Vec::new();
         for shp in zip.with_extensions(&["shp"]) {
@@ -66,7 +66,7 @@ impl Shapefile {
     }
 }
 
-/// The text of a small file.
+/// Returns the text of a small file.
 fn text(file: &DataFile) -> Option<String> {
     let mut bytes = Vec::new();
     file.content.reader().ok()?.take(LARGEST_TEXT).read_to_end(&mut bytes).ok()?;

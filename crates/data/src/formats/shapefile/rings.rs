@@ -1,4 +1,5 @@
-//! Polygons of rings: outer ones turn right, holes turn left, and nothing says which hole belongs to which.
+//! Assembly of polygons from rings: outer rings are clockwise, holes are counter-clockwise, and the file does not
+//! assign holes to outer rings.
 
 use glam::DVec3;
 
@@ -6,7 +7,7 @@ use crate::Geometry;
 use burgeon_base::budget::Budget;
 use burgeon_base::error::Result;
 
-/// Twice the area of a ring, positive if it turns left.
+/// Returns twice the signed area of a ring; positive if it is counter-clockwise.
 fn turn(ring: &[DVec3]) -> f64 {
     let Some(first) = ring.first() else { return 0.0 };
     let pairs = ring.windows(2).map(|pair| {
@@ -16,13 +17,13 @@ fn turn(ring: &[DVec3]) -> f64 {
     pairs.sum()
 }
 
-/// The least and the greatest coordinates.
+/// Returns the minimum and maximum coordinates.
 fn bounds(ring: &[DVec3]) -> [DVec3; 2] {
     let (low, high) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
     ring.iter().fold([low, high], |[low, high], point| [low.min(*point), high.max(*point)])
 }
 
-/// Whether a point lies within a ring: the ray to the east meets it an odd number of times.
+/// Returns true if a point is inside a ring: a ray to the east crosses the ring an odd number of times.
 fn contains(ring: &[DVec3], point: DVec3) -> bool {
     let crosses = ring.windows(2).filter(|pair| {
         let (a, b) = (pair[0], pair[1]);
@@ -31,11 +32,11 @@ fn contains(ring: &[DVec3], point: DVec3) -> bool {
     crosses.count() % 2 == 1
 }
 
-/// Whether a hole lies in an outer ring: most of its points that are not on the ring do.
+/// Returns true if a hole is inside an outer ring, by a majority of its points that are not on the ring.
 fn holds(outer: &[DVec3], hole: &[DVec3], budget: &Budget) -> Result<bool> {
     let (mut inside, mut outside) = (0, 0);
     let beside = hole.iter().filter(|point| !outer.contains(point));
-    // The middles of its sides tell for a hole whose corners lie on the ring.
+    // The midpoints of its sides decide for a hole whose corners are all on the ring.
     let middles = hole.windows(2).map(|pair| pair[0].midpoint(pair[1]));
     for point in beside.copied().chain(middles).take(9) {
         budget.tick()?;
@@ -44,8 +45,8 @@ fn holds(outer: &[DVec3], hole: &[DVec3], budget: &Budget) -> Result<bool> {
     Ok(inside > outside)
 }
 
-/// The polygons that rings make. A hole belongs to the smallest outer ring around it; one that lies in none is an area, as many
-/// programs write rings of either turn.
+/// Assembles polygons from rings. A hole belongs to the smallest outer ring around it. A hole outside all outer rings
+/// becomes a polygon, because many programs write rings of either orientation.
 pub(super) fn polygons(rings: Vec<Vec<DVec3>>, budget: &Budget) -> Result<Vec<Geometry>> {
     let rings: Vec<Vec<DVec3>> = rings.into_iter().filter(|ring| ring.len() > 2).collect();
     if let [_] = rings[..] {

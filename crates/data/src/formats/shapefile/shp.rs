@@ -1,4 +1,4 @@
-//! The geometries of a `.shp`, record by record.
+//! Geometries of a `.shp` file, record by record.
 
 use std::io::{BufReader, Read};
 
@@ -10,27 +10,27 @@ use crate::content::ContentReader;
 use burgeon_base::budget::Budget;
 use burgeon_base::error::Result;
 
-/// The first four bytes: the number 9994.
+/// First four bytes: the number 9994.
 pub(super) const MAGIC: [u8; 4] = [0, 0, 0x27, 0x0a];
 
-/// The largest record (bytes).
+/// Maximum size of a record (bytes).
 const LARGEST: usize = 500_000_000;
 
-/// What is wrong with a file.
+/// Description of the damage in a file.
 pub(super) type ShapeDamage = String;
 
-/// The records of a file, from the front.
+/// Records of a file, from the beginning.
 pub(super) struct ShapeReader {
     file: BufReader<ContentReader>,
-    /// The number of the record that was read last.
+    /// Number of the last record that was read.
     pub(super) number: usize,
     record: Vec<u8>,
 }
 
-/// The geometry of a record, and the box that it says it has.
+/// Geometry of a record, and its declared bounding box.
 type ShapeRecord = (ShapeResult, Option<[f64; 4]>);
 
-/// A geometry of a record, or why it cannot be read.
+/// Geometry of a record, or the reason why it cannot be read.
 pub(super) type ShapeResult = std::result::Result<Vec<Geometry>, String>;
 
 fn whole(bytes: &[u8], at: usize) -> Option<u32> {
@@ -53,7 +53,7 @@ impl ShapeReader {
         Ok(Self { file, number: 0, record: Vec::new() })
     }
 
-    /// The next record's geometry, and the box that it says it has; none at the end.
+    /// Returns the next record's geometry and its declared bounding box; `None` at the end.
     pub(super) fn next(
         &mut self,
         budget: &Budget,
@@ -74,7 +74,7 @@ impl ShapeReader {
         if size > LARGEST {
             return Ok(Err(format!("record {} has {size} bytes", self.number)));
         }
-        // The bytes, and points of them.
+        // The bytes, and the points decoded from them.
         let held = budget.hold(size.saturating_mul(4))?;
         self.record.clear();
         let read = (&mut self.file).take(size as u64).read_to_end(&mut self.record);
@@ -94,11 +94,11 @@ impl ShapeReader {
     }
 }
 
-/// The geometry in the bytes of a record.
+/// Decodes the geometry in the bytes of a record.
 fn shape(bytes: &[u8], budget: &Budget) -> Result<ShapeResult> {
     let short = || "has a shape that is cut short".to_owned();
     let Some(kind) = whole(bytes, 0) else { return Ok(Err(short())) };
-    // Z and M stand behind the points.
+    // Z and M values follow the points.
     let (base, has_z) = match kind {
         0 => return Ok(Ok(Vec::new())),
         11 | 13 | 15 | 18 => (kind - 10, true),
@@ -132,7 +132,7 @@ fn shape(bytes: &[u8], budget: &Budget) -> Result<ShapeResult> {
     let Some(places) = bytes.get(first..).and_then(|rest| rest.get(..count.checked_mul(16)?)) else {
         return Ok(Err(short()));
     };
-    // Behind the points, their least and greatest height, and the heights.
+    // After the points, there are the minimum and maximum height, then the heights.
     let heights = first + count * 16 + 16;
     let height = |at: usize| if has_z { number(bytes, heights + at * 8).map(plain) } else { Some(0.0) };
     let mut points = Vec::with_capacity(count);
@@ -160,7 +160,7 @@ fn shape(bytes: &[u8], budget: &Budget) -> Result<ShapeResult> {
     })
 }
 
-/// A height; numbers below -1e38 stand for none.
+/// Returns a height; numbers below -1e38 mean that there is none.
 fn plain(z: f64) -> f64 {
     if z < -1e38 { 0.0 } else { z }
 }

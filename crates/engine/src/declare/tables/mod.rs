@@ -1,6 +1,6 @@
 //! The tables that scripts ask: the sources that they have loaded, in a database that is made once somebody asks.
 //!
-//! Comes in: the sources of a run, as they are loaded, and questions. Goes out: rows. Nobody writes into a source.
+//! Input: the sources of a run, as they are loaded, and questions. Output: rows. Nobody writes into a source.
 
 #[cfg(feature = "data")]
 mod database;

@@ -1,6 +1,6 @@
 //! Interpretation: the modules of the chains, in order, change the objects.
 //!
-//! Comes in: chains and objects. Goes out: the same chains and changed objects. Rules record their method calls
+//! Input: chains and objects. Output: the same chains and changed objects. Rules record their method calls
 //! in columns, and the calls are applied here, so that a module crosses between Lua and Rust only if it asks the
 //! object something.
 

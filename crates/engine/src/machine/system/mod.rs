@@ -1,6 +1,6 @@
 //! `lsystem`: what a script declares of a system, in each machine.
 //!
-//! Comes in: the calls of a script. Goes out: a grammar, an axiom and functions, ready to derive. No rule is run here.
+//! Input: the calls of a script. Output: a grammar, an axiom and functions, ready to derive. No rule is run here.
 
 mod axiom;
 mod declaration;

@@ -1,6 +1,6 @@
 //! Types of objects in the virtual machine, and the objects that scripts hold.
 //!
-//! Comes in: kinds from the registry, and what a script declares. Goes out: constructors and methods that scripts call. What
+//! Input: kinds from the registry, and what a script declares. Output: constructors and methods that scripts call. What
 //! they do is a matter of the kinds; no kind is known by its name.
 
 mod extensions;

@@ -1,4 +1,4 @@
-//! Covers a footprint with a roof.
+//! The construction of a roof on a footprint.
 
 use super::{RoofDetail, kinds, replace};
 use crate::MaterialOptions;
@@ -13,24 +13,26 @@ use burgeon_kit::{Note, fields};
 use burgeon_scene::SurfaceMeaning;
 use glam::DVec3;
 
-/// What `footprint:roof { ... }` takes.
+/// Options of `footprint:roof { ... }`.
 #[fields("footprint:roof")]
 pub struct Roof {
-    /// "flat", "shed", "gable", "gambrel", "shed_gambrel", "hip", "mansard", "pagoda", "porch" or "dutch_hip".
+    /// Roof type: "flat", "shed", "gable", "gambrel", "shed_gambrel", "hip", "mansard", "pagoda", "porch" or
+    /// "dutch_hip".
     #[default("hip".into())]
     pub kind: String,
-    /// How high the highest ridge is above the eaves (m); after `slope` if left out.
+    /// Height of the highest ridge above the eaves (m). If omitted, it follows from `slope`.
     pub height: Option<f64>,
-    /// Slope (degrees) from the eaves to the highest ridge, where no height is given.
+    /// Slope (degrees) from the eaves to the highest ridge, if no height is given.
     #[default(35.0)]
     pub slope: f64,
-    /// How far it juts out over the outermost walls (m), where there is room.
+    /// Overhang beyond the outermost walls (m), where there is room.
     #[default(0.0)]
     pub overhang: f64,
-    /// "closed", with a level underside; "slab", with upright faces along the outline too; or "open", a plate
-    /// that follows the slope. "slab" if a `slab` is given, "closed" otherwise.
+    /// Eaves type: "closed", with a level underside; "slab", with upright faces along the outline too; or "open", a
+    /// plate that follows the slope. The default is "slab" if `slab` is given, and "closed" otherwise.
     pub eaves: Option<String>,
-    /// Height of the upright faces along the outline, and of the edge of a plate (m); 0.15 where one is needed.
+    /// Height of the upright faces along the outline, and of the edge of a plate (m). If 0, it is 0.15 where one is
+    /// needed.
     #[default(0.0)]
     pub slab: f64,
     /// Height of the border of a flat roof (m).
@@ -39,20 +41,20 @@ pub struct Roof {
     /// Width of the border of a flat roof (m).
     #[default(0.3)]
     pub border_width: f64,
-    /// Its colour.
+    /// Colour of the roof.
     pub color: Option<Color>,
-    /// Its material, in place of the colour.
+    /// Material of the roof, instead of the colour.
     pub material: Option<MaterialOptions>,
-    /// The material of gables; that of the walls below them if left out.
+    /// Material of gables. If omitted, the material of the walls below.
     pub gable: Option<MaterialOptions>,
-    /// The material of slabs and borders; the roof's if left out.
+    /// Material of slabs and borders. If omitted, the roof's material.
     pub trim: Option<MaterialOptions>,
-    /// The material of undersides; that of slabs if left out.
+    /// Material of undersides. If omitted, the material of slabs.
     pub underside: Option<MaterialOptions>,
-    /// Whether walls along neighbours that run away from the street end in gables, as in a row of houses.
+    /// Gables on party walls that run away from the street, as in a row of houses.
     #[default(true)]
     pub party_gables: bool,
-    /// What stands on it: a list of { model, on, every, ... }.
+    /// Objects on the roof: a list of { model, on, every, ... }.
     pub details: Vec<RoofDetail>,
 }
 
@@ -91,7 +93,7 @@ impl Footprint {
         if made.cover.hipped {
             note(format!("hips in place of gables of a {} roof", options.kind), String::new());
         }
-        // Without neighbours some edges would have more: what is over them gives way for these.
+        // A neighbour is the cause if an edge would have a larger overhang without neighbours.
         let is_limited = !made.cover.tight.is_empty() && reach.iter().any(|reach| *reach < furthest);
         let alone = if is_limited { shape.cover_on(&Support { reach: &[], ..support }).ok() } else { None };
         let has_more = |cover: &RoofCover, edge: usize| cover.overhangs[edge] > made.cover.overhangs[edge];
@@ -117,7 +119,7 @@ impl Footprint {
         Ok(())
     }
 
-    /// Ends the walls level, in place of a roof.
+    /// Closes the walls with a level face, instead of a roof.
     fn cap(&mut self, options: &Roof) -> Result<()> {
         let base = self.shell.top;
         let top = self.plan.flat().at_height(base);
@@ -137,7 +139,7 @@ impl Footprint {
             let part = match (patch.kind, gable) {
                 (PatchKind::Slope, _) => slope,
                 (PatchKind::Gable, Some(gable)) => gable,
-                // It goes on as the wall below it.
+                // A gable continues the wall below it.
                 (PatchKind::Gable, None) => match self.sides.get(patch.edge) {
                     Some(side) => side.part,
                     None => self.part(None, None)?,
@@ -155,11 +157,11 @@ impl Footprint {
     }
 }
 
-/// The most edges that a note names.
+/// Maximum number of edges that a note names.
 const NAMED: usize = 8;
 
-/// How far a roof with these `overhangs` juts out over `edges`, where it should do so more, by the numbers that they
-/// were given with.
+/// Describes the overhangs of a roof over `edges`, which are smaller than the requested `overhang`, and names the edges
+/// by their given numbers.
 fn tight(edges: &[usize], overhangs: &[f64], overhang: f64, plan: &Plan) -> String {
     let found = edges.iter().map(|&edge| overhangs[edge]);
     let (least, most) =

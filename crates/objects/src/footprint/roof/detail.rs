@@ -1,4 +1,4 @@
-//! What stands on roofs: chimneys, dormers, aerials, gutters.
+//! Objects on roofs: chimneys, dormers, aerials, gutters.
 
 use std::sync::Arc;
 
@@ -11,48 +11,48 @@ use burgeon_geometry::roof::{Patch, PatchKind, RoofLineKind, lines, normal};
 use burgeon_kit::{Expectation, Field, fields};
 use burgeon_kit::{Model, Parameter, Table, Value};
 
-/// One of the `details` of `footprint:roof { ... }`.
+/// An entry of the `details` of `footprint:roof { ... }`.
 ///
-/// The model stands upright with its origin on the roof. Its x runs along the line, to the right as seen from
-/// outside, and its front, -y, looks outwards.
+/// The model stands upright with its origin on the roof. Its x axis runs along the line, to the right as seen from
+/// outside, and its front, -y, faces outwards.
 #[fields("a detail of footprint:roof")]
 pub struct RoofDetail {
-    /// What stands there: what `derive` returned.
+    /// Model to place, as returned by `derive`.
     pub model: Option<Arc<Model>>,
-    /// "ridge", "hip", "valley", "eaves", "slope" or "gable".
+    /// Place on the roof: "ridge", "hip", "valley", "eaves", "slope" or "gable".
     #[default("ridge".into())]
     pub on: String,
-    /// Distance between two along the line (m); one in the middle if left out.
+    /// Distance between models along the line (m). If omitted, one model is placed in the middle.
     pub every: Option<f64>,
-    /// What is kept free at both ends of the line (m).
+    /// Free length at both ends of the line (m).
     #[default(0.5)]
     pub margin: f64,
-    /// How far up the slope, from the foot of the flap or gable (m, on the plan; m of height on gables); its
-    /// middle if left out.
+    /// Distance up the slope from the foot of the flap or gable (m, on the plan; m of height on gables). If omitted,
+    /// the middle of a flap, and a third of the height of a gable.
     pub offset: Option<f64>,
-    /// Rows on a slope.
+    /// Number of rows on a slope.
     #[default(1)]
     pub rows: u32,
-    /// Which part of a slope with several, from the eaves up.
+    /// Number of the flap on a slope with several flaps, from the eaves up.
     #[default(1)]
     pub flap: u32,
-    /// At most so many on the whole roof, drawn from all places.
+    /// Maximum number on the whole roof, chosen at random from all positions.
     pub count: Option<u32>,
-    /// Part of the places that are taken, from 0 to 1.
+    /// Probability of a model at each position, from 0 to 1.
     #[default(1.0)]
     pub chance: f64,
-    /// Size, as a multiple of the model's own.
+    /// Scale factor of the model.
     #[default(1.0)]
     pub scale: f64,
-    /// Turns it about its upright axis (degrees).
+    /// Rotation about the vertical axis (degrees).
     #[default(0.0)]
     pub turn: f64,
-    /// How deep its origin is below the roof (m).
+    /// Depth of the origin below the roof (m).
     #[default(0.0)]
     pub sink: f64,
-    /// Whether it leans with the roof, in place of standing upright.
+    /// Perpendicular to the roof instead of upright.
     pub tilt: bool,
-    /// Whether it is stretched along x to the whole length of the line, as a gutter.
+    /// Stretched along x to the whole length of the line, such as a gutter.
     pub stretch: bool,
 }
 
@@ -80,14 +80,14 @@ impl Parameter for RoofDetail {
 
 const PLACES: [&str; 6] = ["ridge", "hip", "valley", "eaves", "slope", "gable"];
 
-/// Most things of one detail on a roof.
+/// Maximum number of models of one detail on a roof.
 const MOST: usize = 100_000;
 
-/// A line on which things may stand.
+/// A line along which models may be placed.
 struct Track {
     from: DVec3,
     to: DVec3,
-    /// The upward normal of the roof there.
+    /// Upward normal of the roof at the line.
     up: DVec3,
 }
 
@@ -121,7 +121,7 @@ impl RoofDetail {
         Ok(())
     }
 
-    /// The model at each of its places on a roof; what is left to chance follows from `seed`.
+    /// Returns the model at each of its positions on a roof. Random choices depend on `seed`.
     pub(super) fn frames(&self, patches: &[Patch], seed: u64) -> Vec<(Arc<Model>, DAffine3)> {
         let Some(model) = &self.model else { return Vec::new() };
         let mut random = Stream::new(seed);
@@ -136,7 +136,7 @@ impl RoofDetail {
             let begin = (length - (count - 1.0) * every) / 2.0;
             let mut number = 0.0;
             while number < count && frames.len() < MOST {
-                // Drawn for each place, so that others do not change with it.
+                // Each position consumes one random number, so that the other positions do not change with `chance`.
                 let taken = random.uniform() < self.chance;
                 if taken {
                     let at = track.from.lerp(track.to, (begin + number * every) / length.max(1e-9));
@@ -198,7 +198,7 @@ impl RoofDetail {
         found.map(track).collect()
     }
 
-    /// Level lines across the flaps.
+    /// Returns horizontal lines across the flaps.
     fn slopes(&self, patches: &[Patch]) -> Vec<Track> {
         let flap = usize::try_from(self.flap - 1).unwrap_or(usize::MAX);
         let mut tracks = Vec::new();
@@ -229,7 +229,7 @@ impl RoofDetail {
         tracks
     }
 
-    /// Level lines across the gables.
+    /// Returns horizontal lines across the gables.
     fn gables(&self, patches: &[Patch]) -> Vec<Track> {
         let mut tracks = Vec::new();
         let extent = |patch: &Patch| {
@@ -238,7 +238,7 @@ impl RoofDetail {
             })
         };
         let tall = |patch: &Patch| extent(patch).1 - extent(patch).0;
-        // Of a gable in several parts the tallest.
+        // A gable in several parts is represented by its tallest part.
         let mut tallest: Vec<&Patch> = Vec::new();
         for patch in patches.iter().filter(|patch| patch.kind == PatchKind::Gable) {
             match tallest.iter_mut().find(|known| known.edge == patch.edge) {

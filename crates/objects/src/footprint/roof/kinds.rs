@@ -1,4 +1,4 @@
-//! The kinds of roof that scripts can name.
+//! The types of roof that scripts can name.
 
 use super::super::object::unknown;
 use super::Roof;
@@ -7,8 +7,8 @@ use burgeon_base::error::{Error, Result};
 use burgeon_base::text::number;
 use burgeon_geometry::roof::{Border, Eaves, Ends, Rise, RoofShape, RoofSurface};
 
-/// A kind: what stands at the ends of wings, and the bends of its slopes between eaves and ridge, as parts of the
-/// width and of the height.
+/// A type of roof: the shape of the ends of wings, and the bends of the slopes between eaves and ridge, as fractions of
+/// the width and of the height.
 struct RoofKind {
     name: &'static str,
     ends: Ends,
@@ -31,10 +31,10 @@ const KINDS: [&str; 10] =
 
 const EAVES: [&str; 3] = ["closed", "open", "slab"];
 
-/// How thick (m) plates are, and how high slabs, where they are given no height.
+/// Thickness (m) of plates, and height of slabs, if none is given.
 const THICKNESS: f64 = 0.15;
 
-/// The shape that a script asks for.
+/// Returns the roof shape for the options of the script. Fails if an option is unknown or out of range.
 pub(super) fn shape(options: &Roof) -> Result<RoofShape> {
     check(options)?;
     let kind = options.kind.as_str();
@@ -63,7 +63,7 @@ pub(super) fn shape(options: &Roof) -> Result<RoofShape> {
         return Err(Error::argument("footprint:roof: closed eaves have no slab").help("use eaves = \"slab\""));
     }
     let juts_out = options.overhang > 0.0;
-    // What would be thin as paper gets a thickness.
+    // Eaves without thickness would be as thin as paper, so they get a default thickness.
     let needed = match eaves {
         Eaves::Slab => true,
         Eaves::Open => juts_out,

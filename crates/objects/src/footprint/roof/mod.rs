@@ -1,7 +1,7 @@
-//! The upper part of a building: its roof and what stands on it.
+//! The upper part of a building: its roof and the objects on the roof.
 //!
-//! Comes in: what `footprint:roof` takes. Goes out: patches, and models on them, in the footprint's drawing. The shape of a
-//! roof is never worked out here, but in the geometry.
+//! Input: the options of `footprint:roof`. Output: patches, and models on them, in the footprint's drawing. The shape
+//! of a roof is computed in the geometry crate, never here.
 
 mod cover;
 mod detail;

@@ -1,4 +1,4 @@
-//! What stands on a building whose own roof cannot be made.
+//! The replacement for a roof that cannot be constructed.
 
 use glam::DVec2;
 
@@ -6,20 +6,21 @@ use burgeon_base::error::Result;
 use burgeon_geometry::roof::{Patch, PatchKind, RoofCover, RoofShape, RoofSurface, Support, floor};
 use burgeon_geometry::{Plan, Polygon};
 
-/// A roof, and what it is in place of.
+/// A roof, and a note if it replaces another roof.
 pub(super) struct RoofReplacement {
     pub cover: RoofCover,
-    /// What was done instead, and why.
+    /// Description of the replacement, and the reason for it.
     pub replaced: Option<(String, String)>,
 }
 
-/// How far (m) the outline of a simpler roof may be within the true one, in turn.
+/// Distances (m) by which the outline of a simpler roof may be inside the true one, in the order of attempts.
 const SIMPLER: [f64; 3] = [0.05, 0.2, 0.5];
-/// Parts of an outline that are smaller than this (m²) are left to the deck.
+/// Minimum area (m²) of a part of an outline. Smaller parts are covered only by the deck.
 const LEAST: f64 = 1.0;
 
-/// The roof that `make` makes over its support; where it fails, a level deck closes the walls, and a roof over a simpler
-/// outline stands on it as a solid of its own, nowhere over a courtyard; or the deck alone.
+/// Returns the roof that `make` constructs over its support. If `make` fails, a level deck closes the walls. A roof
+/// over a simpler outline is then added on the deck as a separate solid, and never covers a courtyard. If that fails as
+/// well, only the deck remains.
 pub(super) fn cover(
     shape: &RoofShape,
     kind: &str,
@@ -63,8 +64,8 @@ pub(super) fn cover(
     RoofReplacement { cover, replaced: Some((format!("a flat roof in place of a {kind} roof"), why)) }
 }
 
-/// Simpler outlines within that of the walls, none of them nearer to it than the simplification may move them, so that
-/// all courtyards stay open; none if one would not be sound.
+/// Returns simpler outlines inside the outline of the walls. They keep at least the distance by which simplification
+/// may move them, so that all courtyards stay open. Returns none if one of them is invalid.
 fn within(walls: &Polygon, distance: f64) -> Vec<Polygon> {
     let mut outlines = Vec::new();
     for part in walls.inset(1.5 * distance) {
@@ -73,7 +74,7 @@ fn within(walls: &Polygon, distance: f64) -> Vec<Polygon> {
             Ok(plan) if plan.repairs().0.is_empty() && plan.polygon().len() == rings.len() => {
                 outlines.push(plan.flat());
             }
-            // Slivers between the walls and where they were moved to are no outlines.
+            // Slivers between the walls and the moved walls are not outlines.
             _ if part.area() < LEAST => {}
             _ => return Vec::new(),
         }

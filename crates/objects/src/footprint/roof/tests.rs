@@ -1,4 +1,4 @@
-//! Tests of what replaces a roof, and of what stands on one.
+//! Tests of roof replacements and of objects on roofs.
 
 use std::sync::Arc;
 
@@ -29,7 +29,7 @@ fn hip() -> RoofShape {
     }
 }
 
-/// A model as large as a box from 0 to `size` (m).
+/// Returns a model whose bounding box runs from 0 to `size` (m).
 fn model(size: DVec3) -> Arc<Model> {
     let positions = [DVec3::ZERO, size.with_y(0.0).with_z(0.0), size].map(|at| at.as_vec3()).to_vec();
     let part = Part { positions, triangles: vec![[0, 1, 2]].into(), ..Part::default() };
@@ -67,7 +67,7 @@ fn patches(ends: Ends) -> Vec<Patch> {
 
 #[test]
 fn a_roof_that_fails_is_replaced_over_a_simpler_outline_then_by_a_deck() {
-    // An L with a corner that is 10 cm off.
+    // The walls form an L with a corner that is 10 cm off.
     let walls = around(&[(0., 0.), (12., 0.), (12., 5.), (8.5, 5.1), (5., 5.), (5., 12.), (0., 12.)]);
     for (least, what) in [
         (7, None),
@@ -91,7 +91,7 @@ fn what_stands_in_for_a_roof_covers_no_courtyard_and_nothing_beside_the_plan() {
     let mut random = Stream::new(3);
     let mut counts = [0; 2];
     for _ in 0..300 {
-        // Wings around one to four courtyards, with corners that are off by up to 30 cm.
+        // Wings enclose one to four courtyards, and their corners are off by up to 30 cm.
         let (columns, rows) = (1 + random.below(2), 1 + random.below(2));
         let (wing, court) = (3.0 + 5.0 * random.uniform(), 4.0 + 8.0 * random.uniform());
         let mut off = |x: f64, y: f64| {
@@ -106,7 +106,7 @@ fn what_stands_in_for_a_roof_covers_no_courtyard_and_nothing_beside_the_plan() {
             walls.push(vec![off(x, y), off(x, y + court), off(x + court, y + court), off(x + court, y)]);
         }
         let walls = Polygon::new(walls).expect("a polygon");
-        // Whatever has as many corners as the plan is too hard; every third time all is.
+        // Roofs fail for outlines with as many corners as the plan; every third time, all roofs fail.
         let corners: usize = walls.size();
         let all = random.below(3) == 0;
         let mut make = |shape: &RoofShape, support: &Support<'_>| {
@@ -135,7 +135,7 @@ fn what_stands_in_for_a_roof_covers_no_courtyard_and_nothing_beside_the_plan() {
     assert!(counts.iter().all(|count| *count > 50), "{counts:?}");
 }
 
-/// Whether a place is inside a polygon, or within a millimetre of its edges.
+/// Reports whether a position is inside a polygon, or within a millimetre of its edges.
 fn inside(polygon: &Polygon, at: DVec2) -> bool {
     let is_near = |[a, b]: [DVec2; 2]| {
         let way = b - a;
@@ -171,7 +171,7 @@ fn things_stand_on_the_lines_that_they_are_asked_for() {
         places(ridge.clone(), Ends::Gables),
         [1.5, 4.5, 7.5, 10.5].map(|x| DVec3::new(x, 4.0, 7.0)).iter().rev().copied().collect::<Vec<_>>()
     );
-    // From 4 to 8 m, half a metre of which is kept free at each end.
+    // The ridge is 4 to 8 m long, with half a metre free at each end.
     assert_eq!(places(ridge, Ends::Hips).len(), 2);
     assert_eq!(places(detail("hip"), Ends::Hips).len(), 4);
     assert_eq!(places(detail("gable"), Ends::Gables).len(), 2);
