@@ -2,6 +2,7 @@
 
 mod candidates;
 mod choice;
+mod closures;
 mod contexts;
 mod determinism;
 mod fragments;

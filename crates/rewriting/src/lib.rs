@@ -34,6 +34,10 @@
 //! # Ok::<(), burgeon_base::Error>(())
 //! ```
 
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+mod readme {}
+
 mod batch;
 mod chain;
 mod choice;

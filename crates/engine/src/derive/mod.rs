@@ -12,6 +12,7 @@ mod functions;
 mod interpret;
 mod lead;
 mod pending;
+mod phases;
 mod plan;
 mod rewriter;
 mod step;

@@ -59,7 +59,7 @@ pub(super) fn sites(chain: &Chain, arities: &[u8]) -> Result<Vec<PendingSite>, (
 #[cfg(test)]
 mod tests {
     use super::*;
-    use burgeon_rewriting::{FIRST_SYMBOL, Symbols};
+    use burgeon_rewriting::FIRST_SYMBOL;
 
     /// The sites of a chain as text: `a` to `z` modules, `?` a query, `%` a fragmentation, `;` an end.
     fn found(text: &str) -> Result<String, usize> {

@@ -1,0 +1,272 @@
+//! Phases of a derivation in the leading machine: rewriting, resolving placeholders, publishing the chain to queries, and
+//! interpreting.
+
+use std::cell::RefCell;
+use std::sync::Arc;
+use std::time::Instant;
+
+use super::interpret::InterpretationPass;
+use super::pending::{Resolution, resolve};
+use super::plan::{Derivation, DerivationPlan};
+use super::rewriter::SystemRewriter;
+use super::step::step;
+use super::threads::LeadingMachine;
+use crate::declare::TraceRequest;
+use crate::results::{RowFeatures, RuleName, RuleReport, Step, Times};
+use burgeon_base::error::Result;
+use burgeon_base::warning::Warning;
+use burgeon_rewriting::{Chain, Phase, PhaseOutcome, Phases, Stepper, Use};
+
+/// State of a derivation that its phases share.
+pub(super) struct DerivationState<'a> {
+    leader: LeadingMachine<'a>,
+    derivation: &'a Derivation,
+    rewriter: SystemRewriter<'a>,
+    stepper: Stepper,
+    /// Chain before the step at hand, whose memory is used again once nothing reads it.
+    previous: Option<Arc<Chain>>,
+    times: Times,
+    interpretations: Vec<Use>,
+    /// Warnings of objects before the first pass.
+    first: Vec<Warning>,
+    /// Warnings of objects since the first pass.
+    later: Vec<Warning>,
+    steps: Vec<Step>,
+    /// Features that modules came from, if they are recorded.
+    features: Option<RefCell<RowFeatures>>,
+    /// Number of states of the chain that were published.
+    published: u32,
+}
+
+/// Results of the phases of a derivation.
+pub(super) struct DerivationResults {
+    pub chain: Arc<Chain>,
+    /// Number of steps.
+    pub steps_made: usize,
+    pub times: Times,
+    pub rules: Vec<RuleReport>,
+    pub warnings: Vec<Warning>,
+    /// Steps of the lineage, if it is traced.
+    pub steps: Vec<Step>,
+    pub features: Option<RowFeatures>,
+}
+
+/// Derives the axiom `chain` in the phases of its system.
+pub(super) fn derive(
+    leader: LeadingMachine<'_>,
+    derivation: &Derivation,
+    mut chain: Chain,
+) -> Result<DerivationResults> {
+    let (plan, session) = (&derivation.plan, &leader.machine.session);
+    let grammar = &plan.steps.grammar;
+    chain.mark(plan.steps.batch, grammar.arities());
+    let records = session.options.reports.records && derivation.traced.is_none();
+    let mut state = DerivationState {
+        leader,
+        derivation,
+        rewriter: SystemRewriter::new(leader),
+        stepper: Stepper::new(Arc::clone(&plan.steps)),
+        previous: None,
+        times: Times::default(),
+        interpretations: vec![Use::default(); plan.interpretations.list.len()],
+        first: Vec::new(),
+        later: Vec::new(),
+        steps: Vec::new(),
+        features: records.then(|| RefCell::new(RowFeatures::new(chain.symbols.len()))),
+        published: 0,
+    };
+    let view = leader.machine.current.chains_derived.borrow().with_begun(plan.system, grammar.symbols());
+    session.show_chains(view);
+    let derived =
+        burgeon_rewriting::derive(&phases(&state), &mut state, Arc::new(chain), 0, derivation.limit)?;
+    let later = state.later;
+    state.first.retain(|warning| later.iter().all(|other| !other.says_the_same(warning)));
+    Ok(DerivationResults {
+        chain: derived.chain,
+        steps_made: derived.steps,
+        times: state.times,
+        rules: reports(plan, state.stepper.uses(), &state.interpretations),
+        warnings: state.first.into_iter().chain(later).collect(),
+        steps: state.steps,
+        features: state.features.map(RefCell::into_inner),
+    })
+}
+
+/// Returns the phases of a system: a script that is only checked is neither resolved nor interpreted, and if nothing can see
+/// the passes before it, only the last chain is interpreted.
+fn phases<'a>(state: &DerivationState<'a>) -> Phases<'static, DerivationState<'a>> {
+    let (derivation, options) = (state.derivation, &state.leader.machine.session.options);
+    if options.check {
+        return Phases {
+            first: vec![Box::new(Publish), Box::new(Sketch)],
+            each: Vec::new(),
+            last: Vec::new(),
+        };
+    }
+    let interprets = derivation.plan.objects.is_some();
+    let mut phases: Phases<'static, DerivationState<'a>> = Phases {
+        first: vec![Box::new(Resolve), Box::new(Publish)],
+        each: vec![Box::new(Rewrite), Box::new(Resolve), Box::new(Publish)],
+        last: Vec::new(),
+    };
+    if interprets {
+        phases.first.push(Box::new(Expand));
+    }
+    match (interprets, derivation.last_only) {
+        (true, true) => phases.last.push(Box::new(Interpret)),
+        (true, false) => {
+            phases.first.push(Box::new(Interpret));
+            phases.each.push(Box::new(Interpret));
+        }
+        (false, _) => {}
+    }
+    phases
+}
+
+/// Applies the rules once.
+struct Rewrite;
+
+impl Phase<DerivationState<'_>> for Rewrite {
+    fn run(&self, state: &mut DerivationState<'_>, chain: Arc<Chain>, number: usize) -> Result<PhaseOutcome> {
+        let Derivation { plan, declared, .. } = state.derivation;
+        let session = &state.leader.machine.session;
+        session.stop.check()?;
+        let begin = Instant::now();
+        state.times.read += chain.symbols.len();
+        let before = state.traced_chain(&chain);
+        let outcome = step(state.leader, plan, &mut state.stepper, declared, &chain, number)?;
+        state.times.rewriting += begin.elapsed();
+        if let Some(features) = &state.features {
+            features.borrow_mut().step(&outcome.applied);
+        }
+        if state.derivation.traced.is_some() {
+            let (applied, asked) = (outcome.applied, session.rows.take_noted());
+            state.steps.push(Step { number, chain: before, applied, answers: Vec::new(), asked });
+        }
+        state.previous = Some(chain);
+        // A step that could be repeated for ever without a difference does not count.
+        let repeats = !outcome.changed && state.derivation.draws_afresh && !plan.steps.grammar.draws_random();
+        Ok(PhaseOutcome { chain: Arc::new(outcome.chain), settled: !outcome.ran || repeats })
+    }
+}
+
+/// Replaces placeholders by the modules that they stand for.
+struct Resolve;
+
+impl Phase<DerivationState<'_>> for Resolve {
+    fn run(&self, state: &mut DerivationState<'_>, chain: Arc<Chain>, step: usize) -> Result<PhaseOutcome> {
+        let begin = Instant::now();
+        let resolved = resolve(state.leader, &state.derivation.plan, &chain, step, state.features.as_ref())?;
+        let Some(Resolution { chain: made, applied, answers, .. }) = resolved else {
+            return Ok(PhaseOutcome::next(chain));
+        };
+        if state.derivation.traced.is_some() {
+            let before = state.traced_chain(&chain);
+            state.steps.push(Step { number: step, chain: before, applied, answers, asked: Vec::new() });
+        }
+        state.stepper.reuse(chain);
+        state.times.rewriting += begin.elapsed();
+        Ok(PhaseOutcome::next(Arc::new(made)))
+    }
+}
+
+/// Shows the chain to queries, and frees what only the chain before needed.
+struct Publish;
+
+impl Phase<DerivationState<'_>> for Publish {
+    fn run(&self, state: &mut DerivationState<'_>, chain: Arc<Chain>, step: usize) -> Result<PhaseOutcome> {
+        state.publish(&chain);
+        if let Some(previous) = state.previous.take() {
+            let session = &state.leader.machine.session;
+            state.stepper.reuse(previous);
+            session.progress.note(step, state.derivation.limit, chain.symbols.len());
+            session.forget_unused(&chain.params);
+        }
+        Ok(PhaseOutcome::next(chain))
+    }
+}
+
+/// Tells objects that expand by themselves that the script is only checked.
+struct Sketch;
+
+impl Phase<DerivationState<'_>> for Sketch {
+    fn run(&self, state: &mut DerivationState<'_>, chain: Arc<Chain>, _: usize) -> Result<PhaseOutcome> {
+        state.derivation.plan.sketch()?;
+        Ok(PhaseOutcome::next(chain))
+    }
+}
+
+/// Lets objects that expand by themselves do so before the first pass.
+struct Expand;
+
+impl Phase<DerivationState<'_>> for Expand {
+    fn run(&self, state: &mut DerivationState<'_>, chain: Arc<Chain>, _: usize) -> Result<PhaseOutcome> {
+        state.derivation.plan.expand(&state.rewriter, &mut state.first)?;
+        Ok(PhaseOutcome::next(chain))
+    }
+}
+
+/// Runs an interpretation pass over the chain.
+struct Interpret;
+
+impl Phase<DerivationState<'_>> for Interpret {
+    fn run(&self, state: &mut DerivationState<'_>, chain: Arc<Chain>, step: usize) -> Result<PhaseOutcome> {
+        let begin = Instant::now();
+        let plan = &state.derivation.plan;
+        if state.derivation.draws_afresh {
+            // The drawings of earlier passes are gone.
+            state.later.clear();
+        }
+        state.later.retain(|warning| !warning.is_of_pass());
+        let failed = state.failed().len();
+        let uses = &mut state.interpretations;
+        InterpretationPass::pass(state.leader, plan, &chain, step, uses, &mut state.later)?;
+        plan.expand(&state.rewriter, &mut state.later)?;
+        if state.failed().len() > failed {
+            state.publish(&chain);
+        }
+        state.times.interpretation += begin.elapsed();
+        Ok(PhaseOutcome::next(chain))
+    }
+}
+
+impl DerivationState<'_> {
+    /// Returns a copy of the chain for the lineage, if its modules will be asked for.
+    fn traced_chain(&self, chain: &Chain) -> Chain {
+        match self.derivation.traced {
+            Some(TraceRequest { chain: Some(_), .. }) => chain.clone(),
+            _ => Chain::default(),
+        }
+    }
+
+    /// Shows queries the chain as it stands.
+    fn publish(&mut self, chain: &Arc<Chain>) {
+        let (machine, plan) = (self.leader.machine, &self.derivation.plan);
+        self.published += 1;
+        let symbols = plan.steps.grammar.symbols();
+        let view = machine.current.chains_derived.borrow();
+        let view = view.with_current(plan.system, symbols, chain, self.failed(), self.published);
+        machine.session.show_chains(view);
+    }
+
+    /// Returns the chains whose data is wrong.
+    fn failed(&self) -> Vec<usize> {
+        self.derivation.plan.objects.as_ref().map(|objects| objects.failed().list()).unwrap_or_default()
+    }
+}
+
+/// Returns the work of the rules and interpretation rules, in the order of their declaration.
+fn reports(plan: &DerivationPlan, rules: &[Use], interpretations: &[Use]) -> Vec<RuleReport> {
+    let rules = plan.steps.grammar.rules().iter().zip(rules).map(|(rule, done)| RuleReport {
+        name: RuleName { text: rule.pattern.text.clone(), place: rule.place.clone() },
+        interprets: false,
+        done: *done,
+    });
+    let interpretations =
+        plan.interpretations.list.iter().zip(interpretations).map(|(known, done)| RuleReport {
+            name: RuleName { text: known.name.clone(), place: known.place.clone() },
+            interprets: true,
+            done: *done,
+        });
+    rules.chain(interpretations).collect()
+}
