@@ -15,24 +15,25 @@ fn api(arguments: &[&str]) -> String {
 fn a_type_is_told_with_its_fields_and_methods_and_an_example() {
     assert_snapshot!(api(&["universe"]), @r"
     universe { ... }
-      Galaxies, their stars and the planets of these: nothing is stored, and who comes back finds all of
-      it the same.
+      Galaxies, stars and planets, generated on demand from the seed. The same position always gives the
+      same result.
 
     Fields
       seed: number | string = 0
-          What all of it comes from: a number or a string.
+          Seed of the whole universe: a number or a string.
 
     Methods that read: rules and interpretations may call them
       galaxy(x: number, y: number, z: number) -> any
-          The galaxy in a cube of space, by its column, row and layer: a table with `position` and
-          `radius` (light years), `kind`, `color`, `seed`, and `stars`, how many it has.
+          Returns the galaxy in a cube of space, by its column, row and layer: a table with `position`
+          and `radius` (light years), `kind`, `color`, `seed`, and `stars`, the number of its stars.
       star(galaxy: { kind: string, seed: string, radius: number, stars: number }, index: number) -> any
-          Star number `index` of a galaxy, from 1: a table with `position` (light years from the
-          galaxy's middle), `radius` (m), `kind`, `color`, `seed`, and `planets`, how many it has.
+          Returns star number `index` of a galaxy, from 1: a table with `position` (light years from the
+          galaxy's centre), `radius` (m), `kind`, `color`, `seed`, and `planets`, the number of its
+          planets.
       planet(star: { kind: string, seed: string, radius: number, planets: number }, index: number) -> any
-          Planet number `index` of a star, from 1, the nearest first: a table with `position` (m from
-          the star), `radius` (m), `kind`, `color`, `seed`, and `light`, of which the Earth gets 1. A
-          planet takes its radius and seed.
+          Returns planet number `index` of a star, from 1, in order of distance: a table with `position`
+          (m from the star), `radius` (m), `kind`, `color`, `seed`, and `light`, relative to the light
+          that the Earth receives. Pass `radius` and `seed` to `planet`.
 
     Example
       local all = universe({ seed = 7 })
@@ -123,7 +124,7 @@ fn a_type_is_told_with_its_fields_and_methods_and_an_example() {
 fn a_field_or_a_method_is_told_by_itself() {
     assert_snapshot!(api(&["extruder:bend"]), @r##"
     extruder:bend(angle: number, toward: number? = 0)
-      Bends the following segments by `angle` (degrees) each, to the side at `toward` (degrees, 0 unless
+      Bends each following segment by `angle` (degrees), towards the side at `toward` (degrees, 0 unless
       given), where 0 is left.
       It changes the object: only interpretations may call it.
 
@@ -143,7 +144,7 @@ fn a_field_or_a_method_is_told_by_itself() {
     "##);
     assert_snapshot!(api(&["footprint:area"]), @r#"
     footprint:area() -> number
-      Its area (m²) without the holes.
+      Returns the area (m²) without the holes.
       It only reads: rules and interpretations may call it.
 
     Example
@@ -154,25 +155,25 @@ fn a_field_or_a_method_is_told_by_itself() {
     "#);
     assert_snapshot!(api(&["extruder.heading"]), @r"
     extruder.heading: Vector = vec(0, 0, 1)
-      The direction of extruding at first.
+      Initial direction of extrusion.
     ");
     assert_snapshot!(api(&["terrain.water"]), @r##"
     terrain.water: number | { level: number?, color: Color?, shallow: Color?, clarity: number? }?
-      Standing water: its level (m), or more of it.
+      Standing water: its level (m), or a table of fields.
 
     Fields of its table
       level: number = 0
-          The height (m) of its surface.
+          Height (m) of the surface.
       color: Color = "#163c4d"
-          Its colour where it is deep.
+          Colour of deep water.
       shallow: Color = "#4b7373"
-          Its colour at the shore.
+          Colour at the shore.
       clarity: number = 8
-          How deep (m) one sees into it.
+          Visibility depth (m).
     "##);
     assert_snapshot!(api(&["footprint:roof.details.every"]), @r"
     footprint:roof.details.every: number?
-      Distance between two along the line (m); one in the middle if left out.
+      Distance between models along the line (m). If omitted, one model is placed in the middle.
     ");
     assert_snapshot!(api(&["lerp"]), @r#"
     lerp(a: number, b: number, t: number) -> number
@@ -186,8 +187,8 @@ fn a_field_or_a_method_is_told_by_itself() {
     "#);
     assert_snapshot!(api(&["F"]), @r#"
     F(length: number? = turtle.step) -> Module
-      Goes forward by `length` (m, turtle.step unless given) and draws a branch; within a polygon it
-      only moves. Calls turtle:forward where it is interpreted.
+      Moves forward by `length` (m, turtle.step unless given) and draws a branch. Within a polygon, only
+      moves. Calls turtle:forward where it is interpreted.
 
     Example
       -- A line that is drawn, a gap, and a line again.
