@@ -94,7 +94,9 @@ options.network = {
 }
 options.steps = math.ceil(extent / 25) + 8
 if pattern == "organic" then
-  local alley = { name = "alley", width = 7, lanes = 1, sidewalk = 0.9, asphalt = "#8a8f95" }
+  -- Old courts and alleys are narrow.
+  local alley = { name = "alley", width = 5, lanes = 1, sidewalk = 0.7, asphalt = "#8a8f95" }
   table.insert(options.network.streets, alley)
+  options.network.clearance, options.network.corner = 3.75, 2.5
 end
 roads.grow(options)

@@ -21,9 +21,9 @@ export type Area = {
   turned: number,
 }
 
--- The area of a face that a network tells of; nil for what lies outside of all streets.
+-- Reads the area of a face that a network gives; its size is negative for the land outside of all streets.
 function areas.read(face: any): Area?
-  if not face or face.area <= 0 then
+  if not face then
     return nil
   end
   local count = #face.corners
@@ -78,7 +78,16 @@ function areas.length(area: Area, corner: number): number
   return math.sqrt((area.x[after] - area.x[corner]) ^ 2 + (area.y[after] - area.y[corner]) ^ 2)
 end
 
--- Whether a street may leave at a corner: other corners are so far (m) at least, and other streets that leave the outline to either
+-- The length (m) of the outline.
+function areas.border(area: Area): number
+  local border = 0
+  for corner = 1, area.count do
+    border += areas.length(area, corner)
+  end
+  return border
+end
+
+-- Tells if a street may leave at a corner: other corners are so far (m) at least, and other streets that leave the outline to either
 -- side.
 function areas.is_apart(area: Area, corner: number, bends: number, streets: number): boolean
   local count = area.count
@@ -96,7 +105,7 @@ function areas.is_apart(area: Area, corner: number, bends: number, streets: numb
   return true
 end
 
--- How far (m) the outline is from a corner towards a heading, and the corner that the piece begins at which is there.
+-- Returns the distance (m) of the outline from a corner towards a heading, and the corner at which the piece there begins.
 function areas.hit(area: Area, corner: number, heading: number): (number?, number)
   local east, north = math.cos(math.rad(heading)), math.sin(math.rad(heading))
   local x, y, count = area.x[corner], area.y[corner], area.count
@@ -138,28 +147,12 @@ function areas.part(area: Area, corner: number, edge: number, x: number, y: numb
   return (swept + ex * py - ey * px + px * cy - py * cx) / 2
 end
 
--- How far (m) the outline is from a place towards a heading; what is nearer than a metre is not looked at.
-function areas.hit_from(area: Area, x: number, y: number, heading: number): number
-  local east, north = math.cos(math.rad(heading)), math.sin(math.rad(heading))
-  local best = math.huge
-  for index = 1, area.count do
-    local after = index % area.count + 1
-    local ax, ay, bx, by = area.x[index] - x, area.y[index] - y, area.x[after] - x, area.y[after] - y
-    local a_side, b_side = east * ay - north * ax, east * by - north * bx
-    if (a_side < 0) ~= (b_side < 0) then
-      local part = a_side / (a_side - b_side)
-      local far = (ax + part * (bx - ax)) * east + (ay + part * (by - ay)) * north
-      if far > 1 and far < best then
-        best = far
-      end
-    end
+-- The distance (m) of a place from the outline, without the parts that lie behind one who looks towards a heading if one is given.
+function areas.distance(area: Area, x: number, y: number, heading: number?): number
+  local east, north = 0, 0
+  if heading then
+    east, north = math.cos(math.rad(heading)), math.sin(math.rad(heading))
   end
-  return best
-end
-
--- How far (m) the outline is from a place, but for what lies behind one who looks towards a heading.
-function areas.ahead(area: Area, x: number, y: number, heading: number): number
-  local east, north = math.cos(math.rad(heading)), math.sin(math.rad(heading))
   local least = math.huge
   for index = 1, area.count do
     local after = index % area.count + 1
@@ -167,24 +160,10 @@ function areas.ahead(area: Area, x: number, y: number, heading: number): number
     local dx, dy = area.x[after] - x - ax, area.y[after] - y - ay
     local part = math.clamp(-(ax * dx + ay * dy) / math.max(dx * dx + dy * dy, 1e-9), 0, 1)
     local px, py = ax + part * dx, ay + part * dy
-    local far = math.sqrt(px * px + py * py)
-    if far < least and px * east + py * north > -0.71 * far then
-      least = far
+    local square = px * px + py * py
+    if square < least and (not heading or px * east + py * north > -0.71 * math.sqrt(square)) then
+      least = square
     end
-  end
-  return least
-end
-
--- The distance (m) of a place from the outline.
-function areas.distance(area: Area, x: number, y: number): number
-  local least = math.huge
-  for index = 1, area.count do
-    local after = index % area.count + 1
-    local ax, ay = area.x[index] - x, area.y[index] - y
-    local dx, dy = area.x[after] - x - ax, area.y[after] - y - ay
-    local part = math.clamp(-(ax * dx + ay * dy) / math.max(dx * dx + dy * dy, 1e-9), 0, 1)
-    local px, py = ax + part * dx, ay + part * dy
-    least = math.min(least, px * px + py * py)
   end
   return math.sqrt(least)
 end

@@ -1,5 +1,5 @@
 --!strict
--- What the libraries of roads refuse, and how headings are compared.
+-- Checks of the options of roads, and comparisons of headings.
 local checks = {}
 
 -- Refuses what a table may not have, in the line of whoever called the caller, or as many levels up as are given.
@@ -42,6 +42,14 @@ function checks.between(from: number, to: number): number
   return (to - from + 180) % 360 - 180
 end
 
+-- The modules as a rule returns them; none ends the module that is rewritten.
+function checks.successor(modules: { any }): ...any
+  if #modules == 0 then
+    return nil
+  end
+  return table.unpack(modules)
+end
+
 -- The one of some headings that is nearest to another.
 function checks.nearest(heading: number, headings: { number }): number
   local best = headings[1]
@@ -65,7 +73,7 @@ function checks.place(name: string, value: any, ...: number): { number }
   return value
 end
 
--- What gives a number at a place; refuses all else, as `number` does.
+-- Returns a function that gives a number at a place; refuses all else, as `number` does.
 function checks.field(name: string, value: any, ...: number): (x: number, y: number) -> number
   if type(value) ~= "function" then
     error(
@@ -76,7 +84,7 @@ function checks.field(name: string, value: any, ...: number): (x: number, y: num
   return value
 end
 
--- What a constructor makes of `fields`; what it refuses is told as `number` tells it.
+-- Returns the object that a constructor makes of `fields`; its errors are told as `number` tells its own.
 function checks.construct(constructor: (fields: any) -> any, fields: any, ...: number): any
   local is_made, made = pcall(constructor, fields)
   if not is_made then

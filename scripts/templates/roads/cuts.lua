@@ -14,17 +14,18 @@ export type Sizes = {
   piece: { [number]: number },
   -- The shortest piece where a street leaves another, by the depth of both.
   first: { [number]: { [number]: number } },
-  -- How near streets may leave the same side of another.
+  -- The least distance of streets that leave the same side of another.
   near: { [number]: number },
-  -- How near streets may lie to one another, by the depth of both.
+  -- The least distance of streets from one another, by the depth of both.
   apart: { [number]: { [number]: number } },
   deepest: number,
 }
 
--- How many of the streets that divide an area best are looked at, and how far each keeps from others, as a share of the width of blocks.
+-- The number of the best dividing streets that are tried, and the distance that each keeps from others, as a share of the width of
+-- blocks.
 local BEST = 12
 local WIDTH = 0.2
--- How wide (m) an area is at least that is divided further.
+-- The least width (m) of an area that is divided further.
 local STRIP = 28
 -- From how many junctions of an area streets are tried, and how far (degrees) they turn from the middle of the angle there.
 local STARTS = 12
@@ -33,15 +34,18 @@ local END_TURNS = { 0, 15, -15, 30, -30, 50, -50, 75, -75 }
 -- The least angle (degrees) between two streets, and what is left for one that leaves between two others.
 local LEAST = 52
 local WIDE = 2 * LEAST + 8
--- How far streets lead on towards the headings in which they leave.
+-- The tension by which streets lead on towards the headings in which they leave.
 local TENSION = 1.45
 -- In how many parts the length of a street is computed.
 local SAMPLES = 16
--- How far (m) the end of a lane is from other streets at least, and how long it is.
+-- The least distance (m) of the end of a lane from other streets, and the length (m) of lanes.
 local APART = 38
 local LANE = { 40, 170 }
--- How far (m) from other junctions a lane leaves.
+-- The least distance (m) of a lane from other junctions.
 local BESIDE = 52
+-- The length (m) up to which a dead end is a stub.
+local STUB = 26
+
 -- The lengths that follow from the widths (m) of streets by depth, their clearance (m) and the radius (m) of corners.
 function cuts.sizes(widths: { number }, clearance: number, corner: number): Sizes
   local sizes: any = { piece = {}, first = {}, near = {}, apart = {}, deepest = #widths - 1 }
@@ -109,13 +113,13 @@ local function curve(
   return way
 end
 
--- Whether a street of a depth may leave or arrive at a corner.
+-- Tells if a street of a depth may leave or arrive at a corner.
 local function is_apart(sizes: Sizes, area: Area, corner: number, depth: number): boolean
   local other = math.min(area.depth[corner], area.depth[(corner - 2) % area.count + 1], sizes.deepest)
   return areas.is_apart(area, corner, sizes.apart[depth][other], sizes.near[depth])
 end
 
--- Where a street from a corner of an area towards a heading ends on the other side: the place, the corner before it, and the
+-- Returns the end of a street from a corner of an area towards a heading: the place, the corner before it, and the
 -- heading (degrees) that leads out there. Where a piece is short it ends at a corner, which leaves room to those of others.
 local function arrival(
   sizes: Sizes,
@@ -166,7 +170,7 @@ local function pieces_of(sizes: Sizes, area: Area, corner: number, edge: number,
   }
 end
 
--- Whether a street that leaves a place (m) keeps its distance (m) from the outline of an area between its ends.
+-- Tells if a street that leaves a place (m) keeps its distance (m) from the outline of an area between its ends.
 local function is_clear(area: Area, from: { number }, way: { number }, apart: number): boolean
   local last = #way
   for index = 1, last - 2, 2 do
@@ -205,8 +209,8 @@ function cuts.cut(
   local found: { any } = {}
   local first, stride = math.floor(random() * area.count), math.max(1, area.count / STARTS)
   -- Parts differ, so that blocks do.
-  local share = random(0.12, 0.5)
-  -- What is not divided any more is the more crooked.
+  local share = random(0.05, 0.5)
+  -- The last streets of an area are the most crooked.
   local is_last = area.size < 3 * limit
   local bow = pattern.bow
     * (if is_last then random(0.9, 1.5) else random(0.4, 1.1))
@@ -239,7 +243,7 @@ function cuts.cut(
       local uneven = 2 * (share - part / area.size)
       local along = math.abs((heading - area.turned + 45) % 90 - 45)
       local total = cost
-        + 1.1 * uneven * uneven
+        + 2.2 * uneven * uneven
         + 0.55 * math.sqrt(dx * dx + dy * dy) / size
         + (off / 26) ^ 2
         + (if degree == 1 then 0 else (turned / 30) ^ 2)
@@ -252,7 +256,7 @@ function cuts.cut(
         x = x,
         y = y,
         heading = heading,
-        -- How far it may turn to one side and to the other where it leaves and where it arrives.
+        -- The greatest turns to one side and to the other where it leaves and where it arrives.
         leaves = { turned + open / 2 - LEAST, turned - open / 2 + LEAST },
         arrives = { off + 90 - LEAST, off - 90 + LEAST },
       })
@@ -261,7 +265,7 @@ function cuts.cut(
   table.sort(found, function(one: any, other: any): boolean
     return one.cost < other.cost
   end)
-  -- What is divided further is no strip, across which no street has room.
+  -- Land that is divided further is no strip, across which no street has room.
   local strip = if area.size > 2.5 * limit then STRIP else 0
   local apart =
     math.max(sizes.apart[depth][sizes.deepest], strip, WIDTH * math.sqrt(math.min(limit, area.size)))
@@ -349,29 +353,49 @@ function cuts.crescent(
   return nil, nil
 end
 
--- A lane that ends within an area, as `cut` gives it; it keeps away from others.
-function cuts.lane(sizes: Sizes, area: Area): (number?, { number }?)
+-- A lane that ends within an area, as `cut` gives it; it keeps away from others. It leaves streets of a depth or less, or leads on from
+-- a stub.
+function cuts.lane(sizes: Sizes, area: Area, deepest: number): (number?, { number }?)
+  local corners: { number } = {}
+  for corner = 1, area.count do
+    local after = corner % area.count + 1
+    if area.degree[corner] == 1 and area.degree[after] > 2 and areas.length(area, corner) < STUB then
+      table.insert(corners, corner)
+    end
+  end
+  local stubs = #corners
   for _ = 1, 24 do
-    local corner = 1 + math.floor(random() * area.count)
+    table.insert(corners, 1 + math.floor(random() * area.count))
+  end
+  for index, corner in corners do
+    local is_stub = index <= stubs
     local open, middle = areas.angle(area, corner)
-    if open < WIDE or area.degree[corner] ~= 2 then
+    local depth = math.max(area.depth[corner], area.depth[(corner - 2) % area.count + 1])
+    if not is_stub and (open < WIDE or area.degree[corner] ~= 2 or depth > deepest) then
       continue
     end
     local x, y = area.x[corner], area.y[corner]
-    local is_apart = true
-    for other = 1, area.count do
-      local near = (area.x[other] - x) ^ 2 + (area.y[other] - y) ^ 2
-      is_apart = is_apart and (area.degree[other] ~= 3 or near > BESIDE * BESIDE)
-    end
     local heading = middle + random(-12, 12)
-    local long = math.min(areas.hit_from(area, x, y, heading) - APART, random(LANE[1], LANE[2]))
-    if not is_apart or long < LANE[1] then
+    local wanted = random(LANE[1], LANE[2])
+    local is_apart = true
+    for other = 1, if is_stub then 0 else area.count do
+      local near = (area.x[other] - x) ^ 2 + (area.y[other] - y) ^ 2
+      if area.degree[other] == 3 and near <= BESIDE * BESIDE then
+        is_apart = false
+        break
+      end
+    end
+    if not is_apart then
       continue
     end
-    local turn = (if random() < 0.5 then 1 else -1) * random(30, 150)
+    local long = math.min((areas.hit(area, corner, heading) or math.huge) - APART, wanted)
+    if long < (if is_stub then STUB else LANE[1]) then
+      continue
+    end
+    local turn = (if random() < 0.5 then 1 else -1) * random(15, 100)
     local aim = heading + 0.5 * turn
     local to = { x + long * math.cos(math.rad(aim)), y + long * math.sin(math.rad(aim)) }
-    if areas.ahead(area, to[1], to[2], heading + turn) > APART then
+    if areas.distance(area, to[1], to[2], heading + turn) > APART then
       return corner,
         curve({ x, y }, to, heading, heading + turn, pieces_of(sizes, area, corner, corner, 2), TENSION)
     end

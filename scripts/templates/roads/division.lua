@@ -1,6 +1,7 @@
 --!strict
 -- Division: the land between main streets is divided by finer streets, until no block is larger than the blocks of its place.
 local areas = require("areas")
+local checks = require("checks")
 local cuts = require("cuts")
 local ways = require("ways")
 
@@ -20,6 +21,8 @@ local Lane = module("Lane", "junction", "way", "depth", "along", "lanes")
 local Yard = module("Yard", "junction", "heading", "lanes")
 -- Divides what main streets enclose, or leads lanes into what is divided.
 local Land = module("Land", "is_divided")
+-- Land (m²) that could not be divided into its largest block (m²), with its middle (m); it stays until growth ends.
+local Undivided = module("Undivided", "area", "block", "x", "y")
 
 division.GROWING = {
   "Land(is_divided)",
@@ -29,8 +32,12 @@ division.GROWING = {
   "Lane(junction, way, depth, along, lanes)",
 }
 
--- How many ways to divide an area are tried before it stays as it is.
+-- The tries to divide an area before it stays as it is.
 local TRIES = 12
+-- The tries of land that is much larger than its largest block.
+local MANY = 30
+-- From how many times its largest block land that could not be divided is reported, and its least area (m²).
+local REPORTED, LARGE = 6, 20000
 -- From how many blocks land is several quarters, and the least and the largest area (m²) of one.
 local SEVERAL = 15
 local LEAST, MOST = 16000, 80000
@@ -42,22 +49,28 @@ local ESTATE = 30000
 local STREET = 24000
 -- The largest area, in blocks, that an alley divides, and the size (m²) of blocks up to which there are alleys.
 local ALLEY, OLD = 10, 2500
+-- The width (m) of greens.
+local GREEN = { 17, 24 }
 -- The least area (m²) that has a green at its side.
 local GREEN_LAND = 2500
--- How much land (m²) has one lane that ends, and how many lanes a block has at most.
-local LANE_LAND, LANES = 4500, 9
+-- The land (m²) of one lane that ends, and the most lanes of a block.
+local LANE_LAND, LANES = 3000, 14
+-- The length (m) of the border of a town for each lane that is tried there.
+local BORDER = 280
 
 -- The rules of division. `pattern_at` gives the pattern of a place, `room` the largest block (m²) of a kind of quarter there, or nil
--- where land is not divided, and `propose` proposes a street.
+-- where land is not divided, `propose` proposes a street, and `outside` tells whether lanes may lead to a place beyond the outline, or
+-- is false.
 function division.rules(
   system: System<Network>,
   pattern_at: (x: number, y: number) -> Pattern,
   room: (pattern: Pattern, x: number, y: number, kind: number) -> number?,
   deepest: number,
   propose: any,
-  sizes: any
+  sizes: any,
+  outside: false | (x: number, y: number) -> boolean
 )
-  -- Whether a street may leave an area at a corner.
+  -- Tells if a street may leave an area at a corner.
   local function tester(this: Network, area: any): (number, { number }, number) -> boolean
     return function(corner, way, depth)
       local heading, length = ways.aim(this, area.junction[corner], way[1], way[2])
@@ -80,27 +93,24 @@ function division.rules(
         end
         if face.area > 0 and not is_divided then
           table.insert(modules, Quarter(junction, heading, 0, random(-1, 1)))
-        elseif face.area > GREEN_LAND then
+        elseif face.area > GREEN_LAND or face.area < 0 and is_divided and outside then
           table.insert(modules, Yard(junction, heading, 0))
         end
       end
     end
-    if #modules == 0 then
-      return nil
-    end
-    return table.unpack(modules)
+    return checks.successor(modules)
   end)
 
   system:rule(
     "Quarter(junction, heading, tries, kind)",
     function(this: Network, junction: number, heading: number, tries: number, kind: number)
       local area = areas.read(this:face(junction, heading))
-      if not area or tries >= TRIES then
+      if not area or area.size <= 0 then
         return nil
       end
       local x, y = area.middle[1], area.middle[2]
       local pattern = pattern_at(x, y)
-      -- What is still several quarters has no kind of its own.
+      -- Land that is still several quarters has no kind of its own.
       local own = kind
       local usual = room(pattern, x, y, 0)
       if usual and tries == 0 and area.size > math.clamp(SEVERAL * usual, LEAST, MOST) then
@@ -118,13 +128,18 @@ function division.rules(
       limit = math.sqrt(limit * least)
       local is_estate = tries == 0
         and area.size > 2500
-        and area.size < 5 * limit
+        and area.size < 15 * limit
         and area.size < ESTATE
         and random() < pattern.gap
-      if area.size > limit and not is_estate then
+      local is_large = area.size > math.max(REPORTED * limit, LARGE)
+      if tries >= (if is_large then MANY else TRIES) then
+        return if is_large then Undivided(area.size, limit, x, y) else nil
+      elseif area.size > limit and not is_estate then
         local may_begin = tester(this, area)
-        local depth = if area.size > math.max(6 * limit, STREET)
-          then 1
+        -- A narrower street has room where a wider one has none.
+        local depth = if tries >= 2 * TRIES
+          then 3
+          elseif tries < TRIES and area.size > math.max(6 * limit, STREET) then 1
           elseif area.size < ALLEY * limit and limit < OLD then 3
           else 2
         depth = math.min(depth, deepest, sizes.deepest)
@@ -135,7 +150,7 @@ function division.rules(
         end
         if not start then
           local crosses = random() < pattern.cross
-            or tries >= LATE and area.size > math.max(12 * limit, STREET)
+            or tries >= LATE and (is_large or area.size > math.max(12 * limit, STREET))
           start, way = cuts.cut(sizes, area, pattern, limit, depth, tries, crosses, may_begin)
         end
         if start and way then
@@ -147,6 +162,13 @@ function division.rules(
     end
   )
 
+  -- A lane into the land around a town.
+  local function lead_out(area: any): (number?, { number }?)
+    local start, way = cuts.lane(sizes, area, 1)
+    local is_inside = way ~= nil and (outside :: any)(way[#way - 1], way[#way])
+    return if is_inside then start else nil, way
+  end
+
   system:rule(
     "Yard(junction, heading, lanes)",
     function(this: Network, junction: number, heading: number, lanes: number)
@@ -157,18 +179,34 @@ function division.rules(
       local pattern = pattern_at(area.middle[1], area.middle[2])
       local depth = math.min(2, deepest, sizes.deepest)
       local start, way
+      local is_green = false
       if not pattern.room then
         return nil
+      elseif area.size < 0 and lanes < areas.border(area) / BORDER then
+        start, way = lead_out(area)
       elseif lanes == 0 and random() < (pattern.greens or 0) then
         local least = math.min(3, deepest, sizes.deepest)
-        start, way = cuts.crescent(sizes, area, 1.15 * sizes.near[least], least, tester(this, area))
-        depth = if start then least else depth
+        start, way = cuts.crescent(sizes, area, random(GREEN[1], GREEN[2]), least, tester(this, area))
+        is_green = start ~= nil
+        depth = if is_green then least else depth
       end
-      if not start and lanes < math.min(area.size / LANE_LAND, LANES) and random() < pattern.stop then
-        start, way = cuts.lane(sizes, area)
+      if
+        not start
+        and area.size > 0
+        and lanes < math.min(area.size / LANE_LAND, LANES)
+        and random() < pattern.stop
+      then
+        start, way = cuts.lane(sizes, area, math.huge)
       end
       if start and way then
-        return Lane(area.junction[start], way, depth, areas.heading(area, start), lanes)
+        local along = areas.heading(area, start)
+        if is_green then
+          -- The land goes on outside of the green.
+          along = ways.aim(this, area.junction[start], way[1], way[2])
+        end
+        return Lane(area.junction[start], way, depth, along, lanes)
+      elseif area.size < 0 and lanes < areas.border(area) / BORDER then
+        return Yard(junction, heading, lanes + 1)
       end
       return nil
     end
@@ -207,11 +245,23 @@ function division.rules(
     end
   )
 
+  system:interpret("Undivided(area, block, x, y)", function() end)
   local function lead(this: Network, junction: number, way: { number }, depth: number)
     ways.lead(this, junction, way, depth, propose)
   end
   system:interpret("Cut(junction, way, depth, area, along, tries, kind)", lead)
   system:interpret("Lane(junction, way, depth, along, lanes)", lead)
+end
+
+-- Reports land that could not be divided.
+function division.report(caller: string)
+  local land: any = query("select area, block, x, y from Undivided order by area desc, x, y")
+  if #land > 0 then
+    local of = land[1]
+    print(
+      `{caller}: land stays undivided in {#land} {if #land > 1 then "places" else "place"}, at most {of.area // 1} m² near {of.x // 1}, {of.y // 1} (m), where blocks have up to {of.block // 1} m²: try narrower streets, a smaller clearance of the network, a larger block or another seed`
+    )
+  end
 end
 
 -- The module that begins it.

@@ -1,8 +1,10 @@
 --!strict
 -- Growth: the rules by which streets follow a pattern, from junction to junction.
 local checks = require("checks")
+local country = require("country")
 local division = require("division")
 local exits = require("exits")
+local gaps = require("gaps")
 local greens = require("greens")
 local highways = require("highways")
 local mains = require("mains")
@@ -10,7 +12,7 @@ local options = require("options")
 
 local growth = {}
 
--- What the patterns of roads/patterns are.
+-- A pattern of roads/patterns.
 type Pattern = any
 
 local number = checks.number
@@ -18,9 +20,9 @@ local number = checks.number
 -- A street grows at a tip: from a junction, towards a heading, with a length (m) and how often its way has branched off.
 -- It counts its junctions since it divided, how often it was refused, and the steps that are left.
 local Tip = module("Tip", "junction", "heading", "length", "depth", "run", "tries", "left")
--- Where a side street is to leave after some steps.
+-- A side street that leaves after some steps.
 local Bud = module("Bud", "junction", "heading", "depth", "wait", "left")
--- Where a town begins to grow after some steps.
+-- A town that begins to grow after some steps.
 local Town = module("Town", "junction", "wait", "left")
 -- The open ends of streets that were there before.
 local Outskirts = module("Outskirts")
@@ -28,7 +30,7 @@ local Outskirts = module("Outskirts")
 local Clock = module("Clock", "left")
 -- Waits until all modules before it have ended, and begins the next stage: outline, removal of open ends, division, lanes.
 local Watch = module("Watch", "stage")
--- What it waits for.
+-- The modules that it waits for.
 local GROWING = {
   "Town(junction, wait, left)",
   "Outskirts",
@@ -37,22 +39,23 @@ local GROWING = {
   "Tip(junction, heading, length, depth, run, tries, left)",
   "Bud(junction, heading, depth, wait, left)",
 }
-table.move(mains.GROWING, 1, #mains.GROWING, #GROWING + 1, GROWING)
-table.move(division.GROWING, 1, #division.GROWING, #GROWING + 1, GROWING)
+for _, stage in { mains.GROWING, country.GROWING, division.GROWING } do
+  table.move(stage, 1, #stage, #GROWING + 1, GROWING)
+end
 
--- How far (degrees) a main street turns when it is refused, one try after the other.
+-- The turns (degrees) of a main street that is refused, one try after the other.
 local ASIDE = highways.ASIDE
--- How far (degrees) a side street turns to end beside a junction, one try after the other.
+-- The turns (degrees) of a side street to end beside a junction, one try after the other.
 local BESIDE = { 10, -10, 20, -20, 30, -30 }
--- How likely a main street leads out of town; side streets never do.
+-- The chance that a main street leads out of town; side streets never do.
 local LEADS_OUT = 0.3
--- How many steps a side street waits, so that main streets come first.
+-- The steps that a side street waits, so that main streets come first.
 local WAIT = 2
--- How many steps a town waits while highways are on their way to it.
+-- The steps that a town waits while highways are on their way to it.
 local TOWN_WAIT = 4
 -- Which shares of the steps are left when it is looked for land that growth has not come to.
 local LATER = { 0.75, 0.6, 0.45, 0.3, 0.15 }
--- How far (degrees) a main street turns to stay within a town, and up to where it is the same street.
+-- The greatest turn (degrees) of a main street to stay within a town, and of one that is still the same street.
 local BORDER, SAME = 105, 50
 
 -- A number from 0 to 1 that looks drawn, and is the same for a place (m) within some metres.
@@ -70,9 +73,9 @@ end
 -- for dead ends, and `dead_ends`, which are what is left of them to "keep" or to "remove". `exits` are streets that lead out
 -- of the town when all is done, which takes the last four of the steps; `allowed` says which streets may be proposed.
 function growth.system(asked: any, ...: number): (System<Network>, number?)
-  -- How many functions are called between this and the script, for errors.
+  -- The number of functions between this and the script, for errors.
   local level = 3 + ((...) or 0)
-  -- What the script has called, for errors.
+  -- The function that the script has called, for errors.
   local caller = if level > 3 then "roads.grow" else "roads.system"
   local of: any = options.read(asked, caller, level + 1)
   local pattern_at: (x: number, y: number) -> Pattern = of.pattern_at
@@ -191,7 +194,7 @@ function growth.system(asked: any, ...: number): (System<Network>, number?)
         local east, north = math.cos(math.rad(aim + turn)), math.sin(math.rad(aim + turn))
         return inside(x + 1.3 * length * east, y + 1.3 * length * north)
       end
-      -- What leaves a street keeps away from others, so that none runs beside another.
+      -- A street that leaves another keeps away from others, so that none runs beside another.
       local function has_room(turn: number): boolean
         local way = math.rad(aim + turn)
         local ahead = vec(x + 2.2 * length * math.cos(way), y + 2.2 * length * math.sin(way), 0)
@@ -280,36 +283,6 @@ function growth.system(asked: any, ...: number): (System<Network>, number?)
     return modules
   end
 
-  -- Streets into land that growth, which chance may end early, has not come to.
-  local function belated(this: Network, left: number): { any }
-    local modules = {}
-    -- Streets rather leave where one only turns, for that leaves no junction of four.
-    for at, corner in this:places() do
-      local place, degree = corner.place, #corner.headings
-      local depth = math.min(corner.depth + 1, deepest)
-      local pattern = pattern_at(place.x, place.y)
-      if pattern.room then
-        continue
-      end
-      -- How many lengths around a place nothing is to be: few for a dead end, more for a turn, so that gaps stay; a fourth
-      -- street leaves a junction for much land alone, and for very much where streets leave one at a time.
-      local free = if degree < 2 then 1.1 elseif degree == 2 then 2 elseif pattern.both > 0 then 2.2 else 6
-      local room = math.max(3 - degree, 1)
-      for turn = 0, 270, 90 do
-        local heading = headings[1] + turn
-        local length = pattern.length(place.x, place.y, heading, depth)
-        local way = (free + 0.4) * length * vec(math.cos(math.rad(heading)), math.sin(math.rad(heading)), 0)
-        local ahead = place + way
-        local is_peopled = not people or (people :: any)(ahead.x, ahead.y) > 0.02
-        if room > 0 and inside(ahead.x, ahead.y) and is_peopled and this:distance(ahead) > free * length then
-          local tip = start(pattern, at, place.x, place.y, heading, depth, 0, left)
-          room -= if tip then 1 else 0
-          table.insert(modules, tip)
-        end
-      end
-    end
-    return modules
-  end
   local looks = {}
   for _, share in LATER do
     looks[math.floor(growing * share)] = growing >= 8
@@ -317,8 +290,17 @@ function growth.system(asked: any, ...: number): (System<Network>, number?)
 
   -- A town around one centre has an outline.
   local has_outline = of.is_one and of.divides and not of.onto and #centres == 1
+  -- Country roads and lanes leave it, unless other streets lead out or what ends is removed.
+  local is_open = has_outline and keeps and not of.leads_out
   local lead_out: ((Network, number, { number }) -> { any })? = if has_outline
-    then mains.rules(system, pattern_at(centres[1][1], centres[1][2]), inside, centres[1], propose)
+    then mains.rules(
+      system,
+      pattern_at(centres[1][1], centres[1][2]),
+      inside,
+      centres[1],
+      propose,
+      math.min(deepest, of.sizes.deepest)
+    )
     else nil
 
   local axiom: { any } = if #centres > 1 then highways.axiom(centres, growing, caller, level) else {}
@@ -428,18 +410,18 @@ function growth.system(asked: any, ...: number): (System<Network>, number?)
 
   system:rule("Clock(left)", function(this: Network, left: number)
     if left == 0 then
-      local leads = of.leads_out
-      local modules: { any } = if leads
-        then exits.modules(this, leads, of.joint, of.detour, of.allowed)
-        else {}
-      if #modules == 0 then
-        return nil
+      if of.divides then
+        mains.report(caller)
+        division.report(caller)
       end
-      return table.unpack(modules)
+      local leads = of.leads_out
+      return checks.successor(
+        if leads then exits.modules(this, leads, of.joint, of.detour, of.allowed) else {}
+      )
     elseif left == 1 and of.divides then
       return division.Land(false), Watch(4)
     end
-    local modules: { any } = if looks[left] then belated(this, left - 1) else {}
+    local modules: { any } = if looks[left] then gaps.tips(this, of, start, left - 1) else {}
     -- It tidies up when all others have grown.
     table.insert(modules, Clock(left - 1))
     return table.unpack(modules)
@@ -455,8 +437,10 @@ function growth.system(asked: any, ...: number): (System<Network>, number?)
       return mains.Trim(), Watch(3)
     elseif stage <= 3 then
       return division.Land(false), Watch(4)
-    elseif stage == 4 and keeps then
-      return division.Land(true), Watch(5)
+    elseif stage == 4 and is_open then
+      return country.Roads(), Watch(5)
+    elseif stage <= 5 and keeps then
+      return division.Land(true), Watch(6)
     end
     return Clock(0)
   end)
@@ -473,7 +457,10 @@ function growth.system(asked: any, ...: number): (System<Network>, number?)
   end
   if of.divides then
     mains.trims(system)
-    division.rules(system, pattern_at, of.room, deepest, propose, of.sizes)
+    division.rules(system, pattern_at, of.room, deepest, propose, of.sizes, is_open and inside)
+  end
+  if is_open then
+    country.rules(system, inside, centres[1], propose, math.min(1, deepest))
   end
 
   system:interpret(

@@ -13,8 +13,10 @@ type Pattern = any
 local Spoke = module("Spoke", "junction", "heading", "length", "bearing", "room", "tries")
 -- Joins the ends of main streets along the outline.
 local Outline = module("Outline")
--- A street along the outline, on its way to the end of a main street that would lead on with a heading (degrees).
-local Rim = module("Rim", "junction", "heading", "length", "goal", "meets", "tries")
+-- A street along the outline, on its way to a junction of a main street that leads outwards with a heading (degrees) there.
+local Rim = module("Rim", "junction", "heading", "length", "goal", "meets", "depth", "tries")
+-- A sector, from a junction on, whose outline could not be built; it stays until growth ends.
+local Unclosed = module("Unclosed", "x", "y")
 -- Removes streets that lead nowhere.
 local Trim = module("Trim")
 
@@ -22,28 +24,35 @@ mains.Outline, mains.Trim = Outline, Trim
 mains.GROWING = {
   "Spoke(junction, heading, length, bearing, room, tries)",
   "Outline",
-  "Rim(junction, heading, length, goal, meets, tries)",
+  "Rim(junction, heading, length, goal, meets, depth, tries)",
   "Trim",
 }
 
--- How far (degrees) a main street turns when it is refused, one try after the other.
+-- The turns (degrees) of a main street that is refused, one try after the other.
 local ASIDE = { 20, -40, 60, -80 }
--- How far (degrees) it turns from one piece to the next.
+-- The greatest turn (degrees) from one piece to the next.
 local MOST = 18
--- How often the outline is tried where it is refused, how long (m) its pieces are about, and how far (degrees) they turn to find a way.
+-- The tries of the outline where it is refused, the usual length (m) of its pieces, and the turns (degrees) that they try.
 local TRIES, PIECE = 4, 46
 local TURNS = { 0, 8, -8, 16, -16, 26, -26, 38, -38, 52, -52, 66, -66, 80, -80 }
--- How much nearer (m) to the centre each further try ends.
-local BEFORE = 22
+-- The distance (m) between tries to end nearer to the centre or farther away, and their order.
+local BEFORE, BACK = 22, { 0, 1, 2, -1, 3, -2, 4, -3, 5, 6 }
+-- The distance from its end, in pieces, at which the outline may join a main street.
+local NEAR = 2.6
 -- For how many bearings the outline is computed.
 local BEARINGS = 180
--- How far the outline lies from the border of the land, as shares of the distance of the border from the centre.
+-- The least and the greatest distance of the outline from the centre, as shares of the distance of the border of the land.
 local NEAREST, FARTHEST = 0.62, 0.97
--- How wide the land beside a main street is about when it forks, (m).
+-- The depths (share of the way from the centre) by which the outline of a sector lies before the ends of its main streets, each with
+-- the share of sectors up to which it holds: gardens and fields reach into some of them.
+local WEDGES = { { 0.3, 0, 0.08 }, { 0.7, 0.08, 0.2 }, { 1, 0.2, 0.36 } }
+-- The share of sectors whose outline is a lane.
+local LANES = 0.4
+-- The usual width (m) of the land beside a main street that forks.
 local WIDE = 460
--- How many main streets leave the centre, and the least angle (degrees) between two.
+-- The number of main streets that leave the centre, and the least angle (degrees) between two.
 local COUNT, APART = { 3, 5 }, 56
--- How long (m) their first pieces are at least.
+-- The least length (m) of their first pieces.
 local FIRST = 52
 
 -- The distance (m) of the outline from a centre by the bearing (degrees), for land that `inside` describes.
@@ -65,11 +74,11 @@ local function outline(
         step /= 2
       end
     end
-    local share = 0.76
+    local share = 0.84
       - long * math.cos(2 * (bearing - math.rad(turned)))
       + 0.22 * noise(0.9 * east, 0.9 * north, 0.5, field)
-      + 0.07 * noise(3 * east, 3 * north, 4.5, field)
-      + 0.03 * noise(8 * east, 8 * north, 8.5, field)
+      + 0.1 * noise(3 * east, 3 * north, 4.5, field)
+      + 0.05 * noise(8 * east, 8 * north, 8.5, field)
     distances[index] = far * math.clamp(share, NEAREST, FARTHEST)
   end
   return function(bearing: number): number
@@ -80,12 +89,23 @@ local function outline(
   end
 end
 
+-- Reports sectors whose outline could not be built.
+function mains.report(caller: string)
+  local open: any = query("select x, y from Unclosed order by x, y")
+  if #open > 0 then
+    print(
+      `{caller}: the outline of the town stays open in {#open} {if #open > 1 then "places" else "place"}, the first near {open[1].x // 1}, {open[1].y // 1} (m), and land there has no streets: try another seed, a greater extent or a smaller block`
+    )
+  end
+end
+
 -- The rules of what removes streets that lead nowhere.
 function mains.trims(system: System<Network>)
-  -- Where no land lies between streets, all of them would be removed.
+  -- If no land lies between streets, all of them would be removed.
   system:rule("Trim", function()
     return nil
   end)
+  system:interpret("Unclosed(x, y)", function() end)
   system:interpret("Trim", function(this: Network)
     local count = 0
     for _, corner in this:places() do
@@ -114,7 +134,8 @@ function mains.rules(
   pattern: Pattern,
   inside: (x: number, y: number) -> boolean,
   centre: { number },
-  propose: any
+  propose: any,
+  deepest: number
 )
   local rim = outline(inside, centre)
   local field = math.floor(random() * 1000000)
@@ -181,7 +202,15 @@ function mains.rules(
 
   -- The next piece of the outline on its way to the end of a main street, counter-clockwise: the first of some that can be
   -- built.
-  local function along(this: Network, at: number, goal: number, meets: number, tries: number): any
+  local function along(
+    this: Network,
+    at: number,
+    goal: number,
+    meets: number,
+    depth: number,
+    tries: number,
+    is_near: boolean
+  ): any
     local place, ends = this:place(at), this:place(goal)
     local far, bearing = polar(place)
     local rest, last = polar(ends)
@@ -189,13 +218,13 @@ function mains.rules(
     local function may_lead(x: number, y: number, turn: number, joins: boolean): any
       local heading = math.deg(math.atan2(y - place.y, x - place.x)) + turn
       local length = math.sqrt((x - place.x) ^ 2 + (y - place.y) ^ 2)
-      local found = this:probe(at, heading, length, 1)
+      local found = this:probe(at, heading, length, depth)
       local is_fit = found.built and (not joins or found.fate == "snapped" or found.fate == "joined")
-      return if is_fit then Rim(at, heading, length, goal, meets, tries) else nil
+      return if is_fit then Rim(at, heading, length, goal, meets, depth, tries) else nil
     end
-    if place:distance(ends) < 1.7 * PIECE or gap > 300 then
-      -- It ends at the main street, or before the end of that.
-      for back = 0, 4 do
+    if is_near or place:distance(ends) < NEAR * PIECE or gap > 300 then
+      -- It ends at the main street, or before or behind the place that was chosen there.
+      for _, back in BACK do
         local off = back * BEFORE * vec(math.cos(math.rad(meets)), math.sin(math.rad(meets)), 0)
         for _, turn in TURNS do
           local x, y = ends.x - off.x, ends.y - off.y
@@ -221,42 +250,81 @@ function mains.rules(
     return nil
   end
 
+  local function unclosed(this: Network, junction: number): any
+    local place = this:place(junction)
+    return Unclosed(place.x, place.y)
+  end
+
+  -- The junctions of a main street from its open end inwards, with the heading that leads outwards at each.
+  local function inwards(this: Network, junction: number, heading: number): { any }
+    local found, at, out = {}, junction, heading
+    repeat
+      local place = this:place(at)
+      table.insert(found, { junction = at, heading = out, far = polar(place) })
+      local corners = this:face(at, out + 180).corners
+      local after = corners[2 % #corners + (if #corners == 1 then 1 else 0)]
+      local way = place - this:place(after.junction)
+      at, out = after.junction, math.deg(math.atan2(way.y, way.x))
+    until this:degree(at) ~= 2
+    return found
+  end
+
+  -- The place in a list of junctions of a main street where the outline of a sector meets it, for a depth of the sector.
+  local function meeting(list: { any }, wedge: number): number
+    local index = 1
+    while index < #list - 2 and list[index + 1].far >= (1 - wedge) * list[1].far do
+      index += 1
+    end
+    return index
+  end
+
   system:rule("Outline", function(this: Network)
     local ends: { any } = {}
     for _, open in this:open_ends() do
       if open.depth == 0 then
         local _, bearing = polar(open.place)
-        table.insert(ends, { junction = open.junction, heading = open.heading, bearing = bearing })
+        table.insert(ends, { bearing = bearing, list = inwards(this, open.junction, open.heading) })
       end
     end
     table.sort(ends, function(one: any, other: any): boolean
       return one.bearing < other.bearing
     end)
+    for index, one in ends do
+      local drawn, other = random(), ends[index % #ends + 1]
+      for _, wedge in WEDGES do
+        if drawn < wedge[1] then
+          local depth = random(wedge[2], wedge[3])
+          one.leaves, other.arrives = meeting(one.list, depth), meeting(other.list, depth)
+          break
+        end
+      end
+    end
     local modules: { any } = {}
     for index, one in ends do
       local other = ends[index % #ends + 1]
-      local from, heading = one.junction, one.heading
-      -- It leaves some pieces before the end of a main street where it cannot leave there.
-      for _ = 1, TRIES do
-        local found = if #ends > 1 then along(this, from, other.junction, other.heading, 0) else nil
+      local list, goal = one.list, other.list[other.arrives]
+      -- Streets of two sectors leave a main street one after the other.
+      local leaves = if one.leaves == one.arrives and #list > one.leaves then one.leaves + 1 else one.leaves
+      local depth = if random() < LANES then math.min(2, deepest) else 1
+      -- It leaves some pieces further in where it cannot leave there.
+      local last = math.min(leaves + TRIES - 1, #list)
+      for from = leaves, last do
+        local found = if #ends > 1
+          then along(this, list[from].junction, goal.junction, goal.heading, depth, 0, false)
+          else nil
         if found then
           table.insert(modules, found)
           break
+        elseif from == last then
+          table.insert(modules, unclosed(this, list[1].junction))
         end
-        local corners = this:face(from, heading + 180).corners
-        from = corners[2 % #corners + (if #corners == 1 then 1 else 0)].junction
-        local back = this:place(from) - this:place(one.junction)
-        heading = math.deg(math.atan2(-back.y, -back.x))
       end
     end
-    if #modules == 0 then
-      return nil
-    end
-    return table.unpack(modules)
+    return checks.successor(modules)
   end)
 
   system:rule(
-    "Rim(junction, heading, length, goal, meets, tries)",
+    "Rim(junction, heading, length, goal, meets, depth, tries)",
     function(
       this: Network,
       junction: number,
@@ -264,15 +332,19 @@ function mains.rules(
       _: number,
       goal: number,
       meets: number,
+      depth: number,
       tries: number
     )
       local at = this:reached(junction, heading)
       if at then
-        return along(this, at, goal, meets, tries)
+        -- A street that has come too near to end is led back by a piece.
+        return along(this, at, goal, meets, depth, tries, false)
+          or along(this, junction, goal, meets, depth, tries, true)
+          or unclosed(this, at)
       elseif not this:arrived(junction, heading) and tries < TRIES then
-        return along(this, junction, goal, meets, tries + 1)
+        return along(this, junction, goal, meets, depth, tries + 1, false) or unclosed(this, junction)
       end
-      return nil
+      return if this:arrived(junction, heading) then nil else unclosed(this, junction)
     end
   )
 
@@ -283,9 +355,17 @@ function mains.rules(
     end
   )
   system:interpret(
-    "Rim(junction, heading, length, goal, meets, tries)",
-    function(this: Network, junction: number, heading: number, length: number)
-      propose(this, junction, heading, length, 1)
+    "Rim(junction, heading, length, goal, meets, depth, tries)",
+    function(
+      this: Network,
+      junction: number,
+      heading: number,
+      length: number,
+      _: number,
+      _: number,
+      depth: number
+    )
+      propose(this, junction, heading, length, depth)
     end
   )
 

@@ -1,5 +1,5 @@
 --!strict
--- What is asked of a town's streets: the options of `roads.system`, checked, with what is usual in place of those left out.
+-- Options of a town's streets: those of `roads.system`, checked, with the defaults of those left out.
 local checks = require("checks")
 local cuts = require("cuts")
 local exits = require("exits")
@@ -7,27 +7,10 @@ local patterns = require("patterns")
 
 local options = {}
 
--- What the patterns of roads/patterns are.
+-- A pattern of roads/patterns.
 type Pattern = any
 
 local number = checks.number
-
-export type RoadOptions = {
-  pattern: (Pattern | (x: number, y: number) -> Pattern)?,
-  network: NetworkOptions?,
-  extent: (number | (x: number, y: number) -> boolean)?,
-  population: ((x: number, y: number) -> number)?,
-  centres: { { number } }?,
-  headings: { number }?,
-  onto: boolean?,
-  deepest: number?,
-  steps: number?,
-  join: number?,
-  detour: number?,
-  dead_ends: string?,
-  exits: { count: number?, length: number?, rim: (number | Geometry)? }?,
-  allowed: ((network: Network, from: Vector, to: Vector, depth: number) -> boolean)?,
-}
 
 local KNOWN: { [string]: string } = {
   pattern = "table or function",
@@ -46,11 +29,11 @@ local KNOWN: { [string]: string } = {
   allowed = "function",
 }
 
--- How near (m) a junction draws a street's end, and how far dead ends are joined, where neither pattern nor script says it.
+-- The snap distance (m) of a street's end, and the distance (m) over which dead ends are joined, if neither pattern nor script says it.
 local SNAP, JOIN = 14, 40
 -- The width (m) of streets, their clearance (m) and the radius (m) of corners where the network says none.
 local WIDTH, CLEARANCE, CORNER = 14, 6, 4
--- What streets are made of, by depth.
+-- The kinds of streets, by depth.
 options.STREETS = {
   { width = 24, lanes = 4, sidewalk = 4 },
   { width = 16, lanes = 2, parking = 2.2, sidewalk = 3 },
@@ -58,8 +41,8 @@ options.STREETS = {
 }
 
 -- Reads the options of `caller`; errors are told `level` functions above.
-function options.read(asked: RoadOptions, caller: string, level: number): any
-  checks.options(caller, asked :: any, KNOWN, level)
+function options.read(asked: any, caller: string, level: number): any
+  checks.options(caller, asked, KNOWN, level)
   local given: any = asked.pattern or patterns.organic()
   local is_by_place = type(given) == "function"
   local pattern_at: (x: number, y: number) -> Pattern = if is_by_place
@@ -100,7 +83,7 @@ function options.read(asked: RoadOptions, caller: string, level: number): any
   if dead_ends ~= "keep" and dead_ends ~= "remove" then
     error(`{caller}: dead_ends is "keep" or "remove", not "{dead_ends}"`, level - 1)
   end
-  -- What is removed should rather have been joined, or not have stopped.
+  -- Dead ends that would be removed are rather joined, or do not stop.
   local keeps = dead_ends == "keep"
   local usual_join = if is_by_place then JOIN else given.join or JOIN
   local join = number(`{caller}: join`, asked.join, if keeps then usual_join else 130, 0, 2000, level)
@@ -125,7 +108,7 @@ function options.read(asked: RoadOptions, caller: string, level: number): any
 
   local fields: any =
     { streets = options.STREETS, min_angle = 50, snap = if is_by_place then SNAP else given.snap or SNAP }
-  for name, value in (asked.network or {}) :: any do
+  for name, value in asked.network or {} do
     fields[name] = value
   end
   if asked.onto then

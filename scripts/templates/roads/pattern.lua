@@ -1,5 +1,5 @@
 --!strict
--- What a pattern is, how one is made of options, and what is refused as one.
+-- Patterns: their fields, their construction from options, and their checks.
 local checks = require("checks")
 
 local pattern = {}
@@ -9,33 +9,33 @@ local number = checks.number
 export type Pattern = {
   -- The heading (degrees from east, counter-clockwise) of a street that leaves a place (m) about towards `heading`.
   toward: (x: number, y: number, heading: number, length: number, depth: number) -> number,
-  -- How long (m) a street is that leaves a place, to the next junction.
+  -- The length (m) of a street that leaves a place, to the next junction.
   length: (x: number, y: number, heading: number, depth: number) -> number,
-  -- How likely a side street leaves a junction, and how likely there is one on the other side as well.
+  -- The chance that a side street leaves a junction, and that there is one on the other side as well.
   side: number,
   both: number,
-  -- How likely a street that meets another goes on behind it.
+  -- The chance that a street that meets another goes on behind it.
   cross: number,
-  -- How far (degrees) side streets turn from square.
+  -- The greatest turn (degrees) of side streets from square.
   skew: number,
-  -- How likely a small side street ends at a junction.
+  -- The chance that a small side street ends at a junction.
   stop: number,
   -- The share of places that side streets leave out, the same from both ends.
   gap: number,
-  -- Whether a side street that leaves a place is left out, in place of `gap`; both of its ends have to find the same.
+  -- Tells if a side street that leaves a place is left out, in place of `gap`; both of its ends have to find the same.
   closed: ((x: number, y: number, heading: number, length: number, depth: number) -> boolean)?,
   -- The share of side streets that leave around a small green, of every third junction; none does if it is left out.
   greens: number?,
-  -- How near (m) a junction draws a street's end, and how far dead ends are joined, where the script says neither.
+  -- The snap distance (m) of a street's end, and the distance (m) over which dead ends are joined, if the script says neither.
   snap: number?,
   join: number?,
-  -- How long (m) a side street is at least that leaves another.
+  -- The least length (m) of a side street that leaves another.
   least: number?,
-  -- How far (m) beyond its end a side street sees another, and leads on to it.
+  -- The distance (m) beyond its end at which a side street sees another, and leads on to it.
   sight: number?,
   -- Every so many junctions a main street divides; 0 for never.
   every: number,
-  -- Whether main streets turn aside for obstacles alone.
+  -- True if main streets turn aside for obstacles alone.
   straight: boolean?,
   -- The largest block (m²) of a place, by its distance from the centre as a share of the extent and by the kind of its quarter from
   -- -1 to 1. Only main streets grow then, and the land between them is divided.
@@ -45,7 +45,7 @@ export type Pattern = {
   crescents: number?,
 }
 
--- What no pattern does without.
+-- The fields that every pattern has.
 local KINDS: { [string]: string } = {
   toward = "function",
   length = "function",

@@ -5,7 +5,7 @@ local pattern = require("pattern")
 
 local patterns = {}
 
--- What those of roads/pattern are.
+-- A pattern of roads/pattern.
 type Pattern = any
 
 local between, nearest, number = checks.between, checks.nearest, checks.number
@@ -26,10 +26,10 @@ function patterns.organic(options: { [string]: any }?): Pattern
   local variety = number("roads.organic: variety", of.variety, 1, 0, 1)
   local middle = checks.place("roads.organic: middle", of.middle or { 0, 0 })
   local field = math.floor(random() * 1000000)
-  local usual = { branching = 0, both = 0.1, cross = 0.01, stop = 1, gap = 0.25, greens = 0.9, every = 8 }
+  local usual = { branching = 0, both = 0.1, cross = 0.01, stop = 1, gap = 0.3, greens = 0.85, every = 8 }
   return pattern.make("roads.organic", of, usual, {
-    least = math.max(0.22 * block, 16),
-    bow = bends / 150,
+    least = math.max(0.2 * block, 14),
+    bow = bends / 125,
     crescents = bends / 42,
     -- Nobody moves a street for a junction nearby, or joins what ends.
     snap = 7,
@@ -50,10 +50,11 @@ function patterns.organic(options: { [string]: any }?): Pattern
     end,
     -- Blocks are small in the middle and grow outwards, where quarters differ more.
     room = function(_: number, _: number, far: number, own: number): number
-      local along = math.clamp((far - 0.21) / 0.22, 0, 1)
+      local along = math.clamp((far - 0.25) / 0.16, 0, 1)
       local rise = along * along * (3 - 2 * along)
-      local wide = 5.3 * rise - 2.5 + own * (0.45 + 1.15 * rise)
-      return math.clamp(1.4 * block * block * math.exp(variety * wide), 0.09 * block * block, 100000)
+      local kind = math.sign(own) * math.abs(own) ^ 0.6
+      local wide = 6.5 * rise - 2.6 + kind * (if kind > 0 then 2.6 else 1.4 + 0.8 * rise)
+      return math.clamp(1.4 * block * block * math.exp(variety * wide), 0.08 * block * block, 140000)
     end,
   })
 end
