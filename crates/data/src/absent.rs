@@ -96,6 +96,11 @@ pub(crate) fn layered(
     Ok(Err(file))
 }
 
+/// Fails, because coordinate systems need the feature `data`.
+pub(crate) fn crs_of_text(_text: &str, label: &str, _remedy: &str) -> Result<super::Crs> {
+    left_out().map_err(|error: Error| error.about(label))
+}
+
 /// Fails for compressed files; returns other files unchanged.
 pub(crate) fn unpacked(
     file: DataFile,
@@ -139,6 +144,14 @@ pub(crate) mod projection {
 
     pub(crate) fn known(_code: u32) -> Result<Option<(u16, String)>> {
         left_out()
+    }
+
+    pub(crate) fn definition(_code: u16) -> Result<Option<String>> {
+        left_out()
+    }
+
+    pub(crate) fn unshifted_datum(_code: Option<u16>, _proj: &str) -> Option<String> {
+        None
     }
 }
 

@@ -75,7 +75,10 @@ impl Cache {
         budget: &Budget,
     ) -> Result<Arc<Raster>> {
         let read = || Raster::open_all(files, wanted, budget).map(Arc::new);
-        let contents = files.iter().map(|(name, path)| Ok((hash(path)?.to_hex(), name)));
+        let beside = |path: &Path| -> Vec<_> {
+            companions(path).iter().filter_map(|path| Some(hash(path).ok()?.to_hex())).collect()
+        };
+        let contents = files.iter().map(|(name, path)| Ok((hash(path)?.to_hex(), beside(path), name)));
         // The reader reports files that cannot be hashed.
         let Ok(contents) = contents.collect::<std::io::Result<Vec<_>>>() else { return read() };
         let key = format!("{contents:?} {wanted:?}");

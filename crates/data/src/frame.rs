@@ -3,7 +3,7 @@
 use glam::DVec3;
 use rayon::prelude::*;
 
-use super::formats::projection::{Projection, known};
+use super::formats::projection::{Projection, known, unshifted_datum};
 use super::table::{Feature, FeatureTable};
 use burgeon_base::error::{Error, Result};
 use burgeon_base::text::{number, shown};
@@ -13,6 +13,10 @@ pub(super) const FARTHEST: f64 = 2_000_000.0;
 
 /// Remedy for a coordinate system that cannot be used.
 const REMEDY: &str = "name the right one: source(file, { crs = 4326 }), or convert the file to EPSG:4326";
+
+/// Remedy for a datum without a known shift.
+const SHIFT_REMEDY: &str =
+    "convert the file with a program that has the shift: ogr2ogr -t_srs EPSG:4326 OUT.gpkg IN, or gdalwarp";
 
 /// Coordinate system: from the EPSG registry, or a transverse Mercator projection around a centre.
 #[derive(Debug, Clone, PartialEq)]
@@ -54,6 +58,13 @@ impl Crs {
         Self { code, name, definition, is_geographic, metres }
     }
 
+    /// Returns a projection without an EPSG code that has a PROJ definition. Fails if the definition is unusable.
+    #[cfg(feature = "data")]
+    pub(crate) fn of_definition(name: &str, definition: &str) -> Result<Self> {
+        let crs = Self::defined(None, name.to_owned(), definition.to_owned());
+        crs.projection().map(|_| crs)
+    }
+
     /// Returns a transverse Mercator projection around a centre, given as longitude and latitude (degrees, WGS 84); the
     /// centre is the origin of its coordinates.
     pub fn around([longitude, latitude]: [f64; 2]) -> Self {
@@ -93,6 +104,23 @@ impl Crs {
             return Err(cannot("it counts from the centre of the earth".into()));
         }
         Projection::new(&self.definition, cannot)
+    }
+
+    /// Returns the name of its datum if no shift from it to WGS 84 is known.
+    pub(crate) fn unshifted_datum(&self) -> Option<String> {
+        unshifted_datum(self.code, &self.definition)
+    }
+
+    /// Returns the message that positions in longitude and latitude, and in other coordinate systems, are inaccurate, if
+    /// no shift from the datum to WGS 84 is known. `shown` is the file with these coordinates.
+    pub(crate) fn shift_note(&self, shown: &str) -> Option<[String; 2]> {
+        let datum = self.unshifted_datum()?;
+        let text = format!(
+            "{shown} is in {}: no shift from {datum} to WGS 84 is known; places in longitude and latitude, and in other \
+             coordinate systems, may be off by some hundred metres",
+            self.name
+        );
+        Some([text, SHIFT_REMEDY.to_owned()])
     }
 
     /// Returns true if lengths in its coordinates are true lengths, except for distortions of thousandths in any

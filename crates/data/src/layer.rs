@@ -96,6 +96,12 @@ impl Layer {
             Some(frame) => frame.clone(),
             None => ReferenceFrame::new(&mut table).or_else(|error| left(&table).and(Err(error)))?,
         };
+        if let Ok(crs) = &table.crs
+            && (frame.is_none() || !found.passage(crs)?.stays)
+        {
+            let note = crs.shift_note(&table.shown);
+            table.notes.extend(note.map(|[text, remedy]| format!("{text}; {remedy}")));
+        }
         found.bring(&mut table)?;
         // A feature that determines the frame must have a position in it.
         left(&table)?;

@@ -4,6 +4,7 @@ use std::fmt;
 
 use serde_json::{Value, json};
 
+use super::formats::projection::definition;
 use super::{Crs, ReferenceFrame};
 
 /// Axes of a run's coordinates.
@@ -45,6 +46,45 @@ impl ReferenceFrame {
         };
         WorldPlace { crs, origin: self.origin, degrees: degrees() }
     }
+
+    /// Returns the projection in well-known text, in metres, as `.prj` files have it; `None` if it has no such text.
+    ///
+    /// A projection whose unit was changed to metres is called `... in metres`, and has its PROJ definition as well.
+    pub fn well_known_text(&self) -> Option<String> {
+        if let (None, Some([longitude, latitude])) = (self.epsg, self.middle) {
+            let name = &self.name;
+            return Some(format!(
+                "PROJCS[\"{name}\",GEOGCS[\"WGS 84\",DATUM[\"WGS_1984\",SPHEROID[\"WGS 84\",6378137,298.257223563]],\
+                 PRIMEM[\"Greenwich\",0],UNIT[\"degree\",0.0174532925199433]],PROJECTION[\"Transverse_Mercator\"],\
+                 PARAMETER[\"latitude_of_origin\",{latitude}],PARAMETER[\"central_meridian\",{longitude}],\
+                 PARAMETER[\"scale_factor\",1],PARAMETER[\"false_easting\",0],PARAMETER[\"false_northing\",0],\
+                 UNIT[\"metre\",1]]"
+            ));
+        }
+        let code = self.epsg.or_else(|| self.name.strip_prefix("EPSG:")?.parse().ok())?;
+        let text = definition(code).ok().flatten()?;
+        if self.epsg.is_some() { Some(text) } else { in_metres(&text, self.definition()) }
+    }
+}
+
+/// End of the name of a projection whose unit was changed to metres.
+pub(crate) const IN_METRES: &str = " in metres";
+
+/// Returns the well-known text of a projection with metres as its unit, and with its PROJ definition.
+fn in_metres(text: &str, proj: &str) -> Option<String> {
+    let (name, rest) = text.strip_prefix("PROJCS[\"")?.split_once('"')?;
+    // The unit of the projection follows that of the angles.
+    let (rest, unit) = rest.rsplit_once(",UNIT[")?;
+    let factor: f64 = unit.split([',', ']']).nth(1)?.trim().parse().ok()?;
+    let mut parts: Vec<String> = rest.split("PARAMETER[").map(str::to_owned).collect();
+    for part in &mut parts {
+        let false_origin = ["\"false_easting\",", "\"false_northing\","];
+        let Some(key) = false_origin.into_iter().find(|key| part.starts_with(key)) else { continue };
+        let (number, rest) = part[key.len()..].split_once(']')?;
+        *part = format!("{key}{}]{rest}", number.trim().parse::<f64>().ok()? * factor);
+    }
+    let rest = parts.join("PARAMETER[");
+    Some(format!("PROJCS[\"{name}{IN_METRES}\"{rest},UNIT[\"metre\",1],EXTENSION[\"PROJ4\",\"{proj}\"]]"))
 }
 
 impl WorldPlace {

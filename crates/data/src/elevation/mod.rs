@@ -18,6 +18,8 @@ mod relief;
 mod spline;
 #[cfg(test)]
 mod tests;
+#[cfg(test)]
+mod tiff_tests;
 
 pub use crate::heights::names::{png_text, tiff_key};
 pub use crate::heights::{HeightOptions, MOST, SampleGrid};

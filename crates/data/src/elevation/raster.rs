@@ -6,8 +6,9 @@ use std::path::{Path, PathBuf};
 
 use super::missing::{UndeclaredMarks, take_out};
 use super::{fill, format, mosaic};
-use crate::Crs;
+use crate::formats::crs_of_text;
 use crate::heights::{HeightOptions, RasterHeader, SampleGrid, count};
+use crate::{Crs, companions};
 use burgeon_base::budget::Budget;
 use burgeon_base::error::{Error, Limit, Result};
 use burgeon_base::text::{grouped, number};
@@ -54,12 +55,14 @@ impl Raster {
     /// before any heights are read, if neither the file nor `wanted` contains its position. Fails if reading exceeds
     /// the `budget`.
     pub fn open(path: &Path, name: &str, wanted: &HeightOptions, budget: &Budget) -> Result<Self> {
-        with_bytes(path, name, budget, |bytes| Self::read(bytes, name, wanted, budget))
+        let mut raster = Self::open_unfilled(path, name, wanted, budget)?;
+        raster.fill(budget)?;
+        Ok(raster)
     }
 
     /// Reads `bytes`, the content of a file called `name`. Fails like [`Raster::open`].
     pub fn read(bytes: &[u8], name: &str, wanted: &HeightOptions, budget: &Budget) -> Result<Self> {
-        let mut raster = Self::read_unfilled(bytes, name, wanted, budget)?;
+        let mut raster = Self::read_unfilled(bytes, name, wanted, None, budget)?;
         raster.fill(budget)?;
         Ok(raster)
     }
@@ -76,9 +79,7 @@ impl Raster {
             return Err(Error::argument("elevation: bounds are those of one file, not of several")
                 .help("leave bounds out, and name files that tell where they lie"));
         }
-        let tiles = files.iter().map(|(name, path)| {
-            with_bytes(path, name, budget, |bytes| Self::read_unfilled(bytes, name, wanted, budget))
-        });
+        let tiles = files.iter().map(|(name, path)| Self::open_unfilled(path, name, wanted, budget));
         let mut raster = mosaic::join(tiles.collect::<Result<_>>()?, budget)?;
         raster.fill(budget)?;
         Ok(raster)
@@ -92,8 +93,22 @@ impl Raster {
         Ok(())
     }
 
-    /// Reads `bytes` without filling holes (NaN).
-    fn read_unfilled(bytes: &[u8], name: &str, wanted: &HeightOptions, budget: &Budget) -> Result<Self> {
+    /// Reads a file without filling holes.
+    fn open_unfilled(path: &Path, name: &str, wanted: &HeightOptions, budget: &Budget) -> Result<Self> {
+        let prj = companions::coordinate_system(path);
+        with_bytes(path, name, budget, |bytes| {
+            Self::read_unfilled(bytes, name, wanted, prj.as_deref(), budget)
+        })
+    }
+
+    /// Reads `bytes` without filling holes (NaN). `prj` is the text of the `.prj` file next to the file.
+    fn read_unfilled(
+        bytes: &[u8],
+        name: &str,
+        wanted: &HeightOptions,
+        prj: Option<&str>,
+        budget: &Budget,
+    ) -> Result<Self> {
         let RasterHeader { columns, rows, grid, crs, is_told, heights } = format::read(bytes, name, wanted)?;
         let crs = match wanted.crs {
             Some(code) => Some(Crs::epsg(code).map_err(|error| {
@@ -101,7 +116,17 @@ impl Raster {
                     .help("name the right one: elevation(file, { crs = 4326 })")
             })?),
             None if wanted.anywhere => None,
-            None => crs?,
+            None => match (crs?, prj) {
+                (None, Some(text)) => {
+                    let remedy = "name its EPSG code: elevation(file, { crs = 3067 })";
+                    Some(crs_of_text(
+                        text,
+                        &Path::new(name).with_extension("prj").display().to_string(),
+                        remedy,
+                    )?)
+                }
+                (crs, _) => crs,
+            },
         };
         let grid = match wanted.bounds {
             Some(bounds) => Some(SampleGrid::between(check_bounds(bounds)?, columns, rows)),
@@ -169,7 +194,9 @@ impl Raster {
             let text = format!("{name}: files differ by up to {seam} m in the heights that they share");
             warning(text, "the means are used; get all files from one edition of one survey")
         });
-        surplus.into_iter().chain(seam).collect()
+        let shift = self.crs.as_ref().and_then(|crs| crs.shift_note(name));
+        let shift = shift.map(|[text, help]| warning(text, &help));
+        surplus.into_iter().chain(seam).chain(shift).collect()
     }
 
     /// Returns the warnings about missing heights, if any.

@@ -297,6 +297,13 @@ fn check_near(raster: &Raster, low: DVec2, high: DVec2) -> Result<()> {
         return Ok(());
     }
     let [west, south, ..] = raster.bounds();
+    if raster.crs.is_none() {
+        return Err(Error::data(format!(
+            "{} has no coordinate system, and its coordinates are too large for metres of the run: {west}, {south}",
+            raster.name
+        ))
+        .help("name its EPSG code: elevation(file, { crs = 3067 }), or put a .prj file beside it"));
+    }
     Err(Error::data(format!(
         "{} lies more than 2,000 km from the middle, or reaches so far, at {west}, {south}",
         raster.name

@@ -162,10 +162,53 @@ fn tags_tell_where_a_geotiff_lies() {
 }
 
 #[test]
+fn a_prj_file_beside_heights_tells_their_coordinate_system() {
+    let folder = tempfile::tempdir().unwrap();
+    let grid = "ncols 2\nnrows 2\nxllcorner 385000\nyllcorner 6672000\ncellsize 2\n1 2\n3 4\n";
+    let plain = geotiff(&[], &[SCALE, TIE], None);
+    let other = [1, 1, 0, 2, 1024, 0, 1, 1, 3072, 0, 1, 32632];
+    let named = geotiff(&other, &[SCALE, TIE], None);
+    for (name, bytes, code) in [
+        ("a.asc", grid.as_bytes(), Some(3067)),
+        ("a.tif", &plain, Some(3067)),
+        ("b.tif", &named, Some(32632)),
+    ] {
+        let path = folder.path().join(name);
+        std::fs::write(&path, bytes).unwrap();
+        let open = || Raster::open(&path, name, &HeightOptions::default(), &Budget::default());
+        let without = open().unwrap();
+        assert_eq!(
+            without.crs.as_ref().and_then(|crs| crs.code),
+            code.filter(|code| *code != 3067),
+            "{name}"
+        );
+        if without.crs.is_none() {
+            let error = Relief::new(std::sync::Arc::new(without), &mut None).unwrap_err();
+            assert!(error.message().contains("has no coordinate system"), "{error}");
+            assert!(error.remedy().unwrap().contains("crs = 3067"), "{error}");
+        }
+        let prj = "PROJCS[\"EUREF_FIN_TM35FIN\",GEOGCS[\"GCS_ETRS_1989\",DATUM[\"D_ETRS_1989\",SPHEROID[\"GRS_1980\",6378137.0,298.257222101]],PRIMEM[\"Greenwich\",0.0],UNIT[\"Degree\",0.0174532925199433]],PROJECTION[\"Transverse_Mercator\"],PARAMETER[\"False_Easting\",500000.0],PARAMETER[\"False_Northing\",0.0],PARAMETER[\"Central_Meridian\",27.0],PARAMETER[\"Scale_Factor\",0.9996],PARAMETER[\"Latitude_Of_Origin\",0.0],UNIT[\"Meter\",1.0]]";
+        std::fs::write(path.with_extension("prj"), prj).unwrap();
+        assert_eq!(open().unwrap().crs.and_then(|crs| crs.code), code, "{name}");
+        std::fs::write(path.with_extension("prj"), "LOCAL[\"x\"]").unwrap();
+        if code == Some(3067) {
+            assert!(open().unwrap_err().message().contains("none of EPSG's"), "{name}");
+        }
+        std::fs::remove_file(path.with_extension("prj")).unwrap();
+    }
+}
+
+#[test]
 fn heights_in_feet_become_metres() {
     let feet = [1, 1, 0, 3, 1024, 0, 1, 1, 3072, 0, 1, 3067, 4099, 0, 1, 9002];
     let raster = read(&geotiff(&feet, &[SCALE, TIE], None), "a.tif").unwrap();
     assert!((raster.heights[10] - 3.048).abs() < 1e-6);
+    // Without a unit, the vertical coordinate system tells it: NAVD88 in US survey feet, in feet, and in metres.
+    for (system, height) in [(6360, 12_000.0 / 3937.0), (8228, 3.048), (5703, 10.0)] {
+        let keys = [1, 1, 0, 3, 1024, 0, 1, 1, 3072, 0, 1, 3067, 4096, 0, 1, system];
+        let found = read(&geotiff(&keys, &[SCALE, TIE], None), "a.tif").unwrap().heights[10];
+        assert!((found - height).abs() < 1e-6, "{system}: {found}");
+    }
 }
 
 #[test]

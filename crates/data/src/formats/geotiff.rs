@@ -4,10 +4,11 @@ use std::io::Cursor;
 
 use tiff::TiffError;
 use tiff::decoder::{ChunkType, Decoder, DecodingResult, Limits};
-use tiff::tags::Tag;
+use tiff::tags::{ByteOrder, Tag};
 
 use super::meaning::Meaning;
 use super::packed::{DEFLATED, can_hold, cannot_hold};
+use super::tiff_parts::{LZW, TiffParts};
 use crate::Crs;
 use crate::heights::names::tiff_key as keys;
 use crate::heights::{RasterHeader, SampleGrid, check_size, count};
@@ -16,7 +17,7 @@ use burgeon_base::error::{Error, Limit, Result};
 
 /// Maximum compression ratio of LZW, whose 12-bit codes represent fewer than 4,096 bytes each, and of any other
 /// compression.
-const LZW: usize = 2_800;
+const LZW_RATIO: usize = 2_800;
 const PACKED: usize = 100_000;
 
 /// Maximum memory (bytes) for one strip or tile, and for the values of one tag.
@@ -58,7 +59,8 @@ pub(crate) fn read<'a>(bytes: &'a [u8], name: &'a str) -> Result<RasterHeader<'a
         grid.step[1] = -grid.step[1];
     }
     let heights = move |budget: &Budget| {
-        let mut heights = samples(&mut tiff, name, [columns, rows], &meaning, budget)?;
+        let mut heights = samples(&mut tiff, bytes, name, [columns, rows], &meaning, budget)?;
+        take_out_masked(&mut tiff, bytes, name, columns, &mut heights)?;
         if from_south {
             let _held = budget.hold(heights.len() * size_of::<f32>())?;
             heights = heights.chunks_exact(columns).rev().flatten().copied().collect();
@@ -126,7 +128,7 @@ fn check_parts(tiff: &mut Tiff<'_>, bytes: &[u8], name: &str, sample: usize) -> 
     let Ok(sizes) = tiff.get_tag_u64_vec(tag) else { return Ok(()) };
     let most = match tiff.get_tag_u32(Tag::Compression).unwrap_or(1) {
         1 => 1,
-        5 => LZW,
+        5 => LZW_RATIO,
         8 | 32946 => DEFLATED,
         _ => PACKED,
     };
@@ -136,7 +138,8 @@ fn check_parts(tiff: &mut Tiff<'_>, bytes: &[u8], name: &str, sample: usize) -> 
         // The last strip ends with the image, whereas tiles are complete.
         let down = if is_strip { height.min(rows.saturating_sub(part * height)) } else { height };
         let whole = width.saturating_mul(down).saturating_mul(sample);
-        if !can_hold(usize::try_from(size).unwrap_or(usize::MAX), most, whole) {
+        // A part without bytes has no values.
+        if size > 0 && !can_hold(usize::try_from(size).unwrap_or(usize::MAX), most, whole) {
             return Err(cannot_hold(name, bytes.len(), columns, rows));
         }
     }
@@ -146,6 +149,7 @@ fn check_parts(tiff: &mut Tiff<'_>, bytes: &[u8], name: &str, sample: usize) -> 
 /// Returns all heights, read strip by strip or tile by tile.
 fn samples(
     tiff: &mut Tiff<'_>,
+    bytes: &[u8],
     name: &str,
     [columns, rows]: [usize; 2],
     meaning: &Meaning,
@@ -154,6 +158,8 @@ fn samples(
     let (width, height) = tiff.chunk_dimensions();
     let [width, height] = [width, height].map(|side| side as usize);
     let across = columns.div_ceil(width);
+    let parts = TiffParts::of(tiff);
+    let is_big = matches!(tiff.byte_order(), ByteOrder::BigEndian);
     let mut heights = Vec::new();
     for top in (0..rows).step_by(height) {
         // Memory is allocated only for the rows found so far.
@@ -162,13 +168,26 @@ fn samples(
             budget.check()?;
             // The unpacked bytes, and their heights.
             let _held = budget.hold(width.saturating_mul(height).saturating_mul(12))?;
-            let number = u32::try_from(top / height * across + column)
-                .map_err(|_| Error::data(format!("{name} has too many strips")))?;
-            let (found_width, _) = tiff.chunk_data_dimensions(number);
-            let values = tiff.read_chunk(number).map_err(|error| damaged(name, &error))?;
-            let values = numbers(values, meaning, name)?;
+            let part = top / height * across + column;
+            let number =
+                u32::try_from(part).map_err(|_| Error::data(format!("{name} has too many strips")))?;
             let left = column * width;
-            let stride = (found_width as usize).max(1);
+            let (values, stride) = match &parts {
+                Some(parts) if parts.is_absent(part) => {
+                    let found = [width.min(columns - left), height.min(rows - top)];
+                    (vec![meaning.absent(); found[0] * found[1]], found[0])
+                }
+                Some(parts) if parts.compression == LZW && parts.is_supported() => {
+                    let samples = parts.samples(bytes, part, is_big).ok_or_else(|| broken(name))?;
+                    let heights = samples.into_iter().map(|bits| meaning.height(parts.number(bits)));
+                    (heights.collect(), width)
+                }
+                _ => {
+                    let (found_width, _) = tiff.chunk_data_dimensions(number);
+                    let values = tiff.read_chunk(number).map_err(|error| damaged(name, &error))?;
+                    (numbers(values, meaning, name)?, (found_width as usize).max(1))
+                }
+            };
             for (row, values) in (top..rows.min(top + height)).zip(values.chunks(stride)) {
                 let line = &mut heights[row * columns + left..row * columns + columns.min(left + width)];
                 line.iter_mut().zip(values).for_each(|(height, value)| *height = *value);
@@ -176,6 +195,27 @@ fn samples(
         }
     }
     Ok(heights)
+}
+
+/// Marks the heights as missing that the mask of the file excludes, if it has one.
+fn take_out_masked(
+    tiff: &mut Tiff<'_>,
+    bytes: &[u8],
+    name: &str,
+    columns: usize,
+    heights: &mut [f32],
+) -> Result<()> {
+    let Some(mask) = TiffParts::mask_of(tiff) else { return Ok(()) };
+    let taken = mask.each_excluded(bytes, |row, column| {
+        if let Some(height) = heights.get_mut(row * columns + column) {
+            *height = f32::NAN;
+        }
+    });
+    taken.ok_or_else(|| {
+        Error::data(format!("{name} has a mask that is damaged, or in a compression that is not read")).help(
+            "write the mask as a value: gdalwarp -dstnodata -9999 IN OUT.tif, or compress it with Deflate",
+        )
+    })
 }
 
 /// Converts samples to heights (m). Fails for sample types that cannot be heights.
@@ -300,6 +340,10 @@ fn damaged(name: &str, error: &TiffError) -> Error {
         }
         TiffError::UnsupportedError(_) => Error::data(format!("{name} is a TIFF of a kind that is not read"))
             .help("convert it: gdal_translate -ot Float32 -co COMPRESS=DEFLATE IN OUT.tif"),
-        _ => Error::data(format!("{name} is a damaged TIFF")).help("get it again"),
+        _ => broken(name),
     }
+}
+
+fn broken(name: &str) -> Error {
+    Error::data(format!("{name} is a damaged TIFF")).help("get it again")
 }

@@ -84,7 +84,7 @@ impl LayeredFile for GpxFile {
         let mut table = FeatureTable::new(layer, &label, Crs::epsg(4326), wanted);
         let mut types = TextTypes::default();
         let wanted_name = LAYERS.iter().find(|(known, _)| *known == layer).map_or("", |(_, name)| *name);
-        let mut number = 0_usize;
+        let (mut number, mut single) = (0_usize, 0_usize);
         self.each(wanted, |xml, element| {
             if element.name != wanted_name {
                 xml.leave(xml.depth - 1)?;
@@ -100,13 +100,24 @@ impl LayeredFile for GpxFile {
             }
             let parts = match element.name.as_str() {
                 "wpt" => found.segments.concat().into_iter().map(Geometry::point).collect(),
-                _ => found.segments.into_iter().filter_map(Geometry::line).collect(),
+                _ => {
+                    single += found.segments.iter().filter(|segment| segment.len() == 1).count();
+                    found.segments.into_iter().filter_map(Geometry::line).collect()
+                }
             };
             let attributes =
                 found.values.iter().map(|(name, value)| types.attribute(&mut table, name, value)).collect();
             table.push_unnamed(parts, attributes)?;
             Ok(!table.is_full())
         })?;
+        if single > 0 {
+            let what = if single == 1 {
+                "segment has one point and was"
+            } else {
+                "segments have one point and were"
+            };
+            table.notes.push(format!("{label}: {single} {what} left out"));
+        }
         types.finish(&mut table)?;
         Ok(table)
     }

@@ -2,6 +2,7 @@
 //!
 //! Source: OGC 12-007r2, KML 2.3.
 
+use std::borrow::Cow;
 use std::sync::Arc;
 
 use glam::DVec3;
@@ -335,11 +336,36 @@ fn is_geometry(name: &str) -> bool {
     )
 }
 
-/// Parses a list of positions: commas separate numbers, white space separates positions.
+/// Returns a list of positions without white space beside the commas in a position. A comma after two numbers ends the
+/// position, unless a single number follows, which is its height.
+fn without_space_beside_commas(text: &str) -> Cow<'_, str> {
+    let bytes = text.as_bytes();
+    let is_space = |at: Option<usize>| at.and_then(|at| bytes.get(at)).is_some_and(u8::is_ascii_whitespace);
+    let has_space = |at: usize| is_space(at.checked_sub(1)) || is_space(Some(at + 1));
+    if !bytes.iter().enumerate().any(|(at, byte)| *byte == b',' && has_space(at)) {
+        return text.into();
+    }
+    let (mut joined, mut start) = (String::with_capacity(text.len()), 0);
+    for word in text.split_whitespace() {
+        let last = &joined[start..];
+        let commas = last.matches(',').count();
+        let is_open = last.ends_with(',') && (commas == 1 || commas == 2 && !word.contains(','));
+        if !joined.is_empty() && !is_open && !word.starts_with(',') {
+            joined.push(' ');
+            start = joined.len();
+        }
+        joined.push_str(word);
+    }
+    joined.into()
+}
+
+/// Parses a list of positions: commas separate numbers, white space separates positions. White space beside a comma
+/// separates nothing.
 fn places(text: &str, budget: &Budget) -> Result<std::result::Result<Vec<DVec3>, String>> {
     budget.take(text.len())?;
     let mut places = Vec::new();
-    for place in text.split_whitespace() {
+    let joined = without_space_beside_commas(text);
+    for place in joined.split_whitespace() {
         budget.tick()?;
         let mut numbers = place.split(',').map(|text| text.trim().parse::<f64>());
         let (Some(Ok(x)), Some(Ok(y))) = (numbers.next(), numbers.next()) else {
@@ -350,4 +376,23 @@ fn places(text: &str, budget: &Budget) -> Result<std::result::Result<Vec<DVec3>,
     }
     budget.give(text.len());
     Ok(Ok(places))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn white_space_beside_commas_does_not_end_a_position() {
+        for (text, expected) in [
+            ("24.9,60.2,5 25,61,6", vec![[24.9, 60.2, 5.0], [25.0, 61.0, 6.0]]),
+            ("24.9, 60.2, 5", vec![[24.9, 60.2, 5.0]]),
+            ("24.9, 60.2, 5\n25 ,61 , 6", vec![[24.9, 60.2, 5.0], [25.0, 61.0, 6.0]]),
+            ("24.9, 60.2 25, 61", vec![[24.9, 60.2, 0.0], [25.0, 61.0, 0.0]]),
+            ("24.9,60.2, 25,61,", vec![[24.9, 60.2, 0.0], [25.0, 61.0, 0.0]]),
+        ] {
+            let found = places(text, &Budget::default()).unwrap().unwrap();
+            assert_eq!(found, expected.into_iter().map(DVec3::from).collect::<Vec<_>>(), "{text}");
+        }
+    }
 }

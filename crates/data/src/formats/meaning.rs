@@ -38,7 +38,10 @@ impl Meaning {
             .help("write them as metres: gdal_translate -unscale IN OUT.tif"));
         }
         let unit = match keys.get(keys::VERTICAL_UNIT) {
-            None => item(&metadata, "unittype").map_or(Ok(1.0), |unit| named(unit, name))?,
+            None => match item(&metadata, "unittype").filter(|unit| !unit.is_empty()) {
+                Some(unit) => named(unit, name)?,
+                None => keys.get(keys::VERTICAL).map_or(1.0, unit_of_system),
+            },
             Some(unit) => coded(unit, name)?,
         };
         Ok(Self { missing, scale: scale * unit, offset: offset * unit })
@@ -47,6 +50,12 @@ impl Meaning {
     /// Returns true if heights differ from samples.
     fn is_scaled(&self) -> bool {
         self.scale.to_bits() != 1.0_f64.to_bits() || self.offset != 0.0
+    }
+
+    /// Returns the height (m) in strips and tiles that the file leaves out: missing, or that of the sample 0 if the file
+    /// declares no marker of missing values.
+    pub(super) fn absent(&self) -> f32 {
+        if self.missing.is_some() { f32::NAN } else { self.height(0.0) }
     }
 
     /// Returns the height (m) of a sample; NaN if it is declared missing, and the minimum number if it is an undeclared
@@ -106,6 +115,19 @@ fn coded(unit: u16, name: &str) -> Result<f64> {
         9002 => Ok(0.3048),
         9003 => Ok(1200.0 / 3937.0),
         unit => Err(unknown(&format!("EPSG:{unit}"), name)),
+    }
+}
+
+/// Returns the length (m) of the unit of a vertical coordinate system with an EPSG code. Most are in metres.
+fn unit_of_system(code: u16) -> f64 {
+    match code {
+        // NGVD29, NAVD88 and mean sea level in US survey feet.
+        5702 | 6360 | 8052 => 1200.0 / 3937.0,
+        // The Cayman Islands' three datums, mean sea level, and NAVD88 in international feet.
+        6130..=6132 | 8050 | 8228 => 0.3048,
+        // Poolbeg in British feet of 1936.
+        5754 => 0.304_800_749_1,
+        _ => 1.0,
     }
 }
 

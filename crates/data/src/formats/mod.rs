@@ -6,6 +6,7 @@
 mod blob;
 mod city;
 pub(crate) mod condition;
+mod corrections;
 mod csv;
 mod epsg;
 mod flatgeobuf;
@@ -26,6 +27,7 @@ mod shapefile;
 mod tests;
 #[cfg(test)]
 mod texts;
+mod tiff_parts;
 mod typing;
 mod unpack;
 mod xml;
@@ -35,3 +37,4 @@ pub use flatgeobuf::FlatGeobuf;
 pub use geopackage::{GeoPackage, PackageState, TableShape};
 pub(crate) use opening::{layered, unpacked};
 pub use osm::OsmFile;
+pub(crate) use shapefile::crs_of_text;

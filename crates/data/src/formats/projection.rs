@@ -3,6 +3,7 @@
 use proj4rs::Proj;
 use proj4rs::transform::transform;
 
+use super::corrections;
 use super::epsg::entry;
 use burgeon_base::error::{Error, Result};
 
@@ -23,9 +24,23 @@ impl Projection {
     }
 }
 
-/// Returns the code and the PROJ definition of a coordinate system, if the registry contains it.
+/// Returns the code and the PROJ definition of a coordinate system, if the registry contains it. Fails if the code was
+/// withdrawn because it was wrong.
 pub(crate) fn known(code: u32) -> Result<Option<(u16, String)>> {
-    Ok(entry(code)?.map(|found| (found.code, found.proj)))
+    let Some(found) = entry(code)? else { return Ok(None) };
+    corrections::refuse_withdrawn(found.code)?;
+    Ok(Some((found.code, corrections::corrected(found.code, found.proj, &found.text))))
+}
+
+/// Returns the name of the datum of a coordinate system with a code and a PROJ definition, if no shift from it to WGS 84
+/// is known.
+pub(crate) fn unshifted_datum(code: Option<u16>, proj: &str) -> Option<String> {
+    if !corrections::lacks_shift(proj) {
+        return None;
+    }
+    let text = code.and_then(|code| definition(code).ok().flatten()).unwrap_or_default();
+    let name = corrections::datum_name(&text).unwrap_or("its datum");
+    Some(name.replace('_', " "))
 }
 
 /// Returns the definition of a coordinate system in well-known text, if the registry contains it.

@@ -76,13 +76,32 @@ impl TextTypes {
     }
 }
 
-/// Returns the number in a text if it has no other meaning; a number with a leading zero is a code.
+/// Longest whole number after a plus sign that is not a telephone number.
+const LONGEST_POSITIVE: usize = 6;
+
+/// Returns the number in a text if it has no other meaning; a number with a leading zero is a code, and a long one with a
+/// plus sign is a telephone number.
 pub(in crate::formats) fn as_number(text: &str) -> Option<f64> {
-    let digits = text.strip_prefix('-').unwrap_or(text);
+    let digits = text.strip_prefix(['-', '+']).unwrap_or(text);
     let is_code = digits.starts_with('0') && digits[1..].starts_with(|letter: char| letter.is_ascii_digit());
     let begins = digits.starts_with(|letter: char| letter.is_ascii_digit() || letter == '.');
-    if is_code || !begins || digits.len() > 25 {
+    let is_telephone = text.starts_with('+') && digits.len() > LONGEST_POSITIVE && !digits.contains('.');
+    if is_code || is_telephone || !begins || digits.len() > 25 {
         return None;
     }
     text.parse().ok().filter(|number: &f64| number.is_finite())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::as_number;
+
+    #[test]
+    fn numbers_may_begin_or_end_with_a_point_or_have_a_sign() {
+        let found = [".5", "5.", "+5", "-.5", "+2.25", "1e3", "0"].map(as_number);
+        assert_eq!(found, [0.5, 5.0, 5.0, -0.5, 2.25, 1000.0, 0.0].map(Some));
+        for text in ["007", "+358401234567", "+", ".", "", "inf", "+-5", "-+5", "5 m"] {
+            assert_eq!(as_number(text), None, "{text}");
+        }
+    }
 }

@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use crate::frame::{Crs, Passage, ReferenceFrame};
-use burgeon_base::error::Result;
+use burgeon_base::error::{Error, Result};
 
 /// Transformation of a run's coordinates to a coordinate system that other programs support.
 pub struct OutputPlacement<'a> {
@@ -19,24 +19,29 @@ impl<'a> OutputPlacement<'a> {
     /// Returns the transformation to the projection of the run's data, or to degrees if that projection is specific to
     /// the run; without a frame, metres are unchanged.
     pub fn native(frame: Option<&'a ReferenceFrame>) -> Result<Self> {
-        Self::of(frame, |_| DEGREES)
+        let Some(frame) = frame else { return Ok(Self { code: None, passage: None }) };
+        let crs = Crs::epsg(frame.epsg.map_or(DEGREES, u32::from))?;
+        Ok(Self { code: crs.code, passage: Some(frame.passage(&crs)?) })
     }
 
     /// Returns the transformation to the projection of the run's data, or to the UTM zone of the run's centre if that
-    /// projection is specific to the run. Lengths are true to within a thousandth.
+    /// projection has no EPSG code in metres: it is specific to the run, or its unit was changed. Lengths are true to
+    /// within a thousandth.
+    ///
+    /// Fails if the run's centre has no longitude and latitude.
     pub fn metric(frame: Option<&'a ReferenceFrame>) -> Result<Self> {
-        Self::of(frame, |frame| frame.middle.map_or(DEGREES, zone))
+        let Some(frame) = frame.filter(|frame| frame.epsg.is_none()) else { return Self::native(frame) };
+        let middle = frame.middle.or(frame.world_place().degrees).ok_or_else(|| {
+            Error::data(format!("{} has no longitude and latitude at the origin of the run", frame.name))
+                .help("convert the data to a coordinate system in metres, such as a UTM zone")
+        })?;
+        let crs = Crs::epsg(zone(middle))?;
+        Ok(Self { code: crs.code, passage: Some(frame.passage(&crs)?) })
     }
 
     /// Returns the transformation to longitude and latitude (degrees).
     pub fn degrees(frame: &'a ReferenceFrame) -> Result<Self> {
         let crs = Crs::epsg(DEGREES)?;
-        Ok(Self { code: crs.code, passage: Some(frame.passage(&crs)?) })
-    }
-
-    fn of(frame: Option<&'a ReferenceFrame>, other: impl Fn(&ReferenceFrame) -> u32) -> Result<Self> {
-        let Some(frame) = frame else { return Ok(Self { code: None, passage: None }) };
-        let crs = Crs::epsg(frame.epsg.map_or_else(|| other(frame), u32::from))?;
         Ok(Self { code: crs.code, passage: Some(frame.passage(&crs)?) })
     }
 
@@ -65,5 +70,21 @@ mod tests {
             [zone([7.4, 43.7]), zone([-43.2, -22.9]), zone([180.0, 1.0]), zone([-180.0, -1.0])],
             [32_632, 32_723, 32_601, 32_701]
         );
+    }
+
+    #[test]
+    fn feet_and_degrees_are_written_in_metres_of_the_utm_zone() {
+        // Charlotte in feet (EPSG:2264), in feet of 0.3048 m (EPSG:2222), and a place in degrees.
+        let places = [(2264, [1_450_000.0, 540_000.0], 32_617), (2222, [700_000.0, 900_000.0], 32_612)];
+        for (code, at, zone) in places.into_iter().chain([(4326, [7.4, 43.7], 32_632)]) {
+            let frame = ReferenceFrame::around(&Crs::epsg(code).unwrap(), at, "a place").unwrap();
+            let outward = OutputPlacement::metric(Some(&frame)).unwrap();
+            assert_eq!((frame.epsg, outward.code), (None, Some(zone)), "{code}");
+            let [a, b] = [0.0, 10.0].map(|x| outward.place(DVec3::new(x, 0.0, 1.0)).unwrap());
+            assert!((a.distance(b) - 10.0).abs() < 0.01, "{code}: {a} {b}");
+        }
+        let frame = ReferenceFrame::around(&Crs::epsg(3067).unwrap(), [385_400.0, 6_671_500.0], "a place");
+        assert_eq!(OutputPlacement::metric(Some(&frame.unwrap())).unwrap().code, Some(3067));
+        assert_eq!(OutputPlacement::metric(None).unwrap().code, None);
     }
 }

@@ -122,6 +122,14 @@ fn coordinates_are_those_of_the_data_or_of_a_zone_of_its_middle() {
     assert_eq!(city["metadata"]["referenceSystem"], "https://www.opengis.net/def/crs/EPSG/0/32632");
     let low = vertices(&city).into_iter().reduce(DVec3::min).unwrap();
     assert!((370_000.0..375_000.0).contains(&low.x) && (4_840_000.0..4_850_000.0).contains(&low.y), "{low}");
+    // Feet have no EPSG code in metres. A box of 1 m keeps its volume to a hundredth.
+    let frame = of(2264, [1_450_000.0, 540_000.0]);
+    let city = written(&scene, SceneFacts { frame: Some(&frame), ..SceneFacts::default() });
+    assert_eq!(city["metadata"]["referenceSystem"], "https://www.opengis.net/def/crs/EPSG/0/32617");
+    let vertices = vertices(&city);
+    let [low, high] = [DVec3::min, DVec3::max].map(|choose| vertices.iter().copied().reduce(choose).unwrap());
+    let size = scene.bounds().map(|(low, high)| high - low).unwrap();
+    assert!((high - low - size).abs().max_element() < 0.1, "{low} {high}");
 }
 
 #[test]

@@ -66,12 +66,17 @@ impl HeightFormat {
 
 /// Writes `map` to the future file `path`, in the format of its extension.
 ///
-/// Coordinates are in the projection if the format can name it: in a GeoTIFF, or if the projection has an EPSG code.
-/// Otherwise they are in metres of the run. Fails if the map has too few or infinite heights, if the format cannot
+/// Coordinates of a GeoTIFF and an ASCII grid are in the projection of the run. A `.prj` file beside the file tells the
+/// projection if the file cannot. Without a projection, coordinates are in metres of the run. Fails if the map has too few or infinite heights, if the format cannot
 /// store it, or if the disk is full.
 pub fn write(map: &HeightMap, path: &Path, files: &mut Files) -> Result<()> {
     let format = HeightFormat::of(path)?;
     check(map, format).map_err(|error| error.about(&format!("cannot write {}", path.display())))?;
+    let text =
+        map.frame.as_ref().filter(|_| map.needs_text(format)).and_then(ReferenceFrame::well_known_text);
+    if let Some(text) = text {
+        files.write(&path.with_extension("prj"), |out| writeln!(out, "{text}"))?;
+    }
     files.write(path, |out| match format {
         HeightFormat::Png => packed::write_png(map, out),
         HeightFormat::Ascii => write_ascii(map, out),
@@ -132,9 +137,17 @@ pub(super) fn narrow(height: f64) -> f32 {
 }
 
 impl HeightMap {
-    /// Returns the outer south-west corner: in the projection if `named`, otherwise in metres of the run.
-    pub(super) fn corner_as(&self, named: bool) -> DVec2 {
-        let frame = self.frame.as_ref().filter(|_| named);
+    /// Returns true if the projection must be told in a `.prj` file: ASCII grids have none, and GeoTIFFs those with an
+    /// EPSG code or around a centre.
+    fn needs_text(&self, format: HeightFormat) -> bool {
+        let is_told = self.frame.as_ref().is_some_and(|frame| frame.epsg.is_some() || frame.middle.is_some());
+        format == HeightFormat::Ascii || format == HeightFormat::GeoTiff && !is_told
+    }
+
+    /// Returns the outer south-west corner: in the projection if a file can name it, otherwise in metres of the run.
+    pub(super) fn projected_corner(&self) -> DVec2 {
+        let frame =
+            self.frame.as_ref().filter(|frame| frame.epsg.is_some() || frame.well_known_text().is_some());
         self.corner + frame.map_or(DVec2::ZERO, |frame| frame.origin.into())
     }
 
@@ -145,7 +158,7 @@ impl HeightMap {
 }
 
 fn write_ascii(map: &HeightMap, out: &mut Out) -> io::Result<()> {
-    let corner = map.corner_as(map.epsg().is_some());
+    let corner = map.projected_corner();
     writeln!(out, "ncols {}\nnrows {}", map.columns, map.rows)?;
     writeln!(out, "xllcorner {}\nyllcorner {}\ncellsize {}", corner.x, corner.y, map.step)?;
     writeln!(out, "NODATA_value {MISSING}")?;
@@ -192,7 +205,8 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join(name);
         write_alone(map, &path).unwrap();
-        assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 1);
+        let has_text = path.with_extension("prj").exists();
+        assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 1 + usize::from(has_text));
         Raster::open(&path, name, wanted, &burgeon_base::budget::Budget::default()).unwrap()
     }
 
@@ -220,22 +234,25 @@ mod tests {
     }
 
     #[test]
-    fn a_geotiff_tells_the_projection_of_the_run() {
-        let map = map(9, frame(3067, [385_423.0, 6_671_463.0]));
-        let raster = again(&map, "a.tif", &HeightOptions::default());
-        assert_same(&raster, &map, 2e-5);
-        assert_eq!(raster.bounds(), [385_360.0, 6_671_530.0, 385_390.0, 6_671_552.5]);
-        assert_eq!(raster.crs.unwrap().code, Some(3067));
-        let map = super::tests::map(9, frame(4326, [7.42, 43.73]));
-        let raster = again(&map, "a.tif", &HeightOptions::default());
-        assert_eq!(raster.crs.as_ref().unwrap().name(), "transverse Mercator around 7.4, 43.7");
-        let mut there = map.frame.clone();
-        let relief = burgeon_data::elevation::Relief::new(raster.into(), &mut there).unwrap();
-        assert_eq!(relief.low().truncate(), map.corner);
-        // Feet have been converted to metres, which no EPSG code describes.
-        let map = super::tests::map(9, frame(2272, [2_690_000.0, 235_000.0]));
-        let raster = again(&map, "a.tif", &HeightOptions::default());
-        assert_eq!((raster.bounds(), raster.crs), ([-40.0, 30.0, -10.0, 52.5], None));
+    fn a_geotiff_and_an_ascii_grid_tell_the_projection_of_the_run() {
+        // Feet become metres, which no EPSG code describes.
+        for (code, at, crs) in [
+            (3067, [385_423.0, 6_671_463.0], "EPSG:3067"),
+            (4326, [7.42, 43.73], "transverse Mercator around 7.4, 43.7"),
+            (2272, [2_690_000.0, 235_000.0], "NAD83 / Pennsylvania South (ftUS) in metres"),
+        ] {
+            let map = map(9, frame(code, at));
+            for name in ["a.tif", "a.asc"] {
+                let raster = again(&map, name, &HeightOptions::default());
+                assert_same(&raster, &map, 2e-5);
+                assert_eq!(raster.crs.as_ref().unwrap().name(), crs, "{name}");
+                let mut there = map.frame.clone();
+                let origin = map.frame.as_ref().unwrap().origin;
+                assert_eq!(raster.bounds()[..2], [origin[0] - 40.0, origin[1] + 30.0], "{name} {code}");
+                let relief = burgeon_data::elevation::Relief::new(raster.into(), &mut there).unwrap();
+                assert!(relief.low().truncate().distance(map.corner) < 1e-6, "{name} {code}");
+            }
+        }
     }
 
     #[test]

@@ -43,7 +43,7 @@ pub(super) fn write_png(map: &HeightMap, out: &mut Out) -> io::Result<()> {
 pub(super) fn write_tiff(map: &HeightMap, out: &mut Out) -> io::Result<()> {
     let heights: Vec<f32> = map.heights.iter().copied().map(narrow).collect();
     let middle = map.frame.as_ref().and_then(|frame| frame.middle);
-    let corner = map.corner_as(map.epsg().or(middle.map(|_| tiff_key::OWN)).is_some());
+    let corner = map.projected_corner();
     let north = corner.y + map.step * map.rows as f64;
     let (directory, doubles) = geokeys(map.epsg(), middle);
     let encoded = || {

@@ -99,13 +99,18 @@ impl GeoPackage {
         // Rows are read once, in order, so a small page cache suffices.
         connection.pragma_update(None, "cache_size", -PAGES).map_err(error)?;
         guard(&mut connection, budget).map_err(error)?;
-        let layers = described(&connection).map_err(|error| match error {
-            rusqlite::Error::SqliteFailure(_, Some(text)) if text.starts_with("no such table") => {
-                Error::data(format!("{name} is an SQLite database, but no GeoPackage"))
-                    .help("a GeoPackage has the tables gpkg_contents and gpkg_geometry_columns")
+        let layers = match described(&connection) {
+            Ok(layers) => layers,
+            Err(rusqlite::Error::SqliteFailure(_, Some(text))) if text.starts_with("no such table") => {
+                // A GeoPackage without features, such as one of tables or images, needs no geometry columns.
+                if !text.contains("gpkg_geometry_columns") {
+                    return Err(Error::data(format!("{name} is an SQLite database, but no GeoPackage"))
+                        .help("a GeoPackage has the tables gpkg_contents and gpkg_geometry_columns"));
+                }
+                Vec::new()
             }
-            error => broken(&name, &error),
-        })?;
+            Err(error) => return Err(broken(&name, &error)),
+        };
         Ok(Self { connection, state, name, layers })
     }
 

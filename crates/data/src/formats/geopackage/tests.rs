@@ -103,3 +103,17 @@ fn changed_bytes_neither_panic_nor_take_long() {
     }
     assert!(good > 10 && bad > 50, "{good} {bad}");
 }
+
+#[test]
+fn a_package_without_layers_of_features_is_told_to_have_none() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("a.gpkg");
+    let connection = Connection::open(&path).unwrap();
+    let create = "CREATE TABLE gpkg_contents(table_name TEXT PRIMARY KEY, data_type TEXT);
+        CREATE TABLE gpkg_spatial_ref_sys(srs_name TEXT, srs_id INT, organization TEXT, organization_coordsys_id INT);";
+    connection.execute_batch(create).unwrap();
+    connection.close().unwrap();
+    let read =
+        Source::open(&path, "a.gpkg").and_then(|source| source.read("a.gpkg", &SourceOptions::default()));
+    assert_eq!(read.unwrap_err().message(), "a.gpkg has no layers of features");
+}

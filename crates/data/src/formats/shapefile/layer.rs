@@ -27,7 +27,7 @@ impl ShapeFiles {
         };
         let crs = match &self.prj {
             _ if wanted.crs.is_some() => Err(Error::data("")),
-            Some(text) => super::prj::crs(text, label),
+            Some(text) => super::prj::crs(text, label, super::prj::NAME_IT),
             None => Err(Error::data(format!("{label} has no .prj file, which tells its coordinate system"))
                 .help("name its EPSG code: source(file, { crs = 3067 })")),
         };

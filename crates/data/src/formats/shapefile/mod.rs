@@ -13,4 +13,5 @@ mod shp;
 #[cfg(test)]
 mod tests;
 
+pub(crate) use prj::crs as crs_of_text;
 pub(crate) use reader::Shapefile;

@@ -4,21 +4,29 @@
 //! the same parameters, the name decides.
 
 use crate::Crs;
+use crate::formats::corrections::replacement;
 use crate::formats::epsg;
+use crate::world_place::IN_METRES;
 use burgeon_base::error::{Error, Result};
 use burgeon_base::text::shown;
 
 /// Maximum nesting depth of brackets.
 const DEEPEST: usize = 20;
 
-/// Returns the coordinate system of a text; `label` is used in messages.
-pub(super) fn crs(text: &str, label: &str) -> Result<Crs> {
+/// Minimum likeness of the names of a datum.
+const SAME_DATUM: f64 = 0.5;
+
+/// Remedy for a coordinate system of a data file that is not known.
+pub(super) const NAME_IT: &str = "name its EPSG code: source(file, { crs = 3067 })";
+
+/// Returns the coordinate system of a text; `label` and the remedy are used in messages.
+pub(crate) fn crs(text: &str, label: &str, remedy: &str) -> Result<Crs> {
     let unknown = |name: &str| {
         Error::data(format!(
             "{label} is in the coordinate system \"{}\", which is none of EPSG's that are known",
             shown(name)
         ))
-        .help("name its EPSG code: source(file, { crs = 3067 })")
+        .help(remedy)
     };
     let Some(node) = PrjNode::read(text) else {
         return Err(unknown(text.lines().next().unwrap_or_default()));
@@ -35,6 +43,14 @@ pub(super) fn crs(text: &str, label: &str) -> Result<Crs> {
     if method.as_deref() == Some("mercatorauxiliarysphere") {
         return Crs::epsg(3857);
     }
+    // A projection that this program wrote.
+    if let (true, Some(extension)) = (name.ends_with(IN_METRES), node.child(&["EXTENSION"]))
+        && let [kind, definition] = &*extension.texts
+        && kind == "PROJ4"
+        && !definition.contains("+nadgrids")
+    {
+        return Crs::of_definition(&name, definition);
+    }
     let Some(wanted) = Parameters::of(&node) else { return Err(unknown(&name)) };
     let mut best: Option<(f64, u16)> = None;
     epsg::each(|code, text| {
@@ -43,15 +59,22 @@ pub(super) fn crs(text: &str, label: &str) -> Result<Crs> {
             return;
         }
         let Some(known) = PrjNode::read(text) else { return };
-        if !Parameters::of(&known).is_some_and(|known| known.is_same(&wanted)) {
+        let Some(of_known) = Parameters::of(&known).filter(|known| known.is_same(&wanted)) else { return };
+        let datums = wanted.likeness_of_datum(&of_known);
+        // Many old datums share an ellipsoid, and are hundreds of metres apart.
+        if datums < SAME_DATUM && !wanted.is_modern() || replacement(code).is_some() {
             return;
         }
-        let score = likeness(&plain(&name), &plain(known.name())) + likeness(&wanted.datum, &datum(&known));
+        let score = likeness(&plain(&name), &plain(known.name())) + datums;
         if best.is_none_or(|(most, _)| score > most) {
             best = Some((score, code));
         }
     })?;
-    best.map_or_else(|| Err(unknown(&name)), |(_, code)| Crs::epsg(code.into()))
+    match (best, wanted.middle()) {
+        (Some((_, code)), _) => Crs::epsg(code.into()),
+        (None, Some(middle)) => Ok(Crs::around(middle)),
+        (None, None) => Err(unknown(&name)),
+    }
 }
 
 /// Keyword of well-known text with its bracketed content.
@@ -128,12 +151,23 @@ impl PrjNode {
 /// Returns a name reduced to lower-case letters and digits, with years as in EPSG names.
 fn plain(name: &str) -> String {
     let mut plain: String = name.to_lowercase().chars().filter(|letter| letter.is_alphanumeric()).collect();
-    for (long, short) in
-        [("1984", "84"), ("1983", "83"), ("1989", "89"), ("1927", "27"), ("1993", "93"), ("gcs", "")]
-    {
+    for (long, short) in [
+        ("1984", "84"),
+        ("1983", "83"),
+        ("1989", "89"),
+        ("1972", "72"),
+        ("1927", "27"),
+        ("1993", "93"),
+        ("gcs", ""),
+    ] {
         plain = plain.replace(long, short);
     }
-    plain.replace("europeanterrestrialreferencesystem", "etrs").replace("worldgeodeticsystem", "wgs")
+    // Datums of the French Antilles that ESRI calls after their first points.
+    let aliases = [("sainteanne", "guadeloupe1948"), ("fortdesaix", "martinique1938")];
+    let aliases = [("europeanterrestrialreferencesystem", "etrs"), ("worldgeodeticsystem", "wgs")]
+        .into_iter()
+        .chain(aliases);
+    aliases.fold(plain, |plain, (long, short)| plain.replace(long, short))
 }
 
 fn datum(node: &PrjNode) -> String {
@@ -162,6 +196,8 @@ struct Parameters {
     ellipsoid: [f64; 2],
     unit: f64,
     datum: String,
+    /// Name of the geographic system.
+    base: String,
 }
 
 impl Parameters {
@@ -204,7 +240,30 @@ impl Parameters {
             (value - usual).abs() > 1e-9
         });
         values.sort_by(|a, b| a.0.cmp(b.0));
-        Some(Self { method, values, ellipsoid, unit, datum: datum(node) })
+        Some(Self { method, values, ellipsoid, unit, datum: datum(node), base: plain(base.name()) })
+    }
+
+    /// Returns the likeness of two datums, from the names that they and their geographic systems have: ESRI shortens
+    /// one of them.
+    fn likeness_of_datum(&self, other: &Self) -> f64 {
+        likeness(&self.datum, &other.datum).max(likeness(&self.base, &other.base))
+    }
+
+    /// Returns the centre (longitude and latitude in degrees) of a transverse Mercator projection that is specific to a
+    /// run, if it is one.
+    fn middle(&self) -> Option<[f64; 2]> {
+        let value =
+            |key: &str| self.values.iter().find(|(name, _)| *name == key).map_or(0.0, |found| found.1);
+        let middle = ["longitude", "latitude"].map(value);
+        let is_plain = self.values.iter().all(|(name, _)| matches!(*name, "longitude" | "latitude"));
+        let is_wgs_84 = self.is_modern() && (self.ellipsoid[1] - 298.257_223_563).abs() < 1e-6;
+        let is_ours = self.method == "tmerc" && is_plain && is_wgs_84 && (self.unit - 1.0).abs() < 1e-9;
+        (is_ours && middle[0].abs() <= 180.0 && middle[1].abs() <= 90.0).then_some(middle)
+    }
+
+    /// Returns true if the ellipsoid is one of satellite navigation: GRS 80 or WGS 84. Datums on it differ by metres.
+    fn is_modern(&self) -> bool {
+        (self.ellipsoid[0] - 6_378_137.0).abs() < 0.1 && (self.ellipsoid[1] - 298.257).abs() < 1e-3
     }
 
     fn is_same(&self, other: &Self) -> bool {

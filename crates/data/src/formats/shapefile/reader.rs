@@ -5,16 +5,13 @@ use std::path::Path;
 
 use super::layer::ShapeFiles;
 use super::shp::MAGIC;
-use crate::companions::{OF_SHAPEFILE, companion};
+use crate::companions::{LARGEST_TEXT, OF_SHAPEFILE, companion, real_companion};
 use crate::content::{DataFile, LayeredFile};
 use crate::formats::unpack::ZippedFiles;
 use crate::{FeatureTable, SourceOptions};
 use burgeon_base::budget::Budget;
 use burgeon_base::error::{Error, Result};
 use burgeon_base::text::shown;
-
-/// Maximum size of a `.prj` or `.cpg` file (bytes).
-const LARGEST_TEXT: u64 = 1 << 20;
 
 /// Open shapefiles, one per layer.
 pub(crate) struct Shapefile {
@@ -30,14 +27,9 @@ impl Shapefile {
 
     /// Opens a `.shp` file and its companion files.
     pub(crate) fn open(shp: DataFile) -> Result<Self> {
-        let folder = shp.path.canonicalize().ok().and_then(|real| real.parent().map(Path::to_path_buf));
         let [dbf, prj, cpg] = OF_SHAPEFILE.map(|extension| {
             let path = companion(&shp.path, extension);
-            // A link may lead out of the folders that the script may read.
-            let real = path
-                .canonicalize()
-                .ok()
-                .filter(|real| real.parent().is_some() && real.parent() == folder.as_deref());
+            let real = real_companion(&shp.path, extension);
             let name = Path::new(&shp.name).with_extension(extension).display().to_string();
             let (file, _) = burgeon_base::files::open(&real?).ok()?;
             Some(DataFile::new(file, &path, &name))

@@ -1,5 +1,5 @@
-//! Assembly of polygons from rings: outer rings are clockwise, holes are counter-clockwise, and the file does not
-//! assign holes to outer rings.
+//! Assembly of polygons from rings: outer rings should be clockwise, holes counter-clockwise, and the file does not assign
+//! holes to outer rings.
 
 use glam::DVec3;
 
@@ -45,39 +45,82 @@ fn holds(outer: &[DVec3], hole: &[DVec3], budget: &Budget) -> Result<bool> {
     Ok(inside > outside)
 }
 
-/// Assembles polygons from rings. A hole belongs to the smallest outer ring around it. A hole outside all outer rings
-/// becomes a polygon, because many programs write rings of either orientation.
+/// Assembles polygons from rings. A hole belongs to the smallest outer ring around it.
+///
+/// If a hole is outside all outer rings, the orientation means nothing, as in files of some programs: rings around an
+/// odd number of other rings are then holes.
 pub(super) fn polygons(rings: Vec<Vec<DVec3>>, budget: &Budget) -> Result<Vec<Geometry>> {
     let rings: Vec<Vec<DVec3>> = rings.into_iter().filter(|ring| ring.len() > 2).collect();
     if let [_] = rings[..] {
         return Ok(Geometry::polygon(rings).into_iter().collect());
     }
-    let turns: Vec<f64> = rings.iter().map(|ring| turn(ring)).collect();
-    let (mut polygons, mut holes): (Vec<Vec<Vec<DVec3>>>, Vec<Vec<DVec3>>) = (Vec::new(), Vec::new());
-    for (ring, turn) in rings.into_iter().zip(&turns) {
-        if *turn <= 0.0 { polygons.push(vec![ring]) } else { holes.push(ring) }
+    let boxes: Vec<[DVec3; 2]> = rings.iter().map(|ring| bounds(ring)).collect();
+    let mut is_hole: Vec<bool> = rings.iter().map(|ring| turn(ring) > 0.0).collect();
+    let mut owners = owners(&rings, &boxes, &is_hole, budget)?;
+    let is_loose = |owners: &[Option<usize>], is_hole: &[bool]| {
+        owners.iter().zip(is_hole).any(|(owner, is_hole)| *is_hole && owner.is_none())
+    };
+    if is_loose(&owners, &is_hole) {
+        for (ring, is_hole) in is_hole.iter_mut().enumerate() {
+            let mut around = 0;
+            for other in 0..rings.len() {
+                budget.tick()?;
+                around += usize::from(surrounds(&rings, &boxes, other, ring, budget)?);
+            }
+            *is_hole = around % 2 == 1;
+        }
+        owners = self::owners(&rings, &boxes, &is_hole, budget)?;
     }
-    let boxes: Vec<[DVec3; 2]> = polygons.iter().map(|polygon| bounds(&polygon[0])).collect();
-    let mut loose = Vec::new();
-    for hole in holes {
-        let [low, high] = bounds(&hole).map(|corner| corner.truncate());
-        let mut owner: Option<(f64, usize)> = None;
-        for (number, [outer_low, outer_high]) in boxes.iter().enumerate() {
+    let mut polygons: Vec<Vec<Vec<DVec3>>> = vec![Vec::new(); rings.len()];
+    let (mut outer, mut holes) = (Vec::new(), Vec::new());
+    for (number, ring) in rings.into_iter().enumerate() {
+        match owners[number].filter(|_| is_hole[number]) {
+            Some(owner) => holes.push((owner, ring)),
+            None => outer.push((number, ring)),
+        }
+    }
+    // The outer ring is the first one of its polygon.
+    for (number, ring) in outer.into_iter().chain(holes) {
+        polygons[number].push(ring);
+    }
+    let polygons = polygons.into_iter().filter(|rings| !rings.is_empty());
+    Ok(polygons.filter_map(Geometry::polygon).collect())
+}
+
+/// Returns the smallest outer ring around each hole.
+fn owners(
+    rings: &[Vec<DVec3>],
+    boxes: &[[DVec3; 2]],
+    is_hole: &[bool],
+    budget: &Budget,
+) -> Result<Vec<Option<usize>>> {
+    let outer: Vec<usize> = (0..rings.len()).filter(|ring| !is_hole[*ring]).collect();
+    let size = |ring: usize| (boxes[ring][1] - boxes[ring][0]).truncate().element_product();
+    let mut owners = vec![None; rings.len()];
+    for hole in (0..rings.len()).filter(|ring| is_hole[*ring]) {
+        let mut owner: Option<usize> = None;
+        for ring in outer.iter().copied() {
             budget.tick()?;
-            let around = outer_low.truncate().cmple(low).all() && outer_high.truncate().cmpge(high).all();
-            let size = (*outer_high - *outer_low).truncate().element_product();
-            if around
-                && owner.is_none_or(|(least, _)| size < least)
-                && holds(&polygons[number][0], &hole, budget)?
+            if owner.is_none_or(|least| size(ring) < size(least))
+                && surrounds(rings, boxes, ring, hole, budget)?
             {
-                owner = Some((size, number));
+                owner = Some(ring);
             }
         }
-        match owner {
-            Some((_, number)) => polygons[number].push(hole),
-            None => loose.push(vec![hole]),
-        }
+        owners[hole] = owner;
     }
-    polygons.extend(loose);
-    Ok(polygons.into_iter().filter_map(Geometry::polygon).collect())
+    Ok(owners)
+}
+
+/// Returns true if a ring is inside another one.
+fn surrounds(
+    rings: &[Vec<DVec3>],
+    boxes: &[[DVec3; 2]],
+    outer: usize,
+    inner: usize,
+    budget: &Budget,
+) -> Result<bool> {
+    let [[outer_low, outer_high], [low, high]] = [outer, inner].map(|ring| boxes[ring].map(DVec3::truncate));
+    let is_around = outer_low.cmple(low).all() && outer_high.cmpge(high).all();
+    Ok(outer != inner && is_around && holds(&rings[outer], &rings[inner], budget)?)
 }

@@ -219,11 +219,55 @@ fn a_coordinate_system_is_found_by_its_parameters_and_told_if_it_is_not() {
         crs("PROJCRS[\"ETRS89 / UTM zone 33N\",BASEGEOGCRS[\"ETRS89\"],ID[\"EPSG\",25833]]"),
         "EPSG:25833"
     );
+    // Datums on the same ellipsoid are told apart by their names.
+    let old = |gcs: &str, datum: &str, spheroid: &str| {
+        format!(
+            "GEOGCS[\"{gcs}\",DATUM[\"{datum}\",SPHEROID[{spheroid}]],PRIMEM[\"Greenwich\",0.0],UNIT[\"Degree\",0.0174532925199433]]"
+        )
+    };
+    let international = "\"International_1924\",6378388.0,297.0";
+    let south = "PARAMETER[\"False_Easting\",3500000.0],PARAMETER[\"False_Northing\",0.0],PARAMETER[\"Central_Meridian\",-66.0],PARAMETER[\"Scale_Factor\",1.0],PARAMETER[\"Latitude_Of_Origin\",-90.0]";
+    let zone_3 = |gcs: &str, datum: &str, name: &str| {
+        crs(&projected(name, &old(gcs, datum, international), "Transverse_Mercator", south))
+    };
+    assert_eq!(zone_3("GCS_Campo_Inchauspe", "D_Campo_Inchauspe", "Argentina_Zone_3"), "EPSG:22193");
+    let told = zone_3("GCS_Pampa_del_Castillo", "D_Pampa_del_Castillo", "Pampa_del_Castillo_Argentina_3");
+    assert!(told.contains("which is none of EPSG's"), "{told}");
+    let wgs_72 = "\"WGS_1972\",6378135.0,298.26";
+    assert_eq!(crs(&old("GCS_WGS_1972", "D_WGS_1972", wgs_72)), "EPSG:4322");
+    assert_eq!(crs(&old("GCS_WGS_1972_BE", "D_WGS_1972_BE", wgs_72)), "EPSG:4324");
+    // The name of the withdrawn EPSG:26815, in feet, has these parameters in metres.
+    let maine = "PARAMETER[\"False_Easting\",900000.0],PARAMETER[\"False_Northing\",0.0],PARAMETER[\"Central_Meridian\",-70.1666666666667],PARAMETER[\"Scale_Factor\",0.999966667],PARAMETER[\"Latitude_Of_Origin\",42.8333333333333]";
+    let nad = old("GCS_North_American_1983", "D_North_American_1983", "\"GRS_1980\",6378137.0,298.257222101");
+    let name = "NAD_1983_StatePlane_Maine_West_FIPS_1802";
+    assert_eq!(crs(&projected(name, &nad, "Transverse_Mercator", maine)), "EPSG:26984");
     let odd = tm35.replace("27.0", "27.3");
     let told = crs(&projected("Odd_Zone", etrs, "Transverse_Mercator", &odd));
     assert!(told.contains("\"Odd_Zone\", which is none of EPSG's that are known"), "{told}");
     assert!(crs("nonsense").contains("which is none of EPSG's"), "{}", crs("nonsense"));
     assert!(written(&[("a.shp", &point)]).unwrap().crs.unwrap_err().message().contains("has no .prj file"));
+}
+
+#[test]
+fn rings_that_all_run_the_other_way_keep_their_holes() {
+    let turned = |ring: &[[f64; 2]]| ring.iter().rev().copied().collect::<Vec<_>>();
+    let (outer, hole) = (turned(SQUARE), turned(HOLE));
+    let area = |parts: &[&[[f64; 2]]]| {
+        let table = written(&[("a.shp", &shp(&[(5, parts, None)])), ("a.prj", UTM.as_bytes())]).unwrap();
+        table.features.iter().map(|feature| feature.geometry.area()).sum::<f64>()
+    };
+    let right = area(&[SQUARE, HOLE]);
+    assert!((right - 15.0).abs() < 1e-6);
+    assert_eq!([area(&[&outer, &hole]), area(&[&hole, &outer])], [right; 2]);
+    // An island in the hole is a polygon of its own, whichever way it runs.
+    let island: Vec<[f64; 2]> = HOLE
+        .iter()
+        .map(|[x, y]| [HOLE[0][0] + 0.3 + (x - HOLE[0][0]) * 0.2, HOLE[0][1] + 0.3 + (y - HOLE[0][1]) * 0.2])
+        .collect();
+    for island in [turned(&island), island] {
+        let found = area(&[&outer, &hole, &island]);
+        assert!(found > right, "{found}");
+    }
 }
 
 #[test]
