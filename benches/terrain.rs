@@ -18,8 +18,8 @@ use std::time::{Duration, Instant};
 use burgeon::random::Stream;
 use burgeon::rewriting::ModuleKey;
 use burgeon::terrain::{
-    Area, Ground, GroundCuts, GroundMesh, LevelRules, NumberRange, Quadrants, RuleTable, Rules, Tables,
-    TileRing, View, World,
+    Area, DivisionRules, Ground, GroundCuts, GroundMesh, LevelRules, NumberRange, Quadrants, RuleTable,
+    Tables, TileRing, View, World,
 };
 use cpu_time::ProcessTime;
 use glam::DVec2;
@@ -50,7 +50,7 @@ fn world(drawn: bool, smooth: bool) -> World {
         size: 512.0 * 65_536.0,
         layers: vec![LevelRules {
             from: 0,
-            rules: Rules::Table(Arc::new(table(drawn))),
+            rules: DivisionRules::Table(Arc::new(table(drawn))),
             start: 0,
             height: 0.0,
             rest: vec![4000.0],

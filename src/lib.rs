@@ -35,7 +35,7 @@
 //! watch      uses ──► base
 //! presets    uses ──► base, engine, export, watch
 //! variations uses ──► base, engine, kit, picture, scene
-//! live       uses ──► base, engine, export, kit, picture, presets, rewriting, scene, variations, watch
+//! live       uses ──► base, engine, export, picture, presets, rewriting, scene, variations, watch
 //! burgeon    uses ──► base, data, engine, export, geometry, kit, language, live, objects, packages, picture, presets, query, rewriting, scene, spatial, terrain, variations, watch
 //! ```
 //!

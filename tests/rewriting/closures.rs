@@ -53,7 +53,7 @@ fn with_closures(seed: u64, rules: &[RulePlan], steps: usize) -> String {
     let symbols = NAMES.map(|name| system.module(name, &["x"]).expect("a module"));
     for rule in rules {
         let made = rule.successor.clone();
-        let successor = move |module: &burgeon::rewriting::Module<'_>,
+        let successor = move |module: &burgeon::rewriting::AppliedModule<'_>,
                               out: &mut burgeon::rewriting::Successors| {
             let sum: f64 = module.arguments.iter().sum();
             for (name, factor, draws, branch) in &made {

@@ -11,8 +11,8 @@ use burgeon::scene::Part;
 use burgeon::sources::elevation::{Raster, Relief, SampleGrid};
 use burgeon::sources::{Crs, ReferenceFrame};
 use burgeon::terrain::{
-    Edit, Edits, Ground, GroundCuts, GroundMesh, HeightSource, LevelRules, NumberRange, Quadrants, RuleTable,
-    Rules, Tables, TileRing, View, World,
+    DivisionRules, Edit, Edits, Ground, GroundCuts, GroundMesh, HeightSource, LevelRules, NumberRange,
+    Quadrants, RuleTable, Tables, TileRing, View, World,
 };
 use glam::{DVec2, DVec3};
 
@@ -136,7 +136,7 @@ fn relief(luck: &mut RandomSource) -> Relief {
 fn world(luck: &mut RandomSource, elevation: Elevation, corner: DVec2, size: f64) -> World {
     let undivided = LevelRules {
         from: 0,
-        rules: Rules::None,
+        rules: DivisionRules::None,
         start: 0,
         height: 0.0,
         rest: Vec::new(),
@@ -156,7 +156,7 @@ fn world(luck: &mut RandomSource, elevation: Elevation, corner: DVec2, size: f64
         let decay = if luck.odds(0.5) { 200.0 } else { luck.between(0.1, 5.0) };
         layers.push(LevelRules {
             from,
-            rules: Rules::Table(Arc::new(table)),
+            rules: DivisionRules::Table(Arc::new(table)),
             rest: vec![decay],
             ..undivided
         });

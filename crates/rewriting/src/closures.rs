@@ -16,19 +16,19 @@ use crate::text::{PlainNumbers, chain_text};
 use burgeon_base::Stop;
 use burgeon_base::error::{Error, Limit, Result};
 
-type Successor = Box<dyn Fn(&Module<'_>, &mut Successors)>;
-type Guard = Box<dyn Fn(&Module<'_>) -> bool>;
+type SuccessorClosure = Box<dyn Fn(&AppliedModule<'_>, &mut Successors)>;
+type GuardClosure = Box<dyn Fn(&AppliedModule<'_>) -> bool>;
 
 /// A module that a closure is called for.
 #[derive(Debug)]
-pub struct Module<'a> {
+pub struct AppliedModule<'a> {
     /// Arguments that the pattern names, in its order: those of the left contexts, of the module, of the right contexts.
     pub arguments: &'a [f64],
     key: ModuleKey,
     drawn: Cell<usize>,
 }
 
-impl Module<'_> {
+impl AppliedModule<'_> {
     /// Draws a random number, uniform in [0, 1), from the module's own stream.
     pub fn random(&self) -> f64 {
         let mut stream = self.key.stream();
@@ -97,8 +97,8 @@ pub struct ClosureSystem {
     seed: u64,
     symbols: Symbols,
     rules: Vec<Rule>,
-    successors: Vec<Successor>,
-    guards: Vec<Option<Guard>>,
+    successors: Vec<SuccessorClosure>,
+    guards: Vec<Option<GuardClosure>>,
     ignored: Vec<Symbol>,
     limit: usize,
 }
@@ -128,7 +128,7 @@ impl ClosureSystem {
     pub fn rule(
         &mut self,
         pattern: &str,
-        successor: impl Fn(&Module<'_>, &mut Successors) + 'static,
+        successor: impl Fn(&AppliedModule<'_>, &mut Successors) + 'static,
     ) -> Result<()> {
         self.add(pattern, None, None, Box::new(successor))
     }
@@ -137,8 +137,8 @@ impl ClosureSystem {
     pub fn rule_when(
         &mut self,
         pattern: &str,
-        guard: impl Fn(&Module<'_>) -> bool + 'static,
-        successor: impl Fn(&Module<'_>, &mut Successors) + 'static,
+        guard: impl Fn(&AppliedModule<'_>) -> bool + 'static,
+        successor: impl Fn(&AppliedModule<'_>, &mut Successors) + 'static,
     ) -> Result<()> {
         self.add(pattern, None, Some(Box::new(guard)), Box::new(successor))
     }
@@ -148,7 +148,7 @@ impl ClosureSystem {
         &mut self,
         pattern: &str,
         weight: f64,
-        successor: impl Fn(&Module<'_>, &mut Successors) + 'static,
+        successor: impl Fn(&AppliedModule<'_>, &mut Successors) + 'static,
     ) -> Result<()> {
         if !(weight >= 0.0 && weight.is_finite()) {
             return Err(Error::argument(format!(
@@ -163,8 +163,8 @@ impl ClosureSystem {
         &mut self,
         pattern: &str,
         weight: Option<f64>,
-        guard: Option<Guard>,
-        successor: Successor,
+        guard: Option<GuardClosure>,
+        successor: SuccessorClosure,
     ) -> Result<()> {
         if self.rules.len() == MOST_RULES {
             return Err(Error::limit(Limit::Size, format!("the system has more than {MOST_RULES} rules"))
@@ -273,9 +273,9 @@ impl Phase<Stepper> for RewritePhase<'_> {
 
 impl ClosureSystem {
     /// Returns the modules that a closure is called for.
-    fn each<'a>(&self, applications: &'a Applications<'_>) -> impl Iterator<Item = Module<'a>> {
+    fn each<'a>(&self, applications: &'a Applications<'_>) -> impl Iterator<Item = AppliedModule<'a>> {
         let arity = self.rules[usize::from(applications.rule)].arguments();
-        (0..applications.count).map(move |application| Module {
+        (0..applications.count).map(move |application| AppliedModule {
             arguments: &applications.arguments[application * arity..][..arity],
             key: applications.keys.get(application).copied().unwrap_or_default(),
             drawn: Cell::new(usize::from(applications.weighted)),

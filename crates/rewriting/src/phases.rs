@@ -1,4 +1,4 @@
-//! Derivation as a list of phases.
+//! DerivedChain as a list of phases.
 
 use std::sync::Arc;
 
@@ -40,7 +40,7 @@ pub struct Phases<'a, S> {
 
 /// Result of a derivation.
 #[derive(Debug)]
-pub struct Derivation {
+pub struct DerivedChain {
     /// Last chain.
     pub chain: Arc<Chain>,
     /// Number of steps.
@@ -54,7 +54,7 @@ pub fn derive<S>(
     mut chain: Arc<Chain>,
     begin: usize,
     end: usize,
-) -> Result<Derivation> {
+) -> Result<DerivedChain> {
     for phase in &phases.first {
         chain = phase.run(state, chain, begin)?.chain;
     }
@@ -72,5 +72,5 @@ pub fn derive<S>(
     for phase in &phases.last {
         chain = phase.run(state, chain, steps)?.chain;
     }
-    Ok(Derivation { chain, steps })
+    Ok(DerivedChain { chain, steps })
 }

@@ -24,12 +24,12 @@ use burgeon_base::error::Result;
 /// ```
 /// use std::sync::Arc;
 ///
-/// use burgeon_terrain::{Edit, Edits, Ground, LevelRules, Rules, Tables, View, World};
+/// use burgeon_terrain::{Edit, Edits, Ground, LevelRules, DivisionRules, Tables, View, World};
 /// use glam::DVec2;
 ///
 /// // A plain 12 m high, which nothing divides, and a place on it that is level at 15 m.
 /// let plain =
-///     LevelRules { from: 0, rules: Rules::None, start: 0, height: 12.0, rest: vec![], names: Arc::default() };
+///     LevelRules { from: 0, rules: DivisionRules::None, start: 0, height: 12.0, rest: vec![], names: Arc::default() };
 /// let world = World {
 ///     corner: DVec2::ZERO,
 ///     size: 1024.0,

@@ -43,4 +43,4 @@ pub use river::{Drainage, Dry};
 pub use table::{NumberRange, Quadrants, RuleTable};
 pub use tile::{Tile, TilePlace};
 pub use view::{DEEPEST, MOST_HEIGHTS, TileRing, View};
-pub use world::{Begin, Divide, LevelRules, Rules, Tables, World};
+pub use world::{Begin, Divide, DivisionRules, LevelRules, Tables, World};

@@ -37,7 +37,7 @@ fn world(seed: u64, drawn: bool, smooth: bool) -> World {
         size: 65_536.0,
         layers: vec![LevelRules {
             from: 0,
-            rules: Rules::Table(Arc::new(table(seed, drawn))),
+            rules: DivisionRules::Table(Arc::new(table(seed, drawn))),
             start: 0,
             height: 100.0,
             rest: vec![2000.0],

@@ -18,7 +18,7 @@ const DIVIDED: usize = 4 * 18;
 
 /// Rules that divide cells.
 #[derive(Clone)]
-pub enum Rules {
+pub enum DivisionRules {
     /// No rules: quadrants are equal to their cell.
     None,
     /// A rule table.
@@ -33,7 +33,7 @@ pub struct LevelRules {
     /// Level of the first cells that are divided.
     pub from: u32,
     /// Rules.
-    pub rules: Rules,
+    pub rules: DivisionRules,
     /// Symbol of all cells of that level.
     pub start: Symbol,
     /// Addition to the height (m) of each cell.
@@ -130,18 +130,19 @@ impl World {
 
     /// Returns true if the rules of a script divide any of its cells.
     pub fn has_systems(&self) -> bool {
-        self.layers.iter().any(|layer| matches!(layer.rules, Rules::System(_)))
+        self.layers.iter().any(|layer| matches!(layer.rules, DivisionRules::System(_)))
     }
 
     /// Returns the world with the first cells of its systems; `None` if they are already known or not needed.
     pub fn begun(&self, divide: &dyn Divide) -> Result<Option<Self>> {
-        let unknown = |layer: &LevelRules| matches!(layer.rules, Rules::System(_)) && layer.names.is_empty();
+        let unknown =
+            |layer: &LevelRules| matches!(layer.rules, DivisionRules::System(_)) && layer.names.is_empty();
         if !self.layers.iter().any(unknown) {
             return Ok(None);
         }
         let mut world = self.clone();
         for layer in world.layers.iter_mut().filter(|layer| unknown(layer)) {
-            if let Rules::System(system) = layer.rules {
+            if let DivisionRules::System(system) = layer.rules {
                 let begin = divide.begin(system)?;
                 layer.start = begin.symbol;
                 layer.height += begin.height;
@@ -240,9 +241,9 @@ impl World {
         divide: &dyn Divide,
     ) -> Result<Block> {
         match &self.layer(cells.level).rules {
-            Rules::None => Ok(undivided(cells, area)),
-            Rules::Table(table) => Ok(table.divide(cells, area, last)),
-            Rules::System(system) => divide.divide(*system, cells, area, last),
+            DivisionRules::None => Ok(undivided(cells, area)),
+            DivisionRules::Table(table) => Ok(table.divide(cells, area, last)),
+            DivisionRules::System(system) => divide.divide(*system, cells, area, last),
         }
     }
 

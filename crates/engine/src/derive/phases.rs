@@ -110,7 +110,7 @@ fn phases<'a>(state: &DerivationState<'a>) -> Phases<'static, DerivationState<'a
         last: Vec::new(),
     };
     if interprets {
-        phases.first.push(Box::new(Expand));
+        phases.first.push(Box::new(ExpandObjects));
     }
     match (interprets, derivation.last_only) {
         (true, true) => phases.last.push(Box::new(Interpret)),
@@ -197,9 +197,9 @@ impl Phase<DerivationState<'_>> for Sketch {
 }
 
 /// Lets objects that expand by themselves do so before the first pass.
-struct Expand;
+struct ExpandObjects;
 
-impl Phase<DerivationState<'_>> for Expand {
+impl Phase<DerivationState<'_>> for ExpandObjects {
     fn run(&self, state: &mut DerivationState<'_>, chain: Arc<Chain>, _: usize) -> Result<PhaseOutcome> {
         state.derivation.plan.expand(&state.rewriter, &mut state.first)?;
         Ok(PhaseOutcome::next(chain))

@@ -109,7 +109,7 @@ impl ThreadPool {
     fn note_derived(&self, machine: &Machine, derived: &Result<Arc<DerivedSystem>>) {
         if let Ok(derived) = derived {
             let mut view = machine.current.chains_derived.borrow_mut();
-            *view = view.with_derived(derived);
+            *view = view.with_derived(derived.system, &derived.symbols, &derived.chain, &derived.left_out);
         }
         self.done.borrow_mut().push(derived.clone());
     }

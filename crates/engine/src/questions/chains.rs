@@ -8,8 +8,6 @@ use std::sync::Arc;
 use burgeon_base::error::Result;
 use burgeon_rewriting::{Chain, END, NameScope, Symbol, Symbols};
 
-use crate::results::DerivedSystem;
-
 /// The chain of a system.
 #[derive(Debug, Clone)]
 struct SystemChain {
@@ -39,14 +37,20 @@ pub(crate) struct ChainView {
 
 impl ChainView {
     /// Returns the view once `system` is derived; its earlier chains are gone.
-    pub(crate) fn with_derived(&self, derived: &DerivedSystem) -> Self {
-        let mut view = self.without(derived.system, &derived.symbols);
+    pub(crate) fn with_derived(
+        &self,
+        system: usize,
+        symbols: &Arc<Symbols>,
+        chain: &Arc<Chain>,
+        left_out: &Arc<[usize]>,
+    ) -> Self {
+        let mut view = self.without(system, symbols);
         view.number = [self.number[0] + 1, 0];
         view.chains.push(SystemChain {
-            system: derived.system,
-            symbols: Arc::clone(&derived.symbols),
-            chain: Arc::clone(&derived.chain),
-            left_out: Arc::clone(&derived.left_out),
+            system,
+            symbols: Arc::clone(symbols),
+            chain: Arc::clone(chain),
+            left_out: Arc::clone(left_out),
         });
         view
     }

@@ -9,7 +9,7 @@ use crate::Elevation;
 use burgeon_base::error::{Error, Result};
 use burgeon_base::text::number;
 use burgeon_rewriting::ModuleKey;
-use burgeon_terrain::{HeightSource, LevelRules, Rules, World};
+use burgeon_terrain::{DivisionRules, HeightSource, LevelRules, World};
 
 /// Creates the world that `options` describe. Fails if an option is invalid.
 pub(super) fn world(options: &TerrainOptions) -> Result<World> {
@@ -38,7 +38,7 @@ pub(super) fn world(options: &TerrainOptions) -> Result<World> {
     if options.elevation.is_some() {
         let level = LevelRules {
             from: 0,
-            rules: Rules::None,
+            rules: DivisionRules::None,
             start: 0,
             height: 0.0,
             rest: Vec::new(),

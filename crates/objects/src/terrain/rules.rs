@@ -6,7 +6,7 @@ use burgeon_base::error::{did_you_mean, nearest};
 use burgeon_base::warning::{Warning, WarningKind};
 use burgeon_kit::{Expectation, Parameter, System, Table, TableKey, Value};
 use burgeon_rewriting::Symbol;
-use burgeon_terrain::{LevelRules, NumberRange, Quadrants, RuleTable, Rules};
+use burgeon_terrain::{DivisionRules, LevelRules, NumberRange, Quadrants, RuleTable};
 
 /// The rules of a terrain, by level; the first layer starts at level 0.
 #[derive(Debug, Clone, Default)]
@@ -282,9 +282,9 @@ impl RuleLayer {
                             .help(format!("there are {}", names.clone().collect::<Vec<_>>().join(", ")))
                     })?,
                 };
-                (Rules::Table(Arc::clone(table)), start, rest)
+                (DivisionRules::Table(Arc::clone(table)), start, rest)
             }
-            LayerRules::System(system) => (Rules::System(system.index), 0, Vec::new()),
+            LayerRules::System(system) => (DivisionRules::System(system.index), 0, Vec::new()),
         };
         let start = Symbol::try_from(start).unwrap_or(0);
         let names = match &self.rules {

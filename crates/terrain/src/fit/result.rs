@@ -7,7 +7,7 @@ use glam::DVec2;
 
 use super::code::Code;
 use super::targets::Target;
-use crate::{Area, LevelRules, NumberRange, Quadrants, RuleTable, Rules, Tables, World};
+use crate::{Area, DivisionRules, LevelRules, NumberRange, Quadrants, RuleTable, Tables, World};
 use burgeon_base::error::Result;
 use burgeon_rewriting::Symbol;
 
@@ -53,7 +53,7 @@ impl FitResult {
             size: 1.0,
             layers: vec![LevelRules {
                 from: 0,
-                rules: Rules::Table(Arc::new(self.table())),
+                rules: DivisionRules::Table(Arc::new(self.table())),
                 start: 0,
                 height: self.height,
                 rest: vec![self.decay],

@@ -7,7 +7,7 @@ use glam::{DVec2, DVec3};
 
 use super::leaves::DETAIL;
 use super::*;
-use crate::{LevelRules, NumberRange, Quadrants, RuleTable, Rules, Tables, Tile, World};
+use crate::{DivisionRules, LevelRules, NumberRange, Quadrants, RuleTable, Tables, Tile, World};
 use burgeon_base::random::Stream;
 use burgeon_rewriting::{ModuleKey, Symbol};
 
@@ -30,7 +30,7 @@ fn world(seed: u64, smooth: bool) -> World {
         size: 1.0,
         layers: vec![LevelRules {
             from: 0,
-            rules: Rules::Table(Arc::new(table)),
+            rules: DivisionRules::Table(Arc::new(table)),
             start: 0,
             height: 0.0,
             rest: vec![800.0],
