@@ -28,6 +28,9 @@ pub(super) struct SourceDatabase {
     modules: FxHashMap<Symbol, u64>,
 }
 
+/// Words of a question that mean a table of another name, each with that name.
+type RenamedTables<'a> = Vec<(&'a str, Cow<'a, str>)>;
+
 impl SourceTables {
     /// The database with all that is loaded, whose coordinates are those of `frame`.
     fn database(&mut self, frame: Option<&ReferenceFrame>, budget: &Arc<Budget>) -> Result<Arc<Database>> {
@@ -82,7 +85,7 @@ impl SourceTables {
         rows: &'a ModuleRows<'_>,
         frame: Option<&ReferenceFrame>,
         budget: &Arc<Budget>,
-    ) -> Result<(Arc<Database>, Vec<(&'a str, Cow<'a, str>)>)> {
+    ) -> Result<(Arc<Database>, RenamedTables<'a>)> {
         let database = self.database(frame, budget)?;
         let mut renamed = Vec::new();
         let Some(known) = &mut self.database else { return Ok((database, renamed)) };
