@@ -8,9 +8,9 @@ use tiff::tags::Tag;
 
 use super::tests::read;
 
-/// Image of integers of 16 bits, or of a mask, in one directory of a TIFF.
+/// TestImage of integers of 16 bits, or of a mask, in one directory of a TIFF.
 #[derive(Clone, Default)]
-struct Image {
+struct TestImage {
     size: [u32; 2],
     /// Sides of tiles; strips of all rows if there are none.
     tile: Option<[u32; 2]>,
@@ -24,7 +24,7 @@ struct Image {
     parts: Vec<Vec<u8>>,
 }
 
-impl Image {
+impl TestImage {
     fn of(columns: u32, rows: u32, parts: Vec<Vec<u8>>) -> Self {
         let (size, predictor) = ([columns, rows], 1);
         Self { size, bits: 16, compression: 1, predictor, parts, ..Self::default() }
@@ -32,7 +32,7 @@ impl Image {
 }
 
 /// Returns a little-endian TIFF of images in EPSG:3067 with samples of 10 m.
-fn tiff(images: &[Image]) -> Vec<u8> {
+fn tiff(images: &[TestImage]) -> Vec<u8> {
     const SHORT: u16 = 3;
     const LONG: u16 = 4;
     const DOUBLE: u16 = 12;
@@ -140,16 +140,16 @@ fn parts_that_a_file_leaves_out_are_missing_or_zero() {
             _ => packed(&[value; 256], 16, Compression::Deflate(tiff::encoder::DeflateLevel::Fast)),
         };
         let parts = vec![content(7), vec![], vec![], content(9)];
-        let image = Image { tile: Some([16, 16]), compression, ..Image::of(30, 28, parts) };
+        let image = TestImage { tile: Some([16, 16]), compression, ..TestImage::of(30, 28, parts) };
         let raster = read(&tiff(std::slice::from_ref(&image)), "a.tif").unwrap();
         let at = |column: usize, row: usize| raster.heights[row * 30 + column];
         assert_eq!([at(0, 0), at(20, 3), at(3, 20), at(29, 27)], [7.0, 0.0, 0.0, 9.0], "{compression}");
         assert_eq!(raster.filled, 0);
-        let raster = read(&tiff(&[Image { missing: Some("-9999"), ..image }]), "a.tif").unwrap();
+        let raster = read(&tiff(&[TestImage { missing: Some("-9999"), ..image }]), "a.tif").unwrap();
         assert_eq!(raster.filled, 14 * 16 + 16 * 12, "{compression}");
     }
     // Strips of 2 rows, of which one is absent.
-    let strips = Image::of(3, 6, vec![shorts([5; 6]), vec![], shorts([6; 6])]);
+    let strips = TestImage::of(3, 6, vec![shorts([5; 6]), vec![], shorts([6; 6])]);
     let raster = read(&tiff(&[strips]), "a.tif").unwrap();
     assert_eq!(raster.heights[..9], [5.0, 5.0, 5.0, 5.0, 5.0, 5.0, 0.0, 0.0, 0.0]);
     assert_eq!(raster.heights[12..], [6.0; 6]);
@@ -157,20 +157,20 @@ fn parts_that_a_file_leaves_out_are_missing_or_zero() {
 
 #[test]
 fn heights_under_the_mask_of_a_file_are_missing() {
-    let image = Image { tile: Some([16, 16]), ..Image::of(12, 10, vec![shorts([100; 256])]) };
+    let image = TestImage { tile: Some([16, 16]), ..TestImage::of(12, 10, vec![shorts([100; 256])]) };
     // The mask is in strips of 5 rows of two bytes, and excludes the columns 3 and 11 of the rows 2 and 7.
     let strip: Vec<u8> =
         (0..5).flat_map(|row| if row == 2 { [0b1110_1111, 0b1110_0000] } else { [0xFF, 0xF0] }).collect();
-    let mask = Image { kind: 4, bits: 1, ..Image::of(12, 10, vec![strip.clone(), strip]) };
+    let mask = TestImage { kind: 4, bits: 1, ..TestImage::of(12, 10, vec![strip.clone(), strip]) };
     // A smaller image and its mask are an overview.
-    let overview = Image { kind: 1, ..Image::of(6, 5, vec![shorts([100; 30])]) };
+    let overview = TestImage { kind: 1, ..TestImage::of(6, 5, vec![shorts([100; 30])]) };
     let raster = read(&tiff(&[image.clone(), overview.clone(), mask.clone()]), "a.tif").unwrap();
     assert_eq!((raster.filled, raster.heights.len()), (4, 120));
     assert_eq!(read(&tiff(&[image.clone(), overview]), "a.tif").unwrap().filled, 0);
     // An absent part of a mask excludes its samples.
-    let half = Image { parts: vec![vec![], mask.parts[1].clone()], ..mask.clone() };
+    let half = TestImage { parts: vec![vec![], mask.parts[1].clone()], ..mask.clone() };
     assert_eq!(read(&tiff(&[image.clone(), half]), "a.tif").unwrap().filled, 62);
-    let unknown = Image { compression: 7, ..mask };
+    let unknown = TestImage { compression: 7, ..mask };
     let error = read(&tiff(&[image, unknown]), "a.tif").unwrap_err();
     assert!(error.message().contains("has a mask"), "{error}");
 }
@@ -186,7 +186,8 @@ fn padded_lzw_tiles_are_read_to_their_end() {
             }
         }
         let parts = vec![packed(&values, 16, Compression::Lzw)];
-        let image = Image { tile: Some([16, 16]), compression: 5, predictor, ..Image::of(2, 14, parts) };
+        let image =
+            TestImage { tile: Some([16, 16]), compression: 5, predictor, ..TestImage::of(2, 14, parts) };
         let raster = read(&tiff(&[image]), "a.tif").unwrap();
         let expected: Vec<f32> =
             (0..14).flat_map(|row| [height(0, row), height(1, row)]).map(f32::from).collect();

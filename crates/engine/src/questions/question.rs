@@ -43,6 +43,7 @@ impl Question {
     }
 
     /// Returns who asks, where packages may have modules of one name.
+    #[cfg(feature = "data")]
     pub(crate) fn scope(&self) -> Option<&NameScope> {
         self.scope.as_deref()
     }

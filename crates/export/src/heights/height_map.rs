@@ -152,6 +152,7 @@ impl HeightMap {
     }
 
     /// Returns the EPSG code of the projection.
+    #[cfg(feature = "data")]
     pub(super) fn epsg(&self) -> Option<u16> {
         self.frame.as_ref().and_then(|frame| frame.epsg)
     }
