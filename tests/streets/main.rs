@@ -74,7 +74,7 @@ fn words_keep_what_networks_promise_with_any_angles() {
 
 #[test]
 fn towns_that_nobody_planned_look_like_real_ones() {
-    const SEEDS: u64 = 8;
+    const SEEDS: u64 = 16;
     let mut sums = [0.0; 16];
     for seed in 1..=SEEDS {
         let of = looks(grown("roads.lua", seed, &[("extent", "1000")]).network());

@@ -149,10 +149,8 @@ end
 
 -- The distance (m) of a place from the outline, without the parts that lie behind one who looks towards a heading if one is given.
 function areas.distance(area: Area, x: number, y: number, heading: number?): number
-  local east, north = 0, 0
-  if heading then
-    east, north = math.cos(math.rad(heading)), math.sin(math.rad(heading))
-  end
+  local angle: number = math.rad(heading or 0)
+  local east: number, north: number = math.cos(angle), math.sin(angle)
   local least = math.huge
   for index = 1, area.count do
     local after = index % area.count + 1

@@ -5,6 +5,7 @@ local gaps = {}
 -- The streets into such land, of the options of a town; `start` gives the tip of a street that leaves a junction, or nil.
 function gaps.tips(this: Network, of: any, start: any, left: number): { any }
   local modules = {}
+  local people: ((number, number) -> number)? = of.people
   -- Streets rather leave where one only turns, for that leaves no junction of four.
   for at, corner in this:places() do
     local place, degree = corner.place, #corner.headings
@@ -22,7 +23,7 @@ function gaps.tips(this: Network, of: any, start: any, left: number): { any }
       local length = pattern.length(place.x, place.y, heading, depth)
       local way = (free + 0.4) * length * vec(math.cos(math.rad(heading)), math.sin(math.rad(heading)), 0)
       local ahead = place + way
-      local is_peopled = not of.people or of.people(ahead.x, ahead.y) > 0.02
+      local is_peopled = people == nil or people(ahead.x, ahead.y) > 0.02
       if room > 0 and of.inside(ahead.x, ahead.y) and is_peopled and this:distance(ahead) > free * length then
         local tip = start(pattern, at, place.x, place.y, heading, depth, 0, left)
         room -= if tip then 1 else 0

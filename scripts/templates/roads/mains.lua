@@ -304,7 +304,10 @@ function mains.rules(
       local other = ends[index % #ends + 1]
       local list, goal = one.list, other.list[other.arrives]
       -- Streets of two sectors leave a main street one after the other.
-      local leaves = if one.leaves == one.arrives and #list > one.leaves then one.leaves + 1 else one.leaves
+      local leaves: number = one.leaves :: any
+      if leaves == one.arrives and #list > leaves then
+        leaves += 1
+      end
       local depth = if random() < LANES then math.min(2, deepest) else 1
       -- It leaves some pieces further in where it cannot leave there.
       local last = math.min(leaves + TRIES - 1, #list)

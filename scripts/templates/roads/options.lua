@@ -70,7 +70,7 @@ function options.read(asked: any, caller: string, level: number): any
     else function(x, y)
       return x * x + y * y < extent * extent
     end
-  local people = asked.population
+  local people: ((number, number) -> number)? = asked.population
   local deepest = number(`{caller}: deepest`, asked.deepest, 4, 0, 20, level)
   local divides = is_by_place or given.room ~= nil
   local steps =
@@ -90,7 +90,8 @@ function options.read(asked: any, caller: string, level: number): any
   local centres = asked.centres or { { 0, 0 } }
   local headings = asked.headings or { 8, 98, 188, 278 }
   if asked.onto then
-    if not (asked.network and asked.network.existing) then
+    local of_network: any = asked.network
+    if of_network == nil or of_network.existing == nil then
       error(`{caller}: onto = true takes streets that are there: network = \{ existing = ... }`, level - 1)
     end
   elseif #centres == 0 or #headings == 0 then
@@ -135,7 +136,9 @@ function options.read(asked: any, caller: string, level: number): any
     if not of_pattern then
       return nil
     end
-    local much = if people then number("population of a place", people(x, y), 0, -math.huge, math.huge) else 1
+    local much = if people ~= nil
+      then number("population of a place", people(x, y), 0, -math.huge, math.huge)
+      else 1
     local far = math.huge
     for _, centre in centres do
       far = math.min(far, math.sqrt((x - centre[1]) ^ 2 + (y - centre[2]) ^ 2))
