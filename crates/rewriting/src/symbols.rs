@@ -130,7 +130,7 @@ pub struct NameScope {
 /// What a package declares is its own: modules of two packages, or of a package and the script, may have one name.
 #[derive(Debug, Clone)]
 pub struct Symbols {
-    /// Those of placeholders, then the declared ones.
+    /// Signatures of placeholders, then of declared modules.
     signatures: Vec<Signature>,
     /// By symbol: the package that declares it.
     owners: Vec<Option<Arc<str>>>,

@@ -60,7 +60,7 @@ pub(crate) fn read<'a>(bytes: &'a [u8], name: &'a str) -> Result<RasterHeader<'a
     }
     let heights = move |budget: &Budget| {
         let mut heights = samples(&mut tiff, bytes, name, [columns, rows], &meaning, budget)?;
-        take_out_masked(&mut tiff, bytes, name, columns, &mut heights)?;
+        take_out_masked(&mut tiff, bytes, name, (columns, &mut heights), budget)?;
         if from_south {
             let _held = budget.hold(heights.len() * size_of::<f32>())?;
             heights = heights.chunks_exact(columns).rev().flatten().copied().collect();
@@ -202,20 +202,20 @@ fn take_out_masked(
     tiff: &mut Tiff<'_>,
     bytes: &[u8],
     name: &str,
-    columns: usize,
-    heights: &mut [f32],
+    (columns, heights): (usize, &mut [f32]),
+    budget: &Budget,
 ) -> Result<()> {
     let Some(mask) = TiffParts::mask_of(tiff) else { return Ok(()) };
-    let taken = mask.each_excluded(bytes, |row, column| {
+    let is_read = mask.each_excluded(bytes, budget, |row, column| {
         if let Some(height) = heights.get_mut(row * columns + column) {
             *height = f32::NAN;
         }
-    });
-    taken.ok_or_else(|| {
-        Error::data(format!("{name} has a mask that is damaged, or in a compression that is not read")).help(
-            "write the mask as a value: gdalwarp -dstnodata -9999 IN OUT.tif, or compress it with Deflate",
-        )
-    })
+    })?;
+    if is_read {
+        return Ok(());
+    }
+    Err(Error::data(format!("{name} has a mask that is damaged, or in a compression that is not read"))
+        .help("write the mask as a value: gdalwarp -dstnodata -9999 IN OUT.tif, or compress it with Deflate"))
 }
 
 /// Converts samples to heights (m). Fails for sample types that cannot be heights.

@@ -9,6 +9,8 @@ use tiff::decoder::IfdDecoder;
 use tiff::tags::Tag;
 
 use super::geotiff::Tiff;
+use burgeon_base::budget::Budget;
+use burgeon_base::error::Result;
 
 /// TIFF compressions.
 const PLAIN: u32 = 1;
@@ -175,11 +177,16 @@ impl TiffParts {
         }
     }
 
-    /// Calls `each` with the row and the column of each sample that the mask excludes. Returns `None` if the mask
-    /// cannot be read.
-    pub(super) fn each_excluded(&self, bytes: &[u8], mut each: impl FnMut(usize, usize)) -> Option<()> {
+    /// Calls `each` with the row and the column of each sample that the mask excludes. Returns `false` if the mask
+    /// cannot be read. Fails if that exceeds the `budget`.
+    pub(super) fn each_excluded(
+        &self,
+        bytes: &[u8],
+        budget: &Budget,
+        mut each: impl FnMut(usize, usize),
+    ) -> Result<bool> {
         if !matches!(self.bits, 1 | 8) {
-            return None;
+            return Ok(false);
         }
         let [columns, rows] = self.image;
         let [width, height] = self.part;
@@ -187,9 +194,17 @@ impl TiffParts {
         let length = if self.bits == 1 { width.div_ceil(8) } else { width };
         for number in 0..across * rows.div_ceil(height) {
             let [left, top] = [number % across * width, number / across * height];
-            let whole = length.checked_mul(self.stored(number)[1])?;
-            let unpacked =
-                if self.is_absent(number) { None } else { Some(self.unpack(bytes, number, whole)?) };
+            budget.check()?;
+            // Tiles are as large as the file says, however small the image is.
+            let Some(whole) = length.checked_mul(self.stored(number)[1]) else { return Ok(false) };
+            let _held = budget.hold(whole)?;
+            let unpacked = match self.is_absent(number) {
+                true => None,
+                false => match self.unpack(bytes, number, whole) {
+                    Some(unpacked) => Some(unpacked),
+                    None => return Ok(false),
+                },
+            };
             for row in 0..height.min(rows - top) {
                 for column in 0..width.min(columns - left) {
                     let is_kept = unpacked.as_ref().is_some_and(|bytes| match self.bits {
@@ -202,7 +217,7 @@ impl TiffParts {
                 }
             }
         }
-        Some(())
+        Ok(true)
     }
 }
 

@@ -19,7 +19,7 @@ pub struct Question {
     hash: u64,
     sql: Arc<str>,
     values: Option<Arc<Table>>,
-    /// Who asks, where packages may have modules of one name.
+    /// Package or script that asks, where packages may have modules of one name.
     scope: Option<Arc<NameScope>>,
 }
 
