@@ -6,7 +6,7 @@ use burgeon::{Result, Warning, WarningKind, geometry};
 use glam::DVec3;
 
 /// A ball that may panic.
-#[object("fuse", draws, begins_empty, warns, crate = burgeon::kit)]
+#[object("fuse", draws, can(Warn), begins_empty, crate = burgeon::kit)]
 pub struct Fuse {
     /// Whether it is to panic.
     pub blown: bool,

@@ -7,11 +7,12 @@ use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use burgeon::Result;
 use burgeon::geometry::sphere;
 use burgeon::kit::{
-    Drawing, Expand, Expectation, Features, GeometryObject, Object, Parameter, Prefetch, Rewriter, Table,
-    Value, Vector, methods, object,
+    Drawing, Expand, Expectation, Object, Parameter, Prefetch, Rewriter, Table, Value, Vector, methods,
+    object,
 };
 use burgeon::scene::Material;
-use burgeon::sources::{Geometry, Layer};
+use burgeon::sources::{Features, Geometry, Layer};
+use burgeon::spatial::GeometryObject;
 use glam::{DVec2, DVec3};
 
 /// How many middles were there before they were asked for, and how many were looked for.
@@ -87,11 +88,11 @@ impl Parameter for Whole {
     first = "geometry",
     make = planted,
     draws,
-    expands,
+    can(Expand),
     begins_empty,
     begin = restart,
     gathers = gather,
-    prefetches = |layer| Arc::new(Middles::new(layer)),
+    prefetches = |features| Some(Arc::new(Middles::new(features)?)),
     crate = burgeon::kit
 )]
 pub struct Orchard {
@@ -169,9 +170,11 @@ struct Middles {
 }
 
 impl Middles {
-    fn new(layer: &Arc<Layer>) -> Self {
+    fn new(features: &Arc<dyn Object>) -> Option<Self> {
+        let any: &dyn Any = &**features;
+        let layer = &any.downcast_ref::<Features>()?.0;
         let middles = layer.features.iter().map(|_| Default::default()).collect();
-        Self { layer: Arc::clone(layer), middles, over: AtomicBool::new(false) }
+        Some(Self { layer: Arc::clone(layer), middles, over: AtomicBool::new(false) })
     }
 }
 

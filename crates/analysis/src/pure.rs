@@ -11,7 +11,7 @@ use full_moon::tokenizer::TokenReference;
 
 use super::syntax::text_of;
 use super::walk::Walk;
-use burgeon_language::{Effect, is_pure_function, is_pure_method, library_effect};
+use burgeon_language::{Effect, is_pure_function, library_effect};
 
 /// Whether a script gives tables a behaviour of its own, so that even reading one may leave something behind.
 pub fn has_metatables(text: &str) -> bool {
@@ -51,7 +51,7 @@ impl Walk<'_> {
                 self.library_called(&text_of(name), &text_of(field), arguments);
             }
             [fields @ .., Suffix::Call(Call::MethodCall(method))]
-                if is_pure_method(&text_of(method.name()))
+                if self.is_pure_method(&text_of(method.name()))
                     && fields.iter().all(|field| matches!(field, Suffix::Index(_)))
                     && self.find(&text_of(name)).is_some_and(|variable| variable.feature) => {}
             _ => self.impure_from(1),
@@ -71,6 +71,11 @@ impl Walk<'_> {
                     || self.globals.kinds.contains(&text)
             }
         }
+    }
+
+    /// Returns true if a method of a value of a feature is pure: one of strings, or of objects that never change.
+    fn is_pure_method(&self, name: &str) -> bool {
+        library_effect("string", name) == Effect::Pure || self.globals.value_methods.contains(name)
     }
 
     fn library_called(&mut self, library: &str, function: &str, arguments: &FunctionArgs) {
@@ -116,7 +121,9 @@ mod tests {
     fn pure(script: &str) -> bool {
         let names = ["math", "table", "string", "random", "footprint", "pairs", "source", "param", "pcall"];
         let names = names.map(str::to_owned).to_vec();
-        let globals = Globals { names, kinds: vec!["footprint".to_owned()], ..Globals::default() };
+        let value_methods = std::iter::once("area".to_owned()).collect();
+        let globals =
+            Globals { names, kinds: vec!["footprint".to_owned()], value_methods, ..Globals::default() };
         let analysis = analyse("s.lua", script, |_| Some(Vec::new()), &globals);
         analysis.pure.contains(&script.lines().count())
     }
@@ -129,6 +136,7 @@ mod tests {
             "local t = { 1 } table.insert(t, math.max(f.a, 2)) return table.concat(t)",
             "local h = 3 if f.a then h = 4 end return h",
             "return f.name:lower()",
+            "return f.geometry:area()",
             "return half(f.height)",
             "return random()",
         ] {

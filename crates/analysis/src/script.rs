@@ -17,7 +17,7 @@ use burgeon_rewriting::Signature;
 use full_moon::ast::Ast;
 use full_moon::node::Node;
 use full_moon::tokenizer::TokenType;
-use rustc_hash::FxHashMap;
+use rustc_hash::{FxHashMap, FxHashSet};
 
 /// Makes bytecode of a text; none where Luau refuses it, which tells why when it is asked to run it.
 pub type Compile = fn(&str) -> Option<Vec<u8>>;
@@ -31,6 +31,8 @@ pub struct Globals {
     pub modules: FxHashMap<String, Signature>,
     /// The constructors of objects among them.
     pub kinds: Vec<String>,
+    /// Methods of objects that never change, such as geometries.
+    pub value_methods: FxHashSet<String>,
     /// Those that will go.
     pub deprecated: Arc<BTreeMap<String, Deprecation>>,
     /// Counts the shapes of the run's rules.

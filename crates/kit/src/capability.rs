@@ -1,12 +1,17 @@
-//! What some types of objects can do and others cannot, as their kinds declare it.
+//! Capabilities of types of objects, as their kinds declare them.
+//!
+//! A capability is a trait that some types of objects implement. A new capability is a trait, and
+//! [`Kind::can`](super::Kind::can) with [`capability!`](crate::capability!) at each type that has it.
 
-use super::declare::{as_mut, as_ref};
+use std::any::{Any, TypeId};
+use std::sync::Arc;
+
 use super::{Drawing, Note, Object, Rewriter, Value};
 use burgeon_base::error::Result;
 use burgeon_base::warning::Warning;
 use burgeon_scene::Scene;
 
-/// How an object is asked as one that can do `C`.
+/// Access to an object as one that implements the trait `C`.
 pub struct Capability<C: ?Sized + 'static> {
     of: fn(&dyn Object) -> Option<&C>,
     of_mut: fn(&mut dyn Object) -> Option<&mut C>,
@@ -21,54 +26,49 @@ impl<C: ?Sized> Clone for Capability<C> {
 impl<C: ?Sized> Copy for Capability<C> {}
 
 impl<C: ?Sized> Capability<C> {
-    /// The object as one that can; `None` if neither its type nor that of an object it extends is
-    /// the one whose kind declared this.
+    /// Creates a capability of two functions that convert an object. [`capability!`](crate::capability!) writes them.
+    pub fn new(of: fn(&dyn Object) -> Option<&C>, of_mut: fn(&mut dyn Object) -> Option<&mut C>) -> Self {
+        Self { of, of_mut }
+    }
+
+    /// Returns the object as a `C`, or `None` if neither its type nor a type that it extends declares the capability.
     pub fn of<'a>(&self, object: &'a dyn Object) -> Option<&'a C> {
         (self.of)(object)
     }
 
-    /// The same, to change it.
+    /// Returns the object as a mutable `C`, as [`Capability::of`] does.
     pub fn of_mut<'a>(&self, object: &'a mut dyn Object) -> Option<&'a mut C> {
         (self.of_mut)(object)
     }
 }
 
-/// The capability `dyn $capability` of objects of type `$object`.
+/// Creates the [`Capability`] of a trait for a type of object: `capability!(Extruder: Warn)`.
+#[macro_export]
 macro_rules! capability {
-    ($object:ident: $capability:ident) => {
-        Capability {
-            of: |object| as_ref::<$object>(object).map(|it| it as &dyn $capability),
-            of_mut: |object| as_mut::<$object>(object).map(|it| it as &mut dyn $capability),
-        }
+    ($object:ty: $capability:path) => {
+        $crate::Capability::<dyn $capability>::new(
+            |object| $crate::declare::as_ref::<$object>(object).map(|it| it as &dyn $capability),
+            |object| $crate::declare::as_mut::<$object>(object).map(|it| it as &mut dyn $capability),
+        )
     };
 }
 
-pub(super) fn show<T: Object + Show>() -> Capability<dyn Show> {
-    capability!(T: Show)
-}
+/// Capabilities of a kind, at most one of each trait.
+#[derive(Clone, Default)]
+pub struct Capabilities(Vec<(TypeId, Arc<dyn Any + Send + Sync>)>);
 
-pub(super) fn draw<T: Object + Draw>() -> Capability<dyn Draw> {
-    capability!(T: Draw)
-}
+impl Capabilities {
+    /// Returns the capability of the trait `C`, if it is declared.
+    pub fn get<C: ?Sized + 'static>(&self) -> Option<Capability<C>> {
+        let (_, capability) = self.0.iter().find(|(id, _)| *id == TypeId::of::<C>())?;
+        capability.downcast_ref().copied()
+    }
 
-pub(super) fn expand<T: Object + Expand>() -> Capability<dyn Expand> {
-    capability!(T: Expand)
-}
-
-pub(super) fn detail<T: Object + LevelOfDetail>() -> Capability<dyn LevelOfDetail> {
-    capability!(T: LevelOfDetail)
-}
-
-pub(super) fn layers<T: Object + HasLayers>() -> Capability<dyn HasLayers> {
-    capability!(T: HasLayers)
-}
-
-pub(super) fn warn<T: Object + Warn>() -> Capability<dyn Warn> {
-    capability!(T: Warn)
-}
-
-pub(super) fn report<T: Object + Report>() -> Capability<dyn Report> {
-    capability!(T: Report)
+    /// Adds a capability, in place of an earlier one of the same trait.
+    pub fn insert<C: ?Sized + 'static>(&mut self, capability: Capability<C>) {
+        self.0.retain(|(id, _)| *id != TypeId::of::<C>());
+        self.0.push((TypeId::of::<C>(), Arc::new(capability)));
+    }
 }
 
 /// Adds something to the scene.
@@ -146,3 +146,27 @@ pub trait HasLayers {
 
 /// Lets all objects of a system know of one another, once there are all of them and before a rule asks.
 pub type Gather = fn(&mut [Box<dyn Object>]);
+
+/// Compares, shows and reads an object by its content, as a value: two equal ones stand for one another.
+pub trait ObjectContent {
+    /// Returns true if `other` has the same type and the same content.
+    fn equals(&self, other: &dyn Object) -> bool;
+
+    /// Adds the content to a hash, so that equal objects add the same.
+    fn hash(&self, state: &mut dyn std::hash::Hasher);
+
+    /// Returns a short text of the content for messages and traces.
+    fn text(&self) -> String;
+
+    /// Returns the object as a position (m), if it is one point.
+    fn position(&self) -> Option<glam::DVec3>;
+
+    /// Returns the parts that `fragment` replaces a module by; `None` if the object has no parts.
+    fn fragments(&self) -> Option<Vec<Value>>;
+}
+
+/// Has fields that scripts read without a call.
+pub trait Members {
+    /// Returns the value of the field `name`, if the object has it.
+    fn member(&self, name: &str) -> Option<Value>;
+}

@@ -3,10 +3,9 @@
 use std::borrow::Cow;
 use std::sync::Arc;
 
-use super::capability::{
-    self, Capability, Draw, Expand, Gather, HasLayers, LevelOfDetail, Report, Show, Warn,
-};
-use super::{Argument, BeginPrefetch, Loader, Object, ScriptType, Table, Value};
+use super::capability::{Capabilities, Capability, Draw, Gather, Show};
+use super::{Argument, BeginPrefetch, Constructor, Loader, Object, ScriptType, Table, Value};
+use crate::capability;
 use burgeon_base::error::{Error, Result};
 
 /// Text that a built-in type has in the program, and another brings.
@@ -34,22 +33,12 @@ pub struct Kind {
     pub family: Option<SharedText>,
     /// How one is made.
     pub construct: Construct,
+    /// Functions besides the constructor that create values of it.
+    pub functions: Vec<Constructor>,
     /// Whether [`Object::begin`] forgets all that earlier passes did.
     pub begins_empty: bool,
-    /// How it adds to the scene, if it does.
-    pub show: Option<Capability<dyn Show>>,
-    /// How it draws, if it draws with a [`Drawing`](super::Drawing).
-    pub draw: Option<Capability<dyn Draw>>,
-    /// How it expands by itself, if it does.
-    pub expand: Option<Capability<dyn Expand>>,
-    /// How it takes a level of detail, if it does.
-    pub detail: Option<Capability<dyn LevelOfDetail>>,
-    /// How it warns, if it does.
-    pub warn: Option<Capability<dyn Warn>>,
-    /// How it tells what it did otherwise than asked, if it does.
-    pub report: Option<Capability<dyn Report>>,
-    /// Gives its features as layers.
-    pub layers: Option<Capability<dyn HasLayers>>,
+    /// Traits that its objects implement, for the engine.
+    pub capabilities: Capabilities,
     /// What lets all objects of a system know of one another.
     pub gather: Option<Gather>,
     /// What a thread may prepare of a layer's features before they are asked for.
@@ -193,14 +182,9 @@ impl Kind {
             methods: Vec::new(),
             family: None,
             construct: Construct::Given,
+            functions: Vec::new(),
             begins_empty: false,
-            show: None,
-            draw: None,
-            expand: None,
-            detail: None,
-            warn: None,
-            report: None,
-            layers: None,
+            capabilities: Capabilities::default(),
             gather: None,
             prefetch: None,
             script: None,
@@ -266,6 +250,12 @@ impl Kind {
         }
     }
 
+    /// Adds functions to scripts that create values of it.
+    #[must_use]
+    pub fn functions(self, functions: impl Into<Vec<Constructor>>) -> Self {
+        Self { functions: functions.into(), ..self }
+    }
+
     /// Has these methods.
     #[must_use]
     pub fn methods(self, methods: Vec<Method>) -> Self {
@@ -284,46 +274,27 @@ impl Kind {
         Self { begins_empty: true, ..self }
     }
 
-    /// Adds something to the scene.
+    /// Declares a capability: `kind.can(capability!(Extruder: Warn))`.
     #[must_use]
-    pub fn shows<T: Object + Show>(self) -> Self {
-        Self { show: Some(capability::show::<T>()), ..self }
+    pub fn can<C: ?Sized + 'static>(mut self, capability: Capability<C>) -> Self {
+        self.capabilities.insert(capability);
+        self
     }
 
-    /// Draws with a [`Drawing`](super::Drawing).
+    /// Declares that its objects draw with a [`Drawing`](super::Drawing).
     #[must_use]
     pub fn draws<T: Object + Draw>(self) -> Self {
-        Self { draw: Some(capability::draw::<T>()), ..self.shows::<T>() }
+        self.can(capability!(T: Draw)).can(capability!(T: Show))
     }
 
-    /// Expands by itself.
-    #[must_use]
-    pub fn expands<T: Object + Expand>(self) -> Self {
-        Self { expand: Some(capability::expand::<T>()), ..self }
+    /// Returns the capability of the trait `C`, if its objects have it.
+    pub fn capability<C: ?Sized + 'static>(&self) -> Option<Capability<C>> {
+        self.capabilities.get()
     }
 
-    /// Draws in levels of detail.
-    #[must_use]
-    pub fn has_detail<T: Object + LevelOfDetail>(self) -> Self {
-        Self { detail: Some(capability::detail::<T>()), ..self }
-    }
-
-    /// Has features for files of layers.
-    #[must_use]
-    pub fn has_layers<T: Object + HasLayers>(self) -> Self {
-        Self { layers: Some(capability::layers::<T>()), ..self }
-    }
-
-    /// Warns.
-    #[must_use]
-    pub fn warns<T: Object + Warn>(self) -> Self {
-        Self { warn: Some(capability::warn::<T>()), ..self }
-    }
-
-    /// Tells what it did otherwise than asked.
-    #[must_use]
-    pub fn reports<T: Object + Report>(self) -> Self {
-        Self { report: Some(capability::report::<T>()), ..self }
+    /// Returns true if its objects have the capability of the trait `C`.
+    pub fn has_capability<C: ?Sized + 'static>(&self) -> bool {
+        self.capability::<C>().is_some()
     }
 
     /// All objects of a system get to know of one another by `gather`.

@@ -1,5 +1,6 @@
 //! How a type of object is made of a file.
 
+use std::any::Any;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -7,7 +8,6 @@ use super::{Object, Table};
 use burgeon_base::budget::Budget;
 use burgeon_base::error::{Error, Result};
 use burgeon_base::warning::Warning;
-use burgeon_data::{Cache, ReferenceFrame};
 
 /// Makes objects of files.
 #[derive(Clone)]
@@ -47,9 +47,9 @@ pub struct LoadRequest<'a> {
     pub budget: &'a Arc<Budget>,
     /// The most triangles that it may hold.
     pub triangles: usize,
-    /// The projection and the origin of the run, which the first data decides.
-    pub frame: &'a mut Option<ReferenceFrame>,
-    /// What else the run has.
+    /// Values of the run that some loaders need, found by their type with [`LoadRequest::service`].
+    pub services: &'a mut [&'a mut dyn Any],
+    /// Files of the run.
     pub resources: &'a dyn Resources,
 }
 
@@ -57,15 +57,17 @@ pub struct LoadRequest<'a> {
 pub trait Resources {
     /// The file that a script means by `name`, which is to be a `what`. Fails for one that it may not read.
     fn find(&self, what: &'static str, name: &str) -> Result<PathBuf>;
-
-    /// What earlier runs have read.
-    fn cache(&self) -> Option<&Cache>;
 }
 
 /// The largest file (bytes) that is read whole.
 const LARGEST: u64 = 1_000_000_000;
 
 impl LoadRequest<'_> {
+    /// Returns the service of type `T`, if the run provides it, such as the projection that all its data share.
+    pub fn service<T: Any>(&mut self) -> Option<&mut T> {
+        self.services.iter_mut().find_map(|service| service.downcast_mut())
+    }
+
     /// The content of the file; `remedy` is told where it cannot be read.
     pub fn read(&self, remedy: &str) -> Result<Vec<u8>> {
         self.read_from(self.path, self.name, remedy)

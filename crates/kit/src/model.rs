@@ -16,7 +16,7 @@ const MANY: usize = 4096;
 /// What a derived system has drawn, or a glTF file holds, for placing elsewhere.
 ///
 /// It never changes. The way in which files are read is no part of its kind here.
-#[object("model", given, shows)]
+#[object("model", given, can(Show))]
 pub struct Model {
     scene: Arc<Scene>,
     /// The box around it (m).

@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use glam::DVec3;
 
-use super::{Field, Object, Table, TableKey, Value, geometry};
+use super::{Field, Object, ObjectContent, Table, TableKey, Value};
 use burgeon_base::Stop;
 use burgeon_base::error::{Error, Result};
 use burgeon_rewriting::ColumnValue;
@@ -149,7 +149,17 @@ macro_rules! answers {
     )*};
 }
 
-answers!(f64, u32, bool, String, DVec3, Vec<f64>, Value);
+answers!(f64, u32, bool, String, DVec3, Value);
+
+impl<T: Parameter> Answer for Vec<T> {
+    fn luau() -> String {
+        <Self as Parameter>::luau()
+    }
+
+    fn answer(self) -> Result<Value> {
+        Ok(self.into_value())
+    }
+}
 
 impl<T: Answer> Answer for Option<T> {
     fn luau() -> String {
@@ -441,8 +451,10 @@ impl Parameter for Vector {
 
     fn from_value(value: Value) -> Result<Self, Expectation> {
         let what = || Expectation::new("a vector: { x, y, z } or vec(x, y, z)");
-        if let Some(place) = geometry::vector(&value) {
-            return Ok(place);
+        if let Value::Object(object) = &value
+            && let Some(position) = object.capability::<dyn ObjectContent>().and_then(|it| it.position())
+        {
+            return Ok(Self(position));
         }
         let Value::Table(table) = value else { return Err(what()) };
         let mut parts = table.list();

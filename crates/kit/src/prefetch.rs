@@ -3,10 +3,10 @@
 use std::any::Any;
 use std::sync::Arc;
 
-use burgeon_data::Layer;
+use super::Object;
 
-/// Begins to prepare a layer's features.
-pub type BeginPrefetch = fn(&Arc<Layer>) -> Arc<dyn Prefetch>;
+/// Begins to prepare the features of a source; `None` if the source has nothing to prepare.
+pub type BeginPrefetch = fn(&Arc<dyn Object>) -> Option<Arc<dyn Prefetch>>;
 
 /// What is being made of a layer's features before they are asked for.
 pub trait Prefetch: Any + Send + Sync {

@@ -3,8 +3,10 @@
 use std::collections::BTreeSet;
 use std::sync::{Arc, Weak};
 
+use super::capability::{Draw, LevelOfDetail, Report, Warn};
 use super::declare::refuse_unknown;
 use super::{Argument, Call, Construct, Kind, Method, Object, ScriptField, ScriptObject, Table, Value};
+use crate::capability;
 use burgeon_base::error::{Error, Limit, Result, SourcePlace};
 
 /// What a script declares of a type.
@@ -74,7 +76,7 @@ impl ScriptType {
     fn check_held(&self, name: &str) -> Result<()> {
         for (held, object) in &self.held {
             let kind = object.kind();
-            if kind.draw.is_none() {
+            if !kind.has_capability::<dyn Draw>() {
                 return Err(Error::argument(format!(
                     "{name}: {held} of its state is a {}, which cannot be held",
                     kind.name
@@ -109,7 +111,7 @@ impl ScriptType {
         }
         self.check_held(name)?;
         if let (Some(base), false) = (&base, self.held.is_empty())
-            && base.draw.is_none()
+            && !base.has_capability::<dyn Draw>()
         {
             return Err(Error::argument(format!(
                 "a {} does not draw, so {name} can hold nothing that does",
@@ -165,24 +167,23 @@ impl ScriptType {
                 made.make(kind, table)
             };
             let own = Kind::new(name.to_owned(), doc).made_of(fields, make).methods(all);
-            let own = own.has_detail::<ScriptObject>().reports::<ScriptObject>();
             let mut within = base.iter().chain(of.held.iter().map(|(_, object)| object.kind()));
-            let own = if within.any(|kind| kind.warn.is_some()) { own.warns::<ScriptObject>() } else { own };
-            match base {
+            let warns = within.any(|kind| kind.has_capability::<dyn Warn>());
+            let own = match base {
                 None => Kind { script: Some(of), ..own.begins_empty().draws::<ScriptObject>() },
                 Some(base) => Kind {
                     first: base.first.clone(),
                     begins_empty: base.begins_empty,
-                    show: base.show,
-                    draw: base.draw,
-                    layers: base.layers,
-                    expand: base.expand,
+                    capabilities: base.capabilities.clone(),
                     gather: base.gather,
                     prefetch: base.prefetch,
                     script: Some(of),
                     ..own
                 },
-            }
+            };
+            let own =
+                own.can(capability!(ScriptObject: LevelOfDetail)).can(capability!(ScriptObject: Report));
+            if warns { own.can(capability!(ScriptObject: Warn)) } else { own }
         }))
     }
 

@@ -4,10 +4,7 @@ use std::fmt;
 use std::hash::{Hash, Hasher};
 use std::sync::Arc;
 
-use super::{GeometryObject, Object};
-
-/// About how many letters of a geometry are shown.
-const SHORT: usize = 60;
+use super::{Object, ObjectContent};
 
 /// A number, a boolean, a string, a frozen table or an object.
 #[derive(Clone)]
@@ -53,9 +50,8 @@ impl PartialEq for Value {
             (Self::Text(a), Self::Text(b)) => a == b,
             (Self::Table(a), Self::Table(b)) => a == b,
             (Self::Object(a), Self::Object(b)) => {
-                // Geometries are values.
-                let same = || Some(GeometryObject::of(&**a)? == GeometryObject::of(&**b)?);
-                Arc::ptr_eq(a, b) || same().unwrap_or(false)
+                Arc::ptr_eq(a, b)
+                    || a.capability::<dyn ObjectContent>().is_some_and(|content| content.equals(&**b))
             }
             _ => false,
         }
@@ -73,8 +69,8 @@ impl Hash for Value {
             Self::Number(value) => value.to_bits().hash(state),
             Self::Text(value) => value.hash(state),
             Self::Table(value) => value.hash(state),
-            Self::Object(value) => match GeometryObject::of(&**value) {
-                Some(geometry) => GeometryObject::hash(geometry, state),
+            Self::Object(value) => match value.capability::<dyn ObjectContent>() {
+                Some(content) => content.hash(state),
                 None => Arc::as_ptr(value).cast::<()>().hash(state),
             },
         }
@@ -129,8 +125,8 @@ impl fmt::Display for Value {
             Self::Boolean(value) => write!(f, "{value}"),
             Self::Number(value) => write_number(*value, f),
             Self::Text(value) => write!(f, "{value:?}"),
-            Self::Object(value) => match GeometryObject::of(&**value) {
-                Some(geometry) => f.write_str(&geometry.to_short_wkt(SHORT)),
+            Self::Object(value) => match value.capability::<dyn ObjectContent>() {
+                Some(content) => f.write_str(&content.text()),
                 None => f.write_str(&value.kind().name),
             },
             Self::Table(table) => {

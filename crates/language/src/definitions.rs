@@ -7,7 +7,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write as _;
 
-use burgeon_kit::{Argument, Construct, Field, Kind, Method, Registry, is_keyword};
+use burgeon_kit::{Argument, Construct, Expand, Field, Kind, Method, Registry, Show, is_keyword};
 
 use crate::form::{is_name, may_be_left_out};
 use crate::luau_type::LuauType;
@@ -315,7 +315,9 @@ impl Writer {
             given("ScriptObject")
         );
         // Those that neither draw nor divide anything are of no use to a system.
-        let of_use = |kind: &&std::sync::Arc<Kind>| kind.show.is_some() || kind.expand.is_some();
+        let of_use = |kind: &&std::sync::Arc<Kind>| {
+            kind.has_capability::<dyn Show>() || kind.has_capability::<dyn Expand>()
+        };
         for kind in registry.kinds().filter(of_use) {
             if let (Construct::Fields(_), Some(arguments)) = (&kind.construct, self.constructor(kind)) {
                 let own = self.class_name(kind);

@@ -161,11 +161,12 @@ pub fn fields(arguments: TokenStream, item: TokenStream) -> TokenStream {
 ///
 /// After the name, in any order:
 ///
-/// - what it can do, as its `Kind` says it: `draws` (in its field of type `Drawing`), `shows`, `expands`, `has_detail`,
-///   `has_layers`, `reports` and `warns`, each but the first with a trait to implement;
+/// - `draws`: it draws in its field of type `Drawing`;
+/// - `can(Warn, Report)`: traits that it implements, as which the engine uses it: `Show`, `Expand`, `LevelOfDetail`,
+///   `HasLayers`, `Report`, `Warn`, and any other one;
 /// - `begins_empty`: each pass begins as if there had been none before. Its state gets its defaults again, a drawing keeps
 ///   its memory;
-/// - `first = "field"`, `example = "..."`, `gathers = function`, `prefetches = function`, as its `Kind` takes them;
+/// - `first = "field"`, `example = "..."`, `functions = list`, `gathers = function`, `prefetches = function`, as its `Kind` takes them;
 /// - `deprecates("height", "1.3", "size")`: a name that will go, since when, and what is used instead; as often as needed;
 /// - `make = function`: the function of the type that makes one of a script's `&Table`, where there is more to do than to
 ///   read it;
@@ -202,7 +203,7 @@ pub fn fields(arguments: TokenStream, item: TokenStream) -> TokenStream {
 /// ```compile_fail,E0277
 /// # use burgeon_kit::{methods, object};
 /// /// A tower.
-/// #[object("tower", expands)]
+/// #[object("tower", can(burgeon_kit::Expand))]
 /// pub struct Tower {}
 /// # #[methods("tower")]
 /// # impl Tower {}

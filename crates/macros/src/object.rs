@@ -48,7 +48,7 @@ fn implementation(declared: &ObjectArguments, object: &ItemStruct) -> Result<Tok
         _ => None,
     };
     let reader = state.as_ref().map(|state| reader(&declared.own, name, &state.given, &state.others));
-    let draw = declared.draws().then(|| draw::implementation(kit, object)).transpose()?;
+    let draw = declared.draws.is_some().then(|| draw::implementation(kit, object)).transpose()?;
     let kind = kind(declared, name, &doc::first_paragraph(&doc));
     let hooks = hooks(declared, name, state.as_ref())?;
     Ok(quote! {
@@ -106,11 +106,14 @@ fn kind(declared: &ObjectArguments, object: &Ident, doc: &str) -> TokenStream {
         }
     };
     let values = declared.values.iter().map(|(verb, value)| quote_spanned! { verb.span() => .#verb(#value) });
-    let flags =
-        declared.capabilities.iter().map(|verb| quote_spanned! { verb.span() => .#verb::<#object>() });
+    let draws = declared.draws.as_ref().map(|verb| quote_spanned! { verb.span() => .#verb::<#object>() });
+    let capabilities = declared
+        .capabilities
+        .iter()
+        .map(|of| quote_spanned! { of.span() => .can(#kit::capability!(#object: #of)) });
     let begins_empty = declared.begins_empty.as_ref().map(|_| quote! { .begins_empty() });
     quote! {
-        #kit::Kind::new(#name, #doc) #made #(#values)* .methods(#object::methods()) #begins_empty #(#flags)*
+        #kit::Kind::new(#name, #doc) #made #(#values)* .methods(#object::methods()) #begins_empty #draws #(#capabilities)*
     }
 }
 
@@ -215,11 +218,10 @@ mod tests {
             (
                 "\"tower\", shines",
                 tower,
-                "object takes no shines: it takes begins_empty, crate, deprecates, draws, example, expands, first, gathers, given, has, \
-                 has_detail, has_layers, loader, make, options, prefetches, reports, shows, warns, and of what the engine calls begin, push, \
-                 pop, end, seed",
+                "object takes no shines: it takes begins_empty, can, crate, deprecates, draws, example, first, functions, gathers, given, has, loader, \
+                 make, options, prefetches, and of what the engine calls begin, push, pop, end, seed",
             ),
-            ("\"tower\", shows, shows", tower, "shows stands here already"),
+            ("\"tower\", draws, draws", tower, "draws stands here already"),
             (
                 "\"tower\", push = pop",
                 tower,

@@ -8,13 +8,10 @@ use syn::{Error, Expr, Path, Result, Token, Type, parenthesized, parse_quote};
 
 use crate::attribute::AttributeArguments;
 
-/// The verbs of a kind that take the type.
-const CAPABILITIES: [&str; 7] = ["draws", "expands", "has_detail", "has_layers", "reports", "shows", "warns"];
 /// The verbs of a kind that take a value.
-const VALUES: [&str; 5] = ["example", "first", "gathers", "has", "prefetches"];
+const VALUES: [&str; 6] = ["example", "first", "functions", "gathers", "has", "prefetches"];
 /// Everything, for messages.
-const ALL: &str = "begins_empty, crate, deprecates, draws, example, expands, first, gathers, given, has, has_detail, has_layers, loader, make, \
-                   options, prefetches, reports, shows, warns";
+const ALL: &str = "begins_empty, can, crate, deprecates, draws, example, first, functions, gathers, given, has, loader, make, options, prefetches";
 
 /// What stands in the attribute.
 pub(crate) struct ObjectArguments {
@@ -26,8 +23,10 @@ pub(crate) struct ObjectArguments {
     pub make: Option<Ident>,
     /// Where it says that it begins empty.
     pub begins_empty: Option<Ident>,
-    /// What it can do, as a kind says it.
-    pub capabilities: Vec<Ident>,
+    /// Set if it draws with the field of type `Drawing`.
+    pub draws: Option<Ident>,
+    /// Traits that the engine may use it as: `can(Warn, Report)`.
+    pub capabilities: Vec<Path>,
     /// What else a kind says of it.
     pub values: Vec<(Ident, TokenStream)>,
     /// The methods of the type that the engine calls.
@@ -70,13 +69,6 @@ impl Hook {
     }
 }
 
-impl ObjectArguments {
-    /// Whether it draws, so that its drawing has to be found.
-    pub(crate) fn draws(&self) -> bool {
-        self.capabilities.iter().any(|verb| verb == "draws")
-    }
-}
-
 impl Parse for ObjectArguments {
     fn parse(input: ParseStream<'_>) -> Result<Self> {
         let own = AttributeArguments { name: input.parse()?, kit: parse_quote!(::burgeon_kit) };
@@ -85,6 +77,7 @@ impl Parse for ObjectArguments {
             making: Making::Fields,
             make: None,
             begins_empty: None,
+            draws: None,
             capabilities: Vec::new(),
             values: Vec::new(),
             hooks: Vec::new(),
@@ -106,15 +99,22 @@ impl Parse for ObjectArguments {
                 return Err(Error::new(name.span(), format!("{name} stands here already")));
             }
             known.push(name.clone());
+            if name == "can" {
+                let traits;
+                parenthesized!(traits in input);
+                let traits = traits.parse_terminated(Path::parse_mod_style, Token![,])?;
+                declared.capabilities.extend(traits);
+                continue;
+            }
             let text = name.to_string();
             match text.as_str() {
                 "begins_empty" => declared.begins_empty = Some(name),
+                "draws" => declared.draws = Some(name),
                 "given" => given = true,
                 "crate" => declared.own.kit = value(input, Path::parse_mod_style)?,
                 "options" => options = Some(value(input, Type::parse)?),
                 "make" => declared.make = Some(value(input, Ident::parse)?),
                 "loader" => loader = Some(value(input, Expr::parse)?),
-                verb if CAPABILITIES.contains(&verb) => declared.capabilities.push(name),
                 verb if VALUES.contains(&verb) => {
                     let value = value(input, Expr::parse)?;
                     declared.values.push((name, value.into_token_stream()));

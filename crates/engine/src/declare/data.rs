@@ -103,13 +103,14 @@ impl Data {
         }
         let budget = known.budget(session);
         let before = budget.taken();
+        let mut cache = session.options.inputs.cache.clone();
         let mut file = LoadRequest {
             name: own,
             path,
             files: &files,
             budget: &budget,
             triangles: session.options.limits.triangles,
-            frame: &mut known.frame,
+            services: &mut [&mut known.frame, &mut cache],
             resources: &FileAccess { session, asker },
         };
         let loaded = (loader.load)(&mut file, fields);
@@ -158,10 +159,6 @@ struct FileAccess<'a> {
 impl Resources for FileAccess<'_> {
     fn find(&self, what: &'static str, name: &str) -> Result<PathBuf> {
         find(self.session, self.asker, what, name)
-    }
-
-    fn cache(&self) -> Option<&Cache> {
-        self.session.options.inputs.cache.as_deref()
     }
 }
 

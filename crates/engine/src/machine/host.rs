@@ -13,7 +13,7 @@ use crate::machine::types::{ObjectHandle, claim};
 use burgeon_base::error::{Error, Limit, SourcePlace};
 use burgeon_base::warning::take_deferred;
 use burgeon_kit::declare::as_ref;
-use burgeon_kit::{Call, GeometryObject, ScriptObject, Value};
+use burgeon_kit::{Call, Draw, ObjectContent, ScriptObject, Value};
 use burgeon_rewriting::{ColumnValue, DEEPEST, module_text};
 
 /// An answer of more entries is made without a collection of garbage meanwhile.
@@ -228,7 +228,9 @@ fn add_methods(lua: &Lua, host: &Table, current: &Rc<WorkState>, library: &Rc<Li
                     let machine = owner.machine().map_err(mlua::Error::external)?;
                     take_deferred().into_iter().for_each(|warning| machine.warn(warning));
                     let place = guard.and_then(|guard| state.places.borrow().get(guard).copied());
-                    if let Some(place) = place.filter(|_| GeometryObject::of(&*handle.0).is_some()) {
+                    if let Some(place) =
+                        place.filter(|_| handle.0.kind().has_capability::<dyn ObjectContent>())
+                    {
                         let given: Vec<String> = given.iter().map(Value::to_string).collect();
                         let this = Value::Object(Arc::clone(&handle.0));
                         let text = format!("{this}:{}({}): {answer}", method.name, given.join(", "));
@@ -323,7 +325,7 @@ fn add_script_objects(
         lua.create_function(|_, value: LuaValue| {
             let LuaValue::UserData(data) = &value else { return Ok(None) };
             let Ok(handle) = data.borrow::<ObjectHandle>() else { return Ok(None) };
-            Ok(handle.0.kind().draw.is_some().then(|| handle.0.kind().name.to_string()))
+            Ok(handle.0.kind().has_capability::<dyn Draw>().then(|| handle.0.kind().name.to_string()))
         })?,
     )?;
     host.set("is_object", lua.create_function(|_, value: LuaValue| Ok(to_value(&value, false).is_ok()))?)?;

@@ -13,7 +13,7 @@ use super::require::require;
 use super::system::{EagerMark, SourceHandle, SystemDeclaration, SystemHandle, install_lazy};
 use super::table_classes::declare_class;
 use super::types::{
-    Extension, ScriptTypeEntry, declare_type, extend_type, install_geometries, install_kind, named_fields,
+    Extension, ScriptTypeEntry, declare_type, extend_type, install_functions, install_kind, named_fields,
     no_table,
 };
 use super::{Machine, compile, native};
@@ -23,7 +23,7 @@ use burgeon_analysis::Globals;
 use burgeon_base::MemoryOwner;
 use burgeon_base::error::{Error, Result, SourcePlace};
 use burgeon_base::warning::{Warning, WarningKind};
-use burgeon_kit::{Construct, Kind, Registry};
+use burgeon_kit::{Construct, Kind, ObjectContent, Registry};
 use burgeon_language::LOCKED;
 use burgeon_packages::{FileName, Package};
 use burgeon_rewriting::{NameScope, Signature, Symbol, Symbols};
@@ -93,9 +93,17 @@ impl Library {
             names: self.names.borrow().clone(),
             modules: self.modules.borrow().clone(),
             kinds: self.kinds.borrow().clone(),
+            value_methods: self.value_methods(),
             deprecated,
             shapes,
         }
+    }
+
+    /// Returns the methods of objects that never change.
+    fn value_methods(&self) -> FxHashSet<String> {
+        let registry = self.registry.borrow();
+        let values = registry.kinds().filter(|kind| kind.has_capability::<dyn ObjectContent>());
+        values.flat_map(|kind| kind.methods.iter().map(|method| method.name.to_string())).collect()
     }
 
     /// Creates the names of a script of which nothing has run.
@@ -333,10 +341,10 @@ impl Library {
         self.install_api(machine, &globals)?;
         lua.set_app_data(EagerMark(Arc::clone(&machine.session)));
         install_lazy(lua, self)?;
-        install_geometries(machine, &globals)?;
         self.registry.borrow_mut().clone_from(&machine.session.options.registry);
         for kind in machine.session.options.registry.kinds() {
             install_kind(machine, &globals, kind)?;
+            install_functions(machine, kind, &globals)?;
             if matches!(kind.construct, Construct::Fields(_)) {
                 self.kinds.borrow_mut().push(kind.name.to_string());
             }

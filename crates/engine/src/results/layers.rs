@@ -3,10 +3,10 @@
 use std::sync::Arc;
 
 use burgeon_data::Attribute;
-use burgeon_data::Geometry;
 use burgeon_data::output::{Record, RecordTable};
-use burgeon_kit::{GeometryObject, Object, Value};
+use burgeon_kit::{Object, Value};
 use burgeon_rewriting::{END, FIRST_SYMBOL, Symbol};
+use burgeon_spatial::{Geometry, GeometryObject};
 use rustc_hash::{FxHashMap, FxHashSet};
 
 use super::DerivedSystem;

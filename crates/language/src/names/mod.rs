@@ -10,7 +10,4 @@ mod standard;
 
 pub use burgeon::{DERIVED, EXTEND, LAYER, LSYSTEM, OBJECT, PARAM, RULE, SOURCE, SYSTEM, VECTOR};
 pub use luau::LOCKED;
-pub use name::{
-    Effect, Name, NameKind, Operator, deprecated_names, is_pure_function, is_pure_method, library_effect,
-    names,
-};
+pub use name::{Effect, Name, NameKind, Operator, deprecated_names, is_pure_function, library_effect, names};

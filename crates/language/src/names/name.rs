@@ -4,7 +4,7 @@ use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::sync::LazyLock;
 
-use burgeon_kit::{Argument, Deprecation, Field, GeometryObject, Registry};
+use burgeon_kit::{Argument, Deprecation, Field, Registry};
 
 use crate::form::CallForm;
 
@@ -227,11 +227,6 @@ pub fn library_effect(library: &str, function: &str) -> Effect {
     library.and_then(|library| library.find(function)).map_or(Effect::Other, |function| function.effect)
 }
 
-/// Whether a method of what a feature has is pure: one of strings, or of its geometry, which never changes.
-pub fn is_pure_method(name: &str) -> bool {
-    library_effect("string", name) == Effect::Pure || GeometryObject::kind().method(name).is_some()
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -278,6 +273,5 @@ mod tests {
         ] {
             assert_eq!(library_effect(library, function), effect, "{library}.{function}");
         }
-        assert!(is_pure_method("lower") && !is_pure_method("gsub") && !is_pure_method("clear"));
     }
 }

@@ -13,9 +13,10 @@ use burgeon_base::error::{Error, ErrorKind, Limit, Result};
 use burgeon_base::text::grouped;
 use burgeon_base::warning::{Warning, WarningKind};
 use burgeon_data::{Layer, ReferenceFrame};
-use burgeon_kit::{GeometryObject, Table, TableKey, Value};
+use burgeon_kit::{Table, TableKey, Value};
 use burgeon_query::{Cell, Database, RowTable};
 use burgeon_rewriting::Symbol;
+use burgeon_spatial::GeometryObject;
 
 /// The database with the tables that are in it.
 pub(super) struct SourceDatabase {

@@ -11,8 +11,7 @@ use crate::machine::{Flusher, Machine, Objects, read_column, returns_modules, re
 use burgeon_base::Stop;
 use burgeon_base::error::{Error, ErrorKind, Limit, Result};
 use burgeon_base::warning::Warning;
-use burgeon_kit::Values;
-use burgeon_kit::{Call, Kind, Object, Value};
+use burgeon_kit::{Call, Capability, Kind, Object, Value, Values, Warn};
 use burgeon_rewriting::{CLOSE, END, Mark, OPEN, module_brief};
 
 /// Where a piece of the chain has been applied up to.
@@ -20,6 +19,7 @@ pub(crate) struct Applier {
     pass: Arc<InterpretationPass>,
     objects: Arc<Objects>,
     kind: Arc<Kind>,
+    warn: Option<Capability<dyn Warn>>,
     values: Arc<Values>,
     stop: Arc<Stop>,
     triangle_limit: usize,
@@ -85,6 +85,7 @@ impl Applier {
             triangle_limit: machine.session.options.limits.triangles,
             pass,
             objects,
+            warn: kind.capability::<dyn Warn>(),
             kind,
             buffers: [calls, numbers, counts],
             position: begin.module,
@@ -137,7 +138,7 @@ impl Applier {
     /// Takes what `object` warns of after the module at hand, in its recorded call `call` if it was one.
     #[inline]
     fn listen(&mut self, object: &mut dyn Object, call: Option<(usize, usize)>) {
-        if let Some(warn) = self.kind.warn
+        if let Some(warn) = self.warn
             && let Some(object) = warn.of_mut(object)
         {
             let said = object.take_warnings();

@@ -1,14 +1,13 @@
 //! The modules of the parts of a geometry.
 
 use std::rc::Rc;
-use std::sync::Arc;
 
 use rustc_hash::{FxHashMap, FxHashSet};
 
 use crate::questions::{fit, listed};
 use burgeon_base::error::{Error, Result};
 use burgeon_kit::Values;
-use burgeon_kit::{GeometryObject, Value};
+use burgeon_kit::{ObjectContent, Value};
 use burgeon_rewriting::{Chain, ColumnValue, Mark, Symbol, Symbols, module_brief};
 
 /// Where each parameter of a module comes from, among those of another.
@@ -69,7 +68,7 @@ impl Fragmentation {
             let known = match self.parts.get(&stored.to_bits()) {
                 Some(known) => known,
                 None => {
-                    let Some(parts) = geometry_parts(&values.unpack(*stored)) else { continue };
+                    let Some(parts) = parts_of(&values.unpack(*stored)) else { continue };
                     let is_whole = parts.is_none();
                     let parts = match parts {
                         Some(parts) => parts.into_iter().map(|part| values.pack(part)).collect(),
@@ -116,10 +115,8 @@ impl Fragmentation {
     }
 }
 
-/// The parts of a geometry, `None` within for one that has none; `None` for anything else.
-fn geometry_parts(value: &Value) -> Option<Option<Vec<Value>>> {
+/// Returns the parts of an object with content, `None` within for one that has none; `None` for other values.
+fn parts_of(value: &Value) -> Option<Option<Vec<Value>>> {
     let Value::Object(object) = value else { return None };
-    let parts = GeometryObject::of(&**object)?.fragments();
-    let value = |part| Value::Object(Arc::new(GeometryObject::new(part)));
-    Some(parts.map(|parts| parts.into_iter().map(value).collect()))
+    Some(object.capability::<dyn ObjectContent>()?.fragments())
 }

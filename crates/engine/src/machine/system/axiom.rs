@@ -9,6 +9,7 @@ use crate::machine::convert::to_value;
 use crate::machine::types::ObjectHandle;
 use crate::results::{Remark, SourceFeatures};
 use burgeon_base::error::{Error, Limit, Result};
+use burgeon_data::Features;
 use burgeon_kit::{Object, Prefetch, Value};
 use burgeon_rewriting::{CLOSE, Chain, DEEPEST, END, ModuleKey, OPEN, Symbol};
 
@@ -202,7 +203,9 @@ impl SystemDeclaration {
         let begin = begin.filter(|_| !machine.session.options.check);
         let layer = layer_of(source).filter(|layer| layer.features.len() >= MANY);
         let (Some(begin), Some(layer)) = (begin, layer) else { return Ok(None) };
-        let prefetching = PrefetchGuard(begin(&layer));
+        let features: Arc<dyn Object> = Arc::new(Features(layer));
+        let Some(prefetch) = begin(&features) else { return Ok(None) };
+        let prefetching = PrefetchGuard(prefetch);
         machine.driver.prefetch(machine, &prefetching.0)?;
         Ok(Some(prefetching))
     }

@@ -16,7 +16,8 @@ use crate::machine::library::Library;
 use crate::machine::native;
 use crate::machine::types::ObjectHandle;
 use burgeon_data::{Attribute, Layer};
-use burgeon_kit::{GeometryObject, Prefetch, Table as ValueTable, TableKey, Value};
+use burgeon_kit::{Prefetch, Table as ValueTable, TableKey, Value};
+use burgeon_spatial::GeometryObject;
 
 /// What tables of features and their metatables know of themselves, under keys that no script has: addresses, which
 /// take no text to be made of at each question.
@@ -159,7 +160,10 @@ pub(crate) fn feature_of(
         .collect();
     fields.push((name("id"), Value::Text(feature.id.as_str().into())));
     fields.push((name("layer"), Value::Text(held.layer.name.as_str().into())));
-    Some((GeometryObject::of_feature(&held.layer, index, held.prefetch.as_ref())?, fields))
+    Some((
+        GeometryObject::of_feature(Arc::<Layer>::clone(&held.layer), index, held.prefetch.as_ref())?,
+        fields,
+    ))
 }
 
 /// A list or an object of GeoJSON; nulls are left out of objects, and are false in lists.
@@ -232,6 +236,8 @@ pub(super) fn geometry(
     index: usize,
     prefetch: Option<&Arc<dyn Prefetch>>,
 ) -> mlua::Result<LuaValue> {
-    let Some(geometry) = GeometryObject::of_feature(layer, index, prefetch) else { return Ok(LuaValue::Nil) };
+    let Some(geometry) = GeometryObject::of_feature(Arc::<Layer>::clone(layer), index, prefetch) else {
+        return Ok(LuaValue::Nil);
+    };
     lua.create_userdata(ObjectHandle(Arc::new(geometry))).map(LuaValue::UserData)
 }

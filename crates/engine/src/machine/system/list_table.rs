@@ -5,7 +5,8 @@ use std::sync::Arc;
 use crate::declare::ListTable;
 use burgeon_base::error::{Error, Result};
 use burgeon_data::{Attribute, Feature};
-use burgeon_kit::{Parameter, Shape, Table, TableKey, Value};
+use burgeon_kit::{Parameter, Table, TableKey, Value};
+use burgeon_spatial::Shape;
 
 /// The table of a list: for each feature its `id` or its number, its geometry, and what else it has that a table can hold.
 pub(super) fn list_table(features: &Value) -> Result<ListTable> {

@@ -8,8 +8,8 @@ use super::lazy;
 use super::list_table::list_table;
 use crate::machine::Machine;
 use burgeon_base::error::{Error, Result};
-use burgeon_data::{Attribute, GeometryKind, Layer, SourceOptions};
-use burgeon_kit::{Features, Prefetch, Table as ValueTable, Value};
+use burgeon_data::{Attribute, Features, GeometryKind, Layer, SourceOptions};
+use burgeon_kit::{Prefetch, Table as ValueTable, Value};
 use burgeon_language::{LAYER, SOURCE};
 
 /// The features of a data source as a script holds them.

@@ -8,15 +8,19 @@ use mlua::{AnyUserData, Function, Lua, MultiValue, Table, Value as LuaValue};
 use super::ObjectHandle;
 use crate::machine::convert::{to_lua, to_value};
 use crate::machine::{Machine, native, write_column};
-use burgeon_data::Geometry;
-use burgeon_kit::{Constructor, GeometryObject, Value, constructors};
+use burgeon_kit::{Constructor, Kind, Value};
+use burgeon_spatial::{Geometry, GeometryObject};
 
 /// The registry's name for what the prelude makes of lists of points.
 pub(crate) const POINTS: &str = "burgeon points";
 
-/// Gives scripts the functions that make geometries.
-pub(in crate::machine) fn install_geometries(machine: &Machine, globals: &Table) -> mlua::Result<()> {
-    for Constructor { name, make } in constructors() {
+/// Gives scripts the functions that create values of `kind`.
+pub(in crate::machine) fn install_functions(
+    machine: &Machine,
+    kind: &Kind,
+    globals: &Table,
+) -> mlua::Result<()> {
+    for Constructor { name, make } in kind.functions.iter().copied() {
         let function = machine.lua().create_function(move |lua, given: MultiValue| {
             let mut values: Vec<Value> = given
                 .iter()

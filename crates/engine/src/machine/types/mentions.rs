@@ -1,12 +1,12 @@
 //! Which types of objects remedies name: those that the registry has, whatever it holds.
 
-use burgeon_kit::{Construct, Kind, Registry};
+use burgeon_kit::{Construct, Draw, Kind, Registry};
 use burgeon_language::{NameKind, names};
 
 /// The types that draw and that scripts can make, in the order of the registry.
 fn drawing(registry: &Registry) -> impl Iterator<Item = &Kind> {
     let kinds = registry.kinds().map(|kind| &**kind);
-    kinds.filter(|kind| kind.draw.is_some() && !matches!(kind.construct, Construct::Given))
+    kinds.filter(|kind| kind.has_capability::<dyn Draw>() && !matches!(kind.construct, Construct::Given))
 }
 
 /// The constructor that a script extends, if there is one.

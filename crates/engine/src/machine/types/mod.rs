@@ -13,7 +13,7 @@ mod script_types;
 pub(crate) use extensions::Extension;
 pub(super) use extensions::{claim, extend_type};
 pub(crate) use geometries::POINTS;
-pub(super) use geometries::install_geometries;
+pub(super) use geometries::install_functions;
 pub(super) use handles::{DerivedHandle, methods_key};
 pub(crate) use handles::{ObjectHandle, Objects};
 pub(super) use kinds::{install_kind, named_fields, no_table};

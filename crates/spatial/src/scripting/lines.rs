@@ -1,75 +1,23 @@
-//! Shapes of the plane as scripts give them: the one place where tables and features become rings and lines.
+//! Lines as arguments: tables, geometries and sources become lists of lines.
 
 use std::sync::Arc;
 
+use burgeon_geometry::Line;
+use burgeon_kit::{Expectation, Parameter, Value, Vector};
 use glam::DVec3;
 
-use super::{Expectation, Features, GeometryObject, Parameter, Value, Vector};
-use burgeon_data::Geometry;
-use burgeon_geometry::{Line, Rings};
+use super::list::GeometryList;
+use super::object::GeometryObject;
+use crate::Geometry;
 
-/// The rings of a geometry, if it is a polygon.
-pub fn rings(geometry: &Geometry) -> Option<&Rings> {
-    match geometry {
-        Geometry::Polygon(rings) => Some(rings),
-        Geometry::MultiPolygon(polygons) if polygons.len() == 1 => polygons.first(),
-        _ => None,
-    }
-}
-
-/// Points as scripts have them.
-fn vectors(points: &[DVec3]) -> Vec<Vector> {
+/// Returns points as scripts hold them.
+pub(super) fn vectors(points: &[DVec3]) -> Vec<Vector> {
     points.iter().copied().map(Vector).collect()
 }
 
-fn places(vectors: Vec<Vector>) -> Vec<DVec3> {
+/// Returns the positions of vectors.
+pub(super) fn positions(vectors: Vec<Vector>) -> Vec<DVec3> {
     vectors.into_iter().map(|vector| vector.0).collect()
-}
-
-impl Parameter for Rings {
-    fn luau() -> String {
-        "Geometry | { any }".into()
-    }
-
-    fn from_value(value: Value) -> Result<Self, Expectation> {
-        let what = || {
-            Expectation::new(
-                "a polygon: feature.geometry, or { { { x, y }, { x, y }, { x, y } }, hole, ... }",
-            )
-        };
-        let not_this =
-            |kind: &str| Expectation::new("a polygon").but_was(format!("a geometry of kind {kind:?}"));
-        let table = match &value {
-            Value::Table(table) => table,
-            Value::Object(object) => {
-                let geometry = GeometryObject::of(&**object).ok_or_else(what)?;
-                return rings(geometry).cloned().ok_or_else(|| not_this(geometry.kind().name()));
-            }
-            _ => return Err(what()),
-        };
-        let rings = match (table.get("rings"), table.get("kind")) {
-            (Some(rings), _) => rings.clone(),
-            (None, Some(Value::Text(kind))) => return Err(not_this(kind)),
-            _ => value.clone(),
-        };
-        let first = |value: &Value| match value {
-            Value::Table(table) => table.list().into_iter().next(),
-            _ => None,
-        };
-        let is_ring = |value: &Value| {
-            let number = first(value).and_then(|point| first(&point));
-            matches!(number, Some(Value::Number(_)))
-        };
-        let rings = Vec::<Vec<Vector>>::from_value(rings.clone()).or_else(|error| {
-            let ring = Vec::<Vector>::from_value(rings.clone());
-            ring.map(|ring| vec![ring]).map_err(|of_ring| if is_ring(&rings) { of_ring } else { error })
-        })?;
-        Ok(rings.into_iter().map(places).collect())
-    }
-
-    fn into_value(self) -> Value {
-        self.iter().map(|ring| vectors(ring)).collect::<Vec<_>>().into_value()
-    }
 }
 
 /// Lines (m): of a source, of geometries, or lists of points. What has no length is none.
@@ -103,13 +51,14 @@ impl Lines {
         let what = || Expectation::new("a source of lines, a list of lines, or a list of points");
         match value {
             Value::Object(object) => {
-                let any: &dyn std::any::Any = &*object;
                 if let Some(geometry) = GeometryObject::of(&*object) {
                     self.add(geometry);
                     return Ok(());
                 }
-                let features = any.downcast_ref::<Features>().ok_or_else(what)?;
-                features.0.features.iter().for_each(|feature| self.add(&feature.geometry));
+                let list = object.capability::<dyn GeometryList>().ok_or_else(what)?;
+                (0..list.count())
+                    .filter_map(|index| list.geometry(index))
+                    .for_each(|geometry| self.add(geometry));
             }
             Value::Table(table) => {
                 if let Some(geometry) = table.get("geometry") {
@@ -120,11 +69,11 @@ impl Lines {
                 }
                 if let Some(rings) = table.get("rings") {
                     let rings = Vec::<Vec<Vector>>::from_value(rings.clone()).map_err(|_| what())?;
-                    self.lines.extend(rings.into_iter().filter_map(|ring| around(places(ring))));
+                    self.lines.extend(rings.into_iter().filter_map(|ring| around(positions(ring))));
                     return Ok(());
                 }
                 if let Ok(points) = Vec::<Vector>::from_value(Value::Table(Arc::clone(&table))) {
-                    self.lines.extend(Line::without_repeats(places(points)));
+                    self.lines.extend(Line::without_repeats(positions(points)));
                     return Ok(());
                 }
                 let list = table.list();
@@ -182,39 +131,18 @@ fn around(mut ring: Vec<DVec3>) -> Option<Line<DVec3>> {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::{Table, TableKey};
+pub(super) mod tests {
     use burgeon_base::random::Stream;
+
+    use super::*;
 
     fn point(random: &mut Stream) -> DVec3 {
         // Few places, so that some are repeated, and heights that a pair of numbers has not.
         DVec3::new(random.below(4) as f64, random.below(4) as f64, random.below(2) as f64 * 0.5)
     }
 
-    fn ring(random: &mut Stream, most: usize) -> Vec<DVec3> {
+    pub(in crate::scripting) fn ring(random: &mut Stream, most: usize) -> Vec<DVec3> {
         (0..random.below(most)).map(|_| point(random)).collect()
-    }
-
-    #[test]
-    fn rings_come_back_from_a_script_as_they_were() {
-        let mut random = Stream::new(4);
-        for _ in 0..500 {
-            let rings: Rings = (0..1 + random.below(4)).map(|_| ring(&mut random, 6)).collect();
-            // A list without rings, or whose first ring is empty, is told from a ring by what it holds.
-            let there = Rings::from_value(rings.clone().into_value()).expect("rings");
-            assert_eq!(there, rings);
-            let table = vec![(TableKey::Name("rings".into()), rings.clone().into_value())];
-            let named = Value::Table(Arc::new(Table { class: None, entries: table }));
-            assert_eq!(Rings::from_value(named).expect("rings"), rings);
-        }
-    }
-
-    #[test]
-    fn one_ring_may_stand_for_a_polygon_without_holes() {
-        let ring = vec![DVec3::ZERO, DVec3::X, DVec3::Y];
-        let found = Rings::from_value(vectors(&ring).into_value()).expect("a ring");
-        assert_eq!(found, Rings(vec![ring]));
     }
 
     #[test]
@@ -231,21 +159,5 @@ mod tests {
             kept += expected.len();
         }
         assert!(kept > 500, "{kept}");
-    }
-
-    #[test]
-    fn what_is_no_polygon_is_refused_by_what_it_is() {
-        let refuse = |value: Value| {
-            let refused = Rings::from_value(value.clone()).map(|rings| rings.0).expect_err("no polygon");
-            refused.refuse("footprint", "geometry", &value).message().to_owned()
-        };
-        let line = vec![(TableKey::Name("kind".into()), Value::Text("line".into()))];
-        let line = Value::Table(Arc::new(Table { class: None, entries: line }));
-        assert_eq!(refuse(line), "footprint: geometry must be a polygon, not a geometry of kind \"line\"");
-        assert_eq!(
-            refuse(Value::Number(3.0)),
-            "footprint: geometry must be a polygon: feature.geometry, or { { { x, y }, { x, y }, { x, y } }, hole, ... }, \
-             not 3"
-        );
     }
 }

@@ -3,12 +3,12 @@
 use std::sync::Arc;
 
 use burgeon_geometry::Rings;
-use burgeon_spatial::{Geometry, PreparedGeometry};
+use burgeon_kit::{Expectation, Parameter, Value, Vector, object};
 use glam::DVec3;
 
-use super::GeometryObject;
-use super::object::place;
-use crate::{Expectation, Parameter, Value, Vector, object};
+use super::object::GeometryObject;
+use super::polygon::PolygonArgument;
+use crate::{Geometry, PreparedGeometry};
 
 /// A geometry as an argument: one that a script holds, that of a feature, or a place.
 pub struct Shape(Arc<GeometryObject>);
@@ -41,7 +41,7 @@ impl Parameter for Shape {
             return Self::from_value(geometry.clone());
         }
         let made = if let Some(rings) = table.get("rings") {
-            Geometry::Polygon(Rings::from_value(rings.clone())?)
+            Geometry::Polygon(PolygonArgument::from_value(rings.clone())?.0)
         } else if let Some(points) = table.get("points") {
             let points: Vec<DVec3> = Vec::<DVec3>::from_value(points.clone())?;
             if points.len() == 1 { Geometry::Point(points.first().copied()) } else { Geometry::Line(points) }
@@ -94,13 +94,5 @@ impl Parameter for Path {
 
     fn into_value(self) -> Value {
         self.points.into_iter().map(Vector).collect::<Vec<_>>().into_value()
-    }
-}
-
-/// The place that a value is as a point.
-pub(crate) fn vector(value: &Value) -> Option<Vector> {
-    match value {
-        Value::Object(object) => place(GeometryObject::of(&**object)?),
-        _ => None,
     }
 }

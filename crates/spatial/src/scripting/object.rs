@@ -3,17 +3,21 @@
 use std::hash::{Hash, Hasher};
 use std::sync::{Arc, OnceLock};
 
-use burgeon_data::Layer;
-use burgeon_macros::object;
-use burgeon_spatial::{Geometry, PreparedGeometry};
+use burgeon_kit::declare::as_ref;
+use burgeon_kit::{Answer, Expectation, Field, Object, ObjectContent, Parameter, Prefetch, Value, object};
+use glam::DVec3;
 
-use crate::declare::as_ref;
-use crate::{Answer, Expectation, Field, Object, Parameter, Prefetch, Value, Vector};
+use super::construct::constructors;
+use super::list::GeometryList;
+use crate::{Geometry, PreparedGeometry};
+
+/// Maximum length of the text of a geometry in messages (characters).
+const SHORT: usize = 60;
 
 /// Points, lines, polygons with holes, and collections of these, as `feature.geometry` and `geometry(text)` give them.
 ///
 /// It never changes.
-#[object("geometry", given, has = fields(), example = include_str!("../../scripts/geometry.lua"))]
+#[object("geometry", given, can(ObjectContent), has = fields(), functions = constructors(), example = include_str!("../../scripts/geometry.lua"))]
 pub struct GeometryObject {
     from: GeometryStorage,
     /// What is compared with others, once it was.
@@ -24,7 +28,7 @@ pub struct GeometryObject {
 #[derive(Clone)]
 enum GeometryStorage {
     Value(Arc<Geometry>),
-    Feature { layer: Arc<Layer>, index: usize, prefetch: Option<Arc<dyn Prefetch>> },
+    Feature { list: Arc<dyn GeometryList>, index: usize, prefetch: Option<Arc<dyn Prefetch>> },
 }
 
 /// What scripts read of one.
@@ -59,15 +63,16 @@ impl GeometryObject {
         Self { from: GeometryStorage::Value(geometry), prepared: OnceLock::new() }
     }
 
-    /// That of the feature with this number, from 0; `None` if there is none. What it needs may be fetched before by `prefetch`.
+    /// Creates the geometry of the feature with this number, from 0; `None` if there is none. `prefetch` may compute ahead
+    /// what the feature needs.
     pub fn of_feature(
-        layer: &Arc<Layer>,
+        list: Arc<dyn GeometryList>,
         index: usize,
         prefetch: Option<&Arc<dyn Prefetch>>,
     ) -> Option<Self> {
-        let there = index < layer.features.len();
-        there.then(|| Self {
-            from: GeometryStorage::Feature { layer: Arc::clone(layer), index, prefetch: prefetch.cloned() },
+        let exists = list.geometry(index).is_some();
+        exists.then(|| Self {
+            from: GeometryStorage::Feature { list, index, prefetch: prefetch.cloned() },
             prepared: OnceLock::new(),
         })
     }
@@ -84,7 +89,7 @@ impl GeometryObject {
     pub fn geometry(&self) -> &Geometry {
         match &self.from {
             GeometryStorage::Value(geometry) => geometry,
-            GeometryStorage::Feature { layer, index, .. } => &layer.features[*index].geometry,
+            GeometryStorage::Feature { list, index, .. } => list.geometry(*index).unwrap_or(&EMPTY),
         }
     }
 
@@ -97,30 +102,39 @@ impl GeometryObject {
     pub fn of(object: &dyn Object) -> Option<&Geometry> {
         as_ref::<Self>(object).map(Self::geometry)
     }
+}
 
-    /// What scripts read of it by name, without a call.
-    pub fn member(&self, name: &str) -> Option<Value> {
+/// Geometry of a feature that a list has no longer.
+static EMPTY: Geometry = Geometry::Collection(Vec::new());
+
+impl ObjectContent for GeometryObject {
+    fn equals(&self, other: &dyn Object) -> bool {
+        Self::of(other).is_some_and(|other| self.geometry() == other)
+    }
+
+    fn hash(&self, mut state: &mut dyn Hasher) {
         let geometry = self.geometry();
-        let points =
-            |points: &[glam::DVec3]| points.iter().map(|point| point.to_array().to_vec()).collect::<Vec<_>>();
-        match (name, geometry) {
-            ("kind", _) => Some(Value::Text(geometry.kind().name().into())),
-            ("rings", Geometry::Polygon(rings)) => {
-                Some(rings.iter().map(|ring| points(ring)).collect::<Vec<_>>().into_value())
-            }
-            ("points", Geometry::Line(line) | Geometry::MultiPoint(line)) => Some(points(line).into_value()),
-            ("points", Geometry::Point(point)) => Some(points(point.as_slice()).into_value()),
+        geometry.kind().hash(&mut state);
+        for point in geometry.points() {
+            // The two zeros are equal.
+            point.to_array().iter().for_each(|number| (number + 0.0).to_bits().hash(&mut state));
+        }
+    }
+
+    fn text(&self) -> String {
+        self.geometry().to_short_wkt(SHORT)
+    }
+
+    fn position(&self) -> Option<DVec3> {
+        match self.geometry() {
+            Geometry::Point(position) => *position,
             _ => None,
         }
     }
 
-    /// Adds what tells it from others to a hash, so that equal ones add the same.
-    pub(crate) fn hash<H: Hasher>(geometry: &Geometry, state: &mut H) {
-        geometry.kind().hash(state);
-        for point in geometry.points() {
-            // The two zeros are equal.
-            point.to_array().iter().for_each(|number| (number + 0.0).to_bits().hash(state));
-        }
+    fn fragments(&self) -> Option<Vec<Value>> {
+        let value = |part| Value::Object(Arc::new(Self::new(part)));
+        Some(self.geometry().fragments()?.into_iter().map(value).collect())
     }
 }
 
@@ -130,7 +144,7 @@ impl Parameter for Geometry {
     }
 
     fn from_value(value: Value) -> Result<Self, Expectation> {
-        super::Shape::from_value(value).map(|shape| shape.geometry().clone())
+        super::shape::Shape::from_value(value).map(|shape| shape.geometry().clone())
     }
 
     fn into_value(self) -> Value {
@@ -145,23 +159,5 @@ impl Answer for Geometry {
 
     fn answer(self) -> burgeon_base::Result<Value> {
         Ok(self.into_value())
-    }
-}
-
-impl Answer for Vec<Geometry> {
-    fn luau() -> String {
-        <Self as Parameter>::luau()
-    }
-
-    fn answer(self) -> burgeon_base::Result<Value> {
-        Ok(self.into_value())
-    }
-}
-
-/// The place of a point, as a vector.
-pub(super) fn place(geometry: &Geometry) -> Option<Vector> {
-    match geometry {
-        Geometry::Point(Some(place)) => Some(Vector(*place)),
-        _ => None,
     }
 }

@@ -4,21 +4,15 @@ use std::sync::Arc;
 
 use burgeon_base::error::{Error, Result};
 use burgeon_geometry::Rings;
-use burgeon_spatial::Geometry;
+use burgeon_kit::{Answer, Constructor, Expectation, Parameter, Value, Vector};
 use glam::DVec3;
 
-use super::Shape;
-use crate::{Answer, Expectation, GeometryObject, Parameter, Value, Vector};
+use super::object::GeometryObject;
+use super::polygon::PolygonArgument;
+use super::shape::Shape;
+use crate::Geometry;
 
-/// A function that scripts have, and which makes a geometry of what it is given.
-pub struct Constructor {
-    /// Its name.
-    pub name: &'static str,
-    /// The function.
-    pub make: fn(&[Value]) -> Result<Value>,
-}
-
-/// All of them.
+/// Returns the functions.
 pub fn constructors() -> [Constructor; 4] {
     [
         Constructor { name: "geometry", make: geometry },
@@ -77,8 +71,10 @@ fn line(given: &[Value]) -> Result<Value> {
 /// A polygon of its outer ring, or of a list of rings of which the others are holes.
 fn polygon(given: &[Value]) -> Result<Value> {
     let rings = match given {
-        [value] => Rings::from_value(value.clone())
-            .map_err(|error| error.refuse("polygon", "what it is given", value))?,
+        [value] => {
+            let polygon = PolygonArgument::from_value(value.clone());
+            polygon.map_err(|error| error.refuse("polygon", "what it is given", value))?.0
+        }
         _ => Rings(vec![points("polygon", given)?]),
     };
     let few = rings.iter().position(|ring| {

@@ -2,13 +2,12 @@
 
 use burgeon_base::error::{Error, Result};
 use burgeon_base::text::listed;
-use burgeon_macros::{fields, methods};
-use burgeon_spatial::{BufferCap, BufferJoin, BufferOptions, Geometry};
+use burgeon_kit::{ObjectContent as _, TableOf, Value, fields, methods};
 use glam::DVec3;
 
-use super::object::place;
-use super::{GeometryObject, Shape};
-use crate::{TableOf, Value};
+use super::object::GeometryObject;
+use super::shape::Shape;
+use crate::{BufferCap, BufferJoin, BufferOptions, Geometry};
 
 /// How the border of what lies within a distance runs.
 #[fields("geometry:buffer")]
@@ -83,22 +82,22 @@ impl GeometryObject {
 
     /// Where a point is to the east (m); nil of other kinds.
     pub fn x(&self) -> Option<f64> {
-        place(self.geometry()).map(|place| place.0.x)
+        self.position().map(|it| it.x)
     }
 
     /// Where a point is to the north (m); nil of other kinds.
     pub fn y(&self) -> Option<f64> {
-        place(self.geometry()).map(|place| place.0.y)
+        self.position().map(|it| it.y)
     }
 
     /// The height of a point (m); nil of other kinds.
     pub fn z(&self) -> Option<f64> {
-        place(self.geometry()).map(|place| place.0.z)
+        self.position().map(|it| it.z)
     }
 
     /// The place of a point as a vector (m); nil of other kinds.
     pub fn place(&self) -> Option<DVec3> {
-        place(self.geometry()).map(|place| place.0)
+        self.position()
     }
 
     /// The centre of mass: of its areas, else of its lines, else of its points. Empty of an empty one.
