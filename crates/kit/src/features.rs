@@ -1,4 +1,4 @@
-//! The features of a data file, on their way from a source to a constructor.
+//! Features of a data file, as a source passes them to a constructor.
 
 use std::sync::Arc;
 
@@ -7,7 +7,7 @@ use burgeon_macros::{methods, object};
 
 /// The features of a data file.
 ///
-/// A constructor may take them; no script holds them in this form.
+/// Constructors can take them; no script sees them in this form.
 #[object("source", given)]
 pub struct Features(pub Arc<Layer>);
 

@@ -1,4 +1,4 @@
-//! Shapes of the plane as scripts give them: the one place where tables and features become rings and lines.
+//! Conversion of tables and features from scripts to rings and lines in the plane.
 
 use std::sync::Arc;
 
@@ -8,7 +8,7 @@ use super::{Expectation, Features, GeometryObject, Parameter, Value, Vector};
 use burgeon_data::Geometry;
 use burgeon_geometry::{Line, Rings};
 
-/// The rings of a geometry, if it is a polygon.
+/// Returns the rings of a geometry, if it is a single polygon.
 pub fn rings(geometry: &Geometry) -> Option<&Rings> {
     match geometry {
         Geometry::Polygon(rings) => Some(rings),
@@ -17,7 +17,7 @@ pub fn rings(geometry: &Geometry) -> Option<&Rings> {
     }
 }
 
-/// Points as scripts have them.
+/// Converts points for scripts.
 fn vectors(points: &[DVec3]) -> Vec<Vector> {
     points.iter().copied().map(Vector).collect()
 }
@@ -72,12 +72,12 @@ impl Parameter for Rings {
     }
 }
 
-/// Lines (m): of a source, of geometries, or lists of points. What has no length is none.
+/// Lines (m) from a source, from geometries or from lists of points. Lines without length are dropped.
 #[derive(Debug, Clone, Default)]
 pub struct Lines {
-    /// The lines.
+    /// The lines (m).
     pub lines: Vec<Line<DVec3>>,
-    /// How many items of a list were left out, and the first of them.
+    /// Number of skipped items of a list, and the message for the first of them.
     pub refused: Option<(usize, String)>,
 }
 
@@ -131,7 +131,7 @@ impl Lines {
                 if depth > 4 || list.len() != table.entries.len() {
                     return Err(what());
                 }
-                // One bad item among others is left out alone.
+                // A bad item is skipped alone, if other items are good.
                 let (mut good, mut bad) = (0, None);
                 for (number, item) in (1..).zip(list) {
                     let known = self.lines.len();
@@ -157,7 +157,7 @@ impl Lines {
     fn add(&mut self, geometry: &Geometry) {
         match geometry {
             Geometry::Line(line) => self.lines.extend(Line::without_repeats(line.clone())),
-            // A square is walked around.
+            // A polygon contributes the lines around its rings, such as the path around a square.
             Geometry::Polygon(rings) => {
                 self.lines.extend(rings.iter().filter_map(|ring| around(ring.clone())));
             }
@@ -175,7 +175,7 @@ impl Lines {
     }
 }
 
-/// The line once around a ring that somebody gave; `None` if it has no length.
+/// Returns the closed line around a ring from user data; `None` if it has no length.
 fn around(mut ring: Vec<DVec3>) -> Option<Line<DVec3>> {
     ring.extend(ring.first().copied());
     Line::without_repeats(ring)
@@ -188,7 +188,7 @@ mod tests {
     use burgeon_base::random::Stream;
 
     fn point(random: &mut Stream) -> DVec3 {
-        // Few places, so that some are repeated, and heights that a pair of numbers has not.
+        // Few positions make repeated points likely. The heights test the third coordinate.
         DVec3::new(random.below(4) as f64, random.below(4) as f64, random.below(2) as f64 * 0.5)
     }
 
@@ -201,7 +201,7 @@ mod tests {
         let mut random = Stream::new(4);
         for _ in 0..500 {
             let rings: Rings = (0..1 + random.below(4)).map(|_| ring(&mut random, 6)).collect();
-            // A list without rings, or whose first ring is empty, is told from a ring by what it holds.
+            // The content distinguishes a list without rings, or with an empty first ring, from a single ring.
             let there = Rings::from_value(rings.clone().into_value()).expect("rings");
             assert_eq!(there, rings);
             let table = vec![(TableKey::Name("rings".into()), rings.clone().into_value())];

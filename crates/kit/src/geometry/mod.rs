@@ -1,7 +1,7 @@
-//! Geometries as scripts hold them.
+//! Geometries in scripts.
 //!
-//! Input: text, points, features of data files. Output: objects that never change, with what can be asked of them.
-//! What is computed stands in the member `spatial`; here are its names, its arguments and its messages.
+//! Input: text, points and features of data files. Output: immutable objects with read methods. The crate `spatial`
+//! implements the computations; this module adds their names, arguments and messages for scripts.
 
 mod construct;
 mod methods;

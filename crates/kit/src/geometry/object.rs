@@ -1,4 +1,4 @@
-//! The object that a geometry is for scripts.
+//! Script object of a geometry.
 
 use std::hash::{Hash, Hasher};
 use std::sync::{Arc, OnceLock};
@@ -10,24 +10,24 @@ use burgeon_spatial::{Geometry, PreparedGeometry};
 use crate::declare::as_ref;
 use crate::{Answer, Expectation, Field, Object, Parameter, Prefetch, Value, Vector};
 
-/// Points, lines, polygons with holes, and collections of these, as `feature.geometry` and `geometry(text)` give them.
+/// Points, lines, polygons with holes, and collections of these, from `feature.geometry` and `geometry(text)`.
 ///
-/// It never changes.
+/// A geometry is immutable.
 #[object("geometry", given, has = fields(), example = include_str!("../../scripts/geometry.lua"))]
 pub struct GeometryObject {
     from: GeometryStorage,
-    /// What is compared with others, once it was.
+    /// Form for comparisons, built by the first comparison.
     prepared: OnceLock<Box<PreparedGeometry>>,
 }
 
-/// Where a geometry is kept.
+/// Storage of a geometry.
 #[derive(Clone)]
 enum GeometryStorage {
     Value(Arc<Geometry>),
     Feature { layer: Arc<Layer>, index: usize, prefetch: Option<Arc<dyn Prefetch>> },
 }
 
-/// What scripts read of one.
+/// Returns the fields that scripts can read.
 fn fields() -> Vec<Field> {
     let metres = |name: &'static str, luau: &str, doc: &'static str| Field {
         unit: Some("m".into()),
@@ -49,17 +49,18 @@ fn fields() -> Vec<Field> {
 }
 
 impl GeometryObject {
-    /// One of its own.
+    /// Creates an object that owns its geometry.
     pub fn new(geometry: Geometry) -> Self {
         Self::shared(Arc::new(geometry))
     }
 
-    /// One that others hold, too.
+    /// Creates an object that shares its geometry.
     pub fn shared(geometry: Arc<Geometry>) -> Self {
         Self { from: GeometryStorage::Value(geometry), prepared: OnceLock::new() }
     }
 
-    /// That of the feature with this number, from 0; `None` if there is none. What it needs may be fetched before by `prefetch`.
+    /// Creates the object of the feature at `index` (from 0); `None` if there is no such feature. `prefetch` may
+    /// prepare its data in advance.
     pub fn of_feature(
         layer: &Arc<Layer>,
         index: usize,
@@ -72,7 +73,7 @@ impl GeometryObject {
         })
     }
 
-    /// Where what it needs may have been made already, and its feature's number there.
+    /// Returns the prefetch of the feature's layer and the feature's index, if the geometry has one.
     pub fn prefetch(&self) -> Option<(&dyn Prefetch, usize)> {
         match &self.from {
             GeometryStorage::Feature { prefetch, index, .. } => Some((prefetch.as_deref()?, *index)),
@@ -80,7 +81,7 @@ impl GeometryObject {
         }
     }
 
-    /// The geometry itself.
+    /// Returns the geometry.
     pub fn geometry(&self) -> &Geometry {
         match &self.from {
             GeometryStorage::Value(geometry) => geometry,
@@ -88,17 +89,17 @@ impl GeometryObject {
         }
     }
 
-    /// The geometry, ready to be compared with others.
+    /// Returns the geometry prepared for comparisons.
     pub(super) fn prepared(&self) -> &PreparedGeometry {
         self.prepared.get_or_init(|| Box::new(PreparedGeometry::new(self.geometry())))
     }
 
-    /// The geometry that an object is, if it is one.
+    /// Returns the geometry of `object`, if it is a geometry object.
     pub fn of(object: &dyn Object) -> Option<&Geometry> {
         as_ref::<Self>(object).map(Self::geometry)
     }
 
-    /// What scripts read of it by name, without a call.
+    /// Returns the member that scripts read by `name` without a call.
     pub fn member(&self, name: &str) -> Option<Value> {
         let geometry = self.geometry();
         let points =
@@ -114,11 +115,11 @@ impl GeometryObject {
         }
     }
 
-    /// Adds what tells it from others to a hash, so that equal ones add the same.
+    /// Adds the geometry to a hash. Equal geometries add the same data.
     pub(crate) fn hash<H: Hasher>(geometry: &Geometry, state: &mut H) {
         geometry.kind().hash(state);
         for point in geometry.points() {
-            // The two zeros are equal.
+            // Adding 0.0 turns -0.0 into 0.0, because the two are equal.
             point.to_array().iter().for_each(|number| (number + 0.0).to_bits().hash(state));
         }
     }
@@ -158,7 +159,7 @@ impl Answer for Vec<Geometry> {
     }
 }
 
-/// The place of a point, as a vector.
+/// Returns the position of a point as a vector.
 pub(super) fn place(geometry: &Geometry) -> Option<Vector> {
     match geometry {
         Geometry::Point(Some(place)) => Some(Vector(*place)),

@@ -10,16 +10,16 @@ use super::GeometryObject;
 use super::object::place;
 use crate::{Expectation, Parameter, Value, Vector, object};
 
-/// A geometry as an argument: one that a script holds, that of a feature, or a place.
+/// A geometry as an argument: a geometry object, a feature's geometry, or a position.
 pub struct Shape(Arc<GeometryObject>);
 
 impl Shape {
-    /// The geometry itself.
+    /// Returns the geometry.
     pub fn geometry(&self) -> &Geometry {
         self.0.geometry()
     }
 
-    /// The same, ready to be compared with others.
+    /// Returns the geometry prepared for comparisons.
     pub(super) fn prepared(&self) -> &PreparedGeometry {
         self.0.prepared()
     }
@@ -56,12 +56,12 @@ impl Parameter for Shape {
     }
 }
 
-/// A list of points as an argument, or the geometry that has one: a line, or a polygon, of which it is the outer ring.
+/// A list of points as an argument, or a geometry with such a list: a line, or a polygon, whose outer ring is used.
 #[derive(Debug, Clone)]
 pub struct Path {
-    /// The points.
+    /// Points (m).
     pub points: Vec<DVec3>,
-    /// The holes of a polygon.
+    /// Holes of a polygon.
     pub holes: Rings,
 }
 
@@ -97,7 +97,7 @@ impl Parameter for Path {
     }
 }
 
-/// The place that a value is as a point.
+/// Returns the position of a value that is a point geometry.
 pub(crate) fn vector(value: &Value) -> Option<Vector> {
     match value {
         Value::Object(object) => place(GeometryObject::of(&**object)?),
