@@ -176,7 +176,7 @@ fn read(file: &str, text: &str, compile: Compile, globals: &Receiver<Globals>) -
         deprecated,
         ..
     } = second;
-    // Luau identifies a function by the line of the word `function`, which is an earlier one if the bracket begins a line.
+    // Luau identifies a function by the line of its keyword, which is an earlier line if the bracket begins a line.
     let is_apart =
         |begin: &usize| text[..*begin].rsplit('\n').next().is_some_and(|head| head.trim().is_empty());
     if begins.iter().any(is_apart) {

@@ -1,4 +1,4 @@
-//! What `#[object]` takes.
+//! Arguments of `#[object]`.
 
 use proc_macro2::{Ident, TokenStream};
 use quote::ToTokens;
@@ -8,45 +8,45 @@ use syn::{Error, Expr, Path, Result, Token, Type, parenthesized, parse_quote};
 
 use crate::attribute::AttributeArguments;
 
-/// The verbs of a kind that take the type.
+/// Methods of `Kind` that take the type as a parameter.
 const CAPABILITIES: [&str; 7] = ["draws", "expands", "has_detail", "has_layers", "reports", "shows", "warns"];
-/// The verbs of a kind that take a value.
+/// Methods of `Kind` that take a value.
 const VALUES: [&str; 5] = ["example", "first", "gathers", "has", "prefetches"];
-/// Everything, for messages.
+/// All arguments, for messages.
 const ALL: &str = "begins_empty, crate, deprecates, draws, example, expands, first, gathers, given, has, has_detail, has_layers, loader, make, \
                    options, prefetches, reports, shows, warns";
 
-/// What stands in the attribute.
+/// Arguments of the attribute.
 pub(crate) struct ObjectArguments {
-    /// The name for scripts, and the path of the contract.
+    /// Name for scripts, and path of the contract.
     pub own: AttributeArguments,
-    /// How scripts come by one.
+    /// Construction of objects.
     pub making: Making,
-    /// The function of the type that makes one of a table.
+    /// Function of the type that makes an object from a table.
     pub make: Option<Ident>,
-    /// Where it says that it begins empty.
+    /// Location of the argument `begins_empty`, if it is set.
     pub begins_empty: Option<Ident>,
-    /// What it can do, as a kind says it.
+    /// Capabilities, as names of methods of `Kind`.
     pub capabilities: Vec<Ident>,
-    /// What else a kind says of it.
+    /// Other arguments of the kind, as names of methods of `Kind` with their values.
     pub values: Vec<(Ident, TokenStream)>,
-    /// The methods of the type that the engine calls.
+    /// Hooks with the methods of the type that implement them.
     pub hooks: Vec<(Hook, Ident)>,
 }
 
-/// How scripts come by an object.
+/// Construction of objects.
 pub(crate) enum Making {
-    /// They give its public fields.
+    /// From the public fields of the struct.
     Fields,
-    /// They give the fields of another struct.
+    /// From the fields of another struct.
     Options(Type),
-    /// They name a file, which a loader reads, with the fields of another struct if there is one.
+    /// From a file that a loader reads, and optionally the fields of another struct.
     File(Expr, Option<Type>),
-    /// Something else gives it.
+    /// By another object or function.
     Given,
 }
 
-/// What the engine calls.
+/// Hook that the engine calls.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Hook {
     Begin,
@@ -71,7 +71,7 @@ impl Hook {
 }
 
 impl ObjectArguments {
-    /// Whether it draws, so that its drawing has to be found.
+    /// Returns true if the type draws, so its drawing must be found.
     pub(crate) fn draws(&self) -> bool {
         self.capabilities.iter().any(|verb| verb == "draws")
     }
@@ -122,7 +122,8 @@ impl Parse for ObjectArguments {
                 _ => {
                     let Some(hook) = Hook::named(&name) else { return Err(unknown(&name)) };
                     let method = value(input, Ident::parse)?;
-                    // A method of the same name that is not there would be the trait's, which calls it.
+                    // If the type lacks a method of this name, the call would resolve to the trait's method and recurse
+                    // endlessly.
                     if Hook::named(&method).is_some() {
                         let text = "is what the engine calls: give the method of the type another name";
                         return Err(Error::new(method.span(), format!("{method} {text}")));
