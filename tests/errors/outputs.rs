@@ -282,7 +282,7 @@ fn a_reader_that_goes_away_is_told_nothing() {
         assert_eq!(out.status.code(), Some(1), "{arguments:?}: {stderr}");
         assert!(!stderr.contains("error"), "{arguments:?}: {stderr}");
     }
-    // The files exist, because the run has succeeded in writing them.
+    // A reader that closes standard output early does not cancel the run, so the model is still written.
     let (mut reader, writer) = std::io::pipe().unwrap();
     let arguments = ["run", "s.lua", "--chain", "-", "-o", "a.glb"];
     let child = command(&folder, &arguments).stdout(writer).spawn().unwrap();
