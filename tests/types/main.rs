@@ -70,8 +70,8 @@ fn glb(run: &Run) -> Vec<u8> {
     std::fs::read(path).unwrap()
 }
 
-/// Returns the number of edges of a model that do not belong to exactly two faces. Points closer than 1 nm are the
-/// same.
+/// Returns the number of edges of a model with unequal numbers of triangles in the two directions. Coordinates are
+/// rounded to 10 µm.
 fn open_edges(run: &Run) -> usize {
     let mut edges: BTreeMap<[[i64; 3]; 2], i32> = BTreeMap::new();
     for mesh in &run.scene.meshes {
