@@ -1,4 +1,4 @@
-//! The commands and their flags.
+//! Tests of the commands and their flags.
 
 use insta::assert_snapshot;
 
@@ -13,7 +13,7 @@ fn folder() -> Folder {
     Folder::new().with("s.lua", format!("{HEAD}{SCRIPT}"))
 }
 
-/// What a wrong command line is told.
+/// Returns the error for an invalid command line.
 fn wrong(arguments: &[&str]) -> String {
     let folder = folder();
     let before = folder.files();

@@ -1,8 +1,8 @@
-//! Which of several errors is told does not depend on threads, batches or addresses.
+//! Tests that the choice of the reported error does not depend on threads, batches or addresses.
 
 use crate::support::{Folder, HEAD, chain};
 
-/// A thousand modules, of which several fail, the first of them by the last rule.
+/// Creates a script with thousands of modules of which several fail, the first of them by the last rule.
 fn big(body: &str) -> Folder {
     let script = format!(
         r#"{HEAD}local list = {{}}

@@ -1,4 +1,4 @@
-//! Street networks that grow from streets that are there: what cannot be, and what becomes of them.
+//! Tests of street networks that grow from existing streets: errors and results.
 
 use insta::assert_snapshot;
 

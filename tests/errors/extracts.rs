@@ -1,4 +1,4 @@
-//! Extracts of OpenStreetMap: how their layers are chosen, and what of them is odd.
+//! Tests of OpenStreetMap extracts: the selection of layers, and errors in the data.
 
 use insta::assert_snapshot;
 

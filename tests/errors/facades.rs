@@ -1,8 +1,8 @@
-//! Facades that can never fit or are not what they seem are refused where they are made.
+//! Tests that facades that can never fit are refused when they are created.
 
 use crate::support::*;
 
-/// What a script says that ends with `expression`, without the line itself.
+/// Returns the error for a script that ends with `expression`, without the source line.
 fn told(expression: &str) -> String {
     let script = format!(
         "local wall = panel({{ width = {{ 1, 2 }}, height = {{ 3, 3 }} }})\nlocal made = {expression}\n"

@@ -1,10 +1,10 @@
-//! Scripts and the files that they require; models and the folders that they go to.
+//! Tests of scripts with required files, and of models with their output folders.
 
 use insta::assert_snapshot;
 
 use crate::support::{Folder, HEAD, refused};
 
-/// A script of one line, beside files that do well and files that do not.
+/// Runs a script of one line in a folder of valid and invalid files.
 fn required(line: &str) -> String {
     let folder = Folder::new()
         .with("outside.lua", "return 1\n")

@@ -1,11 +1,11 @@
-//! `burgeon fit`.
+//! Tests of `burgeon fit`.
 
 use burgeon::terrain::fit::{Search, Target};
 use insta::assert_snapshot;
 
 use crate::support::{Folder, assert_decent};
 
-/// Prints the height of the ground at every eighth corner of the cells within it.
+/// Script that prints the height of the ground at every eighth inner corner of the cells.
 const SCRIPT: &str = r#"--!strict
 local fitted = require("rules")
 local ground = lsystem({
@@ -29,7 +29,7 @@ for y = 64, 960, 64 do
 end
 "#;
 
-/// What a wrong command line is told.
+/// Returns the error for an invalid command line.
 fn wrong(arguments: &[&str]) -> String {
     let folder = Folder::new();
     let said = folder.burgeon(arguments);
@@ -52,7 +52,7 @@ fn a_script_reads_what_was_found_and_has_the_map_of_the_search() {
     let target = Target::named("crater").unwrap();
     let search = Search { rounds: 2, seed: 5, symbols: 9, ..Search::default() };
     let fitted = search.run(&target, &|| false, &mut |_| {});
-    // Read as a number it could be off in its last digit.
+    // The text is compared, because a parsed number could differ in the last digit.
     assert!(said.stdout.contains(&format!("\"error\":{},", fitted.error())), "{}", said.stdout);
     assert_eq!(document["symbols"], fitted.symbols());
     assert_eq!((document["tried"].as_u64(), &document["file"]), (Some(192), &"rules.lua".into()));

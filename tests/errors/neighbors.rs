@@ -1,4 +1,4 @@
-//! Footprints that know their neighbours, their streets and their edges, from a script.
+//! Tests of footprints with their neighbours, streets and edges, in scripts.
 
 use crate::support::{printed, refused};
 

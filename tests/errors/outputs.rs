@@ -1,4 +1,5 @@
-//! Where `run` writes to: links, pipes, devices, files that others own, several files at once, and the end in between.
+//! Tests of the output files of `run`: links, pipes, devices, files of other owners, several files at once, and
+//! cancellation.
 
 use std::fs::{self, File};
 use std::io::Read;
@@ -27,7 +28,7 @@ fn folder() -> Folder {
     Folder::new().with("s.lua", SCRIPT)
 }
 
-/// The names of what is in `folder`, in order.
+/// Returns the names of the entries of `folder`, in order.
 fn names(folder: &Path) -> Vec<String> {
     let entries = fs::read_dir(folder).unwrap().map(|entry| entry.unwrap());
     let mut names: Vec<_> = entries.map(|entry| entry.file_name().into_string().unwrap()).collect();
@@ -51,7 +52,7 @@ fn a_link_stays_and_what_it_leads_to_keeps_its_mode_and_its_owner() {
     let folder = folder().with("in/a.glb", "old");
     let path = |name: &str| folder.path().join(name);
     fs::set_permissions(path("in/a.glb"), fs::Permissions::from_mode(0o640)).unwrap();
-    // Only root may give files away.
+    // Only root can change the owner of files.
     let given = chown(path("in/a.glb"), Some(4321), Some(1234)).is_ok();
     symlink("in/a.glb", path("middle.glb")).unwrap();
     symlink("middle.glb", path("a.glb")).unwrap();
@@ -172,7 +173,7 @@ fn what_the_script_reads_is_not_overwritten() {
     error: in/brick.png would be overwritten, and the script reads it
       help: name another file
     ");
-    // Copies of textures make way for a picture.
+    // Copies of textures avoid the name of the image.
     let all = ["run", "s.lua", "-o", "a.obj", "-o", "a.gltf", "-o", "a_brick.png", "--size", "8x6"];
     folder.burgeon(&all).done();
     assert_eq!(fs::read(folder.path().join("a_brick_2.png")).unwrap(), brick);
@@ -199,7 +200,7 @@ fn a_pipe_is_given_the_model_and_stays() {
     assert_eq!(names(folder.path()), ["a.glb", "a.svg", "pipe.glb", "s.lua"]);
 }
 
-/// Waits until something has a temporary name in `folder`.
+/// Waits until `folder` contains a temporary file.
 fn wait_for_part(folder: &Path, child: &mut Child) {
     let begin = Instant::now();
     while !names(folder).iter().any(|name| name.ends_with(".part")) {
@@ -213,7 +214,7 @@ fn wait_for_part(folder: &Path, child: &mut Child) {
 fn the_end_in_between_leaves_nothing_half_written() {
     for signal in ["TERM", "INT", "HUP"] {
         let folder = folder().with("a.glb", "old").with("tmp/x", "");
-        // Nobody reads it, so that writing does not end.
+        // No process reads the pipe, so writing does not end.
         make_pipe(&folder, "pipe.glb");
         let before = names(folder.path());
         let mut command =
@@ -281,7 +282,7 @@ fn a_reader_that_goes_away_is_told_nothing() {
         assert_eq!(out.status.code(), Some(1), "{arguments:?}: {stderr}");
         assert!(!stderr.contains("error"), "{arguments:?}: {stderr}");
     }
-    // Files are there all the same, for nobody has given them up.
+    // A reader that closes standard output early does not cancel the run, so the model is still written.
     let (mut reader, writer) = std::io::pipe().unwrap();
     let arguments = ["run", "s.lua", "--chain", "-", "-o", "a.glb"];
     let child = command(&folder, &arguments).stdout(writer).spawn().unwrap();

@@ -1,4 +1,4 @@
-//! Patterns, arities and what else a rule is declared with.
+//! Tests of patterns, arities and other parts of a rule's declaration.
 
 use insta::assert_snapshot;
 

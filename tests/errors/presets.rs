@@ -1,4 +1,4 @@
-//! Presets: `--preset`, `--save-preset`, and the file beside the script.
+//! Tests of presets: `--preset`, `--save-preset`, and the file next to the script.
 
 use insta::assert_snapshot;
 

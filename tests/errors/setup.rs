@@ -1,4 +1,4 @@
-//! `burgeon setup`: what it writes for editors, and what it leaves alone.
+//! Tests of `burgeon setup`: the files that it writes for editors, and the files that it keeps.
 
 use insta::assert_snapshot;
 

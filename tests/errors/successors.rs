@@ -1,4 +1,4 @@
-//! What a successor may return, and what modules and methods take.
+//! Tests of the values that successors can return, and of the arguments of modules and methods.
 
 use insta::assert_snapshot;
 

@@ -1,4 +1,4 @@
-//! Mistakes that can be seen without running the script.
+//! Tests of errors that are found without running the script.
 
 use insta::assert_snapshot;
 

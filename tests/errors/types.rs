@@ -1,4 +1,4 @@
-//! Types of objects that scripts declare: what is wrong with them, or with what they do.
+//! Tests of errors in custom object types, and in their functions.
 
 use insta::assert_snapshot;
 

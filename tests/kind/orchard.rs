@@ -1,4 +1,4 @@
-//! A type of object that the house does not know: rows of trees on a field of a data file.
+//! An object type that Burgeon does not know: rows of trees on a field of a data file.
 
 use std::any::Any;
 use std::sync::Arc;
@@ -15,12 +15,12 @@ use burgeon::sources::{Features, Geometry, Layer};
 use burgeon::spatial::GeometryObject;
 use glam::{DVec2, DVec3};
 
-/// How many middles were there before they were asked for, and how many were looked for.
+/// Numbers of centres that were already prefetched when they were needed, and of all centres that were needed.
 pub static LOOKED_FOR: AtomicUsize = AtomicUsize::new(0);
-/// How often trees were set out.
+/// Number of times that trees were planted.
 pub static EXPANSIONS: AtomicUsize = AtomicUsize::new(0);
 
-/// The corners (m) of a field.
+/// Corners (m) of a field.
 #[derive(Debug, Clone, Default)]
 pub struct Corners(Vec<DVec3>);
 
@@ -55,7 +55,7 @@ impl Parameter for Corners {
     }
 }
 
-/// A layer of a data file, as a whole.
+/// A whole layer of a data file.
 #[derive(Clone, Default)]
 pub struct Whole(Option<Arc<Layer>>);
 
@@ -96,18 +96,18 @@ impl Parameter for Whole {
     crate = burgeon::kit
 )]
 pub struct Orchard {
-    /// The field on which it stands: a feature's geometry.
+    /// Field of the orchard: the geometry of a feature.
     pub geometry: Corners,
-    /// The wells of the land, as a source: a tree stands farther than a metre from each.
+    /// Wells as a source: every tree is more than a metre away from each well.
     pub wells: Whole,
-    /// Distance (m) from tree to tree.
+    /// Distance (m) between trees.
     #[default(4.0)]
     pub spacing: f64,
     middle: DVec3,
-    /// Distance (m) to the nearest other one.
+    /// Distance (m) to the nearest other orchard.
     #[default(f64::INFINITY)]
     nearest: f64,
-    /// Where trees stand, from the middle.
+    /// Positions (m) of the trees, relative to the centre.
     trees: Vec<DVec3>,
     drawing: Drawing,
 }
@@ -124,17 +124,17 @@ impl Orchard {
         Ok(())
     }
 
-    /// The number of its trees.
+    /// Returns the number of trees.
     pub fn trees(&self) -> f64 {
         self.trees.len() as f64
     }
 
-    /// Distance (m) to the nearest other orchard; infinite if there is none.
+    /// Returns the distance (m) to the nearest other orchard; infinite if there is none.
     pub fn nearest(&self) -> f64 {
         self.nearest
     }
 
-    /// The number of features in the layer of wells.
+    /// Returns the number of features in the layer of wells.
     pub fn wells(&self) -> f64 {
         self.wells.0.as_ref().map_or(0.0, |layer| layer.features.len() as f64)
     }
@@ -152,7 +152,7 @@ impl Orchard {
     }
 }
 
-/// The middle of a feature's corners, if it was made before it was asked for.
+/// Returns the centre of a feature's corners, if it is already prefetched.
 fn prefetched(table: &Table) -> Option<DVec3> {
     let Some(Value::Object(object)) = table.get("geometry") else { return None };
     let any: &dyn Any = &**object;
@@ -162,7 +162,7 @@ fn prefetched(table: &Table) -> Option<DVec3> {
     any.downcast_ref::<Middles>()?.middles.get(number)?.get().copied()
 }
 
-/// The middles of a layer's features, made by a thread that has time.
+/// Centres of a layer's features, which another thread computes in advance.
 struct Middles {
     layer: Arc<Layer>,
     middles: Vec<std::sync::OnceLock<DVec3>>,
@@ -193,7 +193,7 @@ impl Prefetch for Middles {
     }
 }
 
-/// Tells each how far the nearest other one is.
+/// Stores in each orchard the distance to the nearest other orchard.
 fn gather(all: &mut [Box<dyn Object>]) {
     let middle = |object: &dyn Object| {
         let any: &dyn Any = object;

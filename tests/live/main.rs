@@ -1,4 +1,4 @@
-//! The live page's server, as the real binary: requests, saves, wishes, exports; and `run --watch`.
+//! Tests of the live view's server, as the real binary: requests, saves, exports; and `run --watch`.
 #![cfg(feature = "live")]
 #![allow(clippy::unwrap_used, reason = "a test may panic")]
 

@@ -1,4 +1,4 @@
-//! Rewriting, from a script's text to its chains: what the laws of the design and the literature say of it.
+//! Tests of rewriting, from a script's text to its chains, against the laws of the design and the literature.
 
 mod candidates;
 mod choice;

@@ -1,4 +1,4 @@
-//! A script means what it says, in every machine that runs it: the design's law 10.
+//! Tests that a script has the same meaning in every machine that runs it: the design's law 10.
 
 use super::scripts::{all_chains, divided, lines, run_with, try_run};
 
@@ -14,7 +14,7 @@ const HEAD: &str = r#"
     end
 "#;
 
-/// All chains, after it was made sure that every division gives the same.
+/// Returns all chains, after checking that they are equal for every number of threads and batch size.
 fn everywhere(script: &str) -> Vec<String> {
     let script = format!("{HEAD}\n{script}");
     let alone = all_chains(&run_with(&script, divided(1, 4096)));
@@ -177,7 +177,7 @@ fn the_steps_option_limits_every_system() {
 
 #[test]
 fn captured_state_that_would_depend_on_the_order_is_refused() {
-    // Each would let one application see what another did, so that threads and batches would show.
+    // Each of these would show one application the effects of another, so results would depend on threads and batches.
     let mut wrong = Vec::new();
     for state in [
         "local n = 0 local s = system(function(this, x) n += 1 return B(n) end)",

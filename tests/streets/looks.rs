@@ -1,4 +1,4 @@
-//! Looks of towns that nobody planned: measures of those that grow, beside real ones taken by the same code.
+//! Measures of generated organic towns, compared with the same measures of real towns.
 
 use std::path::Path;
 
@@ -6,11 +6,11 @@ use burgeon::sources::{Attribute, Source, SourceOptions};
 use burgeon_streets::StreetNetwork;
 use glam::DVec2;
 
-/// Distance (m) that the towns reach, and the number of rings of the same width in which their density is measured.
+/// Radius (m) of the towns, and the number of rings of equal width in which their density is measured.
 pub(crate) const REACH: f64 = 1000.0;
 pub(crate) const RINGS: usize = 4;
 
-/// The names of the measures, in the order of [`looks`].
+/// Names of the measures, in the order of [`looks`].
 pub(crate) const NAMES: [&str; 16] = [
     "degree",
     "dead ends",
@@ -30,8 +30,8 @@ pub(crate) const NAMES: [&str; 16] = [
     "knots",
 ];
 
-/// Bounds of the mean of each measure over many seeds: as in London, Monaco and Helsinki. Areas are in m², density is in km/km²,
-/// and zigzags are on each kilometre. Blocks spread by 0.64 in Helsinki and by 0.74 in Monaco.
+/// Bounds of the mean of each measure over many seeds, based on London, Monaco and Helsinki. Areas are in m², density
+/// is in km/km², and zigzags are per kilometre. The spread of blocks is 0.64 in Helsinki and 0.74 in Monaco.
 pub(crate) const MEANS: [[f64; 2]; 16] = [
     [2.55, 2.9],
     [0.12, 0.25],
@@ -51,7 +51,8 @@ pub(crate) const MEANS: [[f64; 2]; 16] = [
     [0.0, 0.07],
 ];
 
-/// Bounds of the measures of each single town: those of the means, but for the measures that few streets change much.
+/// Bounds of the measures of each single town: the bounds of the means, but wider for measures that a few streets
+/// change much.
 pub(crate) const EACH: [[f64; 2]; 16] = {
     let [_, _, _, _, _, _, _, _, _, rest @ ..] = MEANS;
     let [largest, density, decline, zigzags, stubs, triangles, knots] = rest;
@@ -75,7 +76,7 @@ pub(crate) const EACH: [[f64; 2]; 16] = {
     ]
 };
 
-/// Measures a network; its decline, from one ring around the middle to the next, is the greatest quotient.
+/// Measures a network. The decline is the maximum quotient of the densities of adjacent rings around the centre.
 pub(crate) fn looks(network: &StreetNetwork) -> [f64; 16] {
     let of = network.measures();
     let [ends, three, four] = of.shares;
@@ -108,8 +109,8 @@ pub(crate) fn faults(of: &[f64; 16], bounds: &[[f64; 2]; 16]) -> Vec<String> {
     wrong.map(|((name, value), [least, most])| format!("{name} {value:.3}, not {least} to {most}")).collect()
 }
 
-/// Reads the streets of a real town, those for cars without ways to single houses; reports that the town is left out if its data is
-/// missing.
+/// Reads the streets of a real town: streets for cars, without driveways. Reports that the town is skipped if its data
+/// is missing.
 pub(crate) fn real(file: &str) -> Option<StreetNetwork> {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../shared/data").join(file);
     if !path.is_file() {
@@ -131,7 +132,7 @@ pub(crate) fn real(file: &str) -> Option<StreetNetwork> {
     let lines =
         streets.map(|street| street.geometry.points().map(|at| at.truncate()).collect::<Vec<DVec2>>());
     let lines: Vec<Vec<DVec2>> = lines.collect();
-    // Measures are the same anywhere, and streets are near the origin.
+    // Measures do not depend on the location; coordinates near the origin are more precise.
     let origin = lines.iter().flatten().next().copied().unwrap_or_default();
     let lines: Vec<Vec<DVec2>> =
         lines.iter().map(|line| line.iter().map(|at| *at - origin).collect()).collect();

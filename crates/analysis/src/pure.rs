@@ -1,9 +1,10 @@
-//! Which functions of a script leave nothing behind, so that running them once in one machine is as good as running
-//! them in each.
+//! Detection of functions without side effects, so that one call in one machine has the same effect as a call in each
+//! machine.
 //!
-//! A function is pure if it assigns only its own variables and tables that it made itself, and calls only modules,
-//! constructors, what the library is known to do, and pure functions of the same file. What cannot be told is not
-//! pure. It may draw random numbers: how far it got with them is easily told to other machines.
+//! A function is pure if it assigns only its own variables and tables that it created, and calls only modules,
+//! constructors, library functions known to be pure, and pure functions of the same file. A function is not pure if the
+//! analysis cannot decide this. A pure function may use random numbers, because their state is easily passed to other
+//! machines.
 
 use full_moon::ast::punctuated::Punctuated;
 use full_moon::ast::{Call, Expression, FunctionArgs, FunctionCall, Index, Prefix, Suffix, Var};
@@ -13,18 +14,18 @@ use super::syntax::text_of;
 use super::walk::Walk;
 use burgeon_language::{Effect, is_pure_function, library_effect};
 
-/// Whether a script gives tables a behaviour of its own, so that even reading one may leave something behind.
+/// Returns true if a script sets metatables, so that even reading a table may have side effects.
 pub fn has_metatables(text: &str) -> bool {
     text.contains("setmetatable")
 }
 
 impl Walk<'_> {
-    /// The functions from this depth on leave something behind.
+    /// Marks the functions from this nesting depth on as impure.
     pub(super) fn impure_from(&mut self, depth: usize) {
         self.functions.iter_mut().skip(depth).for_each(|function| function.pure = false);
     }
 
-    /// A field of what `prefix` names is assigned.
+    /// Records an assignment to a field of `prefix`.
     pub(super) fn field_assigned(&mut self, prefix: &Prefix) {
         let owner = match prefix {
             Prefix::Name(name) => self.own_table(name),
@@ -33,13 +34,13 @@ impl Walk<'_> {
         self.impure_from(owner.map_or(1, |owner| owner + 1));
     }
 
-    /// The function that made the table that a variable always holds.
+    /// Returns the function that created the table in a variable, if the variable always contains that table.
     fn own_table(&self, name: &TokenReference) -> Option<usize> {
         let variable = self.find(&text_of(name))?;
         (variable.fresh && !self.fact(variable.id).assigned).then_some(variable.function)
     }
 
-    /// Something is called.
+    /// Records a function call.
     pub(super) fn called(&mut self, call: &FunctionCall) {
         let suffixes: Vec<&Suffix> = call.suffixes().collect();
         let Prefix::Name(name) = call.prefix() else { return self.impure_from(1) };
@@ -93,7 +94,7 @@ impl Walk<'_> {
         }
     }
 
-    /// A loop goes through these, one of which may be a function that it calls.
+    /// Records the expressions of a generic loop, which may contain a function that the loop calls.
     pub(super) fn iterated(&mut self, expressions: &Punctuated<Expression>) {
         let known = |expression: &Expression| match expression {
             Expression::FunctionCall(_) => true,
@@ -117,7 +118,7 @@ impl Walk<'_> {
 mod tests {
     use crate::{Globals, analyse};
 
-    /// Whether the function in the last line but one is pure.
+    /// Returns true if the function in the last line is pure.
     fn pure(script: &str) -> bool {
         let names = ["math", "table", "string", "random", "footprint", "pairs", "source", "param", "pcall"];
         let names = names.map(str::to_owned).to_vec();

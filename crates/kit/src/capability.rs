@@ -11,7 +11,7 @@ use burgeon_base::error::Result;
 use burgeon_base::warning::Warning;
 use burgeon_scene::Scene;
 
-/// Access to an object as one that implements the trait `C`.
+/// Conversion of an object to the capability `C`.
 pub struct Capability<C: ?Sized + 'static> {
     of: fn(&dyn Object) -> Option<&C>,
     of_mut: fn(&mut dyn Object) -> Option<&mut C>,
@@ -36,7 +36,7 @@ impl<C: ?Sized> Capability<C> {
         (self.of)(object)
     }
 
-    /// Returns the object as a mutable `C`, as [`Capability::of`] does.
+    /// Returns the object's capability for changes, as [`Self::of`] does.
     pub fn of_mut<'a>(&self, object: &'a mut dyn Object) -> Option<&'a mut C> {
         (self.of_mut)(object)
     }
@@ -71,29 +71,30 @@ impl Capabilities {
     }
 }
 
-/// Adds something to the scene.
+/// Capability to add content to the scene.
 pub trait Show {
-    /// The number of triangles drawn so far, for the limit; an instance counts as one.
+    /// Returns the number of triangles drawn so far, for the limit. An instance counts as one.
     fn triangles(&self) -> usize {
         0
     }
 
-    /// Adds what it has drawn to `scene`; `name` and `feature` are for its instances.
+    /// Adds the drawn content to `scene`; `name` and `feature` are for the instances.
     fn show(&self, scene: &mut Scene, name: &str, feature: Option<&str>) -> Result<()>;
 
-    /// As [`Show::show`], but may give away what it has drawn, for nobody will look at the object again.
+    /// Adds the drawn content like [`Show::show`], but may move it out of the object, because the object is not used
+    /// again.
     fn hand_over(&mut self, scene: &mut Scene, name: &str, feature: Option<&str>) -> Result<()> {
         self.show(scene, name, feature)
     }
 }
 
-/// Draws with a [`Drawing`], and so shows it, has its triangles counted, and tells which module made what. `#[object]`
-/// writes it for a struct with one field of that type.
+/// Capability to draw with a [`Drawing`]. The engine then shows the drawing, counts its triangles and traces which
+/// module drew which part. `#[object]` implements it for a struct with one field of that type.
 pub trait Draw {
-    /// What it has drawn.
+    /// Returns the drawing.
     fn drawing(&self) -> &Drawing;
 
-    /// The same, to draw more.
+    /// Returns the drawing for changes.
     fn drawing_mut(&mut self) -> &mut Drawing;
 }
 
@@ -111,40 +112,43 @@ impl<T: Draw> Show for T {
     }
 }
 
-/// Expands what it shows by itself, and so can stand without an axiom.
+/// Capability to expand the shown content automatically, so the object needs no axiom.
 pub trait Expand {
-    /// Expands what it was last asked to show, before the first pass and after each; `rules` are those of other systems.
+    /// Expands the content that was last requested, before the first pass and after each pass; `rules` are the rules of
+    /// other systems.
     fn expand(&mut self, rules: &dyn Rewriter) -> Result<()>;
 
-    /// Takes that its script is only checked: nothing is expanded or shown, and it answers as if it were even.
+    /// Prepares for a check of the script: nothing is expanded or shown, and read methods return results as for level
+    /// ground.
     fn sketch(&mut self);
 }
 
-/// Draws more or less of what it shows.
+/// Capability to draw in several levels of detail.
 pub trait LevelOfDetail {
-    /// Takes the level of detail to draw in: 0 the ground plan, 1 blocks, 2 roofs, 3 everything.
+    /// Sets the level of detail to draw in: 0 footprints, 1 blocks, 2 roofs, 3 everything.
     fn set_detail(&mut self, detail: u8);
 }
 
-/// Warns, with the line of the call after which it is asked.
+/// Capability to warn. The engine adds the line of the preceding call.
 pub trait Warn {
-    /// Gives away what people should know of how it was made, and of what it was asked since it was asked this last.
+    /// Takes the warnings about the object's construction and about the calls since the last time.
     fn take_warnings(&mut self) -> Vec<Warning>;
 }
 
-/// Tells what it had to do otherwise than it was asked.
+/// Capability to report results that differ from the request.
 pub trait Report {
-    /// What that was since the pass began.
+    /// Returns the report entries since the pass began.
     fn notes(&self) -> &[Note];
 }
 
-/// Knows features, for files of layers.
+/// Capability to provide features for layered files.
 pub trait HasLayers {
-    /// Its layers, by name: each a list of features as scripts have them, tables with an id, a geometry and attributes.
+    /// Returns the layers with their names. A layer is a list of features as scripts see them: tables with an id, a
+    /// geometry and attributes.
     fn layers(&self) -> Vec<(&'static str, Vec<Value>)>;
 }
 
-/// Lets all objects of a system know of one another, once there are all of them and before a rule asks.
+/// Function that shares data between all objects of a system, once they all exist and before the first query by a rule.
 pub type Gather = fn(&mut [Box<dyn Object>]);
 
 /// Compares, shows and reads an object by its content, as a value: two equal ones stand for one another.

@@ -1,8 +1,8 @@
-//! The contract of objects: values, types of objects and what rules need of them.
+//! Contract of objects: values, object types and the interfaces that rules need from them.
 //!
 //! Input: values from scripts. Output: [`Kind`]s in a [`Registry`], [`Object`]s with their drawings, and the [`Values`]
-//! that modules of chains carry. It never knows a virtual machine, nor
-//! a type of object but the [`Model`], which is what a system has drawn.
+//! that chain modules contain. The crate does not depend on a virtual machine. It defines only two object types:
+//! [`Model`], the drawn result of a system, and [`GeometryObject`], a value.
 
 extern crate self as burgeon_kit;
 

@@ -1,4 +1,4 @@
-//! What every object has.
+//! Interface of all objects.
 
 use std::any::Any;
 use std::sync::Arc;
@@ -9,47 +9,47 @@ use burgeon_base::error::Result;
 use burgeon_base::warning::Warning;
 use burgeon_scene::Scene;
 
-/// Something that a script can make and ask, and that the modules of a chain may draw with.
+/// An object that scripts can make and read, and that the modules of a chain can draw with.
 ///
-/// What only some can do, such as to draw, is a [`Capability`](super::Capability) of their [`Kind`].
+/// Optional abilities, such as drawing, are [`Capability`](super::Capability) values of its [`Kind`].
 pub trait Object: Any + Send + Sync {
-    /// Its type: name, fields, methods and capabilities.
+    /// Returns the object's type: name, fields, methods and capabilities.
     fn kind(&self) -> &Arc<Kind>;
 
-    /// A copy, for one chain of many.
+    /// Returns a copy. Each chain draws with its own copy.
     fn boxed(&self) -> Box<dyn Object>;
 
-    /// Empties a drawing object before an interpretation pass.
+    /// Prepares for an interpretation pass; a drawing object is emptied.
     fn begin(&mut self) {}
 
-    /// Remembers the frame where a branch opens.
+    /// Saves the frame at the start of a branch.
     fn push(&mut self) {}
 
-    /// Returns to the frame of the matching [`Object::push`].
+    /// Restores the frame that the matching [`Object::push`] saved.
     fn pop(&mut self) -> Result<()> {
         Ok(())
     }
 
-    /// Closes what is still open at the end of a pass.
+    /// Completes unfinished content at the end of a pass.
     fn end(&mut self) -> Result<()> {
         Ok(())
     }
 
-    /// Takes the number that its random choices come from; chains with other seeds or features get other ones.
+    /// Sets the seed of the object's random choices. Chains with other seeds or features get other numbers.
     fn seed(&mut self, _: u64) {}
 
-    /// The object that it extends, whose methods and capabilities it has besides its own.
+    /// Returns the base object, whose methods and capabilities this object inherits.
     fn base(&self) -> Option<&dyn Object> {
         None
     }
 
-    /// The same, to change it.
+    /// Returns the base object for changes.
     fn base_mut(&mut self) -> Option<&mut dyn Object> {
         None
     }
 }
 
-/// Capabilities of an object of an unknown type.
+/// Capabilities of an object of unknown type, with defaults if its kind lacks them.
 impl dyn Object {
     /// Returns the object as one with the capability `C`, if it has it.
     pub fn capability<C: ?Sized + 'static>(&self) -> Option<&C> {
@@ -66,56 +66,58 @@ impl dyn Object {
         self.capability::<dyn Show>().map_or(0, |it| it.triangles())
     }
 
-    /// Adds its drawing to `scene`, if it draws; `name` and `feature` are for its instances.
+    /// Adds the drawn content to `scene`, if the object draws; `name` and `feature` are for its instances.
     pub fn show(&self, scene: &mut Scene, name: &str, feature: Option<&str>) -> Result<()> {
         self.capability::<dyn Show>().map_or(Ok(()), |it| it.show(scene, name, feature))
     }
 
-    /// Adds its drawing to `scene` as `show` does, and may leave the object without it.
+    /// Adds the drawn content like `show`, but may move it out of the object, because the object is not used again.
     pub fn hand_over(&mut self, scene: &mut Scene, name: &str, feature: Option<&str>) -> Result<()> {
         self.capability_mut::<dyn Show>().map_or(Ok(()), |it| it.hand_over(scene, name, feature))
     }
 
-    /// Returns its [`Drawing`], which knows the module that made each part, if it draws with one.
+    /// Returns the drawing, if the object draws with a [`Drawing`]. Such drawings can be traced to the modules that
+    /// made them.
     pub fn drawing_mut(&mut self) -> Option<&mut Drawing> {
         self.capability_mut::<dyn Draw>().map(|it| it.drawing_mut())
     }
 
-    /// Takes the warnings since the last call.
+    /// Takes the warnings about the object's construction and about the calls since the last time.
     pub fn take_warnings(&mut self) -> Vec<Warning> {
         self.capability_mut::<dyn Warn>().map_or_else(Vec::new, |it| it.take_warnings())
     }
 
-    /// Reports whether it expands by itself, and so needs no axiom.
+    /// Returns true if the object expands its content automatically, so it needs no axiom.
     pub fn expands(&self) -> bool {
         self.kind().has_capability::<dyn Expand>()
     }
 
-    /// Expands, if it expands by itself, what it shows.
+    /// Expands the content that was last requested, if the object has the capability.
     pub fn expand(&mut self, rules: &dyn Rewriter) -> Result<()> {
         self.capability_mut::<dyn Expand>().map_or(Ok(()), |it| it.expand(rules))
     }
 
-    /// Prepares it for a script that is only checked: it expands and shows nothing, and answers as if it were even.
+    /// Prepares for a check of the script: nothing is expanded or shown, and read methods return results as for level
+    /// ground.
     pub fn sketch(&mut self) {
         if let Some(it) = self.capability_mut::<dyn Expand>() {
             it.sketch();
         }
     }
 
-    /// Sets the level of detail to draw in: 0 the ground plan, 1 blocks, 2 roofs, 3 everything.
+    /// Sets the level of detail to draw in: 0 footprints, 1 blocks, 2 roofs, 3 everything.
     pub fn set_detail(&mut self, detail: u8) {
         if let Some(it) = self.capability_mut::<dyn LevelOfDetail>() {
             it.set_detail(detail);
         }
     }
 
-    /// Returns its features as layers, by name, if it has any.
+    /// Returns the features as named layers; empty if the object has no features.
     pub fn layers(&self) -> Vec<(&'static str, Vec<Value>)> {
         self.capability::<dyn HasLayers>().map_or_else(Vec::new, |it| it.layers())
     }
 
-    /// Returns the notes on what it did otherwise than asked since the pass began.
+    /// Returns the report entries since the pass began.
     pub fn notes(&self) -> &[Note] {
         self.capability::<dyn Report>().map_or(&[], |it| it.notes())
     }

@@ -1,8 +1,9 @@
-//! What scripts can use, told once: the names of the language, their arguments and types, and what follows from them.
+//! The scripting API as data: the names of the language with their arguments and types, and everything derived from
+//! them.
 //!
-//! Input: a registry of types of objects, and the text of the standard library. Output: names with their forms of
-//! calling, types that a value may be held against, and the definition file for editors. It never runs a script, and
-//! knows no virtual machine.
+//! Input: a registry of object types, and the text of the standard library. Output: names with their signatures, types
+//! to check values against, and the definition file for editors. The crate never runs a script, and does not depend on
+//! a virtual machine.
 
 mod definitions;
 mod editor;

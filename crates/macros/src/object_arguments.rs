@@ -1,4 +1,4 @@
-//! What `#[object]` takes.
+//! Arguments of `#[object]`.
 
 use proc_macro2::{Ident, TokenStream};
 use quote::ToTokens;
@@ -13,39 +13,39 @@ const VALUES: [&str; 6] = ["example", "first", "functions", "gathers", "has", "p
 /// Everything, for messages.
 const ALL: &str = "begins_empty, can, crate, deprecates, draws, example, first, functions, gathers, given, has, loader, make, options, prefetches";
 
-/// What stands in the attribute.
+/// Arguments of the attribute.
 pub(crate) struct ObjectArguments {
-    /// The name for scripts, and the path of the contract.
+    /// Name for scripts, and path of the contract.
     pub own: AttributeArguments,
-    /// How scripts come by one.
+    /// Construction of objects.
     pub making: Making,
-    /// The function of the type that makes one of a table.
+    /// Function of the type that makes an object from a table.
     pub make: Option<Ident>,
-    /// Where it says that it begins empty.
+    /// Location of the argument `begins_empty`, if it is set.
     pub begins_empty: Option<Ident>,
     /// Set if it draws with the field of type `Drawing`.
     pub draws: Option<Ident>,
     /// Traits that the engine may use it as: `can(Warn, Report)`.
     pub capabilities: Vec<Path>,
-    /// What else a kind says of it.
+    /// Other arguments of the kind, as names of methods of `Kind` with their values.
     pub values: Vec<(Ident, TokenStream)>,
-    /// The methods of the type that the engine calls.
+    /// Hooks with the methods of the type that implement them.
     pub hooks: Vec<(Hook, Ident)>,
 }
 
-/// How scripts come by an object.
+/// Construction of objects.
 pub(crate) enum Making {
-    /// They give its public fields.
+    /// From the public fields of the struct.
     Fields,
-    /// They give the fields of another struct.
+    /// From the fields of another struct.
     Options(Type),
-    /// They name a file, which a loader reads, with the fields of another struct if there is one.
+    /// From a file that a loader reads, and optionally the fields of another struct.
     File(Expr, Option<Type>),
-    /// Something else gives it.
+    /// By another object or function.
     Given,
 }
 
-/// What the engine calls.
+/// Hook that the engine calls.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Hook {
     Begin,
@@ -122,7 +122,8 @@ impl Parse for ObjectArguments {
                 _ => {
                     let Some(hook) = Hook::named(&name) else { return Err(unknown(&name)) };
                     let method = value(input, Ident::parse)?;
-                    // A method of the same name that is not there would be the trait's, which calls it.
+                    // If the type lacks a method of this name, the call would resolve to the trait's method and recurse
+                    // endlessly.
                     if Hook::named(&method).is_some() {
                         let text = "is what the engine calls: give the method of the type another name";
                         return Err(Error::new(method.span(), format!("{method} {text}")));

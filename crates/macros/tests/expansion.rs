@@ -1,4 +1,4 @@
-//! What the attributes make of a type of object, as the contract sees it.
+//! Tests of the code that the attributes generate for an object type.
 
 use burgeon_kit::{
     Call, Construct, Draw, Drawing, Object, Result, Table, TableKey, Value, fields, methods, object,

@@ -1,5 +1,6 @@
-//! Tells which of the CityJSON files that are named are not valid, and why. It is no member of the workspace, for the
-//! validator needs a hundred crates that nothing else does: the gate builds it elsewhere.
+//! Validates the CityJSON files given as arguments, and reports the errors of invalid ones. The crate is not a member
+//! of the workspace, because the validator needs a hundred crates that no other crate needs; the gate builds it
+//! elsewhere.
 
 use std::process::ExitCode;
 

@@ -1,4 +1,4 @@
-//! The definitions for editors are ones that Luau takes, and no script that is shipped has an error by them.
+//! Tests that Luau accepts the definitions for editors, and that all shipped scripts pass the type checker.
 
 #![allow(clippy::unwrap_used, reason = "a test stops at what is wrong")]
 
@@ -13,7 +13,7 @@ fn checker() -> Checker {
     checker
 }
 
-/// What the checker says of a script, each with its line.
+/// Returns the type errors of a script with their lines.
 fn errors(checker: &mut Checker, script: &str) -> Vec<String> {
     let checked = checker.check(script).unwrap();
     assert!(!checked.timed_out);
@@ -37,7 +37,7 @@ fn no_shipped_script_has_an_error_in_strict_mode() {
         ["scripts", "scripts/templates", "scripts/templates/roads", "examples", "crates/objects/scripts"]
     {
         for path in scripts(folder) {
-            // Its type of object is declared by the program beside it.
+            // A program next to the script declares its object type.
             if path.ends_with("examples/beads.lua") {
                 continue;
             }

@@ -1,7 +1,7 @@
-//! The names that every script has besides types of objects: each declared once, with its type and what it does.
+//! Names that every script has in addition to object types, each declared once with its type and description.
 //!
-//! What is told of them, what scripts are refused, what is known of a call before it is made, and what editors complete
-//! follows from here. The standard library's names stand in its own file.
+//! The help, the errors for unknown names, the analysis of calls and the completion in editors are derived from these
+//! declarations. The names of the standard library are declared in its own file.
 
 mod burgeon;
 mod luau;

@@ -1,4 +1,4 @@
-//! How scripts make geometries: the functions `geometry`, `point`, `line` and `polygon`.
+//! Functions with which scripts make geometries: `geometry`, `point`, `line` and `polygon`.
 
 use std::sync::Arc;
 
@@ -22,7 +22,7 @@ pub fn constructors() -> [Constructor; 4] {
     ]
 }
 
-/// The geometry of a text, of a feature or of a table; one as it is.
+/// Makes a geometry from text, a feature or a table; returns a geometry unchanged.
 fn geometry(given: &[Value]) -> Result<Value> {
     let what = "a text such as \"POINT (1 2)\", a feature, or a table with rings or points";
     match given {
@@ -40,7 +40,7 @@ fn geometry(given: &[Value]) -> Result<Value> {
     }
 }
 
-/// A place of two or three numbers, or of a vector.
+/// Makes a point from two or three numbers, or from a vector.
 fn point(given: &[Value]) -> Result<Value> {
     if let [value @ (Value::Table(_) | Value::Object(_))] = given {
         let place = Vector::from_value(value.clone());
@@ -58,7 +58,7 @@ fn point(given: &[Value]) -> Result<Value> {
     sound("point", Geometry::Point(Some(place)))
 }
 
-/// A line through points, given one by one or as a list.
+/// Makes a line through points, passed one by one or as a list.
 fn line(given: &[Value]) -> Result<Value> {
     let points = points("line", given)?;
     if points.len() < 2 {
@@ -68,7 +68,7 @@ fn line(given: &[Value]) -> Result<Value> {
     sound("line", Geometry::Line(points))
 }
 
-/// A polygon of its outer ring, or of a list of rings of which the others are holes.
+/// Makes a polygon from its outer ring, or from a list of rings; the rings after the first are holes.
 fn polygon(given: &[Value]) -> Result<Value> {
     let rings = match given {
         [value] => {
@@ -94,7 +94,7 @@ fn polygon(given: &[Value]) -> Result<Value> {
     sound("polygon", made)
 }
 
-/// Points that are given one by one or as a list.
+/// Reads points that are passed one by one or as a list.
 fn points(name: &str, given: &[Value]) -> Result<Vec<DVec3>> {
     let one_by_one = |value: &Value| Vector::from_value(value.clone());
     if let [only @ Value::Table(table)] = given
@@ -122,7 +122,7 @@ fn points(name: &str, given: &[Value]) -> Result<Vec<DVec3>> {
         .collect()
 }
 
-/// The geometry as a script's value; fails if a coordinate cannot be computed with.
+/// Returns the geometry as a script value. Fails if a coordinate is outside of the range for computations.
 fn sound(name: &str, geometry: Geometry) -> Result<Value> {
     geometry.check().map_err(|error| error.about(name))?;
     Ok(Value::Object(Arc::new(GeometryObject::new(geometry))))

@@ -1,4 +1,4 @@
-//! Lines as arguments: tables, geometries and sources become lists of lines.
+//! Conversion of tables and features from scripts to rings and lines in the plane.
 
 use std::sync::Arc;
 
@@ -20,12 +20,12 @@ pub(super) fn positions(vectors: Vec<Vector>) -> Vec<DVec3> {
     vectors.into_iter().map(|vector| vector.0).collect()
 }
 
-/// Lines (m): of a source, of geometries, or lists of points. What has no length is none.
+/// Lines (m) from a source, from geometries or from lists of points. Lines without length are dropped.
 #[derive(Debug, Clone, Default)]
 pub struct Lines {
-    /// The lines.
+    /// The lines (m).
     pub lines: Vec<Line<DVec3>>,
-    /// How many items of a list were left out, and the first of them.
+    /// Number of skipped items of a list, and the message for the first of them.
     pub refused: Option<(usize, String)>,
 }
 
@@ -80,7 +80,7 @@ impl Lines {
                 if depth > 4 || list.len() != table.entries.len() {
                     return Err(what());
                 }
-                // One bad item among others is left out alone.
+                // A bad item is skipped alone, if other items are good.
                 let (mut good, mut bad) = (0, None);
                 for (number, item) in (1..).zip(list) {
                     let known = self.lines.len();
@@ -106,7 +106,7 @@ impl Lines {
     fn add(&mut self, geometry: &Geometry) {
         match geometry {
             Geometry::Line(line) => self.lines.extend(Line::without_repeats(line.clone())),
-            // A square is walked around.
+            // A polygon contributes the lines around its rings, such as the path around a square.
             Geometry::Polygon(rings) => {
                 self.lines.extend(rings.iter().filter_map(|ring| around(ring.clone())));
             }
@@ -124,7 +124,7 @@ impl Lines {
     }
 }
 
-/// The line once around a ring that somebody gave; `None` if it has no length.
+/// Returns the closed line around a ring from user data; `None` if it has no length.
 fn around(mut ring: Vec<DVec3>) -> Option<Line<DVec3>> {
     ring.extend(ring.first().copied());
     Line::without_repeats(ring)
@@ -137,7 +137,7 @@ pub(super) mod tests {
     use super::*;
 
     fn point(random: &mut Stream) -> DVec3 {
-        // Few places, so that some are repeated, and heights that a pair of numbers has not.
+        // Few positions make repeated points likely. The heights test the third coordinate.
         DVec3::new(random.below(4) as f64, random.below(4) as f64, random.below(2) as f64 * 0.5)
     }
 

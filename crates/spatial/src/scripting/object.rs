@@ -1,4 +1,4 @@
-//! The object that a geometry is for scripts.
+//! Script object of a geometry.
 
 use std::hash::{Hash, Hasher};
 use std::sync::{Arc, OnceLock};
@@ -14,24 +14,24 @@ use crate::{Geometry, PreparedGeometry};
 /// Maximum length of the text of a geometry in messages (characters).
 const SHORT: usize = 60;
 
-/// Points, lines, polygons with holes, and collections of these, as `feature.geometry` and `geometry(text)` give them.
+/// Points, lines, polygons with holes, and collections of these, from `feature.geometry` and `geometry(text)`.
 ///
 /// It never changes.
 #[object("geometry", given, can(ObjectContent), has = fields(), functions = constructors(), example = include_str!("../../scripts/geometry.lua"))]
 pub struct GeometryObject {
     from: GeometryStorage,
-    /// What is compared with others, once it was.
+    /// Form for comparisons, built by the first comparison.
     prepared: OnceLock<Box<PreparedGeometry>>,
 }
 
-/// Where a geometry is kept.
+/// Storage of a geometry.
 #[derive(Clone)]
 enum GeometryStorage {
     Value(Arc<Geometry>),
     Feature { list: Arc<dyn GeometryList>, index: usize, prefetch: Option<Arc<dyn Prefetch>> },
 }
 
-/// What scripts read of one.
+/// Returns the fields that scripts can read.
 fn fields() -> Vec<Field> {
     let metres = |name: &'static str, luau: &str, doc: &'static str| Field {
         unit: Some("m".into()),
@@ -53,18 +53,18 @@ fn fields() -> Vec<Field> {
 }
 
 impl GeometryObject {
-    /// One of its own.
+    /// Creates an object that owns its geometry.
     pub fn new(geometry: Geometry) -> Self {
         Self::shared(Arc::new(geometry))
     }
 
-    /// One that others hold, too.
+    /// Creates an object that shares its geometry.
     pub fn shared(geometry: Arc<Geometry>) -> Self {
         Self { from: GeometryStorage::Value(geometry), prepared: OnceLock::new() }
     }
 
-    /// Creates the geometry of the feature with this number, from 0; `None` if there is none. `prefetch` may compute ahead
-    /// what the feature needs.
+    /// Creates the object of the feature at `index` (from 0); `None` if there is no such feature. `prefetch` may
+    /// prepare its data in advance.
     pub fn of_feature(
         list: Arc<dyn GeometryList>,
         index: usize,
@@ -77,7 +77,7 @@ impl GeometryObject {
         })
     }
 
-    /// Where what it needs may have been made already, and its feature's number there.
+    /// Returns the prefetch of the feature's layer and the feature's index, if the geometry has one.
     pub fn prefetch(&self) -> Option<(&dyn Prefetch, usize)> {
         match &self.from {
             GeometryStorage::Feature { prefetch, index, .. } => Some((prefetch.as_deref()?, *index)),
@@ -85,7 +85,7 @@ impl GeometryObject {
         }
     }
 
-    /// The geometry itself.
+    /// Returns the geometry.
     pub fn geometry(&self) -> &Geometry {
         match &self.from {
             GeometryStorage::Value(geometry) => geometry,
@@ -93,12 +93,12 @@ impl GeometryObject {
         }
     }
 
-    /// The geometry, ready to be compared with others.
+    /// Returns the geometry prepared for comparisons.
     pub(super) fn prepared(&self) -> &PreparedGeometry {
         self.prepared.get_or_init(|| Box::new(PreparedGeometry::new(self.geometry())))
     }
 
-    /// The geometry that an object is, if it is one.
+    /// Returns the geometry of `object`, if it is a geometry object.
     pub fn of(object: &dyn Object) -> Option<&Geometry> {
         as_ref::<Self>(object).map(Self::geometry)
     }

@@ -10,16 +10,16 @@ use super::object::GeometryObject;
 use super::polygon::PolygonArgument;
 use crate::{Geometry, PreparedGeometry};
 
-/// A geometry as an argument: one that a script holds, that of a feature, or a place.
+/// A geometry as an argument: a geometry object, a feature's geometry, or a position.
 pub struct Shape(Arc<GeometryObject>);
 
 impl Shape {
-    /// The geometry itself.
+    /// Returns the geometry.
     pub fn geometry(&self) -> &Geometry {
         self.0.geometry()
     }
 
-    /// The same, ready to be compared with others.
+    /// Returns the geometry prepared for comparisons.
     pub(super) fn prepared(&self) -> &PreparedGeometry {
         self.0.prepared()
     }
@@ -56,12 +56,12 @@ impl Parameter for Shape {
     }
 }
 
-/// A list of points as an argument, or the geometry that has one: a line, or a polygon, of which it is the outer ring.
+/// A list of points as an argument, or a geometry with such a list: a line, or a polygon, whose outer ring is used.
 #[derive(Debug, Clone)]
 pub struct Path {
-    /// The points.
+    /// Points (m).
     pub points: Vec<DVec3>,
-    /// The holes of a polygon.
+    /// Holes of a polygon.
     pub holes: Rings,
 }
 
