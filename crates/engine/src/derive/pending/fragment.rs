@@ -28,8 +28,10 @@ pub(super) struct Fragmentation {
 }
 
 impl Fragmentation {
-    /// In place of each module of `group`: a module with `symbol` for each part of its geometry, with its parameters, and with
-    /// the feature among `owners` that it has. `at` is the fragmentation's place.
+    /// Replaces each module of `group` by one module with `symbol` per part of its geometry.
+    ///
+    /// The new modules copy the parameters by name, and keep the feature in `owners`. `at` is the position of
+    /// the fragment module.
     pub(super) fn apply(
         &mut self,
         (group, owners): (&Chain, &[u32]),
