@@ -188,7 +188,7 @@ impl Phase<DerivationState<'_>> for Publish {
     }
 }
 
-/// Tells self-expanding objects that the script is only checked.
+/// Marks self-expanding objects as checked only.
 struct Sketch;
 
 impl Phase<DerivationState<'_>> for Sketch {

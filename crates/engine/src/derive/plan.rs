@@ -22,7 +22,7 @@ pub(crate) struct DerivationPlan {
 }
 
 impl DerivationPlan {
-    /// Tells self-expanding objects that the script is only checked.
+    /// Marks self-expanding objects as checked only.
     pub(super) fn sketch(&self) -> Result<()> {
         let Some(objects) = &self.objects else { return Ok(()) };
         (0..self.steps.chains).try_for_each(|chain| {

@@ -137,8 +137,7 @@ pub(super) fn is_feature(metatable: &Table) -> bool {
     matches!(metatable.raw_get(key(LAYER)), Ok(LuaValue::UserData(_)))
 }
 
-/// Returns the geometry and the other fields of the feature for which a table with this metatable stands, if
-/// it does.
+/// Returns the geometry and the other fields of the feature of a lazy table; `None` for any other table.
 pub(crate) fn feature_of(
     table: &Table,
     metatable: &Table,
