@@ -1,7 +1,7 @@
 //! Runs scripts: virtual machines, parallel rewriting and interpretation passes.
 //!
 //! Input: a script and the [`Registry`](burgeon_kit::Registry) of object types that it may use. Output: a
-//! [`Run`] with its scene. The engine contains no object type by name and writes no files.
+//! [`Run`] with its scene. The engine never refers to an object type by name, and never writes a file.
 
 mod check;
 mod declare;
