@@ -23,7 +23,7 @@ local lantern = object("lantern", {
       doc = "Draws the foot and the mast.",
       function(self)
         self:material({ color = self.metal, roughness = 0.45, metallic = 0.8 }):smooth(true):regular(24)
-        -- The foot narrows into the shaft. Rings mark the begin of the shaft and of the arms.
+        -- The foot narrows into the shaft. Rings mark the bottom of the shaft and the base of the arms.
         self
           :scale(0.16)
           :extrude(0.12)

@@ -18,7 +18,7 @@ const TABLE: &[(&str, &str, &str)] = &[
     ("", "S *S A B S B", "S > A B"),
     ("", "A B", "B < A"),
     ("", "A B", "B > A"),
-    // At the begin and end of a chain there is nothing to match.
+    // At the start and end of a chain there is nothing to match.
     ("", "S", "A < S"),
     ("", "S", "S > A"),
     ("", "A S", "A A < S"),

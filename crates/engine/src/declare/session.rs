@@ -131,7 +131,7 @@ pub struct Session {
     warnings: Warnings,
     /// Deprecated names, and the names that scripts have used.
     pub(super) deprecated: Deprecations,
-    /// Number of different shapes of the rules' results.
+    /// Counter that numbers the shapes of the rules' results.
     pub(crate) shapes: Arc<AtomicUsize>,
     facts: ScriptFacts,
     /// Set once a placeholder module has been made.
@@ -248,7 +248,7 @@ impl Session {
         self.notes.lock().recover().iter().cloned().collect()
     }
 
-    /// Records a file that was searched, and whether it exists.
+    /// Records a path that was looked up, and whether it exists.
     pub(crate) fn seek(&self, path: &Path, there: bool) {
         self.sought.lock().recover().insert(path.to_path_buf(), there);
     }

@@ -213,7 +213,8 @@ impl Library {
         Ok(())
     }
 
-    /// Fails if rules are running, because `what` is allowed only at the top level.
+    /// Fails if rules are running, because `what` is allowed only at the top level. The standard library
+    /// always runs at the top level.
     pub(super) fn at_top_level(&self, what: &str) -> Result<()> {
         self.machine()?.refuse_in_rules(what)
     }

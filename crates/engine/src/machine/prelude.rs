@@ -61,7 +61,7 @@ pub(crate) struct Prelude {
     pub script_type: Function,
     /// `(kind, methods, type, reads, changes)`: adds functions of the script to a type.
     pub extension: Function,
-    /// `(type)`: returns the functions that run at the begin and end of a chain, and at the begin and end of
+    /// `(type)`: returns the functions that run at the start and end of a chain, and at the start and end of
     /// a branch.
     pub hooks: Function,
     /// Drops cached parameters.

@@ -98,7 +98,7 @@ pub(crate) struct Interpretations {
     pub methods: Vec<u16>,
     /// Interpretation rules by number.
     pub list: Vec<Interpretation>,
-    /// Number of the hook that runs at the begin of a chain, or `u16::MAX`.
+    /// Number of the hook that runs at the start of a chain, or `u16::MAX`.
     pub begin: u16,
 }
 
