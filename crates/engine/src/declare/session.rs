@@ -92,7 +92,7 @@ struct ScriptFacts {
     metatables: AtomicBool,
 }
 
-/// One run of a script.
+/// Run of a script.
 pub struct Session {
     /// Options of the run.
     pub options: RunOptions,

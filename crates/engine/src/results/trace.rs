@@ -26,7 +26,7 @@ pub(crate) struct PendingAnswer {
     pub place: Option<SourcePlace>,
 }
 
-/// One step from a chain to the next.
+/// Step from a chain to the next.
 #[derive(Default)]
 pub(crate) struct Step {
     /// Number of the derivation step; 0 for the axiom.

@@ -56,7 +56,7 @@ impl EntryBatch {
     }
 }
 
-/// One pass over all chains, shared by the threads.
+/// Interpretation pass over all chains, shared by the threads.
 pub(crate) struct InterpretationPass {
     pub plan: Arc<DerivationPlan>,
     pub chain: Arc<Chain>,

@@ -47,7 +47,7 @@ pub(crate) struct SystemDeclaration {
     pub(crate) given: Cell<bool>,
 }
 
-/// One derivation of a system.
+/// Record of one derivation of a system.
 pub(crate) struct DerivationRecord {
     pub(crate) place: Option<SourcePlace>,
     /// Number among the derivations of the script.
