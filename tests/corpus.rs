@@ -26,7 +26,7 @@ fn readers_of_foreign_bytes_take_or_refuse_each_file_of_the_corpus() {
             let bytes = std::fs::read(folder.join(name)).unwrap();
             size += bytes.len();
             let read = (target.read)(&bytes, scratch.path());
-            // The name of a file states the expected result.
+            // The name of a file determines the expected result.
             if read != name.starts_with("good") {
                 wrong.push(format!("{}/{name}", target.name));
             }

@@ -1,18 +1,18 @@
-//! Tests of a program that was built without some of its features: its errors, and its remaining functions.
+//! Messages of a program that was built without some of its features, and functions that it still has.
 
 #![allow(clippy::unwrap_used, reason = "a test stops at what is wrong")]
 
 use std::path::Path;
 use std::process::Command;
 
-/// Runs the program in `folder`, and returns standard error and the exit status.
+/// Returns standard error and the exit status of the program in `folder`.
 fn said(folder: &Path, arguments: &[&str]) -> (String, Option<i32>) {
     let mut command = Command::new(env!("CARGO_BIN_EXE_burgeon"));
     let output = command.args(arguments).current_dir(folder).output().unwrap();
     (String::from_utf8(output.stderr).unwrap(), output.status.code())
 }
 
-/// Runs a command that must fail because `feature` is missing.
+/// Asserts that the program fails because it lacks `feature`.
 #[cfg(not(all(feature = "data", feature = "live", feature = "pictures")))]
 fn assert_left_out(folder: &Path, arguments: &[&str], (what, feature): (&str, &str)) {
     let (text, status) = said(folder, arguments);

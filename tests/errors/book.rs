@@ -1,4 +1,4 @@
-//! Tests of the book: its reference equals the output of the program, its scripts run, and its links are valid.
+//! The book: its reference equals the program's output, its scripts run, and its links have targets.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
@@ -9,7 +9,7 @@ fn sources() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/book/src")
 }
 
-/// Returns the files of a folder and its subfolders, by name.
+/// Returns the pages in a folder and its subfolders, by path.
 fn pages(folder: &Path) -> BTreeMap<String, String> {
     let mut pages = BTreeMap::new();
     let mut folders = vec![folder.to_path_buf()];
@@ -58,13 +58,13 @@ fn every_script_of_the_book_runs() {
     assert!(count > 12, "{count}");
 }
 
-/// Converts a heading to its anchor, as mdBook does.
+/// Returns the anchor that mdBook makes of a heading.
 fn anchor(heading: &str) -> String {
     let kept = heading.trim().chars().filter(|c| c.is_alphanumeric() || matches!(c, ' ' | '-' | '_'));
     kept.map(|c| if c == ' ' { '-' } else { c.to_ascii_lowercase() }).collect()
 }
 
-/// Returns the headings of a page as anchors.
+/// Returns the anchors of a page.
 fn anchors(text: &str) -> BTreeSet<String> {
     let mut in_code = false;
     let lines = text.lines().filter(|line| {
@@ -92,7 +92,7 @@ fn every_link_and_every_picture_of_the_book_leads_somewhere() {
                 sources().join(name).parent().unwrap().join(file)
             };
             assert!(page.is_file() || page.is_dir(), "{name}: {link}");
-            // The built book contains only files of its source folder.
+            // The built book contains only files of this folder.
             let within = page.canonicalize().unwrap().starts_with(sources().canonicalize().unwrap());
             assert!(within, "{name}: {link} leads out of the book");
             if !place.is_empty() {

@@ -1,10 +1,10 @@
-//! Tests of the machine-readable codes of errors.
+//! Machine-readable codes of errors.
 
 use burgeon::error::ErrorKind;
 
 use super::support::{Folder, HEAD};
 
-/// Returns the exit status for `arguments`, and the codes of the errors.
+/// Returns the exit status and the codes of the errors that `arguments` cause.
 fn codes(folder: &Folder, arguments: &[&str]) -> (i32, Vec<String>) {
     let said = folder.burgeon(&[arguments, &["--json"]].concat());
     let document = said.json();
@@ -13,7 +13,7 @@ fn codes(folder: &Folder, arguments: &[&str]) -> (i32, Vec<String>) {
     (said.status, document["errors"].as_array().unwrap().iter().map(code).collect())
 }
 
-/// Runs [`HEAD`] and a script with `flags`, and returns the code of its error.
+/// Returns the code of the error of a script after [`HEAD`], run with `flags`.
 fn code(script: &str, flags: &[&str]) -> String {
     let folder = Folder::new().with("s.lua", format!("{HEAD}{script}\n"));
     let (status, codes) = codes(&folder, &[&["run", "s.lua"], flags].concat());

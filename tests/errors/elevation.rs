@@ -1,10 +1,10 @@
-//! Tests of height files that are missing, truncated, without heights or incomplete.
+//! Elevation files that are missing, truncated, without heights, or incomplete.
 
 use insta::assert_snapshot;
 
 use crate::support::Folder;
 
-/// Returns a PNG of 2 by 2 samples.
+/// Returns a PNG file of 2 by 2 samples.
 fn picture(color: png::ColorType, depth: png::BitDepth, content: &[u8]) -> Vec<u8> {
     let mut bytes = Vec::new();
     let mut encoder = png::Encoder::new(&mut bytes, 2, 2);
@@ -16,7 +16,7 @@ fn picture(color: png::ColorType, depth: png::BitDepth, content: &[u8]) -> Vec<u
     bytes
 }
 
-/// Returns the beginning of a PNG whose header states a very large size.
+/// Returns the header of a PNG file with very large dimensions.
 fn large(side: u32) -> Vec<u8> {
     let mut bytes = Vec::new();
     let mut encoder = png::Encoder::new(&mut bytes, side, side);
@@ -26,7 +26,7 @@ fn large(side: u32) -> Vec<u8> {
     bytes
 }
 
-/// Returns a TIFF of 2 by 2 heights.
+/// Returns a TIFF file of 2 by 2 heights.
 fn tiff(keys: &[u16], steps: &[f64], heights: [f32; 4]) -> Vec<u8> {
     use tiff::tags::Tag;
     let mut bytes = std::io::Cursor::new(Vec::new());
@@ -43,12 +43,12 @@ fn tiff(keys: &[u16], steps: &[f64], heights: [f32; 4]) -> Vec<u8> {
     bytes.into_inner()
 }
 
-/// Returns a grid with the lines `header` and `heights`.
+/// Returns an ASCII grid with the lines `header` and `heights`.
 fn grid(header: &str, heights: &str) -> String {
     format!("ncols 2\nnrows 2\nxllcorner 0\nyllcorner 0\n{header}\n{heights}\n")
 }
 
-/// Creates a folder of valid and invalid files.
+/// Returns a folder with valid and faulty files.
 fn folder() -> Folder {
     use png::{BitDepth, ColorType};
     let tile = |heights: i16| (0..heights).flat_map(|height| height.to_be_bytes()).collect::<Vec<u8>>();
@@ -98,7 +98,7 @@ fn folder() -> Folder {
         .with("outside.hgt", tile(25))
 }
 
-/// Returns the error for a script whose second line is `line`.
+/// Returns the error message for a script whose second line is `line`.
 fn told(line: &str) -> String {
     folder().with("in/s.lua", format!("local a = 1\n{line}\n")).refuses(&["run", "in/s.lua"])
 }

@@ -1,4 +1,4 @@
-//! Tests of street networks that grow from existing streets: errors and results.
+//! Street networks that grow from existing streets: faulty streets, and results.
 
 use insta::assert_snapshot;
 

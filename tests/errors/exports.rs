@@ -1,4 +1,4 @@
-//! Tests of exported metadata: layers, city models, and features with their attributes in glTF.
+//! Exports with meaning: layers, city models, and features with attributes in glTF.
 
 use insta::assert_snapshot;
 use serde_json::{Value, json};
@@ -144,7 +144,7 @@ huts:derive()
     assert_eq!(columns("--metadata"), "id height roof_colour");
     assert_eq!(columns("--metadata=note,height_source"), "id height_source note");
     assert_eq!(columns("--metadata=*"), "id height height_source roof_colour note");
-    // City objects have all known attributes.
+    // City objects have the attributes of their features.
     let hut = &read(&folder, "a.city.json")["CityObjects"]["hut"]["attributes"];
     assert_eq!(hut.as_object().unwrap().len(), 4, "{hut}");
     assert_snapshot!(folder.refuses(&["run", "s.lua", "-o", "a.glb", "--metadata=hight"]), @r"
@@ -268,7 +268,8 @@ fn what_goes_out_without_a_meaning_says_so() {
     "#);
 }
 
-/// Script of a prototype with a parameter: an object type from Lua, derived once for each value.
+/// Script of a prototype with a parameter: a system is derived for each of its values, with an object type in
+/// Lua.
 const LANTERNS: &str = r#"local lantern = object("lantern", {
   doc = "A street lantern.",
   extends = extruder,

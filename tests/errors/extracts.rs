@@ -1,4 +1,4 @@
-//! Tests of OpenStreetMap extracts: the selection of layers, and errors in the data.
+//! Extracts of OpenStreetMap: choice of layers, and unusual data.
 
 use insta::assert_snapshot;
 

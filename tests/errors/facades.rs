@@ -1,8 +1,8 @@
-//! Tests that facades that can never fit are refused when they are created.
+//! Errors for facades that can never fit or have wrong arguments, at the line that creates them.
 
 use crate::support::*;
 
-/// Returns the error for a script that ends with `expression`, without the source line.
+/// Returns the error message for a script that ends with `expression`, without the script line.
 fn told(expression: &str) -> String {
     let script = format!(
         "local wall = panel({{ width = {{ 1, 2 }}, height = {{ 3, 3 }} }})\nlocal made = {expression}\n"

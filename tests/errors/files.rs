@@ -1,10 +1,10 @@
-//! Tests of scripts with required files, and of models with their output folders.
+//! Scripts and required files; models and output folders.
 
 use insta::assert_snapshot;
 
 use crate::support::{Folder, HEAD, refused};
 
-/// Runs a script of one line in a folder of valid and invalid files.
+/// Returns the error message for a script of one line, next to valid and faulty files.
 fn required(line: &str) -> String {
     let folder = Folder::new()
         .with("outside.lua", "return 1\n")

@@ -2,7 +2,7 @@
 
 use crate::support::refused;
 
-/// Returns the error for a house over `rings` that `draw` draws.
+/// Returns the error message for a house over `rings`, drawn by `draw`.
 fn house(rings: &str, draw: &str) -> String {
     refused(&format!(
         "local H = module(\"H\")\nlocal s = lsystem({{ object = footprint({rings}) }}) s:axiom(H())\n\

@@ -1,10 +1,10 @@
-//! Tests of errors in calls with geometries: text, arguments and types.
+//! Errors of geometry functions: texts, arguments and types.
 
 use std::fmt::Write as _;
 
 use crate::support::{printed, refused};
 
-/// Returns the errors for these expressions.
+/// Returns the error messages for these expressions.
 fn told(expressions: &[&str]) -> String {
     let mut text = String::new();
     for expression in expressions {

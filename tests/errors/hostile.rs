@@ -1,11 +1,11 @@
-//! Tests of malicious scripts that use objects, custom object types and packages, and of the limits that stop them.
+//! Hostile scripts that use objects, custom types and packages, and the limits that stop them.
 
 use std::fmt::Write as _;
 use std::time::{Duration, Instant};
 
 use super::support::Folder;
 
-/// Returns a script with this interpretation and these functions of a type.
+/// Returns a script with this interpretation and these functions of a custom type.
 fn drawn(extends: &str, body: &str, functions: &str) -> String {
     format!(
         "local A = module(\"A\")\nlocal own = object(\"own\", {{ extends = {extends}, state = {{ n = 0, list = {{}}, held = extruder() }}, {functions} }})\n\
@@ -13,7 +13,7 @@ fn drawn(extends: &str, body: &str, functions: &str) -> String {
     )
 }
 
-/// Returns the error for a script that a limit must stop soon.
+/// Returns the error message for a script that must be cancelled within its limits.
 fn stopped(script: &str) -> String {
     stopped_within(script, "20")
 }
@@ -41,7 +41,7 @@ fn drawing_without_end_in_one_application_is_stopped_before_memory_is_full() {
         ),
         ("extruder", "while true do this.held:extrude(1):turn(20) end"),
     ] {
-        // Triangles without area are dropped, so these scripts reach the limit of calls.
+        // Triangles without area are not counted, but their calls are.
         let script = drawn(extends, body, "");
         let text = stopped(&script);
         let is_limit =
@@ -273,7 +273,7 @@ fn a_manifest_of_an_odd_shape_is_refused_with_its_line() {
         .with("even.lua", "require(\"@even\")")
         .with("mods/odd/mod.toml/x", "")
         .with("mods/even/mod.toml", [0xff, 0xfe, 0]);
-    // Only scripts that require the packages are affected.
+    // Only the scripts that require these packages are affected.
     folder.burgeon(&["run", "s.lua"]).done();
     for (script, manifest) in [("odd.lua", "mods/odd/mod.toml"), ("even.lua", "mods/even/mod.toml")] {
         let text = folder.burgeon(&["run", script]).failed();

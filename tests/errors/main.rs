@@ -1,4 +1,4 @@
-//! Tests of errors: of the script, its data, its resources and the command line.
+//! Errors and warnings about scripts, data, resources and the command line.
 
 #![allow(clippy::unwrap_used, reason = "a test may panic")]
 

@@ -1,5 +1,5 @@
-//! Tests that declarations of packages are separate, with random sets of packages whose modules, types, methods and
-//! parameters have equal names and are used in one script.
+//! Namespaces of packages: random sets of packages whose modules, types, methods and parameters have equal
+//! names, used together in one script.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write as _;
@@ -17,10 +17,11 @@ const TYPES: [&str; 2] = ["turret", "gate"];
 const METHODS: [&str; 2] = ["mark", "tell"];
 const PARAMS: [&str; 2] = ["size", "tint"];
 
-/// Declarations of a package, each with a number that distinguishes it from the declarations of other packages.
+/// Declarations of a package, each with a number that distinguishes it from the declarations of other
+/// packages.
 #[derive(Debug, Clone)]
 struct Declared {
-    /// Modules with their numbers of parameters.
+    /// Modules, each with its number of parameters.
     modules: BTreeMap<usize, usize>,
     types: BTreeSet<usize>,
     methods: BTreeSet<usize>,
@@ -50,10 +51,10 @@ fn parameters(count: usize) -> &'static str {
     if count == 1 { "w" } else { "w, h" }
 }
 
-/// Returns the script of the package `number`, which declares everything and uses it by unqualified names.
+/// Returns the script of the package `number`, which declares everything and uses it by plain names.
 fn init(number: usize, of: &Declared) -> String {
     let mut text = String::from("local M = {}\n");
-    // A package depends only on packages with lower numbers, so there are no cycles.
+    // A package requires only packages with lower numbers, so there are no cycles.
     for other in of.needs.iter().filter(|other| **other < number) {
         let _ = writeln!(text, "require(\"@{}\")", PACKAGES[*other]);
     }
@@ -104,7 +105,7 @@ fn init(number: usize, of: &Declared) -> String {
     text + "return M\n"
 }
 
-/// Returns all packages that are loaded with `required`, in order.
+/// Returns the packages that are loaded when `required` are required, in order.
 fn loaded(packages: &[Declared], required: &[usize]) -> Vec<usize> {
     fn load(packages: &[Declared], package: usize, all: &mut Vec<usize>) {
         if !all.contains(&package) {
@@ -121,8 +122,7 @@ fn loaded(packages: &[Declared], required: &[usize]) -> Vec<usize> {
     all
 }
 
-/// Returns the owner, among those that declare a name, that the name refers to in a script that has required some
-/// packages.
+/// Returns which of the `owners` of a name the script refers to, after requiring `required`.
 fn meant(owners: &[usize], required: &[usize]) -> Option<usize> {
     let near: Vec<usize> = owners.iter().filter(|it| required.contains(it)).copied().collect();
     match (owners, near.as_slice()) {
@@ -148,7 +148,7 @@ fn folder(packages: &[Declared], script: &str) -> Folder {
     folder
 }
 
-/// Returns the output of a script, or its error.
+/// Returns the output of a script, or its error message.
 fn run(folder: &Folder, set: Vec<(String, String)>) -> Result<Vec<String>, String> {
     let printed = Arc::new(Mutex::new(Vec::new()));
     let into = Arc::clone(&printed);
@@ -215,12 +215,12 @@ proptest! {
             }
             for owner in &all {
                 if packages[*owner].modules.contains_key(&module) {
-                    // The chain has a module of the package, whose first parameter has grown to 3, and a copy of it.
+                    // The chain has a module whose first parameter has grown to 3, and a copy of it.
                     expected.push(format!("rows\t{}\t4\t3\t2", owner * 10 + module));
                 }
             }
             for owner in owners.iter().filter(|it| required.contains(it)) {
-                // The script has added modules of the package.
+                // Qualified names include the modules that the script has made.
                 let full = PACKAGES[*owner];
                 let _ = writeln!(script, "print(\"seen\", {owner}, #query([[select w from \"{full}\".{name}]]), #query(\"{full}.{name}\"))");
                 expected.push(format!("seen\t{owner}\t3\t3"));
@@ -250,7 +250,7 @@ proptest! {
                 expected.push(format!("type\t{owner}"));
             }
         }
-        // Values for parameters, some of them by unqualified names.
+        // Parameter values, some of them by plain names.
         let mut set: BTreeMap<String, usize> = BTreeMap::new();
         for (index, (owner, param)) in values.iter().enumerate() {
             let name = PARAMS[*param];
@@ -304,7 +304,7 @@ proptest! {
         expected.sort();
         expected.dedup();
         prop_assert_eq!(told, expected, "{}", script);
-        // The error for an ambiguous name lists all candidates, and the qualified name to write.
+        // The error for an ambiguous name lists all candidates and their qualified names.
         if let Some((call, message, owners)) = errors.into_iter().next() {
             let draws = call.starts_with("this");
             let wrong = if draws { format!("s:interpret(\"Ask2\", function(this) {call} end) s:derive()\n") } else { format!("{call}\n") };
@@ -319,7 +319,7 @@ proptest! {
     }
 }
 
-/// Creates two packages that both contain the declarations in `lua`.
+/// Returns a folder with two packages that both contain the declarations `lua`.
 fn two(lua: &str, script: &str) -> Folder {
     castle("")
         .with("mods/castle/init.lua", lua.replace("ID", "1"))
@@ -377,7 +377,7 @@ fn what_may_be_one_of_several_is_told_with_what_to_write() {
     );
     assert_eq!(prints(&fine, &["--set", "castle.size=9"]), "9\t2\n");
     fine.burgeon(&["check", "s.lua"]).done();
-    // The unqualified name refers to the script's own parameter, regardless of the place of its declaration.
+    // A plain name denotes the script's own parameter, even if it is declared later.
     let own = two(
         lua,
         &format!(

@@ -1,4 +1,4 @@
-//! Tests of footprints with their neighbours, streets and edges, in scripts.
+//! Neighbours, streets and edges of footprints in scripts.
 
 use crate::support::{printed, refused};
 

@@ -1,4 +1,4 @@
-//! Tests of `burgeon check` and `burgeon api` for object types that scripts declare.
+//! `burgeon check` and `burgeon api` for script-declared object types.
 
 use std::fmt::Write as _;
 
@@ -26,7 +26,7 @@ const LAMP: &str = r#"local lamp = object("lamp", {
 })
 "#;
 
-/// Returns the output of `check` for a script that begins with the lamp, without source lines.
+/// Returns the output of `check` for a script that begins with the lamp, without the script lines.
 fn checked(rest: &str) -> String {
     let script = format!("{LAMP}{rest}");
     let said = Folder::new().with("s.lua", script).burgeon(&["check", "s.lua"]);
@@ -101,7 +101,7 @@ fn a_check_knows_what_the_functions_of_a_type_may_do() {
     error: s.lua:19: lamp has no method or field called go
       help: it has as, lit, light, height, kind, lit, mast, regular, star, rectangle, polygon, direction, resolution, scale, taper, bend, twist, caps, smooth, extrude, advance, shift, jump, turn, pitch, roll, color, material, mesh, place, position, heading, distance, open_edges, note, detail
     "##);
-    // A derived type can have members that its base type lacks.
+    // A type that inherits from it may have methods that the base type lacks.
     assert_snapshot!(of("changes = { go = function(self) self:draw_top() end } })\nobject(\"third\", { extends = other, changes = { draw_top = function(self) end }"), @"s.lua is fine");
 }
 

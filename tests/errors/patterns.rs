@@ -1,4 +1,4 @@
-//! Tests of patterns, arities and other parts of a rule's declaration.
+//! Patterns, arities and options of rules.
 
 use insta::assert_snapshot;
 

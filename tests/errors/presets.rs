@@ -1,4 +1,4 @@
-//! Tests of presets: `--preset`, `--save-preset`, and the file next to the script.
+//! Presets: `--preset`, `--save-preset`, and the preset file next to the script.
 
 use insta::assert_snapshot;
 

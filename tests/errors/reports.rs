@@ -1,16 +1,16 @@
-//! Tests that features with wrong data are skipped and reported, and everything else is built.
+//! Faulty features are skipped and reported, and everything else is built.
 
 use serde_json::Value;
 
 use crate::support::Folder;
 
-/// Creates a town of `count` houses, of which every tenth cannot be built because of its plan or its height.
+/// Returns a town of `count` houses; every tenth cannot be built because of its plan, its kind or its height.
 fn town(count: usize) -> Folder {
     let features: Vec<String> = (0..count)
         .map(|index| {
             let (x, y) = (index % 20 * 30, index / 20 * 30);
             let (height, ring) = match index % 40 {
-                // The ring is a line back and forth.
+                // A degenerate ring: a line to and fro.
                 10 => (6, vec![[0, 0], [8, 0], [4, 0]]),
                 20 => (0, vec![[0, 0], [8, 0], [8, 8], [0, 8]]),
                 30 => (-3, vec![[0, 0], [8, 0], [8, 8], [0, 8]]),

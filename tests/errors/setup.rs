@@ -1,4 +1,4 @@
-//! Tests of `burgeon setup`: the files that it writes for editors, and the files that it keeps.
+//! `burgeon setup`: files for editors, and files that it does not change.
 
 use insta::assert_snapshot;
 

@@ -5,7 +5,8 @@ use std::time::Duration;
 
 use crate::support::{Folder, assert_decent};
 
-/// A store that a script can fill, as listed in the book, with a script that fills it endlessly.
+/// Store of a run whose size a script controls, as listed in the book, with a script that lets it grow
+/// without end.
 struct Store {
     name: &'static str,
     script: &'static str,
@@ -19,7 +20,7 @@ const fn store(name: &'static str, script: &'static str) -> Store {
     Store { name, script, arguments: &[] }
 }
 
-/// All stores, which a table of the book lists as well.
+/// Stores; a table in the book lists the same.
 const STORES: &[Store] = &[
     store("tables of Lua", "local t = {} while true do table.insert(t, { #t }) end"),
     store("strings of Lua", "local t = \"a\" while true do t = t .. t end"),
@@ -147,8 +148,8 @@ const STORES: &[Store] = &[
     ),
 ];
 
-/// Runs the program under a memory limit (MB). Returns its status, its output, and its maximum resident memory (MB), as
-/// the system reports it during the run.
+/// Runs the program under a memory limit (MB). Returns its status, its output, and the maximum resident
+/// memory (MB) that the system reports during the run.
 fn run(folder: &Folder, arguments: &[&str], limit: usize) -> (i32, String, usize) {
     let limit = limit.to_string();
     let mut child = Command::new(env!("CARGO_BIN_EXE_burgeon"))
@@ -175,7 +176,7 @@ fn run(folder: &Folder, arguments: &[&str], limit: usize) -> (i32, String, usize
     (status.code().unwrap_or(-1), told, peak)
 }
 
-/// Maximum ratio by which a run may exceed the limit: memory that is allocated before the run notices.
+/// Maximum ratio of used memory to the limit: memory can be allocated before the run notices.
 const OVER: f64 = 1.3;
 /// Memory limit (MB) of these runs.
 const LIMIT: usize = 64;

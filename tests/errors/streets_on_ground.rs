@@ -1,4 +1,4 @@
-//! Tests of streets on a terrain, and of the terrain under them.
+//! Streets on a terrain, and the terrain under them.
 
 use insta::assert_snapshot;
 
@@ -6,7 +6,7 @@ use crate::networks::grown;
 use crate::support::{printed, refused};
 use crate::warnings::warned;
 
-/// Returns a script with streets on hills, and hills with room for them, that prints the expressions `asked`.
+/// Returns a script with streets on hills, with the terrain adapted to them; it prints the values `asked`.
 fn on_hills(seed: u32, fields: &str, asked: &str) -> String {
     format!(
         r#"

@@ -1,4 +1,4 @@
-//! Tests of the values that successors can return, and of the arguments of modules and methods.
+//! Results of successors, and arguments of modules and methods.
 
 use insta::assert_snapshot;
 

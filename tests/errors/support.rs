@@ -1,4 +1,4 @@
-//! Runs the real binary in its own folder, and examines its output and the remaining files.
+//! Runs the real binary in a temporary folder, and checks its output and its files.
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -7,12 +7,12 @@ use std::time::{Duration, Instant};
 
 use serde_json::Value;
 
-/// Two modules and a system, in two lines, for scripts that fail later.
+/// Two modules and a system, in two lines, for scripts with errors in later lines.
 pub(crate) const HEAD: &str = r#"local A, B = module("A", "x"), module("B")
 local s = lsystem({ object = turtle() }) s:axiom(A(1))
 "#;
 
-/// Output of the binary.
+/// Output and exit status of the binary.
 pub(crate) struct Said {
     pub status: i32,
     pub stdout: String,
@@ -20,7 +20,7 @@ pub(crate) struct Said {
 }
 
 impl Said {
-    /// Parses standard output, which must be one JSON document.
+    /// Returns standard output parsed as one JSON document.
     pub(crate) fn json(&self) -> Value {
         serde_json::from_str(&self.stdout).unwrap_or_else(|error| panic!("{error}: {}", self.stdout))
     }
@@ -31,7 +31,7 @@ impl Said {
         self
     }
 
-    /// Asserts that the run failed with a proper message, and returns standard error.
+    /// Asserts that the run failed with a clear message, and returns standard error.
     pub(crate) fn failed(self) -> String {
         assert_eq!(self.status, 1, "{}\n{}", self.stdout, self.stderr);
         assert_eq!(self.stdout, "");
@@ -40,7 +40,7 @@ impl Said {
     }
 }
 
-/// Asserts that a message is about the script, and not about the internals of the program.
+/// Asserts that a message is about the script, not about the program that runs it.
 pub(crate) fn assert_decent(text: &str) {
     let indecent = [
         "panicked",
@@ -63,7 +63,7 @@ pub(crate) fn assert_decent(text: &str) {
     }
 }
 
-/// A temporary folder, which is removed after the test; its path is never shown.
+/// Temporary folder; its path is never shown.
 pub(crate) struct Folder(tempfile::TempDir);
 
 impl Folder {
@@ -78,7 +78,7 @@ impl Folder {
         self
     }
 
-    /// Adds the library of roads, at the path from which scripts require it.
+    /// Adds the library of roads, where scripts require it.
     pub(crate) fn with_roads(self) -> Self {
         let templates = Path::new(env!("CARGO_MANIFEST_DIR")).join("scripts/templates");
         let parts = std::fs::read_dir(templates.join("roads")).unwrap().map(|entry| entry.unwrap().path());
@@ -96,7 +96,7 @@ impl Folder {
         std::fs::read_to_string(self.0.path().join(name)).unwrap()
     }
 
-    /// Returns the names and sizes of all files, including subfolders.
+    /// Returns the names and sizes of all files, including files in subfolders.
     pub(crate) fn files(&self) -> BTreeMap<String, u64> {
         let mut files = BTreeMap::new();
         let mut folders = vec![self.0.path().to_path_buf()];
@@ -115,7 +115,7 @@ impl Folder {
         files
     }
 
-    /// Runs `burgeon` in the folder with these arguments.
+    /// Runs `burgeon` in this folder with these arguments.
     pub(crate) fn burgeon(&self, arguments: &[&str]) -> Said {
         let out = Command::new(env!("CARGO_BIN_EXE_burgeon"))
             .args(arguments)
@@ -130,8 +130,8 @@ impl Folder {
         Said { status: out.status.code().unwrap_or(-1), stdout: text(out.stdout), stderr: text(out.stderr) }
     }
 
-    /// Runs `burgeon`, which must succeed with warnings, report the same in JSON, and fail with `--strict` without
-    /// changing any file. Returns the warnings.
+    /// Runs `burgeon` and returns its warnings. Asserts that it succeeds with equal warnings in JSON, and
+    /// that a strict run fails with these warnings as errors and changes no file.
     pub(crate) fn warned(&self, arguments: &[&str]) -> String {
         let document = self.burgeon(&[arguments, &["--json"]].concat()).done().json();
         let text = self.burgeon(arguments).done().stderr;
@@ -156,7 +156,8 @@ impl Folder {
         text
     }
 
-    /// Runs `burgeon`, which must fail, report the same in JSON, and change no file.
+    /// Runs `burgeon` and returns its error message. Asserts that it fails with an equal message in JSON, and
+    /// changes no file.
     pub(crate) fn refuses(&self, arguments: &[&str]) -> String {
         let before = self.files();
         let text = self.burgeon(arguments).failed();
@@ -177,7 +178,7 @@ impl Folder {
     }
 }
 
-/// Returns the error for a script that fails, with an older model at the path of the new one.
+/// Returns the error message for a script that fails and leaves an older model unchanged.
 pub(crate) fn refused(script: &str) -> String {
     refused_with(script, &[])
 }
@@ -190,12 +191,12 @@ pub(crate) fn refused_with(script: &str, flags: &[&str]) -> String {
     text
 }
 
-/// Returns the error for rules of the system in [`HEAD`], derived by one step; the rules begin in line 3.
+/// Returns the error message for rules of the system in [`HEAD`], derived by one step; they begin in line 3.
 pub(crate) fn refused_rules(rules: &str) -> String {
     refused(&format!("{HEAD}{rules}\ns:derive(1)\n"))
 }
 
-/// Returns the error for a script that must be stopped: it is reported once, and soon.
+/// Returns the error message for a script that must be cancelled without delay.
 pub(crate) fn stopped(script: &str, flags: &[&str]) -> String {
     let folder = Folder::new().with("s.lua", script).with("model.glb", "old");
     let before = folder.files();

@@ -1,4 +1,4 @@
-//! Tests of errors that are found without running the script.
+//! Errors that static analysis finds without running the script.
 
 use insta::assert_snapshot;
 

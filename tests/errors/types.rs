@@ -1,4 +1,4 @@
-//! Tests of errors in custom object types, and in their functions.
+//! Errors of script-declared object types.
 
 use insta::assert_snapshot;
 

@@ -1,4 +1,4 @@
-//! Tests that a `mod.rs` contains only the documentation and the declarations of its folder.
+//! A `mod.rs` contains only the documentation and the items of its folder.
 
 use crate::sources::Source;
 use crate::{members, root, text};
@@ -23,7 +23,7 @@ fn without_attributes(code: &str) -> String {
     found + rest
 }
 
-/// Returns the items of `code` that are not declarations or imports of other modules.
+/// Returns the items of `code` that do more than refer to other files.
 fn work(code: &str) -> Vec<String> {
     let listed = |item: &&str| {
         let is_shown = item.starts_with("pub");

@@ -1,5 +1,5 @@
-//! Tests of the architecture: dependencies between crates, the entries of each Cargo.toml, the names that crates may
-//! use, and printing.
+//! Architecture tests: dependencies between crates, entries in each Cargo.toml, names that crates may use,
+//! and crates that may print.
 
 #![allow(clippy::unwrap_used, reason = "a test stops at what is wrong")]
 
@@ -35,8 +35,8 @@ fn members() -> Vec<String> {
     names
 }
 
-/// Reads the dependency map in the crate documentation of the facade: a crate, an arrow, its dependencies. Returns the
-/// order of the crates as well.
+/// Returns the dependency map in the documentation of the main crate: the crates in order, and the
+/// dependencies of each.
 fn drawn() -> (Vec<String>, Uses) {
     let front = text("src/lib.rs");
     let lines = front.lines().filter_map(|line| line.strip_prefix("//! ")?.split_once(" uses ──►"));
@@ -58,7 +58,7 @@ fn section(manifest: &str, title: &str) -> BTreeSet<String> {
     names.filter(|name| !name.is_empty() && !name.starts_with('#')).collect()
 }
 
-/// Returns the workspace crates among `names`, without their common prefix.
+/// Returns the crates of the workspace among `names`, without their common prefix.
 fn of_the_house(names: &BTreeSet<String>) -> BTreeSet<String> {
     names.iter().filter_map(|name| name.strip_prefix("burgeon-")).map(str::to_owned).collect()
 }
@@ -90,7 +90,7 @@ fn circle(uses: &Uses) -> Option<Vec<String>> {
     })
 }
 
-/// Returns the dependencies between the folders of a crate's `src`.
+/// Returns which folders of a crate's `src` use which others.
 fn folders(member: &str) -> Uses {
     let folder = root().join("crates").join(member).join("src");
     let sources = Source::all(&folder);
@@ -179,7 +179,7 @@ fn a_member_names_the_crates_that_it_uses_and_no_others() {
             .iter()
             .flat_map(|source| {
                 let mut paths = paths(&source.code);
-                // In the root of a crate, a module takes precedence over a crate of the same name.
+                // In the root of a crate, its own modules take precedence over crates of the same name.
                 paths.retain(|path| !source.module.is_empty() || !own.contains(&path[0]));
                 paths
             })
@@ -241,7 +241,7 @@ fn the_engine_knows_no_type_of_object_by_name() {
     for (path, code) in rust.chain(lua) {
         let named: Vec<&str> = words(&code).filter(|word| structs.contains(word)).collect();
         assert_eq!(named, [""; 0], "{}", path.display());
-        // The name of a kind can be an ordinary word. In quotes or in a call, it means the kind.
+        // A type name can be an ordinary word; in quotes it refers to the type.
         let meant = kinds.iter().filter(|kind| code.contains(&format!("\"{kind}\"")));
         assert_eq!(meant.collect::<Vec<_>>(), [&""; 0], "{}", path.display());
     }
@@ -322,7 +322,8 @@ fn the_page_for_those_who_change_burgeon_names_what_is_there() {
             continue;
         }
         if name.contains('/') {
-            // Long paths are relative to the root or to `crates`, short paths to the sources of a crate.
+            // Long paths are relative to the root or to `crates`; short paths are relative to the sources of
+            // a crate.
             let inner = members.iter().map(|member| member.join("src").join(&name));
             let mut all = inner.chain([PathBuf::from(&name), Path::new("crates").join(&name)]);
             assert!(all.any(|path| root().join(path).exists()), "there is no {name}");

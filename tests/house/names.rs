@@ -1,11 +1,11 @@
-//! Tests that the name of each type is unique in the repository, and a noun.
+//! A type name is unique in the tree, and is a noun.
 
 use std::collections::BTreeMap;
 
 use crate::sources::{Source, words};
 use crate::{members, root};
 
-/// A type declaration in a file.
+/// Type declaration in a file.
 struct Declaration {
     name: String,
     /// Path of the file.
@@ -38,8 +38,8 @@ fn declarations(code: &str) -> Vec<String> {
     found
 }
 
-/// Returns all types of the program and the crates. Omits files `absent.rs`, which redeclare the types of another file
-/// for builds without a feature.
+/// Returns all types of the program and the crates. A file `absent.rs` declares the same types as another
+/// file, for a build without a feature, so it is skipped.
 fn all() -> Vec<Declaration> {
     let folders = members().into_iter().map(|member| root().join("crates").join(member).join("src"));
     let mut found = Vec::new();
@@ -75,7 +75,7 @@ fn the_name_of_a_type_is_found_once_in_the_tree() {
     assert!(twice.is_empty(), "a compound of subject and thing tells them apart:\n{}", twice.join("\n"));
 }
 
-/// Participles and other words without a typical ending that are not nouns.
+/// Participles with irregular endings, and other words that are not nouns.
 const NO_NOUNS: [&str; 45] = [
     "Above", "Across", "After", "Ahead", "Alone", "Apart", "Around", "Before", "Behind", "Beyond", "Built",
     "Complain", "Drawn", "Due", "Eager", "Found", "Frozen", "Given", "Held", "Hidden", "Holds", "Into",
@@ -83,7 +83,7 @@ const NO_NOUNS: [&str; 45] = [
     "Read", "Seen", "Sent", "Shown", "Sold", "Sure", "Taken", "Told", "What", "Which",
 ];
 
-/// Returns the last word of a name: `Ring` of `NamedRing`.
+/// Returns the last word of a name: `Ring` for `NamedRing`.
 fn last_word(name: &str) -> &str {
     &name[name.rfind(char::is_uppercase).unwrap_or(0)..]
 }

@@ -3,22 +3,22 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// A Rust file.
+/// Rust source file.
 pub(crate) struct Source {
-    /// Path, relative to the root of the repository.
+    /// Path relative to the root of the tree.
     pub(crate) path: PathBuf,
-    /// Module of the file, as names from the crate's root; empty for the root.
+    /// Path of its module from the root of the crate; empty for the root itself.
     pub(crate) module: Vec<String>,
-    /// Code without comments and without tests; for a file of tests, code without comments.
+    /// Code without comments and tests; in a test file, code without comments.
     pub(crate) code: String,
-    /// Code of its tests, without comments.
+    /// Code of the tests, without comments.
     pub(crate) tests: String,
-    /// Comments, whose examples are tests as well.
+    /// Comments, whose examples are tests too.
     pub(crate) comments: String,
 }
 
 impl Source {
-    /// Reads all files under `folder`, the `src` of a crate, in the order of their paths.
+    /// Returns all files under `folder`, the `src` of a crate, sorted by path.
     pub(crate) fn all(folder: &Path) -> Vec<Self> {
         let mut files = Vec::new();
         collect(folder, "rs", &mut files);
@@ -43,7 +43,8 @@ impl Source {
         read.collect()
     }
 
-    /// Returns the paths in the code, from the crate's root; `crate`, `self` and `super` are resolved.
+    /// Returns the paths in the code, relative to the root of the crate; `crate`, `self` and `super` are
+    /// resolved.
     pub(crate) fn inner_paths(&self) -> Vec<Vec<String>> {
         let mut found = Vec::new();
         for path in paths(&self.code) {
@@ -62,7 +63,7 @@ impl Source {
     }
 }
 
-/// Collects the files under `folder` with this `extension`.
+/// Collects the files under `folder` with the extension `extension`.
 pub(crate) fn collect(folder: &Path, extension: &str, files: &mut Vec<PathBuf>) {
     for entry in fs::read_dir(folder).unwrap() {
         let path = entry.unwrap().path();
@@ -74,7 +75,7 @@ pub(crate) fn collect(folder: &Path, extension: &str, files: &mut Vec<PathBuf>) 
     }
 }
 
-/// Returns the module of `file`, as names from the root of the crate in `folder`.
+/// Returns the module path of `file` from the root of the crate in `folder`.
 fn module(folder: &Path, file: &Path) -> Vec<String> {
     let inner = file.strip_prefix(folder).unwrap().with_extension("");
     let mut names: Vec<String> = inner.iter().map(|name| name.to_string_lossy().into_owned()).collect();
@@ -82,32 +83,32 @@ fn module(folder: &Path, file: &Path) -> Vec<String> {
     names
 }
 
-/// Returns the names of the files that a module declares for its tests.
+/// Returns the names of the test modules in separate files.
 fn test_modules(text: &str) -> Vec<String> {
     let after = text.split("#[cfg(test)]\n").skip(1);
     let lines = after.filter_map(|rest| rest.lines().next());
     lines.filter_map(|line| Some(line.trim().strip_suffix(';')?.split_once("mod ")?.1.to_owned())).collect()
 }
 
-/// Returns `text` without comment lines.
+/// Returns `text` without whole-line comments.
 fn bare(text: &str) -> String {
     let lines = text.lines().filter(|line| !line.trim_start().starts_with("//"));
     lines.flat_map(|line| [line, "\n"]).collect()
 }
 
-/// Returns the comment lines of `text`.
+/// Returns the whole-line comments of `text`.
 fn comments(text: &str) -> String {
     let lines = text.lines().filter_map(|line| line.trim_start().strip_prefix("//"));
     lines.flat_map(|line| [line.trim_start_matches(['/', '!', ' ', '#']), "\n"]).collect()
 }
 
-/// Splits a text into words, which consist of the characters of names.
+/// Returns the words of a text: the parts that can be in a name.
 pub(crate) fn words(text: &str) -> impl Iterator<Item = &str> {
     text.split(|c: char| !c.is_alphanumeric() && c != '_').filter(|word| !word.is_empty())
 }
 
-/// Returns all paths of at least two names in `code`, and single names that are imported or used as a crate. A path is
-/// returned for each member of a group in braces.
+/// Returns all paths of two or more names in `code`, and single names that are imported or refer to a crate.
+/// Paths in a group with braces are listed separately.
 pub(crate) fn paths(code: &str) -> Vec<Vec<String>> {
     let tokens = tokens(code);
     let (mut found, mut at) = (Vec::new(), 0);
@@ -122,7 +123,7 @@ pub(crate) fn paths(code: &str) -> Vec<Vec<String>> {
     found
 }
 
-/// Reads the path that begins at token `at`; `before` are the preceding names.
+/// Reads the path that begins at token `at`, after the names `before`.
 fn path(tokens: &[&str], at: &mut usize, before: &[String], found: &mut Vec<Vec<String>>) {
     let mut names = before.to_vec();
     while let Some(name) = tokens.get(*at).filter(|name| is_name(name)) {
@@ -152,7 +153,7 @@ fn is_name(token: &str) -> bool {
     token.starts_with(|c: char| c.is_alphabetic() || c == '_')
 }
 
-/// Splits code into names, `::`, and all other characters except for spaces.
+/// Splits code into tokens: names, `::`, and all other characters except spaces.
 fn tokens(code: &str) -> Vec<&str> {
     let (mut found, mut rest) = (Vec::new(), code.trim_start());
     while let Some(first) = rest.chars().next() {

@@ -1,4 +1,4 @@
-//! An object type with a bug, which panics on request, and which warns.
+//! Faulty object type: it panics on request. It also warns.
 
 use burgeon::kit::{Drawing, Warn, methods, object};
 use burgeon::scene::Material;
@@ -8,7 +8,7 @@ use glam::DVec3;
 /// A ball that may panic.
 #[object("fuse", draws, can(Warn), begins_empty, crate = burgeon::kit)]
 pub struct Fuse {
-    /// Makes its methods panic.
+    /// Set to panic in all methods.
     pub blown: bool,
     drawing: Drawing,
     warnings: Vec<Warning>,

@@ -1,4 +1,4 @@
-//! An object type that Burgeon does not know: rows of trees on a field of a data file.
+//! Object type outside of Burgeon: rows of trees on a field of a data file.
 
 use std::any::Any;
 use std::sync::Arc;
@@ -15,12 +15,12 @@ use burgeon::sources::{Features, Geometry, Layer};
 use burgeon::spatial::GeometryObject;
 use glam::{DVec2, DVec3};
 
-/// Numbers of centres that were already prefetched when they were needed, and of all centres that were needed.
+/// Number of centres that were looked up in the prefetch.
 pub static LOOKED_FOR: AtomicUsize = AtomicUsize::new(0);
-/// Number of times that trees were planted.
+/// Number of expansions.
 pub static EXPANSIONS: AtomicUsize = AtomicUsize::new(0);
 
-/// Corners (m) of a field.
+/// Corners of a field (m).
 #[derive(Debug, Clone, Default)]
 pub struct Corners(Vec<DVec3>);
 
@@ -55,7 +55,7 @@ impl Parameter for Corners {
     }
 }
 
-/// A whole layer of a data file.
+/// Complete layer of a data file.
 #[derive(Clone, Default)]
 pub struct Whole(Option<Arc<Layer>>);
 
@@ -98,23 +98,23 @@ impl Parameter for Whole {
 pub struct Orchard {
     /// Field of the orchard: the geometry of a feature.
     pub geometry: Corners,
-    /// Wells as a source: every tree is more than a metre away from each well.
+    /// Source of the wells: trees keep a distance of 1 m from each well.
     pub wells: Whole,
-    /// Distance (m) between trees.
+    /// Distance between trees (m).
     #[default(4.0)]
     pub spacing: f64,
     middle: DVec3,
-    /// Distance (m) to the nearest other orchard.
+    /// Distance to the nearest other orchard (m).
     #[default(f64::INFINITY)]
     nearest: f64,
-    /// Positions (m) of the trees, relative to the centre.
+    /// Positions of the trees relative to the centre (m).
     trees: Vec<DVec3>,
     drawing: Drawing,
 }
 
 #[methods("orchard", crate = burgeon::kit)]
 impl Orchard {
-    /// Draws each tree as a ball of `radius` (m).
+    /// Draws each tree as a ball with `radius` (m).
     pub fn crowns(&mut self, radius: f64) -> Result<()> {
         let material = Material { base_color: [0.2, 0.5, 0.2, 1.0], ..Material::default() };
         let part = self.drawing.material(&material);
@@ -129,7 +129,7 @@ impl Orchard {
         self.trees.len() as f64
     }
 
-    /// Returns the distance (m) to the nearest other orchard; infinite if there is none.
+    /// Returns the distance to the nearest other orchard (m); infinite if there is none.
     pub fn nearest(&self) -> f64 {
         self.nearest
     }
@@ -152,7 +152,7 @@ impl Orchard {
     }
 }
 
-/// Returns the centre of a feature's corners, if it is already prefetched.
+/// Returns the centre of a feature's corners, if it was prefetched.
 fn prefetched(table: &Table) -> Option<DVec3> {
     let Some(Value::Object(object)) = table.get("geometry") else { return None };
     let any: &dyn Any = &**object;
@@ -162,7 +162,7 @@ fn prefetched(table: &Table) -> Option<DVec3> {
     any.downcast_ref::<Middles>()?.middles.get(number)?.get().copied()
 }
 
-/// Centres of a layer's features, which another thread computes in advance.
+/// Centres of a layer's features, computed by an idle thread.
 struct Middles {
     layer: Arc<Layer>,
     middles: Vec<std::sync::OnceLock<DVec3>>,
@@ -193,7 +193,7 @@ impl Prefetch for Middles {
     }
 }
 
-/// Stores in each orchard the distance to the nearest other orchard.
+/// Sets in each orchard the distance to the nearest other one.
 fn gather(all: &mut [Box<dyn Object>]) {
     let middle = |object: &dyn Object| {
         let any: &dyn Any = object;

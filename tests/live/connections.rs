@@ -1,4 +1,4 @@
-//! Tests of silent connections, and of the server that replaces a stopped one.
+//! Idle connections, and a server that restarts on the same port.
 
 use std::io::{Read, Write};
 use std::net::TcpStream;
@@ -17,7 +17,7 @@ fn hundreds_of_half_open_connections_leave_files_and_answers_to_others() {
         .map(|i| {
             let mut stream = TcpStream::connect(("127.0.0.1", server.port)).unwrap();
             let head = ["", "GET", "GET / HTTP/1.1\r\n", "GET / HTTP/1.1\r\nHost: localhost\r\n\r\n"][i % 4];
-            // The server may have closed the connection already.
+            // The server may already have closed the connection.
             let _ = stream.write_all(head.as_bytes());
             stream
         })
@@ -95,7 +95,7 @@ fn an_export_that_its_page_gave_up_ends_and_the_next_one_has_its_turn() {
     let path = format!("/{}/export/a.png?width=8192&height=8192", server.token);
     write!(page, "GET {path} HTTP/1.1\r\nHost: localhost\r\n\r\n").unwrap();
     std::thread::sleep(Duration::from_millis(500));
-    // The export takes many times as long.
+    // The run takes much longer than this timeout.
     page.set_read_timeout(Some(Duration::from_millis(1))).unwrap();
     assert!(page.read(&mut [0; 1]).is_err());
     drop(page);

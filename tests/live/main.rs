@@ -1,4 +1,5 @@
-//! Tests of the live view's server, as the real binary: requests, saves, exports; and `run --watch`.
+//! Server of the live view, tested with the real binary: requests, saves, parameters and exports; and `run
+//! --watch`.
 #![cfg(feature = "live")]
 #![allow(clippy::unwrap_used, reason = "a test may panic")]
 

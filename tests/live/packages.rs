@@ -1,5 +1,5 @@
-//! Tests of packages that are added, removed, restored and changed while a script is shown: random sequences of changes
-//! by users, each with the expected view.
+//! Packages that are added, removed, restored and changed while a script is shown: random sequences of
+//! actions, each with the expected result.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -7,13 +7,13 @@ use std::time::{Duration, Instant};
 
 use crate::support::{PATIENCE, Page, Server};
 
-/// Script that requires `size.lua` of castle, which requires `unit.lua` of masonry. It uses `more.lua` of banners if it
-/// exists.
+/// Script that needs `size.lua` of castle, which needs `unit.lua` of masonry, and uses `more.lua` of banners
+/// if it exists.
 const SCRIPT: &str = "local size = require(\"@castle/size\")\nlocal A = module(\"A\")\n\
     local s = lsystem({ object = extruder({ sides = 4, smooth = false }) })\ns:axiom(A())\n\
     s:interpret(\"A\", function(this) for _ = 1, size do this:extrude(1):advance(1) end end)\ns:derive()\n";
 
-/// Existing packages and files.
+/// State of the packages.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct There {
     castle: bool,
@@ -52,7 +52,7 @@ impl There {
         }
     }
 
-    /// Adds a package to a folder, in one operation or file by file.
+    /// Puts a package into a folder: in one step, or file by file.
     fn put(self, at: &Path, name: &str, whole: bool) {
         let staged = if whole { at.with_file_name(format!(".{name}.new")) } else { at.to_path_buf() };
         fs::create_dir_all(&staged).unwrap();
@@ -70,11 +70,12 @@ impl There {
     }
 }
 
-/// Waits until a page has received a model with the expected number of extrusions, or an error if the script fails.
+/// Waits until a page has received a model with the expected number of extrusions, or an error if the script
+/// fails.
 fn shows(page: &mut Page, there: There, done: &str, log: &[String]) {
     let end = Instant::now() + PATIENCE;
     let mut last = String::new();
-    // An extrusion has four sides and two caps.
+    // Each extrusion has four sides and two caps.
     let expected = there.extrusions().map(|count| count as u64);
     while Instant::now() < end {
         let Some(message) = page.within(end - Instant::now()) else { continue };
@@ -93,7 +94,7 @@ fn shows(page: &mut Page, there: There, done: &str, log: &[String]) {
     panic!("after {done}, with {there:?}, a page saw {last}\n{}", log.join("\n"));
 }
 
-/// A simple random number generator, so that a failure can be reproduced from its number.
+/// Random number generator with a seed, so that a failure can be reproduced.
 struct Draw(u64);
 
 impl Draw {
@@ -169,7 +170,7 @@ fn follow(seed: u64, steps: usize) {
                 format!("castle is off: {}", there.off)
             }
             5 => {
-                // The whole folder is removed and restored.
+                // The whole folder is moved away and back.
                 if at("").exists() {
                     let away = server.path("away");
                     fs::rename(server.path("mods"), &away).unwrap();

@@ -1,4 +1,4 @@
-//! Tests of requests that the server answers or refuses.
+//! Access checks and answers of the server.
 
 use std::io::{Read, Write};
 use std::net::TcpStream;

@@ -1,4 +1,4 @@
-//! A server of the real binary in its own folder, and pages that connect to it.
+//! Server of the real binary in a temporary folder, and pages that communicate with it.
 
 use std::io::{BufRead, BufReader, Read, Write};
 use std::net::TcpStream;
@@ -9,7 +9,7 @@ use std::time::{Duration, Instant};
 use serde_json::{Value, json};
 use tungstenite::{Message, WebSocket};
 
-/// Maximum time of any operation; most take a hundredth of it.
+/// Time limit of all actions; most take a hundredth of it.
 pub(crate) const PATIENCE: Duration = Duration::from_secs(30);
 
 /// Returns a script of `count` segments, with a parameter and a random turn.
@@ -31,7 +31,7 @@ pub(crate) fn triangles(count: usize) -> usize {
     16 * count + 12
 }
 
-/// Script whose run takes long.
+/// Script whose run takes a long time.
 pub(crate) const SLOW: &str = r#"local A = module("A", "n")
 local s = lsystem({})
 s:axiom(A(0))
@@ -39,7 +39,7 @@ s:rule("A(n)", function(this, n) return A(n + 1) end)
 s:derive()
 "#;
 
-/// A server with its folder; both are removed after the test.
+/// Temporary folder with a server in it; both end with the test.
 pub(crate) struct Server {
     child: Child,
     pub port: u16,
@@ -48,7 +48,7 @@ pub(crate) struct Server {
 }
 
 impl Server {
-    /// Serves `s.lua` on any free port. The file contains `script`, if given.
+    /// Serves `s.lua`, which contains `script` if there is one, on a free port.
     pub(crate) fn new(script: Option<&str>) -> Self {
         Self::with(script, &[])
     }
@@ -65,7 +65,7 @@ impl Server {
         Self::by(Command::new(env!("CARGO_BIN_EXE_burgeon")), folder, flags)
     }
 
-    /// Starts a server that can open at most `files` files.
+    /// Starts a server with a limit on the number of open files.
     #[cfg(target_os = "linux")]
     pub(crate) fn with_few_files(script: &str, files: usize) -> Self {
         let folder = tempfile::tempdir().unwrap();
@@ -110,7 +110,7 @@ impl Server {
         self.request(&format!("GET /{}/{path} HTTP/1.1\r\nHost: 127.0.0.1:{}\r\n", self.token, self.port))
     }
 
-    /// Sends the head of a request unchanged, except for the end.
+    /// Sends the head of a request unchanged, and adds the final empty line.
     pub(crate) fn request(&self, head: &str) -> Answer {
         let mut stream = TcpStream::connect(("127.0.0.1", self.port)).unwrap();
         stream.set_read_timeout(Some(PATIENCE)).unwrap();
@@ -131,7 +131,7 @@ impl Server {
         self.greeted().0
     }
 
-    /// Returns the greeting of a page.
+    /// Returns the greeting of a new page.
     pub(crate) fn hello(&self) -> Value {
         self.greeted().1
     }
@@ -155,7 +155,7 @@ impl Server {
         std::fs::read_dir(format!("/proc/{}/fd", self.child.id())).unwrap().count()
     }
 
-    /// Interrupts the server as a user does. Returns the time until its exit, and the status.
+    /// Interrupts the server as a user does. Returns its shutdown time and its exit status.
     #[cfg(unix)]
     pub(crate) fn interrupt(mut self) -> (Duration, Option<i32>) {
         let begin = Instant::now();
@@ -164,7 +164,7 @@ impl Server {
         (begin.elapsed(), status.code())
     }
 
-    /// Stops the server, and returns its folder, in which another server can continue.
+    /// Ends the server and returns its folder.
     pub(crate) fn end(mut self) -> tempfile::TempDir {
         self.child.kill().unwrap();
         self.child.wait().unwrap();
@@ -186,10 +186,10 @@ pub(crate) struct Answer {
     pub body: Vec<u8>,
 }
 
-/// The client end of a page's socket.
+/// Page side of the socket.
 pub(crate) struct Page {
     socket: WebSocket<TcpStream>,
-    /// Last sent message, for errors if no answer comes.
+    /// Last message, for error messages.
     last: String,
 }
 
@@ -228,7 +228,7 @@ impl Page {
         None
     }
 
-    /// Returns the next message, which must be of this type. Ignores the progress of a run.
+    /// Returns the next message, which must have this type; progress messages are skipped.
     #[track_caller]
     pub(crate) fn next(&mut self, kind: &str) -> Value {
         loop {
@@ -242,7 +242,7 @@ impl Page {
         }
     }
 
-    /// Returns the next message of this type, and ignores all before it.
+    /// Returns the next message of this type, and skips all others.
     #[track_caller]
     pub(crate) fn until(&mut self, kind: &str) -> Value {
         loop {
@@ -260,7 +260,7 @@ impl Page {
         self.next("model")
     }
 
-    /// Asserts that no message arrives within `time`, and then only the answer to a new request.
+    /// Asserts that the server sends nothing within `time` and then still answers a request.
     #[track_caller]
     pub(crate) fn is_quiet(&mut self, time: Duration) {
         assert_eq!(self.within(time), None);

@@ -1,5 +1,5 @@
-//! Tests with random systems of guarded, weighted and contextual rules: the engine applies one of the rules that the
-//! design's law of choice allows.
+//! Random systems of guarded, weighted and contextual rules: the engine applies only rules that the choice
+//! law of the design allows.
 
 use burgeon::script::RunOptions;
 
@@ -10,7 +10,7 @@ use super::scripts::{as_lua, declare_with, run_with, words};
 struct Law {
     pattern: Pattern,
     weight: Option<f64>,
-    /// Divisor and remainder of a guard: it holds for modules whose number has this remainder.
+    /// Guard, if any: it holds for modules whose number has this remainder for this divisor.
     guard: Option<(usize, usize)>,
 }
 
@@ -20,12 +20,12 @@ struct System {
     laws: Vec<Law>,
 }
 
-/// Counts of compared modules, to ensure that the test is meaningful.
+/// Numbers of compared modules, to ensure that the test is meaningful.
 #[derive(Debug, Default)]
 pub(crate) struct Compared {
     /// Modules to which a rule was applied.
     pub applied: usize,
-    /// Modules for which several weighted rules were candidates.
+    /// Modules with a random choice among several rules.
     pub drawn: usize,
     /// Modules to which a rule of weight 0 would have been applied.
     pub weightless: usize,
@@ -61,7 +61,8 @@ impl System {
         Self { laws: laws.collect(), words: made.words, ignored: made.ignored }
     }
 
-    /// Returns a script of one step, in which rule number I turns its module into `RI` with the module's number.
+    /// Returns a script with one step, in which rule number I replaces its module by `RI`, with the module's
+    /// number.
     fn script(&self) -> String {
         let mut number = 0;
         let numbered = self.words.iter().map(|word| match *word {

@@ -1,11 +1,11 @@
-//! Tests of contexts along the tree: the design's law 4, with a line for each of its cases.
+//! Contexts along the tree: law 4 of the design, one line per case.
 
 use burgeon::script::RunOptions;
 
 use super::naive::{self, Pattern};
 use super::scripts::{Case, Passing, Plain, chain, divided, error, lines, matched, run, run_with, words};
 
-/// Ignored symbols, the chain with a star before each module that matches, and the pattern.
+/// Ignored symbols, chain with a star before each matching module, and pattern.
 const TABLE: &[(&str, &str, &str)] = &[
     // Along a chain without branches.
     ("", "A *B A", "A < B"),
@@ -18,7 +18,7 @@ const TABLE: &[(&str, &str, &str)] = &[
     ("", "S *S A B S B", "S > A B"),
     ("", "A B", "B < A"),
     ("", "A B", "B > A"),
-    // At the beginning and the end of a chain, there is nothing to match.
+    // At the start and end of a chain there is nothing to match.
     ("", "S", "A < S"),
     ("", "S", "S > A"),
     ("", "A S", "A A < S"),
@@ -60,7 +60,7 @@ const TABLE: &[(&str, &str, &str)] = &[
     ("", "*S [ [ A ] B ]", "S > [ [ A ] B ]"),
     ("", "*S [ [ A ] ]", "S > [ [ A ] ]"),
     ("", "S [ A ] B", "S > [ A B ]"),
-    // Named branches are matched in order, each with the first remaining branch.
+    // Named branches match in order, each the first remaining one.
     ("", "*S [ A ] [ B ]", "S > [ A ] [ B ]"),
     ("", "S [ B ] [ A ]", "S > [ A ] [ B ]"),
     ("", "*S [ C ] [ A ] [ C ] [ B ] [ C ]", "S > [ A ] [ B ]"),
@@ -96,7 +96,7 @@ const TABLE: &[(&str, &str, &str)] = &[
     ("X", "A [ *X ] B", "A < X"),
     ("X", "*X *X [ X A ]", "X > [ A ]"),
     ("X Y", "A X Y *S Y X [ Y A ] B", "A < S > [ A ] B"),
-    // An ignored symbol never matches as a context.
+    // An ignored symbol never matches a context.
     ("X", "X S", "X < S"),
     ("X", "S X", "S > X"),
     ("X", "S [ X ]", "S > [ X ]"),

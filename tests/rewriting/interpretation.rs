@@ -1,4 +1,4 @@
-//! Tests of interpretation passes: the design's law 6, and the values that rules read from objects.
+//! Interpretation passes: law 6 of the design, and values that rules read from objects.
 
 use super::scripts::{chain, divided, error, lines, run, run_with};
 
@@ -24,7 +24,7 @@ fn a_rule_reads_its_object_as_the_pass_before_left_it() {
         s:rule(\"F(l)\", function(this, l) return F(l * 10) end)
         s:derive(1)"
     ));
-    // The whole axiom was interpreted before the first step, not only the part before the module.
+    // Before the first step, the whole axiom was interpreted, not only the part before the module.
     assert_eq!(text, "Say(0,0,3) F(10) F(20)");
 }
 
@@ -233,7 +233,7 @@ fn a_chain_without_its_own_object_gets_a_copy_of_the_systems() {
 
 #[test]
 fn an_interpretation_reads_its_object_in_the_middle_of_the_pass() {
-    // Calls are recorded and applied later; a read in between must see the earlier calls.
+    // Calls are recorded and applied later; a read method must observe all earlier calls.
     let script = r#"
         local F = module("F", "l"); local Mirror = module("Mirror"); local Ask = module("Ask", "z")
         local s = lsystem { object = turtle {} }

@@ -1,4 +1,4 @@
-//! Tests of the module that made a triangle, and of the rules that led to it.
+//! Lineage: the module that made a triangle, and the rules that led to it.
 
 use burgeon::scene::Scene;
 use burgeon::trace::{Pick, highlight, pick};
@@ -102,7 +102,7 @@ fn a_branch_that_is_bent_or_placed_many_times_knows_its_module() {
             assert_eq!(drawn.module.symbol, "F");
             let [a, b, c] = corners(&run.scene, instance.mesh, 0, triangle);
             let reach = a.distance(b).max(b.distance(c)).max(c.distance(a));
-            // A triangle of a branch connects two rings, or is a part of an end.
+            // A triangle of a branch connects two rings, or is part of an end.
             assert!(reach < 0.08 || (reach - length).abs() < 0.05, "{reach} {length}");
             match picked.placed {
                 Some(placed) => {

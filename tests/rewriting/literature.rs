@@ -1,4 +1,4 @@
-//! Known results from *The Algorithmic Beauty of Plants* (ABOP) and the works that it collects.
+//! Known answers from *The Algorithmic Beauty of Plants* (ABOP) and the works that it cites.
 
 use super::naive;
 use super::scripts::{Plain, chain, chain_of_each, words};
@@ -71,7 +71,7 @@ fn the_parametric_example_of_section_1_10_runs_as_printed() {
 
 #[test]
 fn the_row_of_trees_keeps_its_length_along_the_ground() {
-    // ABOP, section 1.10.2: of the four parts of a line, the first and the last are on the line.
+    // ABOP, section 1.10.2: of the four parts of a line, the first and the last lie on it.
     let text = chain(
         r#"
         local F = module("F", "x"); local Plus = module("Plus"); local Minus = module("Minus")
@@ -97,7 +97,7 @@ fn the_row_of_trees_keeps_its_length_along_the_ground() {
     }
 }
 
-/// Checks the numbers of `F` after each step of an axiom with rules.
+/// Checks the numbers of `F` after each step of a system with this axiom and these rules.
 fn check_fractal(axiom: &str, rules: &str, counts: &[usize]) {
     let system = Plain { ignore: "", axiom, rules };
     for (steps, (chain, expected)) in system.first(counts.len()).iter().zip(counts).enumerate() {
@@ -116,7 +116,7 @@ fn the_quadratic_koch_island_has_eight_times_as_many_edges_each_step() {
 fn the_koch_curve_has_length_as_its_closed_form_says() {
     let curve = Plain { ignore: "", axiom: "F", rules: "F -> F Plus F Minus Minus F Plus F" };
     for (chain, edges) in curve.first(5).iter().zip([1usize, 4, 16, 64, 256]) {
-        // Each previous edge has become four edges with four turns, so the number of turns is (4^n - 1) / 3 times 4.
+        // Each edge becomes four edges and four turns, so the number of turns is (4^n - 1) / 3 times 4.
         assert_eq!(words(chain).len(), edges + (edges - 1) / 3 * 4);
     }
 }
@@ -230,8 +230,8 @@ fn the_first_steps_of_hogeweg_and_hesper_are_as_by_hand() {
         "F I F I F I F I",
         "F I F O F O F I",
         "F I F O F I [ Plus F I F I ] F I",
-        // The second module of the branch has no right neighbour; the first has the I before the branch as its left
-        // neighbour.
+        // The second module of the branch has no right neighbour; the left neighbour of the first is the I
+        // before the branch.
         "F I F I F I F I [ Minus F O F I ] F I",
     ];
     assert_eq!(system.first(6), by_hand);

@@ -1,4 +1,4 @@
-//! Tests of rewriting, from a script's text to its chains, against the laws of the design and the literature.
+//! Rewriting from a script to its chains, tested against the laws of the design and the literature.
 
 mod candidates;
 mod choice;

@@ -15,7 +15,7 @@ fn warnings(run: &Run) -> Vec<String> {
 
 #[test]
 fn a_rule_sees_its_chain_as_it_stood_when_the_step_began() {
-    // Each step doubles the modules, and each module stores the number of modules before it.
+    // Each step doubles the modules, and each module stores the number of modules before the step.
     let script = r#"
         local A, B = module("A", "n"), module("B")
         local s = lsystem({})
@@ -216,8 +216,8 @@ fn a_table_that_is_not_there_is_refused_with_the_nearest_module() {
 
 #[test]
 fn chains_that_are_left_out_for_their_data_are_no_longer_seen() {
-    // The interpretation of the second chain fails. Rules see the chain before that; neither rules nor systems see it
-    // afterwards.
+    // The interpretation of the second module fails: rules observe it before the failure, but neither rules
+    // nor systems do afterwards.
     let script = r#"
         local A, Count = module("A", "height", "seen"), module("Count", "n")
         local function square(x, height)

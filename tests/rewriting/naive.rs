@@ -1,18 +1,18 @@
-//! A simple and slow rewriter, with which the engine is compared.
+//! Simple and slow reference implementation of rewriting, for comparison with the engine.
 //!
-//! It finds contexts by walking the tree of items from each module, directly according to the design's law of context.
-//! It shares no code with the engine.
+//! Contexts are found by walking the tree of items from each module, directly as the context law of the
+//! design says. Nothing here is shared with the engine.
 
 use std::collections::HashMap;
 
-/// An item of a chain or of a context.
+/// Item of a chain or of a context.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) enum Item {
     Module(String),
     Branch(Vec<Item>),
 }
 
-/// A predecessor with contexts.
+/// Predecessor with contexts.
 #[derive(Debug, Clone)]
 pub(crate) struct Pattern {
     pub left: Vec<String>,
@@ -43,7 +43,7 @@ pub(crate) fn parse(text: &str) -> Vec<Item> {
     open.remove(0)
 }
 
-/// Formats items in the syntax that [`parse`] accepts.
+/// Writes items in the format that [`parse`] reads.
 pub(crate) fn write(items: &[Item]) -> String {
     let text: Vec<String> = items
         .iter()
@@ -65,7 +65,7 @@ impl Pattern {
         Self { left, predecessor: predecessor.trim().to_owned(), right: parse(right) }
     }
 
-    /// Formats the pattern in the syntax of the engine.
+    /// Returns the pattern in the syntax of the engine.
     pub(crate) fn text(&self) -> String {
         let mut text = self.predecessor.clone();
         if !self.left.is_empty() {
@@ -77,8 +77,8 @@ impl Pattern {
         text
     }
 
-    /// Returns the context modules around the module at `position` of `items`, in the order of their names, if it
-    /// matches; `path` leads from the axiom to the module.
+    /// Returns the context modules of the module at `position` of `items`, in the order of the pattern, if it
+    /// matches; `path` has the items from the axiom to that position.
     fn bind<'a>(
         &self,
         path: &[&'a Item],
@@ -110,7 +110,7 @@ impl Item {
     }
 }
 
-/// Returns the modules of `items` that `contexts` name, if `items` begin accordingly.
+/// Returns the modules of `items` that `contexts` name, if `items` begin with them.
 fn ahead<'a>(contexts: &[Item], items: &'a [Item], skipped: &dyn Fn(&str) -> bool) -> Option<Vec<&'a Item>> {
     let Some((first, others)) = contexts.split_first() else { return Some(Vec::new()) };
     for (position, item) in items.iter().enumerate() {
@@ -130,8 +130,8 @@ fn ahead<'a>(contexts: &[Item], items: &'a [Item], skipped: &dyn Fn(&str) -> boo
     None
 }
 
-/// Returns the numbers of the modules that `pattern` matches, counted from 0 along the chain, each with the numbers of
-/// its context modules.
+/// Returns the numbers of the modules that `pattern` matches, counted from 0 along the chain, each with the
+/// numbers of its context.
 pub(crate) fn bound(items: &[Item], pattern: &Pattern, ignored: &[String]) -> Vec<(usize, Vec<usize>)> {
     let mut found: Vec<(usize, Vec<&Item>)> = Vec::new();
     let mut numbers: HashMap<*const Item, usize> = HashMap::new();
@@ -149,7 +149,7 @@ pub(crate) fn matches(items: &[Item], pattern: &Pattern, ignored: &[String]) -> 
     bound(items, pattern, ignored).into_iter().map(|(module, _)| module).collect()
 }
 
-/// Visitor that receives the path to an item, the items around it, and its index among them.
+/// Visitor of an item: its path, the items around it, and its index among them.
 type See<'a, 'b> = dyn FnMut(&[&'a Item], &'a [Item], usize) + 'b;
 
 fn visit<'a>(items: &'a [Item], path: &mut Vec<&'a Item>, see: &mut See<'a, '_>) {
@@ -166,7 +166,7 @@ fn visit<'a>(items: &'a [Item], path: &mut Vec<&'a Item>, see: &mut See<'a, '_>)
     path.truncate(depth);
 }
 
-/// Performs one step: each module becomes the successor of the first rule that matches it.
+/// Makes one step: each module becomes the successor of the first rule that matches it.
 pub(crate) fn step(items: &[Item], rules: &[(Pattern, Vec<Item>)], ignored: &[String]) -> Vec<Item> {
     fn rewrite(
         items: &[Item],

@@ -1,4 +1,4 @@
-//! Tests of parameters of every type (law 7): modules carry them, and rules read them back unchanged.
+//! Parameters of every type (law 7): rules read the values that they were given.
 
 use super::scripts::{chain, chain_of_each, divided, error, lines, run, run_with};
 
@@ -189,7 +189,7 @@ fn what_is_no_parameter_is_refused() {
 
 #[test]
 fn a_nan_with_any_payload_stays_a_number() {
-    // Columns store other values as NaNs; a script must not be able to forge one.
+    // Boxed values are stored in columns as NaNs; a script must not be able to forge one.
     let text = chain(
         r#"
         local P = module("P", "x"); local Q = module("Q", "kind"); local R = module("R", "x")

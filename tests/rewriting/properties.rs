@@ -1,4 +1,4 @@
-//! Tests with random chains and patterns that the engine finds the same matches as the naive matcher.
+//! Random chains and patterns: the engine and the naive matcher find the same modules.
 
 use burgeon::script::RunOptions;
 use proptest::collection::vec;
@@ -11,7 +11,7 @@ use super::scripts::{Case, Passing, divided, matched, words};
 const NAMES: [&str; 4] = ["A", "B", "C", "X"];
 
 fn name() -> impl Strategy<Value = String> {
-    // A few names are common, so that patterns match often.
+    // A few frequent names, so that patterns match often.
     prop_oneof![6 => Just(0), 3 => Just(1), 1 => Just(2), 2 => Just(3)]
         .prop_map(|index: usize| NAMES[index].to_owned())
 }
@@ -26,7 +26,7 @@ fn items(depth: u32, length: usize) -> impl Strategy<Value = Vec<Item>> {
     vec(item, 0..length)
 }
 
-/// Generates a right context without empty branches.
+/// Right context without empty branches.
 fn context() -> impl Strategy<Value = Vec<Item>> {
     let item = name().prop_map(Item::Module).prop_recursive(
         2,
@@ -128,7 +128,7 @@ fn contexts_of_every_hard_kind_match_and_bind_as_the_naive_matcher_says() {
 
 #[test]
 fn a_search_that_passes_many_branches_is_not_made_again() {
-    // Without caching, 20,000 modules with 20,000 branches behind each would take 200 million tests.
+    // 20,000 modules with 20,000 branches behind each take 200 million trials without a cache.
     for (unit, pattern) in [
         (&["X", "[", "C", "]"][..], "X > [ Z ]"),
         (&["X", "[", "C", "]"], "X > [ [ Z ] ]"),

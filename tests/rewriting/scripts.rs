@@ -6,7 +6,7 @@ use burgeon::script::RunOptions;
 use super::naive::Pattern;
 pub(crate) use super::naive::words;
 
-/// Runs a script as `main.lua` in its own folder.
+/// Runs a script as `main.lua` in a temporary folder.
 pub(crate) fn try_run(script: &str, options: RunOptions) -> burgeon::Result<Run> {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("main.lua");
@@ -25,12 +25,12 @@ pub(crate) fn run(script: &str) -> Run {
     run_with(script, burgeon::options())
 }
 
-/// Returns options with a number of threads and of modules per batch.
+/// Returns options with this number of threads, and of modules in a batch.
 pub(crate) fn divided(threads: usize, batch: usize) -> RunOptions {
     RunOptions { threads: Some(threads), batch, ..burgeon::options() }
 }
 
-/// Returns the chains of all systems, one line per chain.
+/// Returns the chains of all systems, with one line per chain.
 pub(crate) fn all_chains(run: &Run) -> String {
     run.systems.iter().map(|system| system.chain_text()).collect()
 }
@@ -56,7 +56,7 @@ pub(crate) fn chain(script: &str) -> String {
     chains.into_iter().next().unwrap_or_default()
 }
 
-/// Returns the error of a script.
+/// Returns the error message for a script.
 pub(crate) fn error(script: &str) -> String {
     match try_run(script, burgeon::options()) {
         Err(error) => error.to_string(),
@@ -76,7 +76,7 @@ pub(crate) fn declare_with<'a>(names: impl IntoIterator<Item = &'a str>, paramet
     declared.collect::<String>() + "\n"
 }
 
-/// Converts a chain to Lua: `A [ B ] C` becomes `A(), { B() }, C()`.
+/// Converts a chain to Lua: `A [ B ] C` to `A(), { B() }, C()`.
 pub(crate) fn as_lua(chain: &str) -> String {
     let spaced = chain.replace('[', " [ ").replace(']', " ] ");
     let mut out = String::new();
@@ -91,7 +91,7 @@ pub(crate) fn as_lua(chain: &str) -> String {
     out.trim_end_matches([',', ' ']).to_owned()
 }
 
-/// A system without parameters: `rules` are lines such as `A < B > C -> D [ E ]`; an empty successor erases.
+/// System without parameters: `rules` are lines such as `A < B > C -> D [ E ]`; an empty successor erases.
 pub(crate) struct Plain<'a> {
     pub ignore: &'a str,
     pub axiom: &'a str,
@@ -111,7 +111,7 @@ impl Plain<'_> {
         run.systems.iter().map(|system| system.chain_text().trim_end().to_owned()).collect()
     }
 
-    /// Returns the chains after 0, 1, 2, ... steps, `count` in total.
+    /// Returns the chain after 0, 1, 2, ... steps, `count` chains in total.
     pub(crate) fn first(&self, count: usize) -> Vec<String> {
         self.derive_each(&(0..count).collect::<Vec<_>>())
     }
@@ -153,7 +153,7 @@ pub(crate) enum Passing<'a> {
     Consider(&'a str),
 }
 
-/// A pattern, and the chains of the system to which it belongs.
+/// Pattern of a rule, and the chains of its system.
 #[derive(Debug, Clone)]
 pub(crate) struct Case<'a> {
     pub passing: Passing<'a>,
@@ -193,7 +193,7 @@ pub(crate) fn matched(cases: &[Case], options: RunOptions) -> Vec<Vec<usize>> {
 }
 
 impl Case<'_> {
-    /// Returns the script of a system in which every matching module becomes a `Hit` with its number.
+    /// Returns a system in which every module that matches becomes a `Hit` with its number.
     fn script(&self) -> String {
         let mut number = 0;
         let mut numbered = |chain: &String| {

@@ -1,4 +1,5 @@
-//! Tests of custom object types while chains are drawn. `tests/kind` contains the tests for types of every origin.
+//! Script-declared object types while chains are drawn. `tests/kind` tests requirements on types from all
+//! origins.
 
 #![allow(clippy::unwrap_used, reason = "a test stops at what is wrong")]
 
@@ -33,7 +34,7 @@ fn run(script: &Path, threads: usize) -> Run {
     burgeon::run(script, options(threads)).unwrap_or_else(|error| panic!("{}: {error}", script.display()))
 }
 
-/// Creates a script in its own folder, with the features of `field.geojson` next to it.
+/// Returns a script in a temporary folder, next to the features of `field.geojson`.
 fn script(text: &str) -> (tempfile::TempDir, PathBuf) {
     let folder = tempfile::tempdir().unwrap();
     let points = (0..200).map(|number| {
@@ -52,7 +53,7 @@ fn script(text: &str) -> (tempfile::TempDir, PathBuf) {
     (folder, path)
 }
 
-/// Returns the output of a run, line by line.
+/// Returns the output of the run, line by line.
 fn printed(text: &str, threads: usize) -> Vec<String> {
     let (_folder, path) = script(text);
     let lines = Arc::new(std::sync::Mutex::new(Vec::new()));
@@ -70,8 +71,7 @@ fn glb(run: &Run) -> Vec<u8> {
     std::fs::read(path).unwrap()
 }
 
-/// Returns the number of edges of a model with unequal numbers of triangles in the two directions. Coordinates are
-/// rounded to 10 µm.
+/// Returns the number of edges that do not belong to exactly two faces; points nearer than 1 nm are equal.
 fn open_edges(run: &Run) -> usize {
     let mut edges: BTreeMap<[[i64; 3]; 2], i32> = BTreeMap::new();
     for mesh in &run.scene.meshes {

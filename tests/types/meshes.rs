@@ -1,4 +1,4 @@
-//! Tests of meshes from lists and buffers of a script.
+//! Meshes that a script provides in lists and in buffers.
 
 use crate::{open_edges, run, script};
 
@@ -57,7 +57,7 @@ s:derive()
         found
     };
     assert_eq!(points(&listed), points(&held));
-    // Buffers and lists can be mixed; faces without area are dropped.
+    // Buffers and lists can be combined; triangles without area are skipped.
     let mixed = scene(&format!(
         "this:mesh({{ {{ 0, 0, 0 }}, {{ 1, 0, 0 }}, {{ 0, 1, 0 }}, {{ 0, 0, 1 }} }}, whole({{ {faces}, 1, 1, 2 }}))"
     ));

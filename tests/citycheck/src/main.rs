@@ -1,6 +1,5 @@
-//! Validates the CityJSON files given as arguments, and reports the errors of invalid ones. The crate is not a member
-//! of the workspace, because the validator needs a hundred crates that no other crate needs; the gate builds it
-//! elsewhere.
+//! Reports which of the given CityJSON files are invalid, with the reasons. It is not a member of the
+//! workspace, because the validator needs a hundred additional crates; the gate builds it separately.
 
 use std::process::ExitCode;
 

@@ -1,4 +1,4 @@
-//! Tests that Luau accepts the definitions for editors, and that all shipped scripts pass the type checker.
+//! Luau accepts the definitions for editors, and finds no type errors in the shipped scripts.
 
 #![allow(clippy::unwrap_used, reason = "a test stops at what is wrong")]
 
@@ -13,7 +13,7 @@ fn checker() -> Checker {
     checker
 }
 
-/// Returns the type errors of a script with their lines.
+/// Returns the errors that the checker finds in a script, each with its line.
 fn errors(checker: &mut Checker, script: &str) -> Vec<String> {
     let checked = checker.check(script).unwrap();
     assert!(!checked.timed_out);
@@ -37,7 +37,7 @@ fn no_shipped_script_has_an_error_in_strict_mode() {
         ["scripts", "scripts/templates", "scripts/templates/roads", "examples", "crates/objects/scripts"]
     {
         for path in scripts(folder) {
-            // A program next to the script declares its object type.
+            // The program next to it declares its object type.
             if path.ends_with("examples/beads.lua") {
                 continue;
             }

@@ -1,4 +1,4 @@
-//! The modules of the parts of a geometry.
+//! Modules for the parts of a geometry.
 
 use std::rc::Rc;
 
@@ -10,23 +10,27 @@ use burgeon_kit::Values;
 use burgeon_kit::{ObjectContent, Value};
 use burgeon_rewriting::{Chain, ColumnValue, Mark, Symbol, Symbols, module_brief};
 
-/// Where each parameter of a module comes from, among those of another.
+/// For each parameter of a new module, the index of the parameter that it is copied from.
 type ParameterPlaces = Rc<[Option<usize>]>;
 
-/// Takes modules apart, and remembers how.
+/// Splits modules into modules of their geometry's parts, and caches the results.
 #[derive(Default)]
 pub(super) struct Fragmentation {
-    /// By the module that is taken apart, its geometry's place, and what its parts are: where their parameters come from.
+    /// Parameter sources, by symbol of the split module, index of its geometry parameter, and symbol of the
+    /// parts.
     fits: FxHashMap<(Symbol, usize, Symbol), ParameterPlaces>,
-    /// By the bits of a geometry's column: its parts, and whether it is one of its own.
+    /// Parts by the bits of a packed geometry. The flag marks a geometry without parts, which is its own only
+    /// part.
     parts: FxHashMap<u64, (Rc<[f64]>, bool)>,
-    /// The fragmentations that have met a geometry without parts.
+    /// Fragment modules that met a geometry without parts.
     whole: Vec<Mark>,
 }
 
 impl Fragmentation {
-    /// In place of each module of `group`: a module with `symbol` for each part of its geometry, with its parameters, and with
-    /// the feature among `owners` that it has. `at` is the fragmentation's place.
+    /// Replaces each module of `group` by one module with `symbol` per part of its geometry.
+    ///
+    /// The new modules copy the parameters by name, and keep the feature in `owners`. `at` is the position of
+    /// the fragment module.
     pub(super) fn apply(
         &mut self,
         (group, owners): (&Chain, &[u32]),
@@ -59,7 +63,7 @@ impl Fragmentation {
         Ok((made, made_owners))
     }
 
-    /// The place of the first geometry among `params`, and its parts.
+    /// Returns the index of the first geometry among `params`, and its parts.
     fn parts(&mut self, params: &[f64], at: Mark, values: &Values) -> Option<(usize, Rc<[f64]>)> {
         for (place, stored) in params.iter().enumerate() {
             if !matches!(ColumnValue::unpack(*stored), ColumnValue::Handle(_)) {
@@ -85,7 +89,7 @@ impl Fragmentation {
         None
     }
 
-    /// Where the parameters of the parts come from.
+    /// Returns the parameter sources of the parts.
     fn fit(&mut self, key: (Symbol, usize, Symbol), symbols: &Symbols) -> Result<ParameterPlaces> {
         if let Some(known) = self.fits.get(&key) {
             return Ok(Rc::clone(known));
@@ -107,7 +111,7 @@ impl Fragmentation {
         Ok(found)
     }
 
-    /// What people should know: where, and what.
+    /// Returns the warnings, one per fragment module, each with its position.
     pub(super) fn warnings(&self) -> impl Iterator<Item = (Mark, String)> + '_ {
         let mut told = FxHashSet::default();
         let first = self.whole.iter().filter(move |at| told.insert(at.module));
