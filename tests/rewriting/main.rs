@@ -4,6 +4,7 @@ mod candidates;
 mod choice;
 mod closures;
 mod contexts;
+mod continued;
 mod determinism;
 mod fragments;
 mod generate;

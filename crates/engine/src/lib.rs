@@ -4,6 +4,7 @@
 //! [`Run`] with its scene. The engine never refers to an object type by name, and never writes a file.
 
 mod check;
+mod checkpoints;
 mod declare;
 mod derive;
 mod machine;
@@ -15,6 +16,7 @@ pub mod trace;
 
 /// Inputs of a run, declarations of its script, and the virtual machines that run it.
 pub mod script {
+    pub use crate::checkpoints::DerivationStore;
     pub use crate::declare::{
         API_VERSION, Control, Limits, Param, ParamValues, Preset, Print, RunInputs, RunOptions, RunProgress,
         RunReports, Session, Setting, TraceRequest, api_version,

@@ -141,6 +141,7 @@ impl ServerState {
         // The preset's values are part of the request from now on.
         settings.options.params.preset = None;
         settings.options.inputs.cache = Some(std::sync::Arc::default());
+        settings.options.inputs.derivations = Some(std::sync::Arc::default());
         let presets = super::tools::presets(&settings.script);
         let inner = LiveState {
             request,

@@ -155,6 +155,13 @@ impl Stepper {
         }
     }
 
+    /// Adds the work of the rules in the steps of an earlier derivation that this one continues.
+    pub fn continue_from(&mut self, uses: &[Use]) {
+        for (own, earlier) in self.uses.iter_mut().zip(uses) {
+            *own += *earlier;
+        }
+    }
+
     /// Performs step number `step` on `chain`, which must be marked (see [`Chain::mark`]).
     ///
     /// Fails if a function of a rule fails, if the chain exceeds the limit of the plan, or if `stop` is requested.

@@ -6,6 +6,7 @@ use std::sync::{Arc, LazyLock};
 use std::time::Duration;
 
 use super::Preset;
+use crate::checkpoints::DerivationStore;
 use crate::questions::RowSource;
 use burgeon_base::stop::Stop;
 use burgeon_data::Cache;
@@ -102,6 +103,8 @@ pub struct RunInputs {
     pub rows: Option<Arc<dyn RowSource>>,
     /// Cache of layers that earlier runs have read.
     pub cache: Option<Arc<Cache>>,
+    /// Chains of earlier runs, from which the run continues if only the number of steps differs.
+    pub derivations: Option<Arc<DerivationStore>>,
     /// Package folders, or single packages, in addition to `mods` next to the script.
     pub mods: Vec<PathBuf>,
     /// Package folder of the user; it need not exist.

@@ -137,6 +137,8 @@ pub struct Session {
     /// Set once a placeholder module has been made.
     pending: AtomicBool,
     kept: Mutex<Vec<f64>>,
+    /// Number of texts that scripts have printed.
+    prints: AtomicUsize,
     /// Names of the parameters that the script's own files declare, as far as static analysis finds them.
     own_params: OnceLock<BTreeSet<String>>,
 }
@@ -190,6 +192,7 @@ impl Session {
             facts: ScriptFacts::default(),
             pending: AtomicBool::new(false),
             kept: Mutex::default(),
+            prints: AtomicUsize::new(0),
             own_params: OnceLock::new(),
         }))
     }
@@ -406,6 +409,16 @@ impl Session {
     /// Records that a placeholder module has been made.
     pub(crate) fn note_pending(&self) {
         self.pending.store(true, Ordering::Release);
+    }
+
+    /// Counts a text that a script has printed.
+    pub(crate) fn count_print(&self) {
+        self.prints.fetch_add(1, Ordering::Relaxed);
+    }
+
+    /// Returns the number of texts that scripts have printed.
+    pub(crate) fn prints(&self) -> usize {
+        self.prints.load(Ordering::Relaxed)
     }
 
     /// Returns true if chains may contain placeholder modules.

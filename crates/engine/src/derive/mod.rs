@@ -9,6 +9,7 @@
 //! [`LuaRules`](functions::LuaRules). [`lead()`] plans a derivation, runs its phases and builds its result.
 //! [`ThreadPool`] distributes pieces of the work to other machines.
 
+mod checkpoints;
 mod functions;
 mod interpret;
 mod lead;

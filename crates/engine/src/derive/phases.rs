@@ -5,6 +5,7 @@ use std::cell::RefCell;
 use std::sync::Arc;
 use std::time::Instant;
 
+use super::checkpoints::CheckpointWriter;
 use super::interpret::InterpretationPass;
 use super::pending::{Resolution, resolve};
 use super::plan::{Derivation, DerivationPlan};
@@ -12,6 +13,7 @@ use super::rewriter::SystemRewriter;
 use super::step::step;
 use super::threads::LeadingMachine;
 use crate::declare::TraceRequest;
+use crate::machine::Driver as _;
 use crate::results::{RowFeatures, RuleName, RuleReport, Step, Times};
 use burgeon_base::error::Result;
 use burgeon_base::warning::Warning;
@@ -36,6 +38,8 @@ pub(super) struct DerivationState<'a> {
     features: Option<RefCell<RowFeatures>>,
     /// Number of states of the chain that were published.
     published: u32,
+    /// Writer of checkpoints, if later runs can continue from them.
+    checkpoints: Option<CheckpointWriter>,
 }
 
 /// Results of the phases of a derivation.
@@ -59,26 +63,40 @@ pub(super) fn derive(
 ) -> Result<DerivationResults> {
     let (plan, session) = (&derivation.plan, &leader.machine.session);
     let grammar = &plan.steps.grammar;
+    let mut stepper = Stepper::new(Arc::clone(&plan.steps));
+    let mut interpretations = vec![Use::default(); plan.interpretations.list.len()];
+    let derived: Vec<_> = leader.threads.derived().into_iter().flatten().collect();
+    let mut checkpoints = CheckpointWriter::new(session, derivation, &derived);
+    let mut begin = 0;
+    if let Some((step, checkpoint)) =
+        checkpoints.as_mut().and_then(|checkpoints| checkpoints.begin(session, derivation.limit))
+    {
+        begin = step;
+        chain = checkpoint.chain(&session.values);
+        stepper.continue_from(&checkpoint.rules);
+        interpretations.clone_from(&checkpoint.interpretations);
+    }
     chain.mark(plan.steps.batch, grammar.arities());
     let records = session.options.reports.records && derivation.traced.is_none();
     let mut state = DerivationState {
         leader,
         derivation,
         rewriter: SystemRewriter::new(leader),
-        stepper: Stepper::new(Arc::clone(&plan.steps)),
+        stepper,
         previous: None,
         times: Times::default(),
-        interpretations: vec![Use::default(); plan.interpretations.list.len()],
+        interpretations,
         first: Vec::new(),
         later: Vec::new(),
         steps: Vec::new(),
         features: records.then(|| RefCell::new(RowFeatures::new(chain.symbols.len()))),
         published: 0,
+        checkpoints,
     };
     let view = leader.machine.current.chains_derived.borrow().with_begun(plan.system, grammar.symbols());
     session.show_chains(view);
     let derived =
-        burgeon_rewriting::derive(&phases(&state), &mut state, Arc::new(chain), 0, derivation.limit)?;
+        burgeon_rewriting::derive(&phases(&state), &mut state, Arc::new(chain), begin, derivation.limit)?;
     let later = state.later;
     state.first.retain(|warning| later.iter().all(|other| !other.says_the_same(warning)));
     Ok(DerivationResults {
@@ -113,6 +131,9 @@ fn phases<'a>(state: &DerivationState<'a>) -> Phases<'static, DerivationState<'a
     };
     if interprets {
         phases.first.push(Box::new(ExpandObjects));
+    }
+    if state.checkpoints.is_some() {
+        phases.each.push(Box::new(Store));
     }
     match (interprets, derivation.last_only) {
         (true, true) => phases.last.push(Box::new(Interpret)),
@@ -183,6 +204,20 @@ impl Phase<DerivationState<'_>> for Publish {
             state.stepper.reuse(previous);
             session.progress.note(step, state.derivation.limit, chain.symbols.len());
             session.forget_unused(&chain.params);
+        }
+        Ok(PhaseOutcome::next(chain))
+    }
+}
+
+/// Stores the chain for later runs.
+struct Store;
+
+impl Phase<DerivationState<'_>> for Store {
+    fn run(&self, state: &mut DerivationState<'_>, chain: Arc<Chain>, step: usize) -> Result<PhaseOutcome> {
+        let status = (!state.failed().is_empty(), step == state.derivation.limit);
+        let uses = (state.stepper.uses(), &*state.interpretations);
+        if let Some(checkpoints) = &mut state.checkpoints {
+            checkpoints.store(&state.leader.machine.session, step, &chain, status, uses);
         }
         Ok(PhaseOutcome::next(chain))
     }

@@ -428,12 +428,12 @@ impl Library {
             })?,
         )?;
         globals.raw_set("lod", machine.session.options.lod)?;
-        let hook = machine.session.options.reports.print.clone();
+        let session = Arc::clone(&machine.session);
         globals.raw_set(
             "print",
-            lua.create_function(move |lua, values: MultiValue| match &hook {
-                Some(hook) => print(lua, &values, hook),
-                None => Ok(()),
+            lua.create_function(move |lua, values: MultiValue| {
+                session.count_print();
+                session.options.reports.print.as_ref().map_or(Ok(()), |hook| print(lua, &values, hook))
             })?,
         )
     }
