@@ -15,20 +15,20 @@ pub(super) type Page = (String, String);
 
 /// Chapters that are written by hand: their titles and files.
 const CHAPTERS: [(&str, &str); 16] = [
-    ("Burgeon", "introduction"),
+    ("Introduction", "introduction"),
     ("Contexts and features", "rules"),
     ("Data and heights", "data"),
-    ("Questions to data in rules", "queries"),
+    ("SQL queries", "queries"),
     ("SQL", "sql"),
-    ("Ground and planets", "ground"),
-    ("What scripts can use", "objects"),
+    ("Terrain and planets", "terrain"),
+    ("API reference", "objects"),
     ("Street networks", "networks"),
     ("Running scripts", "running"),
-    ("Files for other programs", "formats"),
-    ("Live", "live"),
-    ("Types of objects of your own", "types"),
+    ("Export formats", "formats"),
+    ("Live view", "live"),
+    ("Custom object types", "types"),
     ("Packages", "packages"),
-    ("Scripts from others", "threats"),
+    ("Security", "security"),
     ("Editors", "editors"),
     ("Speed", "speed"),
 ];
