@@ -14,7 +14,7 @@ const AXES: [&str; 2] = ["extruder", "turtle"];
 pub(super) type Page = (String, String);
 
 /// Chapters that are written by hand: their titles and files.
-const CHAPTERS: [(&str, &str); 16] = [
+const CHAPTERS: [(&str, &str); 17] = [
     ("Introduction", "introduction"),
     ("Contexts and features", "rules"),
     ("Data and heights", "data"),
@@ -31,6 +31,7 @@ const CHAPTERS: [(&str, &str); 16] = [
     ("Security", "security"),
     ("Editors", "editors"),
     ("Speed", "speed"),
+    ("Code walkthrough", "walkthrough"),
 ];
 
 /// Returns the generated pages of the scripting API, and the list of all pages.
