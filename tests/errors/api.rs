@@ -178,7 +178,7 @@ fn a_field_or_a_method_is_told_by_itself() {
     assert_snapshot!(api(&["lerp"]), @r#"
     lerp(a: number, b: number, t: number) -> number
     lerp(a: Vector, b: Vector, t: number) -> Vector
-      From `a` to `b` as `t` goes from 0 to 1: numbers, or vectors.
+      Interpolates linearly from `a` (`t` = 0) to `b` (`t` = 1): numbers or vectors.
 
     Example
       -- Halfway between two numbers, and between two vectors.
