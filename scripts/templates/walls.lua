@@ -75,7 +75,7 @@ function walls.cornice(steps: any, material)
 end
 
 -- One storey of a building for frontages of every width.
--- bay      the repeated wall
+--   bay      the repeated wall
 --   narrow   the wall for frontages without room for a bay, or several, the narrowest first
 --   street   the repeated wall on the street, instead of `bay`
 --   entry    the bay with the entry door
