@@ -22,7 +22,7 @@ fn a_type_is_told_with_its_fields_and_methods_and_an_example() {
       seed: number | string = 0
           Seed of the whole universe: a number or a string.
 
-    Methods that read: rules and interpretations may call them
+    Read methods: rules and interpretations may call them
       galaxy(x: number, y: number, z: number) -> any
           Returns the galaxy in a cube of space, by its column, row and layer: a table with `position`
           and `radius` (light years), `kind`, `color`, `seed`, and `stars`, the number of its stars.

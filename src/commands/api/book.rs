@@ -41,7 +41,7 @@ pub(super) fn pages(entries: &[Entry]) -> Vec<Page> {
         // Writing into a string cannot fail.
         let _ = writeln!(summary, "[{title}]({file}.md)");
     }
-    summary.push_str("\n# Types of objects\n\n");
+    summary.push_str("\n# Object types\n\n");
     let mut pages = Vec::new();
     for entry in entries.iter().filter(|entry| entry.group == EntryGroup::Type) {
         let _ = writeln!(summary, "- [{0}](reference/{0}.md)", entry.name);
@@ -50,9 +50,9 @@ pub(super) fn pages(entries: &[Entry]) -> Vec<Page> {
     summary.push_str("\n# The language\n\n");
     for (group, file, title) in [
         (EntryGroup::Global, "functions", "Functions and values"),
-        (EntryGroup::Module, "modules", "Modules that come with a meaning"),
-        (EntryGroup::Given, "given", "What these give and take"),
-        (EntryGroup::Luau, "luau", "Luau itself"),
+        (EntryGroup::Module, "modules", "Built-in modules"),
+        (EntryGroup::Given, "given", "Data types"),
+        (EntryGroup::Luau, "luau", "Luau built-ins"),
     ] {
         let _ = writeln!(summary, "- [{title}](reference/{file}.md)");
         let mut text = format!("{MADE}# {title}\n");
@@ -84,7 +84,7 @@ fn body(text: &mut String, entry: &Entry, level: usize) {
         let _ = writeln!(text, "\n```{}\n{}\n```", language_of(entry), entry.example.trim_end());
     }
     if let Some(example) = example_of(&entry.name) {
-        let _ = writeln!(text, "\n![What it draws]({})", file_of(example));
+        let _ = writeln!(text, "\n![Example]({})", file_of(example));
         if AXES.contains(&&*entry.name) {
             text.push_str("\nIn pictures, the arrows at the origin are the axes, each 1 m long: x red, y green, z blue.\n");
         }
@@ -94,8 +94,8 @@ fn body(text: &mut String, entry: &Entry, level: usize) {
         (MemberKind::Field, "Fields"),
         (MemberKind::Declares, "Methods"),
         (MemberKind::Function, "Functions"),
-        (MemberKind::Reads, "Methods that read"),
-        (MemberKind::Changes, "Methods that change it"),
+        (MemberKind::Reads, "Read methods"),
+        (MemberKind::Changes, "Write methods"),
     ] {
         let members: Vec<&Member> = entry.members(what).collect();
         if members.is_empty() {
