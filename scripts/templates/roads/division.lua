@@ -59,9 +59,9 @@ local LANE_LAND, LANES = 3000, 14
 -- The length (m) of the boundary of a town per lane that is tried there.
 local BORDER = 280
 
--- The rules of division. `pattern_at` returns the pattern at a position, `room` the maximum block (m²) of a kind of
--- quarter there, or nil where land is not divided; `propose` proposes a street, and `outside` tests if lanes may lead
--- to a position beyond the outline, or is false.
+-- The rules of division. `pattern_at` gives the pattern of a place, `room` the largest block (m²) of a kind of quarter there, or nil
+-- where land is not divided, `propose` proposes a street, and `outside` tells whether lanes may lead to a place beyond the outline, or
+-- is false.
 function division.rules(
   system: System<Network>,
   pattern_at: (x: number, y: number) -> Pattern,
@@ -71,7 +71,7 @@ function division.rules(
   sizes: any,
   outside: false | (x: number, y: number) -> boolean
 )
-  -- Tests if a street may leave an area at a corner.
+  -- Tells if a street may leave an area at a corner.
   local function tester(this: Network, area: any): (number, { number }, number) -> boolean
     return function(corner, way, depth)
       local heading, length = ways.aim(this, area.junction[corner], way[1], way[2])

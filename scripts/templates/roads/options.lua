@@ -41,7 +41,7 @@ options.STREETS = {
   { width = 11, lanes = 2, sidewalk = 2 },
 }
 
--- Reads the options of `caller`; errors are reported `level` functions above.
+-- Reads the options of `caller`; errors are told `level` functions above.
 function options.read(asked: any, caller: string, level: number): any
   checks.options(caller, asked, KNOWN, level)
   local given: any = asked.pattern or patterns.organic()
