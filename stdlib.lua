@@ -1,9 +1,9 @@
 --!strict
--- Burgeon's standard library: what every script has besides Luau itself. It returns the names it gives.
+-- Burgeon's standard library: the names of every script besides Luau's own. It returns a table of these names.
 
 local describe_plain: (value: any) -> string, refuse_plain: (message: string) -> never = __describe, __refuse
 
--- Tells of a mistake in the line of the script that made it; the data may be at fault.
+-- Raises an error at the line of the script that caused it. The cause can be in the data.
 local function refuse(message: string, remedy: string?)
   refuse_plain(`{message}\1{remedy or ""}\2`)
 end
@@ -19,7 +19,7 @@ local function describe(value: any): string
   return if is_vector(value) then "a vector" else describe_plain(value)
 end
 
---- Refuses what is no number among what a function takes.
+--- Refuses an argument that is not a number.
 local function check_numbers(name: string, ...: any)
   for index = 1, select("#", ...) do
     local value = (select(index, ...))
@@ -30,16 +30,16 @@ local function check_numbers(name: string, ...: any)
 end
 
 -- Vectors.
--- Immutable, three numbers x, y and z in metres; they may travel in modules.
+-- Immutable, with three numbers x, y and z in metres. Modules can carry them.
 
--- A vector is read like a list, too: 1, 2 and 3 are x, y and z.
+-- A vector can be read like a list: 1, 2 and 3 are x, y and z.
 function Vec.__index(vector, key)
   local axis = AXES[key]
   if axis then
     return rawget(vector, axis)
   end
   local method = Vec[key]
-  -- As in a list, there is nothing behind the last number.
+  -- As in a list, there is no value after the last number.
   if method == nil and type(key) ~= "number" then
     local named = if type(key) == "string" then key else describe(key)
     refuse(`a vector has no {named}`, "it has x, y and z, or 1 to 3, and methods such as length")
@@ -60,7 +60,7 @@ local function made(x, y, z)
 end
 
 local function finite(x: number, y: number, z: number)
-  -- What is not finite is not 0 away from itself.
+  -- A number that is not finite is not 0 at a distance from itself.
   if x - x + (y - y) + (z - z) ~= 0 then
     local axis, value = "z", z
     if x - x ~= 0 then
@@ -73,7 +73,7 @@ local function finite(x: number, y: number, z: number)
   return made(x, y, z)
 end
 
--- What is not just three numbers: a list, or fewer numbers.
+-- Handles arguments other than three numbers: a list, or fewer numbers.
 local function from_others(...: any)
   local count = select("#", ...)
   local first = (...)
@@ -106,10 +106,10 @@ local function from_others(...: any)
   return finite(x or 0, y or 0, z or 0)
 end
 
--- For those who read the library; it is told of in Rust, with its methods.
+-- For readers of this file; Rust declares the vector with its methods.
 type Vector = any
 
---- A vector of three numbers, or of a list of them; what is left out at the end is 0.
+--- Creates a vector from three numbers, or from a list of them; omitted numbers at the end are 0.
 local function vec(...: any): Vector
   local x, y, z, more = ...
   if type(x) == "number" and type(y) == "number" and type(z) == "number" and more == nil then
@@ -118,7 +118,7 @@ local function vec(...: any): Vector
   return from_others(...)
 end
 
---- Both sides of an operator as vectors; a list is taken for one.
+--- Returns both operands of an operator as vectors; a list becomes a vector.
 local function vectors(a, b, operator: string)
   local function one(value)
     if is_vector(value) then
@@ -178,7 +178,7 @@ function Vec.__tostring(a)
   return `vec({a.x}, {a.y}, {a.z})`
 end
 
---- Refuses what a method of vectors is called with, if it is no vector.
+--- Refuses an argument of a vector method that is not a vector.
 local function check_vectors(name: string, a, b)
   if not is_vector(a) then
     refuse(`{name} is called with a colon, on a vector: v:{name}(...), not on {describe(a)}`)
@@ -203,7 +203,7 @@ function Vec.length(a)
   return math.sqrt(a.x * a.x + a.y * a.y + a.z * a.z)
 end
 
---- The vector with length 1; a zero vector stays.
+--- Returns the vector with length 1; a zero vector stays unchanged.
 function Vec.unit(a)
   check_vectors("unit", a, a)
   local length = Vec.length(a)
@@ -227,7 +227,7 @@ __class("vec", Vec, made, "x", "y", "z")
 
 -- Numbers.
 
---- From `a` to `b` as `t` goes from 0 to 1: numbers, or vectors.
+--- Interpolates linearly from `a` (`t` = 0) to `b` (`t` = 1): numbers or vectors.
 --- (a: Vector, b: Vector, t: number) -> Vector
 local function lerp(a: number, b: number, t: number): number
   if type(a) ~= "number" or type(b) ~= "number" or type(t) ~= "number" then
@@ -239,7 +239,7 @@ local function lerp(a: number, b: number, t: number): number
   return a + (b - a) * t
 end
 
---- Maps `x` from one range to another.
+--- Maps `x` linearly from one range to another.
 local function remap(x: number, from: number, to: number, low: number, high: number): number
   check_numbers("remap", x, from, to, low, high)
   return low + (high - low) * (x - from) / (to - from)
@@ -249,7 +249,7 @@ local function smooth(t: number): number
   return t * t * (3 - 2 * t)
 end
 
---- A curve from 0 to 1 that refuses what is no number.
+--- A function from 0 to 1 that refuses arguments that are not numbers.
 local function curve(name: string, curved: (t: number) -> number)
   return function(t: number): number
     if type(t) ~= "number" then
@@ -259,7 +259,7 @@ local function curve(name: string, curved: (t: number) -> number)
   end
 end
 
---- Easing: each maps 0..1 to 0..1.
+--- Easing functions, each from 0 at 0 to 1 at 1.
 local ease = {
   ["in"] = curve("in", function(t)
     return t * t
@@ -287,15 +287,15 @@ local function hash(x: number, y: number, z: number, seed: number): number
     bit32.bxor(x % 4294967296, bit32.lrotate(y % 4294967296, 11), bit32.lrotate(z % 4294967296, 22), seed)
   for _ = 1, 3 do
     h = bit32.bxor(h, bit32.rshift(h, 16))
-    -- The product of two 32-bit numbers does not fit a number exactly, so it is made of two halves.
+    -- The product of two 32-bit numbers exceeds the exact range, so it is computed from two halves.
     local low, high = bit32.band(h, 0xFFFF), bit32.rshift(h, 16)
     h = (low * 0x45D9F3B + (high * 0x45D9F3B % 65536) * 65536) % 4294967296
   end
   return h / 4294967296
 end
 
---- Value noise, smooth, from -1 to 1, with features of size 1, at `x`, `y` (0 unless given) and `z` (0 unless given); another
---- `seed` (0 unless given) gives another field.
+--- Smooth value noise from -1 to 1, with features of size 1, at `x`, `y` (0 unless given) and `z` (0 unless given); `seed`
+--- (0 unless given) selects the noise field.
 local function noise(x: number, y: number?, z: number?, seed: number?): number
   local py, pz, s = y or 0, z or 0, seed or 0
   if type(x) ~= "number" or type(py) ~= "number" or type(pz) ~= "number" or type(s) ~= "number" then
@@ -314,7 +314,7 @@ end
 -- Colours.
 -- As objects take them: { red, green, blue } from 0 to 1, sRGB.
 
---- A colour from `hue` (degrees), `saturation` and `value` (0 to 1).
+--- Creates a colour from `hue` (degrees), `saturation` and `value` (0 to 1).
 local function hsv(hue: number, saturation: number, value: number): { number }
   check_numbers("hsv", hue, saturation, value)
   local function channel(n: number): number
@@ -324,7 +324,7 @@ local function hsv(hue: number, saturation: number, value: number): { number }
   return { channel(5), channel(3), channel(1) }
 end
 
---- A colour from "#rrggbb".
+--- Creates a colour from "#rrggbb".
 local function rgb(hex: string): { number }
   local digits = if type(hex) == "string" then string.match(hex, "^#(%x%x%x%x%x%x)$") else nil
   if not digits then
@@ -349,7 +349,7 @@ end
 
 -- Models.
 
---- What `object` draws by itself, in `begin` and `finish` of its type, as a model that systems place.
+--- Builds a model from what `object` draws in `begin` and `finish` of its type, without a system.
 local function prototype(object: any): Derived
   local system = lsystem({ object = object })
   system:axiom()
@@ -357,8 +357,8 @@ local function prototype(object: any): Derived
 end
 
 -- The turtle's modules --------------------------------------------------------------------------------------
--- The symbols of The Algorithmic Beauty of Plants, for every system whose object is a turtle. Lengths in
--- metres, angles in degrees; what is left out is the turtle's own step, angle or width.
+-- The symbols of The Algorithmic Beauty of Plants, for every system whose object is a turtle. Lengths are in metres,
+-- angles in degrees. An omitted value is the turtle's own step, angle or width.
 
 local names: { [string]: any } = {}
 

@@ -1,6 +1,6 @@
 --!strict
--- A new district that grows onto the streets of a real town: from the open ends of what is there, outwards, around the
--- buildings that stand there, with houses and gardens of its own.
+-- A new district that grows from the open ends of the streets of a real town, around existing buildings, with its own
+-- houses and gardens.
 -- burgeon run scripts/annex.lua --data examples/data -o annex.glb
 local build = require("templates/build")
 local nature = require("templates/nature")
@@ -20,7 +20,7 @@ local reach = param(
 )
 local pattern = param("pattern", { default = "organic", choices = { "organic", "raster", "radial" } })
 
--- How often the way to a street has branched off, by what it is called; what people only walk on is left out.
+-- Hierarchy level by type of street. Footpaths are omitted.
 local DEPTH: { [string]: number } =
   { motorway = 0, trunk = 0, primary = 0, secondary = 0, tertiary = 1, main = 0, unclassified = 1 }
 local LEFT_OUT =
@@ -31,7 +31,7 @@ local existing, ways = {}, {}
 for _, feature in town do
   local kind = feature.highway or feature.kind or ""
   if feature.geometry.kind == "line" and not LEFT_OUT[kind] then
-    -- Its bridges and tunnels are known by its attributes.
+    -- The attributes of a street identify bridges and tunnels.
     table.insert(existing, { lines = feature, depth = DEPTH[kind] or 2 })
     table.insert(ways, feature.geometry)
   end
@@ -53,7 +53,7 @@ local function box(around: number): any
   })
 end
 
--- All geometries of a list in one, by halves.
+-- The union of the geometries of a list, by halves.
 local function united(list: { any }, first: number, last: number): any
   if first >= last then
     return list[first]
@@ -62,7 +62,7 @@ local function united(list: { any }, first: number, last: number): any
   return united(list, first, half):union(united(list, half + 1, last))
 end
 
--- The buildings that are near enough. New streets lead around them; what reaches into a street already is in nobody's way.
+-- The nearby buildings. New streets avoid them. Buildings that already overlap a street are ignored.
 local known: { any }, covered: { any }, obstacles: { any } = {}, {}, {}
 if standing ~= "" then
   local near, all = box(reach), united(ways, 1, #ways)
@@ -87,7 +87,7 @@ local function is_free(geometry: any): boolean
 end
 
 local middle = { (low[1] + high[1]) / 2, (low[2] + high[2]) / 2 }
--- Streets of a district do not end before it is full, and none leaves around a green.
+-- Streets of a district do not end before it is full, and no street starts at a green.
 local patterns: { [string]: () -> any } = {
   organic = function()
     return roads.organic({
@@ -132,7 +132,7 @@ local streets = roads.grow({
   steps = math.ceil(reach / 12) + 10,
 }).objects[1] :: Network
 
--- Lots along the streets where nothing stands: rows of houses that touch, and gardens behind them.
+-- Lots along streets without buildings: rows of adjoining houses, with gardens behind them.
 local STYLES = { "terrace_house", "porto", "terrace_house", "porto", "haussmann", "villa" }
 local houses: { any }, gardens: { any } = {}, {}
 local function house(id: string, geometry: any, style: string, levels: number)
@@ -164,7 +164,7 @@ do
   end
 end
 
--- What stands there already is as the data has it.
+-- Existing buildings have the shape of the data.
 for _, building in known do
   local levels = tonumber(building.floors or building.levels or building["building:levels"])
     or (tonumber(building.height) or 9) / 3
@@ -187,7 +187,7 @@ homes:axiom(source(houses), function(feature)
 end)
 homes:derive()
 
--- The ground: meadows around, gardens and yards in the blocks.
+-- The ground: meadows around the district, gardens and yards in the blocks.
 local blocks = {}
 for _, block in streets:blocks() do
   table.insert(blocks, block.geometry)

@@ -1,6 +1,6 @@
 --!strict
--- A bush that chance shapes: each bud draws one of several fates in proportion to their weights. Another seed
--- (burgeon run scripts/bush.lua --seed 7) gives another bush of the same kind.
+-- A bush of random branches: each bud chooses one of several outcomes by weight. Another seed (burgeon run
+-- scripts/bush.lua --seed 7) gives another bush of the same kind.
 local years = param("years", { default = 7, min = 1, max = 9, step = 1, text = "How often the buds open" })
 local stems = param("stems", { default = 7, min = 1, max = 15, step = 1, text = "Stems out of the ground" })
 local spread = param("spread", { default = 38, min = 10, max = 70, unit = "deg", text = "Between branches" })
@@ -40,7 +40,7 @@ for k = 1, stems do
 end
 bush:axiom(table.unpack(around))
 
--- A bud forks in two, in three, only goes on, or stops growing.
+-- A bud forks in two or three, continues, or stops growing.
 bush:rule("Bud(l, w)", { weight = 4 }, function(this, l, w)
   return Twig(l * random(0.7, 1.2), w),
     Sprig(l),
@@ -61,7 +61,7 @@ bush:rule("Bud(l, w)", { weight = 0.5 }, function(this, l, w)
   return Twig(l * 0.5, w), Sprig(l), Sprig(l)
 end)
 
--- A sprig bears leaves, or now and then a bunch of berries.
+-- A sprig has leaves, or rarely a bunch of berries.
 bush:rule("Sprig(l)", { weight = 4 }, function(this, l)
   local leaves = {}
   for k = 1, 4 do

@@ -1,6 +1,6 @@
 --!strict
--- Roads that are written as a word: F builds a street, + and - bend it, [ and ] hold a branch, and X is rewritten. Bends
--- and branches have angles of their own: with 20 and 90 degrees roads keep apart, with 20 and 20 they are dense.
+-- Roads from a word of an L-system: F builds a street, + and - bend it, [ and ] enclose a branch, and productions
+-- rewrite X. Bends and branches have separate angles: 20 and 90 degrees give spacious roads, 20 and 20 dense ones.
 local roads = require("templates/roads")
 
 local iterations = param("iterations", { default = 7, min = 1, max = 10, step = 1 })

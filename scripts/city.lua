@@ -1,7 +1,7 @@
 --!strict
--- A whole city from nothing but rules and a seed: main and side streets, a river with bridges, quarters of their own kind,
--- lots, buildings and a skyline, on flat land or on hills. Near `detail` every building has its facades; farther off, photos
--- of windows stand in.
+-- A whole city from rules and a seed: main and side streets, a river with bridges, quarters of different kinds, lots,
+-- buildings and a skyline, on flat land or on hills. Buildings near `detail` have facades; distant buildings have
+-- photos of windows.
 -- burgeon run scripts/city.lua -o city.glb
 local build = require("templates/build")
 local nature = require("templates/nature")
@@ -31,7 +31,7 @@ local heart = param("heart", {
   text = "What stands in the middle",
 })
 
--- The river runs from west to east past the middle.
+-- The river runs from west to east past the centre.
 local WATER = -3.5
 local course = math.floor(random() * 1000)
 local aside = extent * 0.33
@@ -52,11 +52,11 @@ local far = extent * 1.6
 local wide = 30 + extent * 0.05
 local water: any = if with_river then river(far, wide) else nil
 local quays: any = if with_river then river(far, wide + 14) else nil
--- What is to be built on ends a little before them, so that no rounding makes it reach into what is in its way.
+-- Areas for buildings end slightly before these areas, so that rounding causes no overlap.
 local banks: any = if with_river then river(far, wide + 14.1) else nil
 
--- The ground, where it is not flat: hills, and the valley of the river. It is there once to be asked, and once with the streets
--- that lie on it.
+-- The terrain, if the ground is not flat: hills, and the valley of the river. The script derives it twice: for
+-- queries, and with the streets on it.
 local middle = { 0, extent * 0.05 }
 local function rise(from: number, to: number, at: number): number
   local along = math.clamp((at - from) / (to - from), 0, 1)
@@ -108,7 +108,7 @@ local function ground(streets: Network?): Terrain
 end
 local bare = if hills > 0 then ground() else nil
 
--- Whether a street may be proposed: bridges lead over the river within the town alone, and not side by side.
+-- Tests if a street may be proposed: bridges cross the river only within the town, and not next to each other.
 local function allowed(streets: Network, from: Vector, to: Vector, depth: number): boolean
   local length = from:distance(to)
   local off = from.y - midstream(from.x)
@@ -136,9 +136,9 @@ local function allowed(streets: Network, from: Vector, to: Vector, depth: number
   return true
 end
 
--- Quarters: which is where, and how its streets run. Main streets lead out to the rim of the country around.
+-- Quarters: their positions and street patterns. Main streets lead to the boundary of the surrounding country.
 local RIM = extent * 1.1 + 60
--- Not quite to the end of the ground, on which the corners of a street lie too.
+-- Slightly inside the boundary of the ground, because the corners of a street also need ground.
 local edge = size / 2 - 8
 local country: any = polygon({ { -edge, -edge }, { edge, -edge }, { edge, edge }, { -edge, edge } })
 if not bare then
@@ -175,12 +175,12 @@ local streets = roads.grow({
   },
 }).objects[1] :: Network
 
--- What is left of an area beside the river.
+-- The rest of an area outside of the river.
 local function dry(geometry: any): any
   return if with_river and geometry:intersects(banks) then geometry:difference(banks) else geometry
 end
 
--- The flat ground: the country around, the blocks, each in the colour of its quarter, and the water.
+-- The flat ground: the surrounding country, the blocks in the colours of their quarters, and the water.
 local land: Terrain? = if bare then ground(streets) else nil
 local function height(x: number, y: number): number
   return if land then land:height(vec(x, y, 0)) else 0
@@ -192,7 +192,7 @@ if not land then
   end
 end
 
--- Fields in the country around, where the ground is flat.
+-- Fields in the surrounding country, on flat ground.
 local FIELD = { 74, 50 }
 local FIELDS = { "#8d9a58", "#a39f63", "#768452", "#93a066", "#b0a56b" }
 if not land then
@@ -226,7 +226,7 @@ if not land then
   end
 end
 
--- Blocks, each of the kind of its quarter. What has no building is green.
+-- Blocks with the properties of their quarter. Areas without a building are green.
 local green: { any } = {}
 local of: { [string]: { any } } = {}
 local plots: { [string]: { any } } = {}
@@ -242,14 +242,14 @@ for _, block in streets:blocks() do
       if area > 250 then
         table.insert(of[kind], { id = block.id, geometry = part })
       else
-        -- What the river leaves of a block is a garden where it is too small to be divided.
+        -- A small rest of a block next to the river is a garden.
         table.insert(green, { id = `{block.id} {#green}`, geometry = part, area = area, use = "rest" })
       end
     end
   end
 end
 
--- Buildings with all of their facades, and those that are only seen from afar.
+-- Buildings with complete facades, and distant buildings.
 local near: { any }, distant: { any } = {}, {}
 local yards: { any } = {}
 local plan: { any } = {}
@@ -280,7 +280,7 @@ for kind, blocks in of do
   if kind == "rows" then
     table.move(lots, 1, #lots, #yards + 1, yards)
   end
-  -- What has no room for a building is a garden.
+  -- A lot without room for a building is a garden.
   table.move(empty, 1, #empty, #green + 1, green)
   for _, building in if land then quarters.raised(buildings, height) else buildings do
     local at = building.lot.access
@@ -289,7 +289,7 @@ for kind, blocks in of do
     table.insert(if is_near then near else distant, building)
   end
 end
--- A layer of maps: `-o city.gpkg`.
+-- A layer for maps: `-o city.gpkg`.
 source(plan, { table = "lots" })
 
 local parks = {}
@@ -328,7 +328,7 @@ if with_trees then
       })
     end
   end
-  -- Behind the houses of rows there are small trees, and sheds.
+  -- Small trees and sheds behind row houses.
   local sheds = {}
   for _, lot in yards do
     local chance, behind = random(), random(15, math.max(16, lot.depth - 2.5))
@@ -345,7 +345,7 @@ if with_trees then
     end
   end
   nature.sheds(sheds)
-  -- Woods in the country around.
+  -- Woods in the surrounding country.
   for wood = 1, 26 do
     local angle, away = math.rad(random(0, 360)), extent * random(0.8, 1.12)
     for number = 1, 16 do
@@ -361,7 +361,7 @@ if with_trees then
   nature.trees(trees)
 end
 
--- Lamps, as far (m) to the north, east, south and west as they can be seen from the middle.
+-- Lamps within the visible distance (m) north, east, south and west of the centre.
 local LIT = 700
 local lamps = {}
 for _, lamp in streets:verge("lamp") do

@@ -1,6 +1,6 @@
 --!strict
--- The dragon curve: a strip of paper, folded in half again and again the same way round, and opened until every
--- fold is a quarter turn. It is drawn as a wall that rises along the way, each fold rounded to an arc.
+-- The dragon curve: a strip of paper, folded in half repeatedly in the same direction, and opened until every fold is
+-- a right angle. A wall that rises along the strip draws it, with each fold rounded to an arc.
 local folds =
   param("folds", { default = 11, min = 1, max = 14, step = 1, text = "How often the strip is folded" })
 local angle = param(
@@ -12,7 +12,7 @@ local height =
 local thickness =
   param("thickness", { default = 0.34, min = 0.05, max = 0.4, unit = "m", text = "Of the wall" })
 
-local Strip = module("Strip", "n", "side", "from", "to") -- still to be folded n times; from 0 to 1 along the way
+local Strip = module("Strip", "n", "side", "from", "to") -- n folds remain; from 0 to 1 along the strip
 local Fold = module("Fold", "side", "at")
 
 local COLORS = 40
@@ -25,7 +25,7 @@ end
 
 local dragon = lsystem({
   object = extruder({
-    -- The way is level, so the section's y points down.
+    -- The path is level, so the y axis of the section points down.
     heading = { 0, 1, 0 },
     shape = { { -thickness / 2, -1 }, { thickness / 2, -1 }, { thickness / 2, 0 }, { -thickness / 2, 0 } },
     along = 5,
@@ -36,7 +36,7 @@ local dragon = lsystem({
 
 dragon:axiom(Strip(folds, 1, 0, 1))
 
--- Both halves of a strip are folded like the whole, but the second one is seen from behind.
+-- Both halves of a strip are folded like the whole, but the second half is seen from behind.
 dragon:rule("Strip(n, side, from, to)", function(this, n: number, side, from, to)
   if n == 0 then
     return nil
@@ -45,7 +45,7 @@ dragon:rule("Strip(n, side, from, to)", function(this, n: number, side, from, to
   return Strip(n - 1, 1, from, middle), Fold(side, middle), Strip(n - 1, -1, middle, to)
 end)
 
--- An arc between the middles of two edges that measure 1 m.
+-- An arc between the centres of two edges of 1 m.
 dragon:interpret("Fold(side, at)", function(this, side, at)
   local radius = 0.5 / math.tan(math.rad(angle / 2))
   local rise = lerp(0.5, height, at)

@@ -1,7 +1,7 @@
 --!strict
--- A flowering herb: The Algorithmic Beauty of Plants, section 3.3. For a while the apex makes leaves and buds. Then
--- it becomes a flower and sends a signal down the stem, an internode at each step. Where the signal passes it
--- turns buds into flowers, so the uppermost open first and the lowest are the youngest.
+-- A flowering herb: The Algorithmic Beauty of Plants, section 3.3. First the apex creates leaves and buds. Then it
+-- becomes a flower and sends a signal down the stem, one internode per step. The signal turns buds into flowers, so
+-- the uppermost flowers open first and the lowest are the youngest.
 local age =
   param("age", { default = 27, min = 1, max = 48, step = 1, unit = "days", text = "Steps of growth" })
 local flowering =
@@ -10,15 +10,15 @@ local angle =
   param("angle", { default = 52, min = 20, max = 80, unit = "deg", text = "Between the stem and its leaves" })
 local petals = param("petals", { default = "#8377dd", text = "Colour of the flowers" })
 
-local Seed = module("Seed", "day") -- sleeps for some days
+local Seed = module("Seed", "day") -- dormant for some days
 local Apex = module("Apex", "day")
-local Internode = module("Internode", "age", "signal") -- the signal is 1 where it has passed
+local Internode = module("Internode", "age", "signal") -- signal is 1 after the signal has passed
 local Leaf = module("Leaf", "age")
 local Bud = module("Bud")
 local Stalk = module("Stalk", "age")
 local Flower = module("Flower", "age")
 
--- A blade in strips to both sides of a rib that is 1 m long and bends by `arch` (degrees) on its way.
+-- A blade in strips on both sides of a rib of 1 m, which bends by `arch` (degrees) over its length.
 local Rib = module("Rib", "k", "arch", "width")
 local function blade(color, arch: number, width: number)
   local system = lsystem({ object = turtle({ color = color, roughness = 0.65 }) })
@@ -91,7 +91,7 @@ herb:rule("Apex(day)", function(this, day)
     Apex(day + 1)
 end)
 
--- The signal comes from the internode above and goes on to the bud beside.
+-- The signal comes from the internode above and continues to the bud next to it.
 herb:rule("Internode(a, s) > Internode(b, t)", {
   when = function(this, a, s, b, t)
     return s < t
@@ -110,7 +110,7 @@ herb:rule("Internode(a, s) < Bud", {
   return Stalk(0), Flower(0)
 end)
 
--- Everything grows with age.
+-- Size increases with age.
 herb:rule("Leaf(a)", function(this, a: number)
   return Leaf(a + 1)
 end)

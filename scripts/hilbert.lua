@@ -1,6 +1,6 @@
 --!strict
--- Hilbert's curve through all cells of a cube, drawn as a pipe with round bends. The curve through a cube is eight
--- curves through its octants, each turned so that it ends beside where the next one begins.
+-- The Hilbert curve through all cells of a cube, drawn as a pipe with round bends. The curve through a cube consists
+-- of eight curves through its octants, each rotated so that it ends next to the start of the next one.
 local level =
   param("level", { default = 3, min = 1, max = 4, step = 1, text = "How often the cube is divided" })
 local width =
@@ -8,7 +8,7 @@ local width =
 local round = param("round", { default = 0.8, min = 0, max = 0.95, text = "How much of the way is bends" })
 local pieces = param("pieces", { default = 6, min = 1, max = 16, step = 1, text = "Pieces of a bend" })
 
--- A cube with its first cell at p, extending along the axes a, b and c; the curve ends in the direction a.
+-- A cube with its first cell at p, along the axes a, b and c; the curve ends in the direction a.
 local Cube = module("Cube", "p", "a", "b", "c", "n", "index")
 local Cell = module("Cell", "p", "index")
 local Bend = module("Bend", "from", "through", "to", "index")
@@ -43,7 +43,7 @@ curve:rule("Cube(p, a, b, c, n, i)", function(this, p, a, b, c, n: number, i)
     Cube(p + a * far + c * (half - 1), -c, -a, b, n - 1, i + cells * 7)
 end)
 
--- Once there are only cells, each learns from its neighbours whence the pipe comes and whither it goes.
+-- When only cells remain, each cell reads from its neighbours where the pipe enters and leaves.
 curve:rule("Cell(p, h) < Cell(q, i) > Cell(r, j)", function(this, p, h, q, i, r)
   return Bend((p + q) / 2, q, (q + r) / 2, i)
 end)
@@ -54,7 +54,7 @@ curve:rule("Cell(p, h) < Cell(q, i)", function(this, p, h, q, i)
   return Bend((p + q) / 2, (p + q * 3) / 4, q, i)
 end)
 
--- A quarter of a circle around the corner with straight ends; all straight where the three places are in line.
+-- A quarter circle around the corner with straight ends; a straight pipe if the three positions are in line.
 curve:interpret("Bend(p, q, r, i)", function(this, p, q, r, i)
   this:width(width):paint(math.floor(i / 8 ^ level * COLORS) + 1)
   local here = p

@@ -1,5 +1,5 @@
 --!strict
--- Six plans under roofs of every kind: footprints with groundwork, walls, a straight skeleton above, and chimneys.
+-- Six plans with roofs of every kind: footprints with groundwork, walls, a straight skeleton, and chimneys.
 local kinds = {
   "flat",
   "shed",
@@ -28,7 +28,7 @@ local overhang =
   param("overhang", { default = 0.6, min = 0, max = 2, unit = "m", text = "Width of the eaves" })
 local furnished = param("furnished", { default = true, text = "Whether chimneys and gutters are shown" })
 
--- A ring is written as "x y, x y, ..."; it lies on ground that rises to the east.
+-- A ring is written as "x y, x y, ...". The ground rises to the east.
 local function ring(text: string, east: number, north: number)
   local points = {}
   for x, y in string.gmatch(text, "(%-?%d+)%s+(%-?%d+)") do
@@ -61,7 +61,7 @@ for index, plan in plans do
   table.insert(features, { id = tostring(index), rings = rings, roof = plan.roof, color = plan.color })
 end
 
--- What stands on the roofs: a chimney 0.6 m wide, and a metre of gutter.
+-- Models on the roofs: a chimney of 0.6 m width, and a gutter of 1 m.
 local Stack = module("Stack")
 local masonry = lsystem({ object = extruder({ color = "#9a5b45", smooth = false }) })
 masonry:axiom(Stack())

@@ -1,6 +1,7 @@
 --!strict
--- Koch's snowflake in relief. Seven snowflakes tile a snowflake: one in the middle, smaller by the root of 3 and
--- turned by 30 degrees, and six around it at a third. So each flake is a terrace that bears seven more.
+-- The Koch snowflake in relief. Seven snowflakes tile a snowflake: one in the centre, scaled by 1 / sqrt(3) and
+-- rotated by 30 degrees, and six around it at a third of the size. Each flake is therefore a terrace with seven
+-- smaller terraces.
 local terraces =
   param("terraces", { default = 4, min = 0, max = 5, step = 1, text = "Terraces on each other" })
 local radius =
@@ -11,8 +12,8 @@ local gap = param("gap", { default = 0.03, min = 0, max = 0.2, text = "Between f
 local low = param("low", { default = "#16407f", text = "Colour of the lowest terrace" })
 local high = param("high", { default = "#f4fbff", text = "Colour of the highest" })
 
--- First the outline: on the middle third of each edge grows a triangle, and on its edges smaller ones again.
-local Edge = module("Edge", "length", "n") -- n generations are still to grow on it, to its right
+-- The outline: a triangle grows on the middle third of each edge, and smaller triangles on its edges.
+local Edge = module("Edge", "length", "n") -- n generations remain, to its right
 local Triangle = module("Triangle", "length")
 local Corner = module("Corner", "angle")
 local Along = module("Along", "length")
@@ -49,7 +50,7 @@ local function snowflake(generations: number, color)
   plate:interpret("Along(l)", function(this, l)
     this:advance(l)
   end)
-  -- Pitched up, the extruder has the outside to its right; a triangle's middle is l / sqrt(12) from its edges.
+  -- Pitched up, the extruder has the outside to its right. The centre of a triangle is l / sqrt(12) from its edges.
   plate:interpret("Triangle(l)", function(this, l)
     this:pitch(-90):shift(l / math.sqrt(12), l / 2)
     this:scale(l / math.sqrt(3)):extrude(thickness)
@@ -57,7 +58,7 @@ local function snowflake(generations: number, color)
   return plate:derive()
 end
 
--- A plate for each size and each tint. Small ones need fewer generations.
+-- A plate for each size and each tint. Small plates need fewer generations.
 local plates = {}
 for n = 0, terraces do
   plates[n] = {}
@@ -66,7 +67,7 @@ for n = 0, terraces do
   end
 end
 
--- Then the terraces. The rank of a flake tells how often it is the middle one, and so how high it lies.
+-- The terraces. The rank of a flake is the number of its central ancestors, which sets its height.
 local Flake = module("Flake", "radius", "n", "rank")
 local relief = lsystem({ object = turtle({}), interpret = "last" })
 relief:axiom(Flake(radius, terraces, 0))

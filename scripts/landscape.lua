@@ -1,5 +1,5 @@
 --!strict
--- Landscapes of five kinds: a square that is divided into quadrants, with rules that say what each quadrant adds.
+-- Landscapes of five kinds: a square is divided into quadrants, and rules define the change of each quadrant.
 local kinds = { "mountains", "hills", "ridge", "crater", "plain" }
 local kind = param("kind", { default = "mountains", choices = kinds, text = "What rises there" })
 local size = param("size", { default = 3000, min = 500, max = 50000, unit = "m", text = "Length of a side" })
@@ -8,8 +8,8 @@ local levels =
 local rough = param("rough", { default = 1, min = 0, max = 2, text = "How much finer cells add" })
 local trees = param("trees", { default = true, text = "Whether trees grow" })
 
--- What a kind is: the height (m) that its form has at a place from -1 to 1, how much noise there is at first and how much
--- of it is left from level to level, what becomes of the noise's heights, and where water stands and snow lies.
+-- Properties of a kind: the height (m) of its form at a position from -1 to 1, the initial noise and its decay from
+-- level to level, a mapping of the noise heights, the water level and the snow line.
 type Kind = {
   form: ((x: number, y: number) -> number)?,
   noise: number,
@@ -24,7 +24,7 @@ local function rise(from: number, to: number, at: number): number
   return along * along * (3 - 2 * along)
 end
 local shapes: { [string]: Kind } = {
-  -- Folded noise: where it is near to nothing there is a crest, and far from that a valley.
+  -- Folded noise: values near zero become a crest, values far from zero a valley.
   mountains = {
     noise = 0.24,
     decay = 0.52,
@@ -56,7 +56,7 @@ local shapes: { [string]: Kind } = {
     end,
     noise = 0.075,
     decay = 0.535,
-    -- Valleys are filled up, so that none is below the base.
+    -- Valleys are filled up to the base.
     remap = { { -0.2, -0.046 }, { -0.05, -0.04 }, { -0.025, -0.025 }, { 0.3, 0.3 } },
     snow = 0.11,
     rivers = 4,
@@ -87,7 +87,7 @@ for index, pair in shape.remap or {} do
   remap[index] = { pair[1] * size, pair[2] * size }
 end
 
--- A cell knows its noise, its form, where its middle is, how wide it is (the whole is 2), and how much noise is left.
+-- Parameters of a cell: noise, form, centre, width (the whole is 2), and remaining noise.
 local Ground = module("Ground", "height", "form", "x", "y", "width", "noise")
 local cells = lsystem()
 cells:axiom(Ground(0, 0, 0, 0, 2, shape.noise * size))
@@ -133,11 +133,11 @@ if trees then
   plants = {
     {
       models = { conifer(13, "#2f4526"), conifer(17, "#37502b"), conifer(10, "#425a30") },
-      -- Of a very large square one sees no single tree.
+      -- Single trees are invisible on a very large square.
       density = math.min(60, 1.2e10 / (size * size)),
       on = {
         slope = { 32, 20 },
-        -- Up to the line of trees, or from the shore on.
+        -- Up to the tree line, or from the shore.
         height = if shape.water then { shore + size / 700, shore + size / 350 } else { line, line * 0.6 },
         noise = 0.5,
         patches = 0.92,
@@ -180,15 +180,15 @@ for index = 1, shape.rivers or 0 do
   springs[index] = Spring(random(-0.35, 0.35) * size, random(-0.35, 0.35) * size)
 end
 land:axiom(table.unpack(springs))
--- The bed of a river is cut through whatever stands in its way, so each rises at the first place around its spring from where
--- no deep cut is needed.
+-- The bed of a river cuts through obstacles, so a river starts at the first position near its source that needs no
+-- deep cut.
 land:interpret("Spring(x, y)", function(this, x, y)
   local width = size / 170
   for turn = 0, 80 do
     local away, way = size * 0.035 * math.sqrt(turn), math.rad(137.5 * turn)
     local at = { x + away * math.cos(way), y + away * math.sin(way) }
     local inside = math.max(math.abs(at[1]), math.abs(at[2])) < 0.45 * size
-    -- None rises in the water or near its shore.
+    -- No river starts in the water or near its shore.
     if inside and this:height(at) > shore + size / 200 then
       local cut = this:river_cut(at, width)
       if cut and cut < math.max(width, 10) then

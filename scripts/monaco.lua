@@ -1,5 +1,5 @@
 --!strict
--- Buildings on hills: footprints with heights stand on measured ground, to which rules add what lies between its samples.
+-- Buildings on hills: footprints with heights on measured terrain; rules add detail between its samples.
 -- burgeon run scripts/monaco.lua --data FOLDER -o monaco.png, with monaco.gpkg and N43E007.hgt.zip in that folder
 local file = param("buildings", { default = "monaco.gpkg:buildings", text = "The buildings: FILE:LAYER" })
 local heights = param("elevation", { default = "N43E007.hgt.zip", text = "The heights of the ground" })
@@ -53,7 +53,8 @@ local land = lsystem({
 })
 local ground = land:derive().objects[1]
 
--- Where the data tells neither height nor storeys: towers by the harbour are wide, houses on the slopes are small.
+-- If the data has neither height nor storeys: wide buildings near the harbour are towers, small ones on the slopes
+-- are houses.
 local function guess(feature): number
   local wide = feature.building == "apartments" or feature.building == "hotel"
   return if wide then 9 else 5

@@ -1,6 +1,6 @@
 --!strict
--- A tree with one trunk, after Honda's rules: The Algorithmic Beauty of Plants, figure 2.6. The apex goes on
--- straight; what branches from it divides to the left and to the right by turns, in level planes.
+-- A monopodial tree, after Honda's rules: The Algorithmic Beauty of Plants, figure 2.6. The apex grows straight; its
+-- branches divide alternately to the left and to the right, in horizontal planes.
 local years =
   param("years", { default = 11, min = 1, max = 12, step = 1, text = "How often the apices grow" })
 local trunk =
@@ -13,14 +13,14 @@ local fork = param("fork", { default = 42, min = 10, max = 90, unit = "deg", tex
 local leaves = param("leaves", { default = true, text = "Whether twigs bear leaves" })
 
 local GOLDEN = 137.5 -- degrees from one branch of the trunk to the next, as in most plants
-local THINNER = 0.707 -- the cross-sections of two branches add up to that of their parent, said Leonardo
+local THINNER = 0.707 -- the cross-sections of two branches add up to that of their parent (Leonardo's rule)
 
 local Apex = module("Apex", "length", "width")
 local LeftBud = module("LeftBud", "length", "width")
 local RightBud = module("RightBud", "length", "width")
 local Wood = module("Wood", "length", "width")
 
--- A leaf is a system of its own, with the two halves of its blade folded along the middle. It is made once and
+-- A leaf is a system of its own, with the two halves of its blade folded along the midrib. It is built once and
 -- placed a thousand times.
 local leaf = lsystem({ object = turtle({ color = "#6f9a3a", roughness = 0.6 }) })
 local function half(side: number)
@@ -63,7 +63,7 @@ tree:rule("RightBud(l, w)", function(this, l, w)
     LeftBud(l * trunk, w * THINNER)
 end)
 
--- Young wood bears leaves to both sides.
+-- Young wood has leaves on both sides.
 tree:interpret("Wood(l, w)", function(this, l, w)
   this:width(w):forward(l)
 end)

@@ -1,6 +1,6 @@
 --!strict
--- An old town within its wall: crooked lanes, rows of narrow houses, a market square with a church, gates where the streets
--- leave, and fields around.
+-- An old town within its wall: crooked lanes, rows of narrow houses, a market square with a church, gates at the
+-- exits, and surrounding fields.
 -- burgeon run scripts/oldtown.lua -o oldtown.glb
 local build = require("templates/build")
 local nature = require("templates/nature")
@@ -53,7 +53,7 @@ local lanes = roads.grow({
   },
 }).objects[1] :: Network
 
--- A church in the middle of a block, as long as there is room for it, and at least 18 m; nil where there is none.
+-- A church in the centre of a block, as long as fits, at least 18 m; nil if it does not fit.
 local function church_in(block: any): any
   local middle = block.geometry:point_on_surface()
   local shape = block.geometry:oriented_envelope().rings[1]
@@ -73,7 +73,7 @@ local function church_in(block: any): any
   return nil
 end
 
--- The streets that lead out end where none goes on; the wall goes around all others.
+-- Exits end where no other street continues. The wall surrounds all other streets.
 local blocks = lanes:blocks()
 local leads_out: { [number]: boolean } = {}
 for _, open in lanes:open_ends() do
@@ -89,12 +89,12 @@ for _, street in lanes:streets() do
     end
   end
 end
--- Without a street the wall goes around the middle.
+-- Without streets, the wall surrounds the centre.
 local hull = if #corners > 2 then line(corners):convex_hull() else point(0, 0):buffer(extent / 2)
 local centre = hull:centroid()
 
--- The market is the block next to the middle, if possible one with room for a church; all others are divided into narrow
--- lots, and so is what of a great one lies farther from the church than a market reaches.
+-- The market is the block next to the centre, if possible one with room for a church. All other blocks are divided
+-- into narrow lots, and so are the parts of a large market that are far from the church.
 local MARKET = 2400
 local market, church, least = nil :: any, nil :: any, math.huge
 for _, block in blocks do
@@ -114,7 +114,7 @@ for _, block in blocks do
     local open = block.geometry:exterior_ring():nearest_point(middle)
     local entry = line({ { middle:x(), middle:y() }, { open:x(), open:y() } }):buffer(9)
     square = block.geometry:intersection(church:buffer(10):convex_hull():union(entry))
-    -- Parts that touch in a corner alone come apart.
+    -- Parts that touch only in a corner are separated.
     for number, part in block.geometry:difference(square):inset(0.05):geometries() do
       if part:area() > 60 then
         table.insert(built, { id = `{block.id} {number}`, geometry = part })
@@ -123,7 +123,7 @@ for _, block in blocks do
   end
 end
 
--- Houses, the front ones in rows that touch.
+-- Houses; the front houses form rows.
 local STYLES = { "half_timbered", "half_timbered", "porto", "row_house", "half_timbered", "porto" }
 local houses: { any }, yards: { any } = {}, {}
 for _, lot in
@@ -151,7 +151,7 @@ do
         })
       end
     end
-    -- What has no room for a house is a yard.
+    -- A lot without room for a house is a yard.
     if #houses == before then
       table.insert(yards, lot)
     end
@@ -160,7 +160,7 @@ do
   end
 end
 
--- Paths go on where the streets end that lead out, or begin at the wall, where no street does.
+-- Paths continue from the ends of exits, or begin at the wall if there is no street.
 local REACH = extent * 1.2 + 110
 local country = point(centre:x(), centre:y()):buffer(REACH)
 local paths: { any }, path: any = {}, nil
@@ -168,7 +168,7 @@ local function track(from: Vector, heading: number): any
   local places, turned, at = { { from.x, from.y } }, heading, from
   while point(at.x, at.y):within(country) do
     at += 24 * vec(math.cos(math.rad(turned)), math.sin(math.rad(turned)), 0)
-    -- It swings, and leads away from the town.
+    -- The path winds and leads away from the town.
     local out = math.deg(math.atan2(at.y - centre:y(), at.x - centre:x()))
     turned += 0.4 * ((out - turned + 180) % 360 - 180) + random(-12, 12)
     table.insert(places, { at.x, at.y })
@@ -177,7 +177,7 @@ local function track(from: Vector, heading: number): any
 end
 for _, open in lanes:open_ends() do
   local out = vec(math.cos(math.rad(open.heading)), math.sin(math.rad(open.heading)), 0)
-  -- It begins below the sidewalk around the street's end.
+  -- The path begins below the sidewalk around the end of the street.
   local way = track(open.place + out * 4.4, open.heading):buffer(2):intersection(country)
   table.insert(paths, way)
 end
@@ -197,7 +197,7 @@ if #exits == 0 then
   table.insert(exits, { geometry = way, width = 5.2 })
 end
 
--- Between the lanes and the wall houses stand by themselves.
+-- Detached houses between the lanes and the wall.
 local yard = hull:buffer(8)
 for _, site in
   lanes:sites({
@@ -249,11 +249,11 @@ end
 quarters.areas(ground, -0.3, 0.14, "#8d8a6c")
 quarters.areas(paths, -0.3, 0, "#8a8074")
 if market then
-  -- It is paved below the lots around it too, for what is too small for them.
+  -- The paving continues below the surrounding lots, because some areas are too small for a lot.
   quarters.areas({ market.geometry }, -0.3, 0.13, "#b0a492")
 end
 
--- A fountain and stalls on the market, away from the church and from what lies around.
+-- A fountain and stalls on the market, away from the church and from the surroundings.
 local Stall, Model, Fountain =
   module("Stall", "turned"), module("Model", "color"), module("Fountain", "place")
 if market then
@@ -305,7 +305,7 @@ if market then
   end
 end
 
--- The wall with its towers. A gate stands where a street crosses it, as wide as the street.
+-- The wall with its towers. A gate is at each crossing with a street, as wide as the street.
 local Wall = module("Wall", "shape", "height", "color")
 local Tower = module("Tower", "place", "radius", "height")
 local TOWER, GATE_TOWER = 3.6, 3.1
@@ -347,7 +347,7 @@ if wall_height > 0 then
     local length = ring:length()
     local at = ring:line_locate(point(gate.place.x, gate.place.y)) * length
     for side = -1, 1, 2 do
-      -- Beside the street, however it meets the wall.
+      -- Next to the street, at any angle to the wall.
       local away, beside: any = 0, nil
       repeat
         away += 0.5

@@ -1,6 +1,6 @@
 --!strict
--- A planet of seas and continents, seen from its orbit down to the ground. Its faces divide by rules for three
--- scales: plates of rock and the deep, then lowlands and mountain belts, then meadows and crags.
+-- A planet of seas and continents, from orbit to the ground. Its faces divide by rules for three scales: continental
+-- plates and deep sea, then lowlands and mountain belts, then meadows and crags.
 local seed = param("seed", { default = 129, min = 0, max = 1000, step = 1, text = "Which planet it is" })
 local approach =
   param("approach", { default = 0, min = 0, max = 1, text = "From the orbit (0) down to the ground (1)" })
@@ -10,8 +10,8 @@ local sea = param("sea", { default = 0, min = -3000, max = 3000, unit = "m", tex
 local cold =
   param("cold", { default = 0, min = -20, max = 40, unit = "deg", text = "How far the ice reaches" })
 
--- Each rule has a symbol and a change of height for each quadrant. The changes are drawn, and become smaller with
--- every level: by the decay.
+-- Each rule has a symbol and a height change for each quadrant. The changes are random, and the decay reduces them on
+-- each level.
 local ANY, SOME, FEW = { -1, 1 }, { -0.6, 0.6 }, { -0.35, 0.35 }
 local UP, DOWN = { 0.1, 1.1 }, { -1.1, -0.1 }
 
@@ -50,7 +50,7 @@ local soil = {
   },
 }
 
--- The eye comes down to a coast: each step of the way divides its height by the same number.
+-- The eye descends to a coast: each step divides its height by the same number.
 local height = 3 * radius * (2 / (3 * radius)) ^ approach
 
 local land = lsystem({
@@ -76,7 +76,7 @@ local land = lsystem({
       { color = "#6f8246", on = { latitude = { 30, 38 }, noise = 0.6, scale = radius / 10 } },
       { color = "#3c5a38", on = { latitude = { 45, 54 }, noise = 0.6, scale = radius / 14 } },
       { color = "#8a8566", on = { latitude = { 60 - cold, 67 - cold }, noise = 0.5, scale = radius / 14 } },
-      -- Woods and meadows, which one sees from nearer and nearer.
+      -- Woods and meadows, which appear as the eye comes nearer.
       { color = "#34502a", on = { noise = 1, scale = 60000, height = { 1100, 600 } }, amount = 0.45 },
       { color = "#7d8450", on = { patches = 1, scale = 4000 }, amount = 0.35 },
       { color = "#3b4a26", on = { patches = 1, scale = 250 }, amount = 0.4 },

@@ -1,6 +1,6 @@
 --!strict
--- A town's streets and nothing else, by one of the patterns of templates/roads.lua. Rules say where streets want to go;
--- the network says what becomes of them, and keeps their distances, angles and corners.
+-- The street network of a town, by one of the patterns of templates/roads.lua. Rules propose streets; the network
+-- decides about them, and keeps distances, angles and corners.
 local roads = require("templates/roads")
 
 local pattern = param("pattern", {
@@ -11,13 +11,13 @@ local extent =
   param("extent", { default = 1000, min = 150, max = 5000, unit = "m", text = "From the middle" })
 local dead_ends = param("dead_ends", { default = "keep", choices = { "keep", "remove" } })
 
--- Hills, for streets that go around them.
+-- Hills for the contour pattern.
 local hills = math.floor(random() * 1000000)
 local function height(x: number, y: number): number
   return 60 * noise(x / 500, y / 500, 0.5, hills)
 end
 
--- People, who live around a middle and two villages.
+-- The population around a centre and two villages.
 local function people(x: number, y: number): number
   local function near(east: number, north: number, reach: number): number
     return math.exp(-((x - east) ^ 2 + (y - north) ^ 2) / (2 * reach * reach))
@@ -27,7 +27,7 @@ local function people(x: number, y: number): number
     + 0.6 * near(-extent * 0.3, -extent * 0.65, extent * 0.16)
 end
 
--- A small town has small blocks and is one quarter.
+-- A small town has small blocks and one quarter.
 local small = math.clamp(0.5 + extent / 1200, 0.6, 1)
 local variety = math.min(1, extent / 600)
 
@@ -83,7 +83,7 @@ local options = ways[pattern]()
 options.extent = extent
 options.dead_ends = dead_ends
 options.network = {
-  -- The greater a street, the darker.
+  -- Larger streets are darker.
   streets = {
     { name = "main street", width = 24, lanes = 4, sidewalk = 4, asphalt = "#43474d" },
     { name = "street", width = 16, lanes = 2, parking = 2.2, sidewalk = 3, asphalt = "#5b6067" },

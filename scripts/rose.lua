@@ -1,6 +1,6 @@
 --!strict
--- A Gothic rose window. A rose is a ring of stone with a smaller rose in its middle and a wreath of roses around
--- it, each touching its neighbours and the ring. The smallest are panes of coloured glass.
+-- A Gothic rose window. A rose is a ring of stone with a smaller rose in its centre and a wreath of roses around it;
+-- each touches its neighbours and the ring. The smallest roses are panes of coloured glass.
 local depth = param("depth", { default = 3, min = 1, max = 4, step = 1, text = "Roses within roses" })
 local petals =
   param("petals", { default = 12, min = 5, max = 20, step = 1, text = "Roses in the outer wreath" })
@@ -29,7 +29,7 @@ local window = lsystem({
 
 window:axiom({ Wall() }, Rose(radius, depth, petals, 2))
 
--- A circle that touches its neighbours in a wreath of `count` and the ring around them has this part of its radius.
+-- The fraction of the ring's radius for a circle that touches its neighbours in a wreath of `count`, and the ring.
 local function share(count: number): number
   local sine = math.sin(math.pi / count)
   return sine / (1 + sine)
@@ -43,7 +43,7 @@ window:rule("Rose(r, n, count, tint)", function(this, r, n, count, tint)
   end
   local small = clear * share(count)
   local middle = clear - 2 * small
-  -- The middle of the whole is large enough for one more.
+  -- The centre of the window has room for one more rose.
   local middle_n = if r == radius then n else n - 1
   local parts: { any } =
     { { Ring(r, width) }, { Pane(clear, tint + 2) }, { Rose(middle, middle_n, inner, tint + 1) } }
@@ -61,13 +61,13 @@ window:interpret("Around(angle, distance)", function(this, angle, distance)
   this:shift(distance * math.cos(place), distance * math.sin(place))
 end)
 
--- From the rightmost point, upwards and to the left all the way round.
+-- From the rightmost point, counter-clockwise all the way round.
 window:interpret("Ring(r, width)", function(this, r, width)
   this:shift(r, 0):pitch(-90):bend(360, 0):regular(8):scale(width / 2, width * 0.8)
   this:resolution(math.ceil(16 + 56 * r / radius), 0):extrude(2 * math.pi * r)
 end)
 
--- Smaller panes are thicker, so that they stand out of the ones behind them.
+-- Smaller panes are thicker, so that they project from the panes behind them.
 window:interpret("Pane(r, tint)", function(this, r, tint)
   local color = rgb(GLASS[tint % #GLASS + 1])
   this:smooth(false):regular(math.ceil(20 + 60 * r / radius)):scale(r):advance(-0.1)

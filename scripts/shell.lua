@@ -1,6 +1,6 @@
 --!strict
--- A sea shell. Its animal adds a piece to the mouth again and again, each in the same way and a little larger than
--- the last: the same bend, the same twist, the same ratio. That alone makes the spiral.
+-- A sea shell. The animal adds segments at the mouth, each a little larger than the last, with the same bend, the
+-- same twist and the same ratio. This alone forms the spiral.
 local pieces =
   param("pieces", { default = 144, min = 10, max = 300, step = 1, text = "Pieces that have been added" })
 local growth =
@@ -41,7 +41,7 @@ shell:rule("Mouth(n, r)", function(this, n, r)
   return Piece(n, r), Mouth(n + 1, r * growth)
 end)
 
-local LENGTH = 0.36 -- of a piece by its radius
+local LENGTH = 0.36 -- of a segment, relative to its radius
 
 shell:interpret("Facing(angle)", function(this, angle)
   this:turn(angle)

@@ -1,5 +1,5 @@
 --!strict
--- All building styles side by side on the same plans: two rectangles and an L, in a row or each by itself.
+-- All building styles on the same plans: two rectangles and an L, in a row or detached.
 -- burgeon run scripts/styles.lua -o styles.glb
 local build = require("templates/build")
 
@@ -29,7 +29,7 @@ for _, name in if only == "all" then build.names else { only } do
   local gap = usual.gap or 0
   local second = w + gap
   plan(2, { { second, 0 }, { second + w, 0 }, { second + w, d }, { second, d } })
-  -- The corner house goes back nearly as far again as it is deep.
+  -- The corner house extends back by nearly its own depth again.
   local from = 2 * second
   local to, back = from + 1.2 * math.max(w, d), 1.8 * d
   local wing = to - math.min(d, (to - from) * 0.6)

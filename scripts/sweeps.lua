@@ -1,7 +1,7 @@
 --!strict
--- Four models from the same rules, as in figure 3 of the ML-System paper: recursion 1 at low and at high
--- resolution behind, recursion 2 and 3 in front. An arm is a row of segments, each with a length, a curvature,
--- a twist and a scale of its own; with each further level of recursion its segments bear arms themselves.
+-- Four models from the same rules, as in figure 3 of the ML-System paper: recursion 1 at low and at high resolution
+-- in the back, recursion 2 and 3 in front. An arm is a row of segments, each with its own length, curvature, twist
+-- and scale. Each further level of recursion adds arms to the segments.
 local segments = param("segments", { default = 14, min = 5, max = 18, step = 1, text = "Segments of an arm" })
 local curl =
   param("curl", { default = 58, min = 0, max = 80, unit = "deg", text = "Bend of the last segment" })
@@ -10,13 +10,13 @@ local lobes = param("lobes", { default = 5, min = 3, max = 9, step = 1, text = "
 
 local TAPER = 0.86 -- from one segment to the next
 
-local Arm = module("Arm", "n", "radius", "level", "fineness") -- what is still to grow: n segments
+local Arm = module("Arm", "n", "radius", "level", "fineness") -- n segments remain
 local Section = module("Section", "fineness")
 local Segment = module("Segment", "radius", "curvature")
 local Tip = module("Tip", "radius")
-local Leave = module("Leave", "angle", "radius") -- turns to where a side arm leaves
+local Leave = module("Leave", "angle", "radius") -- turns to the start of a side arm
 
--- Fineness is the number of pieces of a segment and of points to a lobe.
+-- Fineness is the number of pieces per segment and of points per lobe.
 local models = source({
   { id = "recursion 1, low", recursion = 1, fineness = 2, color = "#c8553d", place = { -8, 2.8, 0 } },
   { id = "recursion 1, high", recursion = 1, fineness = 10, color = "#e3a03b", place = { 2.6, 2.8, 0 } },
@@ -26,7 +26,7 @@ local models = source({
 
 local sweeps = lsystem({ object = extruder({}), interpret = "last" })
 
--- Each model has an extruder of its own, so the four grow at the same time.
+-- Each model has its own extruder, so the four models grow in parallel.
 sweeps:axiom(models, function(model)
   local fineness = model.fineness
   local body =
@@ -34,7 +34,7 @@ sweeps:axiom(models, function(model)
   return body, Section(fineness), Arm(segments, 1.15, model.recursion, fineness)
 end)
 
--- A segment bears its arms on a ring where it ends; the foot and the tip bear none.
+-- A segment has a ring of arms at its end; the foot and the tip have none.
 sweeps:rule(
   "Arm(n, r, level, fineness)",
   function(this, n: number, r: number, level: number, fineness: number)

@@ -1,6 +1,6 @@
 --!strict
--- A flowering tree whose axes end and hand over to two branches, after Aono and Kunii: The Algorithmic Beauty of
--- Plants, figure 2.7. No trunk goes through; what looks like one is a row of branches.
+-- A sympodial flowering tree, after Aono and Kunii: The Algorithmic Beauty of Plants, figure 2.7. Each axis ends in
+-- two branches, so the apparent trunk is a row of branches.
 local years =
   param("years", { default = 9, min = 1, max = 11, step = 1, text = "How often the branches fork" })
 local first =
@@ -17,7 +17,7 @@ local Fork = module("Fork", "length", "width")
 local Wood = module("Wood", "length", "width")
 local Petal = module("Petal")
 
--- A flower is a system of its own: five petals around a heart. It is made once and placed a thousand times.
+-- A flower is a system of its own: five petals around a centre. It is built once and placed a thousand times.
 local flower = lsystem({ object = turtle({ sides = 6, roughness = 0.7 }) })
 local whorl = { { Color("#b8405f"), G(0.1), Sphere(0.16) }, Color(petals) }
 for k = 1, 5 do
@@ -47,7 +47,7 @@ tree:rule("Trunk(l, w)", function(this, l, w)
   return table.unpack(branches)
 end)
 
--- Both branches lie in a plane as level as can be; the stronger one continues the wood.
+-- Both branches are in a plane that is as level as possible; the stronger branch continues the wood.
 tree:rule("Fork(l, w)", function(this, l, w)
   return Wood(l, w),
     { Turn(-outer), Level(), Fork(l * second, w * 0.62) },
@@ -60,7 +60,7 @@ tree:interpret("Wood(l, w)", function(this, l, w)
   this:width(w):forward(l)
 end)
 
--- Wherever a branch still grows it flowers, along all of its length.
+-- Growing branches have flowers along their whole length.
 tree:interpret("Fork(l, w)", function(this, l, w)
   for _ = 1, 6 do
     this:width(w):forward(l * 0.2)

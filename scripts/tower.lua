@@ -1,6 +1,6 @@
 --!strict
--- A twisted tower in which every part is made of smaller parts: tiers of storeys, storeys of pillars,
--- pillars of thinner pillars. The turrets on its setbacks are towers themselves.
+-- A twisted tower of towers: tiers of storeys, storeys of pillars, pillars of thinner pillars. The turrets on its
+-- setbacks are towers too.
 local floors = param("floors", { default = 24, min = 1, max = 120, step = 1, text = "Storeys of the tower" })
 local twist = param("twist", { default = 4, min = -15, max = 15, unit = "deg", text = "Turn of each storey" })
 local sides = param("sides", { default = 8, min = 3, max = 12, step = 1, text = "Sides of the plan" })
@@ -10,14 +10,14 @@ local stone = param("stone", { default = "#d9c3a0", text = "Colour of the walls"
 local HEIGHT = 3.6 -- of a storey (m)
 local TIER = 6 -- storeys between two setbacks
 
-local Tower = module("Tower", "n", "radius") -- what is still to be built: n storeys
+local Tower = module("Tower", "n", "radius") -- n storeys remain
 local Storey = module("Storey", "radius", "height")
 local Setback = module("Setback", "radius")
 local Turret = module("Turret", "radius", "n")
 local Crown = module("Crown", "radius")
 local Pillar = module("Pillar", "width", "height", "level")
 local Block = module("Block", "width", "depth", "height") -- four walls
-local Drum = module("Drum", "radius", "height", "top") -- as many walls as the plan has; the top may be smaller
+local Drum = module("Drum", "radius", "height", "top") -- one wall per edge of the plan; the top can be smaller
 local Glass = module("Glass", "radius", "height")
 local Spire = module("Spire", "radius", "height")
 local Rise = module("Rise", "height")
@@ -28,7 +28,7 @@ local tower =
 
 tower:axiom(Drum(18, 0.7, 1), Drum(17, 0.7, 1), Drum(16, 0.7, 1), Tower(floors, 14.5))
 
--- Storey by storey; after each tier the tower steps back.
+-- The tower grows by storeys, and is set back after each tier.
 tower:rule("Tower(n, r)", function(this, n, r)
   if n == 0 then
     return Crown(r)
@@ -38,7 +38,7 @@ tower:rule("Tower(n, r)", function(this, n, r)
   return Storey(r, HEIGHT), Roll(twist), Tower(n - 1, r * 0.98)
 end)
 
--- Walls of glass behind pillars: a strong one at each corner and two slender ones along each side.
+-- Glass walls behind pillars: a strong pillar at each corner and two slender ones along each side.
 tower:rule("Storey(r, h)", function(this, r, h)
   local parts = { { Glass(r * 0.86, h) }, Drum(r, h * 0.1, 0.985) }
   for side = 1, sides do
@@ -92,7 +92,7 @@ tower:rule("Turret(r, n)", function(this, r, n: number)
     Turret(r * 0.88, n - 1)
 end)
 
--- Rings that close over each other like the leaves of a bud, and the spire out of their middle.
+-- Rings that close over each other like the leaves of a bud, with the spire from their centre.
 tower:rule("Crown(r)", function(this, r)
   if r < 1.6 then
     return Spire(r, r * 9)

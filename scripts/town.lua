@@ -1,5 +1,5 @@
 --!strict
--- A town from a data file: every building gets a style that suits its age, use and size, every street a pavement.
+-- A town from a data file: every building gets a style for its age, use and size, every street a pavement.
 -- burgeon run scripts/town.lua --data examples/data -o town.glb
 local build = require("templates/build")
 local nature = require("templates/nature")
@@ -23,7 +23,7 @@ local north =
   param("north", { default = 0, min = -50000, max = 50000, unit = "m", text = "Where the middle is" })
 local trees = param("trees", { default = true, text = "Whether trees are shown" })
 
--- What the data calls things, and the styles that may be meant.
+-- The names of uses in the data, and their possible styles.
 local BY_ERA = {
   alpine = { "chalet" },
   baroque = { "porto" },
@@ -47,7 +47,7 @@ local BY_USE = {
   terrace = "terrace_house",
 }
 
--- Sorts the features by what they are for. Whatever has an area and no other use is a building.
+-- Sorts the features by use. A feature with an area and no other use is a building.
 local town = source(file)
 local of: { [string]: { any } } =
   { building = {}, street = {}, tree = {}, park = {}, square = {}, water = {}, land = {} }
@@ -78,7 +78,7 @@ for _, feature in town do
       table.insert(of.tree, feature)
     end
   elseif use and of[use] then
-    -- What is shown in part lies on a plate of its own.
+    -- A partial view is on a plate of its own.
     if radius == 0 then
       table.insert(of[use], feature)
     end
@@ -112,10 +112,10 @@ local function extent(geometry: any): (number, number)
   return area, around
 end
 
--- A style for a building of which only the size is known.
+-- A style for a building with only a known size.
 local function by_size(geometry, height: number): string
   local area, around = extent(geometry)
-  -- Sheds and halls are low for how deep they are.
+  -- Sheds and halls are low for their depth.
   local depth = 4 * area / around
   if area > 500 and height < 14 and height < 0.8 * depth then
     return if height < 9 then "warehouse" else one_of({ "modern_block", "haussmann" })
@@ -143,7 +143,7 @@ local function style_of(feature, height: number): string
   return if era then one_of(era) else use or by_size(feature.geometry, height)
 end
 
--- Numbers may be texts in the data, such as "12 m".
+-- Numbers in the data can be texts such as "12 m".
 local function number(value): number?
   return if value then tonumber(string.match(tostring(value), "^%s*(%d+%.?%d*)")) else nil
 end

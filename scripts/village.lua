@@ -1,6 +1,6 @@
 --!strict
--- A village on rolling ground: lanes that follow its contours, cut into it and raised over it, houses and barns beside them,
--- a church, gardens, hedgerows and woods.
+-- A village on rolling terrain: lanes that follow the contours with cut and fill, houses and barns next to them, a
+-- church, gardens, hedgerows and woods.
 -- burgeon run scripts/village.lua -o village.glb
 local build = require("templates/build")
 local nature = require("templates/nature")
@@ -11,8 +11,8 @@ local hills =
   param("hills", { default = 26, min = 0, max = 50, unit = "m", text = "How high the ground rises" })
 local with_trees = param("trees", { default = true })
 
--- The ground: once to be asked, and once with the lanes that lie on it. A lane may lead out of the village, and have
--- houses there.
+-- The terrain, derived for queries and again with the lanes on it. A lane can leave the village and have houses
+-- there.
 local size = math.max(extent * 3, extent * 2 + 260)
 local rolling =
   { "Land", "Land", "Land", "Land", change = { { -1, 1 }, { -1, 1 }, { -1, 1 }, { -1, 1 } }, decay = 0.46 }
@@ -26,7 +26,7 @@ local function ground(lanes: Network?): Terrain
       rules = { Land = rolling },
       under = lanes,
       shown = lanes ~= nil,
-      -- Below all that change and decay can add up to.
+      -- Below the sum of all changes and decays.
       base = math.min(-hills - 25, -1.85 * hills - 2),
       covers = {
         { color = "#7f8d55" },
@@ -53,7 +53,7 @@ local lanes = roads.grow({
   detour = 2,
   network = {
     on = bare,
-    -- On steep ground lanes rather climb than cut deep.
+    -- On steep ground, lanes climb rather than cut deep.
     max_slope = 11 + math.max(0, hills - 26) * 0.2,
     turning = 6,
     streets = { { width = 9.4, lanes = 2, sidewalk = 1.3 }, { width = 6.2, lanes = 1, sidewalk = 0.7 } },
@@ -65,7 +65,7 @@ local lanes = roads.grow({
 }).objects[1] :: Network
 local land = ground(lanes)
 
--- A ring on the ground, or so much (m) in it.
+-- A ring on the ground, or inset by a distance (m).
 local function laid(ring: any, sunk: number): any
   local high = {}
   for _, point in ring do
@@ -74,10 +74,10 @@ local function laid(ring: any, sunk: number): any
   return { rings = { high } }
 end
 
--- The church stands beside the middle; houses and barns where there is room.
+-- The church is next to the centre; houses and barns are where there is room.
 local HOUSES = { "half_timbered", "villa", "half_timbered", "chalet", "terrace_house" }
--- How far (m) the ground before a door may lie below the highest beside the house, and how much of that the house makes up
--- for, in the ground behind.
+-- Maximum height difference (m) between the ground at a door and the highest ground next to the house, and the
+-- fraction that the house compensates in the ground behind.
 local MOST_STEP, SUNK = 1.6, 1.1
 local sites = lanes:sites({
   sizes = { { 13, 10 }, { 11, 8.5 }, { 9, 8 } },
@@ -97,7 +97,7 @@ local function extremes(ring: any): (number, number)
   end
   return low, high
 end
--- What stands where the ground falls more than a storey would have a blind wall below it; it stays free.
+-- A position where the ground falls by more than a storey would need a blank wall, so it stays free.
 local function is_level(geometry: any, most: number): boolean
   local low, high = extremes(geometry:buffer(1.5).rings[1])
   return high - low <= most
@@ -121,7 +121,7 @@ local houses, gardens = {}, {}
 for _, site in sites do
   local ring = site.geometry.rings[1]
   local away = math.sqrt(site.access.x ^ 2 + site.access.y ^ 2)
-  -- The floor lies as high as the ground does anywhere, or so much lower as the house is sunk; the door is in the front.
+  -- The floor is at the highest ground, or lower by the sunken depth of the house; the door is in the front.
   local _, highest = extremes(ring)
   local step = highest - land:height(site.access)
   if church and site.geometry:distance(church.geometry) < 5 or not is_level(site.geometry, 2.4) then
@@ -152,7 +152,7 @@ village:axiom(source(houses), function(house)
 end)
 village:derive()
 
--- Fruit trees behind the houses, rows of trees along the lanes outside, and woods on the hills.
+-- Fruit trees behind the houses, rows of trees along the outer lanes, and woods on the hills.
 if with_trees then
   local trees: { any } = {}
   local function plant(x: number, y: number, tall: number)

@@ -1,6 +1,7 @@
 --!strict
--- Ivy on a ruined portal. The portal is derived first; the rules of the vine then ask how far a place is from it:
--- a shoot that comes too near turns away, one that strays is led back, and what is beyond reach withers.
+-- Ivy on a ruined portal. The script derives the portal first. The rules of the vine then query the distance of a
+-- position to it: a shoot that is too near turns away, a shoot that strays turns back, and a shoot out of reach
+-- withers.
 local days =
   param("days", { default = 72, min = 1, max = 140, step = 1, unit = "days", text = "Steps of growth" })
 local shoots =
@@ -11,7 +12,7 @@ local branching =
   param("branching", { default = 0.055, min = 0, max = 0.4, text = "Chance of a branch in a day" })
 local stone = param("stone", { default = "#c9b79a", text = "Colour of the portal" })
 
--- The portal: two pillars and what is left of an arch.
+-- The portal: two pillars and the rest of an arch.
 local Pillar = module("Pillar", "height")
 local Arch = module("Arch", "angle")
 local Beside = module("Beside", "x")
@@ -88,7 +89,7 @@ for side = -1, 1, 2 do
 end
 vine:axiom(table.unpack(seedlings))
 
--- A shoot grows a piece of stem with a leaf, wandering a little and rather upwards, and branches now and then.
+-- A shoot grows a piece of stem with a leaf, winds slightly upwards, and sometimes branches.
 local function grow(place, heading: any, bend)
   local upwards = if place.z < 0.2 then 1 else random(-0.15, 0.6)
   local wander = vec(random(-0.5, 0.5), random(-0.5, 0.5), upwards)
@@ -107,7 +108,7 @@ local function grow(place, heading: any, bend)
   return table.unpack(parts)
 end
 
--- What finds nothing to hold on to ends; what has come near turns away from the stone, what has strayed turns back.
+-- A shoot without support ends; a shoot near the stone turns away, and a shoot far from it turns back.
 vine:rule("Tip(p, h)", {
   when = function(this, p, h)
     return clearance(p + h * stride) > LOST

@@ -1,6 +1,6 @@
 --!strict
--- A part of a world as large as the earth: only what can be seen from one place is there, in full detail near by.
--- The rules change with the level: first continents, then mountains and plains, then single slopes.
+-- Part of a world as large as the earth: only the view from one position is expanded, with full detail nearby. The
+-- rules change with the level: continents, then mountains and plains, then single slopes.
 local east = param("east", { default = 15000, min = 0, max = 33000, unit = "km", text = "Where one stands" })
 local north =
   param("north", { default = 21000, min = 0, max = 33000, unit = "km", text = "Where one stands" })

@@ -1,5 +1,5 @@
 --!strict
--- Prismatic buildings from nothing but their polygon, the number of floors and the kind of roof.
+-- Prismatic buildings from the polygon, the number of storeys and the kind of roof.
 -- burgeon run scripts/geospatial/buildings.lua --data examples/data -o buildings.glb
 local details = require("details")
 local layers = require("layers")
@@ -15,7 +15,7 @@ local Pyramid = module("Pyramid", "ring", "x", "y", "height", "rise", "faces")
 local storey = details.storey
 local rise = param("rise", { default = 2.5, min = 0.5, max = 8, unit = "m", text = "How high roofs are" })
 
--- Whether a polygon has no corner that leads inwards, so that a pyramid can stand on it.
+-- Tests if a polygon is convex, so that it can have a pyramid roof.
 local function is_convex(geom): boolean
   return geom:area() > 0.99 * geom:convex_hull():area()
 end
@@ -49,7 +49,7 @@ town:rule("Roof(geom, height, roof)", {
   local points = ring:num_points() - 1
   return Sides(ring, height, points, `{points},1,0`), Top(geom:centroid())
 end)
--- Elsewhere hips lead inwards from all walls.
+-- Other roofs are hipped on all walls.
 town:rule("Roof(geom, height, roof)", {
   when = function(_, _, _, roof)
     return roof > 1
@@ -57,7 +57,7 @@ town:rule("Roof(geom, height, roof)", {
 }, function(_, geom, height)
   return Hips(geom, height)
 end)
--- A triangle for each edge, from its two corners to the top, which has the number 0.
+-- A triangle for each edge, from its two corners to the apex, which has the number 0.
 town:rule("Sides(ring, height, points, faces)", {
   when = function(_, _, _, points)
     return points > 1

@@ -1,5 +1,5 @@
 --!strict
--- What facades are made of: walls and roofs by style, and windows, doors and balconies along a wall.
+-- Parts of facades: walls and roofs by style, and windows, doors and balconies along a wall.
 local details = {}
 
 details.storey =
@@ -59,7 +59,7 @@ local function style_of(style: number): Style
   return STYLES[style] or STYLES[1]
 end
 
--- A hip roof from the eaves up: a plane above each wall, which rises by `slope` for each metre that it leads inwards.
+-- A hip roof above the eaves: a plane above each wall that rises by `slope` per metre inwards.
 function details.roof(this: any, geom: any, eaves: number, slope: number)
   for _, face in geom:skeleton_faces() do
     local corners, order = {}, {}
@@ -70,7 +70,7 @@ function details.roof(this: any, geom: any, eaves: number, slope: number)
   end
 end
 
--- A wall around all floors, a cornice and a roof.
+-- A wall around all storeys, a cornice and a roof.
 function details.volume(this: any, geom: any, floors: number, style: number)
   local look, height = style_of(style), floors * details.storey
   this:color(look.wall):polygon(geom):jump({ 0, 0, 0 }):extrude(height)
@@ -82,7 +82,7 @@ function details.volume(this: any, geom: any, floors: number, style: number)
   details.roof(this:color(look.roof), geom, height + 0.1, look.slope)
 end
 
--- Windows in every floor of a wall, as many as have room; doors and shop windows on the ground.
+-- Windows on every storey of a wall, as many as fit; doors and shop windows on the ground floor.
 function details.facade(this: any, line: any, floors: number, style: number)
   local look, length = style_of(style), line:length()
   local count = math.floor((length - 0.8) / look.bay)
@@ -92,7 +92,7 @@ function details.facade(this: any, line: any, floors: number, style: number)
   local from, to = line:start_point():place(), line:end_point():place()
   local along = (to - from):unit()
   local out = vec(along.y, -along.x, 0)
-  -- A plate on the wall, `width` wide and up from `low` to `high`, which stands out from `near` to `far`.
+  -- A plate on the wall, `width` wide, from `low` to `high`, that projects from `near` to `far`.
   local function plate(middle: any, width: number, low: number, high: number, near: number, far: number)
     local a, b = middle - along * (width / 2), middle + along * (width / 2)
     this:polygon({ a + out * far, b + out * far, b + out * near, a + out * near })

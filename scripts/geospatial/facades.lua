@@ -1,5 +1,5 @@
 --!strict
--- Windows and balconies on the walls with no other building within 3 m, and bare walls where neighbours stand.
+-- Windows and balconies on walls without another building within 3 m, and blank walls next to neighbours.
 -- burgeon run scripts/geospatial/facades.lua --data examples/data -o facades.glb
 local details = require("details")
 local layers = require("layers")
@@ -18,7 +18,7 @@ town:rule("Building(geom, id, floors, style)", function(_, geom, id, floors, sty
   return Volume(geom, floors, style), Outline(geom:exterior_ring(), id, floors, style), fragment(Wall)
 end)
 town:rule("Wall(line, id, floors, style)", function(_, line, id, floors, style)
-  -- Neighbours in the same row touch a wall at its ends, and leave it free.
+  -- Neighbours in the same row touch a wall at its ends, and do not cover it.
   local zone = line:line_substring(0.15, 0.85):buffer(3, { cap = "flat" })
   return Candidate(line, id, floors, style), Zone(zone, id)
 end)

@@ -1,9 +1,9 @@
 --!strict
--- Street furniture whose direction the data knows: benches that look away from their lawn.
+-- Street furniture with directions from the data: benches that face away from their lawn.
 -- burgeon run scripts/geospatial/furniture.lua --data examples/data -o furniture.glb
 local layers = require("layers")
 local models = require("models")
--- The ground on which all stands, and the lawns.
+-- The ground and the lawns.
 require("vegetation")
 
 local Furniture = module("Furniture", "place", "code", "model", "direction")

@@ -1,6 +1,6 @@
 --!strict
--- A garden laid out by nothing but its border: lawns in circles, eight ways that meet in the middle, flower beds with a
--- tree of their own on every large lawn, and trees all over the grass.
+-- A garden laid out from its boundary: circular lawns, eight paths that meet in the centre, flower beds with a tree
+-- on every large lawn, and trees on the grass.
 -- burgeon run scripts/geospatial/garden.lua --data examples/data -o garden.glb
 local layers = require("layers")
 local models = require("models")
@@ -32,7 +32,7 @@ park:rule("Plan(geom, radius)", function(_, geom, radius)
     Garden(middle:buffer(radius / 4):intersection(geom))
 end)
 
--- A way from the middle to each corner of what is around the garden, and to the middle of each side.
+-- A path from the centre to each corner of the enclosing rectangle, and to the centre of each side.
 park:rule("Ways(geom, x, y)", function(_, geom, x, y)
   return Border(geom:exterior_ring(), x, y), fragment(Side)
 end)
@@ -43,7 +43,7 @@ park:rule("Gate(place, x, y)", function(_, place, x, y)
   return Crossway(line(place:place(), { x, y }):buffer(way))
 end)
 
--- From the last to the first, the ways become one, and are taken out of the circles.
+-- Unite the paths, from last to first, and subtract them from the circles.
 park:rule("Crossway(geom) > Garden(_)", function(_, geom)
   return Radial(geom)
 end)
@@ -77,7 +77,7 @@ end)
 park:rule("Radial(a) < Radial(b)", function()
   return nil
 end)
--- The grass between the beds has a tree for every 200 m2, once the garden is laid out.
+-- After the layout, the grass between the beds gets a tree per 200 m2.
 park:rule("Garden(geom) > Bed(bed, _)", function(_, geom, bed)
   return Grass(geom), Planting(geom:difference(bed:buffer(3)), math.round(geom:area() / 200))
 end)

@@ -1,6 +1,6 @@
 --!strict
--- What the scripts here ask, in SQL: the quarter of examples/data, or another town with layers as OpenStreetMap has them,
--- in a GeoPackage, an extract, or on a PostGIS server.
+-- The SQL queries of these scripts: for the quarter of examples/data, or for another town with layers like those of
+-- OpenStreetMap, in a GeoPackage, an extract, or on a PostGIS server.
 -- burgeon run scripts/geospatial/town.lua --data ../shared/data --set town=helsinki.gpkg -o helsinki.glb
 local town = param("town", {
   default = "quarter",
@@ -44,8 +44,8 @@ for _, name in { "roads", "trees", "furniture", "green" } do
   source(`{town}:{name}`)
 end
 
--- A carriageway is what lies within some metres of a road, and slabs are what is left around the buildings, but for
--- water and open land far from all of them.
+-- A carriageway is the area within a distance of a road. Slabs cover the rest around the buildings, except water and
+-- open land far from all buildings.
 local PAVEMENTS = [[
   with carriageways as (
     select ST_Buffer(ST_Simplify(ST_Union(ST_Buffer(geom, case highway
@@ -60,7 +60,7 @@ local PAVEMENTS = [[
   union all select ST_Buffer(ST_Difference(g.geom, c.geom), -0.05, 'quad_segs=1'), 2, 0.15 from carriageways c, ground g]]
 
 return {
-  -- Where nobody has counted the floors, what is small is a shed.
+  -- If the number of storeys is unknown, a small building is a shed.
   buildings = [[
     select ST_GeometryN(geom, 1) as geom, id, fid % 4 + 1 as style, case when roof_shape = 'flat' then 1 else 2 end as roof,
       case when levels is not null then ceil(cast(levels as real)) when ST_Area(geom) < 90 then 1 else 5 end as floors
@@ -68,13 +68,13 @@ return {
   neighbors = "select id from buildings where id <> $id and ST_Intersects(geom, $geom)",
   pavements = PAVEMENTS,
   grass = "select geom from green where kind in ('grass', 'garden')",
-  -- Shrubs are a bed where they are few.
+  -- A few shrubs form a bed.
   flowerbeds = [[
     select geom, fid % 4 + 1 as flowers from green
     where kind in ('flowerbed', 'shrubbery') or kind in ('scrub', 'heath') and ST_Area(geom) < 400]],
   trees = "select geom as place, fid % 5 + 1 as species, 7 + fid % 6 as height, 3 as radius from trees",
   parks = "select geom from green where kind = 'park' and ST_Area(geom) > 4000",
-  -- Benches look away from the road that is nearest.
+  -- Benches face away from the nearest road.
   turned = [[
     select f.geom as place, 3 as code, 'bench' as model, 270 - degrees(ST_Azimuth(f.geom, ST_ClosestPoint(
       (select r.geom from roads r order by r.geom <-> f.geom limit 1), f.geom))) as direction

@@ -1,17 +1,17 @@
 --!strict
--- Models that are placed: trees by species, and street furniture, which looks to the east.
+-- Models to place: trees by species, and street furniture that faces east.
 local models = {}
 
 local Part = module("Part", "color", "ring", "from", "to")
 local Ball = module("Ball", "x", "y", "z", "radius", "color")
 
--- The model itself. What stands on a wall is not shown on its own; so neither is this, even if nothing needs it.
+-- The model itself. It is not shown at its own position, even if nothing places it.
 local function kept(model: any): any
   panel({ model = model, stretch = true })
   return model
 end
 
--- A model of upright pieces, each with its colour, the ring that it stands on, and where it begins and ends (m).
+-- A model of upright pieces, each with its colour, the ring that it stands on, its start and its end (m).
 local function built(parts: { any }): any
   local system = lsystem({ object = extruder({ smooth = false, roughness = 0.7 }) })
   local chain = {}
@@ -32,9 +32,9 @@ end
 
 local METAL, GLASS, WOOD = "#4a4f54", "#9fb4bd", "#8a6642"
 
--- By their codes in the data.
+-- By the codes of the data.
 models.furniture = {
-  -- A bus stop: open to the east, where the street is.
+  -- A bus stop, open to the east, towards the street.
   [1] = built({
     { GLASS, box(-0.75, 0, 0.05, 3.6), 0.25, 2.3 },
     { GLASS, box(0, 1.8, 1.5, 0.05), 0.25, 2.3 },
@@ -49,7 +49,7 @@ models.furniture = {
     { METAL, box(0.9, -2.4, 0.08, 0.08), 0, 2.9 },
     { "#f2c230", box(0.9, -2.4, 0.1, 0.6), 2.3, 2.9 },
   }),
-  -- A lamp, whose arm reaches over the street.
+  -- A lamp with an arm over the street.
   [2] = built({
     { METAL, box(0, 0, 0.34, 0.34), 0, 0.35 },
     { METAL, box(0, 0, 0.13, 0.13), 0.35, 6.2 },
@@ -74,14 +74,14 @@ models.furniture = {
   }),
 }
 
--- A piece of furniture that looks in a direction (degrees), whichever way the one before it looked.
+-- A furniture item that faces a direction (degrees), independent of the previous item.
 function models.stand(this: any, place: any, code: number, direction: number)
   local angle = math.rad(direction)
   this:jump(place:place() + vec(0, 0, 0.15))
   this:direction({ 0, 0, 1 }, { math.sin(angle), -math.cos(angle), 0 }):place(models.furniture[code])
 end
 
--- A tree of height 1 m and with a crown of radius 0.5 m: what is placed is scaled by its height.
+-- A tree of 1 m height with a crown of 0.5 m radius. Its height scales each instance.
 local function tree(color: string, seed: number, slender: number): any
   local system = lsystem({ object = turtle({ color = "#66543f", width = 0.045, sides = 7 }) })
   local crown = { F(0.45) }
@@ -102,7 +102,7 @@ local function tree(color: string, seed: number, slender: number): any
   return kept(system:derive(0))
 end
 
--- By species; the sixth stands alone in its flower bed.
+-- By species; the sixth is alone in its flower bed.
 models.trees = {
   tree("#5f7444", 0, 1),
   tree("#6b7a45", 1, 0.85),

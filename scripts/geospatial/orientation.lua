@@ -1,9 +1,9 @@
 --!strict
--- Street furniture without a direction turns to the road that is nearest: bus stops and lamps face the street.
+-- Street furniture without a direction faces the nearest road: bus stops and lamps face the street.
 -- burgeon run scripts/geospatial/orientation.lua --data examples/data -o orientation.glb
 local layers = require("layers")
 local models = require("models")
--- The ground on which all stands.
+-- The ground.
 require("pavements")
 
 local Piece = module("Piece", "place", "code")
@@ -15,11 +15,11 @@ local Turned = module("Turned", "place", "code", "direction")
 local street = lsystem({ object = extruder() })
 street:axiom(query(layers.furniture, Piece))
 
--- The centrelines about it come behind the item, in segments.
+-- The centrelines nearby follow after the item, in segments.
 street:rule("Piece(place, code)", function(_, place, code)
   return Item(place, code), query(layers.roads, Centreline), fragment(RoadSeg), End()
 end)
--- One after the other, each tells how far it is from the item; of two the nearer one stays.
+-- Each segment compares its distance from the item with the next one, and the nearer segment stays.
 street:rule("Item(place, code) < RoadSeg(geom)", function(_, place, _, geom)
   return Road(geom, place:distance(geom))
 end)
@@ -40,10 +40,10 @@ street:rule("Road(a, distance) > Road(b, nearest)", {
 }, function()
   return nil
 end)
--- The road that is left decides.
+-- The remaining road decides.
 street:rule("Item(place, code) > Road(geom, distance) End", function(_, place, code, geom)
   local toward = line(place:place(), geom:nearest_point(place):place()):direction()
-  -- What stands on the road itself looks across it.
+  -- An item on the road itself faces across the road.
   return Turned(place, code, toward or (geom:direction() or 0) - 90)
 end)
 street:rule("Turned(place, code, direction) < Road(geom, distance)", function()

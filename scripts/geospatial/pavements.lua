@@ -1,5 +1,5 @@
 --!strict
--- Pavements from a layer of polygons, each levelled and laid by its code: carriageways, slabs, crossings, cobbles.
+-- Pavements from a layer of polygons, levelled and paved by code: carriageways, slabs, crossings, cobbles.
 -- burgeon run scripts/geospatial/pavements.lua --data examples/data -o pavements.glb
 local layers = require("layers")
 
@@ -15,13 +15,13 @@ local PAVING = {
   [COBBLES] = { texture = "textures/cobbles.png", texture_size = { 1.6, 1.6 }, roughness = 1 },
 }
 local DEPTH = 0.4
--- What has more corners is laid in pieces.
+-- Polygons with more corners are divided.
 local MOST_CORNERS = 1000
 
 local streets = lsystem({ object = extruder({ smooth = false }) })
 streets:axiom(query(layers.pavements, Pavement))
 
--- Areas of several parts are laid part by part.
+-- Areas of several parts are paved part by part.
 streets:rule("Pavement(geom, code, level)", {
   when = function(_, geom)
     return geom:num_geometries() > 1
@@ -47,7 +47,7 @@ streets:rule("Pavement(geom, code, level)", {
   local half = polygon({ { low.x, low.y }, { east, low.y }, { east, north }, { low.x, north } })
   return Pavement(geom:intersection(half), code, level), Pavement(geom:difference(half), code, level)
 end)
--- The texture is fitted to the longer side of what is around the polygon, and its corners are counted one a step.
+-- The texture follows the longer side of the enclosing rectangle. Each step counts one corner of the rectangle.
 streets:rule("Pavement(geom, code, level)", function(_, geom, code, level)
   local length = math.max(geom:envelope_width(), geom:envelope_height())
   return Counting(geom, code, level, length, geom:exterior_ring():num_points() - 1, "-1")
@@ -66,7 +66,7 @@ streets:rule(
   end
 )
 
--- The bars of a crossing run along the street, beside one another across it.
+-- The bars of a crossing run along the street, next to each other across the street.
 local function bars(this, geom, level: number)
   local sides = geom:oriented_envelope():segments()
   local across, along = sides[1], sides[2]
@@ -79,7 +79,7 @@ local function bars(this, geom, level: number)
     (along:start_point():place() - from):length() < 0.01
     or (along:start_point():place() - to):length() < 0.01
   then
-    -- It leads away from the side that is gone through.
+    -- The path points away from the side that the rule visits.
   else
     reach = reach * -1
   end

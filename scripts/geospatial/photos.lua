@@ -1,5 +1,5 @@
 --!strict
--- Buildings whose frontages each show a photo: the most that one rule can do for a street.
+-- Buildings with a photo on each frontage, by one rule.
 -- burgeon run scripts/geospatial/photos.lua --data examples/data -o photos.glb
 local details = require("details")
 local layers = require("layers")
@@ -11,7 +11,7 @@ local Roof = module("Roof", "geom", "height", "roof")
 local storey = details.storey
 
 local town = lsystem({ object = extruder({ smooth = false, roughness = 0.95 }) })
--- In the data a style stands for a photo.
+-- The style in the data selects the photo.
 town:axiom(query(layers.buildings, Building))
 town:rule("Building(geom, floors, image, roof)", function(_, geom, floors, image, roof)
   return Roof(geom, floors * storey, roof), Facade(geom:exterior_ring(), image, floors), fragment(Facade)
@@ -20,7 +20,7 @@ town:rule("Facade(line, image, floors)", function(_, line, image, floors)
   return Photo(line, image, floors * storey)
 end)
 
--- The photos show four floors and four bays of about 3 m; narrow walls show as many bays as they have room for.
+-- The photos show four storeys and four bays of about 3 m. A narrow wall shows as many bays as fit.
 town:interpret("Photo(line, image, height)", function(this, line, image, height)
   local from, to = line:start_point():place(), line:end_point():place()
   local along, length = (to - from):unit(), line:length()

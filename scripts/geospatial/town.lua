@@ -1,5 +1,5 @@
 --!strict
--- All of it together: pavements, buildings with facades towards the streets, lawns, trees, a garden and furniture.
+-- The whole quarter: pavements, buildings with facades towards the streets, lawns, trees, a garden and furniture.
 -- burgeon run scripts/geospatial/town.lua --data examples/data -o quarter.glb
 require("pavements")
 require("facades")

@@ -1,10 +1,10 @@
 --!strict
--- Lawns, flower beds, the trees of the data, and others on the grass between the flowers, one for every 60 m2. Rules query the
--- chain itself: the grass is what the beds leave, and no tree grows into the crown of another.
+-- Lawns, flower beds, the trees of the data, and random trees on the grass between the flowers, one per 60 m2. Rules
+-- query the chain itself: the grass is the lawn minus the beds, and no tree overlaps the crown of another.
 -- burgeon run scripts/geospatial/vegetation.lua --data examples/data -o vegetation.glb
 local layers = require("layers")
 local models = require("models")
--- The ground on which all stands.
+-- The ground.
 require("pavements")
 
 local Tree = module("Tree", "place", "species", "height", "radius")
@@ -14,7 +14,7 @@ local Grove, Bed = module("Grove", "geom"), module("Bed", "geom", "flowers")
 local Planted = module("Planted", "place", "species", "height", "radius")
 
 local LEVEL = 0.15
--- Places that are tried for a tree before no more are planted on a lawn.
+-- Maximum number of attempts for a tree; then the lawn gets no more trees.
 local TRIES = 20
 
 local green = lsystem({ object = extruder({ smooth = false, roughness = 1 }) })

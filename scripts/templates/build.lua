@@ -1,5 +1,5 @@
 --!strict
--- Makes buildings of all styles: the styles by name, and the rules that turn a plan into groundwork, storeys and a roof.
+-- Buildings of all styles: the styles by name, and the rules that turn a plan into groundwork, storeys and a roof.
 local build = {}
 
 build.names = {
@@ -15,8 +15,8 @@ build.names = {
   "villa",
 }
 
--- How many storeys buildings of a style usually have, how wide (m) and deep they are, and how far from one another if
--- they stand by themselves.
+-- The usual number of storeys of a style, the width (m) and depth of its buildings, and the distance between detached
+-- buildings.
 build.usual = {
   haussmann = { levels = 6, width = 15, depth = 12 },
   glass_office = { levels = 8, width = 18, depth = 14, gap = 6 },
@@ -30,7 +30,7 @@ build.usual = {
   church = { levels = 1, width = 12, depth = 14, gap = 4 },
 }
 
--- All variants of all styles in one list, so that a number says which one is meant.
+-- All variants of all styles in one list, so that a number identifies a variant.
 local styles: { any } = {}
 local first: { [string]: any } = {}
 local function add(name: string, variants: { any })
@@ -41,34 +41,35 @@ for _, name in build.names do
   local variants = require(`templates/{name}`)
   add(name, variants.bowed or variants)
 end
--- A terrace house whose front is on the street.
+-- A terrace house with its front on the street.
 add("row_house", require("templates/terrace_house").plain)
 
--- The number of a style's variant; `variant` is any whole number from 1 on.
+-- The number of a style's variant; `variant` is any integer from 1.
 function build.style(name: string, variant: number): number
   local known = first[name]
   return known.at + (variant - 1) % known.count
 end
 
--- The storeys that a building of this style has whose walls are `height` (m) high.
+-- The number of storeys of a building of this style with walls of `height` (m).
 function build.levels(style: number, height: number): number
   local chosen = styles[style]
   return math.max(1, math.floor((height - chosen.ground) / chosen.storey + 1.5))
 end
 
--- A style may `pick` the kind of each storey; otherwise the first is its "ground" and all others are "upper".
--- A building of `levels` storeys, whose walls are `height` (m) high, or as high as the style has them if that is 0.
+-- A style can choose the kind of each storey with `pick`; otherwise the first storey is its "ground" and all others
+-- are "upper".
+-- A building of `levels` storeys with walls of `height` (m), or of the style's height if that is 0.
 build.Building = module("Building", "style", "levels", "height", "use")
 local Groundwork = module("Groundwork", "style")
 local Storey = module("Storey", "style", "kind", "height")
 local Roof = module("Roof", "style", "kind")
 
--- Plans deeper than this (m) get the roof that their style has for wide ones.
+-- Plans deeper than this (m) get the style's roof for wide plans.
 local DEEP = 24
--- Plans smaller than this (m²) get the roof that it has for towers.
+-- Plans smaller than this (m²) get the style's roof for towers.
 local TOWER = 130
 
--- A system in which every building has a chain; the modules of the chain are groundwork, storeys and a roof.
+-- A system with a chain for every building; the modules of the chain are groundwork, storeys and a roof.
 function build.system()
   local houses = lsystem({ object = footprint, interpret = "last" })
 

@@ -1,5 +1,5 @@
 --!strict
--- An Alpine chalet: a white ground floor, boards and a carved balcony above, and a low roof that juts out far.
+-- An Alpine chalet: a white ground floor, boards and a carved balcony above, and a low roof with a wide overhang.
 local parts = require("templates/parts")
 local walls = require("templates/walls")
 local box: (...any) -> any = parts.box
@@ -31,7 +31,7 @@ local function make(color: string, shutter: string, flowers: string)
     parts.surround({ width = 1.1, height = 1.25, jamb = 0.1, head = 0.12, material = beam, pots = flowers })
   local door_frame = parts.portal({ width = 1.1, height = 2.1, jamb = 0.12, head = 0.16, material = beam })
 
-  -- Boards with a heart's worth of gaps, a rail, and joists below.
+  -- Boards with small gaps, a rail, and joists below.
   local balcony = { box(beam, -1.3, 1.3, -1.1, 0, 0.04, 0.14) }
   for joist = -1, 1 do
     table.insert(balcony, box(beam, joist * 0.87 - 0.08, joist * 0.87 + 0.08, -1.15, 0, -0.16, 0.04))

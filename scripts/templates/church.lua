@@ -1,5 +1,5 @@
 --!strict
--- A church: high walls of stone with lancet windows between buttresses, and a steep roof of slates.
+-- A church: high stone walls with lancet windows between buttresses, and a steep slate roof.
 local parts = require("templates/parts")
 local walls = require("templates/walls")
 local box, beam, plate = parts.box, parts.beam, parts.plate

@@ -1,6 +1,6 @@
 --!strict
--- An office block behind a curtain wall: storeys of glass between slim fins, an entrance hall that leads into the
--- building, and machines on the flat roof.
+-- An office block behind a curtain wall: storeys of glass between slim fins, a recessed entrance hall, and machines
+-- on the flat roof.
 local parts = require("templates/parts")
 local walls = require("templates/walls")
 local box = parts.box

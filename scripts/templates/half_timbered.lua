@@ -1,6 +1,6 @@
 --!strict
--- A timber-framed house: a ground floor of stone, and above it frames of oak with plaster between them, each storey
--- standing out over the one below, under a steep gable.
+-- A timber-framed house: a ground floor of stone, and above it oak frames with plaster between them, under a steep
+-- gable. Each storey projects over the storey below.
 local parts = require("templates/parts")
 local walls = require("templates/walls")
 local box: (...any) -> any, beam: (...any) -> any = parts.box, parts.beam

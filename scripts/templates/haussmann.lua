@@ -1,6 +1,6 @@
 --!strict
 -- A Parisian apartment house: shops in a rusticated ground floor, balconies along the second and the last storey, a
--- cornice, and a zinc mansard with dormers and broad chimneys.
+-- cornice, and a zinc mansard roof with dormers and broad chimneys.
 local parts = require("templates/parts")
 local walls = require("templates/walls")
 

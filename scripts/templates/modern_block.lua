@@ -1,5 +1,5 @@
 --!strict
--- A block of flats: white render, loggias with coloured backs and glass before them, and a flat roof.
+-- A block of flats: white render, loggias with coloured backs behind glass, and a flat roof.
 local parts = require("templates/parts")
 local walls = require("templates/walls")
 local box = parts.box

@@ -1,9 +1,9 @@
 --!strict
--- What lies between buildings: land and water, parks and squares, streets with pavements, bridges and trees.
+-- Everything between buildings: land and water, parks and squares, streets with pavements, bridges and trees.
 local parts = require("templates/parts")
 local nature = {}
 
--- How high things lie (m). Land is flat, and the water below it.
+-- Heights (m). Land is flat, and the water is below it.
 local WATER, SQUARE, PARK, PAVEMENT, ROAD = -2.2, 0.04, 0.07, 0.1, 0.13
 local THICK = 4
 
@@ -36,7 +36,7 @@ local function areas(features, from: number, to: number, color: string)
   system:derive(0)
 end
 
--- The ground with what lies on it: `of.land`, or a plate under everything, and `of.water`, `of.park` and `of.square`.
+-- The ground with areas on it: `of.land`, or a plate under everything, and `of.water`, `of.park` and `of.square`.
 function nature.ground(of, bounds: any)
   local land = of.land
   if #land == 0 then
@@ -71,7 +71,8 @@ local function band(points: any, width: number)
   return table.move(right, 1, #right, #left + 1, left)
 end
 
--- Streets, each with its points, with pavements on both sides; those with the attribute `bridge` have piers and parapets.
+-- Streets with their points, with pavements on both sides; streets with the attribute `bridge` have piers and
+-- parapets.
 function nature.streets(features)
   if #features == 0 then
     return
@@ -89,7 +90,7 @@ function nature.streets(features)
           local half = #ring / 2
           local first = if side < 0 then 1 else half + 1
           for index = first, first + half - 1 do
-            -- The inner side runs back.
+            -- The inner side runs backwards.
             local at = if #parapet >= half then first + half - 1 - (#parapet - half) else index
             table.insert(parapet, ring[at])
           end
@@ -132,7 +133,7 @@ end
 
 local Trunk, Leaves = module("Trunk"), module("Leaves", "x", "y", "z", "radius")
 
--- A tree 1 m high, with a crown of balls.
+-- A tree of 1 m height, with a crown of spheres.
 local function tree(color: string, seed: number)
   local system = lsystem({ object = turtle({ color = "#66543f", width = 0.045, sides = 8 }) })
   local crown = {}
@@ -156,7 +157,7 @@ end
 
 local Tree = module("Tree", "kind", "height", "turned")
 
--- A tree at every feature, as high as its attribute `height` (m) says.
+-- A tree at every feature, with the height of its attribute `height` (m).
 function nature.trees(features)
   if #features == 0 then
     return
@@ -176,7 +177,7 @@ end
 
 local Hut, Shed = module("Hut"), module("Shed", "turned")
 
--- Garden sheds: features with a `place` (m) and where they are `facing` (degrees).
+-- Garden sheds: features with a `place` (m) and a direction `facing` (degrees).
 function nature.sheds(features)
   if #features == 0 then
     return
@@ -200,7 +201,7 @@ end
 
 local Pole, Lamp = module("Pole"), module("Lamp", "turned")
 
--- Lamps at places beside streets, `height` (m) high, whose arms reach over the street: nature.lamps(roads:verge("lamp")).
+-- Lamps next to streets, `height` (m) high, with arms over the street: nature.lamps(roads:verge("lamp")).
 function nature.lamps(features, height: number?)
   if #features == 0 then
     return

@@ -1,14 +1,14 @@
 --!strict
--- Models that stand on walls and roofs: windows, doors, shop fronts, balconies, dormers, chimneys.
--- All are seen from the front: x to the right, z up, y into the wall, whose surface is y = 0. Their middle is x = 0,
--- and they stand on z = 0 unless told otherwise. Lengths are metres.
+-- Models on walls and roofs: windows, doors, shop fronts, balconies, dormers, chimneys. All are seen from the front:
+-- x to the right, z up, y into the wall; y = 0 is the surface. By default their centre is x = 0, and their bottom is
+-- z = 0. Lengths are in metres.
 local pieces = require("templates/shapes")
 
 local fine = param("fine", {
   default = true,
   text = "Whether windows, railings and shutters have all their pieces; a city of thousands of buildings needs few",
 })
--- The shapes and materials are at hand as parts, too.
+-- The table of parts includes the shapes and materials.
 local parts: { [string]: (...any) -> any } = table.clone(pieces)
 local box, plate, model = parts.box, parts.plate, parts.model
 
@@ -23,7 +23,7 @@ local function casement(o: any): { Shape }
   local frame, glass = o.material, o.glass or parts.glass
   local columns, rows = o.columns or 2, o.rows or 1
   if not fine then
-    -- Panes before a plate of the frame's colour.
+    -- Panes in front of a plate in the frame's colour.
     local shapes = { box(frame, x0 - w, x0 + w, y + 0.02, y + 0.06, low, low + h) }
     local panes = math.min(columns, 2)
     for pane = 1, panes do
@@ -41,7 +41,7 @@ local function casement(o: any): { Shape }
   }
   for column = 1, columns - 1 do
     local x = x0 - w + 2 * w * column / columns
-    -- The bar in the middle of two wings is as wide as two frames.
+    -- The bar between two wings is as wide as two frames.
     local thick = if columns % 2 == 0 and column == columns / 2 then f * 0.7 else bar / 2
     table.insert(shapes, box(frame, x - thick, x + thick, y + 0.005, y + 0.06, low + f, low + h - f))
   end
@@ -72,15 +72,16 @@ function parts.sash(o: any)
   return model(casement(half), casement(upper))
 end
 
--- What surrounds an opening of the given size and stands out of the wall: jambs, a lintel as high as what is below
--- the sill, so that its middle is that of the opening. { width, height, jamb, head, sill, out, color, material }
+-- The surround of an opening of the given size, projecting from the wall: jambs, and a lintel as high as the part
+-- below the sill, so that its centre is the centre of the opening. { width, height, jamb, head, sill, out, color,
+-- material }
 function parts.surround(o: any)
   local w, h, head = o.width / 2, o.height, o.head or 0.16
   local jamb, out, stone = o.jamb or 0, o.out or 0.05, o.material or parts.matt(o.color or "#d9cfba")
   local wide = w + jamb + (o.ears or 0)
   local shapes = {
     box(stone, -wide, wide, -out, 0.02, h, h + head),
-    -- Below the sill it is stepped, so that it throws a shadow.
+    -- Below the sill it is stepped, for a shadow.
     box(stone, -wide - 0.03, wide + 0.03, -out - 0.09, 0.02, -head * 0.55, 0),
   }
   if fine then
@@ -118,7 +119,7 @@ function parts.surround(o: any)
   return model(shapes)
 end
 
--- What surrounds a door and stands out of the wall: jambs and a lintel. { width, height, jamb, head, out, material }
+-- The surround of a door, projecting from the wall: jambs and a lintel. { width, height, jamb, head, out, material }
 function parts.portal(o: any)
   local w, h, jamb, head, out = o.width / 2, o.height, o.jamb, o.head, o.out or 0.05
   local shapes = {
@@ -141,7 +142,7 @@ function parts.portal(o: any)
   return model(shapes)
 end
 
--- An open shutter with slats around x, folded back on the wall.
+-- An open shutter with slats, centred on x, folded back on the wall.
 function parts.shutter(x: number, width: number, height: number, color): { Shape }
   local paint, x0, x1 = parts.painted(color), x - width / 2, x + width / 2
   if not fine then
@@ -190,7 +191,7 @@ local function railing(
 end
 parts.railing = railing :: any
 
--- An iron railing across the depth at x, from the depth y0 to the wall.
+-- An iron railing perpendicular to the wall at x, from the depth y0 to the wall.
 local function side_railing(x: number, y0: number, z0: number, z1: number, material: Material?): { Shape }
   local iron = material or parts.iron
   local shapes = {
@@ -205,8 +206,8 @@ local function side_railing(x: number, y0: number, z0: number, z1: number, mater
   return shapes
 end
 
--- A balcony of iron before an opening of the given size: a slab on brackets, a railing, and mouldings above the opening
--- as high as the slab is thick. { width, height, depth, side, slab, material, stone, rail }
+-- An iron balcony in front of an opening of the given size: a slab on brackets, a railing, and mouldings above the
+-- opening of the height of the slab. { width, height, depth, side, slab, material, stone, rail }
 function parts.balcony(o: any)
   local w, d, slab = o.width / 2 + (o.side or 0.3), o.depth or 0.6, o.slab or 0.16
   local stone = o.material or parts.matt("#cfc6b4")
@@ -237,8 +238,8 @@ function parts.balcony(o: any)
   )
 end
 
--- One bay of a balcony that runs on along a front, for a bay of about `width` by `height`, with a string course at its
--- top. With `ending` = -1 or 1 it is the end of one, and has a railing across.
+-- One bay of a continuous balcony along a front, for a bay of about `width` by `height`, with a string course at its
+-- top. With `ending` = -1 or 1 it is an end of the balcony, with a railing across.
 function parts.gallery(o: any)
   local w, d, slab = o.width / 2, o.depth or 0.6, o.slab or 0.18
   local stone = o.material or parts.matt("#cfc6b4")
@@ -329,7 +330,7 @@ function parts.shop(o: any)
   end
   if o.awning then
     local cloth = parts.matt(o.awning)
-    -- A slope of cloth, in steps that are a shadow apart.
+    -- A slope of cloth, in steps with shadow gaps.
     table.insert(shapes, parts.leaning(cloth, w - 0.05, { 0, top - 0.02 }, { -1.25, top - 0.55 }, 0.04))
     table.insert(shapes, box(cloth, -w + 0.05, w - 0.05, -1.25, -1.22, top - 0.78, top - 0.56))
   end
@@ -354,8 +355,8 @@ function parts.gate(o: any)
   return model(shapes)
 end
 
--- A dormer for a roof: a window between cheeks under a small roof. Its front stands at y = 0, its body reaches back.
--- { width, height, depth, color, roof, kind = "gable" | "curb", window }
+-- A dormer for a roof: a window between cheeks under a small roof. Its front is at y = 0, and its body extends
+-- backwards. { width, height, depth, color, roof, kind = "gable" | "curb", window }
 function parts.dormer(o: any)
   local w, h, d = o.width / 2, o.height, o.depth or 2
   local wall, roof = parts.matt(o.color or "#d9cfba"), o.roof or parts.zinc
@@ -406,8 +407,8 @@ function parts.dormer(o: any)
   return model(shapes, casement(opening))
 end
 
--- A chimney stack with a cap and pots; its origin is on the roof, and it goes down into it. x is along the ridge.
--- { width, depth, height, color, material, pots, across }
+-- A chimney stack with a cap and pots. Its origin is on the roof, and the stack continues down into the roof. x is
+-- along the ridge. { width, depth, height, color, material, pots, across }
 function parts.chimney(o: any)
   local w, d, h = (o.width or 0.9) / 2, (o.depth or 0.6) / 2, o.height or 1.6
   if o.across then

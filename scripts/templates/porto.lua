@@ -1,6 +1,6 @@
 --!strict
--- A merchant's house from Porto: narrow and high, with glazed tiles between granite frames, iron balconies before
--- French windows, and a low tiled roof.
+-- A merchant's house from Porto: narrow and high, with glazed tiles between granite frames, iron balconies in front
+-- of French windows, and a low tiled roof.
 local parts = require("templates/parts")
 local walls = require("templates/walls")
 

@@ -1,10 +1,11 @@
 --!strict
--- The quarters of a city: where they lie, how their streets run, how their blocks are divided and what is built there.
+-- The quarters of a city: their positions, street patterns, block divisions and buildings.
 local roads = require("templates/roads")
 local skyline = require("templates/skyline")
 local quarters = {}
 
--- Photos of some bays and four storeys: the size (m) of a bay, how many there are, and from 0 to 1 how light their wall is.
+-- Photos of some bays and four storeys: the size (m) of a bay, the number of bays, and the brightness of the wall
+-- from 0 to 1.
 local FACADES: { [string]: any } = {
   stone = { texture = "windows_stone", bay = { 2.6, 3.3 }, count = 4, light = 0.72 },
   brick = { texture = "windows_brick", bay = { 2.7, 3.0 }, count = 4, light = 0.55 },
@@ -52,16 +53,16 @@ local LOOKS: { [string]: Look } = {
   },
 }
 
--- One of a list, drawn by a lot's own numbers.
+-- An element of a list, chosen at random by the lot's own numbers.
 local function one<T>(list: { T }, draw: number): T
   return list[math.min(#list, 1 + math.floor(draw * #list))]
 end
 
--- How much of the height of rows is by the depth of their street, and how much of that is left at each deeper one.
+-- The influence of the street's depth on the height of rows, and the factor per depth.
 local BY_DEPTH, FALLOFF = 0.75, 0.5
 
--- Buildings of rows that touch, as high as `low` to `high` (m) by whole storeys of 3.1 m, the higher the greater their street;
--- and the lots that have none.
+-- Rows of adjoining buildings, from `low` to `high` (m) in whole storeys of 3.1 m, higher at larger streets; also
+-- returns the lots without a building.
 local function row(lots: { any }, low: number, high: number, look: string, style: string): ({ any }, { any })
   local features, empty = {}, {}
   for _, lot in lots do
@@ -91,7 +92,7 @@ local function row(lots: { any }, low: number, high: number, look: string, style
   return features, empty
 end
 
--- Slabs and towers of flats, which stand free: as long as their lot lets them be.
+-- Detached slabs and towers of flats, as long as their lot allows.
 local function flats(lots: { any }): ({ any }, { any })
   local features, empty = {}, {}
   for _, lot in lots do
@@ -121,7 +122,7 @@ local function flats(lots: { any }): ({ any }, { any })
   return features, empty
 end
 
--- Free-standing buildings by the rules of the skyline; those of each kind look as `looks` says.
+-- Detached buildings by the rules of the skyline; `looks` sets the appearance of each kind.
 local function standing(
   lots: { any },
   heights,
@@ -140,7 +141,7 @@ end
 export type Quarter = {
   ground: string,
   lots: { [string]: any },
-  -- The buildings of lots, and the lots without room for one.
+  -- Returns the buildings of lots, and the lots without room for a building.
   buildings: (lots: { any }, highest: number, extent: number) -> ({ any }, { any }),
 }
 
@@ -236,7 +237,7 @@ quarters.kinds = {
   },
 } :: { [string]: Quarter }
 
--- Where quarters lie: { at, kind, pattern }. The heart is "towers", "old town" or "boulevards".
+-- The positions of quarters: { at, kind, pattern }. The centre is "towers", "old town" or "boulevards".
 function quarters.places(extent: number, heart: string): { any }
   local turned = random(0, 360)
   local middle = { 0, extent * 0.05 }
@@ -260,7 +261,7 @@ function quarters.places(extent: number, heart: string): { any }
     local at = { math.cos(way) * extent * share, math.sin(way) * extent * share }
     table.insert(places, { at = at, kind = kind, pattern = pattern })
   end
-  -- Where the heart is old, the new towers stand beside it.
+  -- Next to an old centre are new towers.
   local first = if heart == "old town" then "blocks" else "old"
   around(0.42, 20, first, roads.organic({ block = 58, bends = 30, gap = 0.2, variety = 0.4 }))
   around(0.42, 110, "blocks", roads.radial({ middle = middle, block = 85, gap = 0.1, variety = 0.2 }))
@@ -289,12 +290,12 @@ function quarters.places(extent: number, heart: string): { any }
   return places
 end
 
--- The pattern of streets at each place.
+-- The street pattern at each position.
 function quarters.pattern(places: { any })
   return roads.districts(places)
 end
 
--- The kind of the quarter that a place lies in.
+-- The kind of the quarter at a position.
 function quarters.at(places: { any }, at: any): string
   local best: any, least = places[1], math.huge
   for _, place in places do
@@ -306,7 +307,7 @@ function quarters.at(places: { any }, at: any): string
   return best.kind
 end
 
--- Buildings on ground with heights: their plans lie on it, and what stands on others as high as those.
+-- Buildings on a terrain: their plans are on the terrain, and upper parts keep their height above lower parts.
 function quarters.raised(buildings: { any }, height: (x: number, y: number) -> number): { any }
   local high: { [string]: number } = {}
   local raised = {}
@@ -357,12 +358,12 @@ function quarters.areas(geometries: { any }, from: number, to: number, color: st
   system:derive(0)
 end
 
--- The streets of a network for buildings beside them, whose doors and shops are to be on their side.
+-- The streets of a network, for doors and shops on the street side of buildings.
 function quarters.ways(network: Network): any
   return streets(network:streets())
 end
 
--- What is told of a building.
+-- The report about a building.
 function quarters.attributes(feature: any): { [string]: any }
   return {
     kind = feature.kind,
@@ -374,7 +375,7 @@ end
 
 local Block = module("Block", "plan", "look", "tint", "height", "is_top")
 
--- Buildings without facades of their own: photos of windows in whole bays, and a roof.
+-- Buildings without their own facades: photos of windows in whole bays, and a roof.
 function quarters.distant(buildings: { any })
   if #buildings == 0 then
     return
@@ -404,7 +405,7 @@ function quarters.distant(buildings: { any })
         color = tint,
         roughness = 0.85,
       }
-      -- Walls without windows are as dark as the photo's.
+      -- Walls without windows have the brightness of the photo's walls.
       local plain = mix("#000000", tint, facade.light)
       if this:highest() > this:lowest() + 0.01 then
         this:groundwork("extruded")

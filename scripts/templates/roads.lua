@@ -1,6 +1,6 @@
 --!strict
--- Grows street networks: patterns that say where streets go, districts that mix them, highways that join centres, and
--- roads that are written as a word of characters.
+-- Street networks: patterns of streets, districts that combine patterns, highways that join centres, and roads from a
+-- word of characters.
 --
 --   local roads = require("templates/roads")
 --   roads.grow({ pattern = roads.organic(), extent = 500 })

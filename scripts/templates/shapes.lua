@@ -1,12 +1,12 @@
 --!strict
--- Shapes and materials that models are made of: blocks, plates and beams, and the models themselves.
--- They are seen from the front: x to the right, z up, y into the wall, whose surface is y = 0. Lengths are metres.
+-- Shapes and materials of models: blocks, plates and beams, and the models themselves. They are seen from the front:
+-- x to the right, z up, y into the wall; y = 0 is the surface. Lengths are in metres.
 local shapes = {}
 
 type Material = { [string]: any }
 type Shape = { [string]: any }
 
--- Materials of what is on many buildings.
+-- Materials that many buildings use.
 function shapes.matt(color: string): Material
   return { color = color, roughness = 0.92 }
 end
@@ -23,7 +23,7 @@ shapes.steel = { color = "#8b9094", roughness = 0.4, metallic = 0.8, name = "ste
 shapes.zinc = { color = "#737d87", roughness = 0.5, metallic = 0.45, name = "zinc" }
 shapes.clay = { color = "#a3705a", roughness = 0.9, name = "clay" }
 
--- The model itself. What stands on a wall is not shown on its own; so neither is this, even if nothing needs it.
+-- The model itself. It is not shown at its own position, even if nothing places it.
 function shapes.kept(model)
   panel({ model = model, stretch = true })
   return model
@@ -68,7 +68,7 @@ local function beam(material: Material, from: any, to: any, width, y0, y1): Shap
 end
 shapes.beam = beam
 
--- A plate as wide as 2 `w`, from the height and depth { y, z } down to another, `thick` high.
+-- A plate of the width 2 `w`, from the height and depth { y, z } down to another, `thick` high.
 function shapes.leaning(material: Material, w: number, from, to, thick: number): Shape
   return { kind = "leaning", material = material, w = w, from = from, to = to, thick = thick }
 end
@@ -97,7 +97,7 @@ function shapes.model(...)
         this:jump({ 0, 0, shape.z[1] }):extrude(shape.z[2] - shape.z[1])
       elseif shape.kind == "leaning" then
         local a, b, t = shape.from, shape.to, shape.thick
-        -- Turned from z to x, the section has its x downwards.
+        -- Turned from z to x, the section has its x axis downwards.
         local outline = { { -a[2], a[1] }, { -b[2], b[1] }, { t - b[2], b[1] }, { t - a[2], a[1] } }
         this:direction({ 1, 0, 0 }):polygon(outline):jump({ -shape.w, 0, 0 }):extrude(2 * shape.w)
       else

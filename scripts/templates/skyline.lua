@@ -1,11 +1,11 @@
 --!strict
--- How high buildings are and what plans they have: heights by the depth of the street, by noise, by the distance to centres
--- or by a mix; detached houses below a height and skyscrapers among the tallest; plans that stay inside their lot.
--- A lot is one of network:lots or network:sites. Random numbers follow from the id of the lot and a seed, so that a building
--- depends on no other.
+-- Heights and plans of buildings: heights by the depth of the street, by noise, by the distance to centres or by a
+-- mix; detached houses below a height, and skyscrapers among the highest buildings; plans inside their lot. A lot is
+-- a result of network:lots or network:sites. Random numbers depend on the id of the lot and a seed, so buildings are
+-- independent.
 local skyline = {}
 
--- The random numbers (0 to 1) of a name: a function that draws the next.
+-- The random numbers (0 to 1) of a name: a function that returns the next number.
 function skyline.stream(name: string, seed: number?): () -> number
   local state = bit32.bxor(2166136261, (seed or 0) * 40503)
   for place = 1, #name do
@@ -26,28 +26,28 @@ function skyline.stream(name: string, seed: number?): () -> number
 end
 
 export type Heights = {
-  -- What decides: "depth" of the street, "noise", "centres", "presets", or a mix: { depth = 0.7, noise = 0.3 }.
+  -- The criterion: "depth" of the street, "noise", "centres", "presets", or a mix: { depth = 0.7, noise = 0.3 }.
   by: (string | { [string]: number })?,
-  -- The lowest and the highest usual height (m).
+  -- The minimum and the maximum usual height (m).
   low: number?,
   high: number?,
-  -- Deeper streets have buildings so many times as high as those of the next main one.
+  -- The factor of the heights at streets that are one level deeper.
   falloff: number?,
-  -- The share of a height that is random for the highest; it shrinks with the height, to nothing for the lowest.
+  -- The random fraction of the maximum height; it decreases with the height, to 0 for the minimum.
   spread: number?,
-  -- Three heights (m), one of which is drawn.
+  -- Three heights (m) for a random choice.
   presets: { number }?,
-  -- Places (m) and the distance (m) at which heights have halved.
+  -- Positions (m), and the distance (m) at which heights are halved.
   centres: { { number } }?,
   reach: number?,
-  -- The size (m) of the hills of noise, and its seed.
+  -- The size (m) of the noise, and its seed.
   grain: number?,
   seed: number?,
-  -- All heights are so many times as great.
+  -- The factor of all heights.
   scale: number?,
-  -- Below this height (m) stands a detached house.
+  -- A building below this height (m) is a detached house.
   detached: number?,
-  -- At least so high (m), a building may be a skyscraper, so many times as high.
+  -- From this height (m), a building can be a skyscraper, with a maximum factor of its height.
   tall: number?,
   chance: number?,
   tower: number?,
@@ -56,7 +56,7 @@ export type Heights = {
 export type Building = {
   kind: string,
   height: number,
-  -- What was decided without any random share (m).
+  -- The height without a random part (m).
   base: number,
   -- Width along the street and depth (m).
   width: number,
@@ -64,7 +64,7 @@ export type Building = {
 }
 
 export type Plan = { { number } }
--- A part of a building from one height (m) to another.
+-- A part of a building between two heights (m).
 export type Tier = { plan: Plan, holes: { Plan }?, from: number, to: number }
 
 local USUAL = {
@@ -87,7 +87,7 @@ local USUAL = {
 
 local RULES: { [string]: (lot: any, of: any, draw: () -> number) -> number } = {}
 
--- From 0, the lowest, to 1, the highest.
+-- From 0, the minimum, to 1, the maximum.
 function RULES.depth(lot, of)
   return of.falloff ^ (lot.street_depth or 0)
 end
@@ -110,7 +110,7 @@ function RULES.presets(_, of, draw)
   return (height - of.low) / math.max(of.high - of.low, 1e-9)
 end
 
--- The height of a building on a lot, what kind it is, and how wide and deep it wants to be.
+-- The height of a building on a lot, its kind, and its preferred width and depth.
 function skyline.building(lot: any, options: Heights?, drawn: (() -> number)?): Building
   local draw = drawn or skyline.stream(lot.id)
   local of: any = table.clone(USUAL :: any)
@@ -134,7 +134,7 @@ function skyline.building(lot: any, options: Heights?, drawn: (() -> number)?): 
   end
   share /= weights
   local base = (of.low + (of.high - of.low) * share) * of.scale
-  -- The random share is as great a part of the height as the height is of the highest.
+  -- The random fraction of the height is proportional to the height.
   local height = base * (1 + (draw() - 0.5) * of.spread * math.clamp(share, 0, 1))
   local kind = if height < of.detached then "detached" else "block"
   local shorter, side, high, more = 0.5 + 0.5 * draw(), draw(), draw(), draw()
@@ -154,7 +154,7 @@ function skyline.building(lot: any, options: Heights?, drawn: (() -> number)?): 
   return { kind = kind, height = height, base = base, width = width, depth = depth }
 end
 
--- A lot as seen from the middle of its front: x along the street, y away from it.
+-- A lot in the frame of its front: x along the street, y away from it, the origin at the centre of the front.
 local function frame(lot: any): (number, number, number, number)
   local facing = math.rad(lot.facing)
   return lot.access.x, lot.access.y, -math.sin(facing), math.cos(facing)
@@ -182,7 +182,7 @@ local function border(lot: any): { { number } }
   return pieces
 end
 
--- Whether a place is inside of a border.
+-- Tests if a position is inside a boundary.
 local function inside(pieces: { { number } }, x: number, y: number): boolean
   local odd = false
   for _, piece in pieces do
@@ -196,7 +196,7 @@ local function inside(pieces: { { number } }, x: number, y: number): boolean
   return odd
 end
 
--- How far it is free to the left and to the right of `x` between the heights y0 and y1; nil if it is not free there.
+-- The free distance to the left and to the right of `x` between y0 and y1; nil if it is not free there.
 local function free(pieces: { { number } }, x: number, y0: number, y1: number): (number?, number)
   local left, right = -math.huge, math.huge
   for _, piece in pieces do
@@ -221,8 +221,8 @@ local function free(pieces: { { number } }, x: number, y0: number, y1: number): 
   return left, right
 end
 
--- The greatest box of up to `width` by `depth` (m) behind the front of a lot, at least `front` (m) from it and `side` (m) from
--- its border, in the lot's frame: { x0, y0, x1, y1 }. Nil if there is no room for one of 4 m.
+-- The largest box of up to `width` by `depth` (m) behind the front of a lot, at least `front` (m) from it and `side`
+-- (m) from its boundary, in the lot's frame: { x0, y0, x1, y1 }. Nil if there is no room for a box of 4 m.
 function skyline.box(lot: any, width: number, depth: number, front: number, side: number): { number }?
   local pieces = border(lot)
   local margin = math.max(side, 0.02)
@@ -243,7 +243,7 @@ function skyline.box(lot: any, width: number, depth: number, front: number, side
         if left and inside(pieces, x, y0 + d / 2) then
           local w = math.min(width, right - left - 2 * margin - 1e-6)
           if w >= 4 and w * d > most then
-            -- As near to the middle of the front as there is room.
+            -- As near to the centre of the front as there is room.
             local x0 = math.clamp(-w / 2, left + margin, right - margin - w)
             best, most = { x0, y0, x0 + w, y0 + d }, w * d
           end
@@ -255,7 +255,7 @@ function skyline.box(lot: any, width: number, depth: number, front: number, side
   return best
 end
 
--- Points of a lot's frame as places (m).
+-- Points of a lot's frame as positions (m).
 local function placed(lot: any, points: Plan): Plan
   local ox, oy, ax, ay = frame(lot)
   local ring: Plan = {}
@@ -270,8 +270,8 @@ local function rectangle(x0: number, y0: number, x1: number, y1: number): Plan
   return { { x0, y0 }, { x1, y0 }, { x1, y1 }, { x0, y1 } }
 end
 
--- The forms of plans: each takes a box { x0, y0, x1, y1 }, how thick wings are (m) and a number from 0 to 1, and gives an
--- outline and holes.
+-- The forms of plans: each accepts a box { x0, y0, x1, y1 }, the width of wings (m) and a number from 0 to 1, and
+-- returns an outline and holes.
 local FORMS: { [string]: (box: { number }, wing: number, draw: number) -> (Plan, { Plan }?) } = {}
 
 function FORMS.box(b: { number }, _: number, _: number): (Plan, { Plan }?)
@@ -329,16 +329,16 @@ end
 skyline.forms = { "box", "L", "T", "U", "court", "stepped", "row" }
 
 export type Plans = {
-  -- One of skyline.forms; drawn by the size of the box if it is left out. A "row" touches its neighbours.
+  -- A name of skyline.forms; by default chosen at random by the size of the box. A "row" touches its neighbours.
   form: string?,
-  -- The least distance (m) to the front and to the rest of the border.
+  -- The minimum distance (m) to the front and to the rest of the boundary.
   front: number?,
   side: number?,
-  -- How thick wings are (m).
+  -- The width of wings (m).
   wing: number?,
 }
 
--- The form that suits a box of this size.
+-- A form that suits a box of this size.
 local function suits(width: number, depth: number, wing: number, draw: number): string
   local fitting = { "box" }
   if width > 1.8 * wing and depth > 1.6 * wing then
@@ -354,14 +354,15 @@ local function suits(width: number, depth: number, wing: number, draw: number): 
   return fitting[math.min(#fitting, 1 + math.floor(draw * #fitting))]
 end
 
--- The whole lot as a plan up to `depth` (m) behind its front, for rows of buildings that touch: two of them are `gap` (m) apart.
+-- The whole lot as a plan up to `depth` (m) behind its front, for rows of adjoining buildings with a distance of
+-- `gap` (m).
 function skyline.row(lot: any, depth: number, gap: number?): any
   local wide = lot.width + lot.depth + 10
   local band = polygon(placed(lot, rectangle(-wide, -wide, wide, depth)))
   return lot.geometry:inset((gap or 0.04) / 2):intersection(band)
 end
 
--- The parts of a building on a lot, from below; none if the lot has no room for it. They are inside of the lot.
+-- The parts of a building on a lot, from bottom to top; none if the lot has no room for it. They are inside the lot.
 function skyline.plan(lot: any, building: Building, options: Plans?, drawn: (() -> number)?): { Tier }
   local next = drawn or skyline.stream(lot.id .. " plan")
   local of: Plans = options or {}
@@ -397,7 +398,7 @@ function skyline.plan(lot: any, building: Building, options: Plans?, drawn: (() 
     for number, part in { 0.4, 0.75, 1 } do
       local to = height * part
       local w, d = width - 2 * inset, depth - 2 * inset
-      -- A box that is small to begin with is no tower of steps.
+      -- A small box is not a stepped tower.
       if #tiers > 0 and (w < 5 or d < 5) then
         tiers[#tiers].to = height
         break
@@ -431,8 +432,8 @@ function skyline.plan(lot: any, building: Building, options: Plans?, drawn: (() 
   return { tier }
 end
 
--- The parts of a building as features, to be the source of a system of footprints. Each has an id, its geometry (at the height
--- where it begins), its height, the kind and the height of its building, its lot, and tier, from 1.
+-- The parts of a building as features, as a source for a system of footprints. Each has an id, its geometry (at the
+-- height of its base), its height, the kind and the height of its building, its lot, and tier, from 1.
 function skyline.features(lot: any, building: Building, tiers: { Tier }): { any }
   local features = {}
   for number, tier in tiers do
@@ -457,7 +458,8 @@ function skyline.features(lot: any, building: Building, tiers: { Tier }): { any 
   return features
 end
 
--- The buildings of lots as skyline.features, the parts of each from below; and the lots that have no room for one.
+-- The buildings of lots as skyline.features, with the parts of each from bottom to top, and the lots without room for
+-- a building.
 function skyline.buildings(lots: { any }, heights: Heights?, plans: Plans?, seed: number?): ({ any }, { any })
   local features, empty = {}, {}
   for _, lot in lots do

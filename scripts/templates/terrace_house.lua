@@ -1,6 +1,7 @@
 --!strict
--- A Victorian terrace house: brick with white lintels, sash windows, a canted bay beside the door, slates and stacks; and
--- one without that bay, which would stand on the sidewalk where there is no garden before the house.
+-- A Victorian terrace house: brick with white lintels, sash windows, a canted bay next to the door, slates and
+-- chimneys; and a variant without the bay, which would overlap the sidewalk if there is no garden in front of the
+-- house.
 local parts = require("templates/parts")
 local walls = require("templates/walls")
 local box: (...any) -> any, prism: (...any) -> any = parts.box, parts.prism

@@ -1,5 +1,5 @@
 --!strict
--- A rendered house of a suburb or a village: shuttered windows and a tiled roof.
+-- A rendered house of a suburb or a village, with shuttered windows and a tiled roof.
 local parts = require("templates/parts")
 local walls = require("templates/walls")
 

@@ -1,6 +1,5 @@
 --!strict
--- What the styles are put together from: materials with images, openings, bays and whole storeys.
--- Lengths are metres.
+-- The components of the styles: materials with images, openings, bays and whole storeys. Lengths are in metres.
 local walls = {}
 
 local IMAGES: { [string]: any } = {
@@ -14,7 +13,7 @@ local IMAGES: { [string]: any } = {
   tiles = { 1.8, 2.2 },
 }
 
--- A rough material of this colour, with one of the images above if wanted.
+-- A rough material of this colour, with an optional image from the list above.
 function walls.surface(color, image: string?, roughness: number?)
   local material: { [string]: any } = { color = color, roughness = roughness or 0.92, name = image }
   if image then
@@ -24,8 +23,8 @@ function walls.surface(color, image: string?, roughness: number?)
   return material
 end
 
--- A hole of exactly `width` by `height` in the wall with a model that fills it, and a surround that stands out.
--- { width, height, depth, model, surround, at, reveal, open }: what is open goes down to the floor, as doors do.
+-- A hole of exactly `width` by `height` in the wall with a model that fills it, and a projecting surround. { width,
+-- height, depth, model, surround, at, reveal, open }: an open one extends to the floor, like a door.
 function walls.opening(o: any)
   local filled = panel({
     model = o.model,
@@ -44,8 +43,8 @@ function walls.opening(o: any)
   })
 end
 
--- A bay: an opening with at least `side` of wall on both sides, `sill` of it below (less in low
--- storeys), and at least `top` above.
+-- A bay: an opening with at least `side` of wall on both sides, `sill` below it (less in low storeys), and at least
+-- `top` above.
 function walls.bay(opening, o)
   return bordered(opening, {
     left = o.side,
@@ -57,7 +56,7 @@ function walls.bay(opening, o)
   })
 end
 
--- A band along a front, `height` high, that stands out by `depth`.
+-- A band along a front, `height` high, that projects by `depth`.
 function walls.band(height: number, depth: number, material: any): Wall
   local face = panel({ height = { height, height }, material = material })
   if depth == 0 then
@@ -66,7 +65,7 @@ function walls.band(height: number, depth: number, material: any): Wall
   return extruded(face, { depth = depth, material = material })
 end
 
--- A cornice of steps, each with its height and how far it stands out.
+-- A cornice of steps, each with its height and its projection.
 function walls.cornice(steps: any, material)
   local bands = {}
   for _, step in steps do
@@ -76,14 +75,14 @@ function walls.cornice(steps: any, material)
 end
 
 -- One storey of a building for frontages of every width.
---   bay      what is repeated
---   narrow   what stands where no bay has room: a wall, or several, the narrowest first
---   street   what is repeated on the street, in place of `bay`
+--   bay      the repeated wall
+--   narrow   the wall for frontages without room for a bay, or several, the narrowest first
+--   street   the repeated wall on the street, instead of `bay`
 --   entry    the bay with the entry door
 --   ends     the first and the last bay on the street
---   jut      how far all of it stands out
---   foot     a band below everything, and `head` one above
---   material of all that does not say its own, `party` that of party walls
+--   jut      the projection of the whole storey
+--   foot     a band below everything, and `head` a band above
+--   material of all parts without their own, `party` that of party walls
 function walls.storey(o: any): Facade
   local templates = {}
   local function add(keywords, wall, weight: number?)
@@ -117,7 +116,7 @@ function walls.storey(o: any): Facade
   elseif o.street or o.entry then
     add({ "street" }, front)
   end
-  -- What has no weight is only taken where nothing else fits, the last one first.
+  -- Walls without a weight are used only if nothing else fits, the last one first.
   add({}, panel({}), 0)
   table.insert(templates, template(panel({}), { material = o.material, weight = 0 }))
   local narrow = if type(o.narrow) == "table" then o.narrow else { o.narrow }

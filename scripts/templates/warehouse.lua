@@ -1,6 +1,6 @@
 --!strict
--- A warehouse: bays between piers with steel windows, gates on the street, and a low roof with skylights; of brick with
--- a gambrel roof, or of ribbed metal with a shed roof.
+-- A warehouse: bays between piers with steel windows, gates on the street, and a low roof with skylights; of brick
+-- with a gambrel roof, or of ribbed metal with a shed roof.
 local parts = require("templates/parts")
 local walls = require("templates/walls")
 local box = parts.box

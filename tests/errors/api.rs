@@ -22,7 +22,7 @@ fn a_type_is_told_with_its_fields_and_methods_and_an_example() {
       seed: number | string = 0
           Seed of the whole universe: a number or a string.
 
-    Methods that read: rules and interpretations may call them
+    Read methods: rules and interpretations may call them
       galaxy(x: number, y: number, z: number) -> any
           Returns the galaxy in a cube of space, by its column, row and layer: a table with `position`
           and `radius` (light years), `kind`, `color`, `seed`, and `stars`, the number of its stars.
@@ -64,7 +64,7 @@ fn a_type_is_told_with_its_fields_and_methods_and_an_example() {
           Applies the rules step by step, to the end where no number of steps is given.
 
     Example
-      -- All that a system is told, with rules that look at their neighbours.
+      -- All methods of a system, with context-sensitive rules.
       local Signal, Wait = module("Signal"), module("Wait")
       local row = lsystem({ object = turtle() })
       row:axiom(Signal(), Turn(5), Wait(), Turn(5), Wait())
@@ -103,7 +103,7 @@ fn a_type_is_told_with_its_fields_and_methods_and_an_example() {
           What query calls it, in place of its layer's name.
 
     Example
-      -- A house for each feature of a list; a file is named instead: source("town.gpkg:buildings").
+      -- A house for each feature of a list; a file source is source("town.gpkg:buildings").
       local houses = source({
         { id = "inn", geometry = polygon({ 0, 0 }, { 10, 0 }, { 10, 8 }, { 0, 8 }), height = 6 },
         { id = "barn", geometry = polygon({ 14, 0 }, { 30, 0 }, { 30, 8 }, { 14, 8 }), height = 4 },
@@ -129,7 +129,7 @@ fn a_field_or_a_method_is_told_by_itself() {
       It changes the object: only interpretations may call it.
 
     Example
-      -- By 90 degrees each: toward 0 is grey, 90 orange, 180 green, 270 purple. The extruder looks up, and its own up is along x.
+      -- Bends of 90 degrees: toward 0 is grey, 90 orange, 180 green, 270 purple. The extruder faces up, and its own up is along x.
       local Part = module("Part")
       local parts = lsystem({ object = extruder({ sides = 8 }) })
       parts:axiom(Part())
@@ -148,7 +148,7 @@ fn a_field_or_a_method_is_told_by_itself() {
       It only reads: rules and interpretations may call it.
 
     Example
-      -- What a footprint knows of its shape and of the ground under it.
+      -- The shape measures of a footprint, and the height of its ground.
       local plan = footprint({ { 0, 0 }, { 10, 0 }, { 10, 8 }, { 0, 8 } }, { height = 6 })
       print(plan:area(), plan:perimeter(), plan:convexity(), plan:height())
       print(plan:lowest(), plan:highest())
@@ -178,10 +178,10 @@ fn a_field_or_a_method_is_told_by_itself() {
     assert_snapshot!(api(&["lerp"]), @r#"
     lerp(a: number, b: number, t: number) -> number
     lerp(a: Vector, b: Vector, t: number) -> Vector
-      From `a` to `b` as `t` goes from 0 to 1: numbers, or vectors.
+      Interpolates linearly from `a` (`t` = 0) to `b` (`t` = 1): numbers or vectors.
 
     Example
-      -- Half of the way between two numbers, and between two vectors.
+      -- Halfway between two numbers, and between two vectors.
       print(lerp(2, 6, 0.5))
       print(lerp(vec(0, 0, 0), vec(4, 2, 0), 0.5))
     "#);
@@ -191,7 +191,7 @@ fn a_field_or_a_method_is_told_by_itself() {
       moves. Calls turtle:forward where it is interpreted.
 
     Example
-      -- A line that is drawn, a gap, and a line again.
+      -- A line, a gap, and another line.
       local line = lsystem({ object = turtle({ step = 2 }) })
       line:axiom(F(), G(0.5), F(1))
       line:derive()

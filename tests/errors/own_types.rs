@@ -137,7 +137,7 @@ fn the_types_of_a_script_are_told_like_those_that_come_with_burgeon() {
     let folder = Folder::new().with("s.lua", format!("{LAMP}{rest}")).with("empty.lua", "");
     let told = |arguments: &[&str]| folder.burgeon(&[&["api", "--script"], arguments].concat()).done().stdout;
     assert_snapshot!(told(&["s.lua"]), @r##"
-    Types of objects
+    Object types
       lamp    A lamp.
       turtle  A turtle as in The Algorithmic Beauty of Plants, which draws round branches in three dimensions.
 

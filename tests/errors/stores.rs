@@ -35,7 +35,7 @@ const STORES: &[Store] = &[
         arguments: &["--threads", "6", "--batch", "16"],
     },
     store(
-        "what rules make",
+        "values made in rules",
         "s:rule(\"A(x)\", function(this, x) local t = {} while true do table.insert(t, { x }) end end)\ns:derive(1)",
     ),
     store("modules of chains", "s:rule(\"A(x)\", function(this, x) return A(x), A(x + 1) end)\ns:derive()"),
@@ -48,7 +48,7 @@ const STORES: &[Store] = &[
         "s:rule(\"A(x)\", function(this, x)\n  local t = table.create(300, random()) t[1] = x return A(t), A(t)\nend)\ns:derive()",
     ),
     store(
-        "chains of features and their objects",
+        "chains and objects of features",
         "local list = {} for i = 1, 200000 do list[i] = { id = i } end\ns:axiom(source(list), function(feature) return A(1) end)\ns:rule(\"A(x)\", function(this, x) return A(x), B(x) end)\ns:derive()",
     ),
     store(
@@ -56,7 +56,7 @@ const STORES: &[Store] = &[
         "local all = {} while true do local list = {} for i = 1, 1000 do list[i] = { id = i, name = \"n\" .. i } end table.insert(all, source(list)) end",
     ),
     store(
-        "tables of modules",
+        "module tables",
         "local text = string.rep(\"x\", 2000)\ns:rule(\"A(x)\", function(this, x)\n  query(\"select count(*) as n from A\")\n  return A(x), A(text)\nend)\ns:derive()",
     ),
     store(
@@ -80,23 +80,23 @@ const STORES: &[Store] = &[
         "local stone = lsystem({ object = extruder() }) stone:axiom(A(1)) stone:interpret(\"A(x)\", function(this) this:extrude(1) end)\nlocal model = stone:derive()\ns:interpret(\"A(x)\", function(this, x) while true do this:jump({ 1, 0, 0 }):place(model) end end)\ns:derive(1)",
     ),
     store(
-        "models that place one another",
+        "nested models",
         "local last\nfor i = 1, 100000 do\n  local model = last\n  local next = lsystem({ object = turtle() }) next:axiom(A(1))\n  next:interpret(\"A(x)\", function(this) this:forward(1) if model then this:place(model):jump({ 1, 0, 0 }):place(model) end end)\n  last = next:derive()\nend",
     ),
     store(
-        "notes of objects",
+        "report entries of objects",
         "local lamp = object(\"lamp\", { changes = { go = function(self, n) self:note(string.rep(\"x\", 1000) .. n) end } })\nlocal list = {} for i = 1, 2000 do list[i] = { id = i } end\nlocal l = lsystem({ object = lamp() })\nl:axiom(source(list), function() return lamp(), A(1) end)\nl:interpret(\"A(x)\", function(this, x) for i = 1, 1000 do this:go(i) end end)\nl:derive(1)",
     ),
     store(
-        "state of types of scripts",
+        "state of custom types",
         "local lamp = object(\"lamp\", { state = { text = \"\" }, changes = { go = function(self, n) self.text = string.rep(\"x\", 100000) .. n end } })\nlocal list = {} for i = 1, 15000 do list[i] = { id = i } end\nlocal l = lsystem({ object = lamp() })\nl:axiom(source(list), function(feature) return lamp(), A(feature.id) end)\nl:interpret(\"A(x)\", function(this, x) this:go(x) end)\nl:derive(1)",
     ),
     store(
-        "objects that objects hold",
+        "child objects",
         "local lamp = object(\"lamp\", { state = { pen = extruder() }, changes = { go = function(self) for i = 1, 1000 do self.pen:extrude(1):roll(9) end end } })\nlocal list = {} for i = 1, 15000 do list[i] = { id = i } end\nlocal l = lsystem({ object = lamp() })\nl:axiom(source(list), function(feature) return lamp(), A(feature.id) end)\nl:interpret(\"A(x)\", function(this, x) this:go() end)\nl:derive(1)",
     ),
     store(
-        "parameters of the script",
+        "script parameters",
         "for i = 1, 1e7 do param(\"p\" .. i, { default = string.rep(\"x\", 1000) .. i }) end",
     ),
     store("systems", "while true do local t = lsystem({ object = turtle() }) t:axiom(A(1)) end"),
@@ -105,7 +105,7 @@ const STORES: &[Store] = &[
         "while true do local t = lsystem() t:axiom(A(1)) for i = 1, 60000 do t:rule(\"A(x)\", function(this, x) return A(x + i) end) end end",
     ),
     store(
-        "types of objects",
+        "object types",
         "for i = 1, 1e7 do object(\"type\" .. i, { doc = string.rep(\"x\", 10000) .. i, changes = { go = function(self) end } }) end",
     ),
     store(
@@ -117,7 +117,7 @@ const STORES: &[Store] = &[
         "local t, g = {}, polygon({ { 0, 0 }, { 10, 0 }, { 10, 8 }, { 0, 8 } }) while true do table.insert(t, g:buffer(1 + #t)) end",
     ),
     store(
-        "answers of geometries and objects",
+        "results of methods",
         "local n = universe({ seed = 3 }) local t = {} for i = 1, 1e9 do t[i] = n:galaxy(i, 0, 0) or i end",
     ),
     store(
@@ -129,7 +129,7 @@ const STORES: &[Store] = &[
         "local hills = { A = { \"A\", \"A\", \"A\", \"A\", change = { 0.2, -0.1, 0.1, -0.2 }, decay = 0.5 } }\nlocal land = lsystem({ object = terrain({ size = 4096, levels = 13, rules = hills, covers = { { color = \"#5b7a3a\" } } }) })\nland:derive()",
     ),
     store(
-        "edits of terrain",
+        "terrain edits",
         "local hills = { A = { \"A\", \"A\", \"A\", \"A\", change = { 0.12, -0.06, 0.06, -0.12 }, decay = 0.55 } }\nlocal l = lsystem({ object = terrain({ size = 512, levels = 5, rules = hills, covers = { { color = \"#7d8f5a\" } } }) }) l:axiom(A(1))\nl:interpret(\"A(x)\", function(this, x) for i = 1, 1e7 do local p = {} for k = 1, 200 do p[k] = { k, i % 100 } end this:dig(p, 2, 1) end end)\nl:derive(1)",
     ),
     store(
@@ -140,10 +140,10 @@ const STORES: &[Store] = &[
         "text of chains",
         "s:rule(\"A(x)\", function(this, x) return A(x + 0.123), A(x + 0.321) end)\nlocal d = s:derive(17)\nlocal t = {} for i = 1, 1000 do t[i] = s:derive(17).chains end",
     ),
-    store("scripts that are read", "require(\"large\")"),
-    store("texts that are printed", "print(string.rep(\"x\", 50e6))"),
+    store("script files", "require(\"large\")"),
+    store("printed strings", "print(string.rep(\"x\", 50e6))"),
     store(
-        "texts of errors",
+        "error messages",
         "local t = {} for i = 1, 5 do t[i] = string.rep(\"x\", 3e6) .. i end while true do local ok, e = pcall(error, t[1]) t[#t + 1] = e .. #t end",
     ),
 ];
@@ -215,7 +215,7 @@ fn every_store_that_a_script_grows_ends_at_the_memory_limit() {
 #[test]
 fn the_book_lists_the_stores() {
     let page =
-        std::fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/docs/book/src/threats.md")).unwrap();
+        std::fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/docs/book/src/security.md")).unwrap();
     let rows = page.split("## Memory").nth(1).unwrap().lines().filter_map(|line| line.strip_prefix("| "));
     let listed: Vec<&str> = rows.skip(2).map(|row| row.split(" |").next().unwrap()).collect();
     let names: Vec<&str> = STORES.iter().map(|store| store.name).collect();

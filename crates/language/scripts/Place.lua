@@ -1,4 +1,4 @@
--- A cone, made once and placed three times, ever smaller.
+-- A cone, built once and placed three times at decreasing scale.
 local Cone = module("Cone")
 local cone = lsystem({ object = extruder() })
 cone:axiom(Cone())

@@ -1,4 +1,4 @@
--- Four twigs: the stem is rolled by 120 degrees, by as many again, and back by 60.
+-- Four twigs: the stem rolls by 120 degrees, by 120 degrees again, and back by 60.
 local stem = lsystem({ object = turtle({ step = 1 }) })
 local function twig()
   return { Turn(50), F() }

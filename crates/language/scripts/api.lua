@@ -1,4 +1,4 @@
--- A script that goes on without what an earlier version lacks.
+-- A script that works without a function of a later API version.
 print(api.version)
 if api.has("terrain") then
   print("there is ground")

@@ -1,4 +1,4 @@
--- Only signals and waits are seen by contexts, whatever stands between them.
+-- Contexts consider only signals and waits, and skip all other modules.
 local Signal, Wait = module("Signal"), module("Wait")
 local row = lsystem({ object = turtle() })
 row:axiom(Signal(), Turn(5), F(1), Wait())

@@ -1,4 +1,4 @@
--- What has come of a derivation.
+-- The results of a derivation.
 local line = lsystem({ object = turtle() })
 line:axiom(F())
 line:rule("F", function()

@@ -1,4 +1,4 @@
--- Footprints that know whether they are large.
+-- Footprints with a method that tests for large plans.
 extend(footprint, {
   reads = {
     is_large = function(self)

@@ -1,4 +1,4 @@
--- A post at each corner of a ground plan: the rings of a polygon, the segments of a ring, their points.
+-- A post at each corner of a plan: the rings of a polygon, the segments of a ring, their points.
 local Plan, Ring = module("Plan", "shape"), module("Ring", "shape")
 local Side, Post = module("Side", "shape"), module("Post", "place")
 local posts = lsystem({ object = turtle({ width = 0.2 }) })

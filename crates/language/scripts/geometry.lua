@@ -1,3 +1,3 @@
--- A well-known text as a geometry, which can be measured.
+-- A geometry from well-known text, with its measures.
 local yard = geometry("POLYGON ((0 0, 20 0, 20 10, 0 10, 0 0))")
 print(yard:area(), yard:length())

@@ -1,4 +1,4 @@
--- Bars of all hues.
+-- Bars in all hues.
 local Bar = module("Bar", "number")
 local bars = lsystem({ object = extruder({ sides = 4 }) })
 local chain = {}

@@ -1,4 +1,4 @@
--- Fine leaves only where the run asks for everything.
+-- Fine leaves only at full detail.
 local leaves = if lod >= 3 then 5 else 1
 local bush = lsystem({ object = turtle() })
 local chain = {}

@@ -1,4 +1,4 @@
--- The curve of Koch: its object is a turtle, which draws each F.
+-- The Koch curve: the turtle of the system draws each F.
 local curve = lsystem({ object = turtle({ step = 0.1, width = 0.05 }) })
 curve:axiom(F())
 curve:rule("F", function()

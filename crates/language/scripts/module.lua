@@ -1,4 +1,4 @@
--- A module with two parameters, of which the second may be left out.
+-- A module with two parameters; the second is optional.
 local Floor = module("Floor", "height", "setback?")
 local house = lsystem({ object = extruder({ sides = 4 }) })
 house:axiom(Floor(4), Floor(3, 0.9))

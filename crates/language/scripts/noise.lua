@@ -1,4 +1,4 @@
--- A row of bars whose heights wander smoothly.
+-- A row of bars with smoothly varying heights.
 local Bar = module("Bar", "x")
 local bars = lsystem({ object = extruder({ sides = 4 }) })
 local chain = {}

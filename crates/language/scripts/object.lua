@@ -1,4 +1,4 @@
--- A type of object of its own: a lamp that knows how to draw itself.
+-- A custom object type: a lamp that draws itself.
 local lamp = object("lamp", {
   doc = "A street lamp.",
   extends = extruder,

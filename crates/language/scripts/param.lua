@@ -1,4 +1,4 @@
--- A value that people set with --set floors=7, or on the page.
+-- A value that --set floors=7 or the live view can change.
 local floors = param("floors", { default = 3, min = 1, max = 40, step = 1, text = "How many floors." })
 local Floor = module("Floor", "left")
 local tower = lsystem({ object = extruder({ sides = 6 }) })

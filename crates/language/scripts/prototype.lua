@@ -1,4 +1,4 @@
--- A post that draws itself where it begins, made once and placed three times.
+-- A post that draws itself in `begin`, built once and placed three times.
 local post = object("post", {
   extends = extruder,
   begin = function(self)

@@ -1,4 +1,4 @@
--- The houses that are higher than 10 m, the highest first.
+-- The houses of more than 10 m, in descending order of height.
 source({
   { id = "inn", geometry = point(0, 0), height = 9 },
   { id = "hall", geometry = point(20, 0), height = 14 },

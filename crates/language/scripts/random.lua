@@ -1,4 +1,4 @@
--- A row of stones, each of another size: the number belongs to the module that draws it.
+-- A row of stones of random sizes: each module has its own random numbers.
 local Stone = module("Stone", "x")
 local row = lsystem({ object = extruder({ sides = 6 }) })
 row:axiom({ Stone(0) }, { Stone(2) }, { Stone(4) })

@@ -1,3 +1,3 @@
--- What towers.lua beside this file returns: { height = 24 }.
+-- The result of towers.lua next to this file: { height = 24 }.
 local towers = require("towers")
 print(towers.height)

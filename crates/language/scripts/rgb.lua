@@ -1,2 +1,2 @@
--- A colour as its three numbers from 0 to 1.
+-- A colour as three numbers from 0 to 1.
 print(table.concat(rgb("#336699"), ", "))

@@ -1,4 +1,4 @@
--- A bud becomes a leaf three times in four, and a flower else; one that is too old does neither.
+-- A young bud becomes a leaf with probability 3 in 4, otherwise a flower; an old bud stays.
 local Bud, Leaf, Flower = module("Bud", "age"), module("Leaf"), module("Flower")
 local function is_young(this, age)
   return age < 5

@@ -1,4 +1,4 @@
--- A house for each feature of a list; a file is named instead: source("town.gpkg:buildings").
+-- A house for each feature of a list; a file source is source("town.gpkg:buildings").
 local houses = source({
   { id = "inn", geometry = polygon({ 0, 0 }, { 10, 0 }, { 10, 8 }, { 0, 8 }), height = 6 },
   { id = "barn", geometry = polygon({ 14, 0 }, { 30, 0 }, { 30, 8 }, { 14, 8 }), height = 4 },

@@ -1,4 +1,4 @@
--- All that a system is told, with rules that look at their neighbours.
+-- All methods of a system, with context-sensitive rules.
 local Signal, Wait = module("Signal"), module("Wait")
 local row = lsystem({ object = turtle() })
 row:axiom(Signal(), Turn(5), Wait(), Turn(5), Wait())

@@ -1,5 +1,5 @@
 --!strict
--- Areas: what is asked of the outline of the land between streets.
+-- Areas: properties of the outline of the land between streets.
 local checks = require("checks")
 
 local areas = {}
@@ -13,15 +13,15 @@ export type Area = {
   degree: { number },
   -- The depth of the street from each corner to the next.
   depth: { number },
-  -- Twice the area on the left of the way from the first corner to each.
+  -- Twice the area on the left of the path from the first corner to each corner.
   swept: { number },
   size: number,
   middle: { number },
-  -- The heading (degrees, up to a quarter turn) that most of the outline leads along.
+  -- The heading (degrees, up to a quarter turn) of most of the outline.
   turned: number,
 }
 
--- Reads the area of a face that a network gives; its size is negative for the land outside of all streets.
+-- Reads the area of a face of a network; its size is negative for the land outside of all streets.
 function areas.read(face: any): Area?
   if not face then
     return nil
@@ -43,7 +43,7 @@ function areas.read(face: any): Area?
     area.swept[index + 1] = swept
     x += (ax + bx) * cross
     y += (ay + by) * cross
-    -- The fourth power of a direction is the same a quarter turn on.
+    -- The fourth power of a direction is the same after a quarter turn.
     local dx, dy = bx - ax, by - ay
     local length = math.sqrt(dx * dx + dy * dy)
     local fourfold = 4 * math.atan2(dy, dx)
@@ -62,7 +62,7 @@ function areas.heading(area: Area, corner: number): number
   return math.deg(math.atan2(area.y[after] - area.y[corner], area.x[after] - area.x[corner]))
 end
 
--- The angle (degrees) of an area at a corner, and the heading of its middle.
+-- The angle (degrees) of an area at a corner, and the heading of its bisector.
 function areas.angle(area: Area, corner: number): (number, number)
   local out = areas.heading(area, corner)
   if area.degree[corner] == 1 then
@@ -87,8 +87,8 @@ function areas.border(area: Area): number
   return border
 end
 
--- Tells if a street may leave at a corner: other corners are so far (m) at least, and other streets that leave the outline to either
--- side.
+-- Tests if a street may leave at a corner: the distances (m) to other corners, and to other streets that leave the
+-- outline on either side, are large enough.
 function areas.is_apart(area: Area, corner: number, bends: number, streets: number): boolean
   local count = area.count
   for step = -1, 1, 2 do
@@ -105,7 +105,8 @@ function areas.is_apart(area: Area, corner: number, bends: number, streets: numb
   return true
 end
 
--- Returns the distance (m) of the outline from a corner towards a heading, and the corner at which the piece there begins.
+-- Returns the distance (m) of the outline from a corner towards a heading, and the corner where the crossed piece
+-- begins.
 function areas.hit(area: Area, corner: number, heading: number): (number?, number)
   local east, north = math.cos(math.rad(heading)), math.sin(math.rad(heading))
   local x, y, count = area.x[corner], area.y[corner], area.count
@@ -118,7 +119,7 @@ function areas.hit(area: Area, corner: number, heading: number): (number?, numbe
     local after = index % count + 1
     local bx, by = xs[after] - x, ys[after] - y
     local b_side = east * by - north * bx
-    -- From inside, the outline is crossed from the right to the left.
+    -- Seen from inside, a ray crosses the outline from right to left.
     if a_side < 0 and b_side >= 0 and index ~= corner and index ~= before then
       local part = a_side / (a_side - b_side)
       local far = (ax + part * (bx - ax)) * east + (ay + part * (by - ay)) * north
@@ -134,7 +135,7 @@ function areas.hit(area: Area, corner: number, heading: number): (number?, numbe
   return best, edge
 end
 
--- The part (m²) of an area on the right of a straight way from a corner to a place on its outline.
+-- The part (m²) of an area on the right of the straight line from a corner to a position on its outline.
 function areas.part(area: Area, corner: number, edge: number, x: number, y: number): number
   local swept = area.swept[edge] - area.swept[corner]
   if edge < corner then
@@ -147,7 +148,7 @@ function areas.part(area: Area, corner: number, edge: number, x: number, y: numb
   return (swept + ex * py - ey * px + px * cy - py * cx) / 2
 end
 
--- The distance (m) of a place from the outline, without the parts that lie behind one who looks towards a heading if one is given.
+-- The distance (m) of a position from the outline, without the parts behind the position for a given heading.
 function areas.distance(area: Area, x: number, y: number, heading: number?): number
   local angle: number = math.rad(heading or 0)
   local east: number, north: number = math.cos(angle), math.sin(angle)

@@ -2,7 +2,8 @@
 -- Checks of the options of roads, and comparisons of headings.
 local checks = {}
 
--- Refuses what a table may not have, in the line of whoever called the caller, or as many levels up as are given.
+-- Refuses unknown fields of a table. The error is at the line of the caller's caller, or the given number of levels
+-- up.
 function checks.options(name: string, given: { [string]: any }, known: { [string]: string }, ...: number)
   for key, value in given do
     local kinds = known[key]
@@ -19,8 +20,8 @@ function checks.options(name: string, given: { [string]: any }, known: { [string
   end
 end
 
--- The number that an option has; refuses what is out of its range, in the line of whoever called the caller. (What takes
--- more arguments is not inlined, so that its caller can be told.)
+-- Returns the number of an option, and refuses a number out of range, at the line of the caller's caller. (A function
+-- with more arguments is not inlined, so its caller can be reported.)
 function checks.number(
   name: string,
   value: any,
@@ -42,7 +43,7 @@ function checks.between(from: number, to: number): number
   return (to - from + 180) % 360 - 180
 end
 
--- The modules as a rule returns them; none ends the module that is rewritten.
+-- The modules as a rule returns them; an empty list removes the rewritten module.
 function checks.successor(modules: { any }): ...any
   if #modules == 0 then
     return nil
@@ -50,7 +51,7 @@ function checks.successor(modules: { any }): ...any
   return table.unpack(modules)
 end
 
--- The one of some headings that is nearest to another.
+-- The heading of a list that is nearest to another.
 function checks.nearest(heading: number, headings: { number }): number
   local best = headings[1]
   for _, other in headings do
@@ -61,7 +62,7 @@ function checks.nearest(heading: number, headings: { number }): number
   return best
 end
 
--- Two finite numbers; refuses all else, as `number` does.
+-- Returns two finite numbers, and refuses other values, as `number` does.
 function checks.place(name: string, value: any, ...: number): { number }
   local x, y
   if type(value) == "table" then
@@ -73,7 +74,7 @@ function checks.place(name: string, value: any, ...: number): { number }
   return value
 end
 
--- Returns a function that gives a number at a place; refuses all else, as `number` does.
+-- Returns a function that returns a number at a position, and refuses other values, as `number` does.
 function checks.field(name: string, value: any, ...: number): (x: number, y: number) -> number
   if type(value) ~= "function" then
     error(
@@ -84,7 +85,7 @@ function checks.field(name: string, value: any, ...: number): (x: number, y: num
   return value
 end
 
--- Returns the object that a constructor makes of `fields`; its errors are told as `number` tells its own.
+-- Returns the object of a constructor for `fields`; errors have the location that `number` uses.
 function checks.construct(constructor: (fields: any) -> any, fields: any, ...: number): any
   local is_made, made = pcall(constructor, fields)
   if not is_made then

@@ -1,5 +1,5 @@
 --!strict
--- Country roads: main streets lead on out of a town, through the gardens and fields around it.
+-- Country roads: main streets continue out of a town, through the gardens and fields around it.
 local areas = require("areas")
 local checks = require("checks")
 
@@ -7,24 +7,24 @@ local country = {}
 
 -- Begins country roads at all main streets that end at the outline.
 local Roads = module("Roads")
--- A country road on its way out, with the length (m) that is left of it.
+-- A growing country road with its remaining length (m).
 local CountryRoad = module("CountryRoad", "junction", "heading", "length", "rest", "tries")
 
 country.Roads = Roads
 country.GROWING = { "Roads", "CountryRoad(junction, heading, length, rest, tries)" }
 
--- The share of main streets that lead on.
+-- The fraction of main streets that continue.
 local SHARE = 0.85
--- The length (m) of a piece, and of the shortest road.
+-- The length (m) of a piece, and the minimum length of a road.
 local PIECE, SHORTEST = 52, 80
--- The least angle (degrees) outside of the outline at the end of a main street.
+-- The minimum angle (degrees) outside of the outline at the end of a main street.
 local OUTSIDE = 165
--- The turns (degrees) that are tried where a road is refused.
+-- The turns (degrees) of a refused road, one attempt after the other.
 local ASIDE = { 14, -14, 28, -28 }
--- The greatest turn (degrees) from one piece to the next, and its pull towards the way straight out.
+-- The maximum turn (degrees) between two pieces, and the pull towards the outward direction.
 local SWING, OUTWARDS = 15, 0.25
 
--- The heading that leads on from a main street that ends at a corner of the outline; nil if none ends there.
+-- The heading that continues a main street at a corner of the outline; nil if no main street ends there.
 local function way_on(outside: any, corner: number, headings: { number }): number?
   local before = (corner - 2) % outside.count + 1
   local is_main, was_main = outside.depth[corner] == 0, outside.depth[before] == 0
@@ -36,12 +36,12 @@ local function way_on(outside: any, corner: number, headings: { number }): numbe
   elseif was_main then
     return areas.heading(outside, before)
   end
-  -- It comes from the inside, between two streets of the outline.
+  -- The main street arrives from the inside, between two streets of the outline.
   return checks.nearest(middle + 180, headings) + 180
 end
 
--- The rules of country roads around a centre; `inside` tells whether a place is within the land of the town, and `propose` proposes
--- a street of a `depth`.
+-- The rules of country roads around a centre; `inside` tests if a position is within the land of the town, and
+-- `propose` proposes a street of a `depth`.
 function country.rules(
   system: System<Network>,
   inside: (x: number, y: number) -> boolean,
@@ -53,7 +53,7 @@ function country.rules(
     return math.deg(math.atan2(place.y - centre[2], place.x - centre[1]))
   end
 
-  -- The length (m) of land from a place towards a heading.
+  -- The length (m) of land from a position towards a heading.
   local function land(place: Vector, heading: number): number
     local east, north = math.cos(math.rad(heading)), math.sin(math.rad(heading))
     local far = 0

@@ -1,5 +1,5 @@
 --!strict
--- Cuts: the ways of streets that divide an area between streets, and of lanes that end there.
+-- Cuts: the courses of streets that divide an area between streets, and of lanes that end there.
 local areas = require("areas")
 local checks = require("checks")
 
@@ -10,13 +10,13 @@ type Area = any
 
 -- Lengths (m) that follow from the widths of streets, by their depth.
 export type Sizes = {
-  -- The shortest straight piece of a street.
+  -- The minimum straight piece of a street.
   piece: { [number]: number },
-  -- The shortest piece where a street leaves another, by the depth of both.
+  -- The minimum piece where a street leaves another, by the depth of both.
   first: { [number]: { [number]: number } },
-  -- The least distance of streets that leave the same side of another.
+  -- The minimum distance of streets that leave the same side of another street.
   near: { [number]: number },
-  -- The least distance of streets from one another, by the depth of both.
+  -- The minimum distance between streets, by the depth of both.
   apart: { [number]: { [number]: number } },
   deepest: number,
 }
@@ -31,19 +31,20 @@ local STRIP = 28
 local STARTS = 12
 local TURNS = { 0, 9, -9, 18, -18, 27, -27, 36, -36 }
 local END_TURNS = { 0, 15, -15, 30, -30, 50, -50, 75, -75 }
--- The least angle (degrees) between two streets, and what is left for one that leaves between two others.
+-- The minimum angle (degrees) between two streets, and the remaining angle for a street that leaves between two
+-- others.
 local LEAST = 52
 local WIDE = 2 * LEAST + 8
--- The tension by which streets lead on towards the headings in which they leave.
+-- The tension of streets towards the headings in which they leave.
 local TENSION = 1.45
--- In how many parts the length of a street is computed.
+-- The number of parts in which the length of a street is computed.
 local SAMPLES = 16
--- The least distance (m) of the end of a lane from other streets, and the length (m) of lanes.
+-- The minimum distance (m) of the end of a lane from other streets, and the length (m) of lanes.
 local APART = 38
 local LANE = { 40, 170 }
--- The least distance (m) of a lane from other junctions.
+-- The minimum distance (m) of a lane from other junctions.
 local BESIDE = 52
--- The length (m) up to which a dead end is a stub.
+-- The maximum length (m) of a stub.
 local STUB = 26
 
 -- The lengths that follow from the widths (m) of streets by depth, their clearance (m) and the radius (m) of corners.
@@ -57,15 +58,15 @@ function cuts.sizes(widths: { number }, clearance: number, corner: number): Size
     for other = 0, sizes.deepest do
       local apart = (wide + widths[other + 1]) / 2 + clearance
       sizes.apart[depth][other] = apart + 0.5
-      -- It may leave at a slant.
+      -- The street may leave obliquely.
       sizes.first[depth][other] = math.max(1.22 * apart, 14)
     end
   end
   return sizes
 end
 
--- The places of a street from one place to another that leaves and arrives towards headings, and leads on towards them the farther
--- the greater its tension, in pieces of a length (m) or more: the first, those between, and the last.
+-- The positions of a street between two positions that leaves and arrives with headings, in pieces of at least a
+-- length (m): the first, the inner ones, and the last. With more tension, it follows the headings farther.
 local function curve(
   from: { number },
   to: { number },
@@ -78,7 +79,7 @@ local function curve(
   local pull = tension * math.sqrt(dx * dx + dy * dy)
   local ax, ay = pull * math.cos(math.rad(leaves)), pull * math.sin(math.rad(leaves))
   local bx, by = pull * math.cos(math.rad(arrives)), pull * math.sin(math.rad(arrives))
-  -- A cubic curve by its ends and what it is tangent to there.
+  -- A cubic curve by its ends and its tangents there.
   local function at(t: number): (number, number)
     local u = 1 - t
     local p, q, r, s = u * u * (1 + 2 * t), t * t * (3 - 2 * t), u * u * t, -t * t * u
@@ -113,14 +114,15 @@ local function curve(
   return way
 end
 
--- Tells if a street of a depth may leave or arrive at a corner.
+-- Tests if a street of a depth may leave or arrive at a corner.
 local function is_apart(sizes: Sizes, area: Area, corner: number, depth: number): boolean
   local other = math.min(area.depth[corner], area.depth[(corner - 2) % area.count + 1], sizes.deepest)
   return areas.is_apart(area, corner, sizes.apart[depth][other], sizes.near[depth])
 end
 
--- Returns the end of a street from a corner of an area towards a heading: the place, the corner before it, and the
--- heading (degrees) that leads out there. Where a piece is short it ends at a corner, which leaves room to those of others.
+-- Returns the end of a street from a corner of an area towards a heading: the position, the corner before it, and the
+-- heading (degrees) that leads out there. In a short piece, the street ends at a corner, with room for the other
+-- streets there.
 local function arrival(
   sizes: Sizes,
   area: Area,
@@ -170,7 +172,7 @@ local function pieces_of(sizes: Sizes, area: Area, corner: number, edge: number,
   }
 end
 
--- Tells if a street that leaves a place (m) keeps its distance (m) from the outline of an area between its ends.
+-- Tests if a street that leaves a position (m) keeps its distance (m) from the outline of an area between its ends.
 local function is_clear(area: Area, from: { number }, way: { number }, apart: number): boolean
   local last = #way
   for index = 1, last - 2, 2 do
@@ -265,7 +267,7 @@ function cuts.cut(
   table.sort(found, function(one: any, other: any): boolean
     return one.cost < other.cost
   end)
-  -- Land that is divided further is no strip, across which no street has room.
+  -- Land that is divided further must be wide enough for a street across it.
   local strip = if area.size > 2.5 * limit then STRIP else 0
   local apart =
     math.max(sizes.apart[depth][sizes.deepest], strip, WIDTH * math.sqrt(math.min(limit, area.size)))
@@ -273,7 +275,7 @@ function cuts.cut(
     local one = found[index]
     local from = { area.x[one.corner], area.y[one.corner] }
     local pieces = pieces_of(sizes, area, one.corner, one.edge, depth)
-    -- To the side where it has more room, the other one, and nearly straight.
+    -- To the side with more room, to the other side, and nearly straight.
     local side = if one.leaves[1] - one.arrives[2] > one.arrives[1] - one.leaves[2] then 1 else -1
     for _, swing in { side * bow, -side * bow, 0 } do
       local leaves, arrives = bent(one, swing)
@@ -286,7 +288,7 @@ function cuts.cut(
   return nil, nil
 end
 
--- A crescent, which leaves a street and comes back to it about so far (m) on, as `cut` gives it.
+-- A crescent, which leaves a street and returns to it after about this distance (m), in the form of `cut`.
 function cuts.crescent(
   sizes: Sizes,
   area: Area,
@@ -337,7 +339,7 @@ function cuts.crescent(
       then
         continue
       end
-      -- It swings out by a quarter of its tension.
+      -- The swing is a quarter of the tension.
       local other = math.min(area.depth[corner], area.depth[edge], sizes.deepest)
       local tension = math.max(random(2.8, 4.2), 4 * (sizes.apart[depth][other] + 2) / far)
       local way = curve(from, to, middle, out, pieces_of(sizes, area, corner, edge, depth), tension)
@@ -353,8 +355,8 @@ function cuts.crescent(
   return nil, nil
 end
 
--- A lane that ends within an area, as `cut` gives it; it keeps away from others. It leaves streets of a depth or less, or leads on from
--- a stub.
+-- A lane that ends within an area, in the form of `cut`, away from other streets. It leaves streets of a depth or
+-- less, or continues a stub.
 function cuts.lane(sizes: Sizes, area: Area, deepest: number): (number?, { number }?)
   local corners: { number } = {}
   for corner = 1, area.count do

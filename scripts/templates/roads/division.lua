@@ -1,5 +1,6 @@
 --!strict
--- Division: the land between main streets is divided by finer streets, until no block is larger than the blocks of its place.
+-- Division: finer streets divide the land between main streets, until no block exceeds the maximum block at its
+-- position.
 local areas = require("areas")
 local checks = require("checks")
 local cuts = require("cuts")
@@ -9,19 +10,19 @@ local division = {}
 
 type Pattern = any
 
--- The area on the left of the street that leaves a junction towards a heading (degrees): how often it could not be divided, and its
--- kind, from -1 for small blocks to 1 for large ones.
+-- The area on the left of the street that leaves a junction towards a heading (degrees): the number of failed
+-- divisions, and its kind, from -1 for small blocks to 1 for large blocks.
 local Quarter = module("Quarter", "junction", "heading", "tries", "kind")
--- A street through an area of a size (m²), from a junction by places (m), x and y in turn; the outline of the area leads along
--- a heading (degrees) there.
+-- A street through an area of a size (m²), from a junction through positions (m), x and y alternating; the outline of
+-- the area has a heading (degrees) there.
 local Cut = module("Cut", "junction", "way", "depth", "area", "along", "tries", "kind")
 -- A lane that ends within a block.
 local Lane = module("Lane", "junction", "way", "depth", "along", "lanes")
--- Land between streets, where lanes end when it is divided.
+-- Divided land between streets, in which lanes end.
 local Yard = module("Yard", "junction", "heading", "lanes")
--- Divides what main streets enclose, or leads lanes into what is divided.
+-- Divides the land inside main streets, or adds lanes to divided land.
 local Land = module("Land", "is_divided")
--- Land (m²) that could not be divided into its largest block (m²), with its middle (m); it stays until growth ends.
+-- Land (m²) that could not be divided into its maximum block (m²), with its centre (m); it stays until growth ends.
 local Undivided = module("Undivided", "area", "block", "x", "y")
 
 division.GROWING = {
@@ -45,17 +46,17 @@ local LEAST, MOST = 16000, 80000
 local LATE = 9
 -- The largest area (m²) that is left as it is for a park or an estate.
 local ESTATE = 30000
--- The least area (m²) that a street divides, not a lane.
+-- The minimum area (m²) that a street divides, not a lane.
 local STREET = 24000
--- The largest area, in blocks, that an alley divides, and the size (m²) of blocks up to which there are alleys.
+-- The maximum area, in blocks, that an alley divides, and the maximum size (m²) of blocks with alleys.
 local ALLEY, OLD = 10, 2500
 -- The width (m) of greens.
 local GREEN = { 17, 24 }
--- The least area (m²) that has a green at its side.
+-- The minimum area (m²) with a green at its side.
 local GREEN_LAND = 2500
--- The land (m²) of one lane that ends, and the most lanes of a block.
+-- The land (m²) per dead-end lane, and the maximum number of lanes of a block.
 local LANE_LAND, LANES = 3000, 14
--- The length (m) of the border of a town for each lane that is tried there.
+-- The length (m) of the boundary of a town per lane that is tried there.
 local BORDER = 280
 
 -- The rules of division. `pattern_at` gives the pattern of a place, `room` the largest block (m²) of a kind of quarter there, or nil
@@ -110,7 +111,7 @@ function division.rules(
       end
       local x, y = area.middle[1], area.middle[2]
       local pattern = pattern_at(x, y)
-      -- Land that is still several quarters has no kind of its own.
+      -- Land that still consists of several quarters has no kind of its own.
       local own = kind
       local usual = room(pattern, x, y, 0)
       if usual and tries == 0 and area.size > math.clamp(SEVERAL * usual, LEAST, MOST) then
@@ -120,7 +121,7 @@ function division.rules(
       if not limit then
         return nil
       end
-      -- Land that reaches to where blocks are small has smaller ones.
+      -- Land that extends to a position with small blocks has smaller blocks.
       local least: number = limit
       for corner = 1, area.count, math.max(1, area.count // 6) do
         least = math.min(least, room(pattern, area.x[corner], area.y[corner], own) or least)
@@ -201,7 +202,7 @@ function division.rules(
       if start and way then
         local along = areas.heading(area, start)
         if is_green then
-          -- The land goes on outside of the green.
+          -- The land continues outside of the green.
           along = ways.aim(this, area.junction[start], way[1], way[2])
         end
         return Lane(area.junction[start], way, depth, along, lanes)
@@ -231,7 +232,7 @@ function division.rules(
       end
       local face = this:face(junction, heading)
       if math.abs(face.area - size) < 1 then
-        -- It was refused on the way, so that there is one area still.
+        -- The street was refused on its way, so the area is not divided.
         return Quarter(junction, along, tries + 1, kind)
       end
       return Quarter(junction, heading, 0, kind), Quarter(first, heading + 180, 0, kind)
@@ -264,7 +265,7 @@ function division.report(caller: string)
   end
 end
 
--- The module that begins it.
+-- The module that begins the division.
 division.Land = Land
 
 return division

@@ -1,40 +1,40 @@
 --!strict
--- Exits: where main streets lead out of a town whose streets are there.
+-- Exits: main streets that leave a town with finished streets.
 local checks = require("checks")
 
 local exits = {}
 
 export type Exits = {
-  -- How many there are at most, spread around the town.
+  -- The maximum number of exits, spread around the town.
   count: number,
-  -- How far (m) they lead beyond the line around all streets; or else where they end, straight across: how far (m) from the
-  -- middle { 0, 0 }, or a convex polygon.
+  -- The length (m) beyond the boundary of all streets; or their end, perpendicular to the rim: the distance (m) from
+  -- the centre { 0, 0 }, or a convex polygon.
   length: number?,
   rim: any,
 }
 
--- A street that leads out of the town: what is left of it (m), and in how many pieces.
+-- A street that leads out of the town, with its remaining length (m) and number of pieces.
 local Exit = module("Exit", "junction", "heading", "rest", "pieces")
 
 local KNOWN: { [string]: string } = { count = "number", length = "number", rim = "number or userdata" }
 
--- The pieces of an exit turn a little; choosing takes a step, and each piece one more.
+-- The pieces of an exit turn slightly. The choice takes a step, and each piece one more.
 local PIECES = 3
 exits.STEPS = PIECES + 1
--- What is shorter (m) is straight.
+-- An exit up to this length (m) is straight.
 local SHORT = 70
--- How far (degrees) an exit turns from the way straight out.
+-- The maximum angle (degrees) between an exit and the radial direction.
 local MOST = 48
--- How much nearer (degrees) to straight out it would have to be to leave a street that is one deeper, and to leave square to
--- all streets in place of going on from one.
+-- The advantage in angle (degrees) that is needed to leave a street that is one level deeper, and to leave
+-- perpendicular to all streets instead of continuing one.
 local DEEPER, ASIDE = 14, 12
--- How much of the detour of a joint is taken for one, for places that lie between those that are looked at.
+-- The fraction of a joint's detour that counts as a detour, because positions between the tested positions count too.
 local MARGIN = 0.94
--- How near to one another exits lie, as a share of what they would if they were spread evenly; the second where the first leaves
--- too few.
+-- The minimum distance of exits, as a fraction of even spacing; the second value applies if the first gives too few
+-- exits.
 local SPREAD = { 0.62, 0.38 }
 
--- What exits are made of: the options, with the points of a rim in place of its polygon. Refuses what no exits can be made of.
+-- The checked options of exits, with the points of a rim instead of its polygon.
 function exits.check(name: string, given: any, level: number): Exits
   checks.options(name, given, KNOWN, level + 1)
   local count = checks.number(`{name}: count`, given.count, 4, 0, 100, level + 1)
@@ -52,7 +52,8 @@ function exits.check(name: string, given: any, level: number): Exits
   return { count = count, length = length, rim = rim }
 end
 
--- How far (m) it is from a place to the rim: a distance from the middle, or the points of a convex polygon, counter-clockwise.
+-- The distance (m) from a position to the rim: a distance from the centre, or the points of a convex polygon,
+-- counter-clockwise.
 local function rest_of_way(place: Vector, heading: number, rim: any): number
   local east, north = math.cos(math.rad(heading)), math.sin(math.rad(heading))
   if type(rim) == "number" then
@@ -60,7 +61,7 @@ local function rest_of_way(place: Vector, heading: number, rim: any): number
     local off = place.x * place.x + place.y * place.y - along * along
     return math.sqrt(math.max(rim * rim - off, 0)) - along
   end
-  -- The way is inside from where it has come in over the last edge that it comes in by, to where it first leaves.
+  -- The path is inside between its last entry across an edge and its first exit.
   local enters, leaves = 0, math.huge
   local last = rim[#rim]
   for _, point in rim do
@@ -79,7 +80,7 @@ local function rest_of_way(place: Vector, heading: number, rim: any): number
   return math.max(leaves - enters, 0)
 end
 
--- The heading straight across the rim where one from a place comes to it.
+-- The heading perpendicular to the rim, where the heading from a position meets it.
 local function across(place: Vector, heading: number, rim: any): number
   local function met(turn: number): Vector
     local way = math.rad(heading + turn)
@@ -91,7 +92,7 @@ end
 
 type Piece = { number }
 
--- Whether two pieces, { x1, y1, x2, y2 }, cross.
+-- Tests if two pieces, { x1, y1, x2, y2 }, cross.
 local function crosses(one: Piece, other: Piece): boolean
   local function side(piece: Piece, x: number, y: number): boolean
     return (piece[3] - piece[1]) * (y - piece[2]) > (piece[4] - piece[2]) * (x - piece[1])
@@ -102,7 +103,8 @@ end
 
 type Way = { to: number, length: number }
 type Target = { x: number, y: number, ends: { { number } } }
--- The streets of a network as pieces, as ways from one junction to others, and as places on them that an exit may be joined to.
+-- The streets of a network as pieces, as paths from one junction to others, and as positions to which an exit can be
+-- joined.
 type Ways = { from: { { Way } }, pieces: { Piece }, targets: { Target } }
 
 local function ways_of(network: Network): Ways
@@ -140,7 +142,7 @@ local function ways_of(network: Network): Ways
   return { from = from, pieces = pieces, targets = targets }
 end
 
--- How far (m) junctions are from one along the streets.
+-- The distances (m) of junctions from a junction along the streets.
 local function reach(ways: Ways, from: number): { [number]: number }
   local far: { [number]: number }, open: { number }, next = { [from] = 0 }, { from }, 1
   while open[next] do
@@ -158,11 +160,11 @@ local function reach(ways: Ways, from: number): { [number]: number }
   return far
 end
 
--- Says whether the end of an exit might be joined to a street, as `join_dead_ends` does: for one that would be drawn back into the
--- town there is no gate.
+-- Tests if the end of an exit can be joined to a street, as `join_dead_ends` does. An exit that would be joined back
+-- to the town gets no gate.
 local function joints(network: Network, join: number, detour: number): (exit: any, others: { any }) -> boolean
   local known: Ways? = nil
-  -- Whether a place so far (m) along the streets is joined to the end of an exit.
+  -- Tests if a position at this distance (m) along the streets can be joined to the end of an exit.
   local function joins(of: any, x: number, y: number, way: number, ways: Ways): boolean
     local dx, dy = x - of.to.x, y - of.to.y
     local straight = math.sqrt(dx * dx + dy * dy)
@@ -183,7 +185,7 @@ local function joints(network: Network, join: number, detour: number): (exit: an
     return true
   end
   return function(exit: any, others: { any }): boolean
-    -- Most end far from all that is there, so that nobody has to know of any way.
+    -- Most exits end far from all streets, so the paths are computed only on demand.
     local is_near = network:distance(exit.to) <= join
     for _, other in others do
       for part = 0.1, 1, 0.1 do
@@ -222,7 +224,7 @@ local function joints(network: Network, join: number, detour: number): (exit: an
   end
 end
 
--- Exits of a network: the best of all junctions, away from one another. Main streets that go on come first.
+-- The exits of a network: the best of all junctions, away from each other. Continuations of main streets come first.
 local function choose(
   network: Network,
   options: Exits,
@@ -250,7 +252,7 @@ local function choose(
     local place = corner.place
     local straight = math.deg(math.atan2(place.y - middle.y, place.x - middle.x))
     local deeper = DEEPER * corner.depth
-    -- What lies well inside has streets all around.
+    -- A position well inside the town has streets all around.
     if #corner.headings > 0 and place:distance(middle) > inner then
       for turn = -MOST, MOST, MOST / 3 do
         local score = math.abs(turn) + ASIDE + deeper
@@ -273,7 +275,7 @@ local function choose(
     return number < other_number or number == other_number and (one.heading :: number) < other.heading
   end)
 
-  -- Where an exit leads.
+  -- The direction of an exit.
   local function aim(exit: any)
     exit.from = corners[exit.junction].place
     exit.length = rest_of_way(exit.from, exit.heading, rim) + more
@@ -282,7 +284,7 @@ local function choose(
     exit.pieces = if exit.length < SHORT then 1 else PIECES
     exit.way = math.deg(math.atan2(exit.to.y - middle.y, exit.to.x - middle.x))
   end
-  -- Whether a street could be built so.
+  -- Tests if a street can be built in this way.
   local function leads_there(exit: any): boolean
     if exit.length < 20 then
       return false
@@ -334,7 +336,7 @@ function exits.modules(
   return modules
 end
 
--- The rules by which exits lead out.
+-- The rules of exits.
 function exits.rules(system: System<Network>, options: Exits)
   local rim = options.rim
   system:rule(
@@ -344,13 +346,13 @@ function exits.rules(system: System<Network>, options: Exits)
       if not at or pieces == 1 then
         return nil
       end
-      -- It swings a little, and keeps clear of its neighbours; the last piece leads straight across the rim.
+      -- The exit winds slightly, and keeps clear of its neighbours; the last piece crosses the rim at a right angle.
       local left = rest - rest / pieces
       local place = this:place(at)
       local off = if rim then checks.between(heading, across(place, heading, rim)) else 0
       local turned = heading + off / (pieces - 1) + (if rim and pieces == 2 then 0 else random(-7, 7))
       local further = if rim then rest_of_way(place, turned, rim) else left
-      -- A bridge may have led it over the rim.
+      -- A bridge can lead the street across the rim.
       return if further > 0 then Exit(at, turned, further, pieces - 1) else nil
     end
   )

@@ -1,12 +1,13 @@
 --!strict
--- Gaps: land that growth, which chance may end early, has not come to.
+-- Gaps: land without streets, because growth can end early by chance.
 local gaps = {}
 
--- The streets into such land, of the options of a town; `start` gives the tip of a street that leaves a junction, or nil.
+-- The streets into such land, by the options of a town. `start` returns the tip of a street that leaves a junction,
+-- or nil.
 function gaps.tips(this: Network, of: any, start: any, left: number): { any }
   local modules = {}
   local people: ((number, number) -> number)? = of.people
-  -- Streets rather leave where one only turns, for that leaves no junction of four.
+  -- Prefer junctions where a street only turns, because they do not become junctions of four.
   for at, corner in this:places() do
     local place, degree = corner.place, #corner.headings
     local depth = math.min(corner.depth + 1, of.deepest)
@@ -14,8 +15,8 @@ function gaps.tips(this: Network, of: any, start: any, left: number): { any }
     if pattern.room then
       continue
     end
-    -- The lengths around a place where nothing is to be: few for a dead end, more for a turn, so that gaps stay; a fourth
-    -- street leaves a junction for much land alone, and for very much where streets leave one at a time.
+    -- The lengths of free land around a position: short for a dead end, longer for a turn, so that gaps remain. A
+    -- fourth street leaves a junction only for much land, and for very much land if streets leave one at a time.
     local free = if degree < 2 then 1.1 elseif degree == 2 then 2 elseif pattern.both > 0 then 2.2 else 6
     local room = math.max(3 - degree, 1)
     for turn = 0, 270, 90 do

@@ -1,19 +1,20 @@
 --!strict
--- Greens: triangles of grass where two streets leave a junction side by side and a third joins them.
+-- Greens: triangles of grass between two adjacent streets of a junction and a third street that joins them.
 local greens = {}
 
--- A side street that leaves around a green after some steps: its heading, that of the street it leaves, and the side (m) of the
--- green that lies between them.
+-- A side street that leaves around a green after some steps: its heading, the heading of the street that it leaves,
+-- and the side (m) of the green between them.
 local Fork = module("Fork", "junction", "heading", "along", "side", "depth", "wait", "left")
 -- The third side of a green.
 local ForkArm = module("ForkArm", "junction", "heading", "length", "depth")
 
--- How long (m) the sides of a green are, at a main street and elsewhere, and its angle (degrees): with equal sides its other
--- angles are no sharper than most networks take.
+-- The lengths (m) of the sides of a green, at a main street and elsewhere, and its angle (degrees). With equal sides,
+-- its other angles are large enough for most networks.
 local SIDE = { main = { 54, 80 }, other = { 43, 56 } }
 local ANGLE = { 62, 76 }
 
--- The module of a green at a junction, to the left (1) or to the right (-1) of a street that has come there with a heading.
+-- The module of a green at a junction, to the left (1) or to the right (-1) of the street that arrived with a
+-- heading.
 function greens.fork(
   junction: number,
   heading: number,
@@ -23,13 +24,14 @@ function greens.fork(
   left: number
 ): any
   local sides = if depth == 0 then SIDE.main else SIDE.other
-  -- It leans back, for the street that came here is there, and the one ahead may turn.
+  -- The green leans back, because the arriving street is there, and the street ahead can turn.
   local lean = hand * random(ANGLE[1], ANGLE[2])
   local side = random(sides[1], sides[2])
   return Fork(junction, heading + 180 + lean, heading + 180, side, depth + 1, wait, left)
 end
 
--- The rules of greens; `onward` gives the module of a street that goes on from the end of a fork, and `propose` proposes one.
+-- The rules of greens. `onward` returns the module of a street that continues from the end of a fork, and `propose`
+-- proposes a street.
 function greens.rules(
   system: System<Network>,
   onward: (

@@ -1,5 +1,5 @@
 --!strict
--- Growth: the rules by which streets follow a pattern, from junction to junction.
+-- Growth: the rules by which streets follow a pattern from junction to junction.
 local checks = require("checks")
 local country = require("country")
 local division = require("division")
@@ -17,18 +17,19 @@ type Pattern = any
 
 local number = checks.number
 
--- A street grows at a tip: from a junction, towards a heading, with a length (m) and how often its way has branched off.
--- It counts its junctions since it divided, how often it was refused, and the steps that are left.
+-- A tip grows a street from a junction towards a heading, with a length (m) and the depth of its path. It counts the
+-- junctions since its last division, its refusals, and the remaining steps.
 local Tip = module("Tip", "junction", "heading", "length", "depth", "run", "tries", "left")
 -- A side street that leaves after some steps.
 local Bud = module("Bud", "junction", "heading", "depth", "wait", "left")
 -- A town that begins to grow after some steps.
 local Town = module("Town", "junction", "wait", "left")
--- The open ends of streets that were there before.
+-- The open ends of existing streets.
 local Outskirts = module("Outskirts")
--- Counts the steps, and tidies up after the last.
+-- Counts the steps, and cleans up after the last step.
 local Clock = module("Clock", "left")
--- Waits until all modules before it have ended, and begins the next stage: outline, removal of open ends, division, lanes.
+-- Waits until all modules before it have ended, and begins the next stage: outline, removal of open ends, division,
+-- lanes.
 local Watch = module("Watch", "stage")
 -- The modules that it waits for.
 local GROWING = {
@@ -43,22 +44,22 @@ for _, stage in { mains.GROWING, country.GROWING, division.GROWING } do
   table.move(stage, 1, #stage, #GROWING + 1, GROWING)
 end
 
--- The turns (degrees) of a main street that is refused, one try after the other.
+-- The turns (degrees) of a refused main street, one attempt after the other.
 local ASIDE = highways.ASIDE
--- The turns (degrees) of a side street to end beside a junction, one try after the other.
+-- The turns (degrees) of a side street that ends next to a junction, one attempt after the other.
 local BESIDE = { 10, -10, 20, -20, 30, -30 }
--- The chance that a main street leads out of town; side streets never do.
+-- The probability that a main street leaves the town; side streets never leave it.
 local LEADS_OUT = 0.3
--- The steps that a side street waits, so that main streets come first.
+-- The number of steps that a side street waits, so that main streets come first.
 local WAIT = 2
--- The steps that a town waits while highways are on their way to it.
+-- The number of steps that a town waits for highways.
 local TOWN_WAIT = 4
--- Which shares of the steps are left when it is looked for land that growth has not come to.
+-- The fractions of the remaining steps at which the script searches for land without streets.
 local LATER = { 0.75, 0.6, 0.45, 0.3, 0.15 }
--- The greatest turn (degrees) of a main street to stay within a town, and of one that is still the same street.
+-- The maximum turn (degrees) of a main street to stay within a town, and the maximum turn of the same street.
 local BORDER, SAME = 105, 50
 
--- A number from 0 to 1 that looks drawn, and is the same for a place (m) within some metres.
+-- A pseudo-random number from 0 to 1, the same for positions (m) within some metres.
 local function drawn(x: number, y: number, seed: number): number
   local mixed =
     bit32.bxor(math.floor(x / 8 + 0.5) * 73856093 % 2 ^ 32, math.floor(y / 8 + 0.5) * 19349663 % 2 ^ 32, seed)
@@ -66,16 +67,16 @@ local function drawn(x: number, y: number, seed: number): number
   return mixed * 40503 % 65536 / 65536
 end
 
--- A system whose network grows by a pattern; derive it to its end. Options: `pattern` (or a function of a place that
--- gives one), fields of the `network`, the `extent` (m) from the middle or a function that says whether a place is
--- within, the `population` of a place from 0 to 1, `centres` that highways join, `headings` of the first streets,
--- `onto` true to grow from the open ends of streets that are there, the `deepest` side streets, `join` (m) and `detour`
--- for dead ends, and `dead_ends`, which are what is left of them to "keep" or to "remove". `exits` are streets that lead out
--- of the town when all is done, which takes the last four of the steps; `allowed` says which streets may be proposed.
+-- A system whose network grows by a pattern; derive it to its end. Options: `pattern` (or a function from a position
+-- to a pattern), fields of the `network`, the `extent` (m) from the centre or a function that tests if a position is
+-- within, the `population` at a position from 0 to 1, `centres` that highways join, `headings` of the first streets,
+-- `onto` true to grow from the open ends of existing streets, the `deepest` side streets, `join` (m) and `detour` for
+-- dead ends, and `dead_ends`, which are "keep" or "remove" for the remaining dead ends. `exits` are streets that
+-- leave the town at the end, which takes the last four steps; `allowed` tests if a street may be proposed.
 function growth.system(asked: any, ...: number): (System<Network>, number?)
-  -- The number of functions between this and the script, for errors.
+  -- The number of functions between this function and the script, for errors.
   local level = 3 + ((...) or 0)
-  -- The function that the script has called, for errors.
+  -- The function that the script called, for errors.
   local caller = if level > 3 then "roads.grow" else "roads.system"
   local of: any = options.read(asked, caller, level + 1)
   local pattern_at: (x: number, y: number) -> Pattern = of.pattern_at
@@ -86,7 +87,7 @@ function growth.system(asked: any, ...: number): (System<Network>, number?)
   local system: System<Network> = of.system
   local allowed: ((Network, Vector, Vector, number) -> boolean)? = of.allowed
 
-  -- Proposes a street if it may be.
+  -- Proposes a street if it is allowed.
   local function propose(this: Network, junction: number, heading: number, length: number, depth: number)
     local from = this:place(junction)
     local way = length * vec(math.cos(math.rad(heading)), math.sin(math.rad(heading)), 0)
@@ -95,8 +96,8 @@ function growth.system(asked: any, ...: number): (System<Network>, number?)
     end
   end
 
-  -- The heading and the length (m) of a street that is proposed: a side street leads on to what is a little beyond its end, and
-  -- beside a junction of three rather than into it.
+  -- The heading and the length (m) of a proposed street: a side street is extended to a target slightly beyond its
+  -- end, and leads next to a junction of three instead of into it.
   local function aimed(
     this: Network,
     junction: number,
@@ -122,7 +123,7 @@ function growth.system(asked: any, ...: number): (System<Network>, number?)
   end
 
   local field = math.floor(random() * 1000000)
-  -- The tip of a street that leaves a junction; nil where the pattern leaves it out.
+  -- The tip of a street that leaves a junction; nil if the pattern omits the street.
   local function start(
     pattern: Pattern,
     at: number,
@@ -147,7 +148,7 @@ function growth.system(asked: any, ...: number): (System<Network>, number?)
       )
     end
     local east, north = math.cos(math.rad(aim)) * length, math.sin(math.rad(aim)) * length
-    -- A side street that would leave the town ends within it, where it is long enough.
+    -- A side street that would leave the town ends within it, if it is long enough.
     local least = pattern.least
     if depth > 0 and least then
       local part: number = 1
@@ -159,7 +160,8 @@ function growth.system(asked: any, ...: number): (System<Network>, number?)
     if not inside(x + east, y + north) and (depth > 0 or random() > LEADS_OUT) then
       return nil
     elseif depth > 0 then
-      -- Both ends find the same for what lies between them; a street along the border of a town is never left out.
+      -- Both ends compute the same result for the street between them. A street along the boundary of a town is never
+      -- omitted.
       local middle_x, middle_y = x + east / 2, y + north / 2
       local is_border = inside(middle_x - north, middle_y + east) ~= inside(middle_x + north, middle_y - east)
       if
@@ -175,7 +177,7 @@ function growth.system(asked: any, ...: number): (System<Network>, number?)
     return Tip(at, aim, length, depth, run, tries or 0, left)
   end
 
-  -- The main streets that go on from a junction where land is divided: along the border of the town where they come to it.
+  -- The main streets that continue from a junction in divided land; at the boundary of the town, they follow it.
   local function main(
     this: Network,
     pattern: Pattern,
@@ -194,7 +196,7 @@ function growth.system(asked: any, ...: number): (System<Network>, number?)
         local east, north = math.cos(math.rad(aim + turn)), math.sin(math.rad(aim + turn))
         return inside(x + 1.3 * length * east, y + 1.3 * length * north)
       end
-      -- A street that leaves another keeps away from others, so that none runs beside another.
+      -- A street that leaves another street keeps away from others, so that no streets run next to each other.
       local function has_room(turn: number): boolean
         local way = math.rad(aim + turn)
         local ahead = vec(x + 2.2 * length * math.cos(way), y + 2.2 * length * math.sin(way), 0)
@@ -227,7 +229,7 @@ function growth.system(asked: any, ...: number): (System<Network>, number?)
     return modules
   end
 
-  -- The modules that go on from a junction that a street has come to.
+  -- The modules that continue from a junction that a street has reached.
   local function onward(
     this: Network,
     at: number,
@@ -265,7 +267,7 @@ function growth.system(asked: any, ...: number): (System<Network>, number?)
     elseif depth >= deepest or random() >= pattern.side * much then
       return modules
     elseif keeps and run % 3 == 1 and random() < (pattern.greens or 0) then
-      -- Greens lie apart; where dead ends are removed, one would be left of some.
+      -- Greens keep a distance. If dead ends are removed, only a part of some greens would remain.
       local fork = greens.fork(at, heading, if first > 0 then 1 else -1, depth, WAIT, left)
       table.insert(modules, fork)
     else
@@ -290,7 +292,7 @@ function growth.system(asked: any, ...: number): (System<Network>, number?)
 
   -- A town around one centre has an outline.
   local has_outline = of.is_one and of.divides and not of.onto and #centres == 1
-  -- Country roads and lanes leave it, unless other streets lead out or what ends is removed.
+  -- Country roads and lanes leave the town, unless other streets lead out or dead ends are removed.
   local is_open = has_outline and keeps and not of.leads_out
   local lead_out: ((Network, number, { number }) -> { any })? = if has_outline
     then mains.rules(
@@ -338,7 +340,7 @@ function growth.system(asked: any, ...: number): (System<Network>, number?)
     for _, open in this:open_ends() do
       if inside(open.place.x, open.place.y) then
         local pattern = pattern_at(open.place.x, open.place.y)
-        -- Streets go on as main streets where these alone grow.
+        -- If only main streets grow, streets continue as main streets.
         local depth = if pattern.room then 0 else open.depth
         local tip = start(pattern, open.junction, open.place.x, open.place.y, open.heading, depth, 0, growing)
         table.insert(modules, tip)
@@ -379,7 +381,7 @@ function growth.system(asked: any, ...: number): (System<Network>, number?)
           return start(pattern, crossed, place.x, place.y, heading, depth, run, left - 1, #ASIDE)
         end
       elseif depth == 0 and tries < #ASIDE then
-        -- A pattern of straight lines gives way to obstacles alone.
+        -- A pattern of straight lines bends only for obstacles.
         local place, fate = this:place(junction), this:fate(junction, heading)
         local is_free = fate ~= "obstacle" and fate ~= "outside" and fate ~= "unknown"
         if not is_free or not pattern_at(place.x, place.y).straight then
@@ -400,7 +402,7 @@ function growth.system(asked: any, ...: number): (System<Network>, number?)
       end
       local place = this:place(junction)
       local pattern = pattern_at(place.x, place.y)
-      -- Somebody else may have joined it while it waited.
+      -- Another street can have joined it while it waited.
       if this:degree(junction) > 2 and random() > pattern.both then
         return nil
       end
@@ -422,7 +424,7 @@ function growth.system(asked: any, ...: number): (System<Network>, number?)
       return division.Land(false), Watch(4)
     end
     local modules: { any } = if looks[left] then gaps.tips(this, of, start, left - 1) else {}
-    -- It tidies up when all others have grown.
+    -- Clean up after all others have grown.
     table.insert(modules, Clock(left - 1))
     return table.unpack(modules)
   end)

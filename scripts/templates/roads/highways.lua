@@ -1,24 +1,24 @@
 --!strict
--- Highways: main streets that join the centres of towns, before these grow.
+-- Highways: main streets that join the centres of towns before the towns grow.
 local checks = require("checks")
 
 local highways = {}
 
 local between = checks.between
 
--- A highway on its way to the start with a number.
+-- A highway on its way to the start with this number.
 local Highway = module("Highway", "junction", "heading", "length", "goal", "tries", "left")
--- The last stretch of a highway; when all tries are refused, it is led to its goal, and the network tells if it cannot be.
+-- The last part of a highway. If all attempts are refused, it is led to its goal, and the network reports a failure.
 local Arrival = module("Arrival", "junction", "heading", "length", "goal", "tries")
 
--- How far (degrees) a main street turns when it is refused, one try after the other.
+-- The turns (degrees) of a refused main street, one attempt after the other.
 highways.ASIDE = { 20, -40, 55, -70 }
--- As much for the last stretch of a highway, which any street of the town may take.
+-- The turns for the last part of a highway, which can join any street of the town.
 local ASTRAY = { 20, -40, 60, -80, 100, -120, 140, -160 }
--- How long (m) a highway is from junction to junction.
+-- The length (m) of a highway from junction to junction.
 local LENGTH = 90
 
--- The pairs of centres that highways join: those in whose circle no third one lies.
+-- The pairs of centres that highways join: pairs whose circle contains no third centre.
 local function joined(centres: { { number } }): { { number } }
   local pairs = {}
   for a = 1, #centres do
@@ -39,7 +39,8 @@ local function joined(centres: { { number } }): { { number } }
   return pairs
 end
 
--- The modules of the highways that join centres in so many steps; errors name `caller`, `level` functions above.
+-- The modules of the highways that join centres within a number of steps; errors name `caller`, `level` functions
+-- above.
 function highways.axiom(centres: { { number } }, steps: number, caller: string, level: number): { any }
   local modules = {}
   for _, pair in joined(centres) do
@@ -58,7 +59,7 @@ function highways.axiom(centres: { { number } }, steps: number, caller: string, 
   return modules
 end
 
--- The rules of highways; `side` gives the module of a street that leaves one on its way, where it is `inside` of the town.
+-- The rules of highways. `side` returns the module of a street that leaves a highway, if it is `inside` the town.
 function highways.rules(
   system: System<Network>,
   side: (junction: number, heading: number, wait: number, left: number) -> any,
@@ -89,7 +90,7 @@ function highways.rules(
       if rest < 1.6 * length then
         return Arrival(at, straight, rest, goal, 0)
       end
-      -- A highway swings a little, and turns no more than it has to.
+      -- A highway winds slightly, and turns no more than necessary.
       local swing = 12 * noise(here.x / 300, here.y / 300)
       local turn = math.clamp(between(heading, straight + swing), -20, 20)
       local modules = { Highway(at, heading + turn, length, goal, 0, left - 1) }

@@ -1,6 +1,6 @@
 --!strict
--- Main streets of a town around one centre: they lead from there to the outline of the town, and a street along the outline
--- joins their ends, so that all land within lies between streets.
+-- Main streets of a town around one centre. They lead from the centre to the outline of the town, and a street along
+-- the outline joins their ends, so that all land inside is between streets.
 local checks = require("checks")
 local ways = require("ways")
 
@@ -8,14 +8,13 @@ local mains = {}
 
 type Pattern = any
 
--- A main street on its way out: the bearing (degrees) from the centre that it keeps to, and the angle (degrees) that it has to
--- itself.
+-- A growing main street: the bearing (degrees) from the centre that it follows, and its free angle (degrees).
 local Spoke = module("Spoke", "junction", "heading", "length", "bearing", "room", "tries")
 -- Joins the ends of main streets along the outline.
 local Outline = module("Outline")
--- A street along the outline, on its way to a junction of a main street that leads outwards with a heading (degrees) there.
+-- A street along the outline, on its way to a junction of a main street that leads outwards with a heading (degrees).
 local Rim = module("Rim", "junction", "heading", "length", "goal", "meets", "depth", "tries")
--- A sector, from a junction on, whose outline could not be built; it stays until growth ends.
+-- A sector from a junction with a failed outline; it stays until growth ends.
 local Unclosed = module("Unclosed", "x", "y")
 -- Removes streets that lead nowhere.
 local Trim = module("Trim")
@@ -28,31 +27,33 @@ mains.GROWING = {
   "Trim",
 }
 
--- The turns (degrees) of a main street that is refused, one try after the other.
+-- The turns (degrees) of a refused main street, one attempt after the other.
 local ASIDE = { 20, -40, 60, -80 }
--- The greatest turn (degrees) from one piece to the next.
+-- The maximum turn (degrees) between two pieces.
 local MOST = 18
--- The tries of the outline where it is refused, the usual length (m) of its pieces, and the turns (degrees) that they try.
+-- The number of attempts of a refused outline, the usual length (m) of its pieces, and the turns (degrees) of
+-- attempts.
 local TRIES, PIECE = 4, 46
 local TURNS = { 0, 8, -8, 16, -16, 26, -26, 38, -38, 52, -52, 66, -66, 80, -80 }
--- The distance (m) between tries to end nearer to the centre or farther away, and their order.
+-- The distance (m) between attempts to end nearer to the centre or farther away, and their order.
 local BEFORE, BACK = 22, { 0, 1, 2, -1, 3, -2, 4, -3, 5, 6 }
 -- The distance from its end, in pieces, at which the outline may join a main street.
 local NEAR = 2.6
--- For how many bearings the outline is computed.
+-- The number of bearings at which the outline is computed.
 local BEARINGS = 180
--- The least and the greatest distance of the outline from the centre, as shares of the distance of the border of the land.
+-- The minimum and the maximum distance of the outline from the centre, as fractions of the distance of the boundary
+-- of the land.
 local NEAREST, FARTHEST = 0.62, 0.97
--- The depths (share of the way from the centre) by which the outline of a sector lies before the ends of its main streets, each with
--- the share of sectors up to which it holds: gardens and fields reach into some of them.
+-- The depths (fractions of the distance from the centre) of a sector's outline before the ends of its main streets,
+-- each with the cumulative fraction of sectors: gardens and fields extend into some sectors.
 local WEDGES = { { 0.3, 0, 0.08 }, { 0.7, 0.08, 0.2 }, { 1, 0.2, 0.36 } }
--- The share of sectors whose outline is a lane.
+-- The fraction of sectors whose outline is a lane.
 local LANES = 0.4
--- The usual width (m) of the land beside a main street that forks.
+-- The usual width (m) of the land next to a main street that forks.
 local WIDE = 460
--- The number of main streets that leave the centre, and the least angle (degrees) between two.
+-- The number of main streets that leave the centre, and the minimum angle (degrees) between two of them.
 local COUNT, APART = { 3, 5 }, 56
--- The least length (m) of their first pieces.
+-- The minimum length (m) of their first pieces.
 local FIRST = 52
 
 -- The distance (m) of the outline from a centre by the bearing (degrees), for land that `inside` describes.
@@ -89,7 +90,7 @@ local function outline(
   end
 end
 
--- Reports sectors whose outline could not be built.
+-- Reports sectors with a failed outline.
 function mains.report(caller: string)
   local open: any = query("select x, y from Unclosed order by x, y")
   if #open > 0 then
@@ -99,9 +100,9 @@ function mains.report(caller: string)
   end
 end
 
--- The rules of what removes streets that lead nowhere.
+-- The rules that remove streets that lead nowhere.
 function mains.trims(system: System<Network>)
-  -- If no land lies between streets, all of them would be removed.
+  -- If no land is between streets, all of them would be removed.
   system:rule("Trim", function()
     return nil
   end)
@@ -117,7 +118,7 @@ function mains.trims(system: System<Network>)
   end)
 end
 
--- The headings (degrees) of main streets that leave a centre where none are given.
+-- The default headings (degrees) of main streets that leave a centre.
 function mains.headings(): { number }
   local count, turned = math.floor(random(COUNT[1], COUNT[2] + 1)), random(0, 360)
   local uneven = math.min(0.5 * (360 / count - APART), 20)
@@ -158,7 +159,7 @@ function mains.rules(
     end
     local usual = if far < 1 then math.max(piece, math.min(FIRST, 0.3 * rest)) else piece
     local length = if rest < 1.9 * usual then rest else usual
-    -- It swings between the centre and the outline, which it meets about square.
+    -- The street swings between the centre and the outline, which it meets at about a right angle.
     local swing = (pattern.bow or 0) * 60 * noise(far / (4.5 * piece), bearing / 40, 2.5, field)
     swing *= math.min(1, far / (5 * piece), rest / (6 * piece))
     local x, y = place_at(far + 1.4 * length, (if far < 1 then bearing else bearing + swing))
@@ -186,7 +187,7 @@ function mains.rules(
         local far = polar(place)
         local beside = far * math.rad(room)
         if beside > WIDE * random(0.75, 1.6) and rim(bearing) - far > 6 * piece then
-          -- It forks: one goes on more or less straight, and the other leaves.
+          -- At a fork, one street continues approximately straight, and the other leaves.
           local share, turn = random(0.3, 0.7), random(6, 52)
           local left, right = bearing + room * share / 2, bearing - room * (1 - share) / 2
           return onward(place, at, heading + turn, left, room * (1 - share)),
@@ -200,8 +201,8 @@ function mains.rules(
     end
   )
 
-  -- The next piece of the outline on its way to the end of a main street, counter-clockwise: the first of some that can be
-  -- built.
+  -- The next piece of the outline on its way to the end of a main street, counter-clockwise: the first of some
+  -- candidates that can be built.
   local function along(
     this: Network,
     at: number,
@@ -223,7 +224,7 @@ function mains.rules(
       return if is_fit then Rim(at, heading, length, goal, meets, depth, tries) else nil
     end
     if is_near or place:distance(ends) < NEAR * PIECE or gap > 300 then
-      -- It ends at the main street, or before or behind the place that was chosen there.
+      -- The piece ends at the main street, or before or behind the chosen position there.
       for _, back in BACK do
         local off = back * BEFORE * vec(math.cos(math.rad(meets)), math.sin(math.rad(meets)), 0)
         for _, turn in TURNS do
@@ -236,7 +237,7 @@ function mains.rules(
       end
     end
     local ahead = math.min(bearing + math.deg(PIECE / far), bearing + gap)
-    -- It comes back to the outline where it is off.
+    -- The piece returns to the outline after a deviation.
     local share = far / rim(bearing)
     local next_share = share
       + (rest / rim(last) - share) * math.min(1, 1.2 * (ahead - bearing) / math.max(gap, 1))
@@ -269,7 +270,8 @@ function mains.rules(
     return found
   end
 
-  -- The place in a list of junctions of a main street where the outline of a sector meets it, for a depth of the sector.
+  -- The index in a list of junctions of a main street where the outline of a sector meets it, for a depth of the
+  -- sector.
   local function meeting(list: { any }, wedge: number): number
     local index = 1
     while index < #list - 2 and list[index + 1].far >= (1 - wedge) * list[1].far do
@@ -303,13 +305,13 @@ function mains.rules(
     for index, one in ends do
       local other = ends[index % #ends + 1]
       local list, goal = one.list, other.list[other.arrives]
-      -- Streets of two sectors leave a main street one after the other.
+      -- Streets of two sectors leave a main street at different junctions.
       local leaves: number = one.leaves :: any
       if leaves == one.arrives and #list > leaves then
         leaves += 1
       end
       local depth = if random() < LANES then math.min(2, deepest) else 1
-      -- It leaves some pieces further in where it cannot leave there.
+      -- If the outline cannot leave there, it leaves some pieces further in.
       local last = math.min(leaves + TRIES - 1, #list)
       for from = leaves, last do
         local found = if #ends > 1
@@ -340,7 +342,7 @@ function mains.rules(
     )
       local at = this:reached(junction, heading)
       if at then
-        -- A street that has come too near to end is led back by a piece.
+        -- A street that is too near to its end is shortened by a piece.
         return along(this, at, goal, meets, depth, tries, false)
           or along(this, junction, goal, meets, depth, tries, true)
           or unclosed(this, at)

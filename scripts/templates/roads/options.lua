@@ -1,5 +1,5 @@
 --!strict
--- Options of a town's streets: those of `roads.system`, checked, with the defaults of those left out.
+-- Options of a town's streets: the options of `roads.system`, checked, with defaults.
 local checks = require("checks")
 local cuts = require("cuts")
 local exits = require("exits")
@@ -29,11 +29,12 @@ local KNOWN: { [string]: string } = {
   allowed = "function",
 }
 
--- The snap distance (m) of a street's end, and the distance (m) over which dead ends are joined, if neither pattern nor script says it.
+-- The snap distance (m) of a street's end, and the distance (m) over which dead ends are joined, if neither pattern
+-- nor script sets it.
 local SNAP, JOIN = 14, 40
--- The width (m) of streets, their clearance (m) and the radius (m) of corners where the network says none.
+-- The width (m) of streets, their clearance (m) and the radius (m) of corners, if the network sets none.
 local WIDTH, CLEARANCE, CORNER = 14, 6, 4
--- The kinds of streets, by depth.
+-- The street types, by depth.
 options.STREETS = {
   { width = 24, lanes = 4, sidewalk = 4 },
   { width = 16, lanes = 2, parking = 2.2, sidewalk = 3 },
@@ -83,7 +84,7 @@ function options.read(asked: any, caller: string, level: number): any
   if dead_ends ~= "keep" and dead_ends ~= "remove" then
     error(`{caller}: dead_ends is "keep" or "remove", not "{dead_ends}"`, level - 1)
   end
-  -- Dead ends that would be removed are rather joined, or do not stop.
+  -- If dead ends are removed, streets are joined instead, or do not stop.
   local keeps = dead_ends == "keep"
   local usual_join = if is_by_place then JOIN else given.join or JOIN
   local join = number(`{caller}: join`, asked.join, if keeps then usual_join else 130, 0, 2000, level)
@@ -123,7 +124,7 @@ function options.read(asked: any, caller: string, level: number): any
     fields.starts = centres
   end
   local leads_out = if asked.exits then exits.check(`{caller}: exits`, asked.exits, level) else nil
-  -- Streets that lead out take the last steps.
+  -- Exits take the last steps.
   local growing = if leads_out then math.max(steps - exits.STEPS, 1) else steps
   local system = lsystem({ object = checks.construct(network, fields, level) :: Network })
   local widths = {}

@@ -7,45 +7,48 @@ local pattern = {}
 local number = checks.number
 
 export type Pattern = {
-  -- The heading (degrees from east, counter-clockwise) of a street that leaves a place (m) about towards `heading`.
+  -- The heading (degrees from east, counter-clockwise) of a street that leaves a position (m) approximately towards
+  -- `heading`.
   toward: (x: number, y: number, heading: number, length: number, depth: number) -> number,
-  -- The length (m) of a street that leaves a place, to the next junction.
+  -- The length (m) of a street that leaves a position, to the next junction.
   length: (x: number, y: number, heading: number, depth: number) -> number,
-  -- The chance that a side street leaves a junction, and that there is one on the other side as well.
+  -- The probability that a side street leaves a junction, and the probability of another one on the other side.
   side: number,
   both: number,
-  -- The chance that a street that meets another goes on behind it.
+  -- The probability that a street continues behind a street that it meets.
   cross: number,
-  -- The greatest turn (degrees) of side streets from square.
+  -- The maximum deviation (degrees) of side streets from a right angle.
   skew: number,
-  -- The chance that a small side street ends at a junction.
+  -- The probability that a small side street ends at a junction.
   stop: number,
-  -- The share of places that side streets leave out, the same from both ends.
+  -- The fraction of positions without side streets, the same from both ends.
   gap: number,
-  -- Tells if a side street that leaves a place is left out, in place of `gap`; both of its ends have to find the same.
+  -- Returns true if a side street that leaves a position is omitted, instead of `gap`; both of its ends must return
+  -- the same.
   closed: ((x: number, y: number, heading: number, length: number, depth: number) -> boolean)?,
-  -- The share of side streets that leave around a small green, of every third junction; none does if it is left out.
+  -- The fraction of side streets that leave around a small green, at every third junction; none if omitted.
   greens: number?,
-  -- The snap distance (m) of a street's end, and the distance (m) over which dead ends are joined, if the script says neither.
+  -- The snap distance (m) of a street's end, and the distance (m) over which dead ends are joined, if the script sets
+  -- neither.
   snap: number?,
   join: number?,
-  -- The least length (m) of a side street that leaves another.
+  -- The minimum length (m) of a side street that leaves another street.
   least: number?,
-  -- The distance (m) beyond its end at which a side street sees another, and leads on to it.
+  -- The distance (m) beyond its end at which a side street finds another street, and is extended to it.
   sight: number?,
-  -- Every so many junctions a main street divides; 0 for never.
+  -- The number of junctions between two divisions of a main street; 0 for no divisions.
   every: number,
-  -- True if main streets turn aside for obstacles alone.
+  -- True if main streets turn only for obstacles.
   straight: boolean?,
-  -- The largest block (m²) of a place, by its distance from the centre as a share of the extent and by the kind of its quarter from
-  -- -1 to 1. Only main streets grow then, and the land between them is divided.
+  -- The maximum block (m²) at a position, by its distance from the centre as a fraction of the extent, and by the
+  -- kind of its quarter from -1 to 1. If given, only main streets grow, and the land between them is divided.
   room: ((x: number, y: number, far: number, kind: number) -> number)?,
-  -- The swing of streets that divide land, as a share of their length, and the share of crescents among them.
+  -- The swing of streets that divide land, as a fraction of their length, and the fraction of crescents.
   bow: number?,
   crescents: number?,
 }
 
--- The fields that every pattern has.
+-- The fields of every pattern.
 local KINDS: { [string]: string } = {
   toward = "function",
   length = "function",
@@ -58,7 +61,7 @@ local KINDS: { [string]: string } = {
   every = "number",
 }
 
--- The options of all patterns that are here.
+-- The options of all patterns in this library.
 pattern.KNOWN = {
   block = "number",
   width = "number",
@@ -76,7 +79,7 @@ pattern.KNOWN = {
   variety = "number",
 }
 
--- A pattern: what says where streets go, and chances from `options`, or else the usual ones.
+-- Creates a pattern from its functions and from the probabilities in `options`, with defaults.
 function pattern.make(
   name: string,
   options: { [string]: any },
@@ -108,7 +111,7 @@ function pattern.make(
   return made
 end
 
--- A number from 0 to 1 that looks drawn, and is the same for the same whole numbers.
+-- A pseudo-random number from 0 to 1 that depends only on the given integers.
 function pattern.drawn(a: number, b: number, seed: number): number
   local mixed = bit32.bxor(a * 73856093 % 2 ^ 32, b * 19349663 % 2 ^ 32, seed * 83492791 % 2 ^ 32)
   mixed = bit32.bxor(mixed, bit32.rshift(mixed, 15)) % 2 ^ 32
@@ -116,7 +119,7 @@ function pattern.drawn(a: number, b: number, seed: number): number
   return bit32.bxor(mixed, bit32.rshift(mixed, 13)) % 65536 / 65536
 end
 
--- Refuses what is no pattern, so many levels up.
+-- Refuses a value that is not a pattern, the given number of levels up.
 function pattern.check(name: string, value: any, level: number): Pattern
   if type(value) ~= "table" then
     error(`{name} must be a pattern, such as roads.organic(), not {type(value)}`, level)

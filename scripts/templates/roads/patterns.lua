@@ -1,5 +1,5 @@
 --!strict
--- Patterns: where streets go, as functions of a place and chances.
+-- Patterns: street directions as functions of a position, and probabilities.
 local checks = require("checks")
 local pattern = require("pattern")
 
@@ -12,12 +12,12 @@ local between, nearest, number = checks.between, checks.nearest, checks.number
 local KNOWN, drawn = pattern.KNOWN, pattern.drawn
 patterns.check = pattern.check
 
--- A town that nobody planned: main streets lead out of the centre, or out of a `middle` (m) and around it where there are several
--- centres, and the land between them is divided by ever finer streets and lanes. `block` (m) is the width of blocks, `bends` the angle
--- (degrees) by which main streets turn, `cross` the share of streets that leave opposite another one, `stop` the share of lanes that
--- end, of those that have room, `greens` the share of small greens, and `gap` the share of blocks that stay parks or estates.
--- `variety` from 0 to 1 scales the differences between blocks: they are small in the middle and large at the border, and quarters
--- have their own.
+-- An unplanned town: main streets lead out of the centre, or out of a `middle` (m) and around it if there are several
+-- centres, and finer streets and lanes divide the land between them. `block` (m) is the width of blocks, `bends` the
+-- maximum turn (degrees) of main streets, `cross` the fraction of streets that leave opposite another street, `stop`
+-- the fraction of dead-end lanes of those with room, `greens` the fraction of small greens, and `gap` the fraction of
+-- blocks that remain parks or estates. `variety` from 0 to 1 scales the differences between blocks: blocks are small
+-- in the centre and large at the boundary, and quarters have their own sizes.
 function patterns.organic(options: { [string]: any }?): Pattern
   local of: { [string]: any } = options or {}
   checks.options("roads.organic", of, KNOWN)
@@ -31,7 +31,7 @@ function patterns.organic(options: { [string]: any }?): Pattern
     least = math.max(0.2 * block, 14),
     bow = bends / 125,
     crescents = bends / 42,
-    -- Nobody moves a street for a junction nearby, or joins what ends.
+    -- Streets are not moved to a nearby junction, and dead ends are not joined.
     snap = 7,
     join = 30,
     toward = function(x: number, y: number, heading: number, length: number): number
@@ -39,7 +39,7 @@ function patterns.organic(options: { [string]: any }?): Pattern
       if dx * dx + dy * dy < length * length then
         return heading
       end
-      -- Out of the middle or around it, as far as hills and fields of old let it.
+      -- Out of the centre or around it, as far as hills and obstacles allow.
       local turned = math.deg(math.atan2(dy, dx)) + 70 * noise(x / (block * 6), y / (block * 6), 2.5, field)
       local aim = nearest(heading, { turned, turned + 90, turned + 180, turned + 270 })
       local own = noise(x / (block * 2.5), y / (block * 2.5), 0.5, field)
@@ -48,7 +48,7 @@ function patterns.organic(options: { [string]: any }?): Pattern
     length = function(): number
       return math.max(0.55 * block, 36)
     end,
-    -- Blocks are small in the middle and grow outwards, where quarters differ more.
+    -- Blocks are small in the centre and grow outwards, where quarters differ more.
     room = function(_: number, _: number, far: number, own: number): number
       local along = math.clamp((far - 0.25) / 0.16, 0, 1)
       local rise = along * along * (3 - 2 * along)
@@ -59,15 +59,15 @@ function patterns.organic(options: { [string]: any }?): Pattern
   })
 end
 
--- How many blocks of a raster in a row and in a column are one, and what share is so.
+-- The number of blocks of a raster in a row and in a column that form one block, and the fraction of such blocks.
 local LARGE = { { 5, 0.06 }, { 3, 0.1 }, { 2, 0.14 } }
--- How wide (m) the parts of a block are at least that alleys divide.
+-- The minimum width (m) of the parts of a block that alleys divide.
 local PART = 27
--- How near (m) to a line a street lies on it.
+-- The maximum distance (m) of a street from a line that it follows.
 local NEAR = 12
 
--- Where the lines of a raster lie (m) along one of its directions, on both sides of its middle, about `apart`: most of them
--- nearer, and a few far from the next.
+-- The positions (m) of the lines of a raster along one of its directions, on both sides of its centre, about `apart`:
+-- most of them nearer, and a few farther apart.
 local function lines(apart: number, variety: number, seed: number): { number }
   local at = { 0 }
   for index = 1, 150 do
@@ -80,7 +80,7 @@ local function lines(apart: number, variety: number, seed: number): { number }
   return table.move(at, 1, #at, #all + 1, all)
 end
 
--- How many of some numbers, which rise, are no greater than another.
+-- The number of elements of an increasing list that are not greater than a value.
 local function below(numbers: { number }, limit: number): number
   local low, high = 0, #numbers
   while low < high do
@@ -94,9 +94,9 @@ local function below(numbers: { number }, limit: number): number
   return low
 end
 
--- Streets along two directions, with blocks of about `block` by `width` (m), turned by `angle` (degrees). `gap` is the share
--- of streets across the longer direction that are left out, and `variety` from 0 to 1 how much blocks differ: some are as large
--- as several, and alleys divide those of old quarters.
+-- Streets along two directions, with blocks of about `block` by `width` (m), rotated by `angle` (degrees). `gap` is
+-- the fraction of streets across the longer direction that are omitted, and `variety` from 0 to 1 is the variation of
+-- blocks: some are as large as several blocks, and alleys divide the blocks of old quarters.
 function patterns.raster(options: { [string]: any }?): Pattern
   local of: { [string]: any } = options or {}
   checks.options("roads.raster", of, KNOWN)
@@ -109,7 +109,7 @@ function patterns.raster(options: { [string]: any }?): Pattern
   local field = math.floor(random() * 1000000)
   local columns, rows = lines(block, variety, field), lines(width, variety, field + 1)
   local east, north = math.cos(math.rad(angle)), math.sin(math.rad(angle))
-  -- The large block that a block is a part of, by a number; none if it is of none.
+  -- The number of the large block that contains a block; none if the block is not in a large block.
   local function large(column: number, row: number): number?
     for _, kind in LARGE do
       local size, share = kind[1], kind[2] * variety
@@ -120,22 +120,22 @@ function patterns.raster(options: { [string]: any }?): Pattern
     end
     return nil
   end
-  -- Whether two blocks side by side are one: as a part of a large one, or as a pair across the longer direction. What leads up to
-  -- a large block finds a street there.
+  -- Tests if two adjacent blocks are one: as parts of a large block, or as a pair across the longer direction.
+  -- Streets that lead to a large block end at a street.
   local function is_one(column: number, row: number, along: boolean): boolean
     local here = large(column, row)
     local there = if along then large(column, row - 1) else large(column - 1, row)
     if here ~= there or here or along then
       return here == there and here ~= nil
     end
-    -- Of streets side by side, the one with the greatest number stays, so that no row is long without any.
+    -- Of adjacent streets, the street with the greatest number stays, so that no long row lacks streets.
     local own = drawn(column, row, field)
     return own < gap and (own < drawn(column - 1, row, field) or own < drawn(column + 1, row, field))
   end
-  -- Where (m) alleys divide a block of an old quarter, across the columns or across the rows: those of blocks side by side seldom
-  -- meet.
+  -- The positions (m) of alleys in a block of an old quarter, across the columns or across the rows; alleys of
+  -- adjacent blocks rarely meet.
   local function alleys(column: number, row: number, along: boolean): { number }
-    -- How large noise is at least where a quarter is old; it is never above 1.
+    -- The minimum noise of an old quarter; noise is never above 1.
     local old = 0.2 + 3 * (1 - variety)
     local west, south = columns[column], rows[row]
     local far_east, far_north = columns[column + 1], rows[row + 1]
@@ -156,10 +156,11 @@ function patterns.raster(options: { [string]: any }?): Pattern
     end
     return found
   end
-  -- Where (m) the next line or alley is on the way from a place along the columns or the rows; main streets pass alleys by.
+  -- The distance (m) from a position to the next line or alley along the columns or the rows; main streets ignore
+  -- alleys.
   local function next_line(at: number, aside: number, along: boolean, forth: boolean, depth: number): number
     local crossed, beside = if along then columns else rows, if along then rows else columns
-    -- What is near is behind.
+    -- A line that is near is behind.
     local near = 0.2 * if along then block else width
     local index = if forth then below(crossed, at + near) + 1 else below(crossed, at - near)
     local found = crossed[index]
@@ -209,15 +210,16 @@ function patterns.raster(options: { [string]: any }?): Pattern
         end
         return false
       end
-      -- An alley ends with its block; else a street lies on the line between two blocks, or is that of another pattern.
+      -- An alley ends with its block; otherwise a street follows the line between two blocks, or belongs to another
+      -- pattern.
       return not has_alley(0) and (has_alley(-1) or has_alley(1) or is_one(column, row, along))
     end,
   })
 end
 
--- Rays out of a `middle` (m), and rings around it that are about `block` (m) apart. `gap` is the share of side streets that
--- are left out, and `variety` from 0 to 1 how much blocks differ: rings are near here and far there, quarters have small blocks or
--- large ones, and there are parks.
+-- Streets from a `middle` (m), and rings around it at distances of about `block` (m). `gap` is the fraction of
+-- omitted side streets, and `variety` from 0 to 1 is the variation of blocks: rings have different distances,
+-- quarters have small or large blocks, and there are parks.
 function patterns.radial(options: { [string]: any }?): Pattern
   local of: { [string]: any } = options or {}
   checks.options("roads.radial", of, KNOWN)
@@ -232,13 +234,13 @@ function patterns.radial(options: { [string]: any }?): Pattern
       table.insert(rings, radius)
     end
   end
-  -- How wide blocks are at a place, against others.
+  -- The relative width of blocks at a position.
   local function wide(x: number, y: number): number
     local much = 0.15 * variety + noise(x / (block * 4), y / (block * 4), 7.5, field)
     return math.clamp(math.exp(3.5 * variety * much), 0.4, 2)
   end
-  -- The rings that lie next to a distance (m) from the middle, on the inner and on the outer side, with the lanes halfway between
-  -- them in quarters of small blocks.
+  -- The rings next to a distance (m) from the centre, on the inner and on the outer side, with the lanes halfway
+  -- between them in quarters of small blocks.
   local function around(far: number, x: number, y: number, depth: number): (number, number)
     local inner = below(rings, far)
     local low, high = rings[inner] or 0, rings[inner + 1] or far + block
@@ -262,7 +264,7 @@ function patterns.radial(options: { [string]: any }?): Pattern
         return heading
       end
       local ray = math.deg(math.atan2(dy, dx))
-      -- A street along a ring ends on it, wherever it begins.
+      -- A street along a ring ends on the ring, wherever it begins.
       local low, high = around(far, x, y, depth)
       local ring = if low > 0 and far - low < high - far then low else high
       local bent = (far * far + length * length - ring * ring) / (2 * far * length)
@@ -274,7 +276,7 @@ function patterns.radial(options: { [string]: any }?): Pattern
       local ray = math.deg(math.atan2(dy, dx))
       local across = math.abs(between(ray, heading)) % 180
       if across < 45 or across > 135 then
-        -- To the next ring, or to the one behind where that is near.
+        -- To the next ring, or to the ring behind it if the next ring is near.
         local far = math.sqrt(dx * dx + dy * dy)
         local near = 0.15 * block
         local low, high = around(if across < 45 then far + near else far - near, x, y, depth)
@@ -294,9 +296,9 @@ function patterns.radial(options: { [string]: any }?): Pattern
   })
 end
 
--- Streets along the lines of equal height, and others straight up and down where it is not steeper than `steepest`
--- (degrees); elsewhere they climb at a slant. `height` gives the height (m) of a place, as a terrain's does:
--- function(x, y) return land:height({ x, y }) end.
+-- Streets along contour lines, and straight streets up and down slopes up to `steepest` (degrees); on steeper slopes
+-- they climb obliquely. `height` returns the height (m) at a position, like a terrain: function(x, y) return
+-- land:height({ x, y }) end.
 function patterns.contours(height: (x: number, y: number) -> number, options: { [string]: any }?): Pattern
   local of: { [string]: any } = options or {}
   checks.options("roads.contours", of, KNOWN)
@@ -315,10 +317,10 @@ function patterns.contours(height: (x: number, y: number) -> number, options: { 
         return heading
       end
       local up = math.deg(math.atan2(north, east))
-      -- How far from straight up a street turns, so that it climbs no more than it may.
+      -- The angle from the direction of steepest ascent that limits the slope of a street.
       local slant = if slope > most then math.deg(math.acos(most / slope)) else 0
       local along = nearest(heading, { up + 90, up - 90 })
-      -- The line bends: what the contour does at the end of the street counts half.
+      -- The contour bends: its direction at the end of the street has half the weight.
       local tx, ty = math.cos(math.rad(along)) * length, math.sin(math.rad(along)) * length
       local lost = height(x + tx, y + ty) - height(x, y)
       local bend = math.deg(math.atan2(lost / slope, length))
@@ -332,7 +334,7 @@ function patterns.contours(height: (x: number, y: number) -> number, options: { 
   })
 end
 
--- Streets that turn towards where more people live. `people` gives from 0 to 1 how many live at a place (m).
+-- Streets that turn towards a higher population. `people` returns the population at a position (m), from 0 to 1.
 function patterns.populous(people: (x: number, y: number) -> number, options: { [string]: any }?): Pattern
   local of: { [string]: any } = options or {}
   checks.options("roads.populous", of, KNOWN)
@@ -347,7 +349,7 @@ function patterns.populous(people: (x: number, y: number) -> number, options: { 
         local turned = heading + try * bends / 2
         local way = math.rad(turned)
         local found = 0
-        -- What is far off counts less.
+        -- Distant population has less weight.
         for far = 1, 4 do
           local reach = far * length * (if depth == 0 then 2 else 1)
           found += people(x + math.cos(way) * reach, y + math.sin(way) * reach) / far
@@ -364,7 +366,7 @@ function patterns.populous(people: (x: number, y: number) -> number, options: { 
   })
 end
 
--- The pattern of each place, by the nearest of some districts: { at = { x, y }, pattern = ... }.
+-- The pattern at each position, from the nearest of some districts: { at = { x, y }, pattern = ... }.
 function patterns.districts(
   districts: { { at: { number }, pattern: Pattern } }
 ): (x: number, y: number) -> Pattern

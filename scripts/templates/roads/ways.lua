@@ -1,15 +1,15 @@
 --!strict
--- Ways: streets that lead by several places.
+-- Ways: streets through several positions.
 local ways = {}
 
--- The heading (degrees) and the length (m) of the way to a place from a junction.
+-- The heading (degrees) and the length (m) of the straight line from a junction to a position.
 function ways.aim(this: Network, junction: number, x: number, y: number): (number, number)
   local from = this:place(junction)
   local dx, dy = x - from.x, y - from.y
   return math.deg(math.atan2(dy, dx)), math.sqrt(dx * dx + dy * dy)
 end
 
--- Proposes a street by places (m), x and y in turn, until a piece is refused or joins another street.
+-- Proposes a street through positions (m), x and y alternating, until a piece is refused or joins another street.
 function ways.lead(this: Network, junction: number, way: { number }, depth: number, propose: any)
   local at: number? = junction
   for index = 1, #way, 2 do

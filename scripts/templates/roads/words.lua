@@ -1,5 +1,5 @@
 --!strict
--- Roads that are written as a word of characters.
+-- Roads from a word of characters.
 local checks = require("checks")
 local usual = require("options")
 
@@ -7,11 +7,11 @@ local words = {}
 
 local number = checks.number
 
--- A symbol of a word: its character, the side that the next branch leaves to, and how often its road has branched off.
+-- A symbol of a word: its character, the side of the next branch, and the depth of its road.
 local Letter = module("Letter", "name", "side", "depth")
 -- Turns to a side, 1 for left, at a branch.
 local Branch = module("Branch", "side")
--- Tidies up.
+-- Removes remaining symbols.
 local Tidy = module("Tidy")
 
 local WORD = {
@@ -28,11 +28,11 @@ local WORD = {
   detour = "number",
   dead_ends = "string",
 }
--- The most symbols that a word may have.
+-- The maximum number of symbols of a word.
 local LONGEST = 500000
 
--- A word as a list of characters and, for each branch, a list; refuses what cannot be read. Every character but a bracket
--- and white space is a symbol.
+-- A word as a list of characters, with a nested list for each branch; refuses invalid words. Every character except
+-- brackets and white space is a symbol.
 local function parsed(what: string, word: string, ...: any): { any }
   if type(word) ~= "string" or not utf8.len(word) then
     error(`roads.word: {what} must be a word of characters, not {word}`, 3)
@@ -61,7 +61,7 @@ local function parsed(what: string, word: string, ...: any): { any }
   return open[1]
 end
 
--- How often each symbol is in a word.
+-- The number of occurrences of each symbol in a word.
 local function counted(tree: { any }, counts: { [string]: number })
   for _, item in tree do
     if type(item) == "table" then
@@ -73,7 +73,7 @@ local function counted(tree: { any }, counts: { [string]: number })
   return counts
 end
 
--- An angle (degrees) that does not lead a road back onto itself.
+-- An angle (degrees) that does not turn a road back onto itself.
 local function angle(name: string, value: any, usual: number, ...: any): number
   local given = number(`roads.word: {name}`, value, usual, -360, 360, 4)
   if given % 180 == 0 then
@@ -82,11 +82,11 @@ local function angle(name: string, value: any, usual: number, ...: any): number
   return given
 end
 
--- A system whose network is built by a word, which `productions` rewrite `iterations` times: { X = "F[X]FX" }, or a list
--- of words of which one is drawn. F builds a street as long as `lengths` has it for its depth (m), + and - turn by `bend`
--- (degrees), [ remembers the place and the heading and leaves by `branch` (degrees), ] goes back there; what has no
--- production is copied. Branches leave by `split`: "symmetric" to the left, while the road itself turns as far to the
--- right; "alternate" to the left and to the right in turns; "plain" as + and - within them say.
+-- A system whose network is built by a word, which `productions` rewrite `iterations` times: { X = "F[X]FX" }, or a
+-- list of words for a random choice. F builds a street with the length (m) of its depth in `lengths`, + and - turn by
+-- `bend` (degrees), [ saves position and heading and leaves by `branch` (degrees), ] restores them. Symbols without a
+-- production are copied. `split` sets the branches: "symmetric" to the left, while the road itself turns to the right
+-- by the same angle; "alternate" alternately to the left and to the right; "plain" by the + and - within them.
 function words.word(options: { [string]: any })
   checks.options("roads.word", options, WORD)
   local productions: { [string]: any } = options.productions or { X = { "F[X]F+X", "F[X]F-X", "F[X]FX" } }
@@ -134,7 +134,7 @@ function words.word(options: { [string]: any })
   end
   local axiom = parsed("the axiom", options.axiom or "X")
 
-  -- How long the word becomes at most is known before it is written.
+  -- The maximum length of the word is computed in advance.
   local counts = counted(axiom, {})
   for step = 1, iterations do
     local after: { [string]: number } = {}
@@ -154,7 +154,7 @@ function words.word(options: { [string]: any })
     end
   end
 
-  -- The network allows the angles that the word asks for, down to its own limit of 10 degrees.
+  -- The network allows the angles of the word, down to its own limit of 10 degrees.
   local leaves = if split == "plain" then bend else branch
   local sharpest = math.min(leaves % 180, 180 - leaves % 180)
   local sharp = math.clamp(sharpest, 10, 50)
@@ -213,7 +213,7 @@ function words.word(options: { [string]: any })
     end
   )
   system:interpret("Branch(side)", function(this: Network, side: number)
-    -- The first of all says where the road begins to lead.
+    -- The first symbol sets the initial direction of the road.
     this:turn(if side == 0 then heading else side * branch)
   end)
   system:interpret("Tidy", function(this: Network)

@@ -14,23 +14,24 @@ const AXES: [&str; 2] = ["extruder", "turtle"];
 pub(super) type Page = (String, String);
 
 /// Chapters that are written by hand: their titles and files.
-const CHAPTERS: [(&str, &str); 16] = [
-    ("Burgeon", "introduction"),
+const CHAPTERS: [(&str, &str); 17] = [
+    ("Introduction", "introduction"),
     ("Contexts and features", "rules"),
     ("Data and heights", "data"),
-    ("Questions to data in rules", "queries"),
+    ("SQL queries", "queries"),
     ("SQL", "sql"),
-    ("Ground and planets", "ground"),
-    ("What scripts can use", "objects"),
+    ("Terrain and planets", "terrain"),
+    ("API reference", "objects"),
     ("Street networks", "networks"),
     ("Running scripts", "running"),
-    ("Files for other programs", "formats"),
-    ("Live", "live"),
-    ("Types of objects of your own", "types"),
+    ("Export formats", "formats"),
+    ("Live view", "live"),
+    ("Custom object types", "types"),
     ("Packages", "packages"),
-    ("Scripts from others", "threats"),
+    ("Security", "security"),
     ("Editors", "editors"),
     ("Speed", "speed"),
+    ("Code walkthrough", "walkthrough"),
 ];
 
 /// Returns the generated pages of the scripting API, and the list of all pages.
@@ -40,7 +41,7 @@ pub(super) fn pages(entries: &[Entry]) -> Vec<Page> {
         // Writing into a string cannot fail.
         let _ = writeln!(summary, "[{title}]({file}.md)");
     }
-    summary.push_str("\n# Types of objects\n\n");
+    summary.push_str("\n# Object types\n\n");
     let mut pages = Vec::new();
     for entry in entries.iter().filter(|entry| entry.group == EntryGroup::Type) {
         let _ = writeln!(summary, "- [{0}](reference/{0}.md)", entry.name);
@@ -49,9 +50,9 @@ pub(super) fn pages(entries: &[Entry]) -> Vec<Page> {
     summary.push_str("\n# The language\n\n");
     for (group, file, title) in [
         (EntryGroup::Global, "functions", "Functions and values"),
-        (EntryGroup::Module, "modules", "Modules that come with a meaning"),
-        (EntryGroup::Given, "given", "What these give and take"),
-        (EntryGroup::Luau, "luau", "Luau itself"),
+        (EntryGroup::Module, "modules", "Built-in modules"),
+        (EntryGroup::Given, "given", "Data types"),
+        (EntryGroup::Luau, "luau", "Luau built-ins"),
     ] {
         let _ = writeln!(summary, "- [{title}](reference/{file}.md)");
         let mut text = format!("{MADE}# {title}\n");
@@ -83,7 +84,7 @@ fn body(text: &mut String, entry: &Entry, level: usize) {
         let _ = writeln!(text, "\n```{}\n{}\n```", language_of(entry), entry.example.trim_end());
     }
     if let Some(example) = example_of(&entry.name) {
-        let _ = writeln!(text, "\n![What it draws]({})", file_of(example));
+        let _ = writeln!(text, "\n![Example]({})", file_of(example));
         if AXES.contains(&&*entry.name) {
             text.push_str("\nIn pictures, the arrows at the origin are the axes, each 1 m long: x red, y green, z blue.\n");
         }
@@ -93,8 +94,8 @@ fn body(text: &mut String, entry: &Entry, level: usize) {
         (MemberKind::Field, "Fields"),
         (MemberKind::Declares, "Methods"),
         (MemberKind::Function, "Functions"),
-        (MemberKind::Reads, "Methods that read"),
-        (MemberKind::Changes, "Methods that change it"),
+        (MemberKind::Reads, "Read methods"),
+        (MemberKind::Changes, "Write methods"),
     ] {
         let members: Vec<&Member> = entry.members(what).collect();
         if members.is_empty() {

@@ -12,11 +12,11 @@ const WIDTH: usize = 100;
 pub(super) fn list(entries: &[Entry], script: Option<&Path>) -> String {
     let mut text = String::new();
     for (group, title) in [
-        (EntryGroup::Type, "Types of objects"),
+        (EntryGroup::Type, "Object types"),
         (EntryGroup::Global, "Functions and values"),
-        (EntryGroup::Module, "Modules that come with a meaning"),
-        (EntryGroup::Given, "What these give and take"),
-        (EntryGroup::Luau, "Luau itself"),
+        (EntryGroup::Module, "Built-in modules"),
+        (EntryGroup::Given, "Data types"),
+        (EntryGroup::Luau, "Luau built-ins"),
     ] {
         let of_group = || entries.iter().filter(|entry| entry.group == group);
         if of_group().next().is_none() {
@@ -54,8 +54,8 @@ pub(super) fn entry(entry: &Entry) -> String {
         (MemberKind::Field, "Fields"),
         (MemberKind::Declares, "Methods"),
         (MemberKind::Function, "Functions"),
-        (MemberKind::Reads, "Methods that read: rules and interpretations may call them"),
-        (MemberKind::Changes, "Methods that change it: only interpretations may call them"),
+        (MemberKind::Reads, "Read methods: rules and interpretations may call them"),
+        (MemberKind::Changes, "Write methods: only interpretations may call them"),
     ] {
         for (index, member) in entry.members(what).enumerate() {
             if index == 0 {

@@ -120,10 +120,10 @@ mod tests {
             let found = names.iter().find(|known| known.name == name);
             found.map(|name| format!("{}: {}", name.forms[0], name.doc))
         };
-        let expected = "(hue: number, saturation: number, value: number) -> { number }: A colour from `hue` (degrees), \
+        let expected = "(hue: number, saturation: number, value: number) -> { number }: Creates a colour from `hue` (degrees), \
                         `saturation` and `value` (0 to 1).";
         assert_eq!(told("hsv").as_deref(), Some(expected));
-        let expected = "(...any) -> Vector: A vector of three numbers, or of a list of them; what is left out at the end is 0.";
+        let expected = "(...any) -> Vector: Creates a vector from three numbers, or from a list of them; omitted numbers at the end are 0.";
         assert_eq!(told("vec").as_deref(), Some(expected));
         let expected = "(length: any?) -> Module: Calls turtle:forward where it is interpreted.";
         assert_eq!(told("F").as_deref(), Some(expected));

@@ -1,4 +1,4 @@
--- By 90 degrees each: toward 0 is grey, 90 orange, 180 green, 270 purple. The extruder looks up, and its own up is along x.
+-- Bends of 90 degrees: toward 0 is grey, 90 orange, 180 green, 270 purple. The extruder faces up, and its own up is along x.
 local Part = module("Part")
 local parts = lsystem({ object = extruder({ sides = 8 }) })
 parts:axiom(Part())

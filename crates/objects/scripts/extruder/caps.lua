@@ -1,4 +1,4 @@
--- Both ends, the start alone, and none.
+-- Both ends closed, only the start, and none.
 local Part = module("Part")
 local parts = lsystem({ object = extruder({ sides = 24 }) })
 parts:axiom(Part())

@@ -1,4 +1,4 @@
--- By name, and as { red, green, blue }.
+-- A colour by name, and as { red, green, blue }.
 local Part = module("Part")
 local parts = lsystem({ object = extruder({ sides = 8 }) })
 parts:axiom(Part())

@@ -1,4 +1,4 @@
--- From upwards to the direction of x.
+-- From upwards to the x direction.
 local Part = module("Part")
 local parts = lsystem({ object = extruder({ sides = 8 }) })
 parts:axiom(Part())

@@ -1,4 +1,4 @@
--- 1 m, 0.5 m and 0.25 m, one on the other.
+-- Segments of 1 m, 0.5 m and 0.25 m.
 local Part = module("Part")
 local parts = lsystem({ object = extruder({ sides = 6, smooth = false }) })
 parts:axiom(Part())

@@ -1,4 +1,4 @@
--- To (2, 0, 0), and to (2, 2, 0).
+-- Jumps to (2, 0, 0) and to (2, 2, 0).
 local Part = module("Part")
 local parts = lsystem({ object = extruder({ sides = 6, smooth = false }) })
 parts:axiom(Part())

@@ -1,4 +1,4 @@
--- What another system has drawn, six times, larger and larger.
+-- The model of another system, placed six times at increasing scale.
 local Stone, Part = module("Stone"), module("Part")
 local stones = lsystem({ object = extruder({ sides = 5, smooth = false }) })
 stones:axiom(Stone())

@@ -1,4 +1,4 @@
--- An angle with a hole.
+-- An L-shaped cross-section with a hole.
 local Part = module("Part")
 local parts = lsystem({ object = extruder({ smooth = false }) })
 parts:axiom(Part())

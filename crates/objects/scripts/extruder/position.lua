@@ -1,4 +1,4 @@
--- A rule asks where the extruder is, how it stands, and what it has drawn.
+-- A rule reads the position and the direction of the extruder, and the distance to its drawing.
 local Post = module("Post", "height")
 local post = lsystem({ object = extruder({ caps = false }) })
 post:axiom(Post(2))

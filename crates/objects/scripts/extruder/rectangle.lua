@@ -1,4 +1,4 @@
--- The width goes along x, the height along y, where it begins upwards.
+-- At the start, upwards, the width is along x and the height along y.
 local Part = module("Part")
 local parts = lsystem({ object = extruder({ smooth = false }) })
 parts:axiom(Part())

@@ -1,4 +1,4 @@
--- By 30 degrees.
+-- A roll of 30 degrees.
 local Part = module("Part")
 local parts = lsystem({ object = extruder({ smooth = false }) })
 parts:axiom(Part())

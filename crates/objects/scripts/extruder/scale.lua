@@ -1,4 +1,4 @@
--- At once, and only in one direction at the top.
+-- A scale of the whole segment, and a scale in one direction at the top.
 local Part = module("Part")
 local parts = lsystem({ object = extruder({ sides = 4, smooth = false }) })
 parts:axiom(Part())

@@ -1,4 +1,4 @@
--- Orange to the right, green up, as seen along the direction of extruding.
+-- Orange to the right, green up, seen along the direction of extrusion.
 local Part = module("Part")
 local parts = lsystem({ object = extruder({ sides = 6, smooth = false }) })
 parts:axiom(Part())

@@ -1,4 +1,4 @@
--- With 14 sides: smooth, and not.
+-- 14 sides: smooth, and flat.
 local Part = module("Part")
 local parts = lsystem({ object = extruder({ sides = 14 }) })
 parts:axiom(Part())

@@ -1,4 +1,4 @@
--- Stars with 4, 5 and 6 points, whose inner corners are at 0.2, 0.5 and 0.8.
+-- Stars with 4, 5 and 6 points, and inner corners at 0.2, 0.5 and 0.8.
 local Part = module("Part")
 local parts = lsystem({ object = extruder({ smooth = false }) })
 parts:axiom(Part())

@@ -1,4 +1,4 @@
--- Evenly from 1 to 0.5, and then to an edge.
+-- A taper from 1 to 0.5, and a taper to an edge.
 local Part = module("Part")
 local parts = lsystem({ object = extruder({ sides = 4, smooth = false }) })
 parts:axiom(Part())

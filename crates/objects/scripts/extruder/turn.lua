@@ -1,4 +1,4 @@
--- Three times by 30 degrees; the first one is grey.
+-- Three turns of 30 degrees; the first segment is grey.
 local Part = module("Part")
 local parts = lsystem({ object = extruder({ sides = 8 }) })
 parts:axiom(Part())

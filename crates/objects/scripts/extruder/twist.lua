@@ -1,4 +1,4 @@
--- A quarter turn along 2 m.
+-- A quarter turn over 2 m.
 local Part = module("Part")
 local parts = lsystem({ object = extruder({ smooth = false }) })
 parts:axiom(Part())

@@ -1,4 +1,4 @@
--- How large walls can be: a fixed panel, and others that stretch, repeat or stand in a row.
+-- The sizes of walls: a fixed panel, and walls that stretch, repeat or form a row.
 local pane = panel({ width = 2, height = 3 })
 local walls = {
   pane,

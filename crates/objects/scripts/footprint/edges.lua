@@ -1,4 +1,4 @@
--- Each edge: how long it is, where it begins, which way it faces, and whether it is at the street.
+-- The length, the start and the direction of each edge, and its keyword "street".
 local lane = streets({ { { -5, -4 }, { 15, -4 } } })
 local plan = footprint({ { 0, 0 }, { 10, 0 }, { 10, 8 }, { 0, 8 } }, { streets = lane })
 for edge = 1, plan:edges() do

@@ -1,4 +1,4 @@
--- Two houses wall to wall: a rule asks how many touch, how much of an edge, and how far a place is.
+-- Two adjoining houses: a rule reads the number of neighbours, the shared fraction of an edge, and a distance.
 local House = module("House", "height")
 local row = lsystem({ object = footprint })
 local houses = source({

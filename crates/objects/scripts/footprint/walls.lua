@@ -1,4 +1,4 @@
--- 3 m, and 2 m on them.
+-- Walls of 3 m, with walls of 2 m on top.
 local Part = module("Part")
 local parts =
   lsystem({ object = footprint({ { 0, 0 }, { 12, 0 }, { 12, 5 }, { 7, 5 }, { 7, 9 }, { 0, 9 } }) })

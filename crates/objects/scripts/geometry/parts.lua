@@ -1,4 +1,4 @@
--- A yard with a pond: its rings, its border, its pieces, and a point that is surely in it.
+-- A yard with a pond: its rings, its boundary, its parts, and a point inside.
 local yard = polygon({
   { { 0, 0 }, { 20, 0 }, { 20, 10 }, { 0, 10 } },
   { { 4, 4 }, { 8, 4 }, { 8, 8 }, { 4, 8 } },

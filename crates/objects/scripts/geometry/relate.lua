@@ -1,4 +1,4 @@
--- How a plot, a house in it, the plot beside it and a path across lie to one another.
+-- The relations of a plot, a house inside, the adjacent plot and a path across.
 local plot = polygon({ 0, 0 }, { 9, 0 }, { 9, 9 }, { 0, 9 })
 local house = polygon({ 2, 2 }, { 6, 2 }, { 6, 6 }, { 2, 6 })
 local beside = polygon({ 9, 0 }, { 15, 0 }, { 15, 9 }, { 9, 9 })

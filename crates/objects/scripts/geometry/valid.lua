@@ -1,3 +1,3 @@
--- A ring that crosses itself, why it is wrong, and the two areas that it was meant to be.
+-- A self-crossing ring, the reason, and the two valid areas.
 local bow = geometry("POLYGON ((0 0, 4 4, 4 0, 0 4, 0 0))")
 print(bow:is_valid(), bow:validity(), bow:make_valid():wkt())

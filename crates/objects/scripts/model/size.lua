@@ -1,3 +1,3 @@
--- How large a model is: one box around all of it.
+-- The size of a model: its bounding box.
 local window = model("window.glb")
 print(window:high() - window:low())

@@ -1,4 +1,4 @@
--- Dead ends: what they are, how many could be joined, and the network without them.
+-- Dead ends: their positions, the number that can be joined, and the network without dead ends.
 local Start, Join = module("Start"), module("Join")
 local roads = lsystem({ object = network({}) })
 roads:axiom(Start())

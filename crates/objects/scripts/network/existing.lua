@@ -1,4 +1,4 @@
--- Existing streets: a crossing, a sharp fork and a bridge stay as they are, and what is missing is listed.
+-- Existing streets: a crossing, a sharp fork and a bridge stay unchanged, and `omitted` lists missing parts.
 local Keep = module("Keep")
 local existing = {
   { lines = { { { -90, 0 }, { 90, 0 } }, { { -40, -60 }, { -40, 60 } } }, depth = 0 },

@@ -1,4 +1,4 @@
--- A rule asks what became of a street that was proposed, and what would become of another one.
+-- A rule reads the outcome of a proposed street, and predicts the outcome of another street.
 local Tip = module("Tip")
 local roads = lsystem({ object = network({}) })
 roads:axiom(Tip())

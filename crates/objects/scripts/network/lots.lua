@@ -1,4 +1,4 @@
--- A block of streets: its streets and junctions, its block, and lots, sites and trees beside the streets.
+-- A block of streets: its streets and junctions, its block, and lots, sites and trees next to the streets.
 local Ring = module("Ring")
 local roads = lsystem({ object = network({ streets = { { trees = 10, lamps = 25 } } }) })
 roads:axiom(Ring())

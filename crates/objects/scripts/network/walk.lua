@@ -1,4 +1,4 @@
--- A street that turns as it goes on, and a second one from where the first began.
+-- A street that turns along its way, and a second street from the start of the first.
 local Walk = module("Walk")
 local roads = lsystem({ object = network({}) })
 roads:axiom(Walk())

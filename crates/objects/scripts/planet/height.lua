@@ -1,4 +1,4 @@
--- The ground where a ray from the middle of the planet comes out of it, and a look at it from near.
+-- The ground in a direction from the centre of the planet, and a near view of it.
 local View = module("View")
 local hills = { A = { "A", "A", "A", "A", change = { 1, -1, 0.5, -0.5 }, decay = 0.5 } }
 local globe = lsystem({ object = planet({ radius = 1738000, levels = 8, rules = hills }) })

@@ -1,3 +1,3 @@
--- How far a place is from the nearest street.
+-- The distance from a position to the nearest street.
 local lanes = streets({ { { 0, -5 }, { 40, -5 } } })
 print(lanes:distance(vec(10, 3, 0)))

@@ -1,4 +1,4 @@
--- A rule asks the ground at a place, and the interpretation expands more of it there.
+-- A rule reads the height at a position, and the interpretation expands the terrain there.
 local Stand = module("Stand")
 local hills = { A = { "A", "A", "A", "A", change = { 0.2, -0.1, 0.1, -0.2 }, decay = 0.5 } }
 local land = lsystem({ object = terrain({ size = 512, levels = 6, rules = hills }) })

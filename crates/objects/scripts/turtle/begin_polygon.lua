@@ -1,4 +1,4 @@
--- Five corners.
+-- A polygon with five corners.
 local Part = module("Part")
 local parts = lsystem({ object = turtle({ color = "#7fa650", heading = { 0, 1, 0 } }) })
 parts:axiom(Part())

@@ -1,4 +1,4 @@
--- In the direction of x.
+-- A turn to the x direction.
 local Part = module("Part")
 local parts = lsystem({ object = turtle({ width = 0.15 }) })
 parts:axiom(Part())

@@ -1,4 +1,4 @@
--- 1 m, 0.5 m and 0.25 m.
+-- Steps of 1 m, 0.5 m and 0.25 m.
 local Part = module("Part")
 local parts = lsystem({ object = turtle({ width = 0.15 }) })
 parts:axiom(Part())

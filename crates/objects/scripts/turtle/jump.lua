@@ -1,4 +1,4 @@
--- To (1, 0, 0).
+-- A jump to (1, 0, 0).
 local Part = module("Part")
 local parts = lsystem({ object = turtle({ width = 0.15 }) })
 parts:axiom(Part())

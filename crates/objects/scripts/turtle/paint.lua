@@ -1,4 +1,4 @@
--- Colours 1 to 4 of its palette.
+-- Colours 1 to 4 of the palette.
 local Part = module("Part")
 local parts =
   lsystem({ object = turtle({ width = 0.2, palette = { "#8a9aa8", "orange", "#7fa650", "#b0568a" } }) })

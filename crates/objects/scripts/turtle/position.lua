@@ -1,4 +1,4 @@
--- A rule asks where the turtle is, which way it looks, and how far a place is from what it has drawn.
+-- A rule reads the position and the heading of the turtle, and the distance of a position to its drawing.
 local Step = module("Step", "length")
 local walk = lsystem({ object = turtle() })
 walk:axiom(Turn(30), Step(1))

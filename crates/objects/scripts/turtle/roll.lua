@@ -1,4 +1,4 @@
--- It is seen by what comes next: a turn to the left, orange behind roll, green behind roll_back.
+-- A roll shows in the next turn to the left: orange after roll, green after roll_back.
 local Part = module("Part")
 local parts = lsystem({ object = turtle({ width = 0.15 }) })
 parts:axiom(Part())

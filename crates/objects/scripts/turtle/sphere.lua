@@ -1,4 +1,4 @@
--- With a radius of 0.3 m, where the turtle is.
+-- A sphere with a radius of 0.3 m at the turtle's position.
 local Part = module("Part")
 local parts = lsystem({ object = turtle({ width = 0.15 }) })
 parts:axiom(Part())

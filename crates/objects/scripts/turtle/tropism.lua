@@ -1,4 +1,4 @@
--- Towards y, with an elasticity of 0, 0.1 and 0.3.
+-- Tropism towards y, with an elasticity of 0, 0.1 and 0.3.
 local Part = module("Part")
 local parts = lsystem({ object = turtle({ width = 0.15 }) })
 parts:axiom(Part())

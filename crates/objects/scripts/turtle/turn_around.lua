@@ -1,4 +1,4 @@
--- Back over half of the last piece.
+-- Back over half of the last segment.
 local Part = module("Part")
 local parts = lsystem({ object = turtle({ width = 0.15 }) })
 parts:axiom(Part())

@@ -1,4 +1,4 @@
--- The second piece tapers from 0.3 m to 0.1 m.
+-- The second segment tapers from 0.3 m to 0.1 m.
 local Part = module("Part")
 local parts = lsystem({ object = turtle({ width = 0.15 }) })
 parts:axiom(Part())

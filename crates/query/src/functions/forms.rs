@@ -20,14 +20,14 @@ pub(super) const FORMS: &[SpatialFunction] = &[
         (2, 2),
         "(geometry, geometry)",
         "geometry",
-        "A line along the points of both.",
+        "A line along the points of both geometries.",
         |call| {
             let (a, b) = (call.geometry(0)?, call.geometry(1)?);
             let points: Vec<DVec3> = a.geometry.points().chain(b.geometry.points()).copied().collect();
             Ok(Geometry::line(points).map_or(FunctionResult::Nothing, FunctionResult::Geometry))
         },
     ),
-    function("ST_MakePolygon", (1, 1), "(line)", "geometry", "The area that a closed line bounds.", |call| {
+    function("ST_MakePolygon", (1, 1), "(line)", "geometry", "The polygon inside a closed line.", |call| {
         let parsed = call.geometry(0)?;
         let Geometry::Line(points) = &parsed.geometry else { return Err("it takes a line".into()) };
         if points.first() != points.last() {
@@ -79,7 +79,7 @@ pub(super) const FORMS: &[SpatialFunction] = &[
         (2, 2),
         "(geometry, srid)",
         "geometry",
-        "The same coordinates, taken for those of a reference system.",
+        "The same coordinates in another reference system.",
         |call| placed(call, 1, call.geometry(0)?.geometry.clone()),
     ),
     function(
@@ -87,7 +87,7 @@ pub(super) const FORMS: &[SpatialFunction] = &[
         (1, 1),
         ONE,
         "number",
-        "The EPSG code of its reference system; 0 if it has none.",
+        "The EPSG code of the reference system; 0 if it has none.",
         |call| {
             call.geometry(0)?;
             let own = call.state().frame.as_ref().and_then(|frame| frame.epsg).map_or(0, u32::from);
@@ -99,7 +99,7 @@ pub(super) const FORMS: &[SpatialFunction] = &[
         (2, 2),
         "(geometry, srid)",
         "geometry",
-        "The same place in the coordinates of a reference system, by its EPSG code.",
+        "The geometry in the coordinates of another reference system, by its EPSG code.",
         |call| {
             let (geometry, from) = (call.geometry(0)?, call.foreign(0));
             let Some(frame) = &call.state().frame else {
@@ -115,7 +115,7 @@ pub(super) const FORMS: &[SpatialFunction] = &[
         (1, 2),
         "(geometry [, digits])",
         "text",
-        "Its well-known text, with at most so many digits behind the point, 15 unless given.",
+        "The well-known text, with at most `digits` decimals, 15 unless given.",
         |call| {
             Ok(FunctionResult::Text(super::text::well_known(&call.geometry(0)?.geometry, digits(call, 15)?)))
         },
@@ -125,7 +125,7 @@ pub(super) const FORMS: &[SpatialFunction] = &[
         (1, 2),
         "(geometry [, digits])",
         "text",
-        "Its GeoJSON, with at most so many digits behind the point, 9 unless given.",
+        "The GeoJSON, with at most `digits` decimals, 9 unless given.",
         |call| {
             let own = call.state().frame.as_ref().and_then(|frame| frame.epsg).map_or(0, u32::from);
             let code = call.foreign(0).unwrap_or(own);
@@ -136,10 +136,15 @@ pub(super) const FORMS: &[SpatialFunction] = &[
             )))
         },
     ),
-    function("GeometryType", (1, 1), ONE, "text", "Its kind in large letters, such as `POLYGON`.", |call| {
-        Ok(FunctionResult::Text(call.geometry(0)?.geometry.kind().wkt().to_owned()))
-    }),
-    function("ST_AsBinary", (1, 1), ONE, "bytes", "Its well-known binary.", |call| {
+    function(
+        "GeometryType",
+        (1, 1),
+        ONE,
+        "text",
+        "The type of the geometry in capital letters, such as `POLYGON`.",
+        |call| Ok(FunctionResult::Text(call.geometry(0)?.geometry.kind().wkt().to_owned())),
+    ),
+    function("ST_AsBinary", (1, 1), ONE, "bytes", "The well-known binary.", |call| {
         Ok(FunctionResult::Bytes(call.geometry(0)?.geometry.to_wkb()))
     }),
 ];

@@ -30,7 +30,7 @@ pub(super) const MAKERS: &[SpatialFunction] = &[
         (2, 3),
         "(geometry, distance [, options])",
         "geometry",
-        "All that is at most so far away. Options are PostGIS's: the segments of a quarter of a circle, or a text such as `'endcap=flat join=mitre quad_segs=8'`.",
+        "The area within `distance` of the geometry. Options are PostGIS's: the number of segments of a quarter circle, or a string such as `'endcap=flat join=mitre quad_segs=8'`.",
         |call| {
             let options = if call.len() == 3 { buffer_options(call)? } else { BufferOptions::default() };
             let made = call.geometry(0)?.geometry.buffer(call.number(1)?, &options);
@@ -42,7 +42,7 @@ pub(super) const MAKERS: &[SpatialFunction] = &[
         (2, 3),
         "(line, distance [, options])",
         "geometry",
-        "The line beside a line: to its left, or to its right where the distance is negative. Options are those of ST_Buffer.",
+        "The parallel line to the left of a line, or to its right for a negative distance. Options are those of ST_Buffer.",
         |call| {
             let options = if call.len() == 3 { buffer_options(call)? } else { BufferOptions::default() };
             let (line, distance) = (call.geometry(0)?, call.number(1)?);
@@ -53,13 +53,20 @@ pub(super) const MAKERS: &[SpatialFunction] = &[
             made.map(FunctionResult::Geometry).map_err(|error| error.message().to_owned())
         },
     ),
-    function("ST_Intersection", (2, 2), PAIR, "geometry", "What both have.", made_of_two!(intersection)),
+    function(
+        "ST_Intersection",
+        (2, 2),
+        PAIR,
+        "geometry",
+        "The common part of both geometries.",
+        made_of_two!(intersection),
+    ),
     function(
         "ST_Union",
         (2, 2),
         PAIR,
         "geometry",
-        "What either has; with one argument, what any of a group has.",
+        "The union of both geometries; with one argument, the union of a group.",
         made_of_two!(union),
     ),
     function(
@@ -67,7 +74,7 @@ pub(super) const MAKERS: &[SpatialFunction] = &[
         (2, 2),
         PAIR,
         "geometry",
-        "What the first has and the second has not.",
+        "The first geometry minus the second.",
         made_of_two!(difference),
     ),
     function(
@@ -75,16 +82,23 @@ pub(super) const MAKERS: &[SpatialFunction] = &[
         (2, 2),
         PAIR,
         "geometry",
-        "What one of them has alone.",
+        "The parts that belong to only one of the geometries.",
         made_of_two!(sym_difference),
     ),
-    function("ST_UnaryUnion", (1, 1), ONE, "geometry", "The union of its parts.", made!(dissolved)),
+    function(
+        "ST_UnaryUnion",
+        (1, 1),
+        ONE,
+        "geometry",
+        "The union of the parts of a geometry.",
+        made!(dissolved),
+    ),
     function(
         "ST_Collect",
         (2, 2),
         PAIR,
         "geometry",
-        "Both beside each other; with one argument, all of a group.",
+        "A collection of both geometries; with one argument, of a group.",
         |call| {
             Ok(FunctionResult::Geometry(collected(vec![
                 call.geometry(0)?.geometry.clone(),
@@ -92,41 +106,39 @@ pub(super) const MAKERS: &[SpatialFunction] = &[
             ])))
         },
     ),
-    function("ST_Centroid", (1, 1), ONE, "geometry", "Its centre of mass.", made!(centroid)),
+    function("ST_Centroid", (1, 1), ONE, "geometry", "The centre of mass.", made!(centroid)),
     function(
         "ST_PointOnSurface",
         (1, 1),
         ONE,
         "geometry",
-        "A point that lies in it.",
+        "A point inside the geometry.",
         made!(point_on_surface),
     ),
-    function("ST_Envelope", (1, 1), ONE, "geometry", "The box around it.", made!(envelope)),
+    function("ST_Envelope", (1, 1), ONE, "geometry", "The bounding box.", made!(envelope)),
     function(
         "ST_OrientedEnvelope",
         (1, 1),
         ONE,
         "geometry",
-        "The smallest rectangle around it, turned as it must be.",
+        "The smallest enclosing rectangle at any rotation.",
         made!(oriented_envelope),
     ),
+    function("ST_ConvexHull", (1, 1), ONE, "geometry", "The convex hull.", made!(convex_hull)),
     function(
-        "ST_ConvexHull",
+        "ST_Boundary",
         (1, 1),
         ONE,
         "geometry",
-        "The smallest convex area around it.",
-        made!(convex_hull),
+        "The rings of polygons, or the ends of lines.",
+        |call| Ok(FunctionResult::Geometry(boundary(&call.geometry(0)?.geometry))),
     ),
-    function("ST_Boundary", (1, 1), ONE, "geometry", "The rings of polygons, the ends of lines.", |call| {
-        Ok(FunctionResult::Geometry(boundary(&call.geometry(0)?.geometry)))
-    }),
     function(
         "ST_ExteriorRing",
         (1, 1),
         "(polygon)",
         "geometry",
-        "The outer ring of a polygon, as a line; NULL of all else.",
+        "The outer ring of a polygon, as a line; NULL for other geometries.",
         |call| {
             Ok(match &call.geometry(0)?.geometry {
                 Geometry::Polygon(rings) => rings
@@ -141,7 +153,7 @@ pub(super) const MAKERS: &[SpatialFunction] = &[
         (2, 2),
         "(polygon, number)",
         "geometry",
-        "A hole of a polygon, as a line; they are counted from 1.",
+        "A hole of a polygon, as a line; numbers count from 1.",
         |call| {
             let number = nth(call, 1)?;
             Ok(match &call.geometry(0)?.geometry {
@@ -158,7 +170,7 @@ pub(super) const MAKERS: &[SpatialFunction] = &[
         (2, 2),
         "(geometry, number)",
         "geometry",
-        "A geometry of a collection; they are counted from 1.",
+        "A geometry of a collection; numbers count from 1.",
         |call| {
             let number = nth(call, 1)?.and_then(|number| number.checked_sub(1));
             let found =
@@ -171,7 +183,7 @@ pub(super) const MAKERS: &[SpatialFunction] = &[
         (2, 2),
         "(line, number)",
         "geometry",
-        "A point of a line; they are counted from 1, and from -1 backwards.",
+        "A point of a line; numbers count from 1, or from -1 backwards.",
         |call| {
             let number = call.number(1)?;
             let Geometry::Line(points) = &call.geometry(0)?.geometry else {
@@ -193,7 +205,7 @@ pub(super) const MAKERS: &[SpatialFunction] = &[
         (1, 1),
         "(line)",
         "geometry",
-        "The first point of a line; NULL of all else.",
+        "The first point of a line; NULL for other geometries.",
         |call| Ok(end(&call.geometry(0)?.geometry, true)),
     ),
     function(
@@ -201,7 +213,7 @@ pub(super) const MAKERS: &[SpatialFunction] = &[
         (1, 1),
         "(line)",
         "geometry",
-        "The last point of a line; NULL of all else.",
+        "The last point of a line; NULL for other geometries.",
         |call| Ok(end(&call.geometry(0)?.geometry, false)),
     ),
     function(
@@ -209,7 +221,7 @@ pub(super) const MAKERS: &[SpatialFunction] = &[
         (2, 2),
         "(line, part)",
         "geometry",
-        "The point at a part of a line's length, 0 to 1.",
+        "The point at a fraction of a line's length, 0 to 1.",
         |call| {
             let part = call.number(1)?;
             if !(0.0..=1.0).contains(&part) {
@@ -226,7 +238,7 @@ pub(super) const MAKERS: &[SpatialFunction] = &[
         (2, 2),
         "(line, point)",
         "number",
-        "At which part of a line's length, 0 to 1, it is nearest to a point.",
+        "The fraction of a line's length, 0 to 1, that is nearest to a point.",
         |call| {
             let line = call.geometry(0)?;
             let (geo::Geometry::LineString(line), Some(at)) = (line.flat(), place(call, 1)?) else {
@@ -240,7 +252,7 @@ pub(super) const MAKERS: &[SpatialFunction] = &[
         (3, 3),
         "(line, part, part)",
         "geometry",
-        "What lies between two parts of a line's length, 0 to 1.",
+        "The part of a line between two fractions of its length, 0 to 1.",
         |call| {
             let (from, to) = (call.number(1)?, call.number(2)?);
             if !(0.0..=1.0).contains(&from) || !(from..=1.0).contains(&to) {
@@ -258,7 +270,7 @@ pub(super) const MAKERS: &[SpatialFunction] = &[
         (1, 1),
         ONE,
         "geometry",
-        "The valid geometry that is most like it; itself if it is valid.",
+        "The most similar valid geometry; a valid geometry stays unchanged.",
         made!(make_valid),
     ),
     function(
@@ -266,7 +278,7 @@ pub(super) const MAKERS: &[SpatialFunction] = &[
         (2, 2),
         "(geometry, distance)",
         "geometry",
-        "The same with fewer points; none that is left out was farther than this from what stays.",
+        "The geometry with fewer points; removed points are at most `distance` from the result.",
         |call| {
             Ok(FunctionResult::Geometry(super::simple::simplified(
                 &call.geometry(0)?.geometry,
@@ -279,7 +291,7 @@ pub(super) const MAKERS: &[SpatialFunction] = &[
         (1, 1),
         ONE,
         "geometry",
-        "The same, with its points the other way round.",
+        "The geometry with its points in reverse order.",
         |call| {
             let mut geometry = call.geometry(0)?.geometry.clone();
             reverse(&mut geometry);
@@ -291,7 +303,7 @@ pub(super) const MAKERS: &[SpatialFunction] = &[
         (3, 4),
         "(geometry, east, north [, up])",
         "geometry",
-        "The same, moved.",
+        "The translated geometry.",
         |call| {
             let by = DVec3::new(call.number(1)?, call.number(2)?, call.number_or(3, 0.0)?);
             let mut geometry = call.geometry(0)?.geometry.clone();
@@ -299,12 +311,12 @@ pub(super) const MAKERS: &[SpatialFunction] = &[
             sound(geometry)
         },
     ),
-    function("ST_Force2D", (1, 1), ONE, "geometry", "The same without heights.", |call| {
+    function("ST_Force2D", (1, 1), ONE, "geometry", "The geometry without heights.", |call| {
         let mut geometry = call.geometry(0)?.geometry.clone();
         geometry.points_mut().for_each(|point| point.z = 0.0);
         Ok(FunctionResult::Geometry(geometry))
     }),
-    function("ST_Multi", (1, 1), ONE, "geometry", "The same as a multi form.", |call| {
+    function("ST_Multi", (1, 1), ONE, "geometry", "The geometry as a multi-geometry.", |call| {
         Ok(FunctionResult::Geometry(match call.geometry(0)?.geometry.clone() {
             Geometry::Point(point) => Geometry::MultiPoint(point.into_iter().collect()),
             Geometry::Line(line) => {

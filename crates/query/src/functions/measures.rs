@@ -17,10 +17,10 @@ macro_rules! bound {
 
 /// Functions that measure and describe geometries.
 pub(super) const MEASURES: &[SpatialFunction] = &[
-    function("ST_Area", (1, 1), ONE, "number", "The area of polygons; 0 of all else.", |call| {
+    function("ST_Area", (1, 1), ONE, "number", "The area of polygons; 0 for other geometries.", |call| {
         Ok(FunctionResult::Number(call.geometry(0)?.geometry.area()))
     }),
-    function("ST_Length", (1, 1), ONE, "number", "The length of lines; 0 of all else.", |call| {
+    function("ST_Length", (1, 1), ONE, "number", "The length of lines; 0 for other geometries.", |call| {
         Ok(FunctionResult::Number(call.geometry(0)?.geometry.length()))
     }),
     function(
@@ -28,38 +28,38 @@ pub(super) const MEASURES: &[SpatialFunction] = &[
         (1, 1),
         ONE,
         "number",
-        "The length of the borders of polygons; 0 of all else.",
+        "The length of the boundaries of polygons; 0 for other geometries.",
         |call| Ok(FunctionResult::Number(call.geometry(0)?.geometry.perimeter())),
     ),
-    function("ST_X", (1, 1), "(point)", "number", "How far east a point is.", |call| {
+    function("ST_X", (1, 1), "(point)", "number", "The x coordinate (east).", |call| {
         Ok(place(call, 0)?.map(|at| at.x).into())
     }),
-    function("ST_Y", (1, 1), "(point)", "number", "How far north a point is.", |call| {
+    function("ST_Y", (1, 1), "(point)", "number", "The y coordinate (north).", |call| {
         Ok(place(call, 0)?.map(|at| at.y).into())
     }),
-    function("ST_Z", (1, 1), "(point)", "number", "How high a point is; NULL if it has no height.", |call| {
+    function("ST_Z", (1, 1), "(point)", "number", "The height; NULL if the point has no height.", |call| {
         Ok(place(call, 0)?.map(|at| at.z).filter(|z| *z != 0.0).into())
     }),
-    function("ST_XMin", (1, 1), ONE, "number", "The least coordinate east.", bound!(0)),
-    function("ST_YMin", (1, 1), ONE, "number", "The least coordinate north.", bound!(1)),
-    function("ST_XMax", (1, 1), ONE, "number", "The greatest coordinate east.", bound!(2)),
-    function("ST_YMax", (1, 1), ONE, "number", "The greatest coordinate north.", bound!(3)),
-    function("ST_ZMin", (1, 1), ONE, "number", "The least height; NULL if it has no heights.", |call| {
+    function("ST_XMin", (1, 1), ONE, "number", "The minimum x coordinate (east).", bound!(0)),
+    function("ST_YMin", (1, 1), ONE, "number", "The minimum y coordinate (north).", bound!(1)),
+    function("ST_XMax", (1, 1), ONE, "number", "The maximum x coordinate (east).", bound!(2)),
+    function("ST_YMax", (1, 1), ONE, "number", "The maximum y coordinate (north).", bound!(3)),
+    function("ST_ZMin", (1, 1), ONE, "number", "The minimum height; NULL if there are no heights.", |call| {
         Ok(heights(call)?.map(|heights| heights[0]).into())
     }),
-    function("ST_ZMax", (1, 1), ONE, "number", "The greatest height; NULL if it has no heights.", |call| {
+    function("ST_ZMax", (1, 1), ONE, "number", "The maximum height; NULL if there are no heights.", |call| {
         Ok(heights(call)?.map(|heights| heights[1]).into())
     }),
-    function("ST_MinX", (1, 1), ONE, "number", "As ST_XMin, by its name in GeoPackages.", bound!(0)),
-    function("ST_MinY", (1, 1), ONE, "number", "As ST_YMin, by its name in GeoPackages.", bound!(1)),
-    function("ST_MaxX", (1, 1), ONE, "number", "As ST_XMax, by its name in GeoPackages.", bound!(2)),
-    function("ST_MaxY", (1, 1), ONE, "number", "As ST_YMax, by its name in GeoPackages.", bound!(3)),
+    function("ST_MinX", (1, 1), ONE, "number", "Same as ST_XMin, by its name in GeoPackages.", bound!(0)),
+    function("ST_MinY", (1, 1), ONE, "number", "Same as ST_YMin, by its name in GeoPackages.", bound!(1)),
+    function("ST_MaxX", (1, 1), ONE, "number", "Same as ST_XMax, by its name in GeoPackages.", bound!(2)),
+    function("ST_MaxY", (1, 1), ONE, "number", "Same as ST_YMax, by its name in GeoPackages.", bound!(3)),
     function(
         "ST_NPoints",
         (1, 1),
         ONE,
         "number",
-        "How many points it has; those of a ring count its end, too.",
+        "The number of points; the end of a ring counts too.",
         |call| Ok(FunctionResult::Count(count_points(&call.geometry(0)?.geometry))),
     ),
     function(
@@ -67,7 +67,7 @@ pub(super) const MEASURES: &[SpatialFunction] = &[
         (1, 1),
         "(line)",
         "number",
-        "How many points a line has; NULL of all else.",
+        "The number of points of a line; NULL for other geometries.",
         |call| {
             Ok(match &call.geometry(0)?.geometry {
                 Geometry::Line(points) => FunctionResult::Count(points.len()),
@@ -80,7 +80,7 @@ pub(super) const MEASURES: &[SpatialFunction] = &[
         (1, 1),
         ONE,
         "number",
-        "How many geometries a collection has; 1 of a single one.",
+        "The number of geometries of a collection; 1 for a single geometry.",
         |call| {
             let geometry = &call.geometry(0)?.geometry;
             Ok(FunctionResult::Count(match geometry {
@@ -97,7 +97,7 @@ pub(super) const MEASURES: &[SpatialFunction] = &[
         (1, 1),
         "(polygon)",
         "number",
-        "How many holes a polygon has; NULL of all else.",
+        "The number of holes of a polygon; NULL for other geometries.",
         |call| {
             Ok(match &call.geometry(0)?.geometry {
                 Geometry::Polygon(rings) => FunctionResult::Count(rings.len().saturating_sub(1)),
@@ -105,21 +105,26 @@ pub(super) const MEASURES: &[SpatialFunction] = &[
             })
         },
     ),
-    function("ST_Dimension", (1, 1), ONE, "number", "0 of points, 1 of lines, 2 of polygons.", |call| {
+    function("ST_Dimension", (1, 1), ONE, "number", "0 for points, 1 for lines, 2 for polygons.", |call| {
         Ok(FunctionResult::Count(call.geometry(0)?.geometry.dimension()))
     }),
-    function("ST_GeometryType", (1, 1), ONE, "text", "Its kind, such as `ST_Polygon`.", |call| {
-        Ok(FunctionResult::Text(kind(&call.geometry(0)?.geometry).to_owned()))
-    }),
+    function(
+        "ST_GeometryType",
+        (1, 1),
+        ONE,
+        "text",
+        "The type of the geometry, such as `ST_Polygon`.",
+        |call| Ok(FunctionResult::Text(kind(&call.geometry(0)?.geometry).to_owned())),
+    ),
     function(
         "ST_IsValid",
         (1, 1),
         ONE,
         "boolean",
-        "Whether its rings neither cross nor overlap, and holes lie inside.",
+        "True if rings neither cross nor overlap, and holes are inside.",
         |call| Ok(FunctionResult::Boolean(call.geometry(0)?.geometry.is_valid())),
     ),
-    function("ST_IsEmpty", (1, 1), ONE, "boolean", "Whether it has no points.", |call| {
+    function("ST_IsEmpty", (1, 1), ONE, "boolean", "True if the geometry has no points.", |call| {
         Ok(FunctionResult::Boolean(call.geometry(0)?.geometry.is_empty()))
     }),
     function(
@@ -127,7 +132,7 @@ pub(super) const MEASURES: &[SpatialFunction] = &[
         (1, 1),
         ONE,
         "boolean",
-        "Whether a line ends where it begins; true of points and polygons.",
+        "True if a line ends at its start; also true for points and polygons.",
         |call| {
             let closed = |line: &[DVec3]| line.first() == line.last();
             Ok(FunctionResult::Boolean(match &call.geometry(0)?.geometry {

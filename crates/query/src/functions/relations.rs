@@ -23,7 +23,7 @@ macro_rules! meeting {
 
 /// Relations between two geometries.
 pub(super) const RELATIONS: &[SpatialFunction] = &[
-    function("ST_Intersects", (2, 2), PAIR, "boolean", "Whether they share a point.", |call| {
+    function("ST_Intersects", (2, 2), PAIR, "boolean", "True if the geometries share a point.", |call| {
         if !boxes_meet(call)? {
             return Ok(FunctionResult::Boolean(false));
         }
@@ -32,7 +32,7 @@ pub(super) const RELATIONS: &[SpatialFunction] = &[
             !a.geometry.is_empty() && !b.geometry.is_empty() && a.flat().intersects(b.flat()),
         ))
     }),
-    function("ST_Disjoint", (2, 2), PAIR, "boolean", "Whether they share no point.", |call| {
+    function("ST_Disjoint", (2, 2), PAIR, "boolean", "True if the geometries share no point.", |call| {
         Ok(FunctionResult::Boolean(
             !boxes_meet(call)? || call.geometry(0)?.geometry.disjoint(&call.geometry(1)?.geometry),
         ))
@@ -42,7 +42,7 @@ pub(super) const RELATIONS: &[SpatialFunction] = &[
         (3, 3),
         "(geometry, geometry, distance)",
         "boolean",
-        "Whether they are at most so far from each other.",
+        "True if the distance between the geometries is at most `distance`.",
         |call| {
             let most = call.number(2)?;
             if let (Some(a), Some(b)) = (call.bounds(0)?, call.bounds(1)?)
@@ -59,7 +59,7 @@ pub(super) const RELATIONS: &[SpatialFunction] = &[
         (2, 2),
         PAIR,
         "boolean",
-        "Whether the second lies in the first, and not on its border alone.",
+        "True if the first contains the second, and the second is not only on its boundary.",
         meeting!(contains),
     ),
     function(
@@ -67,7 +67,7 @@ pub(super) const RELATIONS: &[SpatialFunction] = &[
         (2, 2),
         PAIR,
         "boolean",
-        "Whether the first lies in the second, and not on its border alone.",
+        "True if the second contains the first, and the first is not only on its boundary.",
         meeting!(within),
     ),
     function(
@@ -75,7 +75,7 @@ pub(super) const RELATIONS: &[SpatialFunction] = &[
         (2, 2),
         PAIR,
         "boolean",
-        "Whether no point of the second lies outside the first.",
+        "True if no point of the second is outside the first.",
         meeting!(covers),
     ),
     function(
@@ -83,7 +83,7 @@ pub(super) const RELATIONS: &[SpatialFunction] = &[
         (2, 2),
         PAIR,
         "boolean",
-        "Whether no point of the first lies outside the second.",
+        "True if no point of the first is outside the second.",
         meeting!(covered_by),
     ),
     function(
@@ -91,7 +91,7 @@ pub(super) const RELATIONS: &[SpatialFunction] = &[
         (2, 2),
         PAIR,
         "boolean",
-        "Whether they share points of their borders alone.",
+        "True if the geometries share only boundary points.",
         meeting!(touches),
     ),
     function(
@@ -99,7 +99,7 @@ pub(super) const RELATIONS: &[SpatialFunction] = &[
         (2, 2),
         PAIR,
         "boolean",
-        "Whether they share some, but not all, inner points, and those are of a lower dimension.",
+        "True if they share some, but not all, interior points, of a lower dimension.",
         meeting!(crosses),
     ),
     function(
@@ -107,18 +107,23 @@ pub(super) const RELATIONS: &[SpatialFunction] = &[
         (2, 2),
         PAIR,
         "boolean",
-        "Whether they share some, but not all, points, of their own dimension.",
+        "True if they share some, but not all, points, of their own dimension.",
         meeting!(overlaps),
     ),
-    function("ST_Equals", (2, 2), PAIR, "boolean", "Whether they are the same set of points.", |call| {
-        Ok(FunctionResult::Boolean(call.geometry(0)?.prepared().equals(call.geometry(1)?.prepared())))
-    }),
+    function(
+        "ST_Equals",
+        (2, 2),
+        PAIR,
+        "boolean",
+        "True if the geometries are the same set of points.",
+        |call| Ok(FunctionResult::Boolean(call.geometry(0)?.prepared().equals(call.geometry(1)?.prepared()))),
+    ),
     function(
         "ST_Relate",
         (2, 3),
         "(geometry, geometry [, pattern])",
         "text or boolean",
-        "How insides, borders and outsides meet, as nine letters (DE-9IM); or whether that fits a pattern such as `F***1****`.",
+        "The DE-9IM matrix of interiors, boundaries and exteriors, as nine characters; or true if it matches a pattern such as `F***1****`.",
         |call| {
             let relation = call.geometry(0)?.prepared().relate(call.geometry(1)?.prepared());
             if call.len() == 2 {
@@ -130,15 +135,20 @@ pub(super) const RELATIONS: &[SpatialFunction] = &[
                 .map_err(|error| error.message().to_owned())
         },
     ),
-    function("geometry_overlaps", (2, 2), PAIR, "boolean", "Whether their boxes meet: `a && b`.", |call| {
-        Ok(FunctionResult::Boolean(boxes_meet(call)?))
-    }),
+    function(
+        "geometry_overlaps",
+        (2, 2),
+        PAIR,
+        "boolean",
+        "True if the bounding boxes intersect: `a && b`.",
+        |call| Ok(FunctionResult::Boolean(boxes_meet(call)?)),
+    ),
     function(
         "geometry_same",
         (2, 2),
         PAIR,
         "boolean",
-        "Whether they have the same points in the same order: `a = b`.",
+        "True if they have the same points in the same order: `a = b`.",
         |call| Ok(FunctionResult::Boolean(call.geometry(0)?.geometry == call.geometry(1)?.geometry)),
     ),
     function(
@@ -146,7 +156,7 @@ pub(super) const RELATIONS: &[SpatialFunction] = &[
         (2, 2),
         PAIR,
         "number",
-        "How far they are from each other; `a <-> b` is the same.",
+        "The distance between the geometries; same as `a <-> b`.",
         |call| Ok(call.geometry(0)?.geometry.distance(&call.geometry(1)?.geometry).into()),
     ),
     function(
@@ -185,7 +195,7 @@ pub(super) const RELATIONS: &[SpatialFunction] = &[
         (2, 2),
         PAIR,
         "geometry",
-        "The line from the first to the second where they are nearest.",
+        "The shortest line from the first to the second.",
         |call| {
             let (a, b) = (call.geometry(0)?, call.geometry(1)?);
             let points = a.geometry.nearest_points(&b.geometry);
