@@ -4,6 +4,9 @@ local checks = require("checks")
 
 local areas = {}
 
+-- More streets than meet at one junction.
+local ARMS = 64
+
 -- The outline of an area, counter-clockwise: its corners (m) with their junctions and how many streets meet there.
 export type Area = {
   count: number,
@@ -54,6 +57,35 @@ function areas.read(face: any): Area?
   area.middle = { ox + x / (3 * swept), oy + y / (3 * swept) }
   area.turned = math.deg(math.atan2(sines, cosines)) / 4
   return area
+end
+
+-- The faces of a network, each once: a list of tables with the `face`, and a `junction` and a `heading` from which it lies on the left.
+function areas.faces(this: Network): { any }
+  local places: { any } = this:places()
+  local faces: { any }, seen: { [number]: boolean } = {}, {}
+  for junction, corner in places do
+    for index, heading in corner.headings do
+      if seen[junction * ARMS + index] then
+        continue
+      end
+      local face = this:face(junction, heading)
+      local corners = face.corners
+      for number, each in corners do
+        local way = corners[number % #corners + 1].place - each.place
+        local out = math.deg(math.atan2(way.y, way.x))
+        local arm, least = 0, math.huge
+        for other, towards in places[each.junction].headings do
+          local off = math.abs(checks.between(out, towards))
+          if off < least then
+            arm, least = other, off
+          end
+        end
+        seen[each.junction * ARMS + arm] = true
+      end
+      table.insert(faces, { face = face, junction = junction, heading = heading })
+    end
+  end
+  return faces
 end
 
 -- The heading (degrees) of the outline from a corner to the next.

@@ -66,15 +66,9 @@ function country.rules(
   system:rule("Roads", function(this: Network)
     local corners = this:places()
     local outside: any = nil
-    for junction, corner in corners do
-      for _, heading in corner.headings do
-        local face = this:face(junction, heading)
-        if face.area < 0 then
-          outside = areas.read(face)
-          break
-        end
-      end
-      if outside then
+    for _, each in areas.faces(this) do
+      if each.face.area < 0 then
+        outside = areas.read(each.face)
         break
       end
     end
