@@ -59,8 +59,8 @@ local LANE_LAND, LANES = 3000, 14
 local BORDER = 280
 
 -- The rules of division. `pattern_at` gives the pattern of a place, `room` the largest block (m²) of a kind of quarter there, or nil
--- where land is not divided, `propose` proposes a street, and `outside` tells whether lanes may lead to a place beyond the outline, or
--- is false.
+-- where land is not divided, `propose` proposes a street, `barriers` tell what streets do not cross, or are nil, and `outside` tells
+-- whether lanes may lead to a place beyond the outline, or is false.
 function division.rules(
   system: System<Network>,
   pattern_at: (x: number, y: number) -> Pattern,
@@ -68,13 +68,22 @@ function division.rules(
   deepest: number,
   propose: any,
   sizes: any,
+  barriers: any,
   outside: false | (x: number, y: number) -> boolean
 )
-  -- Tells if a street may leave an area at a corner.
-  local function tester(this: Network, area: any): (number, { number }, number) -> boolean
+  -- Tells if a street may leave an area at a corner; one that stays on land crosses no water.
+  local function tester(
+    this: Network,
+    area: any,
+    stays_on_land: boolean
+  ): (number, { number }, number) -> boolean
     return function(corner, way, depth)
       local heading, length = ways.aim(this, area.junction[corner], way[1], way[2])
-      return this:probe(area.junction[corner], heading, length, depth).built
+      if not this:probe(area.junction[corner], heading, length, depth).built then
+        return false
+      end
+      local whole = table.move(way, 1, #way, 3, { area.x[corner], area.y[corner] })
+      return not (barriers and stays_on_land and barriers.meets(whole))
     end
   end
 
@@ -100,7 +109,7 @@ function division.rules(
     tries: number,
     is_large: boolean
   ): (number?, { number }?, number)
-    local may_begin = tester(this, area)
+    local may_begin = tester(this, area, tries >= ROUND)
     -- A narrower street has room where a wider one has none.
     local depth = if tries >= 2 * TRIES
       then 3
@@ -159,7 +168,11 @@ function division.rules(
         and random() < pattern.gap
       local is_large = area.size > math.max(REPORTED * limit, LARGE)
       if tries >= (if is_large then MANY else TRIES) then
-        return if is_large then Undivided(area.size, limit, x, y) else nil
+        -- A river, say, is no land that could be divided.
+        local size: number = if barriers and is_large
+          then areas.size_of(area, barriers.is_land)
+          else area.size
+        return if size > math.max(REPORTED * limit, LARGE) then Undivided(size, limit, x, y) else nil
       elseif
         area.size > math.max(limit, cuts.larger(limit) + pattern.least * pattern.least) and not is_estate
       then
@@ -197,7 +210,7 @@ function division.rules(
         start, way = lead_out(area)
       elseif lanes == 0 and random() < (pattern.greens or 0) then
         local least = math.min(3, deepest, sizes.deepest)
-        start, way = cuts.crescent(sizes, area, random(GREEN[1], GREEN[2]), least, tester(this, area))
+        start, way = cuts.crescent(sizes, area, random(GREEN[1], GREEN[2]), least, tester(this, area, true))
         is_green = start ~= nil
         depth = if is_green then least else depth
       end
