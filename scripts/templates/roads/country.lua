@@ -14,15 +14,15 @@ country.Roads = Roads
 country.GROWING = { "Roads", "CountryRoad(junction, heading, length, rest, tries)" }
 
 -- The share of main streets that lead on.
-local SHARE = 0.85
+local SHARE = 1
 -- The length (m) of a piece, and of the shortest road.
-local PIECE, SHORTEST = 52, 80
+local PIECE, SHORTEST = 52, 52
 -- The least angle (degrees) outside of the outline at the end of a main street.
 local OUTSIDE = 165
 -- The turns (degrees) that are tried where a road is refused.
 local ASIDE = { 14, -14, 28, -28 }
 -- The greatest turn (degrees) from one piece to the next, and its pull towards the way straight out.
-local SWING, OUTWARDS = 15, 0.25
+local SWING, OUTWARDS = 18, 0.25
 
 -- The heading that leads on from a main street that ends at a corner of the outline; nil if none ends there.
 local function way_on(outside: any, corner: number, headings: { number }): number?

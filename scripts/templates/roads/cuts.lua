@@ -60,6 +60,8 @@ local SAMPLES = 16
 -- The least distance (m) of the end of a lane from other streets, and the length (m) of lanes.
 local APART = 38
 local LANE = { 40, 170 }
+-- The least and the greatest turn (degrees) of a lane, and the greatest one in the country around a town.
+local BENDS, COUNTRY = { 25, 105 }, 70
 -- The least distance (m) of a lane from other junctions.
 local BESIDE = 52
 -- The length (m) up to which a dead end is a stub.
@@ -435,7 +437,8 @@ function cuts.lane(sizes: Sizes, area: Area, deepest: number): (number?, { numbe
     if long < (if is_stub then STUB else LANE[1]) then
       continue
     end
-    local turn = (if random() < 0.5 then 1 else -1) * random(15, 100)
+    local turn = (if random() < 0.5 then 1 else -1)
+      * random(BENDS[1], if area.size < 0 then COUNTRY else BENDS[2])
     local aim = heading + 0.5 * turn
     local to = { x + long * math.cos(math.rad(aim)), y + long * math.sin(math.rad(aim)) }
     if areas.distance(area, to[1], to[2], heading + turn) > APART then
