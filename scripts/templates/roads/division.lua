@@ -71,6 +71,11 @@ function division.rules(
   barriers: any,
   outside: false | (x: number, y: number) -> boolean
 )
+  -- Tells if a street that leaves an area at a corner meets water or obstacles.
+  local function meets_water(area: any, corner: number, way: { number }): boolean
+    return barriers ~= nil and barriers.meets(table.move(way, 1, #way, 3, { area.x[corner], area.y[corner] }))
+  end
+
   -- Tells if a street may leave an area at a corner; one that stays on land crosses no water.
   local function tester(
     this: Network,
@@ -82,8 +87,7 @@ function division.rules(
       if not this:probe(area.junction[corner], heading, length, depth).built then
         return false
       end
-      local whole = table.move(way, 1, #way, 3, { area.x[corner], area.y[corner] })
-      return not (barriers and stays_on_land and barriers.meets(whole))
+      return not (stays_on_land and meets_water(area, corner, way))
     end
   end
 
@@ -222,7 +226,8 @@ function division.rules(
       then
         start, way = cuts.lane(sizes, area, math.huge)
       end
-      if start and way then
+      -- No bridge is built for a lane.
+      if start and way and not meets_water(area, start, way) then
         local along = areas.heading(area, start)
         if is_green then
           -- The land goes on outside of the green.
