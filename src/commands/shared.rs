@@ -6,7 +6,9 @@ use std::time::Duration;
 use burgeon::packages::{FileName, PackageSearch, Packages};
 use burgeon::picture::{Background, Picture, ViewBall};
 use burgeon::presets::Presets;
-use burgeon::script::{Limits, ParamValues, Print, RunInputs, RunOptions, RunReports, api_version};
+use burgeon::script::{
+    FeaturePart, Limits, ParamValues, Print, RunInputs, RunOptions, RunReports, api_version,
+};
 use burgeon::{Error, Result};
 use clap::{Args, ValueEnum};
 
@@ -49,6 +51,15 @@ pub(crate) struct ScriptFlags {
     /// Derives at most N steps
     #[arg(long, value_name = "N", value_parser = whole::<usize>, allow_negative_numbers = true)]
     steps: Option<usize>,
+
+    /// Builds only one of N parts of the features, such as 2/4; with --reach, as in the whole run
+    #[arg(long, value_name = "K/N", value_parser = part)]
+    part: Option<FeaturePart>,
+
+    /// Distance (m) within which features of other parts are derived too, but not shown
+    #[arg(long, value_name = "METRES", default_value_t = 0.0, value_parser = metres, requires = "part",
+          allow_negative_numbers = true)]
+    reach: f64,
 
     /// Draws less: 0 ground plans, 1 blocks, 2 roofs, 3 everything
     #[arg(long, value_name = "N", default_value_t = 3, value_parser = clap::value_parser!(u8).range(0..=3),
@@ -136,6 +147,7 @@ impl ScriptFlags {
             params: ParamValues { set: self.set.clone(), preset, forgiving: false },
             seed: seed.unwrap_or(0),
             steps: self.steps,
+            part: self.part.map(|part| FeaturePart { reach: self.reach, ..part }),
             lod: self.lod,
             threads: self.threads.map(usize::from),
             batch: self.batch as usize,
@@ -293,6 +305,17 @@ pub(crate) fn megabytes(text: &str) -> Result<u32, String> {
     match text.parse() {
         Ok(megabytes) if megabytes >= 16 => Ok(megabytes),
         _ => Err("write a whole number of megabytes from 16".to_owned()),
+    }
+}
+
+pub(crate) fn part(text: &str) -> Result<FeaturePart, String> {
+    text.parse().map_err(|_| "write the number of a part and the number of parts, such as 2/4".to_owned())
+}
+
+pub(crate) fn metres(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(metres) if (0.0..1e9).contains(&metres) => Ok(metres),
+        _ => Err("write a number of metres from 0".to_owned()),
     }
 }
 

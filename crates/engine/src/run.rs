@@ -117,6 +117,10 @@ pub fn run_session(session: &Arc<Session>) -> Result<Run> {
             idle.extend(is_empty.then(|| Arc::clone(system)));
             continue;
         }
+        if session.options.part.is_some_and(|part| part.number > 1) && system.is_featureless() {
+            // The first part shows it.
+            continue;
+        }
         let (place, caller) = (system.place.clone(), system.caller.clone());
         let known = scene.instances.len();
         let shown = match Arc::get_mut(system) {

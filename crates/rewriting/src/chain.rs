@@ -89,6 +89,22 @@ impl Chain {
         }
     }
 
+    /// Returns the chains except for those at the indices `left_out`, which are ascending.
+    #[must_use]
+    pub fn without(&self, left_out: &[usize], arities: &[u8]) -> Self {
+        let starts = self.starts(arities);
+        let mut kept = Self::default();
+        for (index, pair) in starts.windows(2).enumerate() {
+            if left_out.binary_search(&index).is_err() {
+                let [begin, end] = [pair[0], pair[1]];
+                kept.symbols.extend_from_slice(&self.symbols[begin.module..end.module]);
+                kept.params.extend_from_slice(&self.params[begin.param..end.param]);
+                kept.keys.extend_from_slice(self.keys.get(begin.module..end.module).unwrap_or_default());
+            }
+        }
+        kept
+    }
+
     /// Returns the beginning of each chain, and the end of the last.
     pub fn starts(&self, arities: &[u8]) -> Vec<Mark> {
         let mut starts = vec![Mark::default()];

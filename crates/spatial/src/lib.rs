@@ -25,6 +25,7 @@ mod parts;
 mod plane;
 #[cfg(test)]
 mod properties;
+mod reach;
 mod relation;
 mod scripting;
 mod skeleton;
@@ -39,6 +40,7 @@ pub use buffer::{BufferCap, BufferJoin, BufferOptions};
 pub use geometry::{FARTHEST, Geometry};
 pub use kind::GeometryKind;
 pub use overlay::union_all;
+pub use reach::{BoundingBox, near_selection};
 pub use relation::Relation;
 pub use scripting::{GeometryList, GeometryObject, Lines, Path, PolygonArgument, Shape, constructors, rings};
 pub use topology::PreparedGeometry;

@@ -4,6 +4,11 @@ local checks = require("checks")
 
 local areas = {}
 
+-- More streets than meet at one junction.
+local ARMS = 64
+-- The places of a sample of an area along each side of it.
+local SAMPLES = 20
+
 -- The outline of an area, counter-clockwise: its corners (m) with their junctions and how many streets meet there.
 export type Area = {
   count: number,
@@ -54,6 +59,35 @@ function areas.read(face: any): Area?
   area.middle = { ox + x / (3 * swept), oy + y / (3 * swept) }
   area.turned = math.deg(math.atan2(sines, cosines)) / 4
   return area
+end
+
+-- The faces of a network, each once: a list of tables with the `face`, and a `junction` and a `heading` from which it lies on the left.
+function areas.faces(this: Network): { any }
+  local places: { any } = this:places()
+  local faces: { any }, seen: { [number]: boolean } = {}, {}
+  for junction, corner in places do
+    for index, heading in corner.headings do
+      if seen[junction * ARMS + index] then
+        continue
+      end
+      local face = this:face(junction, heading)
+      local corners = face.corners
+      for number, each in corners do
+        local way = corners[number % #corners + 1].place - each.place
+        local out = math.deg(math.atan2(way.y, way.x))
+        local arm, least = 0, math.huge
+        for other, towards in places[each.junction].headings do
+          local off = math.abs(checks.between(out, towards))
+          if off < least then
+            arm, least = other, off
+          end
+        end
+        seen[each.junction * ARMS + arm] = true
+      end
+      table.insert(faces, { face = face, junction = junction, heading = heading })
+    end
+  end
+  return faces
 end
 
 -- The heading (degrees) of the outline from a corner to the next.
@@ -165,6 +199,38 @@ function areas.distance(area: Area, x: number, y: number, heading: number?): num
     end
   end
   return math.sqrt(least)
+end
+
+-- The size (m²) of the part of an area for whose places a function is true, from a sample of them.
+function areas.size_of(area: Area, is_of: (x: number, y: number) -> boolean): number
+  local left, right, low, high = math.huge, -math.huge, math.huge, -math.huge
+  for corner = 1, area.count do
+    left, right = math.min(left, area.x[corner]), math.max(right, area.x[corner])
+    low, high = math.min(low, area.y[corner]), math.max(high, area.y[corner])
+  end
+  local all, some = 0, 0
+  for row = 0.5, SAMPLES do
+    local y = low + row / SAMPLES * (high - low)
+    for column = 0.5, SAMPLES do
+      local x = left + column / SAMPLES * (right - left)
+      local is_inside = false
+      for corner = 1, area.count do
+        local after = corner % area.count + 1
+        local ay, by = area.y[corner], area.y[after]
+        if
+          (ay > y) ~= (by > y)
+          and x < area.x[corner] + (y - ay) / (by - ay) * (area.x[after] - area.x[corner])
+        then
+          is_inside = not is_inside
+        end
+      end
+      if is_inside then
+        all += 1
+        some += if is_of(x, y) then 1 else 0
+      end
+    end
+  end
+  return area.size * some / math.max(all, 1)
 end
 
 return areas

@@ -14,15 +14,15 @@ country.Roads = Roads
 country.GROWING = { "Roads", "CountryRoad(junction, heading, length, rest, tries)" }
 
 -- The fraction of main streets that continue.
-local SHARE = 0.85
+local SHARE = 1
 -- The length (m) of a piece, and the minimum length of a road.
-local PIECE, SHORTEST = 52, 80
+local PIECE, SHORTEST = 52, 52
 -- The minimum angle (degrees) outside of the outline at the end of a main street.
 local OUTSIDE = 165
 -- The turns (degrees) of a refused road, one attempt after the other.
 local ASIDE = { 14, -14, 28, -28 }
 -- The maximum turn (degrees) between two pieces, and the pull towards the outward direction.
-local SWING, OUTWARDS = 15, 0.25
+local SWING, OUTWARDS = 18, 0.25
 
 -- The heading that continues a main street at a corner of the outline; nil if no main street ends there.
 local function way_on(outside: any, corner: number, headings: { number }): number?
@@ -66,15 +66,9 @@ function country.rules(
   system:rule("Roads", function(this: Network)
     local corners = this:places()
     local outside: any = nil
-    for junction, corner in corners do
-      for _, heading in corner.headings do
-        local face = this:face(junction, heading)
-        if face.area < 0 then
-          outside = areas.read(face)
-          break
-        end
-      end
-      if outside then
+    for _, each in areas.faces(this) do
+      if each.face.area < 0 then
+        outside = areas.read(each.face)
         break
       end
     end

@@ -21,12 +21,31 @@ export type Sizes = {
   deepest: number,
 }
 
+-- A street that may divide an area, from a corner to a place on the piece of the outline behind another one, with the heading
+-- (degrees) of the way there.
+export type Candidate = {
+  -- What it costs apart from its share of the area, and in all.
+  fixed: number,
+  cost: number,
+  share: number,
+  corner: number,
+  edge: number,
+  x: number,
+  y: number,
+  heading: number,
+  -- The greatest turns (degrees) to one side and to the other where it leaves and where it arrives.
+  leaves: { number },
+  arrives: { number },
+}
+
 -- The number of the best dividing streets that are tried, and the distance that each keeps from others, as a share of the width of
 -- blocks.
 local BEST = 12
 local WIDTH = 0.2
 -- The least width (m) of an area that is divided further.
 local STRIP = 28
+-- The area (m²) of a small block, and how many of the largest blocks of a place that is at most.
+local SMALL, SMALLEST = 500, 2
 -- From how many junctions of an area streets are tried, and how far (degrees) they turn from the middle of the angle there.
 local STARTS = 12
 local TURNS = { 0, 9, -9, 18, -18, 27, -27, 36, -36 }
@@ -42,6 +61,8 @@ local SAMPLES = 16
 -- The minimum distance (m) of the end of a lane from other streets, and the length (m) of lanes.
 local APART = 38
 local LANE = { 40, 170 }
+-- The minimum and the maximum turn (degrees) of a lane, and the maximum turn in the country around a town.
+local BENDS, COUNTRY = { 25, 105 }, 70
 -- The minimum distance (m) of a lane from other junctions.
 local BESIDE = 52
 -- The maximum length (m) of a stub.
@@ -187,36 +208,34 @@ local function is_clear(area: Area, from: { number }, way: { number }, apart: nu
 end
 
 -- The headings where a street leaves and arrives that swings to the left (above 0) or to the right, as far as it may turn there.
-local function bent(street: any, swing: number): (number, number)
+local function bent(street: Candidate, swing: number): (number, number)
   local out = math.deg(4 * swing)
   local leaves = math.clamp(out, street.leaves[2], street.leaves[1])
   local arrives = math.clamp(-out, street.arrives[2], street.arrives[1])
   return street.heading + leaves, street.heading + arrives
 end
 
--- The best of some streets that divide an area, as the corner that it leaves and its places; nil if there is none. `may_begin` says
--- whether one may, and `crossing` whether it may leave opposite another street.
-function cuts.cut(
+-- The least area (m²) of the larger one of two parts into which a street divides an area where blocks have up to `limit` (m²): a small
+-- block lies beside a larger one, so that many of them do not lie together.
+function cuts.larger(limit: number): number
+  return math.min(SMALL, SMALLEST * limit)
+end
+
+-- The streets that may divide an area, with what they cost apart from their share; `crossing` tells whether one may leave opposite
+-- another street.
+function cuts.candidates(
   sizes: Sizes,
   area: Area,
   pattern: Pattern,
   limit: number,
   depth: number,
-  tries: number,
-  crossing: boolean,
-  may_begin: (corner: number, way: { number }, depth: number) -> boolean
-): (number?, { number }?)
+  crossing: boolean
+): { Candidate }
   local size = math.sqrt(area.size)
   local least = math.max(pattern.least * pattern.least, 0.08 * math.min(limit, area.size))
-  local found: { any } = {}
+  local larger = cuts.larger(limit)
+  local found: { Candidate } = {}
   local first, stride = math.floor(random() * area.count), math.max(1, area.count / STARTS)
-  -- Parts differ, so that blocks do.
-  local share = random(0.05, 0.5)
-  -- The last streets of an area are the most crooked.
-  local is_last = area.size < 3 * limit
-  local bow = pattern.bow
-    * (if is_last then random(0.9, 1.5) else random(0.4, 1.1))
-    * math.max(0, 1 - tries / 12)
   for number = 0, math.min(STARTS, area.count) - 1 do
     local corner = 1 + math.floor(first + number * stride) % area.count
     local open, middle = areas.angle(area, corner)
@@ -239,32 +258,58 @@ function cuts.cut(
       local off, turned = checks.between(heading, out), checks.between(middle, heading)
       local part = areas.part(area, corner, edge, x, y)
       part = math.min(part, area.size - part)
-      if part < least or math.abs(off) > 42 or math.abs(turned) > math.min(open / 2 - LEAST, 80) then
+      if
+        part < least
+        or area.size - part < larger
+        or math.abs(off) > 42
+        or math.abs(turned) > math.min(open / 2 - LEAST, 80)
+      then
         continue
       end
-      local uneven = 2 * (share - part / area.size)
       local along = math.abs((heading - area.turned + 45) % 90 - 45)
-      local total = cost
-        + 2.2 * uneven * uneven
-        + 0.55 * math.sqrt(dx * dx + dy * dy) / size
-        + (off / 26) ^ 2
-        + (if degree == 1 then 0 else (turned / 30) ^ 2)
-        + along / 60
-        + 0.35 * random()
       table.insert(found, {
-        cost = total,
+        fixed = cost + 0.55 * math.sqrt(dx * dx + dy * dy) / size + (off / 26) ^ 2 + (if degree == 1
+          then 0
+          else (turned / 30) ^ 2) + along / 60,
+        cost = 0,
+        share = part / area.size,
         corner = corner,
         edge = edge,
         x = x,
         y = y,
         heading = heading,
-        -- The greatest turns to one side and to the other where it leaves and where it arrives.
         leaves = { turned + open / 2 - LEAST, turned - open / 2 + LEAST },
         arrives = { off + 90 - LEAST, off - 90 + LEAST },
       })
     end
   end
-  table.sort(found, function(one: any, other: any): boolean
+  return found
+end
+
+-- The best of the streets that may divide an area, as the corner that it leaves and its places; nil if there is none. `may_begin`
+-- says whether one may.
+function cuts.cut(
+  sizes: Sizes,
+  area: Area,
+  pattern: Pattern,
+  limit: number,
+  depth: number,
+  tries: number,
+  found: { Candidate },
+  may_begin: (corner: number, way: { number }, depth: number) -> boolean
+): (number?, { number }?)
+  -- Parts differ, so that blocks do.
+  local share = random(0.05, 0.5)
+  -- The last streets of an area are the most crooked.
+  local is_last = area.size < 3 * limit
+  local bow = pattern.bow
+    * (if is_last then random(0.9, 1.5) else random(0.4, 1.1))
+    * math.max(0, 1 - tries / 12)
+  for _, one in found do
+    local uneven = 2 * (share - one.share)
+    one.cost = one.fixed + 2.2 * uneven * uneven + 0.35 * random()
+  end
+  table.sort(found, function(one: Candidate, other: Candidate): boolean
     return one.cost < other.cost
   end)
   -- Land that is divided further must be wide enough for a street across it.
@@ -394,7 +439,8 @@ function cuts.lane(sizes: Sizes, area: Area, deepest: number): (number?, { numbe
     if long < (if is_stub then STUB else LANE[1]) then
       continue
     end
-    local turn = (if random() < 0.5 then 1 else -1) * random(15, 100)
+    local turn = (if random() < 0.5 then 1 else -1)
+      * random(BENDS[1], if area.size < 0 then COUNTRY else BENDS[2])
     local aim = heading + 0.5 * turn
     local to = { x + long * math.cos(math.rad(aim)), y + long * math.sin(math.rad(aim)) }
     if areas.distance(area, to[1], to[2], heading + turn) > APART then

@@ -33,17 +33,17 @@ division.GROWING = {
   "Lane(junction, way, depth, along, lanes)",
 }
 
--- The tries to divide an area before it stays as it is.
-local TRIES = 12
+-- The tries to divide an area before it stays as it is, and how many of them there are from the same corners.
+local TRIES, ROUND = 12, 4
 -- The tries of land that is much larger than its largest block.
-local MANY = 30
+local MANY = 32
 -- From how many times its largest block land that could not be divided is reported, and its least area (m²).
 local REPORTED, LARGE = 6, 20000
 -- From how many blocks land is several quarters, and the least and the largest area (m²) of one.
 local SEVERAL = 15
 local LEAST, MOST = 16000, 80000
 -- After how many tries a street may leave opposite another one.
-local LATE = 9
+local LATE = 8
 -- The largest area (m²) that is left as it is for a park or an estate.
 local ESTATE = 30000
 -- The minimum area (m²) that a street divides, not a lane.
@@ -60,8 +60,8 @@ local LANE_LAND, LANES = 3000, 14
 local BORDER = 280
 
 -- The rules of division. `pattern_at` gives the pattern of a place, `room` the largest block (m²) of a kind of quarter there, or nil
--- where land is not divided, `propose` proposes a street, and `outside` tells whether lanes may lead to a place beyond the outline, or
--- is false.
+-- where land is not divided, `propose` proposes a street, `barriers` tell what streets do not cross, or are nil, and `outside` tells
+-- whether lanes may lead to a place beyond the outline, or is false.
 function division.rules(
   system: System<Network>,
   pattern_at: (x: number, y: number) -> Pattern,
@@ -69,38 +69,77 @@ function division.rules(
   deepest: number,
   propose: any,
   sizes: any,
+  barriers: any,
   outside: false | (x: number, y: number) -> boolean
 )
-  -- Tells if a street may leave an area at a corner.
-  local function tester(this: Network, area: any): (number, { number }, number) -> boolean
+  -- Tells if a street that leaves an area at a corner meets water or obstacles.
+  local function meets_water(area: any, corner: number, way: { number }): boolean
+    return barriers ~= nil and barriers.meets(table.move(way, 1, #way, 3, { area.x[corner], area.y[corner] }))
+  end
+
+  -- Tells if a street may leave an area at a corner; one that stays on land crosses no water.
+  local function tester(
+    this: Network,
+    area: any,
+    stays_on_land: boolean
+  ): (number, { number }, number) -> boolean
     return function(corner, way, depth)
       local heading, length = ways.aim(this, area.junction[corner], way[1], way[2])
-      return this:probe(area.junction[corner], heading, length, depth).built
+      if not this:probe(area.junction[corner], heading, length, depth).built then
+        return false
+      end
+      return not (stays_on_land and meets_water(area, corner, way))
     end
   end
 
   system:rule("Land(is_divided)", function(this: Network, is_divided: boolean)
-    local modules: { any }, seen: { [any]: boolean } = {}, {}
-    for junction, corner in this:places() do
-      for _, heading in corner.headings do
-        local face = this:face(junction, heading)
-        local corners = face.corners
-        local key = junction * 2 ^ 26 + corners[2 % #corners + (if #corners == 1 then 1 else 0)].junction
-        if seen[key] then
-          continue
-        end
-        for index, each in corners do
-          seen[each.junction * 2 ^ 26 + corners[index % #corners + 1].junction] = true
-        end
-        if face.area > 0 and not is_divided then
-          table.insert(modules, Quarter(junction, heading, 0, random(-1, 1)))
-        elseif face.area > GREEN_LAND or face.area < 0 and is_divided and outside then
-          table.insert(modules, Yard(junction, heading, 0))
-        end
+    local modules: { any } = {}
+    for _, each in areas.faces(this) do
+      local size: number = each.face.area
+      if size > 0 and not is_divided then
+        table.insert(modules, Quarter(each.junction, each.heading, 0, random(-1, 1)))
+      elseif size > GREEN_LAND or size < 0 and is_divided and outside then
+        table.insert(modules, Yard(each.junction, each.heading, 0))
       end
     end
     return checks.successor(modules)
   end)
+
+  -- A street that divides an area, as `cuts.cut` gives it, and its depth.
+  local function divide(
+    this: Network,
+    area: any,
+    pattern: Pattern,
+    limit: number,
+    tries: number,
+    is_large: boolean
+  ): (number?, { number }?, number)
+    local may_begin = tester(this, area, tries >= ROUND)
+    -- A narrower street has room where a wider one has none.
+    local depth = if tries >= 2 * TRIES
+      then 3
+      elseif tries < TRIES and area.size > math.max(6 * limit, STREET) then 1
+      elseif area.size < ALLEY * limit and limit < OLD then 3
+      else 2
+    depth = math.min(depth, deepest, sizes.deepest)
+    if depth == 2 and limit > OLD and tries == 0 and random() < (pattern.crescents or 0) then
+      local wide = math.max(1.6 * sizes.near[depth], random(0.4, 1) * math.sqrt(limit))
+      local start, way = cuts.crescent(sizes, area, wide, depth, may_begin)
+      if start then
+        return start, way, depth
+      end
+    end
+    local crosses = random() < pattern.cross
+      or tries >= LATE and (is_large or area.size > math.max(12 * limit, STREET))
+    local candidates = cuts.candidates(sizes, area, pattern, limit, depth, crosses)
+    for try = tries, if #candidates > 0 then tries + ROUND - 1 else tries - 1 do
+      local start, way = cuts.cut(sizes, area, pattern, limit, depth, try, candidates, may_begin)
+      if start then
+        return start, way, depth
+      end
+    end
+    return nil, nil, depth
+  end
 
   system:rule(
     "Quarter(junction, heading, tries, kind)",
@@ -134,30 +173,19 @@ function division.rules(
         and random() < pattern.gap
       local is_large = area.size > math.max(REPORTED * limit, LARGE)
       if tries >= (if is_large then MANY else TRIES) then
-        return if is_large then Undivided(area.size, limit, x, y) else nil
-      elseif area.size > limit and not is_estate then
-        local may_begin = tester(this, area)
-        -- A narrower street has room where a wider one has none.
-        local depth = if tries >= 2 * TRIES
-          then 3
-          elseif tries < TRIES and area.size > math.max(6 * limit, STREET) then 1
-          elseif area.size < ALLEY * limit and limit < OLD then 3
-          else 2
-        depth = math.min(depth, deepest, sizes.deepest)
-        local start, way
-        if depth == 2 and limit > OLD and tries < 2 and random() < (pattern.crescents or 0) then
-          local wide = math.max(1.6 * sizes.near[depth], random(0.4, 1) * math.sqrt(limit))
-          start, way = cuts.crescent(sizes, area, wide, depth, may_begin)
-        end
-        if not start then
-          local crosses = random() < pattern.cross
-            or tries >= LATE and (is_large or area.size > math.max(12 * limit, STREET))
-          start, way = cuts.cut(sizes, area, pattern, limit, depth, tries, crosses, may_begin)
-        end
+        -- A river, say, is no land that could be divided.
+        local size: number = if barriers and is_large
+          then areas.size_of(area, barriers.is_land)
+          else area.size
+        return if size > math.max(REPORTED * limit, LARGE) then Undivided(size, limit, x, y) else nil
+      elseif
+        area.size > math.max(limit, cuts.larger(limit) + pattern.least * pattern.least) and not is_estate
+      then
+        local start, way, depth = divide(this, area, pattern, limit, tries, is_large)
         if start and way then
           return Cut(area.junction[start], way, depth, area.size, areas.heading(area, start), tries, own)
         end
-        return Quarter(junction, heading, tries + 1, own)
+        return Quarter(junction, heading, tries + ROUND, own)
       end
       return nil
     end
@@ -187,7 +215,7 @@ function division.rules(
         start, way = lead_out(area)
       elseif lanes == 0 and random() < (pattern.greens or 0) then
         local least = math.min(3, deepest, sizes.deepest)
-        start, way = cuts.crescent(sizes, area, random(GREEN[1], GREEN[2]), least, tester(this, area))
+        start, way = cuts.crescent(sizes, area, random(GREEN[1], GREEN[2]), least, tester(this, area, true))
         is_green = start ~= nil
         depth = if is_green then least else depth
       end
@@ -199,7 +227,8 @@ function division.rules(
       then
         start, way = cuts.lane(sizes, area, math.huge)
       end
-      if start and way then
+      -- No bridge is built for a lane.
+      if start and way and not meets_water(area, start, way) then
         local along = areas.heading(area, start)
         if is_green then
           -- The land continues outside of the green.

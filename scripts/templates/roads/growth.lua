@@ -459,7 +459,7 @@ function growth.system(asked: any, ...: number): (System<Network>, number?)
   end
   if of.divides then
     mains.trims(system)
-    division.rules(system, pattern_at, of.room, deepest, propose, of.sizes, is_open and inside)
+    division.rules(system, pattern_at, of.room, deepest, propose, of.sizes, of.barriers, is_open and inside)
   end
   if is_open then
     country.rules(system, inside, centres[1], propose, math.min(1, deepest))

@@ -258,15 +258,17 @@ function mains.rules(
 
   -- The junctions of a main street from its open end inwards, with the heading that leads outwards at each.
   local function inwards(this: Network, junction: number, heading: number): { any }
-    local found, at, out = {}, junction, heading
-    repeat
-      local place = this:place(at)
-      table.insert(found, { junction = at, heading = out, far = polar(place) })
-      local corners = this:face(at, out + 180).corners
-      local after = corners[2 % #corners + (if #corners == 1 then 1 else 0)]
-      local way = place - this:place(after.junction)
-      at, out = after.junction, math.deg(math.atan2(way.y, way.x))
-    until this:degree(at) ~= 2
+    local corners = this:face(junction, heading + 180).corners
+    local found, out = {}, heading
+    for index, corner in corners do
+      table.insert(found, { junction = corner.junction, heading = out, far = polar(corner.place) })
+      local after = corners[index % #corners + 1]
+      local way = corner.place - after.place
+      out = math.deg(math.atan2(way.y, way.x))
+      if after.degree ~= 2 then
+        break
+      end
+    end
     return found
   end
 

@@ -41,6 +41,48 @@ options.STREETS = {
   { width = 11, lanes = 2, sidewalk = 2 },
 }
 
+-- What streets do not cross, by the fields of a network: whether a way by places (m), x and y in turn, meets any of it, and whether
+-- a place is land; nil where nothing is in the way.
+local function barriers(fields: any): any
+  local function shape(given: any): any
+    return if type(given) == "table" then geometry(given) else given
+  end
+  local shapes: { any } = {}
+  for _, list in { fields.obstacles or {}, fields.water or {} } :: { { any } } do
+    for _, each in list do
+      table.insert(shapes, shape(each))
+    end
+  end
+  local limit: any = if fields.limit then shape(fields.limit) else nil
+  if #shapes == 0 and not limit then
+    return nil
+  end
+  return {
+    meets = function(way: { number }): boolean
+      local points: { { number } } = {}
+      for index = 1, #way, 2 do
+        table.insert(points, { way[index], way[index + 1] })
+      end
+      local course = line(points)
+      for _, each in shapes do
+        if course:intersects(each) then
+          return true
+        end
+      end
+      return limit ~= nil and not course:within(limit)
+    end,
+    is_land = function(x: number, y: number): boolean
+      local place = point(x, y)
+      for _, each in shapes do
+        if place:intersects(each) then
+          return false
+        end
+      end
+      return limit == nil or place:within(limit)
+    end,
+  }
+end
+
 -- Reads the options of `caller`; errors are told `level` functions above.
 function options.read(asked: any, caller: string, level: number): any
   checks.options(caller, asked, KNOWN, level)
@@ -155,6 +197,7 @@ function options.read(asked: any, caller: string, level: number): any
     inside = inside,
     room = room,
     sizes = sizes,
+    barriers = barriers(fields),
     people = people,
     deepest = deepest,
     growing = growing,

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use std::sync::{Arc, LazyLock};
 use std::time::Duration;
 
-use super::Preset;
+use super::{FeaturePart, Preset};
 use crate::checkpoints::DerivationStore;
 use crate::questions::RowSource;
 use burgeon_base::stop::Stop;
@@ -135,6 +135,8 @@ pub struct RunOptions {
     pub seed: u64,
     /// Maximum number of derivation steps of each system; `None` leaves it to the script.
     pub steps: Option<usize>,
+    /// Part of the features to build; all features if `None`.
+    pub part: Option<FeaturePart>,
     /// Level of detail: 0 footprints, 1 blocks, 2 roofs, 3 full detail. Scripts read it as `lod`.
     pub lod: u8,
     /// Object types that scripts can use.
@@ -178,6 +180,7 @@ impl Default for RunOptions {
             params: ParamValues::default(),
             seed: 0,
             steps: None,
+            part: None,
             lod: 3,
             registry: Registry::default(),
             inputs: RunInputs::default(),

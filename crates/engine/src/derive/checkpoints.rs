@@ -106,7 +106,8 @@ impl CheckpointWriter {
 fn inputs(session: &Session, derivation: &Derivation, derived: &[Arc<DerivedSystem>]) -> String {
     let mut text = format!("system {}\n", derivation.plan.system);
     let options = &session.options;
-    let _ = writeln!(text, "{:?} {:?} {} {}", session.script(), options.registry, options.seed, options.lod);
+    let _ = writeln!(text, "{:?} {:?}", session.script(), options.registry);
+    let _ = writeln!(text, "{} {} {:?}", options.seed, options.lod, options.part);
     for param in session.params() {
         let _ = writeln!(text, "{param:?}");
     }

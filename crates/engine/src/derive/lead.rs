@@ -76,11 +76,13 @@ fn settle(machine: &Machine, derivation: Derivation, grown: DerivationResults) -
         }
         None => Vec::new(),
     };
-    Ok(Ending::Derived(Box::new(DerivedSystem {
+    let neighbors = axiom.neighbors;
+    let mut derived = Box::new(DerivedSystem {
         system,
         modules: grown.chain.modules(),
         chain: grown.chain,
         left_out: left_out.into(),
+        context: None,
         symbols: Arc::clone(grammar.symbols()),
         values: Arc::clone(&session.values),
         objects,
@@ -98,7 +100,9 @@ fn settle(machine: &Machine, derivation: Derivation, grown: DerivationResults) -
         draws,
         undrawn,
         uses: SystemUses::default(),
-    })))
+    });
+    derived.drop_chains(&neighbors);
+    Ok(Ending::Derived(derived))
 }
 
 /// Returns the objects after the last pass, and adds their skipped and simplified features to `remarks`.

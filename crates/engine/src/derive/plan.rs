@@ -94,7 +94,8 @@ impl Derivation {
         }
         let objects = std::mem::take(&mut axiom.objects);
         // If the system has only one feature, the error is more helpful than an empty model.
-        let forgiving = axiom.given > 1 && !options.strict;
+        let is_part = options.part.is_some();
+        let forgiving = (axiom.given > 1 || is_part) && !options.strict;
         let objects = (!objects.is_empty()).then(|| Arc::new(Objects::new(objects, forgiving)));
         let plan = Arc::new(DerivationPlan {
             system: index,

@@ -112,7 +112,8 @@ impl ThreadPool {
     fn note_derived(&self, machine: &Machine, derived: &Result<Arc<DerivedSystem>>) {
         if let Ok(derived) = derived {
             let mut view = machine.current.chains_derived.borrow_mut();
-            *view = view.with_derived(derived.system, &derived.symbols, &derived.chain, &derived.left_out);
+            let (chain, left_out) = derived.queried_chains();
+            *view = view.with_derived(derived.system, &derived.symbols, chain, left_out);
         }
         self.done.borrow_mut().push(derived.clone());
     }

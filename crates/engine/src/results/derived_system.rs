@@ -4,7 +4,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, OnceLock};
 use std::time::Duration;
 
-use super::records::SourceFeatures;
+use super::records::{SourceFeatures, drop_indices};
 use super::remark::Remark;
 use super::row_features::RowFeatures;
 use super::trace::RuleName;
@@ -47,6 +47,8 @@ pub struct DerivedSystem {
     pub chain: Arc<Chain>,
     /// Indices of the chains that were skipped because of faulty data, ascending.
     pub(crate) left_out: Arc<[usize]>,
+    /// All chains with the indices of the skipped ones, if some were built only for others near them.
+    pub(crate) context: Option<(Arc<Chain>, Arc<[usize]>)>,
     /// Declared modules.
     pub symbols: Arc<Symbols>,
     /// Parameter values other than numbers.
@@ -104,6 +106,41 @@ impl DerivedSystem {
     /// Returns the number of modules in all chains, without brackets.
     pub fn modules(&self) -> usize {
         self.modules
+    }
+
+    /// Drops the chains at the indices `chains`, which are ascending. Queries still see them.
+    pub(crate) fn drop_chains(&mut self, chains: &[usize]) {
+        if chains.is_empty() {
+            return;
+        }
+        let kept = self.chain.without(chains, &self.symbols.arities());
+        self.context = Some((std::mem::replace(&mut self.chain, Arc::new(kept)), Arc::clone(&self.left_out)));
+        let place = |chain: &usize| chain - chains.partition_point(|dropped| dropped < chain);
+        let left_out = self.left_out.iter().filter(|chain| chains.binary_search(chain).is_err());
+        self.left_out = left_out.map(place).collect();
+        let dropped: Vec<Option<String>> =
+            chains.iter().filter_map(|chain| self.features.get(*chain).cloned()).collect();
+        self.remarks.retain(|remark| remark.feature.is_none() || !dropped.contains(&remark.feature));
+        drop_indices(&mut self.objects, chains);
+        drop_indices(&mut self.features, chains);
+        self.source.drop_chains(chains);
+        if let Some(rows) = &mut self.rows {
+            rows.drop_chains(chains);
+        }
+        self.modules = self.chain.modules();
+    }
+
+    /// Returns all chains for queries, and the indices of the skipped ones.
+    pub(crate) fn queried_chains(&self) -> (&Arc<Chain>, &Arc<[usize]>) {
+        match &self.context {
+            Some((chain, left_out)) => (chain, left_out),
+            None => (&self.chain, &self.left_out),
+        }
+    }
+
+    /// Returns true if no chain came from a feature.
+    pub(crate) fn is_featureless(&self) -> bool {
+        self.features.iter().all(Option::is_none)
     }
 
     /// Returns the attributes of the chains' features as a table, in the order of the chains; `None` without

@@ -39,6 +39,15 @@ impl SourceFeatures {
         }
     }
 
+    /// Drops the features of the chains at the indices `chains`, which are ascending.
+    pub(crate) fn drop_chains(&mut self, chains: &[usize]) {
+        match self {
+            Self::None => {}
+            Self::Layer(_, rows) => drop_indices(rows, chains),
+            Self::List(list) => drop_indices(list, chains),
+        }
+    }
+
     /// Returns the attributes as a table with the feature `ids` of the chains; `None` without features.
     pub(crate) fn table(&self, ids: &[Option<String>], number: usize) -> Option<RecordTable> {
         let id = |chain: usize| ids.get(chain).cloned().flatten().unwrap_or_default();
@@ -66,6 +75,15 @@ impl SourceFeatures {
             }
         }
     }
+}
+
+/// Removes the items at `indices`, which are ascending.
+pub(crate) fn drop_indices<T>(items: &mut Vec<T>, indices: &[usize]) {
+    let mut index = 0;
+    items.retain(|_| {
+        index += 1;
+        indices.binary_search(&(index - 1)).is_err()
+    });
 }
 
 /// Attribute names, in the order of their first occurrence.

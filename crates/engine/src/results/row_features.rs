@@ -10,7 +10,7 @@ use burgeon_kit::{Makers, Value};
 use burgeon_scene::{Origin, Scene};
 use rustc_hash::FxHashMap;
 
-use super::records::{Columns, attribute};
+use super::records::{Columns, attribute, drop_indices};
 use crate::questions::Rows;
 
 /// Features that the symbols of a chain came from.
@@ -95,6 +95,11 @@ impl RowFeatures {
     /// Sets the makers of the drawing of each object.
     pub(crate) fn set_makers(&mut self, makers: Vec<Option<Makers>>) {
         self.makers = makers;
+    }
+
+    /// Drops the makers of the objects at the indices `chains`, which are ascending.
+    pub(crate) fn drop_chains(&mut self, chains: &[usize]) {
+        drop_indices(&mut self.makers, chains);
     }
 
     /// Returns the features as a table.

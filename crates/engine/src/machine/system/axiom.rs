@@ -14,6 +14,7 @@ use burgeon_kit::{Object, Prefetch, Value};
 use burgeon_rewriting::{CLOSE, Chain, DEEPEST, END, ModuleKey, OPEN, Symbol};
 
 use super::lazy::is_feature;
+use super::selection::{FeatureRole, FeatureSelection};
 use super::source::{each_feature, layer_of, refused_of, shown};
 use super::{DeclaredAxiom, SystemDeclaration};
 
@@ -33,6 +34,8 @@ pub(crate) struct Axiom {
     pub given: usize,
     /// Skipped features.
     pub remarks: Vec<Remark>,
+    /// Indices of the chains that are only built for others near them, ascending.
+    pub neighbors: Vec<usize>,
 }
 
 impl Axiom {
@@ -55,13 +58,8 @@ impl SystemDeclaration {
     /// Skips a function whose only side effect is random numbers; [`SystemDeclaration::catch_up`] then
     /// corrects the random stream.
     pub(crate) fn replay_axiom(&self, machine: &Machine) -> Result<()> {
-        let is_pure = |function: &Function| {
-            let info = function.info();
-            let file = info.source.as_deref().and_then(|source| source.strip_prefix('@'));
-            file.zip(info.line_defined).is_some_and(|(file, line)| machine.session.is_pure(file, line))
-        };
         match &self.axiom {
-            Some(DeclaredAxiom::Source(_, function)) if is_pure(function) => Ok(()),
+            Some(DeclaredAxiom::Source(_, function)) if is_pure(machine, function) => Ok(()),
             Some(DeclaredAxiom::Source(..)) => self.axiom(machine, ModuleKey::default(), false).map(|_| ()),
             _ => Ok(()),
         }
@@ -123,9 +121,13 @@ impl SystemDeclaration {
         let LuaValue::UserData(source) = source else { return Ok(()) };
         let prefetch = self.prefetch(machine, source)?;
         let mut refused: Option<Error> = None;
+        let selection = FeatureSelection::new(machine, source)?;
+        // Without random numbers and side effects, the function need not run for features that are not built.
+        let may_skip = !selection.is_whole() && !machine.session.draws_random() && is_pure(machine, function);
         axiom.source = shown(source);
         let (layer, records) = (layer_of(source), machine.session.options.reports.records);
-        for (id, error) in refused_of(source) {
+        let is_first = machine.session.options.part.is_none_or(|part| part.number == 1);
+        for (id, error) in refused_of(source).into_iter().filter(|_| is_first) {
             axiom.given += 1;
             axiom.remarks.push(Remark { unread: true, ..Remark::skipped(&axiom.source, Some(&id), &error) });
         }
@@ -146,7 +148,11 @@ impl SystemDeclaration {
                 (None, _) => index.to_string(),
             };
             let key = key.feature(&id);
-            axiom.given += 1;
+            let role = selection.role(index - 1);
+            if role == FeatureRole::Absent && may_skip {
+                return Ok(());
+            }
+            axiom.given += usize::from(role == FeatureRole::Shown);
             let value = (!from_file && records).then(|| to_value(&feature, true).unwrap_or(Value::Nil));
             let made: MultiValue = match machine.call(function, feature) {
                 Ok(made) => made,
@@ -156,11 +162,18 @@ impl SystemDeclaration {
                     if !error.is_of_data() || machine.session.options.strict {
                         return Err(told);
                     }
-                    axiom.remarks.push(Remark::skipped(&axiom.source, Some(&id), &error));
-                    refused.get_or_insert(told);
+                    if role == FeatureRole::Shown {
+                        axiom.remarks.push(Remark::skipped(&axiom.source, Some(&id), &error));
+                        refused.get_or_insert(told);
+                    }
                     return Ok(());
                 }
             };
+            match role {
+                FeatureRole::Shown => {}
+                FeatureRole::Neighbor => axiom.neighbors.push(axiom.features.len()),
+                FeatureRole::Absent => return Ok(()),
+            }
             let mut made: Vec<LuaValue> = made.into_iter().collect();
             let own = match made.first() {
                 Some(LuaValue::UserData(data)) => {
@@ -193,7 +206,7 @@ impl SystemDeclaration {
         each_feature(machine.lua(), source, prefetch, each, |error| machine.translate(error))?;
         // If no feature remains, the error is more helpful than an empty model.
         match refused {
-            Some(error) if axiom.features.is_empty() => Err(error),
+            Some(error) if axiom.features.is_empty() && selection.is_whole() => Err(error),
             _ => Ok(()),
         }
     }
@@ -212,6 +225,13 @@ impl SystemDeclaration {
         machine.driver.prefetch(machine, &prefetching.0)?;
         Ok(Some(prefetching))
     }
+}
+
+/// Returns true if a function of the script has no side effect except random numbers.
+fn is_pure(machine: &Machine, function: &Function) -> bool {
+    let info = function.info();
+    let file = info.source.as_deref().and_then(|source| source.strip_prefix('@'));
+    file.zip(info.line_defined).is_some_and(|(file, line)| machine.session.is_pure(file, line))
 }
 
 /// Number of features from which helpers start early, because the interpretation needs them anyway.

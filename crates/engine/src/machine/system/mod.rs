@@ -9,6 +9,7 @@ mod declare;
 mod handle;
 mod lazy;
 mod list_table;
+mod selection;
 mod source;
 mod tags;
 mod unseen;

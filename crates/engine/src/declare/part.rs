@@ -1,0 +1,67 @@
+//! Part of the features of a run.
+
+use std::ops::Range;
+use std::str::FromStr;
+
+use burgeon_base::error::{Error, Result};
+
+/// Part of the features of each system: one of `count` ranges of about the same size, in the order of the source.
+///
+/// A run over a part gives for its features the bytes of the whole run, if a feature depends only on others within
+/// `reach`. The features of a system whose axiom is not a source, such as a terrain, belong to the first part.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct FeaturePart {
+    /// Number of the part, from 1.
+    pub number: usize,
+    /// Number of parts.
+    pub count: usize,
+    /// Distance (m) within which features of other parts are derived too, but not shown.
+    pub reach: f64,
+}
+
+impl FeaturePart {
+    /// Returns the indices of the part among `features` features.
+    pub fn range(&self, features: usize) -> Range<usize> {
+        let at = |part: usize| features * part / self.count.max(1);
+        at(self.number.saturating_sub(1))..at(self.number)
+    }
+}
+
+impl FromStr for FeaturePart {
+    type Err = Error;
+
+    fn from_str(text: &str) -> Result<Self> {
+        let numbers = text.split_once('/').and_then(|(number, count)| {
+            Some((number.trim().parse::<usize>().ok()?, count.trim().parse::<usize>().ok()?))
+        });
+        match numbers {
+            Some((number, count)) if (1..=count).contains(&number) && count <= 1_000_000 => {
+                Ok(Self { number, count, reach: 0.0 })
+            }
+            _ => Err(Error::argument(format!("a part is a number of parts, such as 2/4, not {text:?}"))),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn parts_contain_each_feature_once() {
+        for (features, count) in [(10, 4), (3, 5), (0, 2), (1000, 7)] {
+            let parts = (1..=count).map(|number| FeaturePart { number, count, reach: 0.0 }.range(features));
+            let all: Vec<usize> = parts.flatten().collect();
+            assert_eq!(all, (0..features).collect::<Vec<_>>());
+        }
+    }
+
+    #[test]
+    fn a_part_is_a_number_of_parts() {
+        let part = "2/4".parse::<FeaturePart>().unwrap();
+        assert_eq!((part.number, part.count), (2, 4));
+        for text in ["0/4", "5/4", "2", "a/b", "1/0", "-1/2", "1/2/3"] {
+            assert!(text.parse::<FeaturePart>().is_err(), "{text}");
+        }
+    }
+}
