@@ -535,3 +535,26 @@ fn an_axiom_declares_nothing_while_it_makes_chains() {
       help: put it before derive, and let the function use it
     "#);
 }
+
+#[test]
+fn a_script_warns_with_its_line_and_a_remedy() {
+    let script = "local function look(count)\n  if count < 3 then warn(`{count} trees are few`, \"plant more\") end\nend\n\
+                  look(2)\nlook(5)\nwarn(\"a\\tb\")\nprint(1)";
+    let folder = Folder::new().with("s.lua", script);
+    insta::assert_snapshot!(folder.warned(&["run", "s.lua"]), @"");
+    let document = folder.burgeon(&["run", "s.lua", "--json"]).done().json();
+    let kinds: Vec<&str> =
+        document["warnings"].as_array().unwrap().iter().map(|it| it["kind"].as_str().unwrap()).collect();
+    assert_eq!(kinds.iter().filter(|kind| **kind == "script").count(), 2, "{kinds:?}");
+    assert!(folder.burgeon(&["run", "s.lua", "--strict"]).failed().contains("trees are few"));
+    for (script, expected) in [
+        ("warn()", "warn: text must be a string, not nil"),
+        ("warn({})", "warn: text must be a string, not table"),
+        ("warn(\"a\", 3)", "warn: help must be a string, not number"),
+    ] {
+        let told = super::support::refused(script);
+        assert!(told.contains(expected), "{script}: {told}");
+    }
+    let told = super::support::refused_rules("s:rule(\"A\", function() warn(\"no\") end)");
+    assert!(told.contains("warn"), "{told}");
+}

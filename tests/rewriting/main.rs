@@ -15,6 +15,7 @@ mod meaning;
 mod modules_as_tables;
 mod naive;
 mod parameters;
+mod parts;
 mod passes;
 mod properties;
 mod queries;

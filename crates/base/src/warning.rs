@@ -68,6 +68,8 @@ pub enum WarningKind {
     ReplacedTwice,
     /// An installed package that cannot be used.
     BrokenPackage,
+    /// A warning that a script gives with `warn`.
+    Script,
 }
 
 impl WarningKind {
@@ -98,6 +100,7 @@ impl WarningKind {
             Self::HiddenPackage => "warning.hidden-package",
             Self::ReplacedTwice => "warning.replaced-twice",
             Self::BrokenPackage => "warning.broken-package",
+            Self::Script => "warning.script",
         }
     }
 }

@@ -94,8 +94,9 @@ end
 function mains.report(caller: string)
   local open: any = query("select x, y from Unclosed order by x, y")
   if #open > 0 then
-    print(
-      `{caller}: the outline of the town stays open in {#open} {if #open > 1 then "places" else "place"}, the first near {open[1].x // 1}, {open[1].y // 1} (m), and land there has no streets: try another seed, a greater extent or a smaller block`
+    warn(
+      `{caller}: the outline of the town stays open in {#open} {if #open > 1 then "places" else "place"}, the first near {open[1].x // 1}, {open[1].y // 1} (m), and land there has no streets`,
+      "try another seed, a greater extent or a smaller block"
     )
   end
 end

@@ -382,6 +382,16 @@ impl Library {
         let lua = machine.lua();
         let library = std::rc::Rc::clone(&machine.library);
         globals.raw_set(
+            "warn",
+            lua.create_function(move |_, (text, help): (LuaValue, LuaValue)| {
+                library.at_top_level("warn").map_err(mlua::Error::external)?;
+                let warning = script_warning(&text, &help).map_err(mlua::Error::external)?;
+                library.machine().map_err(mlua::Error::external)?.warn(warning);
+                Ok(())
+            })?,
+        )?;
+        let library = std::rc::Rc::clone(&machine.library);
+        globals.raw_set(
             "module",
             lua.create_function(move |lua, (name, parameters): (String, Variadic<String>)| {
                 library.at_top_level("module").map_err(mlua::Error::external)?;
@@ -555,6 +565,20 @@ fn declare(
         machine.constructor(&library.symbols.borrow(), symbol).map_err(|error| machine.translate(error))?;
     library.constructors.borrow_mut().insert(symbol, constructor.clone());
     Ok((symbol, constructor))
+}
+
+/// Returns the warning that a script gives with `warn`.
+fn script_warning(text: &LuaValue, help: &LuaValue) -> Result<Warning> {
+    let usage = "write warn(\"the town has no streets\", \"try another seed\")";
+    let string = |value: &LuaValue, name: &str| match value {
+        LuaValue::String(text) => Ok(any_bytes(&text.as_bytes())),
+        other => {
+            let message = format!("warn: {name} must be a string, not {}", other.type_name());
+            Err(Error::argument(message).help(usage))
+        }
+    };
+    let warning = Warning::new(WarningKind::Script, string(text, "text")?);
+    if help.is_nil() { Ok(warning) } else { Ok(warning.help(string(help, "help")?)) }
 }
 
 fn print(lua: &Lua, values: &MultiValue, hook: &Print) -> mlua::Result<()> {

@@ -28,6 +28,12 @@ pub(super) fn names() -> Vec<Name> {
         )
         .form([argument("a", "number?"), argument("b", "number?")], "number")
         .pure(),
+        Name::global(
+            "warn",
+            "Adds a warning to the run: what is wrong, and what to do about it. Only the top level of a script and its functions \
+             can warn, not rules.",
+        )
+        .form([argument("text", "string"), argument("help", "string?")], "()"),
         Name::global("require", "What another file of the script returns, or of a package: require(\"@castle/towers\"). Each is run once.")
             .form([argument("name", "string")], "any"),
         Name::global(
