@@ -2,7 +2,7 @@
 
 use burgeon_base::error::{Error, Result};
 
-use crate::network::StreetAttributes;
+use crate::plan::network::StreetAttributes;
 
 /// Minimum width (m) of a lane.
 const LEAST_LANE: f64 = 2.0;

@@ -5,11 +5,11 @@
 use glam::{DVec2, DVec3};
 
 use crate::kinds::{LaneLine, StreetKind};
-use crate::network::{PieceId, StreetNetwork};
-use crate::profile::StreetProfiles;
-use crate::rows::{MEDIAN_MARGIN, median_of};
-use crate::shape::StreetShapes;
-use crate::surface::SurfaceOptions;
+use crate::plan::network::{PieceId, StreetNetwork};
+use crate::shape::profile::StreetProfiles;
+use crate::shape::shapes::StreetShapes;
+use crate::surface::parts::SurfaceOptions;
+use crate::surface::rows::{MEDIAN_MARGIN, median_of};
 
 /// Start and end (m) of a crossing beyond a junction, and of the stop line before it.
 const CROSSING: [f64; 2] = [0.6, 3.6];

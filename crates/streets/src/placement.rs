@@ -8,9 +8,9 @@ use rstar::primitives::{GeomWithData, Line as IndexLine, Rectangle};
 use rstar::{AABB, RTree};
 
 use crate::lots::{FinePlace, fine_meet, fine_side};
-use crate::network::{PieceId, StreetNetwork};
-use crate::profile::StreetProfiles;
-use crate::surface::SurfaceOptions;
+use crate::plan::network::{PieceId, StreetNetwork};
+use crate::shape::profile::StreetProfiles;
+use crate::surface::parts::SurfaceOptions;
 use burgeon_base::error::{Error, Result};
 use burgeon_geometry::planar::edges;
 

@@ -4,11 +4,11 @@ use glam::DVec3;
 
 use crate::kinds::StreetKind;
 use crate::marks::piece_ends;
-use crate::network::{PieceId, StreetNetwork};
-use crate::profile::StreetProfiles;
-use crate::rows::{MedianEnd, median_of};
-use crate::shape::StreetShapes;
-use crate::surface::SurfaceOptions;
+use crate::plan::network::{PieceId, StreetNetwork};
+use crate::shape::profile::StreetProfiles;
+use crate::shape::shapes::StreetShapes;
+use crate::surface::parts::SurfaceOptions;
+use crate::surface::rows::{MedianEnd, median_of};
 
 /// Distance (m) of the first object from the end of a segment, and from a crossing.
 const MARGIN: f64 = 3.0;

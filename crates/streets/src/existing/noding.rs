@@ -8,8 +8,8 @@ use rstar::primitives::{GeomWithData, Line as IndexLine};
 use rstar::{AABB, RTree};
 use rustc_hash::FxHashSet;
 
-use super::insertion::StreetStrand;
-use crate::grid::{GridPlace, PER_METRE, WholePlace, touch};
+use super::strand::StreetStrand;
+use crate::plan::grid::{GridPlace, PER_METRE, WholePlace, touch};
 
 /// Maximum number of rounds; the method needs one, and the second confirms it.
 const ROUNDS: usize = 8;

@@ -6,11 +6,13 @@ use rstar::{AABB, RTree};
 use rustc_hash::FxHashMap;
 use smallvec::SmallVec;
 
-use super::insertion::{StreetStrand, TOLERANCE};
-use crate::grid::{GridPlace, PER_METRE, WholePlace, foot};
+use super::strand::StreetStrand;
+use crate::plan::grid::{GridPlace, PER_METRE, WholePlace, foot};
 use burgeon_geometry::planar;
 use glam::DVec2;
 
+/// Maximum distance (m) between a street and its input line, except at an end that is moved onto another street.
+const TOLERANCE: f64 = 0.1;
 /// Snap distance (m) between vertices, and between a line and a vertex.
 const NEAR: f64 = 0.03;
 /// Snap distance (m) between the end of a line and another line.

@@ -3,10 +3,9 @@
 use glam::DVec2;
 use smallvec::SmallVec;
 
-use crate::corner::{Arm, Corner, LINES};
-use crate::grid::foot;
-use crate::merged::goes_on;
-use crate::network::{JunctionId, PieceId, StreetNetwork};
+use crate::plan::corner::{Arm, Corner, LINES};
+use crate::plan::grid::foot;
+use crate::plan::network::{JunctionId, PieceId, StreetNetwork};
 
 /// Distance (m) below which points are merged, because the area between them would be a sliver.
 pub(crate) const SAME: f64 = 0.02;
@@ -266,7 +265,7 @@ impl JunctionShape {
             let corner = if count > 2 { network.constraints.corner.min(room * share * SHARE) } else { 0.0 };
             own + corner.max(0.0)
         };
-        let is_mitred = goes_on(network, junction) && arms.iter().all(|(piece, _)| reach(*piece) == 0.0);
+        let is_mitred = network.goes_on(junction) && arms.iter().all(|(piece, _)| reach(*piece) == 0.0);
         let is_mitred = is_mitred || (count == 1 && network.constraints.square_ends);
         let shapes = arms.iter().enumerate().map(|(index, &(piece, arm))| {
             let corner = Corner::new([arm, arms[(index + 1) % count].1], 0.0);
@@ -377,11 +376,11 @@ pub(crate) fn is_same(a: DVec2, b: DVec2) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::constraints::Constraints;
-    use crate::network::StreetAttributes;
-    use crate::obstacles::Obstacles;
-    use crate::profile::StreetProfiles;
-    use crate::surface::SurfaceOptions;
+    use crate::plan::constraints::Constraints;
+    use crate::plan::network::StreetAttributes;
+    use crate::plan::obstacles::Obstacles;
+    use crate::shape::profile::StreetProfiles;
+    use crate::surface::parts::SurfaceOptions;
     use crate::tests::grown;
 
     #[test]

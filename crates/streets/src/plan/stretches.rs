@@ -2,8 +2,8 @@
 
 use glam::DVec2;
 
-use crate::faces::Course;
-use crate::network::{JunctionId, PieceId, StreetAttributes, StreetNetwork};
+use super::faces::Course;
+use super::network::{JunctionId, PieceId, StreetAttributes, StreetNetwork};
 
 /// Street between two junctions or ends, with constant attributes.
 #[derive(Debug, Clone, PartialEq)]

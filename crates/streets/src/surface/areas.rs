@@ -2,11 +2,12 @@
 
 use glam::{DVec2, DVec3};
 
-use crate::corner::StreetLine;
-use crate::network::{JunctionId, PieceId, StreetNetwork};
-use crate::profile::StreetProfiles;
-use crate::shape::{StreetShapes, is_same};
-use crate::surface::{SurfaceOptions, outline};
+use super::junctions::outline;
+use super::parts::SurfaceOptions;
+use crate::plan::corner::StreetLine;
+use crate::plan::network::{JunctionId, PieceId, StreetNetwork};
+use crate::shape::profile::StreetProfiles;
+use crate::shape::shapes::{StreetShapes, is_same};
 
 /// Area of a segment, of a junction, or of the part of a segment before or after its bridge.
 #[derive(Debug, Clone, PartialEq)]

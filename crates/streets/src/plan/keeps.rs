@@ -2,18 +2,36 @@
 
 use smallvec::SmallVec;
 
-use crate::constraints::Refusal;
-use crate::corner::{Arm, turn};
-use crate::grid::{GridPlace, foot, touch};
-use crate::grow::StreetEnd;
-use crate::network::{JunctionId, PieceId, StreetAttributes, StreetNetwork};
+use super::constraints::Refusal;
+use super::corner::{Arm, turn};
+use super::grid::{GridPlace, foot, touch};
+use super::network::{JunctionId, PieceId, StreetAttributes, StreetNetwork};
 
 /// Tolerance (degrees) of the minimum angle for a new street: both ends are rounded to the grid.
 const ROUNDING: f64 = 0.01;
 /// Tolerance (m) for corners that take more of a street than before a new street was added.
 const EVEN: f64 = 1e-6;
 
+/// Possible end of a street.
+#[derive(Debug, Clone, Copy)]
+pub(crate) enum StreetEnd {
+    /// Existing junction.
+    Junction(JunctionId),
+    /// Position on a segment.
+    On(PieceId, GridPlace),
+    /// Position without a junction or street.
+    Free(GridPlace),
+}
+
 impl StreetNetwork {
+    /// Returns the position of the end of a street.
+    pub(crate) fn place_of(&self, end: StreetEnd) -> GridPlace {
+        match end {
+            StreetEnd::Junction(junction) => self.junctions[junction as usize].place,
+            StreetEnd::On(_, place) | StreetEnd::Free(place) => place,
+        }
+    }
+
     /// Tests whether a street from a junction to an end meets all constraints; counts the examined neighbours.
     pub(crate) fn test(
         &self,

@@ -3,7 +3,7 @@
 use glam::DVec2;
 use smallvec::SmallVec;
 
-use crate::network::{JunctionId, PieceId, StreetNetwork};
+use crate::plan::network::{JunctionId, PieceId, StreetNetwork};
 
 /// Heights of the streets of a network; all 0 in a flat network.
 #[derive(Debug, Clone, Default, PartialEq)]

@@ -7,9 +7,9 @@ use glam::DVec2;
 use rustc_hash::FxHashMap;
 use smallvec::SmallVec;
 
-use crate::grid::{GridPlace, crossing, foot};
-use crate::grow::StreetEnd;
-use crate::network::{JunctionId, StreetNetwork};
+use super::grid::{GridPlace, crossing, foot};
+use super::keeps::StreetEnd;
+use super::network::{JunctionId, StreetNetwork};
 
 /// Deviation (degrees) from straight ahead at which a connection counts as twice its length.
 const DEVIATION: f64 = 45.0;

@@ -2,11 +2,11 @@
 
 use glam::{DVec2, DVec3};
 
-use crate::network::{PieceId, StreetNetwork};
-use crate::profile::StreetProfiles;
-use crate::rows::alongs_of;
-use crate::shape::{ArmShape, StreetShapes};
-use crate::surface::SurfaceOptions;
+use super::parts::SurfaceOptions;
+use super::rows::alongs_of;
+use crate::plan::network::{PieceId, StreetNetwork};
+use crate::shape::profile::StreetProfiles;
+use crate::shape::shapes::{ArmShape, StreetShapes};
 
 /// Maximum distance (m) between piers of a bridge.
 const BAY: f64 = 24.0;

@@ -5,8 +5,8 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use glam::DVec2;
 
-use super::*;
 use crate::existing::tests::{network, town};
+use crate::plan::merge_cache::{MergeOptions, MergedLevel};
 use crate::{StreetProfiles, SurfaceOptions};
 use burgeon_geometry::planar::twice_area;
 

@@ -4,9 +4,15 @@ use glam::DVec2;
 use rustc_hash::{FxHashMap, FxHashSet};
 
 use super::cover::StreetCover;
-use super::mesh::MeshTriangle;
 use burgeon_geometry::Rings;
 use burgeon_geometry::planar::twice_area;
+
+/// Triangle: its corners, counter-clockwise, and the triangle beyond each of its edges, in the same order.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct MeshTriangle {
+    pub(super) corners: [u32; 3],
+    pub(super) beyond: [Option<u32>; 3],
+}
 
 /// Returns the areas without streets that streets enclose, as indices of triangles.
 pub(super) fn components(triangles: &[MeshTriangle], covered: &[StreetCover]) -> Vec<Vec<u32>> {

@@ -10,12 +10,12 @@ use rustc_hash::{FxHashMap, FxHashSet};
 use spade::{ConstrainedDelaunayTriangulation, Point2, Triangulation};
 
 use super::cover::{CoverIndex, StreetCover};
-use super::loops::{components, loops};
-use super::{MergeOptions, MergedBlock, MergedLevel};
-use crate::corner::StreetLine;
+use super::loops::{MeshTriangle, components, loops};
 use crate::existing::{StreetStrand, node};
-use crate::grid::GridPlace;
-use crate::network::StreetNetwork;
+use crate::plan::corner::StreetLine;
+use crate::plan::grid::GridPlace;
+use crate::plan::merge_cache::{MergeOptions, MergedBlock, MergedLevel};
+use crate::plan::network::StreetNetwork;
 use burgeon_geometry::Rings;
 use burgeon_geometry::planar::twice_area;
 
@@ -109,13 +109,6 @@ fn divided(edges: Vec<[GridPlace; 2]>, longest: f64) -> Vec<[GridPlace; 2]> {
     edges.sort_unstable();
     edges.dedup();
     edges
-}
-
-/// Triangle: its corners, counter-clockwise, and the triangle beyond each of its edges, in the same order.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct MeshTriangle {
-    pub(super) corners: [u32; 3],
-    pub(super) beyond: [Option<u32>; 3],
 }
 
 /// Triangulates the convex hull of the edges; adds the vertices to `points`.

@@ -2,7 +2,7 @@
 
 use rustc_hash::FxHashMap;
 
-use crate::network::{JunctionId, PieceId, StreetNetwork};
+use super::network::{JunctionId, PieceId, StreetNetwork};
 use burgeon_geometry::planar::{contains, twice_area};
 use glam::DVec2;
 

@@ -1,15 +1,13 @@
 //! Merged surfaces at the heights of the streets.
 
-use std::f64::consts::TAU;
-
 use glam::{DVec2, DVec3};
 use rustc_hash::FxHashMap;
 
-use super::{MergeOptions, MergedLevel, MergedStreets};
-use crate::grid::foot;
-use crate::network::{JunctionId, StreetNetwork};
-use crate::profile::StreetProfiles;
-use crate::surface::{StreetDeck, StreetFooting, StreetSurface, StreetSurfaces, SurfaceOptions};
+use crate::plan::grid::foot;
+use crate::plan::merge_cache::{MergeOptions, MergedLevel, MergedStreets};
+use crate::plan::network::StreetNetwork;
+use crate::shape::profile::StreetProfiles;
+use crate::surface::parts::{StreetDeck, StreetSurface, StreetSurfaces, SurfaceOptions};
 use burgeon_geometry::Rings;
 
 /// Maximum length (m) of an edge if streets are not level.
@@ -122,22 +120,6 @@ impl StreetNetwork {
         let height = |at: DVec2| if is_flat { 0.0 } else { self.height_of(at, 0, profiles) };
         let raised = |ring: &Vec<DVec2>| ring.iter().map(|at| at.extend(height(*at))).collect::<Vec<_>>();
         level.blocks.iter().map(|block| block.rings.iter().map(raised).collect()).collect()
-    }
-
-    /// Returns the footing of a junction: a circle with the diameter of its widest street on the ground.
-    pub(crate) fn round_footing(
-        &self,
-        junction: JunctionId,
-        profiles: &StreetProfiles,
-    ) -> Option<StreetFooting> {
-        let pieces = self.junctions[junction as usize].pieces.iter();
-        let halves = pieces.filter(|piece| self.is_on_ground(**piece)).map(|piece| self.half(*piece));
-        let radius = halves.fold(0.0, f64::max);
-        let (at, height) = (self.at(junction), profiles.junction(junction));
-        let corner =
-            |index: u32| (at + DVec2::from_angle(TAU * f64::from(index) / 12.0) * radius).extend(height);
-        let line = (0..12).map(corner).collect();
-        (radius > 0.0).then_some(StreetFooting { line, width: 0.0, piece: None, is_below: false })
     }
 }
 

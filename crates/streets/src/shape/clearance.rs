@@ -1,18 +1,35 @@
 //! Length of each segment that is free of other streets, for markings and objects along it.
 
+use std::sync::Arc;
+
 use glam::DVec2;
 
-use crate::grid::foot;
-use crate::network::{JunctionId, PieceId, StreetNetwork};
+use crate::plan::grid::foot;
+use crate::plan::merge_cache::ClearLengths;
+use crate::plan::network::{PieceId, StreetNetwork};
+use burgeon_base::locks::LockRecovery;
 
 /// Sampling distance (m) along a segment.
 const STEP: f64 = 1.0;
-/// Maximum turn (degrees) at which one street continues in another.
-const GOES_ON: f64 = 20.0;
+
+impl StreetNetwork {
+    /// Returns the distance (m) from both ends within which each segment overlaps other streets.
+    pub(crate) fn clear_lengths(&self) -> ClearLengths {
+        let mut known = self.merge_cache.clear.lock().recover();
+        if let Some((version, lengths)) = known.as_ref()
+            && *version == self.version()
+        {
+            return Arc::clone(lengths);
+        }
+        let lengths: ClearLengths = clear_lengths(self).into();
+        *known = Some((self.version(), Arc::clone(&lengths)));
+        lengths
+    }
+}
 
 /// Returns the distance (m) from the first and from the last junction within which other streets of the same level
 /// overlap each segment. The two distances add up to the segment's length if no part is free.
-pub(crate) fn clear_lengths(network: &StreetNetwork) -> Vec<[f64; 2]> {
+fn clear_lengths(network: &StreetNetwork) -> Vec<[f64; 2]> {
     let mut lengths = vec![[0.0; 2]; network.pieces.len()];
     let streets = street_numbers(network);
     for (piece, _) in network.pieces() {
@@ -21,17 +38,10 @@ pub(crate) fn clear_lengths(network: &StreetNetwork) -> Vec<[f64; 2]> {
     lengths
 }
 
-/// Returns true if a street continues at a junction of two segments with only a slight turn.
-pub(crate) fn goes_on(network: &StreetNetwork, junction: JunctionId) -> bool {
-    let [a, b] = network.junctions[junction as usize].pieces[..] else { return false };
-    let same = network.attributes(a) == network.attributes(b) && network.is_bridge(a) == network.is_bridge(b);
-    same && (-network.leaves(a, junction)).angle_to(network.leaves(b, junction)).abs().to_degrees() < GOES_ON
-}
-
 /// Returns the street number of each segment; a street ends at a junction where it does not continue.
 fn street_numbers(network: &StreetNetwork) -> Vec<u32> {
     let mut numbers = vec![u32::MAX; network.pieces.len()];
-    for (number, way) in (0..).zip(network.ways_between(|junction| !goes_on(network, junction))) {
+    for (number, way) in (0..).zip(network.ways_between(|junction| !network.goes_on(junction))) {
         way.iter().for_each(|course| numbers[course.piece as usize] = number);
     }
     numbers

@@ -6,7 +6,7 @@ use glam::DVec2;
 use rstar::primitives::{GeomWithData, Line as IndexLine, Rectangle};
 use rstar::{AABB, RTree};
 
-use crate::grid::{crossing, foot};
+use super::grid::{crossing, foot};
 use burgeon_geometry::planar::contains;
 use burgeon_geometry::{Polygon, planar};
 

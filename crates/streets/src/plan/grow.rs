@@ -8,9 +8,10 @@
 use glam::DVec2;
 use smallvec::SmallVec;
 
-use crate::constraints::{Constraints, Fate, Refusal};
-use crate::grid::{GridPlace, crossing, foot};
-use crate::network::{JunctionId, PieceId, StreetAttributes, StreetNetwork};
+use super::constraints::{Constraints, Fate, Refusal};
+use super::grid::{GridPlace, crossing, foot};
+use super::keeps::StreetEnd;
+use super::network::{JunctionId, PieceId, StreetAttributes, StreetNetwork};
 use burgeon_base::error::{Error, Limit, Result};
 
 /// Increment (degrees) of the turn at each attempt to avoid an obstacle.
@@ -34,17 +35,6 @@ pub struct StreetProspect {
     pub place: DVec2,
     /// End junction, if it already exists.
     pub junction: Option<JunctionId>,
-}
-
-/// Possible end of a street.
-#[derive(Debug, Clone, Copy)]
-pub(crate) enum StreetEnd {
-    /// Existing junction.
-    Junction(JunctionId),
-    /// Position on a segment.
-    On(PieceId, GridPlace),
-    /// Position without a junction or street.
-    Free(GridPlace),
 }
 
 impl StreetNetwork {
@@ -349,13 +339,6 @@ impl StreetNetwork {
     pub(crate) fn widest_at(&self, junction: JunctionId) -> f64 {
         let pieces = &self.junctions[junction as usize].pieces;
         pieces.iter().map(|piece| self.pieces[*piece as usize].attributes.width).fold(0.0, f64::max)
-    }
-
-    pub(crate) fn place_of(&self, end: StreetEnd) -> GridPlace {
-        match end {
-            StreetEnd::Junction(junction) => self.junctions[junction as usize].place,
-            StreetEnd::On(_, place) | StreetEnd::Free(place) => place,
-        }
     }
 }
 

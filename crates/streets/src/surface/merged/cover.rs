@@ -6,10 +6,10 @@ use glam::DVec2;
 use rstar::primitives::{GeomWithData, Rectangle};
 use rstar::{AABB, RTree};
 
-use super::MergeOptions;
-use crate::corner::{Arm, Corner, LINES, StreetLine, left, meeting, pieces, turn};
-use crate::network::{JunctionId, PieceId, StreetNetwork};
-use crate::shape::room_around;
+use crate::plan::corner::{Arm, Corner, LINES, StreetLine, left, meeting, pieces, turn};
+use crate::plan::merge_cache::MergeOptions;
+use crate::plan::network::{JunctionId, PieceId, StreetNetwork};
+use crate::shape::shapes::room_around;
 use burgeon_geometry::planar::contains;
 
 /// Angle (radians) below which a bend has a mitre instead of an arc.

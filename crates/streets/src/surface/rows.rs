@@ -4,11 +4,11 @@ use std::f64::consts::FRAC_PI_2;
 
 use glam::{DVec2, DVec3};
 
-use crate::corner::StreetLine;
-use crate::network::PieceId;
-use crate::profile::StreetProfiles;
-use crate::shape::{ArmShape, SAME, StreetShapes};
-use crate::surface::{Median, StreetSurface};
+use super::parts::{Median, StreetSurface};
+use crate::plan::corner::StreetLine;
+use crate::plan::network::PieceId;
+use crate::shape::profile::StreetProfiles;
+use crate::shape::shapes::{ArmShape, SAME, StreetShapes};
 use burgeon_geometry::Line;
 
 /// Number of chords in a quarter circle at the round end of a median.

@@ -8,7 +8,7 @@ use std::f64::consts::PI;
 use glam::DVec2;
 use smallvec::SmallVec;
 
-use crate::corner::{
+use super::corner::{
     Corner, CornerShape, DEVIATION, EVEN, LINES, StreetLine, TAPER_LENGTH, apart, chords, left, meeting,
 };
 

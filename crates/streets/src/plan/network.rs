@@ -5,11 +5,11 @@ use rstar::primitives::{GeomWithData, Line as IndexLine};
 use rstar::{AABB, PointDistance, RTree};
 use smallvec::SmallVec;
 
-use crate::constraints::Constraints;
-use crate::corner::{Arm, Corner};
-use crate::grid::GridPlace;
-use crate::merged::MergeCache;
-use crate::obstacles::Obstacles;
+use super::constraints::Constraints;
+use super::corner::{Arm, Corner};
+use super::grid::GridPlace;
+use super::merge_cache::MergeCache;
+use super::obstacles::Obstacles;
 use burgeon_base::error::Result;
 
 /// Index of a junction.
@@ -80,6 +80,9 @@ pub struct StreetPiece {
     /// Marks a street that existed before the network grew, and is kept.
     pub is_existing: bool,
 }
+
+/// Maximum turn (degrees) at which one street continues in another.
+const GOES_ON: f64 = 20.0;
 
 type IndexItem<G> = GeomWithData<G, u32>;
 
@@ -212,6 +215,13 @@ impl StreetNetwork {
             pieces.iter().map(|&piece| (piece, self.leaves(piece, junction))).collect();
         arms.sort_by(|(_, a), (_, b)| a.to_angle().total_cmp(&b.to_angle()));
         arms
+    }
+
+    /// Returns true if a street continues at a junction of two segments with only a slight turn.
+    pub(crate) fn goes_on(&self, junction: JunctionId) -> bool {
+        let [a, b] = self.junctions[junction as usize].pieces[..] else { return false };
+        let same = self.attributes(a) == self.attributes(b) && self.is_bridge(a) == self.is_bridge(b);
+        same && (-self.leaves(a, junction)).angle_to(self.leaves(b, junction)).abs().to_degrees() < GOES_ON
     }
 
     /// Returns the distance (m) from a junction at which each arm begins, beyond its corners.

@@ -9,10 +9,6 @@ mod cover;
 mod levels;
 mod loops;
 mod mesh;
-mod room;
 mod surfaces;
 #[cfg(test)]
 mod tests;
-
-pub(crate) use levels::{MergeCache, MergeOptions, MergedBlock, MergedLevel, MergedStreets};
-pub(crate) use room::goes_on;
