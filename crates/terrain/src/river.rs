@@ -9,7 +9,7 @@ use std::collections::BinaryHeap;
 
 use glam::{DVec2, DVec3};
 
-use super::ground::GroundMap;
+use crate::tiles::ground::GroundMap;
 
 /// The cells of a map, with their flow directions.
 #[derive(Clone)]

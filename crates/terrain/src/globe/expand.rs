@@ -5,8 +5,8 @@
 //! missing fourth cell has the mean of the two adjacent cells.
 
 use super::faces::{CubeCell, cell};
-use crate::block::{Area, Block};
-use crate::world::{Divide, World, smooth};
+use crate::division::block::{Area, Block};
+use crate::division::world::{Divide, World, smooth};
 use burgeon_base::error::Result;
 use burgeon_rewriting::ModuleKey;
 

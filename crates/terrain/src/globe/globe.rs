@@ -16,9 +16,9 @@ use super::expand::{Areas, NONE, expand, padded};
 use super::faces::{CubeCell, aliases, corner};
 use super::leaves::{DEEPEST, DETAIL, Leaf, Sight, Tree};
 use super::sphere::{direction, place, side};
-use crate::block::{Area, Block};
-use crate::tile::Tile;
-use crate::world::{Divide, World};
+use crate::division::block::{Area, Block};
+use crate::division::world::{Divide, World};
+use crate::tiles::tile::Tile;
 use burgeon_base::MemoryOwner;
 use burgeon_base::error::Result;
 

@@ -14,9 +14,10 @@ use rustc_hash::{FxHashMap, FxHashSet};
 use super::faces::{CubeCell, aliases};
 use super::globe::Globe;
 use super::leaves::ball;
-use crate::mesh::{GridCorner, HeightGrid, RightTriangle, corners, diamond, roots};
-use crate::tile::Tile;
-use crate::world::World;
+use crate::division::world::World;
+use crate::mesh::height_grid::HeightGrid;
+use crate::mesh::triangle::{GridCorner, RightTriangle, corners, diamond, roots};
+use crate::tiles::tile::Tile;
 use burgeon_base::MemoryOwner;
 use burgeon_scene::Part;
 

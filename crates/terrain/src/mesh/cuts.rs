@@ -55,7 +55,7 @@ pub struct GroundCuts {
 
 /// A corner of a part of a triangle: a corner of the triangle, or a point on a border with its height.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) enum PartCorner {
+pub(crate) enum PartCorner {
     Own(usize),
     Border(DVec3),
 }
@@ -101,7 +101,7 @@ impl GroundCuts {
 
     /// Returns the parts of a counter-clockwise triangle that lie outside all areas; `None` if it intersects
     /// none.
-    pub(super) fn outside(&self, corners: [DVec2; 3]) -> Option<Vec<[PartCorner; 3]>> {
+    pub(crate) fn outside(&self, corners: [DVec2; 3]) -> Option<Vec<[PartCorner; 3]>> {
         let [low, high] =
             corners[1..].iter().fold([corners[0]; 2], |[low, high], at| [low.min(*at), high.max(*at)]);
         let near = self.near(low, high);

@@ -3,9 +3,9 @@
 use glam::DVec2;
 use rayon::prelude::*;
 
-use super::block::{Area, Block};
-use super::local_edits::LocalEdits;
-use super::world::World;
+use crate::division::block::{Area, Block};
+use crate::division::world::World;
+use crate::edits::local_edits::LocalEdits;
 use burgeon_base::MemoryOwner;
 use burgeon_rewriting::Symbol;
 
@@ -28,7 +28,7 @@ pub struct Tile {
     /// Number of divisions of the tile.
     pub detail: u32,
     /// Hash of its edits; 0 without edits.
-    pub(super) mark: u64,
+    pub(crate) mark: u64,
     /// Cells with known heights: the tile's own cells, and one more on each side within the world.
     area: Area,
     heights: Vec<f64>,
@@ -66,7 +66,7 @@ impl Tile {
     }
 
     /// Adds the surface of the cells to the measured ground, and applies the edits.
-    pub(super) fn lay(&mut self, world: &World, changes: LocalEdits) {
+    pub(crate) fn lay(&mut self, world: &World, changes: LocalEdits) {
         self.changes = changes;
         let own = Self::own(self.place, self.detail);
         let (level, across) = (self.level(), own.columns + 1);
@@ -83,7 +83,7 @@ impl Tile {
 
     /// Returns the height (m) of edited measured ground at `place` (m), where the surface of the cells has
     /// the height `laid` (m).
-    pub(super) fn changed(&self, place: DVec2, world: &World, laid: f64) -> f64 {
+    pub(crate) fn changed(&self, place: DVec2, world: &World, laid: f64) -> f64 {
         let ground = world.ground(place, laid);
         self.changes.at(place, ground)
     }
@@ -126,7 +126,7 @@ impl Tile {
 
     /// Returns the height (m) of the ground at a corner of the tile's own cells.
     #[inline]
-    pub(super) fn ground(&self, x: i64, y: i64) -> f64 {
+    pub(crate) fn ground(&self, x: i64, y: i64) -> f64 {
         if self.corners.is_empty() {
             return self.corner(x, y);
         }

@@ -12,117 +12,12 @@ use rayon::prelude::*;
 use rustc_hash::{FxHashMap, FxHashSet};
 
 use super::cuts::{GroundCuts, PartCorner};
-use super::ground::Ground;
+use super::height_grid::HeightGrid;
 use super::samples::{TileSamples, Vertex};
-use super::tile::{Tile, TilePlace};
+use super::triangle::{GridCorner, RightTriangle, corners, diamond, roots, turned};
+use crate::tiles::ground::Ground;
 use burgeon_base::MemoryOwner;
 use burgeon_scene::Part;
-
-/// A corner of the smallest cells: column from the west and row from the north.
-pub(super) type GridCorner = [i64; 2];
-
-/// A triangle with its right angle at `apex`.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct RightTriangle {
-    pub a: GridCorner,
-    pub b: GridCorner,
-    pub apex: GridCorner,
-}
-
-impl RightTriangle {
-    /// Returns the midpoint of its longest side, where it is halved; `None` if it cannot be halved.
-    pub(super) fn middle(&self) -> Option<GridCorner> {
-        let sum = [self.a[0] + self.b[0], self.a[1] + self.b[1]];
-        (sum[0] & 1 == 0 && sum[1] & 1 == 0).then(|| [sum[0] >> 1, sum[1] >> 1])
-    }
-
-    pub(super) fn halves(&self, middle: GridCorner) -> [Self; 2] {
-        [Self { a: self.apex, b: self.a, apex: middle }, Self { a: self.b, b: self.apex, apex: middle }]
-    }
-}
-
-/// Heights (m) at all corners of the cells of a tile.
-pub(super) struct HeightGrid {
-    pub heights: Vec<f64>,
-    /// Number of corners per side.
-    pub across: usize,
-    /// First corner.
-    pub first: GridCorner,
-    /// Size of its cells relative to the smallest cells, as an exponent of two.
-    pub shift: u32,
-}
-
-impl HeightGrid {
-    fn new(ground: &Ground, tile: &Tile) -> Self {
-        let shift = ground.finest() - tile.level();
-        let own = Tile::own(tile.place, tile.detail);
-        let across = own.columns + 1;
-        let mut heights = Vec::with_capacity(across * across);
-        for y in (own.y..).take(across) {
-            for x in (own.x..).take(across) {
-                let rim = x == own.x || y == own.y || !own.contains(x, y);
-                let height =
-                    if rim { ground.corner(x << shift, y << shift) } else { Some(tile.ground(x, y)) };
-                heights.push(height.unwrap_or(0.0));
-            }
-        }
-        Self { heights, across, first: [own.x << shift, own.y << shift], shift }
-    }
-
-    #[inline]
-    fn at(&self, column: usize, row: usize) -> f64 {
-        self.heights[row * self.across + column]
-    }
-
-    /// Returns true if the ground is farther than `error` (m) from a triangle whose corners all belong to the
-    /// grid.
-    #[allow(clippy::cast_precision_loss, reason = "columns are below 2^31")]
-    pub(super) fn is_far(&self, triangle: &RightTriangle, error: f64) -> bool {
-        let own = |corner: GridCorner| {
-            let [x, y] = [0, 1].map(|axis| usize::try_from((corner[axis] - self.first[axis]) >> self.shift));
-            (x.unwrap_or(0), y.unwrap_or(0))
-        };
-        let [a, b, c] = [triangle.a, triangle.b, triangle.apex].map(own);
-        let [p, q, r] = [a, b, c].map(|(x, y)| (DVec2::new(x as f64, y as f64), self.at(x, y)));
-        // The plane through its corners: both legs have the same length.
-        let (u, v) = (p.0 - r.0, q.0 - r.0);
-        let length = u.length_squared();
-        let gradient = (u * (p.1 - r.1) + v * (q.1 - r.1)) / length;
-        let (top, bottom) = (a.1.min(b.1).min(c.1), a.1.max(b.1).max(c.1));
-        for row in top..=bottom {
-            // Intersections of the row with the sides.
-            let (mut left, mut right) = (usize::MAX, 0);
-            for (from, to) in [(a, b), (b, c), (c, a)] {
-                let (from, to) = if from.1 <= to.1 { (from, to) } else { (to, from) };
-                if from.1 == to.1 {
-                    if from.1 == row {
-                        (left, right) = (left.min(from.0.min(to.0)), right.max(from.0.max(to.0)));
-                    }
-                    continue;
-                }
-                if row < from.1 || row > to.1 {
-                    continue;
-                }
-                // Sides run along a row, along a column, or diagonally.
-                let down = row - from.1;
-                let x = match to.0.cmp(&from.0) {
-                    std::cmp::Ordering::Equal => from.0,
-                    std::cmp::Ordering::Greater => from.0 + down,
-                    std::cmp::Ordering::Less => from.0 - down,
-                };
-                (left, right) = (left.min(x), right.max(x));
-            }
-            let begin = r.1 + gradient.dot(DVec2::new(left as f64, row as f64) - r.0);
-            let heights = &self.heights[row * self.across..];
-            for (step, height) in heights[left..=right].iter().enumerate() {
-                if (height - (begin + gradient.x * step as f64)).abs() > error {
-                    return true;
-                }
-            }
-        }
-        false
-    }
-}
 
 /// A triangulation of expanded ground.
 pub struct GroundMesh<'a> {
@@ -360,50 +255,4 @@ fn drop_unused(part: &mut Part, base: usize, triangles: &mut [[u32; 3]]) {
     for corner in triangles.iter_mut().flatten() {
         *corner = numbers[*corner as usize - base];
     }
-}
-
-/// Returns the right-angled corners of the two triangles that are halved at a corner, and the ends of their
-/// common longest side; `None` for the corners of a world of `across` smallest cells.
-pub(super) fn diamond([x, y]: GridCorner, across: i64) -> Option<([GridCorner; 2], [GridCorner; 2])> {
-    let step = (x | y) & -(x | y);
-    if step == 0 || step >= across {
-        return None;
-    }
-    let (odd_x, odd_y) = (x & step != 0, y & step != 0);
-    let beside = |right: i64, down: i64| [x + right * step, y + down * step];
-    Some(if odd_x && odd_y {
-        let (one, other) = ([beside(-1, -1), beside(1, 1)], [beside(1, -1), beside(-1, 1)]);
-        let [cx, cy] = one[0];
-        let even = ((cx / (2 * step)) + (cy / (2 * step))) & 1 == 0;
-        if even { (other, one) } else { (one, other) }
-    } else if odd_x {
-        ([beside(0, -1), beside(0, 1)], [beside(-1, 0), beside(1, 0)])
-    } else {
-        ([beside(-1, 0), beside(1, 0)], [beside(0, -1), beside(0, 1)])
-    })
-}
-
-/// Returns the corners of a tile, in cells of the level `finest`: north-west, north-east, south-west and
-/// south-east.
-pub(super) fn corners(place: TilePlace, finest: u32) -> [GridCorner; 4] {
-    let size = 1i64 << (finest - place.level);
-    let [x, y] = [place.x * size, place.y * size];
-    [[x, y], [x + size, y], [x, y + size], [x + size, y + size]]
-}
-
-/// Returns the two root triangles of a tile, counter-clockwise from above.
-pub(super) fn roots(place: TilePlace, finest: u32) -> [RightTriangle; 2] {
-    let [a, b, c, d] = corners(place, finest);
-    if (place.x + place.y) & 1 == 0 {
-        [RightTriangle { a, b: d, apex: b }, RightTriangle { a: d, b: a, apex: c }].map(turned)
-    } else {
-        [RightTriangle { a: b, b: c, apex: a }, RightTriangle { a: c, b, apex: d }].map(turned)
-    }
-}
-
-/// Orients a triangle counter-clockwise as seen from above, where rows run to the south.
-fn turned(triangle: RightTriangle) -> RightTriangle {
-    let RightTriangle { a, b, apex } = triangle;
-    let [u, v] = [[b[0] - a[0], b[1] - a[1]], [apex[0] - a[0], apex[1] - a[1]]];
-    if u[0] * v[1] - u[1] * v[0] < 0 { triangle } else { RightTriangle { a: b, b: a, apex } }
 }

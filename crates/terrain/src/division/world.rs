@@ -13,8 +13,14 @@ use burgeon_base::error::{Error, Result};
 use burgeon_base::memory::zeroed;
 use burgeon_rewriting::{ModuleKey, Symbol};
 
+/// Maximum number of divisions of a world: its finest columns and rows are numbered in 31 bits.
+pub const DEEPEST: u32 = 30;
+
 /// Memory (bytes) of the quadrants of a cell: symbols, heights and a parameter.
 const DIVIDED: usize = 4 * 18;
+
+/// Minimum slope (m/m) for the full addition of detail to measured heights.
+const STEEP: f64 = 0.3;
 
 /// Rules that divide cells.
 #[derive(Clone)]
@@ -123,7 +129,7 @@ impl World {
 
     /// Returns the north-west corner (m) of a cell.
     #[allow(clippy::cast_precision_loss, reason = "columns and rows are below 2^53")]
-    pub(super) fn corner_of(&self, level: u32, x: i64, y: i64) -> DVec2 {
+    pub(crate) fn corner_of(&self, level: u32, x: i64, y: i64) -> DVec2 {
         let cell = self.cell(level);
         DVec2::new(self.corner.x + x as f64 * cell, self.corner.y + self.size - y as f64 * cell)
     }
@@ -216,13 +222,30 @@ impl World {
         Ok(block.unwrap_or_else(|| from.clone()))
     }
 
+    /// Returns the height (m) of the ground at `place` (m), where the surface of the rules has the height
+    /// `laid` (m): that height, or the measured height with as much detail as is allowed there.
+    pub(crate) fn ground(&self, place: DVec2, laid: f64) -> f64 {
+        let Some(measured) = &self.measured else { return laid };
+        let (height, slope) = measured.ground(place, self.smooth).unwrap_or_default();
+        if laid == 0.0 {
+            return height;
+        }
+        height + laid * measured.freedom(place) * eased(slope / STEEP)
+    }
+
+    /// Returns true if the cells of `level` are small enough to show each sample.
+    pub fn shows_samples(&self, level: u32) -> bool {
+        // Equal sizes may differ by rounding.
+        self.measured.as_ref().is_some_and(|measured| self.cell(level) <= measured.step() * (1.0 + 1e-6))
+    }
+
     /// Returns true if heights are mapped.
-    pub(super) fn is_remapped(&self) -> bool {
+    pub(crate) fn is_remapped(&self) -> bool {
         !self.remap.is_empty()
     }
 
     /// Returns the mapped height (m).
-    pub(super) fn remapped(&self, height: f64) -> f64 {
+    pub(crate) fn remapped(&self, height: f64) -> f64 {
         let (Some(first), Some(last)) = (self.remap.first(), self.remap.last()) else { return height };
         let above = self.remap.partition_point(|pair| pair[0] <= height);
         match (above.checked_sub(1).map(|below| self.remap[below]), self.remap.get(above)) {
@@ -233,7 +256,7 @@ impl World {
     }
 
     /// Returns the quadrants of the cells of `area`, by the rules alone.
-    pub(super) fn quarter(
+    pub(crate) fn quarter(
         &self,
         cells: &Block,
         area: Area,
@@ -253,7 +276,7 @@ impl World {
     }
 
     /// Initializes the cells with the symbol, height and parameters of the rules that begin at their level.
-    pub(super) fn begin_layer(&self, block: &mut Block) {
+    pub(crate) fn begin_layer(&self, block: &mut Block) {
         let Some(layer) = self.layers.iter().find(|layer| layer.from == block.level) else { return };
         block.symbols.fill(layer.start);
         block.stride = layer.rest.len();
@@ -263,6 +286,11 @@ impl World {
             both.for_each(|height| *height += layer.height);
         }
     }
+}
+
+fn eased(along: f64) -> f64 {
+    let along = along.clamp(0.0, 1.0);
+    along * along * (3.0 - 2.0 * along)
 }
 
 /// Returns the quadrants of cells without rules.
@@ -297,7 +325,7 @@ fn undivided(cells: &Block, area: Area) -> Block {
 /// cells, plus the difference of the quadrants' own heights to those of the cells.
 ///
 /// Method: Doo and Sabin, "Behaviour of recursive division surfaces near extraordinary points", 1978, on a grid.
-pub(super) fn smooth(cells: &Block, made: &mut Block) {
+pub(crate) fn smooth(cells: &Block, made: &mut Block) {
     let area = made.area;
     let columns = area.columns;
     if columns == 0 {

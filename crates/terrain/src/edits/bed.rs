@@ -1,10 +1,8 @@
 //! Beds: constraints of objects on the ground, which is level with the bed and limited in slope next to it.
 
-use burgeon_geometry::planar::contains;
+use burgeon_geometry::planar::{contains, foot};
 use glam::DVec2;
 use serde::{Deserialize, Serialize};
-
-use super::edits::{mix, to_line};
 
 /// The bed of a street, or of another narrow or flat object.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -23,13 +21,13 @@ pub struct GroundBed {
 }
 
 impl GroundBed {
-    pub(super) fn reach(&self) -> f64 {
+    pub(crate) fn reach(&self) -> f64 {
         self.width / 2.0 + self.margin
     }
 
     /// Returns the distance (m) of a point from the bed and the bed's height (m) at its nearest point; `None`
     /// beyond the margin.
-    pub(super) fn beside(&self, place: DVec2) -> Option<(f64, f64)> {
+    pub(crate) fn beside(&self, place: DVec2) -> Option<(f64, f64)> {
         let flat: Vec<[f64; 2]> = self.line.iter().map(|[x, y, _]| [*x, *y]).collect();
         let (mut distance, piece, along) = to_line(&flat, place, self.is_area);
         let next = self.line.get((piece + 1) % self.line.len().max(1));
@@ -45,11 +43,33 @@ impl GroundBed {
     }
 }
 
+/// Interpolates between two heights (m).
+pub(crate) fn mix(a: f64, b: f64, part: f64) -> f64 {
+    // At full strength the result is exactly the new height.
+    if part >= 1.0 { b } else { a + (b - a) * part }
+}
+
+/// Returns the distance (m) of `place` from a line, the index of the nearest segment, and the position (0 to
+/// 1) along it.
+pub(crate) fn to_line(points: &[[f64; 2]], place: DVec2, closed: bool) -> (f64, usize, f64) {
+    let count = if closed { points.len() } else { points.len().saturating_sub(1) };
+    let mut best = (f64::INFINITY, 0, 0.0);
+    for piece in 0..count {
+        let edge = [points[piece], points[(piece + 1) % points.len()]].map(DVec2::from);
+        let along = foot(edge, place);
+        let distance = place.distance(edge[0] + (edge[1] - edge[0]) * along);
+        if distance < best.0 {
+            best = (distance, piece, along);
+        }
+    }
+    best
+}
+
 #[cfg(test)]
 mod tests {
     use burgeon_base::random::Stream;
 
-    use super::super::edits::Edit;
+    use super::super::edit::Edit;
     use super::super::local_edits::LocalEdits;
     use super::*;
 

@@ -6,9 +6,9 @@
 use glam::DVec2;
 use rayon::prelude::*;
 
-use super::ground::Ground;
-use super::mesh::{GridCorner, RightTriangle};
-use super::tile::Tile;
+use super::triangle::{GridCorner, RightTriangle};
+use crate::tiles::ground::Ground;
+use crate::tiles::tile::Tile;
 
 /// Minimum distance (m) between a sample and a triangle that requires a vertex.
 const LEAST: f64 = 2e-4;
@@ -20,7 +20,7 @@ const NEAR_PART: f64 = 3e-7;
 
 /// A sample, positioned in the grid of the smallest cells, from the north-west.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Sample {
+pub(crate) struct Sample {
     pub at: DVec2,
     /// Position (m).
     pub place: DVec2,
@@ -30,7 +30,7 @@ pub(super) struct Sample {
 
 /// Samples of a tile, by the rows of its cells.
 #[derive(Default)]
-pub(super) struct TileSamples {
+pub(crate) struct TileSamples {
     all: Vec<Sample>,
     /// Start index of each row in `all`; rows are sorted from west to east.
     rows: Vec<usize>,
@@ -43,7 +43,7 @@ pub(super) struct TileSamples {
 
 /// A vertex of a triangle: a corner of cells, or a sample of its tile.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub(super) enum Vertex {
+pub(crate) enum Vertex {
     Corner(GridCorner),
     Sample(usize),
 }
@@ -51,7 +51,7 @@ pub(super) enum Vertex {
 impl TileSamples {
     /// Collects the samples that the cells of `tile` can show; none if the cells are too large or if the
     /// ground is not measured.
-    pub(super) fn new(ground: &Ground, tile: &Tile) -> Self {
+    pub(crate) fn new(ground: &Ground, tile: &Tile) -> Self {
         let world = ground.world();
         let (Some(measured), true) = (&world.measured, world.shows_samples(tile.level())) else {
             return Self::default();
@@ -93,24 +93,24 @@ impl TileSamples {
     }
 
     /// Returns true if there are no samples.
-    pub(super) fn is_empty(&self) -> bool {
+    pub(crate) fn is_empty(&self) -> bool {
         self.all.is_empty()
     }
 
     /// Returns true if a sample lies on a column (axis 0) or a row (axis 1) of the grid of the smallest
     /// cells.
-    pub(super) fn is_on(&self, index: usize, axis: usize, line: i64) -> bool {
+    pub(crate) fn is_on(&self, index: usize, axis: usize, line: i64) -> bool {
         (self.get(index).at[axis] - number(line)).abs() <= self.near
     }
 
     /// Returns a sample by its index.
-    pub(super) fn get(&self, index: usize) -> &Sample {
+    pub(crate) fn get(&self, index: usize) -> &Sample {
         &self.all[index]
     }
 
     /// Returns true if a sample in `triangle`, with the heights (m) `heights` at its corners, is farther than
     /// `error` (m) from it.
-    pub(super) fn is_far(&self, triangle: &RightTriangle, heights: [f64; 3], error: f64) -> bool {
+    pub(crate) fn is_far(&self, triangle: &RightTriangle, heights: [f64; 3], error: f64) -> bool {
         let error = error.max(LEAST);
         let mut far = false;
         self.each(triangle, |_, sample, distances| {
@@ -121,7 +121,7 @@ impl TileSamples {
     }
 
     /// Divides `triangle` at the samples that are farther than `error` (m) from it; empty if there are none.
-    pub(super) fn divide(&self, triangle: &RightTriangle, heights: [f64; 3], error: f64) -> Vec<[Vertex; 3]> {
+    pub(crate) fn divide(&self, triangle: &RightTriangle, heights: [f64; 3], error: f64) -> Vec<[Vertex; 3]> {
         let error = error.max(LEAST);
         let mut within = Vec::new();
         self.each(triangle, |index, sample, distances| {

@@ -2,9 +2,9 @@
 
 use glam::DVec2;
 
-use super::block::Area;
 use super::tile::TilePlace;
-use super::world::World;
+use crate::division::block::Area;
+use crate::division::world::{DEEPEST, World};
 use burgeon_base::error::{Error, Limit, Result};
 use burgeon_base::text::number;
 
@@ -30,7 +30,7 @@ pub struct View {
 }
 
 /// The cells of a world that are the tiles of a view.
-pub(super) struct ViewCells {
+pub(crate) struct ViewCells {
     pub level: u32,
     pub window: Area,
     /// Number of divisions of each cell of the window.
@@ -51,7 +51,7 @@ impl View {
     /// Returns the cells that are tiles for an eye at `eye` (m). At the boundary of the world there are
     /// fewer.
     #[allow(clippy::cast_precision_loss, clippy::cast_possible_truncation, reason = "columns are below 2^40")]
-    pub(super) fn fit(&self, world: &World, eye: DVec2) -> Result<ViewCells> {
+    pub(crate) fn fit(&self, world: &World, eye: DVec2) -> Result<ViewCells> {
         let to = eye - world.corner;
         if !(0.0..=world.size).contains(&to.x) || !(0.0..=world.size).contains(&to.y) {
             let (low, high) = (world.corner, world.corner + world.size);
@@ -121,11 +121,8 @@ impl View {
     }
 }
 
-/// Maximum number of divisions of a world: its finest columns and rows are numbered in 31 bits.
-pub const DEEPEST: u32 = 30;
-
 /// Creates the error for too many heights.
-pub(super) fn too_many(heights: u64) -> Error {
+pub(crate) fn too_many(heights: u64) -> Error {
     #[allow(clippy::cast_precision_loss, reason = "a size for people")]
     let bytes = heights as f64 * 8.0;
     let units = [("PB", 1e15), ("TB", 1e12), ("GB", 1e9), ("MB", 1e6)];
@@ -139,7 +136,7 @@ pub(super) fn too_many(heights: u64) -> Error {
 
 impl ViewCells {
     /// Returns the position of the tile with this index in the window.
-    pub(super) fn place(&self, index: usize) -> TilePlace {
+    pub(crate) fn place(&self, index: usize) -> TilePlace {
         let (x, y) = self.window.at(index);
         TilePlace { level: self.level, y, x }
     }

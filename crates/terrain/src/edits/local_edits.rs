@@ -2,11 +2,11 @@
 
 use glam::DVec2;
 
-use super::edits::Edit;
+use super::edit::Edit;
 
 /// Edits in order, with the squares that they affect.
 #[derive(Debug, Clone, Default)]
-pub(super) struct LocalEdits {
+pub(crate) struct LocalEdits {
     edits: Vec<LocalEdit>,
     low: DVec2,
     /// Side lengths (m) of a square, and the number of squares per side of the part.
@@ -27,7 +27,7 @@ const MOST_ACROSS: usize = 128;
 
 impl LocalEdits {
     /// Creates an index of `edits` for the box from `low` to `high` (m).
-    pub(super) fn new(edits: impl IntoIterator<Item = Edit>, low: DVec2, high: DVec2) -> Self {
+    pub(crate) fn new(edits: impl IntoIterator<Item = Edit>, low: DVec2, high: DVec2) -> Self {
         let edits: Vec<LocalEdit> =
             edits.into_iter().map(|edit| LocalEdit { bounds: edit.bounds(), edit }).collect();
         if edits.is_empty() {
@@ -49,12 +49,12 @@ impl LocalEdits {
     }
 
     /// Returns true if there are no edits.
-    pub(super) fn is_empty(&self) -> bool {
+    pub(crate) fn is_empty(&self) -> bool {
         self.edits.is_empty()
     }
 
     /// Returns the new height (m) of a point, given the previous height (m).
-    pub(super) fn at(&self, place: DVec2, height: f64) -> f64 {
+    pub(crate) fn at(&self, place: DVec2, height: f64) -> f64 {
         if self.squares.is_empty() {
             return height;
         }

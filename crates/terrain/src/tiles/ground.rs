@@ -11,11 +11,11 @@ use std::sync::Arc;
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 
-use super::block::{Area, Block};
-use super::edits::Edits;
 use super::tile::{Tile, TilePlace};
 use super::view::{MOST_HEIGHTS, View, ViewCells, too_many};
-use super::world::{Divide, Tables, World};
+use crate::division::block::{Area, Block};
+use crate::division::world::{Divide, Tables, World};
+use crate::edits::store::Edits;
 use burgeon_base::MemoryOwner;
 use burgeon_base::error::Result;
 
@@ -238,7 +238,7 @@ impl Ground {
 
     /// Returns the index of the tile that contains one of the smallest cells.
     #[inline]
-    pub(super) fn holder(&self, x: i64, y: i64) -> Option<usize> {
+    pub(crate) fn holder(&self, x: i64, y: i64) -> Option<usize> {
         let down = self.finest - self.level;
         let (x, y) = (x >> down, y >> down);
         (!self.tiles.is_empty() && self.window.contains(x, y)).then(|| self.window.index(x, y))
@@ -259,7 +259,7 @@ impl Ground {
 
     /// Returns the height (m) of the ground at a corner of the smallest cells; `None` outside the expanded
     /// area.
-    pub(super) fn corner(&self, x: i64, y: i64) -> Option<f64> {
+    pub(crate) fn corner(&self, x: i64, y: i64) -> Option<f64> {
         if self.world.measured.is_none() {
             return self.laid(x, y);
         }
@@ -373,7 +373,7 @@ impl Ground {
     }
 
     /// Returns the surface normal (a unit vector) at a corner of the smallest cells.
-    pub(super) fn normal(&self, x: i64, y: i64) -> DVec3 {
+    pub(crate) fn normal(&self, x: i64, y: i64) -> DVec3 {
         let Some(tile) = self.coarsest(x, y) else { return DVec3::Z };
         let step = 1i64 << (self.finest - tile.level());
         let size = self.world.cell(tile.level());
@@ -407,7 +407,7 @@ impl Ground {
     }
 
     /// Returns the first and the last corner of the expanded square, in the grid of the smallest cells.
-    pub(super) fn rim(&self) -> [[i64; 2]; 2] {
+    pub(crate) fn rim(&self) -> [[i64; 2]; 2] {
         let down = self.finest - self.level;
         let end = |first: i64, count: usize| (first + i64::try_from(count).unwrap_or(0)) << down;
         let Area { x, y, columns, rows } = self.window;
@@ -415,7 +415,7 @@ impl Ground {
     }
 
     /// Returns the position (m) of a corner of the smallest cells.
-    pub(super) fn place(&self, x: i64, y: i64) -> DVec2 {
+    pub(crate) fn place(&self, x: i64, y: i64) -> DVec2 {
         self.world.corner_of(self.finest, x, y)
     }
 }
