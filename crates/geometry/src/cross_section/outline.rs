@@ -4,16 +4,16 @@ use geo::line_intersection::{LineIntersection, line_intersection};
 use geo::{Coord, Orientation};
 use glam::DVec2;
 
-use super::planar::{Point, contains, coord, orientation, twice_area};
-use super::ring::MOST;
-use super::section::SectionPoint;
+use super::point::SectionPoint;
 use super::simplify::corners;
+use crate::limits::MOST;
+use crate::planar::{Point, contains, coord, orientation, twice_area};
 use burgeon_base::Stop;
 use burgeon_base::error::{Error, Result};
 
 /// A point with its position in the user's list, counted from 1.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct NumberedPoint {
+pub(crate) struct NumberedPoint {
     pub point: SectionPoint,
     pub number: usize,
 }
@@ -32,7 +32,7 @@ struct NamedRing {
 
 /// Owner and tolerances of rings.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct OutlineOptions {
+pub(crate) struct OutlineOptions {
     /// Name of the owner in error messages.
     pub owner: &'static str,
     /// Distance (m) within which points are merged.
@@ -60,13 +60,13 @@ const SECTION: OutlineOptions = OutlineOptions { owner: "cross-section", near: 1
 /// Drops repeated points, and sharp points on a straight line between sharp points. Fails if a coordinate is
 /// not finite, if a ring has fewer than 3 distinct points or no area, if rings cross or touch themselves or
 /// each other, or if a hole is outside the outer ring or inside another hole.
-pub(super) fn closed(outer: &[SectionPoint], holes: &[Vec<SectionPoint>]) -> Result<Vec<Vec<SectionPoint>>> {
+pub(crate) fn closed(outer: &[SectionPoint], holes: &[Vec<SectionPoint>]) -> Result<Vec<Vec<SectionPoint>>> {
     let rings = numbered_rings(outer, holes, &SECTION)?;
     Ok(rings.into_iter().map(|ring| ring.into_iter().map(|point| point.point).collect()).collect())
 }
 
 /// Cleans rings like [`closed`], with the options of another owner, and keeps the numbers of the points.
-pub(super) fn numbered_rings(
+pub(crate) fn numbered_rings(
     outer: &[SectionPoint],
     holes: &[Vec<SectionPoint>],
     manner: &OutlineOptions,
@@ -107,7 +107,7 @@ fn rings_within(
 }
 
 /// Returns a cleaned open line of at least 2 distinct points; fails if it crosses or touches itself.
-pub(super) fn open(points: &[SectionPoint]) -> Result<Vec<SectionPoint>> {
+pub(crate) fn open(points: &[SectionPoint]) -> Result<Vec<SectionPoint>> {
     let name = "the line".to_owned();
     let mut points = numbered(&name, points, &SECTION)?;
     drop_repeated(&mut points, SECTION.near, false);
@@ -122,7 +122,7 @@ pub(super) fn open(points: &[SectionPoint]) -> Result<Vec<SectionPoint>> {
 }
 
 /// Returns true if the points form a valid hole, regardless of other rings.
-pub(super) fn is_hole(points: &[SectionPoint], manner: &OutlineOptions) -> bool {
+pub(crate) fn is_hole(points: &[SectionPoint], manner: &OutlineOptions) -> bool {
     ring(String::new(), points, true, manner).is_ok()
 }
 

@@ -4,34 +4,14 @@ use std::sync::OnceLock;
 
 use glam::DVec2;
 
-use super::planar::Rings;
+use super::outline;
+use super::point::{Knot, SectionPoint};
 use super::skin::Skin;
-use super::{cap, outline};
+use crate::planar::{Rings, triangulate};
 use burgeon_base::error::{Error, Limit, Result};
 
 /// Maximum number of points of a cross-section.
 pub const MOST_POINTS: usize = 10_000;
-
-/// A point of a cross-section's outline.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct SectionPoint {
-    /// Position (m).
-    pub at: DVec2,
-    /// Smooth shading at this point; otherwise the surface has a sharp edge.
-    pub smooth: bool,
-}
-
-impl SectionPoint {
-    /// Creates a point with a sharp edge.
-    pub fn sharp(at: DVec2) -> Self {
-        Self { at, smooth: false }
-    }
-
-    /// Creates a point of a smooth outline.
-    pub fn smooth(at: DVec2) -> Self {
-        Self { at, smooth: true }
-    }
-}
 
 /// A cross-section in its own plane, in metres at scale 1.
 ///
@@ -54,14 +34,6 @@ impl PartialEq for Section {
     }
 }
 
-/// A corner of a section, or a point inserted into one of its edges.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Knot {
-    pub(super) at: DVec2,
-    pub(super) smooth: bool,
-    pub(super) inserted: bool,
-}
-
 impl Section {
     /// Creates a section from an outer ring and holes, each in either direction and without a repeated last
     /// point.
@@ -78,7 +50,7 @@ impl Section {
     }
 
     /// Creates a section from a ring that is known to be counter-clockwise, convex and valid.
-    pub(super) fn convex<const N: usize>(points: [SectionPoint; N]) -> Self {
+    pub(crate) fn convex<const N: usize>(points: [SectionPoint; N]) -> Self {
         let cap = (1..N - 1).map(|corner| [0, corner, corner + 1]).collect();
         Self { rings: vec![knots(&points)], open: false, cap, skins: Default::default() }
     }
@@ -147,7 +119,7 @@ impl Section {
     /// Adds a point to each edge wherever another point has the same `axis` coordinate.
     ///
     /// If the section is then squeezed to a line along that axis, its edges coincide in pairs.
-    pub(super) fn divided_at_levels(&self, axis: usize) -> Result<Self> {
+    pub(crate) fn divided_at_levels(&self, axis: usize) -> Result<Self> {
         let mut levels: Vec<f64> = self.knots().map(|knot| knot.at[axis]).collect();
         levels.sort_by(f64::total_cmp);
         levels.dedup_by(|next, kept| *next - *kept < 1e-9);
@@ -193,7 +165,7 @@ impl Section {
     fn with_rings(rings: Vec<Vec<Knot>>, open: bool) -> Result<Self> {
         let outlines: Vec<Vec<DVec2>> =
             rings.iter().map(|ring| ring.iter().map(|knot| knot.at).collect()).collect();
-        let cap = if open { Vec::new() } else { cap::triangulate(&outlines)? };
+        let cap = if open { Vec::new() } else { triangulate(&outlines)? };
         Ok(Self { rings, open, cap, skins: Default::default() })
     }
 
@@ -246,14 +218,14 @@ impl Section {
         self.points().fold(DVec2::ZERO, |reach, point| reach.max(point.abs()))
     }
 
-    pub(super) fn rings(&self) -> &[Vec<Knot>] {
+    pub(crate) fn rings(&self) -> &[Vec<Knot>] {
         &self.rings
     }
 
     /// Returns the division into faces, with edges at the sharp points, or at all points unless `around`
     /// requests smooth shading.
-    pub(super) fn skin(&self, around: bool) -> &Skin {
-        self.skins[usize::from(around)].get_or_init(|| Skin::new(self, around))
+    pub(crate) fn skin(&self, around: bool) -> &Skin {
+        self.skins[usize::from(around)].get_or_init(|| Skin::new(&self.rings, self.open, around))
     }
 
     fn knots(&self) -> impl Iterator<Item = &Knot> {
@@ -265,7 +237,7 @@ fn knots(ring: &[SectionPoint]) -> Vec<Knot> {
     ring.iter().map(|point| Knot { at: point.at, smooth: point.smooth, inserted: false }).collect()
 }
 
-pub(super) fn refuse_too_many(points: usize) -> Result<()> {
+pub(crate) fn refuse_too_many(points: usize) -> Result<()> {
     if points <= MOST_POINTS {
         return Ok(());
     }

@@ -5,9 +5,9 @@ use std::f64::consts::{FRAC_1_SQRT_2, FRAC_PI_2};
 
 use glam::DVec2;
 
-use super::planar::Rings;
-use super::section::refuse_too_many;
-use super::{Section, SectionPoint};
+use super::point::SectionPoint;
+use super::section::{Section, refuse_too_many};
+use crate::planar::Rings;
 use burgeon_base::error::{Error, Result};
 
 impl Section {
@@ -86,8 +86,8 @@ fn refuse_flat(width: f64, height: f64) -> Result<()> {
 mod tests {
     use std::f64::consts::TAU;
 
-    use super::super::section::MOST_POINTS;
     use super::*;
+    use crate::MOST_POINTS;
 
     #[test]
     fn areas_and_perimeters_follow_their_formulas() {

@@ -2,7 +2,7 @@
 
 use glam::DVec2;
 
-use super::planar::{self, Point, distance};
+use crate::planar::{self, Point, distance};
 
 /// Returns the indices of the points of `ring` to keep, in order.
 ///
@@ -58,9 +58,9 @@ mod tests {
 
     use rustc_hash::FxHashMap;
 
-    use super::super::skeleton::samples::Random;
-    use super::super::{Plan, Rings};
     use super::*;
+    use crate::skeleton::samples::Random;
+    use crate::{Plan, Rings};
 
     const TOLERANCE: f64 = 2e-3;
 

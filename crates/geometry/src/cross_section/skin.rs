@@ -5,52 +5,51 @@ use std::ops::Range;
 use glam::{DVec2, DVec3};
 use smallvec::{SmallVec, smallvec};
 
-use super::Section;
-use super::ring::FEW;
-use super::section::Knot;
+use super::point::Knot;
+use crate::limits::FEW;
 
 /// One vertex of each row: a point of the section and the outline's direction there.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct SkinColumn {
-    pub(super) point: usize,
-    pub(super) tangent: Tangent,
+pub(crate) struct SkinColumn {
+    pub(crate) point: usize,
+    pub(crate) tangent: Tangent,
 }
 
 /// A weighted mean of the directions of up to three edges.
 ///
 /// The mean is computed after the edges are scaled, so that the direction stays between them.
-pub(super) type Tangent = [(DVec2, f64); 3];
+pub(crate) type Tangent = [(DVec2, f64); 3];
 
 /// Consecutive columns without a sharp edge between them.
 #[derive(Debug, Clone)]
-pub(super) struct Strip {
+pub(crate) struct Strip {
     /// Range of columns; faces join each column to the next one.
-    pub(super) columns: Range<usize>,
+    pub(crate) columns: Range<usize>,
     /// Index of the section's ring.
-    pub(super) ring: usize,
+    pub(crate) ring: usize,
     /// Marks a strip along a straight line.
-    pub(super) straight: bool,
+    pub(crate) straight: bool,
 }
 
 /// Texture coordinates (m) around the section.
-pub(super) type SkinCoordinates = SmallVec<[f64; 2 * FEW]>;
+pub(crate) type SkinCoordinates = SmallVec<[f64; 2 * FEW]>;
 
 /// Division of a section's outline.
 #[derive(Debug, Clone)]
-pub(super) struct Skin {
-    pub(super) columns: Vec<SkinColumn>,
-    pub(super) strips: Vec<Strip>,
+pub(crate) struct Skin {
+    pub(crate) columns: Vec<SkinColumn>,
+    pub(crate) strips: Vec<Strip>,
 }
 
 impl Skin {
-    /// Divides the outline at the sharp points, or at every point unless the surface is smooth `around`.
+    /// Divides the outline `rings` at the sharp points, or at every point unless the surface is smooth `around`.
     ///
     /// A ring without sharp points is divided at its first point, because texture coordinates begin there.
-    pub(super) fn new(section: &Section, around: bool) -> Self {
+    pub(crate) fn new(rings: &[Vec<Knot>], open: bool, around: bool) -> Self {
         let mut skin = Self { columns: Vec::new(), strips: Vec::new() };
         let mut first = 0;
-        for (index, ring) in section.rings().iter().enumerate() {
-            skin.add_ring(index, first, ring, section.is_open(), around);
+        for (index, ring) in rings.iter().enumerate() {
+            skin.add_ring(index, first, ring, open, around);
             first += ring.len();
         }
         skin
@@ -84,7 +83,7 @@ impl Skin {
     /// centres `middles`.
     ///
     /// They run to both sides from the centre of each strip, so that a tapering face is not sheared.
-    pub(super) fn across(&self, points: &[DVec3], middles: &[f64]) -> SkinCoordinates {
+    pub(crate) fn across(&self, points: &[DVec3], middles: &[f64]) -> SkinCoordinates {
         let mut across: SkinCoordinates = smallvec![0.0; self.columns.len()];
         for (strip, middle) in self.strips.iter().zip(middles) {
             let mut sum = 0.0;
@@ -98,7 +97,7 @@ impl Skin {
     }
 
     /// Returns the position (m) of each strip's centre along its ring.
-    pub(super) fn middles(&self, points: &[DVec3]) -> SkinCoordinates {
+    pub(crate) fn middles(&self, points: &[DVec3]) -> SkinCoordinates {
         let (mut ring, mut sum) = (0, 0.0);
         let middle = |strip: &Strip| {
             if strip.ring != ring {

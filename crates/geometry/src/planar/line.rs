@@ -4,9 +4,8 @@ use std::ops::Deref;
 
 use glam::DVec2;
 
-use super::Point;
 use super::measure::bounds;
-use super::ring::check;
+use super::point::{Point, check};
 use burgeon_base::error::{Error, Result};
 
 /// A polyline: at least two finite points, each different from the previous one.

@@ -2,14 +2,15 @@
 
 use std::ops::{Add, Deref};
 
-use geo::{LineString, Simplify};
+use geo::Simplify;
 use glam::{DVec2, DVec3};
 
-use super::convert::open;
-use super::measure::{bounds, contains, has_area, hull};
-use super::ring::shown;
-use super::{Point, Ring, Rings};
-use crate::cap;
+use super::Rings;
+use super::measure::{bounds, contains, has_area};
+use super::point::{Point, shown};
+use super::ring::{Ring, hull};
+use super::strings::{closed_string, open};
+use super::triangulation::triangulate;
 use burgeon_base::error::{Error, Result};
 
 /// A polygon: an outer ring and holes; a polygon without rings is empty.
@@ -193,7 +194,7 @@ impl Polygon {
     /// # Ok::<(), burgeon_base::error::Error>(())
     /// ```
     pub fn triangles(&self) -> Result<Vec<[usize; 3]>> {
-        cap::triangulate(self)
+        triangulate(self)
     }
 
     /// Returns the rings without points that are within `distance` (m) of the line between others; the result
@@ -213,7 +214,7 @@ impl Polygon {
     /// # Ok::<(), burgeon_base::error::Error>(())
     /// ```
     pub fn simplified(&self, distance: f64) -> Rings<DVec2> {
-        self.rings.iter().map(|ring| open(&LineString::from(ring).simplify(distance))).collect()
+        self.rings.iter().map(|ring| open(&closed_string(ring).simplify(distance))).collect()
     }
 }
 
@@ -231,5 +232,11 @@ impl<'a, P> IntoIterator for &'a Polygon<P> {
 
     fn into_iter(self) -> Self::IntoIter {
         self.rings.iter()
+    }
+}
+
+impl<P: Clone> From<&Polygon<P>> for Rings<P> {
+    fn from(polygon: &Polygon<P>) -> Self {
+        polygon.iter().map(|ring| ring.to_vec()).collect()
     }
 }

@@ -1,12 +1,13 @@
-//! Triangulation of the ends of a sweep, without T-junctions or slivers.
+//! Triangulation of polygons, such as the ends of a sweep, without T-junctions or slivers.
 
 use geo::TriangulateEarcut;
 use glam::DVec2;
 use rustc_hash::FxHashSet;
 use spade::{ConstrainedDelaunayTriangulation, Point2, Triangulation};
 
-use super::planar::{geo_polygon, twice_area};
+use super::measure::twice_area;
 use super::sides::Sides;
+use super::strings::geo_polygon;
 use burgeon_base::error::{Error, Result};
 
 /// Triangulates a polygon, and returns counter-clockwise triangles of indices into the concatenated points of
@@ -21,7 +22,7 @@ use burgeon_base::error::{Error, Result};
 /// "Software for C1 surface interpolation", 1977), which removes slivers. If points are collinear up to
 /// rounding, such as the corners of many holes in rotated rows, clipping may choose wrong ears. In that case
 /// all points are triangulated with exact predicates, which is slower.
-pub(super) fn triangulate(rings: &[impl AsRef<[DVec2]>]) -> Result<Vec<[usize; 3]>> {
+pub(crate) fn triangulate(rings: &[impl AsRef<[DVec2]>]) -> Result<Vec<[usize; 3]>> {
     let points: Vec<DVec2> = rings.iter().flat_map(AsRef::as_ref).copied().collect();
     let border = border(rings);
     let is_sound = |triangles: &Vec<[usize; 3]>| {
@@ -263,7 +264,7 @@ mod tests {
     /// Returns a rotated rectangle with rows of equal holes, whose corners are collinear up to rounding, and
     /// its area.
     fn turned_grid(seed: u64) -> (Vec<Vec<DVec2>>, f64) {
-        let mut random = super::super::skeleton::samples::Random(seed);
+        let mut random = crate::skeleton::samples::Random(seed);
         let mut whole = |from: f64, to: f64| from + (random.next() * (to - from + 1.0)).floor();
         let (columns, rows) = (whole(1.0, 7.0), whole(1.0, 7.0));
         let (wing, hole) = (whole(2.0, 8.0), DVec2::new(whole(3.0, 12.0), whole(3.0, 12.0)));

@@ -3,10 +3,10 @@
 use glam::{DVec2, DVec3};
 use smallvec::SmallVec;
 
-use super::outline::{OutlineOptions, numbered_rings};
-use super::planar::{Polygon, Rings};
 use super::repair::{PlanRepair, fill, repair};
-use super::section::SectionPoint;
+use crate::cross_section::outline::{OutlineOptions, numbered_rings};
+use crate::cross_section::point::SectionPoint;
+use crate::planar::{Polygon, Rings};
 use burgeon_base::error::{Error, Limit, Result};
 
 const PLAN: OutlineOptions = OutlineOptions { owner: "footprint", near: 0.01, straight: 2e-3 };

@@ -7,12 +7,12 @@ use glam::{DVec2, DVec3};
 use rstar::primitives::{GeomWithData, Line};
 use rstar::{AABB, PointDistance, RTree};
 
-use super::outline::{OutlineOptions, is_hole, numbered_rings};
-use super::overlay::{self, Fill, PolygonArea, unite};
-use super::planar::{Polygon, Rings, edges, foot, twice_area};
-use super::ring::MOST;
-use super::section::SectionPoint;
 use super::slits::{self, Slit};
+use crate::cross_section::outline::{OutlineOptions, is_hole, numbered_rings};
+use crate::cross_section::point::SectionPoint;
+use crate::limits::MOST;
+use crate::overlay::{self, Fill, PolygonArea, unite};
+use crate::planar::{Polygon, Rings, edges, foot, twice_area};
 use burgeon_base::Stop;
 use burgeon_base::error::Result;
 

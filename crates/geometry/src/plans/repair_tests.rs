@@ -3,7 +3,7 @@
 use glam::{DVec2, DVec3};
 use proptest::prelude::*;
 
-use super::super::{Plan, Rings};
+use crate::{Plan, Rings};
 
 fn ring(points: &[[f64; 2]]) -> Vec<DVec3> {
     points.iter().map(|point| DVec3::new(point[0], point[1], 0.0)).collect()

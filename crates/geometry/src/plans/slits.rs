@@ -6,7 +6,7 @@
 
 use glam::DVec2;
 
-use super::outline::OutlineOptions;
+use crate::cross_section::outline::OutlineOptions;
 
 /// Minimum ratio of the depth of a slit to its maximum width.
 const DEEP: f64 = 2.0;
@@ -43,7 +43,7 @@ impl Slit {
 
 /// Finds the slits of valid rings: the first ring is counter-clockwise, the others are clockwise.
 pub(super) fn find<R: AsRef<[DVec2]>>(rings: &[R], manner: &OutlineOptions) -> Vec<Slit> {
-    let edges = rings.iter().map(AsRef::as_ref).flat_map(super::planar::edges);
+    let edges = rings.iter().map(AsRef::as_ref).flat_map(crate::planar::edges);
     let mut edges: Vec<[DVec2; 2]> = edges.collect();
     edges.sort_by(|a, b| a[0].x.min(a[1].x).total_cmp(&b[0].x.min(b[1].x)));
     let mut slits = Vec::new();

@@ -2,7 +2,7 @@
 
 use glam::{DVec2, DVec3};
 
-use super::patches::at_level;
+use super::levels::at_level;
 use super::plate::{border, part};
 use super::shape::Profile;
 use super::support::divide_feet;

@@ -6,8 +6,8 @@ use rustc_hash::FxHashMap;
 use smallvec::SmallVec;
 
 use super::super::skeleton::{Pace, Skeleton};
+use super::levels::{at_level, is_at};
 use super::overhang::Rake;
-use super::plate::is_at;
 use super::shape::{Profile, between};
 use super::{Patch, PatchKind};
 use crate::planar::edges;
@@ -161,11 +161,6 @@ fn spans(profile: &Profile, pace: &Pace) -> Spans {
         }
     }
     spans
-}
-
-/// Interpolates between `low` and `high` at `level`, which is between their heights.
-pub(super) fn at_level(low: DVec3, high: DVec3, level: f64) -> DVec3 {
-    low.truncate().lerp(high.truncate(), (level - low.z) / (high.z - low.z)).extend(level)
 }
 
 /// Returns the part of `piece` up to `level`, and adds the parts beyond to `above`. Each begins with its

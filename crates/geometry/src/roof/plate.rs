@@ -3,7 +3,7 @@
 use glam::{DVec2, DVec3};
 use rustc_hash::FxHashMap;
 
-use super::patches::at_level;
+use super::levels::{at_level, is_at};
 use crate::planar::edges;
 
 /// Maximum distance (m) of a slope from a corner of the walls, at the top of the walls.
@@ -88,11 +88,6 @@ fn stand_still(rings: &[Vec<usize>], before: &[usize], points: &mut [DVec3], res
             }
         }
     }
-}
-
-#[allow(clippy::float_cmp, reason = "levels are copies")]
-pub(super) fn is_at(point: DVec3, level: f64) -> bool {
-    point.z == level
 }
 
 /// Reports whether a face crosses the top of the walls beyond the left and the right end of its wall (true),

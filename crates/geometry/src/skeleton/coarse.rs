@@ -3,8 +3,8 @@
 use glam::DVec3;
 use smallvec::SmallVec;
 
-use super::Peak;
 use super::edge::SkeletonEdge;
+use super::skeleton::Peak;
 
 /// Maximum length (m), horizontally and in time, of short borders, and maximum width of thin spikes.
 const FINEST: f64 = 1e-3;

@@ -4,7 +4,7 @@ use std::cmp::Ordering;
 
 use glam::{DVec2, I64Vec2};
 
-use super::Pace;
+use super::skeleton::Pace;
 use crate::planar::Polygon;
 use burgeon_base::error::{Error, Limit, Result};
 
@@ -62,6 +62,12 @@ fn nearest(point: DVec2) -> I64Vec2 {
 /// Converts a point of the lattice to metres.
 pub(super) fn metres(point: I64Vec2) -> DVec2 {
     point.as_dvec2() / CELLS
+}
+
+/// Converts the index of a corner or edge, of which there are fewer than 2^32.
+#[allow(clippy::cast_possible_truncation, reason = "there is no memory for more")]
+pub(super) fn short(number: usize) -> u32 {
+    number as u32
 }
 
 /// An edge of the polygon.

@@ -5,8 +5,8 @@ use smallvec::SmallVec;
 
 use super::coarse::{coarsen, widen};
 use super::edge::{SkeletonEdge, metres};
+use super::skeleton::{Peak, Skeleton};
 use super::wavefront::{Arc, WavefrontTrace};
-use super::{Peak, Skeleton};
 use crate::planar::twice_area;
 use burgeon_base::error::{Error, Result};
 

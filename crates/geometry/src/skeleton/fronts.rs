@@ -2,8 +2,7 @@
 
 use glam::{DVec2, Vec2};
 
-use super::edge::Direction;
-use super::events::short;
+use super::edge::{Direction, short};
 use super::lines::MovingLine;
 
 /// Number of edges per block, for SIMD instructions on single-precision numbers.

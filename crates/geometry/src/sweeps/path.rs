@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use glam::{DQuat, DVec2};
 
-use super::Frame;
+use crate::frame::Frame;
 use burgeon_base::error::{Error, Limit, Result};
 
 /// Maximum number of steps of a segment.

@@ -3,7 +3,7 @@
 use glam::{DVec3, Vec3};
 
 use super::ring::SectionRing;
-use super::solid::is_flat;
+use crate::solid::is_flat;
 
 /// A face between two rings: two corners on the first ring from left to right, then two on the second from
 /// right to left.

@@ -4,17 +4,11 @@ use glam::{DVec2, DVec3, Vec3};
 
 use smallvec::SmallVec;
 
-use super::{Frame, Section, Station};
+use super::path::Station;
+use crate::cross_section::section::Section;
+use crate::frame::Frame;
+use crate::limits::{FEW, MOST, NOTHING};
 use burgeon_base::error::{Error, Result};
-
-/// Maximum length (m) that counts as zero: about the f32 rounding error of a coordinate of a few metres.
-pub(super) const NOTHING: f64 = 1.0 / (1 << 22) as f64;
-
-/// Maximum coordinate (m) and factor: squares and products of them fit into f32 and f64.
-pub(super) const MOST: f64 = 1e9;
-
-/// Number of points of a rectangle, the usual section of small solids: its rings need no heap memory.
-pub(super) const FEW: usize = 4;
 
 /// Minimum reach (m) of a section from its axis: a smaller section collapses onto the axis, so that no face
 /// is a sliver.

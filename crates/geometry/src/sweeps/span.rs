@@ -5,9 +5,10 @@ use std::f64::consts::FRAC_PI_2;
 use glam::{DMat3, DQuat, DVec2, DVec3};
 use smallvec::{SmallVec, smallvec};
 
-use super::Section;
-use super::ring::{FEW, NOTHING, Pose, SectionRing};
-use super::skin::{Skin, Tangent};
+use super::ring::{Pose, SectionRing};
+use crate::cross_section::section::Section;
+use crate::cross_section::skin::{Skin, Tangent};
+use crate::limits::{FEW, NOTHING};
 use burgeon_base::error::{Error, Result};
 
 /// Directions in which normals are smooth over a surface.

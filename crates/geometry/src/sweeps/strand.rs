@@ -5,7 +5,7 @@ use std::sync::LazyLock;
 
 use glam::{DVec2, DVec3, Vec2, Vec3, Vec3A, Vec4};
 
-use super::ring::MOST;
+use crate::limits::MOST;
 use burgeon_base::error::{Error, Limit, Result};
 use burgeon_scene::{Normal, Part, Triangles};
 
@@ -329,8 +329,8 @@ mod tests {
 
     use proptest::prelude::*;
 
-    use super::super::solid::{check, volume};
     use super::*;
+    use crate::solid::{check, volume};
 
     fn strand(sides: usize, points: &[(DVec3, f64)]) -> Part {
         let mut part = Part::default();

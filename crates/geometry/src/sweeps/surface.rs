@@ -3,11 +3,13 @@
 use glam::{DVec2, DVec3, Vec2, Vec3};
 use smallvec::{SmallVec, smallvec};
 
+use super::options::{Lengthwise, SweepOptions, SweepResult};
 use super::quad::Quad;
-use super::ring::{NOTHING, SectionRing};
-use super::skin::Skin;
+use super::ring::SectionRing;
 use super::span::{NormalSpread, Span};
-use super::{Lengthwise, Section, SweepOptions, SweepResult};
+use crate::cross_section::section::Section;
+use crate::cross_section::skin::Skin;
+use crate::limits::NOTHING;
 use burgeon_base::error::{Error, Limit, Result};
 use burgeon_scene::{Normal, Part};
 

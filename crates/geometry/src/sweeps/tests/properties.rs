@@ -5,9 +5,9 @@ use std::f64::consts::{FRAC_PI_3, TAU};
 use glam::DVec2;
 use proptest::prelude::*;
 
-use super::super::solid::{area, check, volume};
-use super::super::{Frame, Section, SectionPoint, Segment, Station, SweepOptions};
 use super::forms::{least_cosine, near, solid, swept, texture_area, tower};
+use crate::solid::{area, check, volume};
+use crate::{Frame, Section, SectionPoint, Segment, Station, SweepOptions};
 
 /// Returns points around a centre at random angles and distances: an outline that does not intersect itself.
 fn outline(low: f64, high: f64) -> impl Strategy<Value = Vec<SectionPoint>> {
