@@ -1,19 +1,17 @@
 //! The properties of a footprint's edges: keywords, neighbours, and the edge on the street.
 
 use std::borrow::Cow;
-use std::collections::BTreeMap;
 
 use glam::{DVec2, DVec3};
 use smallvec::{SmallVec, smallvec};
 
-use super::Footprint;
 use super::cover::{self, Cover, WallSpan};
 use super::neighbors::Touch;
+use super::object::Footprint;
+use super::state::Edges;
 use crate::facade::template::BLIND;
 use burgeon_base::error::{Error, Result};
 use burgeon_geometry::planar::edges;
-use burgeon_kit::Expectation;
-use burgeon_kit::{Parameter, Table, TableKey, Value};
 
 /// Keyword of the edge on the street.
 const STREET: &str = "street";
@@ -27,47 +25,6 @@ const LOWER: f64 = 1.0;
 const ABOVE: f64 = 0.05;
 /// Distance (m) by which an edge must be nearer to a street to be preferred to a longer edge.
 const NEARER: f64 = 2.0;
-
-/// Keywords by edge number, counted from 1 over the rings as they were given.
-#[derive(Debug, Clone, Default)]
-pub struct EdgeKeywords(pub BTreeMap<usize, Vec<String>>);
-
-impl Parameter for EdgeKeywords {
-    fn luau() -> String {
-        "{ [number]: { string } }".into()
-    }
-
-    fn from_value(value: Value) -> Result<Self, Expectation> {
-        let what = || {
-            Expectation::new("a table from numbers of edges to lists of words: { [2] = { \"entry door\" } }")
-        };
-        let Value::Table(table) = value else { return Err(what()) };
-        let edge = |(key, words): &(TableKey, Value)| {
-            let TableKey::Index(number) = key else { return Err(what()) };
-            let number = usize::try_from(*number).map_err(|_| what())?;
-            Ok((number, Vec::<String>::from_value(words.clone()).map_err(|_| what())?))
-        };
-        table.entries.iter().map(edge).collect::<Result<_, _>>().map(Self)
-    }
-
-    fn into_value(self) -> Value {
-        let index = |number: usize| TableKey::Index(i64::try_from(number).unwrap_or(i64::MAX));
-        let entries = self.0.into_iter().map(|(number, words)| (index(number), words.into_value()));
-        Value::Table(Table { class: None, entries: entries.collect() }.into())
-    }
-}
-
-/// The properties of the edges of a plan, over all its rings.
-#[derive(Debug, Default)]
-pub(super) struct Edges {
-    keywords: Vec<Vec<Cow<'static, str>>>,
-    /// Flag for each edge: true if the script gave it the keyword "blind", regardless of neighbours.
-    always_blind: Vec<bool>,
-    touch: Touch,
-    street: Option<usize>,
-    /// Edge of the plan for each given edge, if there is one.
-    stands_for: Vec<Option<usize>>,
-}
 
 impl Edges {
     fn new(footprint: &Footprint) -> Self {
@@ -262,21 +219,11 @@ impl Footprint {
         let length = |number: u32| self.ends("street_edge", number).map_or(0.0, |[a, b]| a.distance(b));
         candidates.max_by(|a, b| length(*a).total_cmp(&length(*b)).then(b.cmp(a))).unwrap_or(0)
     }
-
-    /// Fails if keywords are given to an edge that does not exist.
-    pub(super) fn check_edge_keywords(&self) -> Result<()> {
-        let count = self.plan.given();
-        match self.options.edge_keywords.0.keys().find(|number| !(1..=count).contains(*number)) {
-            None => Ok(()),
-            Some(number) => Err(Error::argument(format!("footprint: edge_keywords names edge {number}"))
-                .help(format!("the geometry has the edges 1 to {count}"))),
-        }
-    }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::super::object::FootprintOptions;
+    use super::super::options::{EdgeKeywords, FootprintOptions};
     use super::*;
     use crate::LineIndex;
     use burgeon_geometry::{Line, Rings};

@@ -1,33 +1,15 @@
-//! The lower part of a building: its groundwork, and the progress of construction.
+//! The lower part of a building: its groundwork.
 
 use crate::MaterialOptions;
 use glam::DVec3;
 
-use super::Footprint;
-use super::object::{along, unknown};
+use super::checks::unknown;
+use super::object::Footprint;
+use super::sides::along;
+use super::state::Shell;
 use burgeon_base::error::{Error, Result};
-use burgeon_geometry::{Plan, Ring, fill};
+use burgeon_geometry::{Ring, fill};
 use burgeon_scene::SurfaceMeaning;
-
-/// The progress of a building.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Shell {
-    /// Height (m) reached so far.
-    pub top: f64,
-    /// Height (m) at which walls begin, for textures.
-    pub bottom: f64,
-    /// Set once there is a floor.
-    pub begun: bool,
-    /// Set once there is a roof.
-    pub closed: bool,
-}
-
-impl Shell {
-    pub(super) fn new(plan: &Plan) -> Self {
-        let low = if plan.polygon().is_empty() { 0.0 } else { plan.ground().0 };
-        Self { top: low, bottom: low, begun: false, closed: false }
-    }
-}
 
 const GROUNDWORK: [&str; 3] = ["z_min", "z_max", "extruded"];
 

@@ -2,11 +2,11 @@
 
 use glam::{DAffine3, DMat3, DVec2, DVec3};
 
-use super::Footprint;
+use super::checks::{Height, check_height};
 use super::cover::WallSpan;
-use super::object::Height;
-use super::object::{along, check_height};
-use super::sides::material_of;
+use super::object::Footprint;
+use super::sides::{along, material_of};
+use super::state::Plain;
 use crate::MaterialOptions;
 use crate::facade::lay::MOST;
 use crate::facade::template::BLIND;
@@ -58,15 +58,6 @@ impl Walls {
             )),
         }
     }
-}
-
-/// Plain walls that are not drawn yet, because more walls may follow above them.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Plain {
-    /// Height (m) at which they begin.
-    from: f64,
-    part: usize,
-    maker: u32,
 }
 
 /// A side of the building, over the height of the walls.

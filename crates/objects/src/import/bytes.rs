@@ -8,7 +8,7 @@ use gltf_json::validation::Checked;
 use gltf_json::{Accessor, Index, Root, buffer};
 use rustc_hash::FxHashMap;
 
-use super::gltf_file::{ImportOptions, broken};
+use super::options::{ImportOptions, broken};
 use burgeon_base::budget::Budget;
 use burgeon_base::error::{Error, Result};
 

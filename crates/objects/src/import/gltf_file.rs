@@ -5,6 +5,7 @@ use std::sync::Arc;
 
 use super::bytes::{Bytes, NumberColumns};
 use super::look::ImportMaterial;
+use super::options::{ImportOptions, OBJECT, broken};
 use super::shape::TintedPart;
 use super::{instances, look, shape};
 use burgeon_base::budget::Budget;
@@ -18,21 +19,6 @@ use gltf_json::{Index, Root, scene::Node};
 const DEEPEST: usize = 64;
 
 const MOST_NODES: usize = 100_000;
-
-/// Maximum memory (bytes) of a JSON object of the description, and of an instance.
-pub(super) const OBJECT: usize = 500;
-
-/// The inputs of an import in addition to the file.
-pub(super) struct ImportOptions<'a> {
-    /// Name of the file in messages.
-    pub name: &'a str,
-    /// Maximum number of triangles, with repeated meshes counted for each instance.
-    pub triangles: usize,
-    /// Budget for reading.
-    pub budget: &'a Budget,
-    /// Function that reads an external file, by its URI in the file.
-    pub beside: &'a mut dyn FnMut(&str) -> Result<Vec<u8>>,
-}
 
 /// Reads the scene of a glTF file, in metres, z up.
 ///
@@ -78,12 +64,6 @@ pub(super) fn read(content: &[u8], wanted: &mut ImportOptions<'_>) -> Result<Sce
 fn damaged(name: &str, budget: &Budget, error: &Error) -> Error {
     // The cause may be an exceeded time or memory limit, and not the file.
     budget.check().err().unwrap_or_else(|| broken(name, error.message()))
-}
-
-/// Creates the error for a damaged file.
-pub(super) fn broken(name: &str, why: impl std::fmt::Display) -> Error {
-    Error::data(format!("the model {name} cannot be read: {why}"))
-        .help("export it again as glTF 2.0 (.glb), and check that it was copied whole")
 }
 
 /// Returns the JSON of a file, and the binary chunk of a `.glb` file.

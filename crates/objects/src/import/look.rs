@@ -8,7 +8,7 @@ use gltf_json::validation::Checked;
 use gltf_json::{Index, Root};
 
 use super::bytes::{Bytes, address};
-use super::gltf_file::{ImportOptions, broken};
+use super::options::{ImportOptions, broken};
 use burgeon_base::error::Result;
 use burgeon_scene::image::ImageKind;
 use burgeon_scene::{Material, Texture};

@@ -16,8 +16,8 @@ use burgeon_streets::{FARTHEST, Lot, LotOptions, LotPattern, LotUse, PieceId, St
 use glam::DVec2;
 use rayon::prelude::*;
 
-use super::Network;
 use super::cache::AnswerKey;
+use super::object::Network;
 use super::overlaps::overlapping;
 
 /// Distance (m) of terraces inside the borders of their lots.

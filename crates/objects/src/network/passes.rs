@@ -2,7 +2,7 @@
 
 use std::sync::OnceLock;
 
-use super::Network;
+use super::object::Network;
 use burgeon_base::error::Result;
 use burgeon_base::warning::{Warning, WarningKind};
 use burgeon_kit::Warn;

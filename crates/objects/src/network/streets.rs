@@ -5,8 +5,8 @@ use burgeon_kit::{Answer, HasLayers, Parameter, Value};
 use burgeon_streets::{JunctionId, StreetKind, StreetStretch};
 use glam::{DVec2, DVec3};
 
-use super::Network;
 use super::lots::record;
+use super::object::Network;
 
 /// Streets, as records for scripts.
 pub struct StreetRecords(Vec<Value>);

@@ -2,7 +2,7 @@
 
 use glam::{DVec2, DVec3};
 
-use super::PlanetOptions;
+use super::options::PlanetOptions;
 use crate::terrain::looks::{blend, image, material, texels};
 use crate::terrain::mask::{GroundPoint, PatchPlace};
 use burgeon_base::error::Result;

@@ -2,74 +2,17 @@
 
 use std::sync::{Arc, OnceLock};
 
+use super::build;
+use super::options::TerrainOptions;
 use super::river::River;
-use super::{EditFile, GroundCover, Plants, RuleLayers, Water, build};
-use crate::{Elevation, Network};
+use super::streets::StreetsOnGround;
 use burgeon_base::error::{Error, Result};
 use burgeon_base::text::number;
 use burgeon_base::warning::{Warning, WarningKind};
-use burgeon_kit::{Color, ObjectParameter, Path, Vector, fields, methods, object};
-use burgeon_kit::{Expand, Rewriter, Show, Warn};
+use burgeon_kit::{Expand, ObjectParameter, Path, Rewriter, Vector, Warn, methods, object};
 use burgeon_rewriting::ModuleKey;
-use burgeon_scene::Scene;
 use burgeon_terrain::{Cells, Channel, DEEPEST, Drainage, Dry, Edit, Edits, Ground, GroundMap, View, World};
 use glam::{DVec2, DVec3};
-
-/// Fields of `terrain { ... }`.
-#[fields("terrain")]
-pub struct TerrainOptions {
-    /// Length (m) of the sides.
-    #[default(1024.0)]
-    pub size: f64,
-    /// Number of divisions of the whole terrain. If omitted, only the focus is expanded.
-    pub levels: Option<u32>,
-    /// Rules that divide the cells: a rule table, a system, or a list of these by level.
-    pub rules: RuleLayers,
-    /// Symbol of the first cell. If omitted, the first symbol by name.
-    pub start: Option<String>,
-    /// Initial height (m) of the whole terrain.
-    #[default(0.0)]
-    pub height: f64,
-    /// Initial factor (m) for the height changes of a rule table.
-    #[default(100.0)]
-    pub decay: f64,
-    /// Smooth interpolation between cells and between measured samples. If false, each cell keeps its own height, and
-    /// the ground is straight between samples.
-    #[default(true)]
-    pub smooth: bool,
-    /// Mapping of heights (m): pairs { from, to }, with linear interpolation between them.
-    pub remap: Vec<Vec<f64>>,
-    /// Maximum distance (m) between the triangles and the surface. If omitted, a tenth of the smallest cell.
-    pub error: Option<f64>,
-    /// Centre of the square (m). Its z is added to all heights.
-    #[default(Vector(DVec3::ZERO))]
-    pub position: Vector,
-    /// Measured heights, which the ground has at each sample; the rules add detail between samples:
-    /// elevation("N43E007.hgt").
-    pub elevation: Option<Elevation>,
-    /// Stored terrain edits: edits("ground.json").
-    pub edits: Option<EditFile>,
-    /// Streets on the terrain: the ground is cut and filled to meet the edges of their sidewalks, with slopes next to
-    /// them.
-    pub under: Option<Arc<Network>>,
-    /// Visible; a hidden terrain can still be queried, and streets can be laid on it.
-    #[default(true)]
-    pub shown: bool,
-    /// Ground covers, from bottom to top.
-    pub covers: Vec<GroundCover>,
-    /// Height (m) of the underside. If given, the terrain is a closed solid with sides.
-    pub base: Option<f64>,
-    /// Colour of the sides.
-    #[default(Color([0.16, 0.12, 0.09, 1.0]))]
-    pub sides: Color,
-    /// Colour of the ground if there are no covers.
-    #[default(Color([0.30, 0.28, 0.22, 1.0]))]
-    pub color: Color,
-    /// Standing water: its level (m), or a table of fields.
-    pub water: Option<Water>,
-    /// Plants on the terrain.
-    pub plants: Vec<Plants>,
-}
 
 /// Ground made by repeatedly dividing a square into quadrants, expanded in the view.
 ///
@@ -345,7 +288,9 @@ impl Terrain {
 
     /// Adapts the ground to the streets on it, once.
     fn make_room(&mut self, view: &View) -> Result<()> {
-        let Some(streets) = self.options.under.as_ref().filter(|_| !self.has_room) else { return Ok(()) };
+        let Some(StreetsOnGround(streets)) = self.options.under.as_ref().filter(|_| !self.has_room) else {
+            return Ok(());
+        };
         let world = self.ground.world();
         let cell = view.smallest(world)?;
         let lift = self.options.position.0.z;
@@ -492,11 +437,5 @@ impl Terrain {
     /// Returns true if the terrain is visible.
     pub(crate) fn is_shown(&self) -> bool {
         self.options.shown
-    }
-}
-
-impl Show for Terrain {
-    fn show(&self, scene: &mut Scene, name: &str, feature: Option<&str>) -> Result<()> {
-        if self.options.shown { self.draw(scene, name, feature) } else { Ok(()) }
     }
 }

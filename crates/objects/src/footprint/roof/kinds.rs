@@ -1,8 +1,7 @@
 //! The types of roof that scripts can name.
 
-use super::super::object::unknown;
-use super::Roof;
-use crate::footprint::object::check_height;
+use super::options::Roof;
+use crate::footprint::checks::{check_height, unknown};
 use burgeon_base::error::{Error, Result};
 use burgeon_base::text::number;
 use burgeon_geometry::roof::{Border, Eaves, Ends, Rise, RoofShape, RoofSurface};
