@@ -109,7 +109,7 @@ fn rings_within(
 /// Returns a cleaned open line of at least 2 distinct points; fails if it crosses or touches itself.
 pub(crate) fn open(points: &[SectionPoint]) -> Result<Vec<SectionPoint>> {
     let name = "the line".to_owned();
-    let mut points = numbered(&name, points, &SECTION)?;
+    let mut points = number_points(&name, points, &SECTION)?;
     drop_repeated(&mut points, SECTION.near, false);
     if points.len() < 2 {
         return Err(Error::geometry("the line of an open cross-section has fewer than 2 distinct points")
@@ -128,7 +128,7 @@ pub(crate) fn is_hole(points: &[SectionPoint], manner: &OutlineOptions) -> bool 
 
 fn ring(name: String, points: &[SectionPoint], is_hole: bool, manner: &OutlineOptions) -> Result<NamedRing> {
     let owner = manner.owner;
-    let mut points = numbered(&name, points, manner)?;
+    let mut points = number_points(&name, points, manner)?;
     let simplifies = manner.straight > 0.0;
     // The simplification compares with all input points.
     drop_repeated(&mut points, if simplifies { 0.0 } else { manner.near }, true);
@@ -166,7 +166,7 @@ fn ring(name: String, points: &[SectionPoint], is_hole: bool, manner: &OutlineOp
     Ok(NamedRing { name, points })
 }
 
-fn numbered(name: &str, points: &[SectionPoint], manner: &OutlineOptions) -> Result<Vec<NumberedPoint>> {
+fn number_points(name: &str, points: &[SectionPoint], manner: &OutlineOptions) -> Result<Vec<NumberedPoint>> {
     let owner = manner.owner;
     let number = |(index, &point): (usize, &SectionPoint)| {
         if point.at.is_finite() && point.at.abs().max_element() <= MOST {

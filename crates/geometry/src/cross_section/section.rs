@@ -109,7 +109,7 @@ impl Section {
     pub fn resampled(&self, around: usize) -> Result<Self> {
         refuse_too_many(around)?;
         let step = self.edge_lengths(0).iter().sum::<f64>() / around.max(1) as f64;
-        self.divided(|from, to| {
+        self.divide_edges(|from, to| {
             // The margin prevents rounding from adding a point if the length is an integer number of steps.
             let pieces = ((to.distance(from) / step - 1e-9).ceil()).max(1.0) as usize;
             (1..pieces).map(|i| from.lerp(to, i as f64 / pieces as f64)).collect()
@@ -126,7 +126,7 @@ impl Section {
         let level = |value: f64| levels[levels.partition_point(|level| *level <= value).max(1) - 1];
         let mut aligned = self.clone();
         aligned.rings.iter_mut().flatten().for_each(|knot| knot.at[axis] = level(knot.at[axis]));
-        aligned.divided(|from, to| {
+        aligned.divide_edges(|from, to| {
             let (low, high) = (from[axis].min(to[axis]), from[axis].max(to[axis]));
             let between = levels.iter().copied().filter(|level| low < *level && *level < high);
             let mut points: Vec<DVec2> = between
@@ -143,7 +143,7 @@ impl Section {
         })
     }
 
-    fn divided(&self, inside: impl Fn(DVec2, DVec2) -> Vec<DVec2>) -> Result<Self> {
+    fn divide_edges(&self, inside: impl Fn(DVec2, DVec2) -> Vec<DVec2>) -> Result<Self> {
         let mut rings = Vec::with_capacity(self.rings.len());
         let mut count = 0;
         for ring in &self.rings {

@@ -65,9 +65,9 @@ impl Skin {
         for step in 0..edges {
             let (from, to) = ((start + step) % count, (start + step + 1) % count);
             if self.columns.len() == begin {
-                self.columns.push(SkinColumn { point: first + from, tangent: tangents.after(from) });
+                self.columns.push(SkinColumn { point: first + from, tangent: tangents.tangent_after(from) });
             }
-            self.columns.push(SkinColumn { point: first + to, tangent: tangents.before(to) });
+            self.columns.push(SkinColumn { point: first + to, tangent: tangents.tangent_before(to) });
             if step + 1 == edges || is_sharp(&ring[to]) {
                 let columns = begin..self.columns.len();
                 let tangents = || self.columns[columns.clone()].iter().flat_map(|column| column.tangent);
@@ -83,7 +83,7 @@ impl Skin {
     /// centres `middles`.
     ///
     /// They run to both sides from the centre of each strip, so that a tapering face is not sheared.
-    pub(crate) fn across(&self, points: &[DVec3], middles: &[f64]) -> SkinCoordinates {
+    pub(crate) fn coordinates_across(&self, points: &[DVec3], middles: &[f64]) -> SkinCoordinates {
         let mut across: SkinCoordinates = smallvec![0.0; self.columns.len()];
         for (strip, middle) in self.strips.iter().zip(middles) {
             let mut sum = 0.0;
@@ -112,7 +112,7 @@ impl Skin {
     }
 }
 
-fn only(edge: DVec2) -> Tangent {
+fn single_tangent(edge: DVec2) -> Tangent {
     [(edge, 1.0), (edge, 0.0), (edge, 0.0)]
 }
 
@@ -125,25 +125,25 @@ struct Tangents<'a> {
 
 impl Tangents<'_> {
     /// Returns the direction at a point for the edge that ends there.
-    fn before(&self, point: usize) -> Tangent {
+    fn tangent_before(&self, point: usize) -> Tangent {
         self.at(point, self.edge(self.previous(point)))
     }
 
     /// Returns the direction at a point for the edge that begins there.
-    fn after(&self, point: usize) -> Tangent {
+    fn tangent_after(&self, point: usize) -> Tangent {
         self.at(point, self.edge(point))
     }
 
     fn at(&self, point: usize, edge: DVec2) -> Tangent {
         let knot = self.ring[point];
         if !self.around {
-            only(edge)
+            single_tangent(edge)
         } else if knot.inserted {
             self.between_corners(point)
         } else if self.is_round(point) {
             [(self.edge(self.previous(point)), 0.5), (self.edge(point), 0.5), (edge, 0.0)]
         } else {
-            only(edge)
+            single_tangent(edge)
         }
     }
 

@@ -45,7 +45,7 @@ impl<P: Point> Line<P> {
     }
 
     /// Creates a line through points that are known to be valid.
-    pub(super) fn trusted(points: Vec<P>) -> Self {
+    pub(super) fn from_valid(points: Vec<P>) -> Self {
         Self { points }
     }
 

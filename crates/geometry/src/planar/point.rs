@@ -43,11 +43,12 @@ impl Point for [f64; 2] {
 pub(super) fn check<P: Point>(name: &str, points: &[P]) -> Result<()> {
     for (number, point) in (1..).zip(points) {
         if !point.is_finite() {
-            return Err(Error::geometry(format!("point {number} of {name} is {}", shown(*point)))
+            return Err(Error::geometry(format!("point {number} of {name} is {}", point_text(*point)))
                 .help("give finite coordinates in metres"));
         }
         if number > 1 && points[number - 2] == *point {
-            let message = format!("point {number} of {name} repeats point {}, {}", number - 1, shown(*point));
+            let message =
+                format!("point {number} of {name} repeats point {}, {}", number - 1, point_text(*point));
             return Err(Error::geometry(message).help("leave one of them out"));
         }
     }
@@ -55,7 +56,7 @@ pub(super) fn check<P: Point>(name: &str, points: &[P]) -> Result<()> {
 }
 
 /// Formats a point for a message.
-pub(super) fn shown<P: Point>(point: P) -> String {
+pub(super) fn point_text<P: Point>(point: P) -> String {
     let DVec2 { x, y } = point.flat();
     let mut text = format!("({x}, {y})");
     if !point.is_finite() && point.flat().is_finite() {

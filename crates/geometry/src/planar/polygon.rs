@@ -7,7 +7,7 @@ use glam::{DVec2, DVec3};
 
 use super::Rings;
 use super::measure::{bounds, contains, has_area};
-use super::point::{Point, shown};
+use super::point::{Point, point_text};
 use super::ring::{Ring, hull};
 use super::strings::{closed_string, open};
 use super::triangulation::triangulate;
@@ -50,7 +50,7 @@ impl<P: Point> Polygon<P> {
     /// Creates a polygon inside the first ring and outside the others; fails with the ring or point that
     /// violates a condition.
     pub fn new(rings: impl Into<Rings<P>>) -> Result<Self> {
-        Self::checked(rings.into(), |ring, is_outer, name| {
+        Self::check_rings(rings.into(), |ring, is_outer, name| {
             if ring.is_counter_clockwise() == is_outer || !has_area(ring.iter().map(|point| point.flat())) {
                 return Ok(ring);
             }
@@ -63,22 +63,24 @@ impl<P: Point> Polygon<P> {
     /// Creates a polygon like [`Polygon::new`], and reverses rings with the wrong direction; each ring keeps
     /// its first point.
     pub fn turned(rings: impl Into<Rings<P>>) -> Result<Self> {
-        Self::checked(rings.into(), |ring, is_outer, _| {
+        Self::check_rings(rings.into(), |ring, is_outer, _| {
             Ok(if ring.is_counter_clockwise() == is_outer { ring } else { ring.turned() })
         })
     }
 
-    fn checked(rings: Rings<P>, turned: impl Fn(Ring<P>, bool, &str) -> Result<Ring<P>>) -> Result<Self> {
+    fn check_rings(rings: Rings<P>, turned: impl Fn(Ring<P>, bool, &str) -> Result<Ring<P>>) -> Result<Self> {
         let mut checked = Vec::with_capacity(rings.len());
         for (index, points) in rings.0.into_iter().enumerate() {
             let name = if index == 0 { "the outer ring".to_owned() } else { format!("hole {index}") };
-            let ring = Ring::named(&name, points)?;
+            let ring = Ring::with_name(&name, points)?;
             let last = ring.len();
             let pairs = (1..).zip(ring.edges());
             if let Some((number, [a, _])) = pairs.into_iter().find(|(_, [a, b])| a.flat() == b.flat()) {
                 let next = number % last + 1;
-                let message =
-                    format!("points {number} and {next} of {name} of the polygon are both at {}", shown(a));
+                let message = format!(
+                    "points {number} and {next} of {name} of the polygon are both at {}",
+                    point_text(a)
+                );
                 return Err(Error::geometry(message).help("leave one out: as seen from above they are one"));
             }
             let ring = turned(ring, index == 0, &name)?;

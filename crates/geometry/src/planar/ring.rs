@@ -7,7 +7,7 @@ use glam::{DVec2, DVec3};
 
 use super::Line;
 use super::measure::{bounds, contains, coord, edges, twice_area};
-use super::point::{Point, check, shown};
+use super::point::{Point, check, point_text};
 use burgeon_base::error::{Error, Result};
 
 /// An open ring of points: the last point is joined to the first, but does not repeat it.
@@ -39,16 +39,16 @@ pub struct Ring<P = DVec2> {
 impl<P: Point> Ring<P> {
     /// Creates a ring of `points`; fails with the number of the point that violates a condition.
     pub fn new(points: Vec<P>) -> Result<Self> {
-        Self::named("the ring", points)
+        Self::with_name("the ring", points)
     }
 
     /// Creates a ring like [`Ring::new`], with a name for errors.
-    pub(super) fn named(name: &str, points: Vec<P>) -> Result<Self> {
+    pub(super) fn with_name(name: &str, points: Vec<P>) -> Result<Self> {
         check(name, &points)?;
         if let ([first, .., last], count) = (points.as_slice(), points.len())
             && first == last
         {
-            let place = shown(*first);
+            let place = point_text(*first);
             let message = format!("the last point of {name}, {count}, repeats point 1, {place}");
             return Err(Error::geometry(message).help("leave it out: a ring closes by itself"));
         }
@@ -133,7 +133,7 @@ impl<P: Point> Ring<P> {
     pub fn around(&self) -> Line<P> {
         let closed = self.points.iter().chain(self.points.first()).copied().collect();
         // The invariants of a ring include those of a line.
-        Line::trusted(closed)
+        Line::from_valid(closed)
     }
 }
 

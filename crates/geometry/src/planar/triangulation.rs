@@ -27,9 +27,9 @@ pub(crate) fn triangulate(rings: &[impl AsRef<[DVec2]>]) -> Result<Vec<[usize; 3
     let border = border(rings);
     let is_sound = |triangles: &Vec<[usize; 3]>| {
         triangles.iter().all(|&[a, b, c]| twice_area([points[a], points[b], points[c]]) > 0.0)
-            && unmatched(triangles, &Sides::of(triangles, points.len()), &border).is_empty()
+            && unmatched_edges(triangles, &Sides::of(triangles, points.len()), &border).is_empty()
     };
-    Some(clipped(rings, &points, &border))
+    Some(clip_ears(rings, &points, &border))
         .filter(is_sound)
         .or_else(|| delaunay(&points, &border).filter(is_sound))
         .ok_or_else(|| {
@@ -42,11 +42,11 @@ pub(crate) fn triangulate(rings: &[impl AsRef<[DVec2]>]) -> Result<Vec<[usize; 3
 
 /// Triangulates by ear clipping, without T-junctions or slivers; the result may be wrong if points are nearly
 /// collinear.
-fn clipped(rings: &[impl AsRef<[DVec2]>], points: &[DVec2], border: &[usize]) -> Vec<[usize; 3]> {
+fn clip_ears(rings: &[impl AsRef<[DVec2]>], points: &[DVec2], border: &[usize]) -> Vec<[usize; 3]> {
     let mut triangles = earcut(rings, points);
     let mut sides = Sides::of(&triangles, points.len());
     for _ in 0..points.len() {
-        let unmatched = unmatched(&triangles, &sides, border);
+        let unmatched = unmatched_edges(&triangles, &sides, border);
         if unmatched.is_empty() {
             break;
         }
@@ -116,7 +116,7 @@ fn border(rings: &[impl AsRef<[DVec2]>]) -> Vec<usize> {
 
 /// Returns the directed edges that lack a neighbour: triangle edges with neither an opposite triangle edge
 /// nor a border edge, and reversed border edges without a triangle.
-fn unmatched(triangles: &[[usize; 3]], sides: &Sides, border: &[usize]) -> Vec<(usize, usize)> {
+fn unmatched_edges(triangles: &[[usize; 3]], sides: &Sides, border: &[usize]) -> Vec<(usize, usize)> {
     let all = triangles.iter().flat_map(|&[a, b, c]| [(a, b), (b, c), (c, a)]);
     let missing = border.iter().enumerate().filter(|&(a, &b)| sides.owner(a, b).is_none());
     let lonely = all.filter(|&(a, b)| sides.owner(b, a).is_none() && border[a] != b);
@@ -134,7 +134,7 @@ fn split_at_skipped_points(triangles: &mut Vec<[usize; 3]>, points: &[DVec2], un
     for &triangle in triangles.iter() {
         let turned = (0..3).map(|k| [triangle[k], triangle[(k + 1) % 3], triangle[(k + 2) % 3]]);
         let split = turned.filter(|&[a, b, _]| lonely.contains(&(a, b))).find_map(|[a, b, c]| {
-            let on_edge = skipped(points, &ends, a, b);
+            let on_edge = skipped_points(points, &ends, a, b);
             (!on_edge.is_empty()).then_some((a, b, c, on_edge))
         });
         let Some((a, b, c, on_edge)) = split else {
@@ -151,7 +151,7 @@ fn split_at_skipped_points(triangles: &mut Vec<[usize; 3]>, points: &[DVec2], un
 }
 
 /// Returns the `candidates` between the points `a` and `b`, in order from `a`.
-fn skipped(points: &[DVec2], candidates: &[usize], a: usize, b: usize) -> Vec<usize> {
+fn skipped_points(points: &[DVec2], candidates: &[usize], a: usize, b: usize) -> Vec<usize> {
     let along = points[b] - points[a];
     let square = along.length_squared();
     let mut found: Vec<(f64, usize)> = candidates
@@ -174,7 +174,7 @@ fn flip(triangles: &mut [[usize; 3]], sides: &mut Sides, points: &[DVec2]) {
     let mut left = 16 * triangles.len() * triangles.len().min(64);
     while let Some((a, b)) = pending.pop() {
         let (Some(one), Some(two)) = (sides.owner(a, b), sides.owner(b, a)) else { continue };
-        let (c, d) = (opposite(triangles[one], a, b), opposite(triangles[two], a, b));
+        let (c, d) = (opposite_corner(triangles[one], a, b), opposite_corner(triangles[two], a, b));
         let [pa, pb, pc, pd] = [a, b, c, d].map(|index| points[index]);
         let convex = twice_area([pa, pd, pc]) > 0.0 && twice_area([pd, pb, pc]) > 0.0;
         // Two angles of at most a quarter turn add up to at most half a turn.
@@ -194,7 +194,7 @@ fn flip(triangles: &mut [[usize; 3]], sides: &mut Sides, points: &[DVec2]) {
 }
 
 /// Returns the corner of `triangle` that is neither `a` nor `b`.
-fn opposite(triangle: [usize; 3], a: usize, b: usize) -> usize {
+fn opposite_corner(triangle: [usize; 3], a: usize, b: usize) -> usize {
     triangle.into_iter().find(|&corner| corner != a && corner != b).unwrap_or(a)
 }
 
@@ -222,7 +222,7 @@ mod tests {
     fn filled(rings: &[Vec<DVec2>]) -> f64 {
         let points: Vec<DVec2> = rings.iter().flatten().copied().collect();
         let triangles = triangulate(rings).expect("a sound polygon");
-        assert!(unmatched(&triangles, &Sides::of(&triangles, points.len()), &border(rings)).is_empty());
+        assert!(unmatched_edges(&triangles, &Sides::of(&triangles, points.len()), &border(rings)).is_empty());
         triangles.iter().map(|&[a, b, c]| twice_area([points[a], points[b], points[c]]) / 2.0).sum()
     }
 

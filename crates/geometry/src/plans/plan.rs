@@ -92,7 +92,7 @@ impl Plan {
             Ok(clean) => clean,
             Err(error) => {
                 let Some(repair) = repair(rings, &PLAN) else { return Err(error) };
-                return Ok(Self::repaired(repair, sizes, error.message().to_owned()));
+                return Ok(Self::from_repair(repair, sizes, error.message().to_owned()));
             }
         };
         let corners: usize = clean.iter().map(Vec::len).sum();
@@ -105,7 +105,7 @@ impl Plan {
             clean.iter().map(|ring| ring.iter().map(|point| point.point.at).collect()).collect();
         if let Some(repair) = fill(rings, &sound, &PLAN) {
             let trouble = repair.slit.map_or_else(String::new, |slit| slit.describe());
-            return Ok(Self::repaired(repair, sizes, trouble));
+            return Ok(Self::from_repair(repair, sizes, trouble));
         }
         let places: Vec<Vec<usize>> =
             clean.iter().map(|ring| ring.iter().map(|point| point.number - 1).collect()).collect();
@@ -117,7 +117,7 @@ impl Plan {
         Ok(Self { polygon, given: EdgeOrigin::Places(places), sizes, ..Self::default() })
     }
 
-    fn repaired(repair: PlanRepair, sizes: Vec<usize>, trouble: String) -> Self {
+    fn from_repair(repair: PlanRepair, sizes: Vec<usize>, trouble: String) -> Self {
         let PlanRepair { polygon, given, notes, .. } = repair;
         Self { polygon, given: EdgeOrigin::Edges(given), sizes, repairs: notes, trouble }
     }

@@ -65,7 +65,7 @@ pub(super) fn repair(given: &Rings, manner: &OutlineOptions) -> Option<PlanRepai
         return None;
     }
     let mut notes = Vec::new();
-    let area = enclosed(&local, &mut notes).ok()?;
+    let area = enclosed_area(&local, &mut notes).ok()?;
     settle(area, notes, given, middle, manner)
 }
 
@@ -106,7 +106,7 @@ fn settle(
     for _ in 0..ROUNDS {
         let whole = greatest(area, &mut notes)?;
         let rings = rings_of(&whole, manner);
-        if let Some(clean) = cleaned(&rings, manner) {
+        if let Some(clean) = clean_polygon(&rings, manner) {
             let slits = slits::find(&clean, manner);
             if let Some(first) = slits.first() {
                 slit.get_or_insert(Slit { ends: first.ends.map(|end| end + middle), ..*first });
@@ -130,7 +130,7 @@ fn settle(
             let done = finish(&clean, &local, given, middle);
             // An area that touches itself up to rounding may do so again at its original position.
             if let Some((polygon, given)) = done
-                && cleaned(&Rings::from(&polygon.flat()), manner).is_some()
+                && clean_polygon(&Rings::from(&polygon.flat()), manner).is_some()
             {
                 if notes.is_empty() {
                     notes.push("edges that cross or touch untangled");
@@ -187,7 +187,7 @@ fn meets_too_often(rings: &Rings<DVec2>) -> bool {
 }
 
 /// Returns the simplified points of valid rings; `None` if the rings intersect.
-fn cleaned(rings: &Rings<DVec2>, manner: &OutlineOptions) -> Option<Polygon> {
+fn clean_polygon(rings: &Rings<DVec2>, manner: &OutlineOptions) -> Option<Polygon> {
     let sharp: Vec<Vec<SectionPoint>> =
         rings.iter().map(|ring| ring.iter().copied().map(SectionPoint::sharp).collect()).collect();
     let (outer, holes) = sharp.split_first()?;
@@ -204,7 +204,7 @@ fn note(notes: &mut Vec<&'static str>, what: &'static str) {
 
 /// Computes the area enclosed by the first ring minus the areas enclosed by the others. Fails if the work of
 /// this thread is cancelled.
-fn enclosed(rings: &Rings<DVec2>, notes: &mut Vec<&'static str>) -> Result<PolygonArea> {
+fn enclosed_area(rings: &Rings<DVec2>, notes: &mut Vec<&'static str>) -> Result<PolygonArea> {
     let whole = |ring: &Vec<DVec2>| overlay::fill(&[Rings(vec![ring.clone()])], Fill::NonZero);
     let Some((outer, holes)) = rings.split_first() else { return Ok(PolygonArea::new()) };
     let outer = whole(outer)?;

@@ -55,7 +55,7 @@ pub(super) fn find<R: AsRef<[DVec2]>>(rings: &[R], manner: &OutlineOptions) -> V
                 break;
             }
             if way.dot(b[1] - b[0]) < 0.0 && b[0].y.max(b[1].y) >= low.y && b[0].y.min(b[1].y) <= high.y {
-                slits.extend(between(*a, *b, manner.near));
+                slits.extend(slit_between(*a, *b, manner.near));
             }
         }
     }
@@ -63,7 +63,7 @@ pub(super) fn find<R: AsRef<[DVec2]>>(rings: &[R], manner: &OutlineOptions) -> V
 }
 
 /// Returns the slit between two edges with the area on their left, if it is nowhere wider than `widest` (m).
-fn between([a, b]: [DVec2; 2], [c, d]: [DVec2; 2], widest: f64) -> Option<Slit> {
+fn slit_between([a, b]: [DVec2; 2], [c, d]: [DVec2; 2], widest: f64) -> Option<Slit> {
     let (length, along) = (a.distance(b), (b - a).try_normalize()?);
     if along.dot((d - c).try_normalize()?) > OPPOSITE {
         return None;

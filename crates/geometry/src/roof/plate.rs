@@ -27,7 +27,7 @@ pub(super) fn at_walls(
 ) -> Result<Vec<Vec<usize>>, Vec<usize>> {
     let mut between: FxHashMap<[usize; 2], usize> = FxHashMap::default();
     let mut faces = Vec::with_capacity(rings.len());
-    let before = before(rings);
+    let before = previous_edges(rings);
     stand_still(rings, &before, points, rests);
     for (face, &[left, right]) in rings.iter().zip(ends) {
         let mut ring = Vec::with_capacity(face.len() + 2);
@@ -66,7 +66,7 @@ pub(super) fn at_walls(
 }
 
 /// Returns the previous edge of each edge.
-fn before(rings: &[Vec<usize>]) -> Vec<usize> {
+fn previous_edges(rings: &[Vec<usize>]) -> Vec<usize> {
     // A corner of the outline has the index of the edge that begins there.
     let mut before = vec![0; rings.len()];
     for (edge, face) in rings.iter().enumerate() {

@@ -35,14 +35,14 @@ impl Wavefront {
 
     /// Returns the latest known time at which one of the corner's two edges has shrunk to a point, which ends
     /// the corner.
-    fn over(&self, index: usize) -> f64 {
+    fn collapse_time(&self, index: usize) -> f64 {
         let corner = &self.corners[index];
         corner.shrunk.min(self.corners[corner.before].shrunk)
     }
 
     /// Predicts further events of a corner that lasts longer than assumed when none were found.
     pub(super) fn expect_later_split(&mut self, index: usize) {
-        if self.corners[index].alive && self.over(index) > self.corners[index].foreseen_until {
+        if self.corners[index].alive && self.collapse_time(index) > self.corners[index].foreseen_until {
             self.expect_split(index, ANY);
         }
     }
@@ -72,7 +72,7 @@ impl Wavefront {
             sorts: corner.edges.map(|edge| self.current.sort(edge)),
         };
         let shortly = course.short();
-        let over = self.over(index);
+        let over = self.collapse_time(index);
         let mut found: [(f64, usize); FORESEEN] = [(over, usize::MAX); FORESEEN];
         let mut count = 0;
         for block in self.current.blocks_around(corner.edges[1]) {
@@ -135,7 +135,7 @@ impl Wavefront {
         if let Some(last) = corner.foreseen.next_back() {
             let (low, edge) = self.foreseen[last];
             let [a, b] = corner.pair();
-            let when = self.lines.when([a, b, self.traced.edges[edge].line]);
+            let when = self.lines.meeting_time([a, b, self.traced.edges[edge].line]);
             let what = WavefrontEventKind::Split(short(index), short(edge));
             self.events.push(WavefrontEvent { low, when, what, leads: true });
         }

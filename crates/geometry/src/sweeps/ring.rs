@@ -158,7 +158,7 @@ fn ring(
     } else {
         section.points().map(place).collect()
     };
-    let points = exact.iter().copied().map(snapped).collect();
+    let points = exact.iter().copied().map(snap).collect();
     Ok(SectionRing {
         station: number,
         before: pose,
@@ -173,15 +173,15 @@ fn ring(
 /// Returns the point (m) at export precision, on a grid with the resolution of f32 at one metre.
 ///
 /// Without the grid, equal points would differ by rounding errors near 0, where f32 is finer.
-fn snapped(point: DVec3) -> Vec3 {
+fn snap(point: DVec3) -> Vec3 {
     const GRID: f64 = (1 << 24) as f64;
     // Adding 0 turns -0 into 0.
-    (rounded(point * GRID) / GRID + DVec3::ZERO).as_vec3()
+    (round(point * GRID) / GRID + DVec3::ZERO).as_vec3()
 }
 
 /// Rounds like `f64::round`, which calls a system library function on baseline processors; numbers must fit
 /// into i64.
-fn rounded(vector: DVec3) -> DVec3 {
+fn round(vector: DVec3) -> DVec3 {
     #[allow(clippy::cast_possible_truncation, reason = "the fraction is put back")]
     let round = |number: f64| {
         let whole = number as i64 as f64;
@@ -225,7 +225,7 @@ mod tests {
         let halves = (-40..40).map(|count| f64::from(count) * 0.25);
         let near = [0.5f64.next_down(), 0.5, 0.5f64.next_up(), 2f64.powi(52) + 1.0, 2f64.powi(53), 1.6e16];
         for number in halves.chain(near).flat_map(|number| [number, -number]) {
-            let found = rounded(DVec3::splat(number)).x + 0.0;
+            let found = round(DVec3::splat(number)).x + 0.0;
             assert_eq!(found.to_bits(), (number.round() + 0.0).to_bits(), "{number}");
         }
     }

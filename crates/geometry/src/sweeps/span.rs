@@ -61,7 +61,7 @@ impl Span {
         let chord = b.before.frame.position - a.after.frame.position;
         let step = chord.length() <= NOTHING;
         let mut normals = match shading {
-            NormalSpread { around: false, along: false } => flat(skin, a, b),
+            NormalSpread { around: false, along: false } => flat_normals(skin, a, b),
             NormalSpread { along, .. } => smooth(section, skin, [a, b], along),
         };
         if sign < 0.0 {
@@ -72,7 +72,7 @@ impl Span {
 }
 
 /// Computes flat normals: both columns of a face have the normal of the face.
-fn flat(skin: &Skin, a: &SectionRing, b: &SectionRing) -> [Normals; 2] {
+fn flat_normals(skin: &Skin, a: &SectionRing, b: &SectionRing) -> [Normals; 2] {
     let mut normals: Normals = smallvec![DVec3::Z; skin.columns.len()];
     for strip in &skin.strips {
         for column in strip.columns.start..strip.columns.end - 1 {

@@ -174,9 +174,9 @@ impl<'a> SweepSurface<'a> {
             }
         };
         let neighbour = neighbour.and_then(|(span, side)| Some(&self.spans[span].as_ref()?.normals[side]));
-        let mut across = self.skin.across(&ring.exact, middles);
+        let mut across = self.skin.coordinates_across(&ring.exact, middles);
         if ring.is_apex() {
-            self.spread_tip(&mut across, &self.skin.across(&opposite.exact, middles));
+            self.spread_tip(&mut across, &self.skin.coordinates_across(&opposite.exact, middles));
         }
         for (column, u) in across.into_iter().enumerate() {
             let normal =

@@ -80,8 +80,8 @@ impl Extruder {
     pub fn polygon(&mut self, outer: Path, holes: Option<Vec<Path>>) -> Result<()> {
         let Path { points, holes: own } = outer;
         let holes = holes.unwrap_or_default().into_iter().map(|hole| hole.points);
-        let section = Section::polygon(&flat(std::iter::once(points).chain(own.0).chain(holes)))?;
-        self.state.section = Arc::new(shaded(section, self.state.smooth));
+        let section = Section::polygon(&flatten(std::iter::once(points).chain(own.0).chain(holes)))?;
+        self.state.section = Arc::new(shade(section, self.state.smooth));
         Ok(())
     }
 
@@ -232,12 +232,12 @@ impl Extruder {
 }
 
 /// Converts rings of points to rings in the plane of a section, by their x and y.
-fn flat(rings: impl IntoIterator<Item = Vec<DVec3>>) -> Rings<DVec2> {
+fn flatten(rings: impl IntoIterator<Item = Vec<DVec3>>) -> Rings<DVec2> {
     rings.into_iter().map(|ring| ring.iter().map(|point| point.truncate()).collect()).collect()
 }
 
 /// Returns the section with its corners marked as smooth or sharp.
-fn shaded(section: Section, smooth: bool) -> Section {
+fn shade(section: Section, smooth: bool) -> Section {
     if smooth { section.creased(CREASE.to_radians()) } else { section.marked(false) }
 }
 
@@ -260,7 +260,7 @@ impl Extruder {
         let section = if options.shape.is_empty() {
             Section::regular(options.sides as usize)?
         } else {
-            shaded(Section::polygon(&flat([Path::from(options.shape.clone()).points]))?, options.smooth)
+            shade(Section::polygon(&flatten([Path::from(options.shape.clone()).points]))?, options.smooth)
         };
         let section = Arc::new(section);
         let state = ExtruderState::begin(&options, &section);

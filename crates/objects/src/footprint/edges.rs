@@ -48,7 +48,7 @@ impl Edges {
         for (index, (keywords, [a, b])) in keywords.iter_mut().zip(plan.polygon().edges()).enumerate() {
             let hidden = match (heights, touch.covers.get(index)) {
                 (Some(heights), Some(covers)) => {
-                    cover::hidden(covers, a.truncate().distance(b.truncate()), heights)
+                    cover::hidden_fraction(covers, a.truncate().distance(b.truncate()), heights)
                 }
                 _ => touch.shared[index],
             };
@@ -89,7 +89,7 @@ fn street(footprint: &Footprint, touch: &Touch) -> Option<usize> {
         let mut least = f64::INFINITY;
         for &edge in &free {
             let [a, b] = outer[edge].map(|point| point + footprint.origin().truncate());
-            if let Some(distance) = streets.faced(a, b, least + NEARER) {
+            if let Some(distance) = streets.facing_distance(a, b, least + NEARER) {
                 least = least.min(distance);
                 near.push((edge, distance));
             }
@@ -182,13 +182,13 @@ impl Footprint {
     }
 
     /// Returns the edge of the plan for a given edge, if there is one.
-    fn standing(&self, method: &str, number: u32) -> Result<Option<usize>> {
+    fn plan_edge(&self, method: &str, number: u32) -> Result<Option<usize>> {
         let index = self.given_edge(method, number)?;
         Ok(self.known_edges().stands_for.get(index).copied().flatten())
     }
 
-    pub(super) fn facing(&self, number: u32) -> Result<f64> {
-        let Some(edge) = self.standing("edge_facing", number)? else { return Ok(0.0) };
+    pub(super) fn facing_angle(&self, number: u32) -> Result<f64> {
+        let Some(edge) = self.plan_edge("edge_facing", number)? else { return Ok(0.0) };
         let flat = self.plan.flat();
         let found = flat.edges().nth(edge);
         Ok(found.map_or(0.0, |[a, b]| {
@@ -198,15 +198,15 @@ impl Footprint {
     }
 
     pub(super) fn words_of(&self, number: u32) -> Result<&[Cow<'static, str>]> {
-        Ok(self.standing("edge_has", number)?.map_or(&[], |edge| self.edge_keywords(edge)))
+        Ok(self.plan_edge("edge_has", number)?.map_or(&[], |edge| self.edge_keywords(edge)))
     }
 
     pub(super) fn part_shared(&self, number: u32) -> Result<f64> {
-        let edge = self.standing("shared", number)?;
+        let edge = self.plan_edge("shared", number)?;
         Ok(edge.map_or(0.0, |edge| self.known_edges().touch.shared[edge]))
     }
 
-    pub(super) fn touching(&self) -> u32 {
+    pub(super) fn neighbor_count(&self) -> u32 {
         self.known_edges().touch.neighbors
     }
 
@@ -287,7 +287,7 @@ mod tests {
         let plain = make(None, EdgeKeywords::default());
         assert_eq!(plain.street_edge(), 1);
         assert!(plain.edge_has(1, "entry door".into()).unwrap());
-        let street = |points: &[[f64; 2]]| LineIndex::over(&[Line::new(ring(points)).unwrap()]);
+        let street = |points: &[[f64; 2]]| LineIndex::of_lines(&[Line::new(ring(points)).unwrap()]);
         // The street to the right passes the corner nearer to edge 1 than to the front that faces the street.
         let right = street(&[[13.0, -40.0], [13.0, 40.0]]);
         let facing = make(Some(right), words(&[(3, "entry door")]));

@@ -57,7 +57,7 @@ impl Footprint {
 
     /// Returns the direction that an edge faces (degrees): 0 is east, 90 is north.
     pub fn edge_facing(&self, edge: u32) -> Result<f64> {
-        self.facing(edge)
+        self.facing_angle(edge)
     }
 
     /// Returns true if an edge has this keyword: a given keyword, or "blind" (neighbours cover half of its wall or
@@ -73,7 +73,7 @@ impl Footprint {
 
     /// Returns the number of footprints of the system that touch this one.
     pub fn neighbors(&self) -> u32 {
-        self.touching()
+        self.neighbor_count()
     }
 
     /// Returns the number of the edge on the street side: the nearest edge that faces a street, or the longest edge

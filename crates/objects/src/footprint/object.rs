@@ -63,17 +63,17 @@ impl Footprint {
     fn from_table(table: &Table) -> Result<Self> {
         let options = FootprintOptions::from_table(table)?;
         // A prefetched plan does not have the terrain's heights.
-        let ready = if options.ground.is_none() { prefetched(table) } else { None };
-        Self::with(options, ready)
+        let ready = if options.ground.is_none() { prefetched_plan(table) } else { None };
+        Self::with_plan(options, ready)
     }
 
     /// Creates a footprint without any drawn parts. Without rings, the footprint only represents its type.
     pub fn new(options: FootprintOptions) -> Result<Self> {
-        Self::with(options, None)
+        Self::with_plan(options, None)
     }
 
     /// Creates a footprint from a plan that may be prefetched.
-    fn with(mut options: FootprintOptions, ready: Option<Result<LocalPlan>>) -> Result<Self> {
+    fn with_plan(mut options: FootprintOptions, ready: Option<Result<LocalPlan>>) -> Result<Self> {
         if let Some(ground) = &options.ground {
             for point in options.geometry.0.iter_mut().flatten() {
                 point.z = ground.height(Vector(*point)).map_err(Error::of_data)?;
@@ -158,7 +158,7 @@ pub(super) fn gather(objects: &mut [Box<dyn Object>]) {
 }
 
 /// Returns the plan of the geometry in a table of options, if another thread has computed it.
-fn prefetched(options: &Table) -> Option<Result<LocalPlan>> {
+fn prefetched_plan(options: &Table) -> Option<Result<LocalPlan>> {
     let Some(Value::Object(object)) = options.get("geometry") else { return None };
     let any: &dyn std::any::Any = &**object;
     let (prefetch, number) = any.downcast_ref::<GeometryObject>()?.prefetch()?;

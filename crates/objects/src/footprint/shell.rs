@@ -3,9 +3,9 @@
 use crate::MaterialOptions;
 use glam::DVec3;
 
-use super::checks::unknown;
+use super::checks::unknown_kind;
 use super::object::Footprint;
-use super::sides::along;
+use super::sides::horizontal_direction;
 use super::state::Shell;
 use burgeon_base::error::{Error, Result};
 use burgeon_geometry::{Ring, fill};
@@ -24,7 +24,7 @@ impl Footprint {
         let base = match kind {
             "z_min" => low,
             "z_max" | "extruded" => high,
-            _ => return Err(unknown("footprint:groundwork", kind, &GROUNDWORK)),
+            _ => return Err(unknown_kind("footprint:groundwork", kind, &GROUNDWORK)),
         };
         let part = self.part(None, material.as_ref())?;
         if self.detail == 0 {
@@ -40,7 +40,7 @@ impl Footprint {
             for [a, b] in plan.polygon().edges() {
                 let face = Ring::without_repeats(vec![a, b, b.with_z(base), a.with_z(base)]);
                 if let Some(face) = face {
-                    fill(part, &[face], along(a.truncate(), b.truncate()), a.with_z(base))?;
+                    fill(part, &[face], horizontal_direction(a.truncate(), b.truncate()), a.with_z(base))?;
                 }
             }
         }

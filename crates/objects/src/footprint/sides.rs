@@ -46,6 +46,6 @@ pub(super) fn material_of<'a>(laid: &FacadeLayout<'a>, template: &'a Material) -
 }
 
 /// Returns the horizontal direction of an edge.
-pub(super) fn along(from: DVec2, to: DVec2) -> DVec3 {
+pub(super) fn horizontal_direction(from: DVec2, to: DVec2) -> DVec3 {
     (to - from).normalize_or_zero().extend(0.0)
 }

@@ -55,14 +55,14 @@ impl Network {
         {
             return Ok(Arc::clone(fit));
         }
-        let fit = Arc::new(self.laid()?);
+        let fit = Arc::new(self.lay_streets()?);
         // A result of an earlier version remains stored until the pass ends.
         let _ = self.fit.set((version, Arc::clone(&fit)));
         Ok(fit)
     }
 
-    fn laid(&self) -> Result<StreetFit> {
-        let Some(ground) = &self.options.on else { return Ok(self.raised()) };
+    fn lay_streets(&self) -> Result<StreetFit> {
+        let Some(ground) = &self.options.on else { return Ok(self.raise_bridges()) };
         let water = self.water_level();
         let slopes = SlopeOptions {
             max_slope: self.options.max_slope / 100.0,
@@ -81,7 +81,7 @@ impl Network {
     }
 
     /// Computes the heights of streets without a terrain: some streets rise to bridges over others.
-    fn raised(&self) -> StreetFit {
+    fn raise_bridges(&self) -> StreetFit {
         let is_above = |piece: &StreetPiece| piece.attributes.level > 0;
         if !self.network.pieces().any(|(_, piece)| is_above(piece)) {
             return StreetFit::default();
@@ -102,7 +102,7 @@ impl Network {
 
     /// Returns the warning about streets above or below the visible ground. Only a terrain that is created after the
     /// streets can match them.
-    pub(super) fn hidden(&self) -> Result<Option<Warning>> {
+    pub(super) fn hidden_warning(&self) -> Result<Option<Warning>> {
         if self.network.size() == 0 || !self.options.on.as_ref().is_some_and(|ground| ground.is_shown()) {
             return Ok(None);
         }
@@ -120,7 +120,7 @@ impl Network {
     pub(super) fn height_at(&self, place: DVec3) -> Result<f64> {
         let Some((piece, _)) = self.network.nearest(place.truncate()) else { return Ok(0.0) };
         let fit = self.fit()?;
-        Ok(fit.profiles.near(&self.network, piece, place.truncate()) + self.options.kerb)
+        Ok(fit.profiles.height_near(&self.network, piece, place.truncate()) + self.options.kerb)
     }
 
     /// Returns the positions for an object type next to the streets. Fails if the object type is unknown.
@@ -190,7 +190,7 @@ impl GroundStreets for Network {
         Ok(GroundCuts::new(cuts.collect()))
     }
 
-    fn steep(&self) -> Result<Option<Warning>> {
+    fn steep_warning(&self) -> Result<Option<Warning>> {
         let fit = self.fit()?;
         let deep = fit.depths.iter().filter(|depth| **depth > DEEP).count();
         let deepest = fit.depths.iter().copied().fold(0.0, f64::max);

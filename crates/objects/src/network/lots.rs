@@ -270,10 +270,10 @@ impl Network {
     pub(super) fn lot_records(&self, settings: &LotSettings) -> Result<LotRecords> {
         let options = settings.options().map_err(|error| error.about("network:lots"))?;
         let key = || settings.key(self.network.version(), &options);
-        self.answers.once(key, || self.divided(settings, &options)).map(LotRecords)
+        self.answers.once(key, || self.divide_blocks(settings, &options)).map(LotRecords)
     }
 
-    fn divided(&self, settings: &LotSettings, options: &LotOptions) -> Result<(Value, Vec<Warning>)> {
+    fn divide_blocks(&self, settings: &LotSettings, options: &LotOptions) -> Result<(Value, Vec<Warning>)> {
         let mut omissions = Omissions::default();
         let blocks: Vec<StreetBlock> = match &settings.blocks {
             None => self.network.lot_blocks(self.surface_options()),

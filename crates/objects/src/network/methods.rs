@@ -31,7 +31,7 @@ impl Network {
         let to = to.0.truncate();
         let growth = self.network.grow(from, to, self.attributes(depth))?;
         let ways = [self.network.at(from), self.network.at(growth.end), to];
-        self.warnings.extend(answers::misled(growth.fate, ways));
+        self.warnings.extend(answers::misled_warning(growth.fate, ways));
         Ok(())
     }
 
@@ -49,7 +49,9 @@ impl Network {
                 .help("give it starts, such as network { starts = { { 0, 0 } } }"));
         }
         let attributes = self.attributes(self.walk.depth());
-        if let Some((junction, heading, growth)) = self.walk.ahead(&mut self.network, length, attributes)? {
+        if let Some((junction, heading, growth)) =
+            self.walk.walk_ahead(&mut self.network, length, attributes)?
+        {
             self.growths.insert((junction + 1, heading.to_bits()), growth);
         }
         Ok(())
@@ -183,7 +185,7 @@ impl Network {
     /// Returns the parts of `existing` streets that are missing in the network: a list of tables with the `name` of the
     /// street, the `place` (m) where the part begins, its `length` (m) and the `reason`.
     pub fn omitted(&self) -> Value {
-        answers::omitted(&self.omitted)
+        answers::omitted_streets(&self.omitted)
     }
 
     /// Returns the blocks between the streets, inside their sidewalks, as features. Each has an id, a geometry, its

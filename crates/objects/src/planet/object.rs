@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use super::looks;
 use super::options::PlanetOptions;
-use crate::terrain::{lost_focus, rounded, rules};
+use crate::terrain::{lost_focus, round_length, rules};
 use burgeon_base::error::{Error, Result};
 use burgeon_base::text::number;
 use burgeon_base::warning::Warning;
@@ -59,11 +59,12 @@ impl Planet {
             ))
             .help(format!("its ground is about {radius} m from its middle: look from farther out")));
         }
-        let above = self.globe.height(eye).map(|height| eye.length() - radius - self.globe.shown(height));
+        let above =
+            self.globe.height(eye).map(|height| eye.length() - radius - self.globe.shown_height(height));
         if let Some(below) = above.map(|above| -above).filter(|below| *below > 1e-6 * radius.max(1.0)) {
             return Err(Error::argument(format!(
                 "planet: the focus ({x}, {y}, {z}) is {} m below the {}",
-                number(rounded(below)),
+                number(round_length(below)),
                 self.surface_name(eye)
             ))
             .help(format!(
@@ -81,19 +82,19 @@ impl Planet {
 
     /// Returns the ground height (m) in a direction from the centre. Below water, this is the height of the sea floor.
     pub fn height(&self, direction: Vector) -> Result<f64> {
-        self.known(self.globe.height(towards(direction)?), 0.0)
+        self.require_expanded(self.globe.height(unit_direction(direction)?), 0.0)
     }
 
     /// Returns the position (m) of the ground or water surface in a direction from the centre.
     pub fn surface(&self, direction: Vector) -> Result<DVec3> {
-        let way = towards(direction)?;
-        let height = self.known(self.globe.height(way), 0.0)?;
-        Ok(self.options.position.0 + way * (self.options.radius + self.globe.shown(height)))
+        let way = unit_direction(direction)?;
+        let height = self.require_expanded(self.globe.height(way), 0.0)?;
+        Ok(self.options.position.0 + way * (self.options.radius + self.globe.shown_height(height)))
     }
 
     /// Returns the symbol of the cell in a direction from the centre.
     pub fn symbol(&self, direction: Vector) -> Result<String> {
-        self.known(self.globe.symbol(towards(direction)?), "").map(str::to_owned)
+        self.require_expanded(self.globe.symbol(unit_direction(direction)?), "").map(str::to_owned)
     }
 
     /// Returns the number of heights that are currently expanded.
@@ -109,7 +110,7 @@ const DEEP: f64 = 0.1;
 
 impl Planet {
     /// Returns `found`. If it is `None`, returns `even` while the script is only checked, and otherwise an error.
-    fn known<T>(&self, found: Option<T>, even: T) -> Result<T> {
+    fn require_expanded<T>(&self, found: Option<T>, even: T) -> Result<T> {
         match found {
             None if self.sketched => Ok(even),
             found => found.ok_or_else(nothing),
@@ -180,7 +181,7 @@ impl Planet {
     }
 }
 
-fn towards(direction: Vector) -> Result<DVec3> {
+fn unit_direction(direction: Vector) -> Result<DVec3> {
     direction.0.try_normalize().ok_or_else(|| {
         Error::argument("planet: the direction has no length")
             .help("give a place seen from its middle, such as { 1, 0, 0 }")
@@ -221,7 +222,7 @@ impl Warn for Planet {
 impl Expand for Planet {
     fn expand(&mut self, rules: &dyn Rewriter) -> Result<()> {
         let divide = &Cells::new(rules);
-        if let Some(world) = self.globe.world().begun(divide)? {
+        if let Some(world) = self.globe.world().begin_systems(divide)? {
             self.globe = Globe::new(world, self.options.radius, self.globe.sea());
         }
         (self.eye, self.clearance) = self.wanted.map_or((None, 0.0), |(eye, above)| (Some(eye), above));

@@ -21,7 +21,7 @@ pub use edits::EditFile;
 pub use looks::GroundCover;
 pub use mask::Mask;
 pub use object::Terrain;
-pub(super) use object::{lost_focus, rounded};
+pub(super) use object::{lost_focus, round_length};
 pub use options::TerrainOptions;
 pub use plants::Plants;
 pub use rules::{LayerRules, RuleLayer, RuleLayers};

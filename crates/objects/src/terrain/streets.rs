@@ -17,7 +17,7 @@ pub trait GroundStreets: Object + std::fmt::Debug {
     fn ground_cuts(&self, lift: f64) -> Result<GroundCuts>;
 
     /// Returns the warning about streets that differ much from the ground because of the maximum slope.
-    fn steep(&self) -> Result<Option<Warning>>;
+    fn steep_warning(&self) -> Result<Option<Warning>>;
 }
 
 /// Network under which a terrain is shaped.

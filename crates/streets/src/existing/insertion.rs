@@ -69,7 +69,7 @@ pub struct ExistingReport {
 
 impl ExistingReport {
     /// Returns the added length (m); lines that overlap are all counted.
-    pub fn added(&self) -> f64 {
+    pub fn added_length(&self) -> f64 {
         let lost = self.losses.iter().map(|loss| loss.length).filter(|length| length.is_finite());
         self.asked - lost.sum::<f64>()
     }
@@ -99,7 +99,7 @@ impl StreetNetwork {
     ///     street([(150.0, -90.0), (150.0, 90.0)], 1),
     /// ];
     /// let report = network.add_existing(&streets)?;
-    /// assert!(report.losses.is_empty() && report.added() == 560.0);
+    /// assert!(report.losses.is_empty() && report.added_length() == 560.0);
     /// assert_eq!((network.size(), network.components()), (5, 2));
     /// # Ok::<(), burgeon_base::error::Error>(())
     /// ```

@@ -43,7 +43,7 @@ impl KnownVertices {
     }
 
     /// Returns the nearest known vertex of a level within `NEAR` of a position.
-    fn near(&self, level: i32, place: GridPlace) -> Option<GridPlace> {
+    fn nearest_vertex(&self, level: i32, place: GridPlace) -> Option<GridPlace> {
         let [x, y] = Self::cell(place);
         let around = (-1..=1).flat_map(|east| (-1..=1).map(move |north| [x + east, y + north]));
         let known = around.filter_map(|cell| self.cells.get(&(level, cell))).flatten().copied();
@@ -65,10 +65,10 @@ fn unite_vertices(strands: &mut [StreetStrand]) {
     for StreetStrand { level, places, .. } in strands {
         let last = places.len() - 1;
         for (index, place) in places.iter_mut().enumerate() {
-            let mut found = known.near(*level, *place);
+            let mut found = known.nearest_vertex(*level, *place);
             if found.is_none() && (index == 0 || index == last) {
                 // A bridge may end at a vertex of a street of another level.
-                found = levels.iter().find_map(|other| known.near(*other, *place));
+                found = levels.iter().find_map(|other| known.nearest_vertex(*other, *place));
             }
             match found {
                 Some(found) => *place = found,
@@ -136,7 +136,7 @@ fn segments(strands: &[StreetStrand]) -> SegmentIndex {
     RTree::bulk_load(all.collect())
 }
 
-fn around(at: DVec2, margin: f64) -> AABB<[f64; 2]> {
+fn search_box(at: DVec2, margin: f64) -> AABB<[f64; 2]> {
     AABB::from_corners((at - margin).to_array(), (at + margin).to_array())
 }
 
@@ -156,7 +156,7 @@ fn lead_ends(strands: &mut [StreetStrand]) {
             }
             let own = if is_last { last.saturating_sub(1) } else { 0 };
             let at = end.metres();
-            let near = index.locate_in_envelope_intersecting(&around(at, END)).filter_map(|item| {
+            let near = index.locate_in_envelope_intersecting(&search_box(at, END)).filter_map(|item| {
                 let (other, segment) = item.data;
                 let level = strands[other].level;
                 let fits = level == strand.level || (strand.level != 0 && level == 0);
@@ -197,7 +197,7 @@ fn lead_past_vertices(strands: &mut [StreetStrand]) {
     for strand in strands.iter() {
         for place in &strand.places {
             let at = place.metres();
-            for item in index.locate_in_envelope_intersecting(&around(at, NEAR)) {
+            for item in index.locate_in_envelope_intersecting(&search_box(at, NEAR)) {
                 let (other, segment) = item.data;
                 let ends = [segment, segment + 1].map(|vertex| strands[other].places[vertex]);
                 if strands[other].level != strand.level || ends.contains(place) {

@@ -116,7 +116,7 @@ impl StreetNetwork {
     /// streets, all edges of the outer ring count as adjacent. Rings that intersect are repaired; `None` if they
     /// enclose no area.
     pub fn block(&self, id: Option<&str>, rings: &Rings<DVec2>, reach: f64) -> Option<StreetBlock> {
-        let polygon = enclosed(rings)?;
+        let polygon = enclosed_area(rings)?;
         let rings = Rings::from(&polygon);
         let id = match id {
             Some(id) => id.to_owned(),
@@ -206,7 +206,7 @@ impl StreetNetwork {
 }
 
 /// Returns the area enclosed by rings; the rings themselves if they are simple.
-fn enclosed(rings: &Rings<DVec2>) -> Option<Polygon> {
+fn enclosed_area(rings: &Rings<DVec2>) -> Option<Polygon> {
     let polygon = Polygon::new(rings.clone()).ok();
     let places =
         |ring: &Vec<DVec2>| ring.iter().map(|at| FinePlace::nearest(*at)).collect::<Option<Vec<_>>>();

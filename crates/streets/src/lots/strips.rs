@@ -173,7 +173,7 @@ impl Division<'_> {
         for ring in self.partition.rings(a) {
             let count = ring.len();
             let shared = |index: usize| {
-                self.partition.beside([ring[(index + 1) % count], ring[index % count]]) == Some(b)
+                self.partition.cell_beside([ring[(index + 1) % count], ring[index % count]]) == Some(b)
             };
             let Some(start) = (0..count).find(|index| shared(*index) && !shared(index + count - 1)) else {
                 continue;

@@ -9,7 +9,7 @@ use glam::DVec2;
 use smallvec::SmallVec;
 
 use super::corner::{
-    Corner, CornerShape, DEVIATION, EVEN, LINES, StreetLine, TAPER_LENGTH, apart, chords, left, meeting,
+    Corner, CornerShape, DEVIATION, EVEN, LINES, StreetLine, TAPER_LENGTH, apart, chords, left_of, meeting,
 };
 
 /// Start of the wider street's taper on the outside of a bend, as a fraction of the length that the corner takes.
@@ -85,9 +85,13 @@ impl Corner {
         let [first, second] = self.arms;
         let is_inside = self.angle < PI;
         let widest = first.walk.max(second.walk);
-        let parabolas =
-            if is_inside { SmallVec::from_iter([self.inside(StreetLine::Edge)]) } else { self.outside() };
-        let places: Vec<CurvePlace> = parabolas.iter().flat_map(|parabola| along(parabola, widest)).collect();
+        let parabolas = if is_inside {
+            SmallVec::from_iter([self.inner_parabola(StreetLine::Edge)])
+        } else {
+            self.outer_parabolas()
+        };
+        let places: Vec<CurvePlace> =
+            parabolas.iter().flat_map(|parabola| curve_places(parabola, widest)).collect();
         if is_inside && let Some(kerb) = self.kerb_beside(&places) {
             return places.iter().zip(kerb).map(|(place, kerb)| [place.at, kerb]).collect();
         }
@@ -115,7 +119,7 @@ impl Corner {
         let meetings = self.meetings(StreetLine::Kerb);
         let least = self.arms[0].walk.min(self.arms[1].walk) * NARROW;
         let has_room = least > LEAST_WALK && (0..2).all(|side| self.reaches[side] > meetings[side]);
-        let [from, middle, to] = self.inside(StreetLine::Kerb);
+        let [from, middle, to] = self.inner_parabola(StreetLine::Kerb);
         let beside = |place: &CurvePlace| {
             let [before, after] = [middle - from, to - middle].map(|way| way.dot(place.across));
             let part = if before == after { 0.5 } else { before / (before - after) };
@@ -126,21 +130,21 @@ impl Corner {
     }
 
     /// Returns the parabola (m) that touches a line of both streets on the inside of a bend.
-    fn inside(&self, line: StreetLine) -> Parabola {
+    fn inner_parabola(&self, line: StreetLine) -> Parabola {
         let ([first, second], [a, b]) = (self.arms, self.arms.map(|arm| arm.aside(line)));
-        let middle = left(first, self.meetings(line)[0], a);
-        [left(first, self.reaches[0], a), middle, left(second, self.reaches[1], -b)]
+        let middle = left_of(first, self.meetings(line)[0], a);
+        [left_of(first, self.reaches[0], a), middle, left_of(second, self.reaches[1], -b)]
     }
 
     /// Returns the kerb on the outside of a bend: a straight line past the junction from the end of one street's kerb
     /// to the end of the other's, with both turns rounded by parabolas. The kerb stays inside the convex hull of both
     /// streets and on its own side of the junction.
-    fn outside(&self) -> SmallVec<[Parabola; 2]> {
+    fn outer_parabolas(&self) -> SmallVec<[Parabola; 2]> {
         let ([first, second], asides) = (self.arms, self.arms.map(|arm| arm.aside(StreetLine::Kerb)));
         let meetings = self.meetings(StreetLine::Kerb);
         // The wider street tapers before its end if the other street's edge would intersect its own edge there.
         let turns = [0, 1].map(|side| if meetings[side] > 0.0 { self.reaches[side] * TAPERED } else { 0.0 });
-        let corners = [left(first, turns[0], asides[0]), left(second, turns[1], -asides[1])];
+        let corners = [left_of(first, turns[0], asides[0]), left_of(second, turns[1], -asides[1])];
         let half = corners[0].distance(corners[1]) / 2.0;
         let legs =
             [0, 1].map(|side| (asides[side] * ROUNDED).min(half).min(self.reaches[side] - turns[side]));
@@ -170,7 +174,7 @@ fn on([from, middle, to]: &Parabola, part: f64) -> DVec2 {
 
 /// Returns points along a parabola, close enough that chords between them, and chords offset by up to `beside` (m),
 /// deviate by at most [`DEVIATION`].
-fn along(parabola: &Parabola, beside: f64) -> impl Iterator<Item = CurvePlace> + use<> {
+fn curve_places(parabola: &Parabola, beside: f64) -> impl Iterator<Item = CurvePlace> + use<> {
     let [from, middle, to] = *parabola;
     let (ahead, onward) = (middle - from, to - middle);
     let turn = ahead.perp_dot(onward).atan2(ahead.dot(onward));

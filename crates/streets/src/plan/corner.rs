@@ -138,7 +138,7 @@ impl Corner {
     }
 
     /// Returns the corner with its taper shortened by `less` (m) along both streets, down to the minimum length.
-    pub(crate) fn shortened(mut self, less: [f64; 2]) -> Self {
+    pub(crate) fn shorten(mut self, less: [f64; 2]) -> Self {
         if self.is_taper() {
             let least = clear(self.arms, (self.angle - PI).abs()) + LEAST;
             self.reaches = [0, 1].map(|side| (self.reaches[side] - less[side]).max(least));
@@ -155,12 +155,12 @@ impl Corner {
             CornerShape::Round { edge, kerb } => {
                 let radius = if line == StreetLine::Edge { edge } else { kerb };
                 let along = meeting(self.angle, a, b) + radius / (self.angle / 2.0).tan();
-                let center = left(first, along, a + radius);
+                let center = left_of(first, along, a + radius);
                 let swept = PI - self.angle;
                 let from = (-first.way.perp()).to_angle();
                 arc(center, radius, from, -swept, pieces(swept, edge + first.half.min(second.half)))
             }
-            CornerShape::Sharp => vec![left(first, meeting(self.angle, a, b), a)],
+            CornerShape::Sharp => vec![left_of(first, meeting(self.angle, a, b), a)],
             CornerShape::Bend => {
                 let (from, swept) = (first.way.perp().to_angle(), self.angle - PI);
                 let chords = pieces(swept, first.half.max(second.half));
@@ -173,11 +173,13 @@ impl Corner {
             CornerShape::Curve => {
                 self.curve().into_iter().map(|pair| pair[usize::from(line == StreetLine::Kerb)]).collect()
             }
-            CornerShape::Taper => vec![left(first, self.reaches[0], a), left(second, self.reaches[1], -b)],
+            CornerShape::Taper => {
+                vec![left_of(first, self.reaches[0], a), left_of(second, self.reaches[1], -b)]
+            }
             CornerShape::Around(radius) => {
                 // Both circles are cut off by the same line.
                 let reach = self.reaches[0];
-                let (from, to) = (left(first, reach, a), left(first, reach, -a));
+                let (from, to) = (left_of(first, reach, a), left_of(first, reach, -a));
                 let is_circle = radius > first.half + EVEN;
                 let round = if is_circle { radius - (first.half - a) } else { a };
                 let start = from.to_angle();
@@ -216,7 +218,7 @@ pub(crate) fn chords(least: f64) -> u32 {
 
 /// Returns the point at a distance (m) along a street that leaves a junction and a distance (m) to the left of its
 /// centreline.
-pub(crate) fn left(arm: Arm, along: f64, aside: f64) -> DVec2 {
+pub(crate) fn left_of(arm: Arm, along: f64, aside: f64) -> DVec2 {
     arm.way * along + arm.way.perp() * aside
 }
 

@@ -174,7 +174,7 @@ impl StreetNetwork {
         let Some((along, obstacle)) = self.obstacles.first_on(line, width) else { return Ok(false) };
         let length = line[0].distance(line[1]);
         let bridges = |beyond: f64| (beyond - along) * length <= self.constraints.bridge;
-        if may_bridge && along > 0.0 && self.obstacles.beyond(line, width).is_some_and(bridges) {
+        if may_bridge && along > 0.0 && self.obstacles.bridged_until(line, width).is_some_and(bridges) {
             return Ok(true);
         }
         Err(if obstacle.is_limit { Refusal::Outside } else { Refusal::Obstacle })
@@ -224,7 +224,7 @@ impl StreetNetwork {
         let (way, length) = (to - from, from.distance(to));
         if bridge > 0.0 && obstacle.can_be_bridged && length > 0.0 {
             let far = from + way / length * (along * length + bridge + min_length);
-            if let Some(beyond) = self.obstacles.beyond([from, far], width) {
+            if let Some(beyond) = self.obstacles.bridged_until([from, far], width) {
                 let over = from + (far - from) * beyond + way / length * min_length;
                 if (beyond * from.distance(far) - along * length) <= bridge
                     && self.obstacles.at(over).is_none()

@@ -282,7 +282,7 @@ impl StreetNetwork {
         for end in ends {
             self.junctions[end as usize].pieces.push(id);
         }
-        self.piece_index.insert(self.indexed(id));
+        self.piece_index.insert(self.index_item(id));
         id
     }
 
@@ -292,7 +292,7 @@ impl StreetNetwork {
             return;
         }
         self.version += 1;
-        self.piece_index.remove(&self.indexed(piece));
+        self.piece_index.remove(&self.index_item(piece));
         for end in self.pieces[piece as usize].ends {
             let junction = &mut self.junctions[end as usize];
             junction.pieces.retain(|known| *known != piece);
@@ -303,7 +303,7 @@ impl StreetNetwork {
         }
     }
 
-    fn indexed(&self, piece: PieceId) -> IndexItem<IndexLine<[f64; 2]>> {
+    fn index_item(&self, piece: PieceId) -> IndexItem<IndexLine<[f64; 2]>> {
         let [a, b] = self.line(piece);
         GeomWithData::new(IndexLine::new(a.to_array(), b.to_array()), piece)
     }
@@ -330,7 +330,7 @@ impl StreetNetwork {
             return;
         }
         self.version += 1;
-        self.piece_index.remove(&self.indexed(id));
+        self.piece_index.remove(&self.index_item(id));
         for end in self.pieces[piece].ends {
             self.junctions[end as usize].pieces.retain(|known| *known != id);
         }

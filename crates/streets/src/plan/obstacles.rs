@@ -104,7 +104,7 @@ impl Obstacles {
 
     /// Returns the position along a path, from 0 to 1, at which it has passed all bridgeable obstacles; `None` if it
     /// ends in an obstacle or meets one that cannot be bridged.
-    pub(crate) fn beyond(&self, [a, b]: [DVec2; 2], width: f64) -> Option<f64> {
+    pub(crate) fn bridged_until(&self, [a, b]: [DVec2; 2], width: f64) -> Option<f64> {
         let half = width / 2.0;
         let around = AABB::from_corners((a.min(b) - half).to_array(), (a.max(b) + half).to_array());
         let near = self.edges.locate_in_envelope_intersecting(&around);
@@ -172,7 +172,7 @@ mod tests {
         let way = [DVec2::new(-10.0, 5.0), DVec2::new(30.0, 5.0)];
         let (along, _) = pond.first_on(way, 4.0).expect("the pond");
         assert!((along * 40.0 - 8.0).abs() < 1e-9);
-        assert!((pond.beyond(way, 4.0).expect("the other side") * 40.0 - 22.0).abs() < 1e-9);
+        assert!((pond.bridged_until(way, 4.0).expect("the other side") * 40.0 - 22.0).abs() < 1e-9);
         // The path passes the pond at a distance of 1 m.
         let way = [DVec2::new(-10.0, 11.0), DVec2::new(30.0, 11.0)];
         assert!(pond.first_on(way, 1.8).is_none());

@@ -29,7 +29,7 @@ impl StreetProfiles {
     }
 
     /// Returns the height (m) of a segment at a distance (m) along it.
-    pub fn along(&self, piece: PieceId, at: f64) -> f64 {
+    pub fn height_along(&self, piece: PieceId, at: f64) -> f64 {
         let stations = self.stations(piece);
         let after = stations.partition_point(|[along, _]| *along <= at);
         match (after.checked_sub(1).and_then(|before| stations.get(before)), stations.get(after)) {
@@ -45,8 +45,8 @@ impl StreetProfiles {
     }
 
     /// Returns the segment's height (m) at its point nearest to `place` (m).
-    pub fn near(&self, network: &StreetNetwork, piece: PieceId, place: DVec2) -> f64 {
+    pub fn height_near(&self, network: &StreetNetwork, piece: PieceId, place: DVec2) -> f64 {
         let [a, b] = network.line(piece);
-        self.along(piece, (place - a).dot((b - a).normalize_or_zero()))
+        self.height_along(piece, (place - a).dot((b - a).normalize_or_zero()))
     }
 }

@@ -73,14 +73,14 @@ impl<'a> StreetShapes<'a> {
         if network.has_existing() {
             let clear = network.clear_lengths();
             let junctions =
-                (0..count).map(|junction| JunctionShape::beside(network, junction, &clear)).collect();
+                (0..count).map(|junction| JunctionShape::with_existing(network, junction, &clear)).collect();
             return Self { network, junctions };
         }
         let junctions = (0..count).map(|junction| JunctionShape::new(network, junction, turning)).collect();
         let mut shapes = Self { network, junctions };
-        shapes.change(|shape| shape.arms.iter().any(|arm| arm.corner.is_taper()), JunctionShape::shortened);
-        shapes.change(|shape| shape.arms.len() == 2 && !shape.is_mitred, JunctionShape::bent);
-        shapes.change(JunctionShape::has_uneven_bend, JunctionShape::curved);
+        shapes.change(|shape| shape.arms.iter().any(|arm| arm.corner.is_taper()), JunctionShape::shorten);
+        shapes.change(|shape| shape.arms.len() == 2 && !shape.is_mitred, JunctionShape::bend);
+        shapes.change(JunctionShape::has_uneven_bend, JunctionShape::curve_bends);
         shapes
     }
 
@@ -96,7 +96,7 @@ impl<'a> StreetShapes<'a> {
             .map(|(junction, shape)| {
                 let share = |room: f64| if room > 0.0 { room * SHARE } else { room };
                 let more: SmallVec<[f64; 4]> =
-                    shape.arms.iter().map(|arm| share(self.between(arm.piece))).collect();
+                    shape.arms.iter().map(|arm| share(self.clear_length(arm.piece))).collect();
                 (junction, changed(shape, &more))
             })
             .collect();
@@ -116,12 +116,12 @@ impl<'a> StreetShapes<'a> {
 
     /// Returns the length (m) of a segment with full width; 0 if its ends coincide.
     pub(crate) fn room(&self, piece: PieceId) -> f64 {
-        let room = self.between(piece);
+        let room = self.clear_length(piece);
         if room < SAME { 0.0 } else { room }
     }
 
     /// Returns the distance (m) between the ends of a segment; negative if they overlap.
-    fn between(&self, piece: PieceId) -> f64 {
+    fn clear_length(&self, piece: PieceId) -> f64 {
         let clear = |end| self.arm(end, piece).map_or(0.0, ArmShape::clear);
         self.network.length(piece) - self.network.ends(piece).map(clear).iter().sum::<f64>()
     }
@@ -251,7 +251,7 @@ impl JunctionShape {
 
     /// Computes a junction of a network with existing streets: each segment begins beyond the overlap with others,
     /// without its own corner.
-    fn beside(network: &StreetNetwork, junction: JunctionId, clear: &[[f64; 2]]) -> Self {
+    fn with_existing(network: &StreetNetwork, junction: JunctionId, clear: &[[f64; 2]]) -> Self {
         let at = network.at(junction);
         let arms = network.corner_arms(junction);
         let count = arms.len();
@@ -276,12 +276,12 @@ impl JunctionShape {
     }
 
     /// Returns the shape with shorter tapers where `more` (m) is negative.
-    fn shortened(&self, more: &[f64]) -> Self {
+    fn shorten(&self, more: &[f64]) -> Self {
         let mut shorter = self.clone();
         let count = self.arms.len();
         for index in 0..count {
             let less = [index, (index + 1) % count].map(|arm| (-more[arm]).max(0.0));
-            shorter.arms[index].corner = self.arms[index].corner.shortened(less);
+            shorter.arms[index].corner = self.arms[index].corner.shorten(less);
         }
         for index in 0..count {
             let before = shorter.arms[(index + count - 1) % count].corner.reaches[1];
@@ -292,7 +292,7 @@ impl JunctionShape {
 
     /// Returns the shape of a turning street, with up to `more` (m) of both segments for the transition of its kerbs
     /// between widths.
-    fn bent(&self, more: &[f64]) -> Self {
+    fn bend(&self, more: &[f64]) -> Self {
         let mut reaches = [0, 1].map(|arm| self.arms[arm].reach);
         for arm in 0..2 {
             // The second corner is between the second arm and the first.
@@ -317,7 +317,7 @@ impl JunctionShape {
 
     /// Returns the shape of a junction of more than two streets, with up to `more` (m) of their segments for kerb
     /// transitions around the outside of bends.
-    fn curved(&self, more: &[f64]) -> Self {
+    fn curve_bends(&self, more: &[f64]) -> Self {
         let mut curved = self.clone();
         let bends = || (0..self.arms.len()).filter(|index| self.arms[*index].corner.is_uneven_bend());
         let both = |index: usize| [index, (index + 1) % self.arms.len()];

@@ -34,7 +34,7 @@ impl StreetNetwork {
                 [-half, half].map(|aside| shapes.end(end, piece, aside))
             });
             let corners = [first[0], last[1], last[0], first[1]];
-            match self.carried(piece) {
+            match self.carried_range(piece) {
                 None => areas.push(StreetArea { outline: corners.to_vec(), line }),
                 Some([from, to]) => {
                     let [start, stop] = self.line(piece);
@@ -46,7 +46,8 @@ impl StreetNetwork {
                         [([0.0, from], [first[0], a, b, first[1]]), ([to, length], [c, last[1], last[0], d])];
                     for ([low, high], outline) in parts {
                         let along = |at: &DVec3| way.dot(at.truncate() - start);
-                        let at = |along: f64| (start + way * along).extend(profiles.along(piece, along));
+                        let at =
+                            |along: f64| (start + way * along).extend(profiles.height_along(piece, along));
                         let mut line: Vec<DVec3> = line
                             .iter()
                             .copied()

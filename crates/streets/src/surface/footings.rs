@@ -31,14 +31,14 @@ impl StreetNetwork {
             // The footing before a bridge ends with a semicircle of the street's width.
             let half = known.attributes.width / 2.0;
             let carried = self
-                .carried(piece)
+                .carried_range(piece)
                 .map_or([length; 2], |[from, to]| [(from - half).max(0.0), (to + half).min(length)]);
             let parts = [([0.0, carried[0]], false), (carried, true), ([carried[1], length], false)];
             for ([from, to], is_below) in parts {
                 if to - from < LEAST_FOOTING {
                     continue;
                 }
-                let at = |along: f64| (start + way * along).extend(profiles.along(piece, along));
+                let at = |along: f64| (start + way * along).extend(profiles.height_along(piece, along));
                 let mut part: Vec<DVec3> = Vec::new();
                 part.extend((from > 0.0).then(|| at(from)));
                 part.extend(line.iter().filter(|(along, _)| (from..=to).contains(along)).map(|(_, at)| *at));

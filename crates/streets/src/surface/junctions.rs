@@ -41,7 +41,7 @@ pub(super) fn junction_surface(
     };
     let height = profiles.junction(junction);
     let is_around = edges(&outline).all(|[a, b]| (a - middle).perp_dot(b - middle) > 0.0);
-    let divided = if is_around { None } else { divided(&outline) };
+    let divided = if is_around { None } else { triangulate(&outline) };
     let (points, triangles) = divided.unwrap_or_else(|| fan(middle, outline));
     let points = points.into_iter().map(|at| at.extend(height)).collect();
     let depths = shape.arms.iter().map(|arm| shapes.network.attributes(arm.piece).depth);
@@ -60,7 +60,7 @@ fn fan(middle: DVec2, outline: Vec<DVec2>) -> PlaneTriangles {
 }
 
 /// Triangulates an outline (m); `None` if it intersects itself.
-fn divided(outline: &[DVec2]) -> Option<PlaneTriangles> {
+fn triangulate(outline: &[DVec2]) -> Option<PlaneTriangles> {
     let polygon = Polygon::new(Rings(vec![outline.to_vec()])).ok()?;
     #[allow(clippy::cast_possible_truncation, reason = "some dozens of points")]
     let triangles = polygon.triangles().ok()?.into_iter().map(|corners| corners.map(|corner| corner as u32));

@@ -133,7 +133,7 @@ impl<'a> PieceRows<'a> {
             PieceRow {
                 sides: across(half),
                 median: (stretch[0]..=stretch[1]).contains(&along).then(|| across(aside)),
-                height: profiles.along(piece, along),
+                height: profiles.height_along(piece, along),
             }
         };
         let end = |side: usize| {
@@ -295,7 +295,7 @@ impl<'a> PieceRows<'a> {
         (0..=count)
             .map(|index| {
                 let at = at(index);
-                let height = self.profiles.along(self.piece, (at - self.start).dot(self.way));
+                let height = self.profiles.height_along(self.piece, (at - self.start).dot(self.way));
                 add(into, at, height)
             })
             .collect()

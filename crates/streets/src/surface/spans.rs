@@ -44,8 +44,8 @@ impl StreetNetwork {
         let (way, length) = ((stop - start).normalize_or_zero(), start.distance(stop));
         let half = self.half(piece);
         let ends = self.ends(piece);
-        let over = self.over(piece);
-        let carried = carried(over, length);
+        let over = self.covered_range(piece);
+        let carried = bridge_range(over, length);
         let clear = ends.map(|end| shapes.arm(end, piece).map_or(0.0, ArmShape::clear));
         // If there is little land in between, the bridge begins at the end of the junction.
         let [from, to] = [0, 1].map(|side| {
@@ -57,8 +57,9 @@ impl StreetNetwork {
             from.is_none_or(|from| **along > from + LOOK) && to.is_none_or(|to| **along < to - LOOK)
         };
         let sides = [-half, half].map(|aside| {
-            let at =
-                |along: f64| (start + way * along + way.perp() * aside).extend(profiles.along(piece, along));
+            let at = |along: f64| {
+                (start + way * along + way.perp() * aside).extend(profiles.height_along(piece, along))
+            };
             let end = |side: usize, aside: f64| {
                 shapes.end(ends[side], piece, aside).extend(profiles.junction(ends[side]))
             };
@@ -67,7 +68,7 @@ impl StreetNetwork {
             line.push(to.map_or_else(|| end(1, -aside), at));
             line
         });
-        let middle = |along: f64| (start + way * along).extend(profiles.along(piece, along));
+        let middle = |along: f64| (start + way * along).extend(profiles.height_along(piece, along));
         let (mut shores, mut piers) = (Vec::new(), Vec::new());
         if let Some([first, last]) = over {
             shores = vec![middle(first), middle(last)];
@@ -84,7 +85,7 @@ impl StreetNetwork {
     }
 
     /// Returns the range (m) along a segment that is over obstacles, if any.
-    fn over(&self, piece: PieceId) -> Option<[f64; 2]> {
+    fn covered_range(&self, piece: PieceId) -> Option<[f64; 2]> {
         let [start, stop] = self.line(piece);
         let (way, length, half) =
             ((stop - start).normalize_or_zero(), start.distance(stop), self.half(piece));
@@ -101,13 +102,13 @@ impl StreetNetwork {
     }
 
     /// Returns the range (m) along a segment that a bridge carries; `None` if it is not a bridge.
-    pub(crate) fn carried(&self, piece: PieceId) -> Option<[f64; 2]> {
-        self.is_bridge(piece).then(|| carried(self.over(piece), self.length(piece)))
+    pub(crate) fn carried_range(&self, piece: PieceId) -> Option<[f64; 2]> {
+        self.is_bridge(piece).then(|| bridge_range(self.covered_range(piece), self.length(piece)))
     }
 }
 
 /// Returns the range (m) that a bridge carries of a street of a length (m), from the range over obstacles; the whole
 /// street if that range is unknown.
-fn carried(over: Option<[f64; 2]>, length: f64) -> [f64; 2] {
+fn bridge_range(over: Option<[f64; 2]>, length: f64) -> [f64; 2] {
     over.map_or([0.0, length], |[first, last]| [(first - LANDING).max(0.0), (last + LANDING).min(length)])
 }

@@ -33,7 +33,7 @@ impl StreetNetwork {
         for junction in (0..self.junctions.len() as JunctionId).filter(|_| !self.has_existing()) {
             surfaces.carriageways.extend(junction_surface(&shapes, profiles, junction));
         }
-        if let Some(merged) = self.merged(self.merge_options(options, profiles)) {
+        if let Some(merged) = self.merge_levels(self.merge_options(options, profiles)) {
             self.add_merged(&merged, profiles, &mut surfaces);
             return surfaces;
         }
@@ -69,7 +69,7 @@ impl StreetNetwork {
 
     /// Returns the blocks at the heights of `profiles`.
     pub fn blocks_at(&self, options: SurfaceOptions, profiles: &StreetProfiles) -> Vec<Rings> {
-        if let Some(merged) = self.merged(self.merge_options(options, profiles)) {
+        if let Some(merged) = self.merge_levels(self.merge_options(options, profiles)) {
             return self.merged_blocks(&merged, profiles);
         }
         let shapes = StreetShapes::new(self, options.turning);
@@ -105,7 +105,7 @@ fn sides(shapes: &StreetShapes<'_>, profiles: &StreetProfiles, way: &[Course]) -
         let (along, aside) = ((stop - start).normalize_or_zero(), network.leaves(piece, from).perp());
         let between = |at: &f64| {
             let middle = start + along * *at;
-            (middle + aside * kerb, middle + aside * edge, profiles.along(piece, *at))
+            (middle + aside * kerb, middle + aside * edge, profiles.height_along(piece, *at))
         };
         if network.ends(piece)[0] == from {
             pairs.extend(rows.iter().map(between));

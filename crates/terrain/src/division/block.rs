@@ -42,7 +42,7 @@ impl Area {
 
     /// Returns the area expanded by `margin` cells per side and clipped to a world of `across` cells.
     #[must_use]
-    pub fn widened(self, margin: i64, across: i64) -> Self {
+    pub fn widen(self, margin: i64, across: i64) -> Self {
         let span = |first: i64, count: usize| {
             let low = (first - margin).max(0);
             let high = (first + count_of(count) + margin).min(across);
@@ -54,7 +54,7 @@ impl Area {
 
     /// Returns the parent cells of this area, expanded by `margin` cells per side, also beyond the world.
     #[must_use]
-    pub fn above(self, margin: i64) -> Self {
+    pub fn parent_area(self, margin: i64) -> Self {
         let span = |first: i64, count: usize| {
             let low = first.div_euclid(2) - margin;
             let high = (first + count_of(count) - 1).div_euclid(2) + margin;
@@ -69,18 +69,18 @@ impl Area {
 
     /// Returns the area expanded by `margin` cells per side, also beyond the world.
     #[must_use]
-    pub fn grown(self, margin: u32) -> Self {
+    pub fn grow(self, margin: u32) -> Self {
         let (less, more) = (i64::from(margin), 2 * margin as usize);
         Self { x: self.x - less, y: self.y - less, columns: self.columns + more, rows: self.rows + more }
     }
 
     /// Returns the smallest area that contains both areas.
     #[must_use]
-    pub fn joined(self, other: Self) -> Self {
+    pub fn join(self, other: Self) -> Self {
         match (self.is_empty(), other.is_empty()) {
             (true, _) => other,
             (_, true) => self,
-            _ => Self::around([self, other].into_iter().flat_map(|it| [it.at(0), it.at(it.len() - 1)])),
+            _ => Self::bounding([self, other].into_iter().flat_map(|it| [it.at(0), it.at(it.len() - 1)])),
         }
     }
 
@@ -109,7 +109,7 @@ impl Area {
     }
 
     /// Returns the smallest area that contains all `cells`; empty without cells.
-    pub fn around(cells: impl Iterator<Item = (i64, i64)>) -> Self {
+    pub fn bounding(cells: impl Iterator<Item = (i64, i64)>) -> Self {
         let spans = cells.fold(None, |spans: Option<[i64; 4]>, (x, y)| {
             let [west, north, east, south] = spans.unwrap_or([x, y, x, y]);
             Some([west.min(x), north.min(y), east.max(x), south.max(y)])

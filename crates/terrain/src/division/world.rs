@@ -140,7 +140,7 @@ impl World {
     }
 
     /// Returns the world with the first cells of its systems; `None` if they are already known or not needed.
-    pub fn begun(&self, divide: &dyn Divide) -> Result<Option<Self>> {
+    pub fn begin_systems(&self, divide: &dyn Divide) -> Result<Option<Self>> {
         let unknown =
             |layer: &LevelRules| matches!(layer.rules, DivisionRules::System(_)) && layer.names.is_empty();
         if !self.layers.iter().any(unknown) {
@@ -230,7 +230,7 @@ impl World {
         if laid == 0.0 {
             return height;
         }
-        height + laid * measured.freedom(place) * eased(slope / STEEP)
+        height + laid * measured.freedom(place) * ease(slope / STEEP)
     }
 
     /// Returns true if the cells of `level` are small enough to show each sample.
@@ -245,7 +245,7 @@ impl World {
     }
 
     /// Returns the mapped height (m).
-    pub(crate) fn remapped(&self, height: f64) -> f64 {
+    pub(crate) fn remap_height(&self, height: f64) -> f64 {
         let (Some(first), Some(last)) = (self.remap.first(), self.remap.last()) else { return height };
         let above = self.remap.partition_point(|pair| pair[0] <= height);
         match (above.checked_sub(1).map(|below| self.remap[below]), self.remap.get(above)) {
@@ -264,7 +264,7 @@ impl World {
         divide: &dyn Divide,
     ) -> Result<Block> {
         match &self.layer(cells.level).rules {
-            DivisionRules::None => Ok(undivided(cells, area)),
+            DivisionRules::None => Ok(copy_quadrants(cells, area)),
             DivisionRules::Table(table) => Ok(table.divide(cells, area, last)),
             DivisionRules::System(system) => divide.divide(*system, cells, area, last),
         }
@@ -288,13 +288,13 @@ impl World {
     }
 }
 
-fn eased(along: f64) -> f64 {
+fn ease(along: f64) -> f64 {
     let along = along.clamp(0.0, 1.0);
     along * along * (3.0 - 2.0 * along)
 }
 
 /// Returns the quadrants of cells without rules.
-fn undivided(cells: &Block, area: Area) -> Block {
+fn copy_quadrants(cells: &Block, area: Area) -> Block {
     let made = area.quadrants();
     let mut block = Block {
         level: cells.level + 1,

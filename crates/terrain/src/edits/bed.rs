@@ -27,7 +27,7 @@ impl GroundBed {
 
     /// Returns the distance (m) of a point from the bed and the bed's height (m) at its nearest point; `None`
     /// beyond the margin.
-    pub(crate) fn beside(&self, place: DVec2) -> Option<(f64, f64)> {
+    pub(crate) fn distance_beside(&self, place: DVec2) -> Option<(f64, f64)> {
         let flat: Vec<[f64; 2]> = self.line.iter().map(|[x, y, _]| [*x, *y]).collect();
         let (mut distance, piece, along) = to_line(&flat, place, self.is_area);
         let next = self.line.get((piece + 1) % self.line.len().max(1));
@@ -106,7 +106,8 @@ mod tests {
                 let height = local.at(place, ground);
                 let one_by_one = edits.iter().fold(ground, |height, edit| edit.change(place, height));
                 assert_eq!(height.to_bits(), one_by_one.to_bits(), "at {place}");
-                let near: Vec<(f64, f64)> = beds.iter().filter_map(|bed| bed.beside(place)).collect();
+                let near: Vec<(f64, f64)> =
+                    beds.iter().filter_map(|bed| bed.distance_beside(place)).collect();
                 for (beyond, level) in &near {
                     assert!(height <= level + 0.6 * beyond + 1e-9);
                 }

@@ -61,7 +61,7 @@ pub enum Edit {
 impl Edit {
     /// Raises the edit by `lift` (m).
     #[must_use]
-    pub fn raised(mut self, lift: f64) -> Self {
+    pub fn raise(mut self, lift: f64) -> Self {
         match &mut self {
             Self::Flatten { height, .. } => *height += lift,
             Self::Cut { path: line, .. }
@@ -108,12 +108,12 @@ impl Edit {
                 let across = (1.0 - distance / (width / 2.0)).clamp(0.0, 1.0);
                 height - depth * across * across * (3.0 - 2.0 * across)
             }
-            Self::Embank { bed } => {
-                bed.beside(place).map_or(height, |(beyond, level)| height.max(level - beyond * bed.slope))
-            }
-            Self::Excavate { bed } => {
-                bed.beside(place).map_or(height, |(beyond, level)| height.min(level + beyond * bed.slope))
-            }
+            Self::Embank { bed } => bed
+                .distance_beside(place)
+                .map_or(height, |(beyond, level)| height.max(level - beyond * bed.slope)),
+            Self::Excavate { bed } => bed
+                .distance_beside(place)
+                .map_or(height, |(beyond, level)| height.min(level + beyond * bed.slope)),
         }
     }
 

@@ -100,7 +100,7 @@ impl Edits {
 
     /// Applies the edits to the heights (m) of the cells of `area` at `level`.
     pub(crate) fn apply(&self, world: &World, level: u32, area: Area, heights: &mut [f64]) {
-        let local = self.reaching(world, level, area);
+        let local = self.local_edits(world, level, area);
         if local.is_empty() {
             return;
         }
@@ -110,19 +110,23 @@ impl Edits {
     }
 
     /// Returns the edits that affect the cells of `area` at `level`.
-    pub(crate) fn reaching(&self, world: &World, level: u32, area: Area) -> LocalEdits {
+    pub(crate) fn local_edits(&self, world: &World, level: u32, area: Area) -> LocalEdits {
         let (low, high) = bounds(world, level, area);
-        LocalEdits::new(self.met(world, level, area).into_iter().map(|kept| kept.edit.clone()), low, high)
+        LocalEdits::new(
+            self.records_within(world, level, area).into_iter().map(|kept| kept.edit.clone()),
+            low,
+            high,
+        )
     }
 
     /// Returns a hash of all edits that affect the cells of `area` at `level`; 0 if there are none.
     pub(crate) fn mark(&self, world: &World, level: u32, area: Area) -> u64 {
-        let met = self.met(world, level, area);
+        let met = self.records_within(world, level, area);
         met.iter().fold(0, |mark: u64, kept| mark.rotate_left(7) ^ kept.mark)
     }
 
     /// Returns the edits whose extent intersects the cells of `area` at `level`, in order.
-    fn met(&self, world: &World, level: u32, area: Area) -> Vec<&EditRecord> {
+    fn records_within(&self, world: &World, level: u32, area: Area) -> Vec<&EditRecord> {
         if self.is_empty() || area.is_empty() {
             return Vec::new();
         }

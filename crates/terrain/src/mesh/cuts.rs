@@ -79,7 +79,7 @@ impl GroundCuts {
     }
 
     /// Returns the areas that may intersect the box from `low` to `high` (m), in order.
-    fn near(&self, low: DVec2, high: DVec2) -> SmallVec<[u32; 8]> {
+    fn cuts_near(&self, low: DVec2, high: DVec2) -> SmallVec<[u32; 8]> {
         let mut found: SmallVec<[u32; 8]> = SmallVec::new();
         for square in squares_of(low, high) {
             found.extend(self.squares.get(&square).into_iter().flatten().copied().filter(|number| {
@@ -101,10 +101,10 @@ impl GroundCuts {
 
     /// Returns the parts of a counter-clockwise triangle that lie outside all areas; `None` if it intersects
     /// none.
-    pub(crate) fn outside(&self, corners: [DVec2; 3]) -> Option<Vec<[PartCorner; 3]>> {
+    pub(crate) fn parts_outside(&self, corners: [DVec2; 3]) -> Option<Vec<[PartCorner; 3]>> {
         let [low, high] =
             corners[1..].iter().fold([corners[0]; 2], |[low, high], at| [low.min(*at), high.max(*at)]);
-        let near = self.near(low, high);
+        let near = self.cuts_near(low, high);
         if near.is_empty() {
             return None;
         }
@@ -172,7 +172,7 @@ mod tests {
         let street = cut(&[(0., -3.), (100., -3.), (100., 3.), (0., 3.)], &[(0., 0., 5.), (100., 0., 15.)]);
         let cuts = GroundCuts::new(vec![street]);
         let triangle = [(40., -10.), (60., -10.), (50., 10.)].map(DVec2::from);
-        let parts = cuts.outside(triangle).expect("parts");
+        let parts = cuts.parts_outside(triangle).expect("parts");
         let place = |corner: PartCorner| match corner {
             PartCorner::Own(index) => triangle[index],
             PartCorner::Border(at) => {
@@ -189,9 +189,9 @@ mod tests {
         assert!((parts.iter().map(area).sum::<f64>() - wanted).abs() < 1e-6);
         assert!(parts.iter().all(|part| area(part) > 0.0));
         let within = [(40., -1.), (42., -1.), (41., 1.)].map(DVec2::from);
-        assert_eq!(cuts.outside(within), Some(Vec::new()));
+        assert_eq!(cuts.parts_outside(within), Some(Vec::new()));
         let beside = [(40., 4.), (42., 4.), (41., 6.)].map(DVec2::from);
-        assert_eq!(cuts.outside(beside), None);
+        assert_eq!(cuts.parts_outside(beside), None);
     }
 
     #[test]
@@ -201,6 +201,6 @@ mod tests {
         let right = cut(&[(10.3, -3.1), (20., -3.1), (20., 2.9), (9.7, 2.9)], &line);
         let cuts = GroundCuts::new(vec![left, right]);
         let triangle = [(5., -2.), (15., -2.), (10., 2.)].map(DVec2::from);
-        assert_eq!(cuts.outside(triangle), Some(Vec::new()));
+        assert_eq!(cuts.parts_outside(triangle), Some(Vec::new()));
     }
 }

@@ -14,7 +14,7 @@ use rustc_hash::{FxHashMap, FxHashSet};
 use super::cuts::{GroundCuts, PartCorner};
 use super::height_grid::HeightGrid;
 use super::samples::{TileSamples, Vertex};
-use super::triangle::{GridCorner, RightTriangle, corners, diamond, roots, turned};
+use super::triangle::{GridCorner, RightTriangle, corners, diamond, orient, roots};
 use crate::tiles::ground::Ground;
 use burgeon_base::MemoryOwner;
 use burgeon_scene::Part;
@@ -78,7 +78,7 @@ impl<'a> GroundMesh<'a> {
         }
         let samples = &self.samples[holder];
         let passes = || {
-            let triangle = turned(*triangle);
+            let triangle = orient(*triangle);
             samples.is_far(&triangle, self.heights(&triangle), self.error)
         };
         (grid.is_far(triangle, self.error) || !samples.is_empty() && passes()).then_some(middle)
@@ -183,7 +183,8 @@ impl<'a> GroundMesh<'a> {
         let mut left: Vec<[u32; 3]> = Vec::with_capacity(triangles.len());
         let mut known: FxHashMap<[u64; 2], u32> = FxHashMap::default();
         for corners in triangles {
-            let Some(pieces) = cuts.outside(corners.map(|corner| points[corner as usize].truncate())) else {
+            let Some(pieces) = cuts.parts_outside(corners.map(|corner| points[corner as usize].truncate()))
+            else {
                 left.push(corners.map(|corner| corner + base));
                 continue;
             };

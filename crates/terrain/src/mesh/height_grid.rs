@@ -20,7 +20,7 @@ pub(crate) struct HeightGrid {
 impl HeightGrid {
     pub(crate) fn new(ground: &Ground, tile: &Tile) -> Self {
         let shift = ground.finest() - tile.level();
-        let own = Tile::own(tile.place, tile.detail);
+        let own = Tile::own_cells(tile.place, tile.detail);
         let across = own.columns + 1;
         let mut heights = Vec::with_capacity(across * across);
         for y in (own.y..).take(across) {

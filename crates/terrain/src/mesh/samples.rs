@@ -69,7 +69,7 @@ impl TileSamples {
                 Some(Sample { at, place: within, height: ground.height(within)? })
             })
             .collect();
-        let own = Tile::own(tile.place, tile.detail);
+        let own = Tile::own_cells(tile.place, tile.detail);
         let shift = ground.finest() - tile.level();
         let (top, row) = (number(own.y << shift), number(1 << shift));
         let near = near / cell;

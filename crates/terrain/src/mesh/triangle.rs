@@ -58,14 +58,14 @@ pub(crate) fn corners(place: TilePlace, finest: u32) -> [GridCorner; 4] {
 pub(crate) fn roots(place: TilePlace, finest: u32) -> [RightTriangle; 2] {
     let [a, b, c, d] = corners(place, finest);
     if (place.x + place.y) & 1 == 0 {
-        [RightTriangle { a, b: d, apex: b }, RightTriangle { a: d, b: a, apex: c }].map(turned)
+        [RightTriangle { a, b: d, apex: b }, RightTriangle { a: d, b: a, apex: c }].map(orient)
     } else {
-        [RightTriangle { a: b, b: c, apex: a }, RightTriangle { a: c, b, apex: d }].map(turned)
+        [RightTriangle { a: b, b: c, apex: a }, RightTriangle { a: c, b, apex: d }].map(orient)
     }
 }
 
 /// Orients a triangle counter-clockwise as seen from above, where rows run to the south.
-pub(crate) fn turned(triangle: RightTriangle) -> RightTriangle {
+pub(crate) fn orient(triangle: RightTriangle) -> RightTriangle {
     let RightTriangle { a, b, apex } = triangle;
     let [u, v] = [[b[0] - a[0], b[1] - a[1]], [apex[0] - a[0], apex[1] - a[1]]];
     if u[0] * v[1] - u[1] * v[0] < 0 { triangle } else { RightTriangle { a: b, b: a, apex } }

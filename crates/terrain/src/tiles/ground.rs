@@ -118,15 +118,16 @@ impl Ground {
         let mut missing = Vec::new();
         for (index, &detail) in fit.details.iter().enumerate() {
             let place = fit.place(index);
-            let mark = || self.edits.mark(&self.world, place.level + detail, Tile::wanted(place, detail));
+            let mark =
+                || self.edits.mark(&self.world, place.level + detail, Tile::wanted_cells(place, detail));
             match self.tile(place).filter(|tile| tile.detail == detail && tile.mark == mark()) {
                 Some(tile) => tiles[index] = Some(Arc::clone(tile)),
                 None => missing.push((index, place, detail)),
             }
         }
         // All missing tiles are derived from one block of cells and its surroundings.
-        let window = Area::around(missing.iter().map(|(_, place, _)| (place.x, place.y)));
-        let wanted = window.widened(2, World::across(fit.level));
+        let window = Area::bounding(missing.iter().map(|(_, place, _)| (place.x, place.y)));
+        let wanted = window.widen(2, World::across(fit.level));
         let made = if missing.is_empty() {
             Vec::new()
         } else if self.world.has_systems() {
@@ -154,7 +155,7 @@ impl Ground {
         (index, place, detail): (usize, TilePlace, u32),
         divide: &dyn Divide,
     ) -> Result<(usize, Tile)> {
-        let wanted = Tile::wanted(place, detail);
+        let wanted = Tile::wanted_cells(place, detail);
         let cells = self.world.descend(coarse, place.level + detail, wanted, true, divide)?;
         let mut heights = Vec::with_capacity(wanted.len());
         let (surface, is_remapped) = (cells.surface(), self.world.is_remapped());
@@ -165,7 +166,7 @@ impl Ground {
             heights.extend_from_slice(&surface[row.clone()]);
             let heights = &mut heights[begin..];
             if is_remapped {
-                heights.iter_mut().for_each(|height| *height = self.world.remapped(*height));
+                heights.iter_mut().for_each(|height| *height = self.world.remap_height(*height));
             }
             if let Some(forms) = cells.forms.get(row) {
                 heights.iter_mut().zip(forms).for_each(|(height, form)| *height += form);
@@ -175,7 +176,7 @@ impl Ground {
         let mut tile;
         if self.world.measured.is_some() {
             tile = Tile::new(place, detail, &cells, wanted, heights);
-            tile.lay(&self.world, self.edits.reaching(&self.world, level, wanted));
+            tile.lay(&self.world, self.edits.local_edits(&self.world, level, wanted));
         } else {
             self.edits.apply(&self.world, level, wanted, &mut heights);
             tile = Tile::new(place, detail, &cells, wanted, heights);
@@ -261,7 +262,7 @@ impl Ground {
     /// area.
     pub(crate) fn corner(&self, x: i64, y: i64) -> Option<f64> {
         if self.world.measured.is_none() {
-            return self.laid(x, y);
+            return self.surface_height(x, y);
         }
         let tile = self.coarsest(x, y)?;
         match tile.on_grid(self.finest, x, y) {
@@ -272,7 +273,7 @@ impl Ground {
 
     /// Returns the height (m) of the cells' surface at a corner of the smallest cells; `None` outside the
     /// expanded area.
-    fn laid(&self, x: i64, y: i64) -> Option<f64> {
+    fn surface_height(&self, x: i64, y: i64) -> Option<f64> {
         let tile = self.coarsest(x, y)?;
         if let Some((x, y)) = tile.on_grid(self.finest, x, y) {
             return Some(tile.corner(x, y));
@@ -281,13 +282,13 @@ impl Ground {
         let shift = self.finest - tile.level();
         let mask = (1i64 << shift) - 1;
         let part = |at: i64| fraction(at & mask, shift);
-        let laid = |x: i64, y: i64| self.laid(x, y);
-        self.between(tile, (x >> shift, y >> shift), DVec2::new(part(x), part(y)), laid)
+        let laid = |x: i64, y: i64| self.surface_height(x, y);
+        self.interpolate(tile, (x >> shift, y >> shift), DVec2::new(part(x), part(y)), laid)
     }
 
     /// Interpolates a surface with the heights (m) `corner` at corners of the smallest cells; returns its
     /// height (m) within a cell of `tile`, at the fraction `part` to the east and to the south.
-    fn between(
+    fn interpolate(
         &self,
         tile: &Tile,
         (x, y): (i64, i64),
@@ -329,15 +330,15 @@ impl Ground {
     /// sample; `None` outside the expanded area.
     pub fn height(&self, place: DVec2) -> Option<f64> {
         let (tile, cell, part) = self.find(place)?;
-        let laid = self.between(tile, cell, part, |x, y| self.laid(x, y))?;
+        let laid = self.interpolate(tile, cell, part, |x, y| self.surface_height(x, y))?;
         Some(if self.world.measured.is_some() { tile.changed(place, &self.world, laid) } else { laid })
     }
 
     /// Returns the height (m) at `place` (m) of the surface that the cells show; `None` outside the expanded
     /// area. On measured ground, only the corners of cells are exact.
-    pub fn shown(&self, place: DVec2) -> Option<f64> {
+    pub fn shown_height(&self, place: DVec2) -> Option<f64> {
         let (tile, cell, part) = self.find(place)?;
-        self.between(tile, cell, part, |x, y| self.corner(x, y))
+        self.interpolate(tile, cell, part, |x, y| self.corner(x, y))
     }
 
     /// Returns the tile at `place` (m), its cell, and the position (0 to 1) to the east and to the south

@@ -42,20 +42,20 @@ pub struct Tile {
 
 impl Tile {
     /// Returns the cells of a tile at `detail` levels below it.
-    pub fn own(place: TilePlace, detail: u32) -> Area {
+    pub fn own_cells(place: TilePlace, detail: u32) -> Area {
         let across = 1usize << detail;
         Area { x: place.x << detail, y: place.y << detail, columns: across, rows: across }
     }
 
     /// Returns the cells whose heights a tile needs.
-    pub fn wanted(place: TilePlace, detail: u32) -> Area {
-        Self::own(place, detail).widened(1, World::across(place.level + detail))
+    pub fn wanted_cells(place: TilePlace, detail: u32) -> Area {
+        Self::own_cells(place, detail).widen(1, World::across(place.level + detail))
     }
 
     /// Creates the tile at `place` from `cells`, which contain the `wanted` cells; `heights` (m) are the
     /// heights of the wanted cells' surface.
     pub fn new(place: TilePlace, detail: u32, cells: &Block, wanted: Area, heights: Vec<f64>) -> Self {
-        let own = Self::own(place, detail);
+        let own = Self::own_cells(place, detail);
         let mut symbols = Vec::with_capacity(own.len());
         for y in (own.y..).take(own.rows) {
             let first = cells.area.index(own.x, y);
@@ -68,7 +68,7 @@ impl Tile {
     /// Adds the surface of the cells to the measured ground, and applies the edits.
     pub(crate) fn lay(&mut self, world: &World, changes: LocalEdits) {
         self.changes = changes;
-        let own = Self::own(self.place, self.detail);
+        let own = Self::own_cells(self.place, self.detail);
         let (level, across) = (self.level(), own.columns + 1);
         let row = |row: i64| -> Vec<f64> {
             let y = own.y + row;
@@ -113,7 +113,7 @@ impl Tile {
 
     /// Returns the symbol of one of the tile's own cells.
     pub fn symbol(&self, x: i64, y: i64) -> Symbol {
-        self.symbols[Self::own(self.place, self.detail).index(x, y)]
+        self.symbols[Self::own_cells(self.place, self.detail).index(x, y)]
     }
 
     /// Returns the height (m) of the surface at the north-west corner of a cell of the tile's level: the mean
@@ -130,7 +130,7 @@ impl Tile {
         if self.corners.is_empty() {
             return self.corner(x, y);
         }
-        let own = Self::own(self.place, self.detail);
+        let own = Self::own_cells(self.place, self.detail);
         let part = |at: i64, first: i64| usize::try_from(at - first).unwrap_or(0);
         self.corners[part(y, own.y) * (own.columns + 1) + part(x, own.x)]
     }

@@ -56,7 +56,7 @@ impl Footprint {
             made.cover.tight.iter().partition(|edge| is_beside(edge));
         for (edges, cause) in [(beside, "a neighbour is near"), (within, "there is no room")] {
             if !edges.is_empty() {
-                let why = tight(&edges, &made.cover.overhangs, options.overhang, &self.plan);
+                let why = overhang_text(&edges, &made.cover.overhangs, options.overhang, &self.plan);
                 note(format!("a smaller overhang over some edges, as {cause}"), why);
             }
         }
@@ -116,7 +116,7 @@ const NAMED: usize = 8;
 
 /// Describes the overhangs of a roof over `edges`, which are smaller than the requested `overhang`, and names the edges
 /// by their given numbers.
-fn tight(edges: &[usize], overhangs: &[f64], overhang: f64, plan: &Plan) -> String {
+fn overhang_text(edges: &[usize], overhangs: &[f64], overhang: f64, plan: &Plan) -> String {
     let found = edges.iter().map(|&edge| overhangs[edge]);
     let (least, most) =
         found.fold((f64::INFINITY, 0.0f64), |(least, most), by| (least.min(by), most.max(by)));

@@ -6,7 +6,7 @@ use glam::DVec2;
 use rstar::primitives::{GeomWithData, Rectangle};
 use rstar::{AABB, RTree};
 
-use crate::plan::corner::{Arm, Corner, LINES, StreetLine, left, meeting, pieces, turn};
+use crate::plan::corner::{Arm, Corner, LINES, StreetLine, left_of, meeting, pieces, turn};
 use crate::plan::merge_cache::MergeOptions;
 use crate::plan::network::{JunctionId, PieceId, StreetNetwork};
 use crate::shape::shapes::room_around;
@@ -189,7 +189,7 @@ fn wedge(first: Arm, second: Arm, angle: f64, line: StreetLine) -> Vec<DVec2> {
     let (a, b) = (first.aside(line), second.aside(line));
     let swept = angle - PI;
     let from = first.way.perp().to_angle();
-    let mut ring = vec![DVec2::ZERO, left(first, 0.0, a)];
+    let mut ring = vec![DVec2::ZERO, left_of(first, 0.0, a)];
     if swept < MITRED && (a - b).abs() < 0.01 {
         ring.push(DVec2::from_angle(from + swept / 2.0) * (a / (swept / 2.0).cos()));
     } else {
@@ -199,7 +199,7 @@ fn wedge(first: Arm, second: Arm, angle: f64, line: StreetLine) -> Vec<DVec2> {
             DVec2::from_angle(from + swept * part) * (a + (b - a) * part)
         }));
     }
-    ring.push(left(second, 0.0, -b));
+    ring.push(left_of(second, 0.0, -b));
     ring
 }
 
@@ -222,21 +222,25 @@ fn fillet(
     }
     let tangent = (angle / 2.0).tan();
     let round = radius.min(free * tangent);
-    let corner = left(first, meets[0], a);
+    let corner = left_of(first, meets[0], a);
     if round < LEAST_RADIUS {
         // At this distance from the corner, the area behind is wide enough to be visible.
         let along = free.min(LEAST_RADIUS / tangent);
-        return Some(vec![corner, left(first, meets[0] + along, a), left(second, meets[1] + along, -b)]);
+        return Some(vec![
+            corner,
+            left_of(first, meets[0] + along, a),
+            left_of(second, meets[1] + along, -b),
+        ]);
     }
     let along = round / tangent;
-    let center = left(first, meets[0] + along, a + round);
+    let center = left_of(first, meets[0] + along, a + round);
     let swept = PI - angle;
     let from = (-first.way.perp()).to_angle();
     let chords = pieces(swept, radius);
-    let mut ring = vec![corner, left(first, meets[0] + along, a)];
+    let mut ring = vec![corner, left_of(first, meets[0] + along, a)];
     ring.extend((1..chords).map(|index| {
         center + DVec2::from_angle(from - swept * f64::from(index) / f64::from(chords)) * round
     }));
-    ring.push(left(second, meets[1] + along, -b));
+    ring.push(left_of(second, meets[1] + along, -b));
     Some(ring)
 }

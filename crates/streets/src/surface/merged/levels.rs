@@ -9,7 +9,7 @@ use burgeon_base::locks::LockRecovery;
 
 impl StreetNetwork {
     /// Returns the merged surfaces of a network with existing streets; `None` for a network that was grown completely.
-    pub(crate) fn merged(&self, options: MergeOptions) -> Option<Arc<MergedStreets>> {
+    pub(crate) fn merge_levels(&self, options: MergeOptions) -> Option<Arc<MergedStreets>> {
         if !self.has_existing() {
             return None;
         }

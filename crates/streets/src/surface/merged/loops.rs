@@ -74,13 +74,13 @@ pub(super) fn loops(triangles: &[[u32; 3]], points: &[DVec2]) -> Rings<DVec2> {
     }
     let place = |ring: &Vec<u32>| ring.iter().map(|at| points[*at as usize]).collect::<Vec<DVec2>>();
     let mut rings: Vec<Vec<DVec2>> =
-        rings.iter().map(place).map(straightened).filter(|ring| ring.len() > 2).collect();
+        rings.iter().map(place).map(straighten).filter(|ring| ring.len() > 2).collect();
     rings.sort_by(|a, b| twice_area(b.iter().copied()).total_cmp(&twice_area(a.iter().copied())));
     Rings(rings)
 }
 
 /// Removes points that are exactly on the line between their neighbours.
-fn straightened(ring: Vec<DVec2>) -> Vec<DVec2> {
+fn straighten(ring: Vec<DVec2>) -> Vec<DVec2> {
     let count = ring.len();
     let is_turn = |index: &usize| {
         let [before, at, after] = [index + count - 1, *index, index + 1].map(|index| ring[index % count]);

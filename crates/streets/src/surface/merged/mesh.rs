@@ -38,9 +38,9 @@ pub(super) fn level(network: &StreetNetwork, level: i32, options: MergeOptions) 
     }
     let mut edges: Vec<[GridPlace; 2]> = edges.into_iter().filter(|[a, b]| a != b).collect();
     edges.sort_unstable();
-    let edges = divided(edges, options.longest);
+    let edges = divide_edges(edges, options.longest);
     let mut made = MergedLevel { level, ..MergedLevel::default() };
-    let triangles = triangulated(&edges, &mut made.points);
+    let triangles = triangulate(&edges, &mut made.points);
     sort_out(&cover, &triangles, level == 0, &mut made);
     made
 }
@@ -80,7 +80,7 @@ fn borders_of(cover: &CoverIndex, line: StreetLine) -> Vec<StreetStrand> {
 }
 
 /// Divides edges into parts of at most `longest` (m).
-fn divided(edges: Vec<[GridPlace; 2]>, longest: f64) -> Vec<[GridPlace; 2]> {
+fn divide_edges(edges: Vec<[GridPlace; 2]>, longest: f64) -> Vec<[GridPlace; 2]> {
     if longest.is_infinite() {
         return edges;
     }
@@ -112,7 +112,7 @@ fn divided(edges: Vec<[GridPlace; 2]>, longest: f64) -> Vec<[GridPlace; 2]> {
 }
 
 /// Triangulates the convex hull of the edges; adds the vertices to `points`.
-fn triangulated(edges: &[[GridPlace; 2]], points: &mut Vec<DVec2>) -> Vec<MeshTriangle> {
+fn triangulate(edges: &[[GridPlace; 2]], points: &mut Vec<DVec2>) -> Vec<MeshTriangle> {
     let mut places: Vec<GridPlace> = edges.iter().flatten().copied().collect();
     places.sort_unstable();
     places.dedup();

@@ -28,7 +28,7 @@ impl StreetNetwork {
     }
 
     /// Returns the points (m) of a level at the heights of its streets.
-    fn raised(&self, level: &MergedLevel, profiles: &StreetProfiles) -> Vec<DVec3> {
+    fn raise_points(&self, level: &MergedLevel, profiles: &StreetProfiles) -> Vec<DVec3> {
         if profiles.is_flat() {
             return level.points.iter().map(|at| at.extend(0.0)).collect();
         }
@@ -38,7 +38,7 @@ impl StreetNetwork {
     /// Returns the height (m) of the nearest street of a level.
     fn height_of(&self, at: DVec2, level: i32, profiles: &StreetProfiles) -> f64 {
         let nearest = self.nearest_of_level(at, level);
-        nearest.map_or(0.0, |(piece, _)| profiles.near(self, piece, at))
+        nearest.map_or(0.0, |(piece, _)| profiles.height_near(self, piece, at))
     }
 
     pub(crate) fn add_merged(
@@ -48,7 +48,7 @@ impl StreetNetwork {
         surfaces: &mut StreetSurfaces,
     ) {
         for level in &merged.levels {
-            let points = self.raised(level, profiles);
+            let points = self.raise_points(level, profiles);
             let edge = |[a, b]: [u32; 2]| [points[a as usize], points[b as usize]];
             for (depth, triangles) in &level.carriageways {
                 surfaces.carriageways.push(part(&points, triangles, *depth));
@@ -98,7 +98,7 @@ impl StreetNetwork {
             for index in 0..count {
                 let along = length * (f64::from(index) + 0.5) / f64::from(count);
                 let at = from.lerp(to, along / length);
-                let height = profiles.along(piece, along);
+                let height = profiles.height_along(piece, along);
                 let mut below = self.pieces_near([at; 2], self.widest());
                 let is_free = below.all(|other| {
                     let of = self.attributes(other);

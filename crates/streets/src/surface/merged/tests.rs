@@ -48,7 +48,7 @@ fn surfaces_of_every_kind_of_street_meet_edge_to_edge() {
         let streets = town(seed);
         let mut network = network();
         network.add_existing(&streets).expect("room");
-        let merged = network.merged(OPTIONS).expect("existing streets");
+        let merged = network.merge_levels(OPTIONS).expect("existing streets");
         for level in &merged.levels {
             assert_eq!(fault(level), None, "seed {seed}, level {}", level.level);
         }
