@@ -3,45 +3,32 @@
 //! Input: points, outlines and cross-sections in metres. Output: faces, lines and meshes, closed or with a
 //! list of their open edges. This crate never reads a file, draws a random number or reads a module.
 
-mod cap;
+mod cross_section;
 mod face;
 mod frame;
-mod outline;
+mod limits;
 pub mod overlay;
-mod path;
-mod plan;
 pub mod planar;
-mod quad;
-mod repair;
-mod ring;
+mod plans;
 pub mod roof;
-mod section;
-mod shapes;
-mod sides;
-mod simplify;
 mod sizes;
 pub mod skeleton;
-mod skin;
-mod slits;
 pub mod solid;
-mod span;
-mod strand;
-mod surface;
-mod sweep;
-#[cfg(test)]
-mod sweep_tests;
+mod sweeps;
 mod union;
 
+pub use cross_section::point::SectionPoint;
+pub use cross_section::section::{MOST_POINTS, Section};
 pub use face::{CornerShading, face, shaded_face, sphere};
 pub use frame::Frame;
-pub use path::{Segment, Station};
-pub use plan::Plan;
 pub use planar::{Line, Point, Polygon, Ring, Rings, hull};
+pub use plans::plan::Plan;
 pub use roof::fill;
-pub use section::{MOST_POINTS, Section, SectionPoint};
 pub use sizes::{SAME, Share, Sizes, Split};
-pub use strand::{MOST_SIDES, Strand, tube};
-pub use sweep::{Lengthwise, SweepOptions, SweepResult, sweep};
+pub use sweeps::options::{Lengthwise, SweepOptions, SweepResult};
+pub use sweeps::path::{Segment, Station};
+pub use sweeps::strand::{MOST_SIDES, Strand, tube};
+pub use sweeps::sweep::sweep;
 pub use union::{Crossing, Union, UnionCell};
 
 /// Doc tests of the README.

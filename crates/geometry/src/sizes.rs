@@ -72,7 +72,7 @@ impl Sizes {
             return Err(too_many());
         }
         let pairs = self.0.iter().flat_map(|a| other.0.iter().map(move |b| [a[0] + b[0], a[1] + b[1]]));
-        Self::gather(pairs.collect()).limited()
+        Self::gather(pairs.collect()).check_limits()
     }
 
     /// Returns the multiples of each length by each of `counts`; fails if there are too many intervals.
@@ -94,7 +94,7 @@ impl Sizes {
                 intervals.push(of_all);
             }
         }
-        Self::gather(intervals).limited()
+        Self::gather(intervals).check_limits()
     }
 
     /// Returns the differences of `whole` and each length.
@@ -115,7 +115,7 @@ impl Sizes {
         Self(gathered)
     }
 
-    fn limited(self) -> Result<Self> {
+    fn check_limits(self) -> Result<Self> {
         if self.0.len() <= MOST {
             return Ok(self);
         }

@@ -68,7 +68,7 @@ pub struct Elevation {
 impl Elevation {
     /// Returns the ground height (m) at a position. Fails outside the file's bounds.
     pub fn height(&self, place: Vector) -> Result<f64> {
-        self.height_at(place.0.truncate()).ok_or_else(|| self.outside(place.0))
+        self.height_at(place.0.truncate()).ok_or_else(|| self.outside_error(place.0))
     }
 
     /// Returns the minimum corner of the bounding box (m).
@@ -103,7 +103,7 @@ impl Elevation {
         &self.relief
     }
 
-    fn outside(&self, place: DVec3) -> Error {
+    fn outside_error(&self, place: DVec3) -> Error {
         let (low, high) = (self.relief.low(), self.relief.high());
         Error::argument(format!(
             "elevation: {:.1}, {:.1} lies outside of {}, which reaches from {:.1}, {:.1} to {:.1}, {:.1}",

@@ -64,7 +64,7 @@ impl LineIndex {
     /// Creates the index of the lines that a script specifies.
     pub fn new(options: LineIndexOptions) -> Result<Self> {
         let Lines { lines, refused } = options.lines;
-        let mut index = Self::over(&lines);
+        let mut index = Self::of_lines(&lines);
         if let Some((count, first)) = refused {
             let items = if count == 1 { "item" } else { "items" };
             let text = format!("streets: left out {count} {items} of the list: {first}");
@@ -75,7 +75,7 @@ impl LineIndex {
     }
 
     /// Creates the index of `lines` (m).
-    pub fn over(lines: &[Line<DVec3>]) -> Self {
+    pub fn of_lines(lines: &[Line<DVec3>]) -> Self {
         let pieces = lines.iter().flat_map(Line::edges).filter_map(|edge| {
             let [from, to] = edge.map(DVec3::truncate);
             // A vertical segment has no nearest point.
@@ -86,7 +86,7 @@ impl LineIndex {
 
     /// Returns the distance (m) from the middle of the edge from `a` to `b`, whose right side faces outwards, to the
     /// nearest street that the edge faces, or `None` if it is farther than `most`.
-    pub(super) fn faced(&self, a: DVec2, b: DVec2, most: f64) -> Option<f64> {
+    pub(super) fn facing_distance(&self, a: DVec2, b: DVec2, most: f64) -> Option<f64> {
         let (middle, out) = (a.midpoint(b), -(b - a).try_normalize()?.perp());
         let most = most.min(FARTHEST);
         let near = self.pieces.nearest_neighbor_iter_with_distance_2(&middle.to_array());

@@ -3,8 +3,8 @@
 use glam::DVec2;
 
 use super::*;
-use crate::corner::StreetLine;
-use crate::shape::StreetShapes;
+use crate::plan::corner::StreetLine;
+use crate::shape::shapes::StreetShapes;
 
 /// Turns (degrees), and the street and sidewalk widths (m) before and after the turn.
 const BENDS: [f64; 9] = [5.0, 20.0, 30.0, 36.0, 45.0, 60.0, 90.0, 120.0, 140.0];
@@ -47,7 +47,7 @@ fn kerb(network: &StreetNetwork, is_left: bool) -> Vec<DVec2> {
     let [piece, next] = [u32::from(is_left), u32::from(!is_left)];
     let index = arms.iter().position(|arm| arm.piece == piece).expect("an arm");
     let [arm, next] = [&arms[index], arms.iter().find(|arm| arm.piece == next).expect("an arm")];
-    let aside = |arm: &crate::shape::ArmShape| arm.arm.aside(StreetLine::Kerb);
+    let aside = |arm: &crate::shape::shapes::ArmShape| arm.arm.aside(StreetLine::Kerb);
     let [begin, end] = if is_left { [far[1], far[0]] } else { far };
     let mut kerb = vec![begin + arm.arm.way.perp() * aside(arm)];
     kerb.push(shapes.end(1, arm.piece, aside(arm)));

@@ -13,11 +13,11 @@ use std::collections::BinaryHeap;
 use glam::DVec2;
 use smallvec::SmallVec;
 
-use crate::grid::{crossing, touch};
-use crate::network::{PieceId, StreetNetwork};
-use crate::profile::StreetProfiles;
-use crate::shape::{ArmShape, StreetShapes};
-use crate::surface::SurfaceOptions;
+use crate::plan::grid::{crossing, touch};
+use crate::plan::network::{PieceId, StreetNetwork};
+use crate::shape::profile::StreetProfiles;
+use crate::shape::shapes::{ArmShape, StreetShapes};
+use crate::surface::parts::SurfaceOptions;
 
 /// Distance (m) between height samples along a segment.
 const STEP: f64 = 20.0;

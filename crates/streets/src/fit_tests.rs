@@ -105,7 +105,7 @@ fn what_stands_beside_streets_stands_on_sidewalks() {
             }
             // No other street is nearer.
             for (piece, other) in network.pieces().filter(|(piece, _)| *piece != found.piece) {
-                let (distance, on) = crate::grid::foot(place, network.line(piece));
+                let (distance, on) = crate::plan::grid::foot(place, network.line(piece));
                 let beside = (0.001..0.999).contains(&on);
                 assert!(
                     !beside || distance > other.attributes.width / 2.0 - 1e-9,

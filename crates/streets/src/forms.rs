@@ -6,8 +6,8 @@ use std::f64::consts::PI;
 use glam::DVec2;
 use rustc_hash::FxHashMap;
 
-use crate::faces::{Course, StreetFace};
-use crate::network::{JunctionId, StreetNetwork};
+use crate::plan::faces::{Course, StreetFace};
+use crate::plan::network::{JunctionId, StreetNetwork};
 
 /// Distance (m) between samples of a street for zigzags, and the number of samples that a direction spans.
 const STEP: f64 = 10.0;

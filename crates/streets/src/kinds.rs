@@ -2,7 +2,7 @@
 
 use burgeon_base::error::{Error, Result};
 
-use crate::network::StreetAttributes;
+use crate::plan::network::StreetAttributes;
 
 /// Minimum width (m) of a lane.
 const LEAST_LANE: f64 = 2.0;
@@ -54,7 +54,7 @@ impl StreetKind {
     /// Returns the type adapted to a street's attributes: the attributes of the street take precedence, and parts that
     /// then do not fit are removed.
     #[must_use]
-    pub fn adapted(self, attributes: StreetAttributes) -> Self {
+    pub fn adapt_to(self, attributes: StreetAttributes) -> Self {
         let StreetAttributes { width, sidewalk, median, lanes, .. } = attributes;
         if (self.width, self.sidewalk, self.median, 0) == (width, sidewalk, median, lanes) {
             return self;
@@ -88,14 +88,14 @@ impl StreetKind {
     }
 
     /// Returns the total width (m) of the lanes.
-    fn driven(&self) -> f64 {
+    fn driven_width(&self) -> f64 {
         self.carriageway() - self.median - 2.0 * self.parking
     }
 
     /// Returns the number of lanes in both directions.
     pub fn lanes(&self) -> u32 {
         self.lanes.unwrap_or_else(|| {
-            let driven = self.driven();
+            let driven = self.driven_width();
             if driven < ONE_LANE && self.median == 0.0 {
                 return 1;
             }
@@ -145,7 +145,7 @@ impl StreetKind {
             ))
             .help(format!("leave at least {LEAST_LANE} m for a lane on each side of it")));
         }
-        let driven = self.driven();
+        let driven = self.driven_width();
         if driven < LEAST_LANE {
             return Err(Error::argument(format!(
                 "parking = {parking} on both sides leaves {driven:.2} m of a carriageway of {carriageway:.2} m"
@@ -181,7 +181,7 @@ impl StreetKind {
             |aside: f64, width: f64, dash: Option<[f64; 2]>| lines.push(LaneLine { aside, width, dash });
         let curb = self.carriageway() / 2.0 - self.parking;
         let lanes = self.lanes();
-        let wide = self.driven() / f64::from(lanes);
+        let wide = self.driven_width() / f64::from(lanes);
         let middle = lanes.div_ceil(2);
         for boundary in 1..lanes {
             let at = -curb + wide * f64::from(boundary) + if boundary > middle { self.median } else { 0.0 };
@@ -209,7 +209,7 @@ impl StreetKind {
     pub(crate) fn left_lanes(&self) -> [f64; 2] {
         let curb = self.carriageway() / 2.0 - self.parking;
         let lanes = self.lanes();
-        let wide = self.driven() / f64::from(lanes);
+        let wide = self.driven_width() / f64::from(lanes);
         // With an odd number of lanes, the larger part is on the right, in the outgoing direction.
         let begin = if self.median > 0.0 { self.median / 2.0 } else { curb - wide * f64::from(lanes / 2) };
         [begin, curb]

@@ -21,39 +21,24 @@
 //! # Ok::<(), burgeon_base::error::Error>(())
 //! ```
 
-mod areas;
-mod bend;
 #[cfg(test)]
 mod bend_tests;
-mod constraints;
-mod corner;
-mod dead_ends;
 mod existing;
-mod faces;
 mod fit;
 #[cfg(test)]
 mod fit_tests;
 mod forms;
-mod grid;
-mod grow;
 #[cfg(test)]
 mod growth_tests;
-mod keeps;
 mod kinds;
 mod lots;
 mod marks;
 mod measures;
-mod merged;
-mod network;
-mod obstacles;
 mod placement;
-mod profile;
-mod rows;
+mod plan;
 mod shape;
 #[cfg(test)]
 mod sliver_tests;
-mod spans;
-mod stretches;
 mod surface;
 #[cfg(test)]
 mod surface_tests;
@@ -62,26 +47,26 @@ mod survey;
 mod tests;
 mod verge;
 
-pub use areas::StreetArea;
-pub use constraints::{Constraints, Fate, Refusal};
-pub use dead_ends::DeadEndOptions;
 pub use existing::{ExistingLoss, ExistingLossReason, ExistingReport, ExistingStreet};
-pub use faces::{Course, StreetFace};
 pub use fit::{SlopeOptions, StreetFit};
-pub use grid::{FARTHEST, GridPlace};
-pub use grow::{StreetGrowth, StreetProspect};
 pub use kinds::StreetKind;
 pub use lots::{BlockSide, Lot, LotOptions, LotPattern, LotUse, StreetBlock};
 pub use marks::Marking;
 pub use measures::Measures;
-pub use network::{Junction, JunctionId, PieceId, StreetAttributes, StreetNetwork, StreetPiece};
-pub use obstacles::{Obstacle, Obstacles};
 pub use placement::{SiteOptions, StreetSite, StreetSites};
-pub use profile::StreetProfiles;
-pub use spans::StreetSpan;
-pub use stretches::StreetStretch;
-pub use surface::{
+pub use plan::constraints::{Constraints, Fate, Refusal};
+pub use plan::dead_ends::DeadEndOptions;
+pub use plan::faces::{Course, StreetFace};
+pub use plan::grid::{FARTHEST, GridPlace};
+pub use plan::grow::{StreetGrowth, StreetProspect};
+pub use plan::network::{Junction, JunctionId, PieceId, StreetAttributes, StreetNetwork, StreetPiece};
+pub use plan::obstacles::{Obstacle, Obstacles};
+pub use plan::stretches::StreetStretch;
+pub use shape::profile::StreetProfiles;
+pub use surface::areas::StreetArea;
+pub use surface::parts::{
     Median, MergedSurfaces, Sidewalk, StreetDeck, StreetFooting, StreetSurface, StreetSurfaces,
     SurfaceOptions,
 };
+pub use surface::spans::StreetSpan;
 pub use verge::{VergeKind, VergePlace};

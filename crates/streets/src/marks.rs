@@ -5,11 +5,11 @@
 use glam::{DVec2, DVec3};
 
 use crate::kinds::{LaneLine, StreetKind};
-use crate::network::{PieceId, StreetNetwork};
-use crate::profile::StreetProfiles;
-use crate::rows::{MEDIAN_MARGIN, median_of};
-use crate::shape::StreetShapes;
-use crate::surface::SurfaceOptions;
+use crate::plan::network::{PieceId, StreetNetwork};
+use crate::shape::profile::StreetProfiles;
+use crate::shape::shapes::StreetShapes;
+use crate::surface::parts::SurfaceOptions;
+use crate::surface::rows::{MEDIAN_MARGIN, median_of};
 
 /// Start and end (m) of a crossing beyond a junction, and of the stop line before it.
 const CROSSING: [f64; 2] = [0.6, 3.6];
@@ -84,7 +84,7 @@ impl StreetNetwork {
         let shapes = StreetShapes::new(self, options.turning);
         let mut markings = Vec::new();
         for (piece, found) in self.pieces().filter(|(_, piece)| piece.attributes.level >= 0) {
-            let kind = StreetKind::of(kinds, found.attributes.depth).adapted(found.attributes);
+            let kind = StreetKind::of(kinds, found.attributes.depth).adapt_to(found.attributes);
             let mut painter = Painter::new(&shapes, profiles, piece, kind, &mut markings);
             painter.paint();
         }
@@ -227,9 +227,9 @@ impl<'a> Painter<'a> {
     fn strip(&mut self, [first, last]: [[DVec2; 2]; 2], [from, to]: [f64; 2], across: [f64; 2]) {
         let stations = self.profiles.stations(self.piece);
         let between = stations.iter().filter(|[at, _]| *at > from + 1e-3 && *at < to - 1e-3);
-        let mut rows: Vec<([DVec2; 2], f64)> = vec![(first, self.profiles.along(self.piece, from))];
+        let mut rows: Vec<([DVec2; 2], f64)> = vec![(first, self.profiles.height_along(self.piece, from))];
         rows.extend(between.map(|&[at, height]| (self.places(at, across), height)));
-        rows.push((last, self.profiles.along(self.piece, to)));
+        rows.push((last, self.profiles.height_along(self.piece, to)));
         for pair in rows.windows(2) {
             let ([right, left], low) = pair[0];
             let ([far_right, far_left], high) = pair[1];

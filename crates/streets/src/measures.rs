@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use glam::DVec2;
 
-use crate::network::StreetNetwork;
+use crate::plan::network::StreetNetwork;
 
 /// Maximum area (m²) of a face that counts as a traffic island and not as a block.
 const ISLAND: f64 = 150.0;

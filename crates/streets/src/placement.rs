@@ -8,9 +8,9 @@ use rstar::primitives::{GeomWithData, Line as IndexLine, Rectangle};
 use rstar::{AABB, RTree};
 
 use crate::lots::{FinePlace, fine_meet, fine_side};
-use crate::network::{PieceId, StreetNetwork};
-use crate::profile::StreetProfiles;
-use crate::surface::SurfaceOptions;
+use crate::plan::network::{PieceId, StreetNetwork};
+use crate::shape::profile::StreetProfiles;
+use crate::surface::parts::SurfaceOptions;
 use burgeon_base::error::{Error, Result};
 use burgeon_geometry::planar::edges;
 
@@ -242,7 +242,7 @@ impl SiteIndex {
     /// Returns true if no street edge enters a site, and if only the edge of its own street is between it and the
     /// centreline.
     fn is_off_streets(&mut self, corners: &Corners, way: [DVec2; 2]) -> bool {
-        let [low, high] = around(corners);
+        let [low, high] = bounds(corners);
         let envelope = AABB::from_corners(low.min(way[0]).to_array(), high.max(way[0]).to_array());
         let [Some(foot), Some(inside)] = way.map(FinePlace::nearest) else { return false };
         let mut between = 0;
@@ -262,9 +262,9 @@ impl SiteIndex {
 
     /// Returns true if a site keeps its distance from all placed sites.
     fn is_apart(&mut self, corners: &Corners, gap: f64) -> bool {
-        let wide = if gap > 0.0 { widened(corners, gap) } else { Some(*corners) };
+        let wide = if gap > 0.0 { widen(corners, gap) } else { Some(*corners) };
         let Some(wide) = wide else { return false };
-        let [low, high] = around(&wide);
+        let [low, high] = bounds(&wide);
         let envelope = AABB::from_corners(low.to_array(), high.to_array());
         for item in self.placed.locate_in_envelope_intersecting(&envelope) {
             self.looked_at += 1;
@@ -276,20 +276,20 @@ impl SiteIndex {
     }
 
     fn add(&mut self, corners: Corners) {
-        let [low, high] = around(&corners);
+        let [low, high] = bounds(&corners);
         let rectangle = Rectangle::from_corners(low.to_array(), high.to_array());
         self.placed.insert(GeomWithData::new(rectangle, self.corners.len()));
         self.corners.push(corners);
     }
 }
 
-fn around(corners: &Corners) -> [DVec2; 2] {
+fn bounds(corners: &Corners) -> [DVec2; 2] {
     let first = corners[0].metres();
     corners.iter().fold([first; 2], |[low, high], at| [low.min(at.metres()), high.max(at.metres())])
 }
 
 /// Returns the rectangle extended by `gap` (m) on each side.
-fn widened(corners: &Corners, gap: f64) -> Option<Corners> {
+fn widen(corners: &Corners, gap: f64) -> Option<Corners> {
     let [a, b, c, d] = corners.map(FinePlace::metres);
     let (x, y) = ((b - a).normalize_or_zero() * gap, (d - a).normalize_or_zero() * gap);
     let wide = [a - x - y, b + x - y, c + x + y, d - x + y].map(FinePlace::nearest);

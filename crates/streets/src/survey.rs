@@ -5,10 +5,10 @@ use rstar::primitives::{GeomWithData, Line as IndexLine};
 use rstar::{AABB, RTree};
 use rustc_hash::FxHashSet;
 
-use crate::constraints::Constraints;
-use crate::grid::{GridPlace, crossing, foot};
-use crate::network::{StreetAttributes, StreetNetwork};
-use crate::obstacles::Obstacles;
+use crate::plan::constraints::Constraints;
+use crate::plan::grid::{GridPlace, crossing, foot};
+use crate::plan::network::{StreetAttributes, StreetNetwork};
+use crate::plan::obstacles::Obstacles;
 use burgeon_base::error::Result;
 
 /// Maximum distance (m) between the end of a line and another line that it joins.

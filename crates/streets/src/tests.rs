@@ -3,7 +3,7 @@
 use glam::DVec2;
 
 use super::*;
-use crate::grid::touch;
+use crate::plan::grid::touch;
 
 /// Random number generator (xorshift).
 pub(crate) struct TestNumbers(pub(crate) u64);

@@ -4,11 +4,11 @@ use glam::DVec3;
 
 use crate::kinds::StreetKind;
 use crate::marks::piece_ends;
-use crate::network::{PieceId, StreetNetwork};
-use crate::profile::StreetProfiles;
-use crate::rows::{MedianEnd, median_of};
-use crate::shape::StreetShapes;
-use crate::surface::SurfaceOptions;
+use crate::plan::network::{PieceId, StreetNetwork};
+use crate::shape::profile::StreetProfiles;
+use crate::shape::shapes::StreetShapes;
+use crate::surface::parts::SurfaceOptions;
+use crate::surface::rows::{MedianEnd, median_of};
 
 /// Distance (m) of the first object from the end of a segment, and from a crossing.
 const MARGIN: f64 = 3.0;
@@ -53,9 +53,9 @@ impl StreetNetwork {
         let shapes = StreetShapes::new(self, options.turning);
         let mut places = Vec::new();
         for (piece, known) in self.pieces().filter(|(_, piece)| piece.attributes.level == 0) {
-            let kind = StreetKind::of(kinds, known.attributes.depth).adapted(known.attributes);
+            let kind = StreetKind::of(kinds, known.attributes.depth).adapt_to(known.attributes);
             // No trees are placed on a bridge.
-            let carried = self.carried(piece).filter(|_| thing == VergeKind::Tree);
+            let carried = self.carried_range(piece).filter(|_| thing == VergeKind::Tree);
             let is_carried = |along: f64| carried.is_some_and(|[from, to]| (from..=to).contains(&along));
             let [start, stop] = self.line(piece);
             let (way, length) = ((stop - start).normalize_or_zero(), start.distance(stop));
@@ -70,9 +70,13 @@ impl StreetNetwork {
                 }
                 let at = start + way * along + way.perp() * aside;
                 let heading = (way.to_angle() + toward).to_degrees();
-                places.push(VergePlace { place: at.extend(profiles.along(piece, along)), heading, piece });
+                places.push(VergePlace {
+                    place: at.extend(profiles.height_along(piece, along)),
+                    heading,
+                    piece,
+                });
             };
-            let lamps = evenly(stretch, kind.lamps);
+            let lamps = even_places(stretch, kind.lamps);
             let right = std::f64::consts::FRAC_PI_2;
             let behind = |[most, part]: [f64; 2]| kind.carriageway() / 2.0 + most.min(part * kind.sidewalk);
             match thing {
@@ -84,7 +88,7 @@ impl StreetNetwork {
                 }
                 VergeKind::Tree => {
                     let is_free = |along: &f64| lamps.iter().all(|lamp| (lamp - along).abs() >= APART);
-                    for along in evenly(stretch, kind.trees).into_iter().filter(is_free) {
+                    for along in even_places(stretch, kind.trees).into_iter().filter(is_free) {
                         add(along, behind(TREE), -right);
                         add(along, -behind(TREE), right);
                     }
@@ -93,7 +97,7 @@ impl StreetNetwork {
                             MedianEnd::Through => through,
                             MedianEnd::Round(tip) => tip + if side == 0 { MARGIN } else { -MARGIN },
                         };
-                        for along in evenly([tip(0, 0.0), tip(1, length)], kind.trees) {
+                        for along in even_places([tip(0, 0.0), tip(1, length)], kind.trees) {
                             add(along, 0.0, 0.0);
                         }
                     }
@@ -106,7 +110,7 @@ impl StreetNetwork {
 
 /// Returns evenly spaced positions between two limits, about `apart` (m) apart, with half of the distance at each end;
 /// empty if `apart` is 0.
-fn evenly([from, to]: [f64; 2], apart: f64) -> Vec<f64> {
+fn even_places([from, to]: [f64; 2], apart: f64) -> Vec<f64> {
     if apart <= 0.0 || to - from < apart / 2.0 {
         return Vec::new();
     }

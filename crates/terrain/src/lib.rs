@@ -6,41 +6,31 @@
 //!
 //! Source: Fitzpatrick, "Procedurally Generated Surfaces Using L-Systems".
 
-mod bed;
-mod block;
-mod cells;
 mod channel;
-mod cuts;
+mod division;
 mod edits;
 pub mod fit;
 pub mod globe;
-mod ground;
-mod height_source;
-mod local_edits;
 mod mesh;
-mod noise;
 mod river;
-mod samples;
 mod script;
-mod table;
 #[cfg(test)]
 mod tests;
-mod tile;
-mod view;
-mod world;
+mod tiles;
 
-pub use bed::GroundBed;
-pub use block::{Area, Block};
-pub use cells::Cells;
 pub use channel::Channel;
-pub use cuts::{GroundCut, GroundCuts};
-pub use edits::{Edit, Edits};
-pub use ground::{Ground, GroundMap};
-pub use height_source::HeightSource;
-pub use mesh::GroundMesh;
-pub use noise::{octaves, octaves_around};
+pub use division::block::{Area, Block};
+pub use division::cells::Cells;
+pub use division::height_source::HeightSource;
+pub use division::noise::{octaves, octaves_around};
+pub use division::table::{NumberRange, Quadrants, RuleTable};
+pub use division::world::{Begin, DEEPEST, Divide, DivisionRules, LevelRules, Tables, World};
+pub use edits::bed::GroundBed;
+pub use edits::edit::Edit;
+pub use edits::store::Edits;
+pub use mesh::cuts::{GroundCut, GroundCuts};
+pub use mesh::ground_mesh::GroundMesh;
 pub use river::{Drainage, Dry};
-pub use table::{NumberRange, Quadrants, RuleTable};
-pub use tile::{Tile, TilePlace};
-pub use view::{DEEPEST, MOST_HEIGHTS, TileRing, View};
-pub use world::{Begin, Divide, DivisionRules, LevelRules, Tables, World};
+pub use tiles::ground::{Ground, GroundMap};
+pub use tiles::tile::{Tile, TilePlace};
+pub use tiles::view::{MOST_HEIGHTS, TileRing, View};

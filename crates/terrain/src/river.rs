@@ -9,7 +9,7 @@ use std::collections::BinaryHeap;
 
 use glam::{DVec2, DVec3};
 
-use super::ground::GroundMap;
+use crate::tiles::ground::GroundMap;
 
 /// The cells of a map, with their flow directions.
 #[derive(Clone)]
@@ -78,8 +78,8 @@ impl Drainage {
             let (column, row) = (cell % self.columns, cell / self.columns);
             let rim = column == 0 || row == 0 || column + 1 == self.columns || row + 1 == self.rows;
             if rim || water.is_some_and(|water| self.heights[cell] <= water) {
-                self.next[cell] = narrow(cell);
-                open.push(Reverse((key(self.heights[cell]), narrow(cell))));
+                self.next[cell] = to_u32(cell);
+                open.push(Reverse((key(self.heights[cell]), to_u32(cell))));
             }
         }
         while let Some(Reverse((level, cell))) = open.pop() {
@@ -98,7 +98,7 @@ impl Drainage {
                 if self.next[there] == u32::MAX {
                     self.next[there] = cell;
                     // Water in a hollow rises to its rim.
-                    open.push(Reverse((level.max(key(self.heights[there])), narrow(there))));
+                    open.push(Reverse((level.max(key(self.heights[there])), to_u32(there))));
                 }
             }
         }
@@ -125,7 +125,7 @@ impl Drainage {
             level = level.min(self.heights[cell]);
             self.middle(cell).extend(level)
         });
-        Ok(rounded(rounded(path.collect())))
+        Ok(round_corners(round_corners(path.collect())))
     }
 
     /// Returns true if a river can start at `source` (m).
@@ -159,14 +159,14 @@ impl Drainage {
     }
 }
 
-fn narrow(cell: usize) -> u32 {
+fn to_u32(cell: usize) -> u32 {
     u32::try_from(cell).unwrap_or(u32::MAX)
 }
 
 /// Returns a path with rounded corners and the same ends.
 ///
 /// Method: Chaikin, "An algorithm for high-speed curve generation", 1974.
-fn rounded(way: Vec<DVec3>) -> Vec<DVec3> {
+fn round_corners(way: Vec<DVec3>) -> Vec<DVec3> {
     let (Some(&first), Some(&last)) = (way.first(), way.last()) else { return way };
     let pieces = way.windows(2).flat_map(|pair| [pair[0].lerp(pair[1], 0.25), pair[0].lerp(pair[1], 0.75)]);
     std::iter::once(first).chain(pieces).chain([last]).collect()

@@ -79,7 +79,7 @@ fn the_way_to_a_place_does_not_matter() {
             assert_eq!(walker.tiles().len(), fresh.tiles().len());
             for (one, other) in walker.tiles().iter().zip(fresh.tiles()) {
                 assert!(one.place == other.place && one.detail == other.detail);
-                let own = Tile::own(one.place, one.detail).widened(1, World::across(one.level()));
+                let own = Tile::own_cells(one.place, one.detail).widen(1, World::across(one.level()));
                 assert!(own.cells().all(|(x, y)| one.cell(x, y).to_bits() == other.cell(x, y).to_bits()));
             }
         }

@@ -50,8 +50,8 @@ pub fn buffer(source: BufferSource<'_>, distance: f64, style: BufferStyle) -> Re
         parts.extend(outer(rings, &outliner)?);
     }
     for line in source.lines {
-        match ClosedWalk::along(line) {
-            Some(walks) => parts.extend(swept(&walks, &outliner, 0)?),
+        match ClosedWalk::of_line(line) {
+            Some(walks) => parts.extend(sweep_walks(&walks, &outliner, 0)?),
             None => parts.extend(line.first().and_then(|at| outliner.around(*at)).map(polygon)),
         }
     }
@@ -77,7 +77,7 @@ fn walks(rings: &Rings<DVec2>, is_inwards: bool) -> Vec<ClosedWalk> {
 /// Returns areas that together cover a polygon and its surroundings within the distance; they may overlap.
 fn outer(rings: &Rings<DVec2>, outliner: &Outliner) -> Result<Vec<PolygonArea>> {
     let walks = walks(rings, false);
-    let mut made = swept(&walks, outliner, 0)?;
+    let mut made = sweep_walks(&walks, outliner, 0)?;
     if are_dense(&walks, outliner) {
         made.push(vec![rings.clone()]);
     }
@@ -88,9 +88,9 @@ fn outer(rings: &Rings<DVec2>, outliner: &Outliner) -> Result<Vec<PolygonArea>> 
 fn inner(rings: &Rings<DVec2>, outliner: &Outliner) -> Result<PolygonArea> {
     let walks = walks(rings, true);
     if !are_dense(&walks, outliner) {
-        return Ok(swept(&walks, outliner, -1)?.pop().unwrap_or_default());
+        return Ok(sweep_walks(&walks, outliner, -1)?.pop().unwrap_or_default());
     }
-    let covered = unite_valid(swept(&walks, outliner, 0)?)?;
+    let covered = unite_valid(sweep_walks(&walks, outliner, 0)?)?;
     super::overlay(std::slice::from_ref(rings), &covered, |[inside, near]| inside && !near)
 }
 
@@ -102,7 +102,7 @@ fn are_dense(walks: &[ClosedWalk], outliner: &Outliner) -> bool {
 ///
 /// With few short edges, the result is one area, including the parts with a winding number greater than
 /// `least`. With many, it is several areas, which may overlap, without the enclosed parts.
-fn swept(walks: &[ClosedWalk], outliner: &Outliner, least: i32) -> Result<Vec<PolygonArea>> {
+fn sweep_walks(walks: &[ClosedWalk], outliner: &Outliner, least: i32) -> Result<Vec<PolygonArea>> {
     let ring = |places| LayerWay { layer: 0, kind: WayKind::Ring, places };
     if !are_dense(walks, outliner) {
         let ways: Vec<LayerWay> = walks.iter().map(|walk| ring(outliner.whole(walk))).collect();

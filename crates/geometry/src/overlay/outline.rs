@@ -77,7 +77,7 @@ impl ClosedWalk {
 
     /// Creates a walk along a line and back, or two walks around a closed line in both directions; `None` if
     /// it has no edges.
-    pub(super) fn along(line: &[DVec2]) -> Option<Vec<Self>> {
+    pub(super) fn of_line(line: &[DVec2]) -> Option<Vec<Self>> {
         let mut places = distinct(line.iter().copied(), false);
         let last = places.len().checked_sub(1).filter(|last| *last > 0)?;
         if last > 2 && places.first() == places.last() {

@@ -4,9 +4,8 @@ use std::ops::Deref;
 
 use glam::DVec2;
 
-use super::Point;
 use super::measure::bounds;
-use super::ring::check;
+use super::point::{Point, check};
 use burgeon_base::error::{Error, Result};
 
 /// A polyline: at least two finite points, each different from the previous one.
@@ -46,7 +45,7 @@ impl<P: Point> Line<P> {
     }
 
     /// Creates a line through points that are known to be valid.
-    pub(super) fn trusted(points: Vec<P>) -> Self {
+    pub(super) fn from_valid(points: Vec<P>) -> Self {
         Self { points }
     }
 

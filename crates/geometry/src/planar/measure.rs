@@ -1,9 +1,9 @@
 //! Measurements of rings and lines of points, each defined once.
 
-use geo::{ConvexHull, Coord, Kernel, LineString, Orientation, kernels::RobustKernel};
+use geo::{Coord, Kernel, Orientation, kernels::RobustKernel};
 use glam::DVec2;
 
-use super::{Point, Ring};
+use super::Point;
 
 /// Returns the edges of a ring of points, each as its two ends; the last edge leads back to the first point.
 pub fn edges<T: Copy>(ring: &[T]) -> impl Iterator<Item = [T; 2]> + Clone + '_ {
@@ -150,32 +150,6 @@ pub(crate) fn kept<T: Copy>(line: &[T], tolerance: f64, aside: impl Fn(T, [T; 2]
         }
     }
     stays
-}
-
-/// Returns the convex hull of `points`, counter-clockwise from its westernmost corner; `None` if the points
-/// are collinear.
-///
-/// Method: quickhull (C. Barber and others, "The quickhull algorithm for convex hulls", 1996), through `geo`.
-///
-/// ```
-/// use burgeon_geometry::{Ring, hull};
-/// use glam::DVec2;
-///
-/// let angle = [(0.0, 0.0), (2.0, 0.0), (2.0, 1.0), (1.0, 1.0), (1.0, 2.0), (0.0, 2.0)].map(DVec2::from);
-/// let hull = hull(angle).expect("an area");
-/// assert_eq!((hull.len(), hull.area()), (5, 3.5));
-/// assert_eq!(hull[0], DVec2::ZERO);
-/// ```
-pub fn hull(points: impl IntoIterator<Item = impl Point>) -> Option<Ring> {
-    let points: LineString = points.into_iter().map(|point| coord(point.flat())).collect();
-    let found = points.convex_hull();
-    let mut hull: Vec<DVec2> = found.exterior().0.iter().map(|at| DVec2::new(at.x, at.y)).collect();
-    hull.pop();
-    // Measurements of the hull must not depend on the order of the points.
-    let west = |a: &DVec2, b: &DVec2| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y));
-    let first = (0..hull.len()).min_by(|&a, &b| west(&hull[a], &hull[b])).unwrap_or(0);
-    hull.rotate_left(first);
-    Ring::new(hull).ok()
 }
 
 /// Returns the minimum and maximum coordinates (m) of points; `None` without points.

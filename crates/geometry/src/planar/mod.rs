@@ -21,16 +21,20 @@ mod point;
 mod polygon;
 mod ring;
 mod rings;
+mod sides;
+mod strings;
 #[cfg(test)]
 mod tests;
+mod triangulation;
 
 pub use line::Line;
-pub use measure::{contains, distance, edges, foot, hull, simplified, twice_area};
+pub use measure::{contains, distance, edges, foot, simplified, twice_area};
 pub use orientation::{is_counter_clockwise, is_flat};
 pub use point::Point;
 pub use polygon::Polygon;
-pub use ring::Ring;
+pub use ring::{Ring, hull};
 pub use rings::Rings;
 
-pub(crate) use convert::geo_polygon;
 pub(crate) use measure::{coord, kept, orientation};
+pub(crate) use strings::geo_polygon;
+pub(crate) use triangulation::triangulate;

@@ -2,14 +2,15 @@
 
 use std::ops::{Add, Deref};
 
-use geo::{LineString, Simplify};
+use geo::Simplify;
 use glam::{DVec2, DVec3};
 
-use super::convert::open;
-use super::measure::{bounds, contains, has_area, hull};
-use super::ring::shown;
-use super::{Point, Ring, Rings};
-use crate::cap;
+use super::Rings;
+use super::measure::{bounds, contains, has_area};
+use super::point::{Point, point_text};
+use super::ring::{Ring, hull};
+use super::strings::{closed_string, open};
+use super::triangulation::triangulate;
 use burgeon_base::error::{Error, Result};
 
 /// A polygon: an outer ring and holes; a polygon without rings is empty.
@@ -49,7 +50,7 @@ impl<P: Point> Polygon<P> {
     /// Creates a polygon inside the first ring and outside the others; fails with the ring or point that
     /// violates a condition.
     pub fn new(rings: impl Into<Rings<P>>) -> Result<Self> {
-        Self::checked(rings.into(), |ring, is_outer, name| {
+        Self::check_rings(rings.into(), |ring, is_outer, name| {
             if ring.is_counter_clockwise() == is_outer || !has_area(ring.iter().map(|point| point.flat())) {
                 return Ok(ring);
             }
@@ -62,22 +63,24 @@ impl<P: Point> Polygon<P> {
     /// Creates a polygon like [`Polygon::new`], and reverses rings with the wrong direction; each ring keeps
     /// its first point.
     pub fn turned(rings: impl Into<Rings<P>>) -> Result<Self> {
-        Self::checked(rings.into(), |ring, is_outer, _| {
+        Self::check_rings(rings.into(), |ring, is_outer, _| {
             Ok(if ring.is_counter_clockwise() == is_outer { ring } else { ring.turned() })
         })
     }
 
-    fn checked(rings: Rings<P>, turned: impl Fn(Ring<P>, bool, &str) -> Result<Ring<P>>) -> Result<Self> {
+    fn check_rings(rings: Rings<P>, turned: impl Fn(Ring<P>, bool, &str) -> Result<Ring<P>>) -> Result<Self> {
         let mut checked = Vec::with_capacity(rings.len());
         for (index, points) in rings.0.into_iter().enumerate() {
             let name = if index == 0 { "the outer ring".to_owned() } else { format!("hole {index}") };
-            let ring = Ring::named(&name, points)?;
+            let ring = Ring::with_name(&name, points)?;
             let last = ring.len();
             let pairs = (1..).zip(ring.edges());
             if let Some((number, [a, _])) = pairs.into_iter().find(|(_, [a, b])| a.flat() == b.flat()) {
                 let next = number % last + 1;
-                let message =
-                    format!("points {number} and {next} of {name} of the polygon are both at {}", shown(a));
+                let message = format!(
+                    "points {number} and {next} of {name} of the polygon are both at {}",
+                    point_text(a)
+                );
                 return Err(Error::geometry(message).help("leave one out: as seen from above they are one"));
             }
             let ring = turned(ring, index == 0, &name)?;
@@ -193,7 +196,7 @@ impl Polygon {
     /// # Ok::<(), burgeon_base::error::Error>(())
     /// ```
     pub fn triangles(&self) -> Result<Vec<[usize; 3]>> {
-        cap::triangulate(self)
+        triangulate(self)
     }
 
     /// Returns the rings without points that are within `distance` (m) of the line between others; the result
@@ -213,7 +216,7 @@ impl Polygon {
     /// # Ok::<(), burgeon_base::error::Error>(())
     /// ```
     pub fn simplified(&self, distance: f64) -> Rings<DVec2> {
-        self.rings.iter().map(|ring| open(&LineString::from(ring).simplify(distance))).collect()
+        self.rings.iter().map(|ring| open(&closed_string(ring).simplify(distance))).collect()
     }
 }
 
@@ -231,5 +234,11 @@ impl<'a, P> IntoIterator for &'a Polygon<P> {
 
     fn into_iter(self) -> Self::IntoIter {
         self.rings.iter()
+    }
+}
+
+impl<P: Clone> From<&Polygon<P>> for Rings<P> {
+    fn from(polygon: &Polygon<P>) -> Self {
+        polygon.iter().map(|ring| ring.to_vec()).collect()
     }
 }

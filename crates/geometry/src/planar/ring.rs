@@ -1,12 +1,13 @@
 //! Rings of points.
 
-use std::fmt::Write as _;
 use std::ops::{Add, Deref};
 
+use geo::{ConvexHull, LineString};
 use glam::{DVec2, DVec3};
 
-use super::measure::{bounds, contains, edges, hull, twice_area};
-use super::{Line, Point};
+use super::Line;
+use super::measure::{bounds, contains, coord, edges, twice_area};
+use super::point::{Point, check, point_text};
 use burgeon_base::error::{Error, Result};
 
 /// An open ring of points: the last point is joined to the first, but does not repeat it.
@@ -38,16 +39,16 @@ pub struct Ring<P = DVec2> {
 impl<P: Point> Ring<P> {
     /// Creates a ring of `points`; fails with the number of the point that violates a condition.
     pub fn new(points: Vec<P>) -> Result<Self> {
-        Self::named("the ring", points)
+        Self::with_name("the ring", points)
     }
 
     /// Creates a ring like [`Ring::new`], with a name for errors.
-    pub(super) fn named(name: &str, points: Vec<P>) -> Result<Self> {
+    pub(super) fn with_name(name: &str, points: Vec<P>) -> Result<Self> {
         check(name, &points)?;
         if let ([first, .., last], count) = (points.as_slice(), points.len())
             && first == last
         {
-            let place = shown(*first);
+            let place = point_text(*first);
             let message = format!("the last point of {name}, {count}, repeats point 1, {place}");
             return Err(Error::geometry(message).help("leave it out: a ring closes by itself"));
         }
@@ -132,7 +133,7 @@ impl<P: Point> Ring<P> {
     pub fn around(&self) -> Line<P> {
         let closed = self.points.iter().chain(self.points.first()).copied().collect();
         // The invariants of a ring include those of a line.
-        Line::trusted(closed)
+        Line::from_valid(closed)
     }
 }
 
@@ -188,27 +189,28 @@ impl<'a, P> IntoIterator for &'a Ring<P> {
     }
 }
 
-/// Fails if a point of `name` is not finite or repeats the previous point.
-pub(super) fn check<P: Point>(name: &str, points: &[P]) -> Result<()> {
-    for (number, point) in (1..).zip(points) {
-        if !point.is_finite() {
-            return Err(Error::geometry(format!("point {number} of {name} is {}", shown(*point)))
-                .help("give finite coordinates in metres"));
-        }
-        if number > 1 && points[number - 2] == *point {
-            let message = format!("point {number} of {name} repeats point {}, {}", number - 1, shown(*point));
-            return Err(Error::geometry(message).help("leave one of them out"));
-        }
-    }
-    Ok(())
-}
-
-/// Formats a point for a message.
-pub(super) fn shown<P: Point>(point: P) -> String {
-    let DVec2 { x, y } = point.flat();
-    let mut text = format!("({x}, {y})");
-    if !point.is_finite() && point.flat().is_finite() {
-        let _ = write!(text, " with a height that is no number");
-    }
-    text
+/// Returns the convex hull of `points`, counter-clockwise from its westernmost corner; `None` if the points
+/// are collinear.
+///
+/// Method: quickhull (C. Barber and others, "The quickhull algorithm for convex hulls", 1996), through `geo`.
+///
+/// ```
+/// use burgeon_geometry::{Ring, hull};
+/// use glam::DVec2;
+///
+/// let angle = [(0.0, 0.0), (2.0, 0.0), (2.0, 1.0), (1.0, 1.0), (1.0, 2.0), (0.0, 2.0)].map(DVec2::from);
+/// let hull = hull(angle).expect("an area");
+/// assert_eq!((hull.len(), hull.area()), (5, 3.5));
+/// assert_eq!(hull[0], DVec2::ZERO);
+/// ```
+pub fn hull(points: impl IntoIterator<Item = impl Point>) -> Option<Ring> {
+    let points: LineString = points.into_iter().map(|point| coord(point.flat())).collect();
+    let found = points.convex_hull();
+    let mut hull: Vec<DVec2> = found.exterior().0.iter().map(|at| DVec2::new(at.x, at.y)).collect();
+    hull.pop();
+    // Measurements of the hull must not depend on the order of the points.
+    let west = |a: &DVec2, b: &DVec2| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y));
+    let first = (0..hull.len()).min_by(|&a, &b| west(&hull[a], &hull[b])).unwrap_or(0);
+    hull.rotate_left(first);
+    Ring::new(hull).ok()
 }

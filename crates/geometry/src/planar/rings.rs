@@ -4,11 +4,11 @@ use std::ops::Deref;
 
 use glam::{DVec2, DVec3};
 
-use super::{Point, Polygon, is_counter_clockwise};
+use super::{Point, is_counter_clockwise};
 
 /// Unvalidated rings, the outer ring first.
 ///
-/// [`Polygon::new`] refuses invalid rings, and [`Plan::new`](crate::Plan::new) repairs them if possible.
+/// [`Polygon::new`](super::Polygon::new) refuses invalid rings, and [`Plan::new`](crate::Plan::new) repairs them if possible.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Rings<P = DVec3>(pub Vec<Vec<P>>);
 
@@ -62,11 +62,5 @@ impl<P> From<Vec<Vec<P>>> for Rings<P> {
 impl<P> FromIterator<Vec<P>> for Rings<P> {
     fn from_iter<I: IntoIterator<Item = Vec<P>>>(rings: I) -> Self {
         Self(rings.into_iter().collect())
-    }
-}
-
-impl<P: Clone> From<&Polygon<P>> for Rings<P> {
-    fn from(polygon: &Polygon<P>) -> Self {
-        polygon.iter().map(|ring| ring.to_vec()).collect()
     }
 }

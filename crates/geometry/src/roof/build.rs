@@ -6,7 +6,7 @@ use super::super::skeleton::{Pace, Skeleton};
 use super::mesh;
 use super::outset::Outset;
 use super::overhang::{Rake, Rim, SkeletonFaces};
-use super::patches::{leveled, patches};
+use super::patches::{level_peaks, patches};
 use super::plate::at_walls;
 use super::shape::Profile;
 use super::shed::Fall;
@@ -91,19 +91,19 @@ impl RoofShape {
         match self.surface {
             RoofSurface::Shed => Ok(self.shed(support)),
             RoofSurface::Flat(None) => Ok(self.level(support)),
-            RoofSurface::Flat(_) => self.sloped(&Support { party: &[], ..*support }, Ends::Hips),
-            RoofSurface::Sloped(ends, _) => self.sloped(support, ends),
+            RoofSurface::Flat(_) => self.sloped_cover(&Support { party: &[], ..*support }, Ends::Hips),
+            RoofSurface::Sloped(ends, _) => self.sloped_cover(support, ends),
         }
     }
 
     /// Returns the requested overhang over each edge: 0 over flush gables.
-    fn wanted(&self, most: &[f64], over: &[EdgeCover]) -> Vec<f64> {
+    fn wanted_overhangs(&self, most: &[f64], over: &[EdgeCover]) -> Vec<f64> {
         let wanted = |(over, most): (&EdgeCover, &f64)| if *over == EdgeCover::Flush { 0.0 } else { *most };
         over.iter().zip(most).map(wanted).collect()
     }
 
     /// Returns the cover with these patches and this outline.
-    fn finished(
+    fn finish(
         &self,
         patches: Vec<Patch>,
         support: &Support<'_>,
@@ -111,7 +111,7 @@ impl RoofShape {
         outset: Outset,
         hipped: bool,
     ) -> RoofCover {
-        let wanted = self.wanted(&support.within_reach(self.overhang), over);
+        let wanted = self.wanted_overhangs(&support.within_reach(self.overhang), over);
         let tight = (0..wanted.len()).filter(|&edge| outset.distances[edge] < wanted[edge]).collect();
         RoofCover { patches, overhangs: outset.distances, tight, hipped }
     }
@@ -131,7 +131,7 @@ impl RoofShape {
         let mut patches = vec![top];
         let profile = Profile::new(self, 1.0, outset.most());
         self.rim(support, &outset, &profile).close(&mut patches, &vec![None; over.len()], None);
-        self.finished(patches, support, &over, outset, false)
+        self.finish(patches, support, &over, outset, false)
     }
 
     fn rim<'a>(&self, support: &Support<'a>, outset: &'a Outset, profile: &'a Profile) -> Rim<'a> {
@@ -151,16 +151,16 @@ impl RoofShape {
     /// If a gable would extend beyond its wall, over other parts of the roof, it is replaced by a slope.
     /// Slopes that continue beyond the walls pass the top of all walls at the same time: slopes with a
     /// smaller overhang start later.
-    fn sloped(&self, support: &Support<'_>, ends: Ends) -> Result<RoofCover> {
+    fn sloped_cover(&self, support: &Support<'_>, ends: Ends) -> Result<RoofCover> {
         let &Support { walls, base, .. } = support;
         let even = vec![Pace::default(); support.edges()];
         let mut hip = if ends == Ends::Hips { None } else { Some(Skeleton::for_mesh(walls, &even)?) };
         let mut party = support.party.to_vec();
-        let mut over = self.over(walls, hip.as_ref(), ends, &party);
+        let mut over = self.edge_covers(walls, hip.as_ref(), ends, &party);
         let mut most = support.within_reach(self.overhang);
         let mut hipped = false;
         loop {
-            let outset = Outset::new(walls, self.wanted(&most, &over), |_| false);
+            let outset = Outset::new(walls, self.wanted_overhangs(&most, &over), |_| false);
             let overhang = outset.most();
             let paces = self.paces(walls, &outset, &over, ends);
             let hips = overhang == 0.0 && over.iter().all(|over| *over == EdgeCover::Slope);
@@ -170,7 +170,7 @@ impl RoofShape {
                 Ok(skeleton) => skeleton,
                 Err(_) if !party.is_empty() => {
                     party.clear();
-                    over = self.over(walls, hip.as_ref(), ends, &party);
+                    over = self.edge_covers(walls, hip.as_ref(), ends, &party);
                     continue;
                 }
                 Err(error) if over.iter().all(|over| *over == EdgeCover::Slope) => {
@@ -194,7 +194,7 @@ impl RoofShape {
                 let rows = party.len();
                 party.retain(|edge| !astray.contains(edge));
                 if party.len() < rows {
-                    over = self.over(walls, hip.as_ref(), ends, &party);
+                    over = self.edge_covers(walls, hip.as_ref(), ends, &party);
                 } else {
                     astray.into_iter().for_each(|edge| over[edge] = EdgeCover::Slope);
                     hipped = true;
@@ -203,8 +203,8 @@ impl RoofShape {
             }
             let profile = Profile::new(self, skeleton.duration(), overhang);
             let rim = self.rim(support, &outset, &profile);
-            let mut points = leveled(&skeleton, &paces, &profile);
-            let is_plate = profile.beyond() > 0.0;
+            let mut points = level_peaks(&skeleton, &paces, &profile);
+            let is_plate = profile.plate_overhang() > 0.0;
             let mut rings = skeleton.faces;
             if is_plate {
                 let ends: Vec<[DVec2; 2]> = walls.edges().collect();
@@ -235,12 +235,18 @@ impl RoofShape {
             }
             let mut patches = patches(&rings, &paces, &profile, base, points.clone(), &rakes);
             rim.close(&mut patches, &rakes, is_plate.then_some(faces));
-            return Ok(self.finished(patches, support, &over, outset, hipped));
+            return Ok(self.finish(patches, support, &over, outset, hipped));
         }
     }
 
     /// Returns the type of roof over each edge: the hip roof `hip` shows possible positions of gables.
-    fn over(&self, walls: &Polygon, hip: Option<&Skeleton>, ends: Ends, party: &[usize]) -> Vec<EdgeCover> {
+    fn edge_covers(
+        &self,
+        walls: &Polygon,
+        hip: Option<&Skeleton>,
+        ends: Ends,
+        party: &[usize],
+    ) -> Vec<EdgeCover> {
         let mut over = vec![EdgeCover::Slope; walls.size()];
         for edge in party {
             over[*edge] = EdgeCover::Flush;
@@ -297,7 +303,7 @@ impl RoofShape {
                 .map(|eaves| if eaves { EdgeCover::Slope } else { EdgeCover::Flush })
                 .collect()
         };
-        let wanted = self.wanted(&support.within_reach(self.overhang), &over);
+        let wanted = self.wanted_overhangs(&support.within_reach(self.overhang), &over);
         let outset = Outset::new(walls, wanted, |edge| over[edge] == EdgeCover::Flush);
         let high = match self.rise {
             Rise::Height(height) => height,
@@ -309,7 +315,7 @@ impl RoofShape {
             }
         };
         let patches = super::shed::patches(self, &fall, walls, &outset.polygon, base, outset.most(), high);
-        self.finished(patches, support, &over, outset, false)
+        self.finish(patches, support, &over, outset, false)
     }
 }
 

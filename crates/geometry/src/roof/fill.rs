@@ -3,8 +3,7 @@
 use glam::{DVec2, DVec3};
 use smallvec::SmallVec;
 
-use super::super::cap;
-use crate::planar::Ring;
+use crate::planar::{Ring, triangulate};
 use burgeon_base::error::{Error, Limit, Result};
 use burgeon_scene::Part;
 
@@ -72,7 +71,7 @@ impl FilledPolygon {
             [_] => match star(&corners) {
                 Some(apex) => fan(corners.len(), apex).collect(),
                 None => {
-                    let clipped = cap::triangulate(&[corners.as_slice()]).map(TriangleIndices::from);
+                    let clipped = triangulate(&[corners.as_slice()]).map(TriangleIndices::from);
                     // If clipping fails, the ring almost touches itself.
                     let triangles =
                         clipped.unwrap_or_else(|_| fan(corners.len(), widest(&corners)).collect());
@@ -86,7 +85,7 @@ impl FilledPolygon {
                     rest = others;
                     own
                 });
-                cap::triangulate(&nested.collect::<Vec<_>>())?.into()
+                triangulate(&nested.collect::<Vec<_>>())?.into()
             }
         };
         Ok(Self { normal, corners, triangles })

@@ -71,7 +71,7 @@ pub fn lines(patches: &[Patch]) -> Vec<RoofLine> {
                         lines.push(RoofLine { kind, ends, normals });
                     }
                 }
-                None if patch.flap == 0 && (is_level || along(a, b).dot(patch.along) > 0.99) => {
+                None if patch.flap == 0 && (is_level || direction(a, b).dot(patch.along) > 0.99) => {
                     lines.push(RoofLine { kind: RoofLineKind::Eaves, ends: [a, b], normals: [normal; 2] });
                 }
                 _ => {}
@@ -81,7 +81,7 @@ pub fn lines(patches: &[Patch]) -> Vec<RoofLine> {
     lines
 }
 
-fn along(a: DVec3, b: DVec3) -> DVec2 {
+fn direction(a: DVec3, b: DVec3) -> DVec2 {
     (b - a).truncate().normalize_or_zero()
 }
 

@@ -4,6 +4,7 @@
 
 mod build;
 mod fill;
+mod levels;
 mod lines;
 mod mesh;
 mod outset;

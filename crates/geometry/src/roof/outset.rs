@@ -58,12 +58,12 @@ impl Outset {
             for (edge, corner) in corners.iter_mut().enumerate() {
                 corner.moved = corner.place(&away, edge);
             }
-            let mut factors = shrunk(&corners, &distances);
+            let mut factors = shrink(&corners, &distances);
             if factors.is_empty() {
                 factors = crossing(&corners, &distances);
             }
             if factors.is_empty() {
-                let Some(polygon) = moved(walls, &corners) else { break };
+                let Some(polygon) = move_walls(walls, &corners) else { break };
                 return Self { polygon, distances, stretches };
             }
             // Distances that approach a limit ever more slowly are reduced faster.
@@ -181,7 +181,7 @@ fn stretches(corners: &[WallCorner], distances: &[f64]) -> Vec<f64> {
 
 /// Returns the edges that take the space of a vanishing or reversed edge or of a corner that moves too far,
 /// each with the feasible fraction of its distance.
-fn shrunk(corners: &[WallCorner], distances: &[f64]) -> Vec<(usize, f64)> {
+fn shrink(corners: &[WallCorner], distances: &[f64]) -> Vec<(usize, f64)> {
     let mut factors = Vec::new();
     for (edge, corner) in corners.iter().enumerate() {
         let pair = [corner.before, edge];
@@ -276,7 +276,7 @@ fn line(ends: [DVec2; 2]) -> geo::Line {
 }
 
 /// Returns the moved corners as a polygon with the ring sizes of the walls; `None` if it is not valid.
-fn moved(walls: &Polygon, corners: &[WallCorner]) -> Option<Polygon> {
+fn move_walls(walls: &Polygon, corners: &[WallCorner]) -> Option<Polygon> {
     let mut rest = corners.iter().map(|corner| corner.moved);
     let rings = walls.iter().map(|ring| rest.by_ref().take(ring.len()).collect());
     Polygon::new(rings.collect::<Rings<DVec2>>()).ok()

@@ -2,7 +2,7 @@
 
 use glam::{DVec2, DVec3};
 
-use super::patches::at_level;
+use super::levels::at_level;
 use super::plate::{border, part};
 use super::shape::Profile;
 use super::support::divide_feet;
@@ -58,11 +58,11 @@ struct RingPlace {
 }
 
 impl RingPlace {
-    fn before(&self) -> usize {
+    fn previous_edge(&self) -> usize {
         self.first + (self.index + self.count - 1) % self.count
     }
 
-    fn after(&self) -> usize {
+    fn next_edge(&self) -> usize {
         self.first + (self.index + 1) % self.count
     }
 
@@ -115,7 +115,7 @@ impl Rim<'_> {
         let place = self.place(edge);
         let [left, right] = place.ends(self.walls);
         let along = (right - left).normalize_or_zero();
-        let neighbours = [place.before(), place.after()];
+        let neighbours = [place.previous_edge(), place.next_edge()];
         let beyond = |point: &DVec3| (point.truncate() - left).dot(along.perp()) < CLEAR;
         for neighbour in neighbours {
             let face = faces.rings[neighbour].iter().map(|&index| faces.points[index]);
@@ -264,7 +264,7 @@ impl Rim<'_> {
         let from = self.overhang - self.distances[edge];
         let beside = |edge: usize| rakes[edge].is_some();
         // Next to a gable with an overhang, the top of the wall ends before the roof does.
-        let corners = [(left, beside(place.before())), (right, beside(place.after()))];
+        let corners = [(left, beside(place.previous_edge())), (right, beside(place.next_edge()))];
         let corners = corners.into_iter().filter(|(_, beside)| *beside).map(|(at, _)| at.extend(self.base));
         patches.extend(patch(PatchKind::Fascia, self.strip(edge, from, faces, corners.clone())));
         if self.distances[edge] > 0.0 {

@@ -6,9 +6,9 @@ use rustc_hash::FxHashMap;
 use smallvec::SmallVec;
 
 use super::super::skeleton::{Pace, Skeleton};
+use super::levels::{at_level, is_at};
 use super::overhang::Rake;
-use super::plate::is_at;
-use super::shape::{Profile, between};
+use super::shape::{Profile, interpolate};
 use super::{Patch, PatchKind};
 use crate::planar::edges;
 
@@ -16,7 +16,7 @@ use crate::planar::edges;
 const ON_LEVEL: f64 = 2e-3;
 
 /// Returns the peaks of a skeleton with their times (m) as heights, snapped to nearby levels.
-pub(super) fn leveled(skeleton: &Skeleton, paces: &[Pace], profile: &Profile) -> Vec<DVec3> {
+pub(super) fn level_peaks(skeleton: &Skeleton, paces: &[Pace], profile: &Profile) -> Vec<DVec3> {
     let rests = paces.iter().map(|pace| pace.rest);
     let mut levels: Vec<f64> = profile.corners.iter().map(|corner| corner.x).chain(rests).collect();
     levels.sort_by(f64::total_cmp);
@@ -52,7 +52,7 @@ pub(super) fn patches(
     let mut rest = pieces.as_slice();
     for (edge, (face, pace)) in faces.iter().zip(paces).enumerate() {
         let along = (points[face[1]] - points[face[0]]).truncate().normalize_or_zero();
-        let lowest = profile.first + usize::from(pace.rest > 0.0 && pace.rest < profile.beyond());
+        let lowest = profile.first + usize::from(pace.rest > 0.0 && pace.rest < profile.plate_overhang());
         for (number, &ProfileSpan { line: [from, to], low, .. }) in spans[edge].iter().enumerate() {
             let flap = number.saturating_sub(lowest);
             let patch = |kind, ring| Patch::new(kind, edge, flap, along, ring);
@@ -80,11 +80,11 @@ pub(super) fn patches(
             };
             let raise = |&index: &usize| {
                 let point = points[index];
-                point.truncate().extend(base + between(from, to, point.z))
+                point.truncate().extend(base + interpolate(from, to, point.z))
             };
             // The lowest part represents a gable that is drawn elsewhere, so that its position is known.
-            let is_left_out =
-                kind == PatchKind::Gable && (pace.moves_at(profile.beyond()) || rakes[edge].is_some());
+            let is_left_out = kind == PatchKind::Gable
+                && (pace.moves_at(profile.plate_overhang()) || rakes[edge].is_some());
             for piece in rest[..count].iter().filter(|_| !is_left_out) {
                 patches.extend(patch(kind, piece.ring.iter().map(raise).collect()));
             }
@@ -161,11 +161,6 @@ fn spans(profile: &Profile, pace: &Pace) -> Spans {
         }
     }
     spans
-}
-
-/// Interpolates between `low` and `high` at `level`, which is between their heights.
-pub(super) fn at_level(low: DVec3, high: DVec3, level: f64) -> DVec3 {
-    low.truncate().lerp(high.truncate(), (level - low.z) / (high.z - low.z)).extend(level)
 }
 
 /// Returns the part of `piece` up to `level`, and adds the parts beyond to `above`. Each begins with its

@@ -3,7 +3,7 @@
 use glam::{DVec2, DVec3};
 use rustc_hash::FxHashMap;
 
-use super::patches::at_level;
+use super::levels::{at_level, is_at};
 use crate::planar::edges;
 
 /// Maximum distance (m) of a slope from a corner of the walls, at the top of the walls.
@@ -27,7 +27,7 @@ pub(super) fn at_walls(
 ) -> Result<Vec<Vec<usize>>, Vec<usize>> {
     let mut between: FxHashMap<[usize; 2], usize> = FxHashMap::default();
     let mut faces = Vec::with_capacity(rings.len());
-    let before = before(rings);
+    let before = previous_edges(rings);
     stand_still(rings, &before, points, rests);
     for (face, &[left, right]) in rings.iter().zip(ends) {
         let mut ring = Vec::with_capacity(face.len() + 2);
@@ -66,7 +66,7 @@ pub(super) fn at_walls(
 }
 
 /// Returns the previous edge of each edge.
-fn before(rings: &[Vec<usize>]) -> Vec<usize> {
+fn previous_edges(rings: &[Vec<usize>]) -> Vec<usize> {
     // A corner of the outline has the index of the edge that begins there.
     let mut before = vec![0; rings.len()];
     for (edge, face) in rings.iter().enumerate() {
@@ -88,11 +88,6 @@ fn stand_still(rings: &[Vec<usize>], before: &[usize], points: &mut [DVec3], res
             }
         }
     }
-}
-
-#[allow(clippy::float_cmp, reason = "levels are copies")]
-pub(super) fn is_at(point: DVec3, level: f64) -> bool {
-    point.z == level
 }
 
 /// Reports whether a face crosses the top of the walls beyond the left and the right end of its wall (true),

@@ -127,7 +127,7 @@ impl Profile {
     }
 
     /// Returns the distance (m) by which the slopes continue beyond the walls, as a plate.
-    pub(super) fn beyond(&self) -> f64 {
+    pub(super) fn plate_overhang(&self) -> f64 {
         if self.first == 1 { self.corners[self.first].x } else { 0.0 }
     }
 
@@ -137,13 +137,13 @@ impl Profile {
         let intervals = self.corners.windows(2).enumerate();
         let mut spans = intervals.filter(|(_, pair)| pair[1].x > pair[0].x);
         let span = spans.find(|(index, pair)| *index == last || distance <= pair[1].x);
-        span.map_or(0.0, |(_, pair)| between(pair[0], pair[1], distance))
+        span.map_or(0.0, |(_, pair)| interpolate(pair[0], pair[1], distance))
     }
 }
 
 /// Interpolates the height at `distance` between two corners; exact at both, so that neighbours agree.
 #[allow(clippy::float_cmp, reason = "exact at the end")]
-pub(super) fn between(from: DVec2, to: DVec2, distance: f64) -> f64 {
+pub(super) fn interpolate(from: DVec2, to: DVec2, distance: f64) -> f64 {
     if distance == to.x {
         return to.y;
     }

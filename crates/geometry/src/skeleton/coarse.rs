@@ -3,8 +3,8 @@
 use glam::DVec3;
 use smallvec::SmallVec;
 
-use super::Peak;
 use super::edge::SkeletonEdge;
+use super::skeleton::Peak;
 
 /// Maximum length (m), horizontally and in time, of short borders, and maximum width of thin spikes.
 const FINEST: f64 = 1e-3;
@@ -149,7 +149,7 @@ struct PeakMap {
 }
 
 /// Returns the corners before and after a corner of a ring; empty if the ring does not contain it.
-fn beside(ring: &[usize], peak: usize) -> SmallVec<[usize; 2]> {
+fn ring_neighbours(ring: &[usize], peak: usize) -> SmallVec<[usize; 2]> {
     let count = ring.len();
     let at = ring.iter().position(|&other| other == peak);
     at.map(|at| SmallVec::from_slice(&[ring[(at + count - 1) % count], ring[(at + 1) % count]]))
@@ -167,7 +167,7 @@ impl PeakMap {
 
     /// Returns the peaks that are connected to a peak by borders.
     fn neighbours(&self, peak: usize, faces: &[Vec<usize>]) -> SmallVec<[usize; 12]> {
-        self.around[peak].iter().flat_map(|&face| beside(&faces[face], peak)).collect()
+        self.around[peak].iter().flat_map(|&face| ring_neighbours(&faces[face], peak)).collect()
     }
 
     /// Replaces `gone` by `kept` if both exist and the map stays valid; returns true on success.
@@ -178,7 +178,8 @@ impl PeakMap {
         }
         let shared: SmallVec<[usize; 4]> =
             self.around[gone].iter().copied().filter(|face| self.around[kept].contains(face)).collect();
-        let apart = |&face: &usize| faces[face].len() <= 3 || !beside(&faces[face], gone).contains(&kept);
+        let apart =
+            |&face: &usize| faces[face].len() <= 3 || !ring_neighbours(&faces[face], gone).contains(&kept);
         if shared.len() != 2 || shared[0] == shared[1] || shared.iter().any(apart) {
             return false;
         }
@@ -201,7 +202,7 @@ impl PeakMap {
     /// Removes a peak on a straight border between two faces; returns true on success.
     fn straightens(&mut self, peak: usize, peaks: &[Peak], faces: &mut [Vec<usize>]) -> bool {
         let [one, two] = self.around[peak][..] else { return false };
-        let [a, b] = beside(&faces[one], peak)[..] else { return false };
+        let [a, b] = ring_neighbours(&faces[one], peak)[..] else { return false };
         let [there, whole] = [way(peaks, [a, peak]), way(peaks, [a, b])];
         // Both ends may be off by as much as merged peaks are.
         if there.cross(whole).length() > 3.0 * FINEST * whole.length()
@@ -218,7 +219,7 @@ impl PeakMap {
     }
 
     /// Returns the face on the other side of a face's border; `None` at an edge of the polygon.
-    fn across(&self, [from, to]: [usize; 2], faces: &[Vec<usize>]) -> Option<usize> {
+    fn face_across(&self, [from, to]: [usize; 2], faces: &[Vec<usize>]) -> Option<usize> {
         let runs = |face: &usize| {
             let ring = &faces[*face];
             let at = ring.iter().position(|&peak| peak == to);
@@ -235,7 +236,8 @@ impl PeakMap {
         peaks: &[Peak],
         faces: &mut [Vec<usize>],
     ) -> bool {
-        let [Some(left), Some(right)] = [[a, tip], [tip, b]].map(|border| self.across(border, faces)) else {
+        let [Some(left), Some(right)] = [[a, tip], [tip, b]].map(|border| self.face_across(border, faces))
+        else {
             return false;
         };
         if self.neighbours(a, faces).contains(&b) {

@@ -4,7 +4,7 @@ use std::cmp::Ordering;
 
 use glam::{DVec2, I64Vec2};
 
-use super::Pace;
+use super::skeleton::Pace;
 use crate::planar::Polygon;
 use burgeon_base::error::{Error, Limit, Result};
 
@@ -43,7 +43,7 @@ pub(super) fn snap(polygon: &Polygon, scale: f64, rings: &mut Vec<Vec<I64Vec2>>)
         return Err(Error::limit(Limit::Size, "the outline is too large for a roof")
             .help("give an outline of less than 500,000 km"));
     }
-    let snapped = |point: &DVec2| nearest((*point - middle) * cells);
+    let snapped = |point: &DVec2| nearest_cell((*point - middle) * cells);
     rings.resize_with(polygon.len(), Vec::new);
     for (points, ring) in rings.iter_mut().zip(polygon.iter()) {
         points.clear();
@@ -54,7 +54,7 @@ pub(super) fn snap(polygon: &Polygon, scale: f64, rings: &mut Vec<Vec<I64Vec2>>)
 
 /// Rounds to the nearest point of the lattice, halves away from zero like `round`, but without a library
 /// call.
-fn nearest(point: DVec2) -> I64Vec2 {
+fn nearest_cell(point: DVec2) -> I64Vec2 {
     let whole = point.as_i64vec2();
     whole + ((point - whole.as_dvec2()) * 2.0).as_i64vec2()
 }
@@ -62,6 +62,12 @@ fn nearest(point: DVec2) -> I64Vec2 {
 /// Converts a point of the lattice to metres.
 pub(super) fn metres(point: I64Vec2) -> DVec2 {
     point.as_dvec2() / CELLS
+}
+
+/// Converts the index of a corner or edge, of which there are fewer than 2^32.
+#[allow(clippy::cast_possible_truncation, reason = "there is no memory for more")]
+pub(super) fn short(number: usize) -> u32 {
+    number as u32
 }
 
 /// An edge of the polygon.
@@ -79,7 +85,7 @@ pub(super) struct SkeletonEdge {
 
 impl SkeletonEdge {
     /// Returns the distance of `at` from the edge at `time`, positive if the edge has not reached it yet.
-    pub(super) fn ahead(&self, at: DVec2, time: f64) -> f64 {
+    pub(super) fn distance_ahead(&self, at: DVec2, time: f64) -> f64 {
         self.along.perp().dot(at) - self.level - self.pace.way(time)
     }
 }
@@ -153,7 +159,11 @@ mod tests {
         let odd = (1u64 << 52) as f64 - 0.5;
         let numbers = [0.0, 0.5, 1.5, 2.5, 0.5 - f64::EPSILON / 4.0, 0.75, 1e-300, odd, odd - 1.0, MOST];
         for number in numbers.into_iter().flat_map(|number| [number, -number]) {
-            assert_eq!(nearest(DVec2::splat(number)), DVec2::splat(number).round().as_i64vec2(), "{number}");
+            assert_eq!(
+                nearest_cell(DVec2::splat(number)),
+                DVec2::splat(number).round().as_i64vec2(),
+                "{number}"
+            );
         }
     }
 

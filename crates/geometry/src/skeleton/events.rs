@@ -1,11 +1,11 @@
 //! Prediction of the wavefront's events and their times.
 
-use std::cmp::{Ordering, Reverse};
-use std::collections::BinaryHeap;
+use std::cmp::Ordering;
 
-use super::edge::Direction;
+use super::edge::{Direction, short};
 use super::fronts::{CornerCourse, EdgeFront};
 use super::lines::EventTime;
+use super::queue::{WavefrontEvent, WavefrontEventKind};
 use super::wavefront::{ANY, CornerKind, Wavefront};
 
 /// Error (m) above which times are computed exactly before they are compared.
@@ -13,89 +13,7 @@ const COARSE: f64 = 1e-6;
 /// Number of edges that are predicted at once for a reflex corner.
 const FORESEEN: usize = 8;
 
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) enum WavefrontEventKind {
-    /// Collapse of the edge between two corners to a point.
-    Collapse(u32, u32),
-    /// Arrival of a reflex corner at the line of an edge.
-    Split(u32, u32),
-    /// Start of an edge that stood still.
-    Start(u32),
-}
-
-/// Converts the index of a corner or edge, of which there are fewer than 2^32.
-#[allow(clippy::cast_possible_truncation, reason = "there is no memory for more")]
-pub(super) fn short(number: usize) -> u32 {
-    number as u32
-}
-
-#[derive(Debug, Clone, Copy)]
-pub(super) struct WavefrontEvent {
-    /// Lower bound of the time.
-    low: f64,
-    when: EventTime,
-    what: WavefrontEventKind,
-    /// Set if the corner's next possible events have not been added yet.
-    leads: bool,
-}
-
-impl WavefrontEvent {
-    fn rank(&self) -> (u8, u32, u32) {
-        match self.what {
-            WavefrontEventKind::Collapse(a, b) => (1, a, b),
-            WavefrontEventKind::Split(corner, edge) => (2, corner, edge),
-            WavefrontEventKind::Start(edge) => (3, edge, 0),
-        }
-    }
-
-    /// Orders events of the same time.
-    fn compare(&self, other: &Self) -> Ordering {
-        self.low.total_cmp(&other.low).then_with(|| self.rank().cmp(&other.rank()))
-    }
-}
-
-/// Queue of predicted events, the earliest first.
-///
-/// The heap moves only small keys, not the events.
-#[derive(Debug, Default)]
-pub(super) struct EventQueue {
-    events: Vec<WavefrontEvent>,
-    /// Keys: the time of each event as an integer with the same order, then its index.
-    order: BinaryHeap<Reverse<u128>>,
-}
-
-impl EventQueue {
-    pub(super) fn clear(&mut self) {
-        self.events.clear();
-        self.order.clear();
-    }
-
-    #[inline]
-    fn push(&mut self, event: WavefrontEvent) {
-        self.events.push(event);
-        self.put_back(short(self.events.len() - 1));
-    }
-
-    /// Inserts an event again after it was removed.
-    fn put_back(&mut self, number: u32) {
-        let bits = self.events[number as usize].low.to_bits();
-        // The order of the bits of negative numbers is reversed.
-        let sorted = if bits >> 63 == 0 { bits | 1 << 63 } else { !bits };
-        self.order.push(Reverse(u128::from(sorted) << 32 | u128::from(number)));
-    }
-
-    /// Returns the index of the earliest event.
-    #[allow(clippy::cast_possible_truncation, reason = "it stands in the last 32 bits")]
-    fn first(&self) -> Option<u32> {
-        self.order.peek().map(|&Reverse(key)| key as u32)
-    }
-}
-
 impl Wavefront {
-    pub(super) fn expect(&mut self, when: EventTime, what: WavefrontEventKind) {
-        self.events.push(WavefrontEvent { low: when.low(), when, what, leads: false });
-    }
-
     /// Predicts the time when the edge between two neighbours shrinks to a point.
     pub(super) fn expect_collapse(&mut self, a: usize, b: usize) {
         self.corners[a].shrunk = f64::INFINITY;
@@ -117,14 +35,14 @@ impl Wavefront {
 
     /// Returns the latest known time at which one of the corner's two edges has shrunk to a point, which ends
     /// the corner.
-    fn over(&self, index: usize) -> f64 {
+    fn collapse_time(&self, index: usize) -> f64 {
         let corner = &self.corners[index];
         corner.shrunk.min(self.corners[corner.before].shrunk)
     }
 
     /// Predicts further events of a corner that lasts longer than assumed when none were found.
     pub(super) fn expect_later_split(&mut self, index: usize) {
-        if self.corners[index].alive && self.over(index) > self.corners[index].foreseen_until {
+        if self.corners[index].alive && self.collapse_time(index) > self.corners[index].foreseen_until {
             self.expect_split(index, ANY);
         }
     }
@@ -154,7 +72,7 @@ impl Wavefront {
             sorts: corner.edges.map(|edge| self.current.sort(edge)),
         };
         let shortly = course.short();
-        let over = self.over(index);
+        let over = self.collapse_time(index);
         let mut found: [(f64, usize); FORESEEN] = [(over, usize::MAX); FORESEEN];
         let mut count = 0;
         for block in self.current.blocks_around(corner.edges[1]) {
@@ -217,7 +135,7 @@ impl Wavefront {
         if let Some(last) = corner.foreseen.next_back() {
             let (low, edge) = self.foreseen[last];
             let [a, b] = corner.pair();
-            let when = self.lines.when([a, b, self.traced.edges[edge].line]);
+            let when = self.lines.meeting_time([a, b, self.traced.edges[edge].line]);
             let what = WavefrontEventKind::Split(short(index), short(edge));
             self.events.push(WavefrontEvent { low, when, what, leads: true });
         }

@@ -49,7 +49,7 @@ fn parts(number: f64) -> (i64, i64) {
 }
 
 #[allow(clippy::cast_sign_loss, clippy::cast_possible_truncation, reason = "callers make it positive")]
-fn shifted(number: &Whole, by: i64) -> Whole {
+fn shift_left(number: &Whole, by: i64) -> Whole {
     number.shifted(by as usize)
 }
 
@@ -84,10 +84,10 @@ impl ExactLine {
         let c = i128::from(-y) * i128::from(through.x) + i128::from(x) * i128::from(through.y);
         let gone = &w * &Whole::from(rest);
         Self {
-            a: shifted(&Whole::from(-y), scale),
-            b: shifted(&Whole::from(x), scale),
-            c: shifted(&Whole::from(c), scale) - shifted(&gone, scale + w_power + rest_power),
-            w: shifted(&w, scale + w_power),
+            a: shift_left(&Whole::from(-y), scale),
+            b: shift_left(&Whole::from(x), scale),
+            c: shift_left(&Whole::from(c), scale) - shift_left(&gone, scale + w_power + rest_power),
+            w: shift_left(&w, scale + w_power),
         }
     }
 
@@ -140,7 +140,7 @@ impl Ratio {
     pub(super) fn of(time: f64) -> Self {
         let (whole, power) = parts(time * CELLS);
         let [up, down] = [power.max(0), (-power).max(0)];
-        Self { over: shifted(&Whole::from(whole), up), under: shifted(&Whole::ONE, down) }
+        Self { over: shift_left(&Whole::from(whole), up), under: shift_left(&Whole::ONE, down) }
     }
 
     pub(super) fn compare(&self, other: &Self) -> Ordering {
@@ -149,7 +149,7 @@ impl Ratio {
 
     /// Converts to metres, rounded.
     pub(super) fn metres(&self) -> f64 {
-        self.over.over(&self.under) / CELLS
+        self.over.quotient(&self.under) / CELLS
     }
 }
 
@@ -167,7 +167,7 @@ impl ExactPlace {
 
     /// Converts to metres, rounded.
     pub(super) fn metres(&self) -> DVec2 {
-        DVec2::new(self.x.over(&self.under), self.y.over(&self.under)) / CELLS
+        DVec2::new(self.x.quotient(&self.under), self.y.quotient(&self.under)) / CELLS
     }
 }
 

@@ -5,8 +5,8 @@ use smallvec::SmallVec;
 
 use super::coarse::{coarsen, widen};
 use super::edge::{SkeletonEdge, metres};
+use super::skeleton::{Peak, Skeleton};
 use super::wavefront::{Arc, WavefrontTrace};
-use super::{Peak, Skeleton};
 use crate::planar::twice_area;
 use burgeon_base::error::{Error, Result};
 
@@ -163,7 +163,7 @@ fn verify(
             return Err(Error::geometry("a face of the roof has no corners but its edge's"));
         }
         let corners = || face.iter().map(|&peak| &peaks[peak]);
-        if corners().any(|peak| edge.ahead(peak.at, peak.time).abs() > OFF_PLANE) {
+        if corners().any(|peak| edge.distance_ahead(peak.at, peak.time).abs() > OFF_PLANE) {
             return Err(Error::geometry("a face of the roof is not flat"));
         }
         let area = twice_area(corners().map(|peak| peak.at));

@@ -2,8 +2,7 @@
 
 use glam::{DVec2, Vec2};
 
-use super::edge::Direction;
-use super::events::short;
+use super::edge::{Direction, short};
 use super::lines::MovingLine;
 
 /// Number of edges per block, for SIMD instructions on single-precision numbers.
@@ -38,14 +37,14 @@ impl FrontBlock {
         self.sort[lane] = sort;
         let normal = line.normal.as_vec2();
         (self.x[lane], self.y[lane]) = (normal.x, normal.y);
-        self.level[lane] = near(line.level);
-        (self.speed[lane], self.slack[lane]) = (near(line.speed), near(line.slack));
+        self.level[lane] = to_single(line.level);
+        (self.speed[lane], self.slack[lane]) = (to_single(line.speed), to_single(line.slack));
     }
 }
 
 /// Rounds a number to single precision.
 #[allow(clippy::cast_possible_truncation, reason = "what is lost is reckoned with")]
-fn near(number: f64) -> f32 {
+fn to_single(number: f64) -> f32 {
     number as f32
 }
 
@@ -80,14 +79,14 @@ pub(super) struct ShortCourse {
 
 impl CornerCourse {
     pub(super) fn short(&self) -> ShortCourse {
-        let noise = self.noise.map(|noise| SHORT * near(noise));
+        let noise = self.noise.map(|noise| SHORT * to_single(noise));
         ShortCourse {
-            cross: near(self.cross),
+            cross: to_single(self.cross),
             levels: self.levels.as_vec2(),
             speeds: self.speeds.as_vec2(),
-            slack: near(self.slack) + noise[0],
+            slack: to_single(self.slack) + noise[0],
             noise,
-            now: near(self.now.max(0.0)),
+            now: to_single(self.now.max(0.0)),
             sorts: self.sorts,
         }
     }
@@ -183,7 +182,7 @@ impl EdgeFronts {
     pub(super) fn within_reach(&self, block: usize, course: &ShortCourse, last: f64) -> u32 {
         let FrontBlock { x, y, level, speed, slack, sort } = &self.blocks[block];
         let ShortCourse { cross, levels, speeds, noise, now, sorts, .. } = *course;
-        let last = near(last.max(0.0));
+        let last = to_single(last.max(0.0));
         let mut within = 0;
         for lane in 0..LANES {
             let rate = speed[lane] * cross + (x[lane] * speeds.y - y[lane] * speeds.x);

@@ -214,7 +214,7 @@ impl MovingLines {
     }
 
     /// Returns the exact forms of lines, which must have been computed by `exactly`.
-    fn known<const N: usize>(&self, lines: [usize; N]) -> [&ExactLine; N] {
+    fn exact_lines<const N: usize>(&self, lines: [usize; N]) -> [&ExactLine; N] {
         lines.map(|line| &self.exact[self.numbers[line] as usize])
     }
 
@@ -253,7 +253,7 @@ impl MovingLines {
             return Ordering::Equal;
         }
         self.exactly(&lines);
-        exact::rate(self.known(lines)).sign()
+        exact::rate(self.exact_lines(lines)).sign()
     }
 
     /// Returns the time when three approaching lines meet; `None` if they do not approach. `backwards`
@@ -267,7 +267,7 @@ impl MovingLines {
     }
 
     /// Returns the time when three lines intersect in one point; they must do so exactly once.
-    pub(super) fn when(&self, lines: [usize; 3]) -> EventTime {
+    pub(super) fn meeting_time(&self, lines: [usize; 3]) -> EventTime {
         self.when_of(lines, self.sums(lines))
     }
 
@@ -320,7 +320,7 @@ impl MovingLines {
         } else {
             let lines = when.by.map(|line| line as usize);
             self.exactly(&lines);
-            exact::time(self.known(lines)).unwrap_or_else(|| Ratio::of(f64::from(f32::MAX)))
+            exact::time(self.exact_lines(lines)).unwrap_or_else(|| Ratio::of(f64::from(f32::MAX)))
         };
         self.times.push(ratio);
         when.exact = u32::try_from(self.times.len() - 1).unwrap_or(NONE);
@@ -380,7 +380,7 @@ impl MovingLines {
     fn exact_place(&mut self, pair: [usize; 2], when: &mut EventTime) -> ExactPlace {
         let time = self.ratio(when);
         self.exactly(&pair);
-        let [l, m] = self.known(pair);
+        let [l, m] = self.exact_lines(pair);
         exact::place(l, m, &self.times[time])
     }
 
@@ -444,12 +444,12 @@ mod tests {
             let mut met = Vec::new();
             for triple in [[0, 1, 2], [3, 4, 5], [0, 2, 4], [1, 3, 5]].map(|of| of.map(|index| numbers[index])) {
                 let sums = lines.sums(triple);
-                let rate = exact::rate({ lines.exactly(&triple); lines.known(triple) }).sign();
+                let rate = exact::rate({ lines.exactly(&triple); lines.exact_lines(triple) }).sign();
                 if sums.is_exact {
                     prop_assert_eq!(sign(sums.speeds, 0.0), Some(rate));
                 }
                 if rate != Ordering::Equal {
-                    met.push(lines.when(triple));
+                    met.push(lines.meeting_time(triple));
                 }
             }
             for mut when in met.clone() {

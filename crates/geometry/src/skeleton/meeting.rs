@@ -2,24 +2,11 @@
 
 use std::cmp::Ordering;
 
-use super::Peak;
 use super::edge::Direction;
 use super::lines::{EventTime, FINE, LineMeeting};
-use super::wavefront::Wavefront;
+use super::skeleton::Peak;
+use super::wavefront::{ANY, CornerKind, EventPoint, Wavefront, WavefrontCorner};
 use burgeon_base::error::{Error, Result};
-
-/// A corner that an event moves, or a point of an edge (identified by the corner at the start of the edge's
-/// segment).
-#[derive(Debug, Clone, Copy)]
-pub(super) struct EventPoint {
-    corner: usize,
-    cut: bool,
-    place: LineMeeting,
-    /// Representative of all spots at the same position.
-    leader: usize,
-    /// Index of its meeting, once it is assigned.
-    meeting: usize,
-}
 
 /// End of a segment of an edge: a corner that stays, or a meeting.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -61,43 +48,6 @@ struct Ray {
 }
 
 impl Wavefront {
-    /// Returns the spot of a corner; adds it if necessary.
-    pub(super) fn spot(&mut self, corner: usize, place: LineMeeting) -> usize {
-        if let Some(known) = self.spot_of(corner) {
-            return known;
-        }
-        self.corners[corner].spot = self.spots.len();
-        self.add_spot(corner, false, place)
-    }
-
-    fn spot_of(&self, corner: usize) -> Option<usize> {
-        let known = self.corners[corner].spot;
-        self.spots.get(known).filter(|spot| spot.corner == corner && !spot.cut).map(|_| known)
-    }
-
-    /// Adds a spot on the segment of an edge that begins at a corner.
-    pub(super) fn spot_between(&mut self, corner: usize, place: LineMeeting) -> usize {
-        self.add_spot(corner, true, place)
-    }
-
-    fn add_spot(&mut self, corner: usize, cut: bool, place: LineMeeting) -> usize {
-        let leader = self.spots.len();
-        self.spots.push(EventPoint { corner, cut, place, leader, meeting: 0 });
-        leader
-    }
-
-    fn leader(&self, mut spot: usize) -> usize {
-        while self.spots[spot].leader != spot {
-            spot = self.spots[spot].leader;
-        }
-        spot
-    }
-
-    pub(super) fn join(&mut self, a: usize, b: usize) {
-        let (a, b) = (self.leader(a), self.leader(b));
-        self.spots[a.max(b)].leader = a.min(b);
-    }
-
     /// Computes the new wavefront at the spots, until nothing more happens at this time.
     pub(super) fn resolve(&mut self, lists: &mut MeetingLists, when: &mut EventTime) -> Result<()> {
         self.lines.settle(when, FINE);
@@ -253,6 +203,100 @@ impl Wavefront {
             let between = cuts.partition_point(|cut| cut.0 < from)..cuts.partition_point(|cut| cut.0 <= from);
             cuts[between].iter().for_each(|cut| add(End::Meeting(cut.2)));
             add(end(corner.after));
+        }
+    }
+
+    /// Ends rings of two new corners, which enclose no area.
+    fn close(&mut self, fresh: &[usize], when: &mut EventTime) {
+        for &index in fresh {
+            let WavefrontCorner { alive, before, after, .. } = self.corners[index];
+            if !alive {
+                continue;
+            }
+            if after == index {
+                self.end(index, self.corners[index].peak);
+            } else if after == before {
+                let mut peak = self.corners[after].peak;
+                if self.lines.compare(&mut self.corners[after].born, when) == Ordering::Less {
+                    peak = self.traced.peaks.len();
+                    let mut place = self.place(after, when);
+                    self.lines.settle_place(&mut place, when);
+                    let at = place.at;
+                    self.traced.peaks.push(Peak { at, time: when.time });
+                }
+                self.end(after, peak);
+                self.end(index, peak);
+            }
+        }
+    }
+
+    /// Lets new rushing corners meet the ends of the segments that they jump to.
+    fn rush(&mut self, fresh: &[usize], when: &mut EventTime) {
+        self.spots.clear();
+        for &index in fresh {
+            let WavefrontCorner { alive, kind, before, after, lines, .. } = self.corners[index];
+            if !alive || kind != CornerKind::Rushing {
+                continue;
+            }
+            let [mut low, mut high] = [before, after];
+            let [a, b] = lines.map(|line| self.lines.line(line).speed);
+            if self.lines.direction(lines[0]).agrees(self.lines.direction(lines[1])) {
+                // The faster edge sweeps the area behind the slower edge.
+                if a < b {
+                    high = low;
+                } else {
+                    low = high;
+                }
+            } else {
+                let places = [low, high].map(|end| self.place(end, when));
+                // Both ends are in the direction of the second edge; the corner meets the nearer end.
+                match self.lines.compare_along(lines[1], &places[0], &places[1], when) {
+                    Ordering::Less => high = low,
+                    Ordering::Greater => low = high,
+                    Ordering::Equal => {}
+                }
+            }
+            for end in [low, high] {
+                let place = self.place(end, when);
+                let [own, other] = [self.spot(index, place), self.spot(end, place)];
+                self.join(own, other);
+            }
+        }
+    }
+
+    /// Predicts the events of new corners.
+    fn go_on(&mut self, fresh: &[usize]) {
+        if self.corners.len() > self.known + self.current.len() / 2 {
+            self.known = self.corners.len();
+            self.current.retain(|edge| self.alive[edge] > 0);
+        }
+        for &index in fresh {
+            let WavefrontCorner { alive, before, after, .. } = self.corners[index];
+            if alive {
+                self.expect_collapse(before, index);
+                // If the next corner is new as well, its own iteration predicts the edge before it.
+                if after < fresh[0] {
+                    self.expect_collapse(index, after);
+                }
+            }
+        }
+        for &index in fresh {
+            let WavefrontCorner { alive, before, after, .. } = self.corners[index];
+            if alive {
+                self.expect_split(index, ANY);
+                for beside in [before, after] {
+                    self.expect_later_split(beside);
+                }
+            }
+        }
+    }
+
+    /// Predicts the events of all old corners again, because edges have started to move.
+    fn look_again(&mut self) {
+        for index in 0..self.corners.len() {
+            if self.corners[index].alive {
+                self.expect_split(index, ANY);
+            }
         }
     }
 }

@@ -10,12 +10,16 @@ mod faces;
 mod fronts;
 mod lines;
 mod meeting;
+mod propagation;
+mod queue;
 #[cfg(test)]
 pub mod samples;
+#[allow(clippy::module_inception, reason = "a skeleton is the main type of its stage")]
+mod skeleton;
 mod straight;
 #[cfg(test)]
 pub(super) mod tests;
 mod wavefront;
 mod whole;
 
-pub use straight::{Pace, Peak, Skeleton};
+pub use skeleton::{Pace, Peak, Skeleton};

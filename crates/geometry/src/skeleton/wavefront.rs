@@ -1,18 +1,15 @@
-//! Wavefront: the polygon's edges move inwards until no area remains.
+//! State of the wavefront: the edges, their corners, and the spots of the next events.
 
 use std::cmp::Ordering;
 use std::ops::Range;
 
 use glam::I64Vec2;
 
-use super::edge::{Direction, SkeletonEdge, metres};
-use super::events::{EventQueue, WavefrontEventKind, short};
-use super::fronts::{EdgeFront, EdgeFronts};
+use super::edge::SkeletonEdge;
+use super::fronts::EdgeFronts;
 use super::lines::{EventTime, LineMeeting, MovingLines};
-use super::meeting::{EventPoint, MeetingLists};
-use super::{Pace, Peak};
-use burgeon_base::Stop;
-use burgeon_base::error::{Error, Result};
+use super::queue::{EventQueue, WavefrontEvent, WavefrontEventKind};
+use super::skeleton::{Pace, Peak};
 
 /// A border between the faces of two edges, traced by a corner of the wavefront.
 #[derive(Debug, Clone, Copy)]
@@ -78,6 +75,19 @@ impl WavefrontCorner {
     }
 }
 
+/// A corner that an event moves, or a point of an edge (identified by the corner at the start of the edge's
+/// segment).
+#[derive(Debug, Clone, Copy)]
+pub(super) struct EventPoint {
+    pub corner: usize,
+    pub cut: bool,
+    pub place: LineMeeting,
+    /// Representative of all spots at the same position.
+    pub leader: usize,
+    /// Index of its meeting, once it is assigned.
+    pub meeting: usize,
+}
+
 #[derive(Default)]
 pub(super) struct Wavefront {
     pub traced: WavefrontTrace,
@@ -85,11 +95,11 @@ pub(super) struct Wavefront {
     /// Remaining edges.
     pub current: EdgeFronts,
     /// Number of segments of each edge.
-    alive: Vec<u32>,
+    pub alive: Vec<u32>,
     /// Number of living corners.
-    living: usize,
+    pub living: usize,
     /// Total number of corners when the remaining edges were last updated.
-    known: usize,
+    pub known: usize,
     pub corners: Vec<WavefrontCorner>,
     /// Last corner at the start of a segment of each edge; linked corners may be dead.
     pub pieces: Vec<Option<usize>>,
@@ -107,149 +117,50 @@ pub(super) struct Wavefront {
     /// Set if an edge has just started to move.
     pub restarted: bool,
     /// A point of each edge.
-    through: Vec<I64Vec2>,
+    pub through: Vec<I64Vec2>,
 }
 
 impl Wavefront {
-    /// Moves all edges inwards until no area remains.
-    pub(super) fn propagate(
-        &mut self,
-        rings: &[Vec<I64Vec2>],
-        paces: &[Pace],
-        lists: &mut MeetingLists,
-    ) -> Result<()> {
-        let stop = Stop::current();
-        let check = || stop.as_ref().map_or(Ok(()), |stop| stop.check());
-        check()?;
-        self.begin(rings, paces, &check)?;
-        for step in 0..16 * paces.len() + 64 {
-            if step % STOP_STEPS == 0 {
-                check()?;
-            }
-            // Events that are still in the queue never occur.
-            if self.living == 0 {
-                return Ok(());
-            }
-            let Some(mut when) = self.gather() else {
-                self.move_on()?;
-                continue;
-            };
-            self.resolve(lists, &mut when)?;
-        }
-        Err(Error::geometry("the wavefront does not end"))
+    /// Adds an event to the queue.
+    pub(super) fn expect(&mut self, when: EventTime, what: WavefrontEventKind) {
+        self.events.push(WavefrontEvent { low: when.low(), when, what, leads: false });
     }
 
-    /// Starts the edges around areas that nothing sweeps, a little later than the last event.
-    fn move_on(&mut self) -> Result<()> {
-        let last = self.last.map_or(0.0, |last| last.high());
-        let rest = ((last * STEPS).floor() + 1.0) / STEPS;
-        let mut found = false;
-        for index in 0..self.corners.len() {
-            let WavefrontCorner { alive, edges: [_, edge], .. } = self.corners[index];
-            let Pace { speed, rest: known } = self.traced.edges[edge].pace;
-            if alive && (speed <= 0.0 || known == f64::INFINITY) {
-                self.traced.edges[edge].pace = Pace { speed: 1.0, rest };
-                self.expect(EventTime::at(rest), WavefrontEventKind::Start(short(edge)));
-                found = true;
-            }
+    /// Returns the spot of a corner; adds it if necessary.
+    pub(super) fn spot(&mut self, corner: usize, place: LineMeeting) -> usize {
+        if let Some(known) = self.spot_of(corner) {
+            return known;
         }
-        if found {
-            Ok(())
-        } else {
-            Err(Error::geometry("the wavefront is left with corners that meet nothing"))
-        }
+        self.corners[corner].spot = self.spots.len();
+        self.add_spot(corner, false, place)
     }
 
-    /// Initializes the wavefront at the polygon.
-    fn begin(
-        &mut self,
-        rings: &[Vec<I64Vec2>],
-        paces: &[Pace],
-        check: &impl Fn() -> Result<()>,
-    ) -> Result<()> {
-        let count: usize = rings.iter().map(Vec::len).sum();
-        let reach = rings.iter().flatten().map(|&at| metres(at).length_squared()).fold(0.0, f64::max).sqrt();
-        let finite = |rest: f64| if rest.is_finite() { rest.max(0.0) } else { 0.0 };
-        let late = paces.iter().map(|pace| pace.speed * finite(pace.rest)).fold(0.0, f64::max);
-        let fastest = paces.iter().map(|pace| pace.speed).fold(0.0, f64::max);
-        self.lines.begin(reach + late, fastest);
-        self.traced.edges.clear();
-        self.traced.peaks.clear();
-        self.traced.arcs.clear();
-        self.through.clear();
-        self.current.clear();
-        self.alive.clear();
-        self.alive.resize(count, 0);
-        self.living = 0;
-        self.known = count;
-        self.corners.clear();
-        self.pieces.clear();
-        self.pieces.resize(count, None);
-        self.foreseen.clear();
-        self.events.clear();
-        self.spots.clear();
-        self.last = None;
-        self.now = 0.0;
-        self.restarted = false;
-        for (ring, index) in rings.iter().flat_map(|ring| (0..ring.len()).map(move |index| (ring, index))) {
-            let (from, to) = (ring[index], ring[(index + 1) % ring.len()]);
-            if from == to {
-                return Err(Error::geometry("two corners of the outline are in one place"));
-            }
-            let pace = paces.get(self.through.len()).copied().unwrap_or_default();
-            let speed = if pace.rest > 0.0 { 0.0 } else { pace.speed };
-            let direction = Direction(to - from);
-            let number = self.lines.add(direction, from, speed, 0.0);
-            let line = *self.lines.line(number);
-            self.current.push(EdgeFront { line, direction, edge: self.through.len() });
-            let along = -line.normal.perp();
-            self.traced.edges.push(SkeletonEdge { along, level: line.level, pace, line: number });
-            self.through.push(from);
-        }
-        let mut first = 0;
-        for ring in rings {
-            let size = ring.len();
-            for (index, &at) in ring.iter().enumerate() {
-                let (before, after) = ((index + size - 1) % size, (index + 1) % size);
-                let edges = [first + before, first + index];
-                let at = self.start_of(edges, at);
-                self.traced.peaks.push(Peak { at: at.at, time: 0.0 });
-                let corner = self.corner(edges, first + index, &at, &EventTime::at(0.0));
-                if self.corners[corner].kind == CornerKind::Rushing {
-                    return Err(Error::geometry(
-                        "two edges in one line turn back or move at different speeds",
-                    ));
-                }
-                self.corners[corner].before = first + before;
-                self.corners[corner].after = first + after;
-            }
-            first += size;
-        }
-        for corner in 0..count {
-            self.expect_collapse(corner, self.corners[corner].after);
-        }
-        for corner in 0..count {
-            if corner % STOP_STEPS == 0 {
-                check()?;
-            }
-            self.expect_split(corner, ANY);
-            let Pace { speed, rest } = self.traced.edges[corner].pace;
-            if speed > 0.0 && rest > 0.0 && rest.is_finite() {
-                self.expect(EventTime::at(rest), WavefrontEventKind::Start(short(corner)));
-            }
-        }
-        Ok(())
+    pub(super) fn spot_of(&self, corner: usize) -> Option<usize> {
+        let known = self.corners[corner].spot;
+        self.spots.get(known).filter(|spot| spot.corner == corner && !spot.cut).map(|_| known)
     }
 
-    /// Returns the position of a corner of the polygon, with a line across it if the corner is straight.
-    fn start_of(&mut self, edges: [usize; 2], at: I64Vec2) -> LineMeeting {
-        let [before, after] = edges.map(|edge| self.traced.edges[edge].line);
-        let mut pair = [before, after];
-        if self.lines.turn(before, after) == Ordering::Equal {
-            let across = self.lines.direction(after).left().reversed();
-            pair[1] = self.lines.add(across, at, 0.0, 0.0);
+    /// Adds a spot on the segment of an edge that begins at a corner.
+    pub(super) fn spot_between(&mut self, corner: usize, place: LineMeeting) -> usize {
+        self.add_spot(corner, true, place)
+    }
+
+    fn add_spot(&mut self, corner: usize, cut: bool, place: LineMeeting) -> usize {
+        let leader = self.spots.len();
+        self.spots.push(EventPoint { corner, cut, place, leader, meeting: 0 });
+        leader
+    }
+
+    pub(super) fn leader(&self, mut spot: usize) -> usize {
+        while self.spots[spot].leader != spot {
+            spot = self.spots[spot].leader;
         }
-        LineMeeting { pair, at: metres(at), slack: 0.0 }
+        spot
+    }
+
+    pub(super) fn join(&mut self, a: usize, b: usize) {
+        let (a, b) = (self.leader(a), self.leader(b));
+        self.spots[a.max(b)].leader = a.min(b);
     }
 
     /// Adds a corner between two edges, without its neighbours.
@@ -327,7 +238,7 @@ impl Wavefront {
     }
 
     /// Returns the position of a corner.
-    fn place(&mut self, index: usize, when: &mut EventTime) -> LineMeeting {
+    pub(super) fn place(&mut self, index: usize, when: &mut EventTime) -> LineMeeting {
         let corner = &mut self.corners[index];
         match self.lines.compare(&mut corner.born, when) {
             Ordering::Less => self.lines.place(corner.pair(), when),
@@ -345,105 +256,7 @@ impl Wavefront {
             self.traced.arcs.push(Arc { edges: corner.edges, ends: [corner.peak, peak] });
         }
     }
-
-    /// Ends rings of two new corners, which enclose no area.
-    pub(super) fn close(&mut self, fresh: &[usize], when: &mut EventTime) {
-        for &index in fresh {
-            let WavefrontCorner { alive, before, after, .. } = self.corners[index];
-            if !alive {
-                continue;
-            }
-            if after == index {
-                self.end(index, self.corners[index].peak);
-            } else if after == before {
-                let mut peak = self.corners[after].peak;
-                if self.lines.compare(&mut self.corners[after].born, when) == Ordering::Less {
-                    peak = self.traced.peaks.len();
-                    let mut place = self.place(after, when);
-                    self.lines.settle_place(&mut place, when);
-                    let at = place.at;
-                    self.traced.peaks.push(Peak { at, time: when.time });
-                }
-                self.end(after, peak);
-                self.end(index, peak);
-            }
-        }
-    }
-
-    /// Lets new rushing corners meet the ends of the segments that they jump to.
-    pub(super) fn rush(&mut self, fresh: &[usize], when: &mut EventTime) {
-        self.spots.clear();
-        for &index in fresh {
-            let WavefrontCorner { alive, kind, before, after, lines, .. } = self.corners[index];
-            if !alive || kind != CornerKind::Rushing {
-                continue;
-            }
-            let [mut low, mut high] = [before, after];
-            let [a, b] = lines.map(|line| self.lines.line(line).speed);
-            if self.lines.direction(lines[0]).agrees(self.lines.direction(lines[1])) {
-                // The faster edge sweeps the area behind the slower edge.
-                if a < b {
-                    high = low;
-                } else {
-                    low = high;
-                }
-            } else {
-                let places = [low, high].map(|end| self.place(end, when));
-                // Both ends are in the direction of the second edge; the corner meets the nearer end.
-                match self.lines.compare_along(lines[1], &places[0], &places[1], when) {
-                    Ordering::Less => high = low,
-                    Ordering::Greater => low = high,
-                    Ordering::Equal => {}
-                }
-            }
-            for end in [low, high] {
-                let place = self.place(end, when);
-                let [own, other] = [self.spot(index, place), self.spot(end, place)];
-                self.join(own, other);
-            }
-        }
-    }
-
-    /// Predicts the events of new corners.
-    pub(super) fn go_on(&mut self, fresh: &[usize]) {
-        if self.corners.len() > self.known + self.current.len() / 2 {
-            self.known = self.corners.len();
-            self.current.retain(|edge| self.alive[edge] > 0);
-        }
-        for &index in fresh {
-            let WavefrontCorner { alive, before, after, .. } = self.corners[index];
-            if alive {
-                self.expect_collapse(before, index);
-                // If the next corner is new as well, its own iteration predicts the edge before it.
-                if after < fresh[0] {
-                    self.expect_collapse(index, after);
-                }
-            }
-        }
-        for &index in fresh {
-            let WavefrontCorner { alive, before, after, .. } = self.corners[index];
-            if alive {
-                self.expect_split(index, ANY);
-                for beside in [before, after] {
-                    self.expect_later_split(beside);
-                }
-            }
-        }
-    }
-
-    /// Predicts the events of all old corners again, because edges have started to move.
-    pub(super) fn look_again(&mut self) {
-        for index in 0..self.corners.len() {
-            if self.corners[index].alive {
-                self.expect_split(index, ANY);
-            }
-        }
-    }
 }
 
-/// Number of steps between two checks for cancellation.
-const STOP_STEPS: usize = 256;
-/// Time steps per metre for edges that start because nothing else moves.
-const STEPS: f64 = 64.0;
 /// Lower bound before all events.
 pub(super) const ANY: (f64, usize) = (f64::NEG_INFINITY, 0);

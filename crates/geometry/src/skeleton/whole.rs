@@ -70,7 +70,7 @@ impl Whole {
     }
 
     /// Returns the quotient by another number, rounded; NaN if that number is zero.
-    pub(super) fn over(&self, under: &Self) -> f64 {
+    pub(super) fn quotient(&self, under: &Self) -> f64 {
         if under.is_zero() {
             return f64::NAN;
         }
@@ -208,7 +208,7 @@ mod tests {
             prop_assert_eq!(a.cmp(&b), x.cmp(&y));
             prop_assert_eq!(a.sign(), x.cmp(&IBig::ZERO));
             prop_assert_eq!(a.bits(), (&x).unsigned_abs().bit_len());
-            let rounded = a.over(&b);
+            let rounded = a.quotient(&b);
             let expected = x.to_f64().value() / y.to_f64().value();
             prop_assert!(y == IBig::ZERO || (rounded - expected).abs() <= expected.abs() * 1e-15);
         }

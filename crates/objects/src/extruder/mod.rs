@@ -4,6 +4,7 @@
 //! never change.
 
 mod object;
+mod options;
 mod state;
 #[cfg(test)]
 mod tests;

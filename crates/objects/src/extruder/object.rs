@@ -2,53 +2,17 @@
 
 use std::sync::Arc;
 
+use super::options::ExtruderOptions;
 use super::state::{ExtruderState, SolidRun};
 use crate::MaterialOptions;
 use crate::mesh::{MeshFaces, MeshOptions, MeshPoints, draw_mesh};
 use burgeon_base::error::{Error, Result};
 use burgeon_base::warning::{Warning, WarningKind};
 use burgeon_geometry::{Rings, Section, Segment, SweepOptions, sweep};
-use burgeon_kit::{AxisScale, Color, Drawing, Model, Vector, Warn, fields, methods, object};
+use burgeon_kit::{AxisScale, Color, Drawing, Model, Vector, Warn, methods, object};
 use burgeon_spatial::Path;
 use glam::{DAffine3, DVec2, DVec3};
 use smallvec::{SmallVec, smallvec};
-
-/// Fields of `extruder { ... }`.
-#[fields("extruder")]
-pub struct ExtruderOptions {
-    /// Number of sides of the cross-section, a regular polygon with radius 1.
-    #[default(16)]
-    pub sides: u32,
-    /// Points of the cross-section, as { { x, y }, ... }, instead of `sides`.
-    pub shape: Vec<Vector>,
-    /// Smooth shading. Corners of the cross-section above 40 degrees stay sharp.
-    #[default(true)]
-    pub smooth: bool,
-    /// Number of divisions of a segment. With 0, one division for every 10 degrees of bend or twist.
-    #[default(0)]
-    pub along: u32,
-    /// Number of points around the cross-section. With 0, the points of its shape.
-    #[default(0)]
-    pub around: u32,
-    /// Close the ends.
-    #[default(true)]
-    pub caps: bool,
-    /// Colour of the surfaces.
-    #[default(Color([0.62, 0.58, 0.52, 1.0]))]
-    pub color: Color,
-    /// Roughness: 0 like a mirror, 1 like chalk.
-    #[default(0.7)]
-    pub roughness: f64,
-    /// Metalness: 0 for wood, stone and plaster, 1 for bare metal.
-    #[default(0.0)]
-    pub metallic: f64,
-    /// Start position (m).
-    #[default(Vector(DVec3::ZERO))]
-    pub position: Vector,
-    /// Initial direction of extrusion.
-    #[default(Vector(DVec3::Z))]
-    pub heading: Vector,
-}
 
 /// Angle (degrees) of a cross-section's corner above which the corner is sharp on smooth surfaces too.
 const CREASE: f64 = 40.0;
@@ -117,8 +81,8 @@ impl Extruder {
     pub fn polygon(&mut self, outer: Path, holes: Option<Vec<Path>>) -> Result<()> {
         let Path { points, holes: own } = outer;
         let holes = holes.unwrap_or_default().into_iter().map(|hole| hole.points);
-        let section = Section::polygon(&flat(std::iter::once(points).chain(own.0).chain(holes)))?;
-        self.state.section = Arc::new(shaded(section, self.state.smooth));
+        let section = Section::polygon(&flatten(std::iter::once(points).chain(own.0).chain(holes)))?;
+        self.state.section = Arc::new(shade(section, self.state.smooth));
         Ok(())
     }
 
@@ -269,12 +233,12 @@ impl Extruder {
 }
 
 /// Converts rings of points to rings in the plane of a section, by their x and y.
-fn flat(rings: impl IntoIterator<Item = Vec<DVec3>>) -> Rings<DVec2> {
+fn flatten(rings: impl IntoIterator<Item = Vec<DVec3>>) -> Rings<DVec2> {
     rings.into_iter().map(|ring| ring.iter().map(|point| point.truncate()).collect()).collect()
 }
 
 /// Returns the section with its corners marked as smooth or sharp.
-fn shaded(section: Section, smooth: bool) -> Section {
+fn shade(section: Section, smooth: bool) -> Section {
     if smooth { section.creased(CREASE.to_radians()) } else { section.marked(false) }
 }
 
@@ -297,7 +261,7 @@ impl Extruder {
         let section = if options.shape.is_empty() {
             Section::regular(options.sides as usize)?
         } else {
-            shaded(Section::polygon(&flat([Path::from(options.shape.clone()).points]))?, options.smooth)
+            shade(Section::polygon(&flatten([Path::from(options.shape.clone()).points]))?, options.smooth)
         };
         let section = Arc::new(section);
         let state = ExtruderState::begin(&options, &section);

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use glam::DVec2;
 use smallvec::SmallVec;
 
-use super::object::ExtruderOptions;
+use super::options::ExtruderOptions;
 use crate::surface::plain_material;
 use burgeon_geometry::{Frame, Section, Station};
 use burgeon_scene::Material;

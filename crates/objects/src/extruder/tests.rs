@@ -1,6 +1,6 @@
 //! Tests of extruders: solids have the volumes of their formulas.
 
-use super::object::ExtruderOptions;
+use super::options::ExtruderOptions;
 use super::*;
 use burgeon_base::error::Result;
 use burgeon_geometry::solid;

@@ -52,7 +52,14 @@ fn make(options: &BorderedOptions) -> Result<Wall> {
     let targets = [(0, &options.left, &options.right), (1, &options.bottom, &options.top)]
         .map(|(side, before, after)| wall.0.targets[side].map(|target| before.size + target + after.size));
     let own = [options.width, options.height];
-    Wall::new(WallRule::Bordered { columns, rows, wall }, sizes, targets, own, options.material.as_ref())
+    Wall::new(
+        kind(),
+        WallRule::Bordered { columns, rows, wall },
+        sizes,
+        targets,
+        own,
+        options.material.as_ref(),
+    )
 }
 
 fn split(before: Margin, wall: &Wall, side: usize, after: Margin) -> Result<Split> {

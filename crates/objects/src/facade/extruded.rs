@@ -72,5 +72,5 @@ fn make(options: &ExtrudedOptions) -> Result<Wall> {
     let sides = [options.left, options.right, options.bottom, options.top];
     let (sizes, targets) = (wall.0.sizes.clone(), wall.0.targets);
     let rule = WallRule::Extruded { depth: options.depth, sides, fixture, wall };
-    Wall::new(rule, sizes, targets, [options.width, options.height], options.material.as_ref())
+    Wall::new(kind(), rule, sizes, targets, [options.width, options.height], options.material.as_ref())
 }

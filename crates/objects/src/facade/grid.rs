@@ -55,7 +55,7 @@ fn make(options: &GridOptions) -> Result<Wall> {
             .map(|each| each * f64::from(*count.start()))
     };
     let targets = [target(0), target(1)];
-    Wall::new(WallRule::Grid { counts, wall }, sizes, targets, [options.width, options.height], None)
+    Wall::new(kind(), WallRule::Grid { counts, wall }, sizes, targets, [options.width, options.height], None)
 }
 
 /// Returns the number of cells of `sizes` that fill `whole` (m) with a cell size nearest to `target`, or `None` if no

@@ -70,7 +70,7 @@ thread_local! {
 
 impl Joiner {
     /// Returns the spare joiner of this thread, or a new one.
-    pub fn spare() -> Box<Self> {
+    pub fn take_spare() -> Box<Self> {
         SPARE.take().unwrap_or_default()
     }
 

@@ -81,5 +81,5 @@ fn make(options: &ListOptions) -> Result<Wall> {
         targets.reverse();
     }
     let rule = WallRule::List { upwards, split, walls: options.walls.clone() };
-    Wall::new(rule, sizes, targets, [options.width, options.height], None::<&MaterialOptions>)
+    Wall::new(kind(), rule, sizes, targets, [options.width, options.height], None::<&MaterialOptions>)
 }

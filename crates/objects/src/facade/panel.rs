@@ -57,5 +57,5 @@ fn make(options: &PanelOptions) -> Result<Wall> {
     let targets = [0, 1].map(|side| extent.map(|extent| extent[side]));
     let meaning = meaning.unwrap_or(SurfaceMeaning::Wall);
     let rule = WallRule::Panel { decoration, fixture, background: options.background, meaning };
-    Wall::new(rule, sizes, targets, [options.width, options.height], options.material.as_ref())
+    Wall::new(kind(), rule, sizes, targets, [options.width, options.height], options.material.as_ref())
 }

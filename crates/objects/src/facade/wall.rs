@@ -5,7 +5,6 @@ use std::sync::Arc;
 
 use super::fixture::Fixture;
 use super::size::Size;
-use super::{bordered, extruded, grid, list, panel};
 use crate::MaterialOptions;
 use burgeon_base::error::{Error, Limit, Result};
 use burgeon_geometry::{Sizes, Split};
@@ -17,6 +16,8 @@ use burgeon_scene::{Material, SurfaceMeaning};
 pub struct Wall(pub(super) Arc<WallData>);
 
 pub(super) struct WallData {
+    /// Type of the wall in scripts.
+    pub kind: &'static Arc<Kind>,
     /// Permitted widths and heights (m).
     pub sizes: [Sizes; 2],
     /// Preferred width and height, if any.
@@ -99,15 +100,16 @@ impl Wall {
 }
 
 impl Wall {
-    /// Creates a wall by `rule` with the sizes that both its parts and the options permit. Fails if there are none.
+    /// Creates a wall of type `kind` by `rule`, with the sizes that both its parts and the options permit. Fails if there are none.
     pub(super) fn new(
+        kind: &'static Arc<Kind>,
         rule: WallRule,
         of_parts: [Sizes; 2],
         of_targets: [Option<f64>; 2],
         own: [Option<Size>; 2],
         material: Option<&MaterialOptions>,
     ) -> Result<Self> {
-        let name = &rule.kind().name;
+        let name = &kind.name;
         let depth = 1 + rule.parts().iter().map(|wall| wall.0.depth).max().unwrap_or(0);
         if depth > DEEPEST {
             return Err(Error::limit(
@@ -133,7 +135,7 @@ impl Wall {
         let target = |side: usize| own[side].target().or(of_targets[side]);
         let material = material.map(MaterialOptions::material).transpose()?;
         let targets = [target(0), target(1)];
-        Ok(Self(Arc::new(WallData { sizes, targets, material, depth, rule })))
+        Ok(Self(Arc::new(WallData { kind, sizes, targets, material, depth, rule })))
     }
 }
 
@@ -159,16 +161,6 @@ impl WallRule {
                 std::slice::from_ref(wall)
             }
             Self::List { walls, .. } => walls,
-        }
-    }
-
-    fn kind(&self) -> &'static Arc<Kind> {
-        match self {
-            Self::Panel { .. } => panel::kind(),
-            Self::Bordered { .. } => bordered::kind(),
-            Self::Extruded { .. } => extruded::kind(),
-            Self::List { .. } => list::kind(),
-            Self::Grid { .. } => grid::kind(),
         }
     }
 }
@@ -197,7 +189,7 @@ impl Parameter for Wall {
 
 impl Object for Wall {
     fn kind(&self) -> &Arc<Kind> {
-        self.0.rule.kind()
+        self.0.kind
     }
 
     fn boxed(&self) -> Box<dyn Object> {
@@ -207,6 +199,6 @@ impl Object for Wall {
 
 impl std::fmt::Debug for Wall {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.write_str(&self.0.rule.kind().name)
+        f.write_str(&self.0.kind.name)
     }
 }

@@ -49,7 +49,7 @@ fn skyline(covers: &[Cover], length: f64) -> SmallVec<[Cover; 4]> {
 }
 
 /// Returns the fraction, 0 to 1, of a wall between two heights (m) that `covers` hide.
-pub(super) fn hidden(covers: &[Cover], length: f64, [from, to]: [f64; 2]) -> f64 {
+pub(super) fn hidden_fraction(covers: &[Cover], length: f64, [from, to]: [f64; 2]) -> f64 {
     let area =
         |cover: &Cover| (cover.part[1] - cover.part[0]) * ((cover.top - from) / (to - from)).clamp(0.0, 1.0);
     if length > 0.0 { skyline(covers, length).iter().map(area).sum::<f64>() / length } else { 0.0 }
@@ -135,9 +135,12 @@ mod tests {
     #[test]
     fn the_hidden_part_counts_length_and_height() {
         let near = |found: f64, wanted: f64| assert!((found - wanted).abs() < 1e-12, "{found} {wanted}");
-        near(hidden(&[cover(0.0, 20.0, 5.0)], 20.0, [0.0, 12.0]), 5.0 / 12.0);
-        near(hidden(&[cover(0.0, 10.0, INFINITE)], 20.0, [0.0, 12.0]), 0.5);
-        near(hidden(&[cover(0.0, 10.0, 6.0), cover(5.0, 15.0, 3.0)], 20.0, [0.0, 12.0]), 75.0 / 240.0);
-        near(hidden(&[cover(0.0, 20.0, -5.0)], 20.0, [0.0, 12.0]), 0.0);
+        near(hidden_fraction(&[cover(0.0, 20.0, 5.0)], 20.0, [0.0, 12.0]), 5.0 / 12.0);
+        near(hidden_fraction(&[cover(0.0, 10.0, INFINITE)], 20.0, [0.0, 12.0]), 0.5);
+        near(
+            hidden_fraction(&[cover(0.0, 10.0, 6.0), cover(5.0, 15.0, 3.0)], 20.0, [0.0, 12.0]),
+            75.0 / 240.0,
+        );
+        near(hidden_fraction(&[cover(0.0, 20.0, -5.0)], 20.0, [0.0, 12.0]), 0.0);
     }
 }

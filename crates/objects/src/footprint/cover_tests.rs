@@ -2,7 +2,8 @@
 
 use std::sync::Arc;
 
-use super::object::{FootprintOptions, Height};
+use super::checks::Height;
+use super::options::FootprintOptions;
 use super::*;
 use crate::facade;
 use burgeon_base::error::Result;
@@ -62,7 +63,7 @@ fn windows(blocks: &[BlockSketch]) -> Vec<Vec<DVec3>> {
         Box::new(Footprint::new(options).expect("a footprint")) as Box<dyn Object>
     };
     let mut objects: Vec<Box<dyn Object>> = blocks.iter().map(make).collect();
-    neighbors::gather(&mut objects);
+    object::gather(&mut objects);
     let templates = templates();
     let mut all = Vec::new();
     for (object, block) in objects.iter_mut().zip(blocks) {
@@ -207,7 +208,7 @@ fn walls_that_rise_above_the_height_of_a_storey_stay_blind() {
         Box::new(Footprint::new(options).expect("a footprint")) as Box<dyn Object>
     };
     let mut objects = vec![make(house(0.0)), make(house(10.0))];
-    neighbors::gather(&mut objects);
+    object::gather(&mut objects);
     let any: &dyn std::any::Any = &*objects[0];
     let first = any.downcast_ref::<Footprint>().expect("a footprint");
     for storey in 0..4 {

@@ -1,6 +1,7 @@
 //! Tests of roofs and their surroundings: projecting storeys, neighbours, and the materials of walls.
 
-use super::object::{FootprintOptions, Height};
+use super::checks::Height;
+use super::options::FootprintOptions;
 use super::*;
 use crate::MaterialOptions;
 use crate::facade;
@@ -153,7 +154,7 @@ fn eaves_do_not_cut_into_neighbours_that_are_as_high_or_higher() {
             .iter()
             .map(|(rings, height)| Box::new(on(rings.clone(), *height)) as Box<dyn Object>)
             .collect();
-        neighbors::gather(&mut objects);
+        object::gather(&mut objects);
         let overhang = 0.6;
         for (own, object) in objects.iter_mut().enumerate() {
             let any: &mut dyn std::any::Any = &mut **object;
@@ -208,7 +209,7 @@ fn an_overhang_that_gives_way_tells_whether_a_neighbour_is_the_cause() {
     let notes = |rings: &[&Rings]| {
         let objects = rings.iter().map(|rings| Box::new(on((*rings).clone(), 6.0)) as Box<dyn Object>);
         let mut objects: Vec<_> = objects.collect();
-        neighbors::gather(&mut objects);
+        object::gather(&mut objects);
         let any: &mut dyn std::any::Any = &mut *objects[0];
         let house = any.downcast_mut::<Footprint>().expect("a footprint");
         house.begin();

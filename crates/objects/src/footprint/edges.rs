@@ -1,19 +1,17 @@
 //! The properties of a footprint's edges: keywords, neighbours, and the edge on the street.
 
 use std::borrow::Cow;
-use std::collections::BTreeMap;
 
 use glam::{DVec2, DVec3};
 use smallvec::{SmallVec, smallvec};
 
-use super::Footprint;
 use super::cover::{self, Cover, WallSpan};
 use super::neighbors::Touch;
+use super::object::Footprint;
+use super::state::Edges;
 use crate::facade::template::BLIND;
 use burgeon_base::error::{Error, Result};
 use burgeon_geometry::planar::edges;
-use burgeon_kit::Expectation;
-use burgeon_kit::{Parameter, Table, TableKey, Value};
 
 /// Keyword of the edge on the street.
 const STREET: &str = "street";
@@ -27,47 +25,6 @@ const LOWER: f64 = 1.0;
 const ABOVE: f64 = 0.05;
 /// Distance (m) by which an edge must be nearer to a street to be preferred to a longer edge.
 const NEARER: f64 = 2.0;
-
-/// Keywords by edge number, counted from 1 over the rings as they were given.
-#[derive(Debug, Clone, Default)]
-pub struct EdgeKeywords(pub BTreeMap<usize, Vec<String>>);
-
-impl Parameter for EdgeKeywords {
-    fn luau() -> String {
-        "{ [number]: { string } }".into()
-    }
-
-    fn from_value(value: Value) -> Result<Self, Expectation> {
-        let what = || {
-            Expectation::new("a table from numbers of edges to lists of words: { [2] = { \"entry door\" } }")
-        };
-        let Value::Table(table) = value else { return Err(what()) };
-        let edge = |(key, words): &(TableKey, Value)| {
-            let TableKey::Index(number) = key else { return Err(what()) };
-            let number = usize::try_from(*number).map_err(|_| what())?;
-            Ok((number, Vec::<String>::from_value(words.clone()).map_err(|_| what())?))
-        };
-        table.entries.iter().map(edge).collect::<Result<_, _>>().map(Self)
-    }
-
-    fn into_value(self) -> Value {
-        let index = |number: usize| TableKey::Index(i64::try_from(number).unwrap_or(i64::MAX));
-        let entries = self.0.into_iter().map(|(number, words)| (index(number), words.into_value()));
-        Value::Table(Table { class: None, entries: entries.collect() }.into())
-    }
-}
-
-/// The properties of the edges of a plan, over all its rings.
-#[derive(Debug, Default)]
-pub(super) struct Edges {
-    keywords: Vec<Vec<Cow<'static, str>>>,
-    /// Flag for each edge: true if the script gave it the keyword "blind", regardless of neighbours.
-    always_blind: Vec<bool>,
-    touch: Touch,
-    street: Option<usize>,
-    /// Edge of the plan for each given edge, if there is one.
-    stands_for: Vec<Option<usize>>,
-}
 
 impl Edges {
     fn new(footprint: &Footprint) -> Self {
@@ -91,7 +48,7 @@ impl Edges {
         for (index, (keywords, [a, b])) in keywords.iter_mut().zip(plan.polygon().edges()).enumerate() {
             let hidden = match (heights, touch.covers.get(index)) {
                 (Some(heights), Some(covers)) => {
-                    cover::hidden(covers, a.truncate().distance(b.truncate()), heights)
+                    cover::hidden_fraction(covers, a.truncate().distance(b.truncate()), heights)
                 }
                 _ => touch.shared[index],
             };
@@ -132,7 +89,7 @@ fn street(footprint: &Footprint, touch: &Touch) -> Option<usize> {
         let mut least = f64::INFINITY;
         for &edge in &free {
             let [a, b] = outer[edge].map(|point| point + footprint.origin().truncate());
-            if let Some(distance) = streets.faced(a, b, least + NEARER) {
+            if let Some(distance) = streets.facing_distance(a, b, least + NEARER) {
                 least = least.min(distance);
                 near.push((edge, distance));
             }
@@ -225,13 +182,13 @@ impl Footprint {
     }
 
     /// Returns the edge of the plan for a given edge, if there is one.
-    fn standing(&self, method: &str, number: u32) -> Result<Option<usize>> {
+    fn plan_edge(&self, method: &str, number: u32) -> Result<Option<usize>> {
         let index = self.given_edge(method, number)?;
         Ok(self.known_edges().stands_for.get(index).copied().flatten())
     }
 
-    pub(super) fn facing(&self, number: u32) -> Result<f64> {
-        let Some(edge) = self.standing("edge_facing", number)? else { return Ok(0.0) };
+    pub(super) fn facing_angle(&self, number: u32) -> Result<f64> {
+        let Some(edge) = self.plan_edge("edge_facing", number)? else { return Ok(0.0) };
         let flat = self.plan.flat();
         let found = flat.edges().nth(edge);
         Ok(found.map_or(0.0, |[a, b]| {
@@ -241,15 +198,15 @@ impl Footprint {
     }
 
     pub(super) fn words_of(&self, number: u32) -> Result<&[Cow<'static, str>]> {
-        Ok(self.standing("edge_has", number)?.map_or(&[], |edge| self.edge_keywords(edge)))
+        Ok(self.plan_edge("edge_has", number)?.map_or(&[], |edge| self.edge_keywords(edge)))
     }
 
     pub(super) fn part_shared(&self, number: u32) -> Result<f64> {
-        let edge = self.standing("shared", number)?;
+        let edge = self.plan_edge("shared", number)?;
         Ok(edge.map_or(0.0, |edge| self.known_edges().touch.shared[edge]))
     }
 
-    pub(super) fn touching(&self) -> u32 {
+    pub(super) fn neighbor_count(&self) -> u32 {
         self.known_edges().touch.neighbors
     }
 
@@ -262,21 +219,11 @@ impl Footprint {
         let length = |number: u32| self.ends("street_edge", number).map_or(0.0, |[a, b]| a.distance(b));
         candidates.max_by(|a, b| length(*a).total_cmp(&length(*b)).then(b.cmp(a))).unwrap_or(0)
     }
-
-    /// Fails if keywords are given to an edge that does not exist.
-    pub(super) fn check_edge_keywords(&self) -> Result<()> {
-        let count = self.plan.given();
-        match self.options.edge_keywords.0.keys().find(|number| !(1..=count).contains(*number)) {
-            None => Ok(()),
-            Some(number) => Err(Error::argument(format!("footprint: edge_keywords names edge {number}"))
-                .help(format!("the geometry has the edges 1 to {count}"))),
-        }
-    }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::super::object::FootprintOptions;
+    use super::super::options::{EdgeKeywords, FootprintOptions};
     use super::*;
     use crate::LineIndex;
     use burgeon_geometry::{Line, Rings};
@@ -340,7 +287,7 @@ mod tests {
         let plain = make(None, EdgeKeywords::default());
         assert_eq!(plain.street_edge(), 1);
         assert!(plain.edge_has(1, "entry door".into()).unwrap());
-        let street = |points: &[[f64; 2]]| LineIndex::over(&[Line::new(ring(points)).unwrap()]);
+        let street = |points: &[[f64; 2]]| LineIndex::of_lines(&[Line::new(ring(points)).unwrap()]);
         // The street to the right passes the corner nearer to edge 1 than to the front that faces the street.
         let right = street(&[[13.0, -40.0], [13.0, 40.0]]);
         let facing = make(Some(right), words(&[(3, "entry door")]));

@@ -3,23 +3,27 @@
 //! Input: a polygon, its neighbours and the ground. Output: a closed building, with a [`Note`](burgeon_kit::Note) for
 //! each deviation from the script. A building is never skipped without a report.
 
+mod checks;
 mod cover;
 #[cfg(test)]
 mod cover_tests;
 #[cfg(test)]
 mod eaves_tests;
 mod edges;
+mod methods;
 mod neighbors;
 mod object;
+mod options;
 mod prefetch;
 mod roof;
 mod shell;
 mod sides;
+mod state;
 #[cfg(test)]
 mod tests;
 mod walls;
 
-pub use edges::EdgeKeywords;
 pub use object::Footprint;
+pub use options::EdgeKeywords;
 pub use roof::{Roof, RoofDetail};
 pub use walls::Walls;

@@ -9,11 +9,8 @@ use rstar::{AABB, RTree};
 use rustc_hash::{FxHashMap, FxHasher};
 use smallvec::SmallVec;
 
-use super::Footprint;
 use super::cover::Cover;
 use burgeon_geometry::Plan;
-use burgeon_kit::Object;
-use burgeon_kit::declare::as_mut;
 
 /// Maximum gap or overlap (m) of walls that touch.
 const APART: f64 = 0.3;
@@ -168,28 +165,17 @@ pub(super) struct Touch {
     pub neighbors: u32,
 }
 
-/// Connects the footprints among `objects` with one another.
-pub(super) fn gather(objects: &mut [Box<dyn Object>]) {
-    let mut found: Vec<&mut Footprint> =
-        objects.iter_mut().filter_map(|object| as_mut::<Footprint>(&mut **object)).collect();
-    let plans = found.iter().map(|footprint| (Arc::clone(&footprint.plan), footprint.origin().truncate()));
-    let top = |footprint: &&mut Footprint| {
-        footprint.options.height.map(|height| footprint.origin().z + footprint.plan.ground().1 + height.0)
-    };
-    let (plans, tops) = (plans.collect(), found.iter().map(top).collect());
-    let all = Arc::new(Neighborhood { plans, tops, map: OnceLock::new() });
-    for (index, footprint) in found.iter_mut().enumerate() {
-        footprint.place = Some((Arc::clone(&all), index));
-        footprint.edges = Arc::default();
-    }
-}
-
 fn bounds(walls: &[WallEnds]) -> Option<[DVec2; 2]> {
     let [first, _] = *walls.first()?;
     Some(walls.iter().fold([first; 2], |[low, high], [point, _]| [low.min(*point), high.max(*point)]))
 }
 
 impl Neighborhood {
+    /// Collects footprints: their plans and origins (m), and the tops (m) of their walls.
+    pub(super) fn new(plans: Vec<(Arc<Plan>, DVec2)>, tops: Vec<Option<f64>>) -> Self {
+        Self { plans, tops, map: OnceLock::new() }
+    }
+
     fn map(&self) -> &FootprintMap {
         self.map.get_or_init(|| FootprintMap::new(&self.plans, &self.tops))
     }
@@ -374,9 +360,11 @@ fn union(covers: &[Cover]) -> f64 {
 mod tests {
     use glam::DVec3;
 
-    use super::super::object::FootprintOptions;
+    use super::super::object::{Footprint, gather};
+    use super::super::options::FootprintOptions;
     use super::*;
     use burgeon_geometry::Rings;
+    use burgeon_kit::Object;
 
     fn all(rings: &[&[[f64; 2]]]) -> Neighborhood {
         let plan = |ring: &&[[f64; 2]]| {
@@ -384,7 +372,7 @@ mod tests {
             (Arc::new(Plan::new(&Rings(vec![ring])).unwrap()), DVec2::ZERO)
         };
         let tops = vec![None; rings.len()];
-        Neighborhood { plans: rings.iter().map(plan).collect(), tops, map: OnceLock::new() }
+        Neighborhood::new(rings.iter().map(plan).collect(), tops)
     }
 
     fn rectangle(x: f64, y: f64, width: f64, depth: f64) -> Vec<[f64; 2]> {

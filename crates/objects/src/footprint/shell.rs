@@ -1,33 +1,15 @@
-//! The lower part of a building: its groundwork, and the progress of construction.
+//! The lower part of a building: its groundwork.
 
 use crate::MaterialOptions;
 use glam::DVec3;
 
-use super::Footprint;
-use super::object::{along, unknown};
+use super::checks::unknown_kind;
+use super::object::Footprint;
+use super::sides::horizontal_direction;
+use super::state::Shell;
 use burgeon_base::error::{Error, Result};
-use burgeon_geometry::{Plan, Ring, fill};
+use burgeon_geometry::{Ring, fill};
 use burgeon_scene::SurfaceMeaning;
-
-/// The progress of a building.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Shell {
-    /// Height (m) reached so far.
-    pub top: f64,
-    /// Height (m) at which walls begin, for textures.
-    pub bottom: f64,
-    /// Set once there is a floor.
-    pub begun: bool,
-    /// Set once there is a roof.
-    pub closed: bool,
-}
-
-impl Shell {
-    pub(super) fn new(plan: &Plan) -> Self {
-        let low = if plan.polygon().is_empty() { 0.0 } else { plan.ground().0 };
-        Self { top: low, bottom: low, begun: false, closed: false }
-    }
-}
 
 const GROUNDWORK: [&str; 3] = ["z_min", "z_max", "extruded"];
 
@@ -42,7 +24,7 @@ impl Footprint {
         let base = match kind {
             "z_min" => low,
             "z_max" | "extruded" => high,
-            _ => return Err(unknown("footprint:groundwork", kind, &GROUNDWORK)),
+            _ => return Err(unknown_kind("footprint:groundwork", kind, &GROUNDWORK)),
         };
         let part = self.part(None, material.as_ref())?;
         if self.detail == 0 {
@@ -58,7 +40,7 @@ impl Footprint {
             for [a, b] in plan.polygon().edges() {
                 let face = Ring::without_repeats(vec![a, b, b.with_z(base), a.with_z(base)]);
                 if let Some(face) = face {
-                    fill(part, &[face], along(a.truncate(), b.truncate()), a.with_z(base))?;
+                    fill(part, &[face], horizontal_direction(a.truncate(), b.truncate()), a.with_z(base))?;
                 }
             }
         }

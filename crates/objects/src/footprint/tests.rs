@@ -1,6 +1,6 @@
 //! Tests of footprints: every building is a closed solid with the volume that its roof encloses.
 
-use super::object::FootprintOptions;
+use super::options::FootprintOptions;
 use super::*;
 use burgeon_base::error::Result;
 use burgeon_geometry::Rings;

@@ -2,11 +2,11 @@
 
 use glam::{DAffine3, DMat3, DVec2, DVec3};
 
-use super::Footprint;
+use super::checks::{Height, check_height};
 use super::cover::WallSpan;
-use super::object::Height;
-use super::object::{along, check_height};
-use super::sides::material_of;
+use super::object::Footprint;
+use super::sides::{horizontal_direction, material_of};
+use super::state::Plain;
 use crate::MaterialOptions;
 use crate::facade::lay::MOST;
 use crate::facade::template::BLIND;
@@ -58,15 +58,6 @@ impl Walls {
             )),
         }
     }
-}
-
-/// Plain walls that are not drawn yet, because more walls may follow above them.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Plain {
-    /// Height (m) at which they begin.
-    from: f64,
-    part: usize,
-    maker: u32,
 }
 
 /// A side of the building, over the height of the walls.
@@ -170,7 +161,7 @@ impl Footprint {
         let part = self.drawing.material(photo);
         let whole = photo.texture.as_ref().map_or(DVec2::ONE, |texture| DVec2::from(texture.size));
         let frontages = match bay {
-            Some(_) => self.divided(from, to),
+            Some(_) => self.divide(from, to),
             None => self.frontages(from, to),
         };
         for frontage in &frontages {
@@ -185,7 +176,7 @@ impl Footprint {
                 }
                 Some(bay) => {
                     // Each frontage begins with a random bay, so that windows differ between frontages.
-                    let chance = Stream::new(self.seed ^ mixed(self.raised, edge)).uniform();
+                    let chance = Stream::new(self.seed ^ mix_seed(self.raised, edge)).uniform();
                     let first = (chance * (whole / bay).round()).floor() * bay * DVec2::X;
                     [first, (frontage.size / bay).round().max(DVec2::ONE) * bay]
                 }
@@ -205,11 +196,11 @@ impl Footprint {
         to: f64,
     ) -> Result<()> {
         let mut laid = FacadeLayout::default();
-        let mut joiner = Joiner::spare();
+        let mut joiner = Joiner::take_spare();
         // Parts are indexed by the addresses of materials, which do not move while the templates exist.
         let mut parts: Vec<(*const Material, usize)> = Vec::new();
         let mut without: Vec<DVec2> = Vec::new();
-        let mut frontages = self.divided(from, to);
+        let mut frontages = self.divide(from, to);
         self.miter(&mut frontages);
         let mut has_free = vec![false; self.plan.polygon().size()];
         for frontage in frontages.iter().filter(|frontage| !frontage.is_blind()) {
@@ -293,7 +284,7 @@ impl Footprint {
 
     /// Chooses the template of a frontage. A partly blind wall gets the template that it would have if it were free.
     fn choose<'a>(&self, templates: &'a Templates, frontage: &Frontage) -> Option<&'a Template> {
-        let chance = Stream::new(self.seed ^ mixed(self.raised, frontage.edge)).uniform();
+        let chance = Stream::new(self.seed ^ mix_seed(self.raised, frontage.edge)).uniform();
         let keywords = self.keywords_of(frontage.edge, frontage.is_blind());
         templates.choose(&keywords, frontage.size.x, frontage.size.y, chance)
     }
@@ -331,7 +322,7 @@ impl Footprint {
         for ring in &self.plan.flat() {
             let mut passed = 0.0;
             for [a, b] in ring.edges() {
-                let right = along(a, b);
+                let right = horizontal_direction(a, b);
                 let length = a.distance(b);
                 frontages.push(Frontage {
                     miters: [0.0; 2],
@@ -350,7 +341,7 @@ impl Footprint {
     }
 
     /// Returns the frontages, divided where neighbours begin and end.
-    fn divided(&self, from: f64, to: f64) -> Vec<Frontage> {
+    fn divide(&self, from: f64, to: f64) -> Vec<Frontage> {
         let mut divided = Vec::with_capacity(self.plan.polygon().size());
         for frontage in self.frontages(from, to) {
             let Frontage { edge, size, .. } = frontage;
@@ -482,6 +473,6 @@ impl Frontage {
 }
 
 /// Returns a random seed for an edge of the walls raised as number `raised`.
-fn mixed(raised: u64, edge: usize) -> u64 {
+fn mix_seed(raised: u64, edge: usize) -> u64 {
     raised.wrapping_mul(0x9E37_79B9_7F4A_7C15) ^ (edge as u64).wrapping_mul(0xD134_2543_DE82_EF95)
 }

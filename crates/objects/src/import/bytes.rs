@@ -8,7 +8,7 @@ use gltf_json::validation::Checked;
 use gltf_json::{Accessor, Index, Root, buffer};
 use rustc_hash::FxHashMap;
 
-use super::gltf_file::{ImportOptions, broken};
+use super::options::{ImportOptions, broken_file};
 use burgeon_base::budget::Budget;
 use burgeon_base::error::{Error, Result};
 
@@ -25,11 +25,11 @@ impl<'a> Bytes<'a> {
             let bytes = match (&buffer.uri, own) {
                 (Some(uri), _) => address(uri, wanted)?.into(),
                 (None, Some(own)) if index == 0 => own.into(),
-                (None, _) => return Err(broken(wanted.name, format!("buffer {index} has no content"))),
+                (None, _) => return Err(broken_file(wanted.name, format!("buffer {index} has no content"))),
             };
             let bytes: std::borrow::Cow<'a, [u8]> = bytes;
             if (bytes.len() as u64) < buffer.byte_length.0 {
-                return Err(broken(wanted.name, format!("buffer {index} ends too early")));
+                return Err(broken_file(wanted.name, format!("buffer {index} ends too early")));
             }
             buffers.push(bytes);
         }
@@ -82,7 +82,7 @@ impl<'a> NumberColumns<'a> {
     /// Returns the items of an accessor, each of two numbers. Normalized integers are scaled to 1.
     pub(super) fn pairs(&mut self, index: Index<Accessor>) -> Result<Rc<[[f32; 2]]>> {
         let mut known = std::mem::take(&mut self.pairs);
-        let column = self.cached(&mut known, index, Self::column);
+        let column = self.read_cached(&mut known, index, Self::column);
         self.pairs = known;
         column
     }
@@ -90,7 +90,7 @@ impl<'a> NumberColumns<'a> {
     /// Returns the items of an accessor, each of three numbers.
     pub(super) fn triples(&mut self, index: Index<Accessor>) -> Result<Rc<[[f32; 3]]>> {
         let mut known = std::mem::take(&mut self.triples);
-        let column = self.cached(&mut known, index, Self::column);
+        let column = self.read_cached(&mut known, index, Self::column);
         self.triples = known;
         column
     }
@@ -98,7 +98,7 @@ impl<'a> NumberColumns<'a> {
     /// Returns the items of an accessor, each of four numbers.
     pub(super) fn fours(&mut self, index: Index<Accessor>) -> Result<Rc<[[f32; 4]]>> {
         let mut known = std::mem::take(&mut self.fours);
-        let column = self.cached(&mut known, index, Self::column);
+        let column = self.read_cached(&mut known, index, Self::column);
         self.fours = known;
         column
     }
@@ -106,12 +106,12 @@ impl<'a> NumberColumns<'a> {
     /// Returns the items of an accessor of integers.
     pub(super) fn indices(&mut self, index: Index<Accessor>) -> Result<Rc<[u32]>> {
         let mut known = std::mem::take(&mut self.indices);
-        let column = self.cached(&mut known, index, Self::whole);
+        let column = self.read_cached(&mut known, index, Self::whole);
         self.indices = known;
         column
     }
 
-    fn cached<T>(
+    fn read_cached<T>(
         &self,
         known: &mut ColumnCache<T>,
         index: Index<Accessor>,
@@ -126,7 +126,7 @@ impl<'a> NumberColumns<'a> {
     }
 
     fn column<const N: usize>(&self, index: Index<Accessor>) -> Result<Vec<[f32; N]>> {
-        let (accessor, component) = self.described(index, N)?;
+        let (accessor, component) = self.description(index, N)?;
         let size = component.size();
         let scale =
             |value: f32, most: f32| if accessor.normalized { (value / most).max(-1.0) } else { value };
@@ -148,7 +148,7 @@ impl<'a> NumberColumns<'a> {
     }
 
     fn whole(&self, index: Index<Accessor>) -> Result<Vec<u32>> {
-        let (accessor, component) = self.described(index, 1)?;
+        let (accessor, component) = self.description(index, 1)?;
         if matches!(component, ComponentType::F32 | ComponentType::I8 | ComponentType::I16) {
             return Err(Error::data(format!("accessor {} has no whole numbers", index.value())));
         }
@@ -173,7 +173,7 @@ impl<'a> NumberColumns<'a> {
     }
 
     /// Returns an accessor with items of `count` numbers, and its component type. Fails if the accessor is unsupported.
-    fn described(&self, index: Index<Accessor>, count: usize) -> Result<(&'a Accessor, ComponentType)> {
+    fn description(&self, index: Index<Accessor>, count: usize) -> Result<(&'a Accessor, ComponentType)> {
         let number = index.value();
         let accessor =
             self.root.get(index).ok_or_else(|| Error::data(format!("there is no accessor {number}")))?;
@@ -230,7 +230,7 @@ pub(super) fn address(uri: &str, wanted: &mut ImportOptions<'_>) -> Result<Vec<u
     let engine = base64::engine::general_purpose::STANDARD;
     coded
         .and_then(|coded| engine.decode(coded).ok())
-        .ok_or_else(|| broken(wanted.name, "it holds data that is not base64"))
+        .ok_or_else(|| broken_file(wanted.name, "it holds data that is not base64"))
 }
 
 /// Decodes the percent-encoding of a URI, such as `%20`.

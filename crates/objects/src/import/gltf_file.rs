@@ -5,6 +5,7 @@ use std::sync::Arc;
 
 use super::bytes::{Bytes, NumberColumns};
 use super::look::ImportMaterial;
+use super::options::{ImportOptions, OBJECT, broken_file};
 use super::shape::TintedPart;
 use super::{instances, look, shape};
 use burgeon_base::budget::Budget;
@@ -19,21 +20,6 @@ const DEEPEST: usize = 64;
 
 const MOST_NODES: usize = 100_000;
 
-/// Maximum memory (bytes) of a JSON object of the description, and of an instance.
-pub(super) const OBJECT: usize = 500;
-
-/// The inputs of an import in addition to the file.
-pub(super) struct ImportOptions<'a> {
-    /// Name of the file in messages.
-    pub name: &'a str,
-    /// Maximum number of triangles, with repeated meshes counted for each instance.
-    pub triangles: usize,
-    /// Budget for reading.
-    pub budget: &'a Budget,
-    /// Function that reads an external file, by its URI in the file.
-    pub beside: &'a mut dyn FnMut(&str) -> Result<Vec<u8>>,
-}
-
 /// Reads the scene of a glTF file, in metres, z up.
 ///
 /// Reads positions, normals, texture coordinates, vertex colours and instances of a node. For materials, reads base
@@ -42,12 +28,13 @@ pub(super) struct ImportOptions<'a> {
 /// has too many triangles.
 pub(super) fn read(content: &[u8], wanted: &mut ImportOptions<'_>) -> Result<Scene> {
     let name = wanted.name;
-    let (json, own) = container(content).map_err(|why| broken(name, why))?;
+    let (json, own) = container(content).map_err(|why| broken_file(name, why))?;
     wanted.budget.check()?;
     // A description may contain many tiny objects, which take much more memory after parsing.
     let objects = json.iter().filter(|byte| **byte == b'{').count();
     wanted.budget.take(objects.saturating_mul(OBJECT).saturating_add(json.len()))?;
-    let root = Root::from_slice(json).map_err(|error| broken(name, format!("its JSON is wrong: {error}")))?;
+    let root =
+        Root::from_slice(json).map_err(|error| broken_file(name, format!("its JSON is wrong: {error}")))?;
     check_extensions(&root, name)?;
     let bytes = Bytes::load(&root, own, wanted)?;
     let materials = look::materials(&root, &bytes, wanted)?;
@@ -75,15 +62,9 @@ pub(super) fn read(content: &[u8], wanted: &mut ImportOptions<'_>) -> Result<Sce
 }
 
 /// Returns the error for a damaged file, or for an exceeded limit.
-fn damaged(name: &str, budget: &Budget, error: &Error) -> Error {
+fn damaged_file(name: &str, budget: &Budget, error: &Error) -> Error {
     // The cause may be an exceeded time or memory limit, and not the file.
-    budget.check().err().unwrap_or_else(|| broken(name, error.message()))
-}
-
-/// Creates the error for a damaged file.
-pub(super) fn broken(name: &str, why: impl std::fmt::Display) -> Error {
-    Error::data(format!("the model {name} cannot be read: {why}"))
-        .help("export it again as glTF 2.0 (.glb), and check that it was copied whole")
+    budget.check().err().unwrap_or_else(|| broken_file(name, error.message()))
 }
 
 /// Returns the JSON of a file, and the binary chunk of a `.glb` file.
@@ -153,24 +134,27 @@ struct Import<'a> {
 impl Import<'_> {
     fn nodes(&mut self, nodes: &[Index<Node>], above: DAffine3, depth: usize) -> Result<()> {
         if depth > DEEPEST {
-            return Err(broken(self.name, format!("its nodes are nested more than {DEEPEST} deep")));
+            return Err(broken_file(self.name, format!("its nodes are nested more than {DEEPEST} deep")));
         }
         for index in nodes {
             self.nodes += 1;
             if self.nodes > MOST_NODES {
-                return Err(broken(self.name, format!("it has more than {MOST_NODES} nodes")));
+                return Err(broken_file(self.name, format!("it has more than {MOST_NODES} nodes")));
             }
             let Some(node) = self.root.get(*index) else {
-                return Err(broken(self.name, format!("there is no node {}", index.value())));
+                return Err(broken_file(self.name, format!("there is no node {}", index.value())));
             };
             let here = above * transform(node);
             if !here.is_finite() {
-                return Err(broken(self.name, format!("the place of node {} is no number", index.value())));
+                return Err(broken_file(
+                    self.name,
+                    format!("the place of node {} is no number", index.value()),
+                ));
             }
             if let Some(mesh) = node.mesh {
                 let name = node.name.as_deref().unwrap_or_default();
                 let places = instances::places(&mut self.columns, node)
-                    .map_err(|error| damaged(self.name, self.columns.budget, &error))?;
+                    .map_err(|error| damaged_file(self.name, self.columns.budget, &error))?;
                 match places {
                     None => self.instance(mesh, here, name)?,
                     Some(places) => {
@@ -188,7 +172,7 @@ impl Import<'_> {
     fn instance(&mut self, index: Index<gltf_json::Mesh>, place: DAffine3, name: &str) -> Result<()> {
         self.columns.budget.tick()?;
         if !place.is_finite() {
-            return Err(broken(self.name, "the place of an instance is no number"));
+            return Err(broken_file(self.name, "the place of an instance is no number"));
         }
         let known = self.meshes.get(index.value()).copied();
         let mesh = match known {
@@ -198,7 +182,7 @@ impl Import<'_> {
                 self.meshes[index.value()] = Some(mesh);
                 mesh
             }
-            None => return Err(broken(self.name, format!("there is no mesh {}", index.value()))),
+            None => return Err(broken_file(self.name, format!("there is no mesh {}", index.value()))),
         };
         let Some(mesh) = mesh else { return Ok(()) };
         let triangles = self.scene.meshes[mesh].triangles();
@@ -206,7 +190,7 @@ impl Import<'_> {
         self.columns.budget.take(OBJECT + name.len())?;
         self.scene.instances.push(Instance {
             mesh,
-            transform: turned(place),
+            transform: to_z_up(place),
             name: name.to_owned(),
             feature: None,
             origin: None,
@@ -234,16 +218,15 @@ impl Import<'_> {
         let mut triangles = 0;
         for primitive in &described.primitives {
             self.columns.budget.check()?;
-            let look =
-                match primitive.material {
-                    Some(index) => self.materials.get(index.value()).cloned().ok_or_else(|| {
-                        broken(self.name, format!("there is no material {}", index.value()))
-                    })?,
-                    None => look::plain(),
-                };
+            let look = match primitive.material {
+                Some(index) => self.materials.get(index.value()).cloned().ok_or_else(|| {
+                    broken_file(self.name, format!("there is no material {}", index.value()))
+                })?,
+                None => look::plain(),
+            };
             let shapes = shape::shapes(&mut self.columns, primitive, look.set).map_err(|error| {
                 let noted = error.noting(&format!("mesh {}", index.value()));
-                damaged(self.name, self.columns.budget, &noted)
+                damaged_file(self.name, self.columns.budget, &noted)
             })?;
             for TintedPart { tint, part } in shapes {
                 let material = self.scene.material(&look.tinted(tint));
@@ -262,7 +245,7 @@ impl Import<'_> {
         }
         for (whole, pieces) in mesh.parts.iter_mut().zip(pieces) {
             shape::join(whole, pieces, self.columns.budget)
-                .map_err(|error| damaged(self.name, self.columns.budget, &error))?;
+                .map_err(|error| damaged_file(self.name, self.columns.budget, &error))?;
         }
         if mesh.parts.is_empty() {
             return Ok(None);
@@ -292,7 +275,7 @@ fn transform(node: &Node) -> DAffine3 {
 }
 
 /// Converts a transform from y-up to z-up coordinates.
-fn turned(place: DAffine3) -> DAffine3 {
+fn to_z_up(place: DAffine3) -> DAffine3 {
     let turn = DMat3::from_cols(DVec3::X, DVec3::Z, DVec3::NEG_Y);
     DAffine3 { matrix3: turn * place.matrix3 * turn.transpose(), translation: turn * place.translation }
 }

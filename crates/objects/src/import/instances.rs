@@ -7,7 +7,7 @@ use gltf_json::scene::Node;
 use gltf_json::{Accessor, Index};
 
 use super::bytes::NumberColumns;
-use super::gltf_file::OBJECT;
+use super::options::OBJECT;
 use burgeon_base::error::{Error, Result};
 
 /// Name of the extension.

@@ -8,7 +8,7 @@ use gltf_json::validation::Checked;
 use gltf_json::{Index, Root};
 
 use super::bytes::{Bytes, address};
-use super::gltf_file::{ImportOptions, broken};
+use super::options::{ImportOptions, broken_file};
 use burgeon_base::error::Result;
 use burgeon_scene::image::ImageKind;
 use burgeon_scene::{Material, Texture};
@@ -100,7 +100,7 @@ fn texture(
     images: &mut [Option<Arc<[u8]>>],
     wanted: &mut ImportOptions<'_>,
 ) -> Result<Texture> {
-    let missing = || broken(wanted.name, format!("texture {} has no image", index.value()));
+    let missing = || broken_file(wanted.name, format!("texture {} has no image", index.value()));
     let source = root.get(index).ok_or_else(missing)?.source;
     let image = root.get(source).ok_or_else(missing)?;
     let content = match images.get(source.value()).cloned().flatten() {
@@ -109,14 +109,17 @@ fn texture(
             let read: Vec<u8> = match (&image.uri, image.buffer_view) {
                 (Some(uri), _) => address(uri, wanted)?,
                 (None, Some(view)) => {
-                    let image = bytes.view(root, view).map_err(|why| broken(wanted.name, why))?.0;
+                    let image = bytes.view(root, view).map_err(|why| broken_file(wanted.name, why))?.0;
                     wanted.budget.take(image.len())?;
                     image.to_vec()
                 }
                 (None, None) => return Err(missing()),
             };
             if ImageKind::of(&read).is_none() {
-                return Err(broken(wanted.name, format!("image {} is neither PNG nor JPEG", source.value())));
+                return Err(broken_file(
+                    wanted.name,
+                    format!("image {} is neither PNG nor JPEG", source.value()),
+                ));
             }
             let content: Arc<[u8]> = read.into();
             images[source.value()] = Some(Arc::clone(&content));

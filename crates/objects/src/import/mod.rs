@@ -9,6 +9,7 @@ mod bytes;
 mod gltf_file;
 mod instances;
 mod look;
+mod options;
 mod shape;
 #[cfg(test)]
 mod tests;

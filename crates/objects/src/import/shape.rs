@@ -44,7 +44,7 @@ pub(super) fn shapes(
     let triangles = triangles(columns, primitive, &positions)?;
     let mut shapes = Vec::new();
     for (tint, triangles) in
-        tints::apart(columns, attribute(Semantic::Colors(0)), positions.len(), triangles)?
+        tints::group_by_tint(columns, attribute(Semantic::Colors(0)), positions.len(), triangles)?
     {
         let budget = columns.budget;
         // Corners may become separate points, and are traversed several times.

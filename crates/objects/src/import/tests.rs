@@ -2,7 +2,8 @@
 
 use glam::{DAffine3, DVec3, Vec2, Vec3};
 
-use super::gltf_file::{ImportOptions, read};
+use super::gltf_file::read;
+use super::options::ImportOptions;
 use burgeon_base::budget::Budget;
 use burgeon_base::error::Error;
 use burgeon_base::error::Result;

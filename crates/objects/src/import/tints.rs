@@ -17,7 +17,7 @@ const MOST: usize = 256;
 
 /// Groups `triangles` by the mean colour of their points, of which there are `count`. Without `colors`, there is one
 /// group.
-pub(super) fn apart(
+pub(super) fn group_by_tint(
     columns: &mut NumberColumns<'_>,
     colors: Option<Index<Accessor>>,
     count: usize,

@@ -11,7 +11,7 @@ use burgeon_streets::{
 use glam::DVec2;
 
 /// Creates a table of named values, without entries that are nil.
-fn named<const N: usize>(entries: [(&str, Value); N]) -> Value {
+fn named_table<const N: usize>(entries: [(&str, Value); N]) -> Value {
     let there = entries.into_iter().filter(|(_, value)| !matches!(value, Value::Nil));
     let entries = there.map(|(name, value)| (TableKey::Name(name.into()), value));
     Value::Table(Arc::new(Table { class: None, entries: entries.collect() }))
@@ -36,7 +36,7 @@ pub(super) fn fate(fate: Fate) -> &'static str {
 /// Creates the table that describes the predicted outcome of a street.
 pub(super) fn prospect(prospect: StreetProspect) -> Value {
     let junction = prospect.junction.map_or(Value::Nil, number);
-    named([
+    named_table([
         ("fate", Value::Text(fate(prospect.fate).into())),
         ("built", Value::Boolean(!matches!(prospect.fate, Fate::Refused(_)))),
         ("place", place(prospect.place)),
@@ -47,7 +47,7 @@ pub(super) fn prospect(prospect: StreetProspect) -> Value {
 /// Creates the table of the measures, by name.
 pub(super) fn measures(measures: &Measures) -> Value {
     let [dead_ends, three_way, four_way] = measures.shares;
-    named(
+    named_table(
         [
             ("length", measures.length),
             ("degree", measures.degree),
@@ -73,9 +73,9 @@ pub(super) fn measures(measures: &Measures) -> Value {
 }
 
 /// Creates the list of the missing parts of existing streets.
-pub(super) fn omitted(losses: &[ExistingLoss]) -> Value {
+pub(super) fn omitted_streets(losses: &[ExistingLoss]) -> Value {
     let parts = losses.iter().map(|loss| {
-        named([
+        named_table([
             ("name", Value::Text(loss.name.as_str().into())),
             ("place", loss.at.map_or(Value::Nil, place)),
             ("length", Value::Number(loss.length)),
@@ -93,7 +93,7 @@ pub(super) fn open_ends(network: &StreetNetwork) -> Value {
     let ends = network.dead_ends().filter(on_ground).map(|end| {
         let arms = network.arms(end);
         let (piece, way) = arms[0];
-        named([
+        named_table([
             ("junction", number(end)),
             ("place", place(network.at(end))),
             ("heading", Value::Number((-way).to_angle().to_degrees())),
@@ -111,7 +111,7 @@ pub(super) fn places(network: &StreetNetwork) -> Value {
         let depth = arms.iter().map(|(piece, _)| network.attributes(*piece).depth).min();
         let headings: Vec<Value> =
             arms.iter().map(|(_, way)| Value::Number(way.to_angle().to_degrees())).collect();
-        named([
+        named_table([
             ("depth", Value::Number(f64::from(depth.unwrap_or(0)))),
             ("headings", headings.into_value()),
             ("place", place(junction.place())),
@@ -129,7 +129,7 @@ pub(super) fn face(network: &StreetNetwork, junction: JunctionId, towards: DVec2
     }
     let corners = way.iter().map(|course| {
         let degree = network.junctions()[course.from as usize].degree();
-        named([
+        named_table([
             ("junction", number(course.from)),
             ("place", place(network.at(course.from))),
             ("degree", Value::Number(f64::from(u32::try_from(degree).unwrap_or(u32::MAX)))),
@@ -137,12 +137,12 @@ pub(super) fn face(network: &StreetNetwork, junction: JunctionId, towards: DVec2
         ])
     });
     let corners = corners.collect::<Vec<_>>().into_value();
-    named([("area", Value::Number(network.area(&way))), ("corners", corners)])
+    named_table([("area", Value::Number(network.area(&way))), ("corners", corners)])
 }
 
 /// Returns the warning about a street that did not reach its target. The positions are the start, the end and the
 /// target of the street.
-pub(super) fn misled(fate: Fate, [from, end, to]: [DVec2; 3]) -> Option<Warning> {
+pub(super) fn misled_warning(fate: Fate, [from, end, to]: [DVec2; 3]) -> Option<Warning> {
     let metres = |place: DVec2| format!("{:.1}, {:.1}", place.x, place.y);
     let way = format!("from {} to {}", metres(from), metres(to));
     let (text, remedy) = match fate {

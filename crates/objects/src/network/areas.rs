@@ -1,6 +1,6 @@
 //! The areas that streets do not cross, as scripts specify them.
 
-use super::object::NetworkOptions;
+use super::options::NetworkOptions;
 use burgeon_base::warning::{Warning, WarningKind};
 use burgeon_geometry::{Plan, Polygon, Rings};
 use burgeon_streets::Obstacle;

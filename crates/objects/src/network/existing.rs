@@ -146,7 +146,7 @@ fn street(
             };
             let found = number_of(&value).filter(|number| is_right(*number));
             if found.is_none() {
-                unusable.add(what, &name, value.shown());
+                unusable.add(what, &name, value.display_text());
             }
             found
         };
@@ -154,7 +154,7 @@ fn street(
     let depth = number("depth", &lines.depth, &|depth| (0.0..=1e6).contains(&depth)).unwrap_or(0.0) as u32;
     let kind = StreetKind::of(kinds, depth);
     let fits = |kind: &StreetKind| {
-        kind.adapted(kind.attributes(depth)).width == kind.width && kind.carriageway() >= 2.0
+        kind.adapt_to(kind.attributes(depth)).width == kind.width && kind.carriageway() >= 2.0
     };
     let with_width =
         |width: f64| StreetKind { width, sidewalk: kind.sidewalk.min(width * SIDEWALK_PART), ..kind };

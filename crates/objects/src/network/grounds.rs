@@ -2,8 +2,8 @@
 
 use glam::DVec3;
 
-use super::Network;
-use super::draw::{add_points, upright};
+use super::object::Network;
+use super::vertices::{add_points, upright};
 use burgeon_base::error::Result;
 use burgeon_geometry::Polygon;
 use burgeon_geometry::planar::distance;

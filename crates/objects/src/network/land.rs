@@ -4,12 +4,13 @@ use std::sync::Arc;
 
 use glam::DVec3;
 
-use super::Network;
+use super::object::Network;
+use crate::terrain::{GroundStreets, StreetsOnGround};
 use burgeon_base::error::{Error, Result};
 use burgeon_base::warning::{Warning, WarningKind};
 use burgeon_data::Geometry;
 use burgeon_geometry::Polygon;
-use burgeon_kit::{Answer, Parameter, Table, TableKey, Value, Vector};
+use burgeon_kit::{Answer, Expectation, Parameter, Table, TableKey, Value, Vector};
 use burgeon_streets::{SlopeOptions, StreetArea, StreetFit, StreetFooting, StreetPiece, VergeKind};
 use burgeon_terrain::{Edit, GroundBed, GroundCut, GroundCuts};
 
@@ -54,14 +55,14 @@ impl Network {
         {
             return Ok(Arc::clone(fit));
         }
-        let fit = Arc::new(self.laid()?);
+        let fit = Arc::new(self.lay_streets()?);
         // A result of an earlier version remains stored until the pass ends.
         let _ = self.fit.set((version, Arc::clone(&fit)));
         Ok(fit)
     }
 
-    fn laid(&self) -> Result<StreetFit> {
-        let Some(ground) = &self.options.on else { return Ok(self.raised()) };
+    fn lay_streets(&self) -> Result<StreetFit> {
+        let Some(ground) = &self.options.on else { return Ok(self.raise_bridges()) };
         let water = self.water_level();
         let slopes = SlopeOptions {
             max_slope: self.options.max_slope / 100.0,
@@ -80,7 +81,7 @@ impl Network {
     }
 
     /// Computes the heights of streets without a terrain: some streets rise to bridges over others.
-    fn raised(&self) -> StreetFit {
+    fn raise_bridges(&self) -> StreetFit {
         let is_above = |piece: &StreetPiece| piece.attributes.level > 0;
         if !self.network.pieces().any(|(_, piece)| is_above(piece)) {
             return StreetFit::default();
@@ -94,52 +95,14 @@ impl Network {
         self.options.water_level.or_else(|| self.options.on.as_ref()?.water_level())
     }
 
-    /// Returns the terrain edits with which the ground meets the edges of the sidewalks and stays below bridges. The
-    /// terrain has cells of size `cell` (m), and its triangles deviate by at most `error` (m).
-    pub(crate) fn bed(&self, cell: f64, error: f64) -> Result<Vec<Edit>> {
-        let fit = self.fit()?;
-        let rise = self.rise();
-        let beds: Vec<(GroundBed, bool)> = self
-            .network
-            .footings(self.surface_options(), &fit.profiles)
-            .into_iter()
-            .map(|StreetFooting { line, width, piece, is_below }| {
-                // The ground is straight between cells, even if the street bends.
-                let sink = if is_below { BELOW + error + 0.6 * steepest(&line) * cell } else { -rise };
-                let depth = piece.and_then(|piece| fit.depths.get(piece as usize)).copied();
-                let margin = ((depth.unwrap_or(DEEP) + sink.abs() + 4.0) / BATTER).min(FARTHEST);
-                let line = line.iter().map(|at| [at.x, at.y, at.z - sink]).collect();
-                let width = width + 2.0 * if is_below { CELLS } else { VERGE } * cell;
-                (GroundBed { line, width, is_area: piece.is_none(), slope: BATTER, margin }, is_below)
-            })
-            .collect();
-        let raised = beds.iter().filter(|(_, is_below)| !is_below);
-        // All beds are raised before any is lowered, so that the ground is never above a street.
-        let mut edits: Vec<Edit> = raised.map(|(bed, _)| Edit::Embank { bed: bed.clone() }).collect();
-        edits.extend(beds.into_iter().map(|(bed, _)| Edit::Excavate { bed }));
-        Ok(edits)
-    }
-
     /// Returns the height (m) of the ground next to sidewalks above the carriageway.
     fn rise(&self) -> f64 {
         (self.options.kerb - FLUSH).max(0.0)
     }
 
-    /// Returns the areas that the streets cut out of ground that is drawn `lift` (m) lower.
-    pub(crate) fn ground_cuts(&self, lift: f64) -> Result<GroundCuts> {
-        let fit = self.fit()?;
-        let areas = self.network.ground_areas(self.surface_options(), &fit.profiles);
-        let by = DVec3::Z * (self.rise() - lift);
-        let cuts = areas.into_iter().filter_map(|StreetArea { outline, line }| {
-            let outline = Polygon::turned(vec![outline]).ok()?;
-            Some(GroundCut { outline, line: line.into_iter().map(|at| at + by).collect() })
-        });
-        Ok(GroundCuts::new(cuts.collect()))
-    }
-
     /// Returns the warning about streets above or below the visible ground. Only a terrain that is created after the
     /// streets can match them.
-    pub(super) fn hidden(&self) -> Result<Option<Warning>> {
+    pub(super) fn hidden_warning(&self) -> Result<Option<Warning>> {
         if self.network.size() == 0 || !self.options.on.as_ref().is_some_and(|ground| ground.is_shown()) {
             return Ok(None);
         }
@@ -153,28 +116,11 @@ impl Network {
         }))
     }
 
-    /// Returns the warning about streets that differ much from the ground because of the maximum slope.
-    pub(crate) fn steep(&self) -> Result<Option<Warning>> {
-        let fit = self.fit()?;
-        let deep = fit.depths.iter().filter(|depth| **depth > DEEP).count();
-        let deepest = fit.depths.iter().copied().fold(0.0, f64::max);
-        Ok((deep > 0).then(|| {
-            let text = format!(
-                "network: {deep} of {} pieces of streets lie more than {DEEP} m above or below the ground, up to {deepest:.1} m, \
-                 so that none is steeper than max_slope = {} %",
-                self.network.size(),
-                self.options.max_slope
-            );
-            Warning::new(WarningKind::Doubtful, text)
-                .help("give a greater max_slope, or keep streets off steep ground: network { obstacles = ... }")
-        }))
-    }
-
     /// Returns the height (m) of the sidewalks at the point of the nearest street that is closest to a position.
     pub(super) fn height_at(&self, place: DVec3) -> Result<f64> {
         let Some((piece, _)) = self.network.nearest(place.truncate()) else { return Ok(0.0) };
         let fit = self.fit()?;
-        Ok(fit.profiles.near(&self.network, piece, place.truncate()) + self.options.kerb)
+        Ok(fit.profiles.height_near(&self.network, piece, place.truncate()) + self.options.kerb)
     }
 
     /// Returns the positions for an object type next to the streets. Fails if the object type is unknown.
@@ -205,6 +151,75 @@ impl Network {
             Value::Table(Arc::new(Table { class: None, entries }))
         };
         Ok(VergeRecords(places.iter().map(record).collect()))
+    }
+}
+
+impl GroundStreets for Network {
+    fn bed(&self, cell: f64, error: f64) -> Result<Vec<Edit>> {
+        let fit = self.fit()?;
+        let rise = self.rise();
+        let beds: Vec<(GroundBed, bool)> = self
+            .network
+            .footings(self.surface_options(), &fit.profiles)
+            .into_iter()
+            .map(|StreetFooting { line, width, piece, is_below }| {
+                // The ground is straight between cells, even if the street bends.
+                let sink = if is_below { BELOW + error + 0.6 * steepest(&line) * cell } else { -rise };
+                let depth = piece.and_then(|piece| fit.depths.get(piece as usize)).copied();
+                let margin = ((depth.unwrap_or(DEEP) + sink.abs() + 4.0) / BATTER).min(FARTHEST);
+                let line = line.iter().map(|at| [at.x, at.y, at.z - sink]).collect();
+                let width = width + 2.0 * if is_below { CELLS } else { VERGE } * cell;
+                (GroundBed { line, width, is_area: piece.is_none(), slope: BATTER, margin }, is_below)
+            })
+            .collect();
+        let raised = beds.iter().filter(|(_, is_below)| !is_below);
+        // All beds are raised before any is lowered, so that the ground is never above a street.
+        let mut edits: Vec<Edit> = raised.map(|(bed, _)| Edit::Embank { bed: bed.clone() }).collect();
+        edits.extend(beds.into_iter().map(|(bed, _)| Edit::Excavate { bed }));
+        Ok(edits)
+    }
+
+    fn ground_cuts(&self, lift: f64) -> Result<GroundCuts> {
+        let fit = self.fit()?;
+        let areas = self.network.ground_areas(self.surface_options(), &fit.profiles);
+        let by = DVec3::Z * (self.rise() - lift);
+        let cuts = areas.into_iter().filter_map(|StreetArea { outline, line }| {
+            let outline = Polygon::turned(vec![outline]).ok()?;
+            Some(GroundCut { outline, line: line.into_iter().map(|at| at + by).collect() })
+        });
+        Ok(GroundCuts::new(cuts.collect()))
+    }
+
+    fn steep_warning(&self) -> Result<Option<Warning>> {
+        let fit = self.fit()?;
+        let deep = fit.depths.iter().filter(|depth| **depth > DEEP).count();
+        let deepest = fit.depths.iter().copied().fold(0.0, f64::max);
+        Ok((deep > 0).then(|| {
+            let text = format!(
+                "network: {deep} of {} pieces of streets lie more than {DEEP} m above or below the ground, up to {deepest:.1} m, \
+                 so that none is steeper than max_slope = {} %",
+                self.network.size(),
+                self.options.max_slope
+            );
+            Warning::new(WarningKind::Doubtful, text)
+                .help("give a greater max_slope, or keep streets off steep ground: network { obstacles = ... }")
+        }))
+    }
+}
+
+/// Allows a terrain to take a script's network as its streets.
+impl Parameter for StreetsOnGround {
+    fn luau() -> String {
+        Arc::<Network>::luau()
+    }
+
+    fn from_value(value: Value) -> Result<Self, Expectation> {
+        let network: Arc<Network> = Parameter::from_value(value)?;
+        Ok(Self(network))
+    }
+
+    fn into_value(self) -> Value {
+        Value::Object(self.0)
     }
 }
 

@@ -85,7 +85,7 @@ impl LineFact {
     }
 
     /// Returns the value as it appears in a message.
-    pub(super) fn shown(&self) -> String {
+    pub(super) fn display_text(&self) -> String {
         match self {
             Self::Text(text) => format!("{:?}", text.chars().take(40).collect::<String>()),
             other => other.to_string(),

@@ -17,8 +17,8 @@ use burgeon_streets::{FARTHEST, Lot, LotOptions, LotPattern, LotUse, PieceId, St
 use glam::DVec2;
 use rayon::prelude::*;
 
-use super::Network;
 use super::cache::AnswerKey;
+use super::object::Network;
 use super::overlaps::overlapping;
 
 /// Distance (m) of terraces inside the borders of their lots.
@@ -271,10 +271,10 @@ impl Network {
     pub(super) fn lot_records(&self, settings: &LotSettings) -> Result<LotRecords> {
         let options = settings.options().map_err(|error| error.about("network:lots"))?;
         let key = || settings.key(self.network.version(), &options);
-        self.answers.once(key, || self.divided(settings, &options)).map(LotRecords)
+        self.answers.once(key, || self.divide_blocks(settings, &options)).map(LotRecords)
     }
 
-    fn divided(&self, settings: &LotSettings, options: &LotOptions) -> Result<(Value, Vec<Warning>)> {
+    fn divide_blocks(&self, settings: &LotSettings, options: &LotOptions) -> Result<(Value, Vec<Warning>)> {
         let mut omissions = Omissions::default();
         let blocks: Vec<StreetBlock> = match &settings.blocks {
             None => self.network.lot_blocks(self.surface_options()),

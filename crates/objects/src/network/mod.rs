@@ -11,12 +11,15 @@ mod kinds;
 mod land;
 mod lines;
 mod lots;
+mod methods;
 mod object;
+mod options;
 mod overlaps;
 mod passes;
 mod proposals;
 mod sites;
 mod streets;
+mod vertices;
 mod walk;
 mod walked;
 

@@ -2,7 +2,7 @@
 
 use std::sync::OnceLock;
 
-use super::Network;
+use super::object::Network;
 use burgeon_base::error::Result;
 use burgeon_base::warning::{Warning, WarningKind};
 use burgeon_kit::Warn;
@@ -30,13 +30,13 @@ impl Network {
         }
         // Missing ground is reported when the streets are drawn.
         if !self.has_warned_of_hiding
-            && let Ok(Some(warning)) = self.hidden()
+            && let Ok(Some(warning)) = self.hidden_warning()
         {
             self.has_warned_of_hiding = true;
             self.warnings.push(warning);
         }
         self.warnings.extend(self.walk.tally().warning());
-        self.warnings.extend(self.bare());
+        self.warnings.extend(self.bare_warning());
         if !self.has_warned_of_refusals
             && let Some(warning) = self.proposals.warning(self.network.size())
         {
@@ -47,7 +47,7 @@ impl Network {
     }
 
     /// Returns the warning that there is no block to fill.
-    fn bare(&self) -> Option<Warning> {
+    fn bare_warning(&self) -> Option<Warning> {
         let is_bare =
             self.options.ground.is_some() && self.network.size() > 0 && self.network.faces().is_empty();
         is_bare.then(|| {

@@ -9,8 +9,8 @@ use burgeon_rewriting::ModuleKey;
 use burgeon_streets::{SiteOptions, StreetSite};
 use glam::DVec3;
 
-use super::Network;
 use super::lots::record;
+use super::object::Network;
 
 /// Options of `network:sites`.
 #[fields("network:sites")]

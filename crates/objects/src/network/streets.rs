@@ -5,8 +5,8 @@ use burgeon_kit::{Answer, HasLayers, Parameter, Value};
 use burgeon_streets::{JunctionId, StreetKind, StreetStretch};
 use glam::{DVec2, DVec3};
 
-use super::Network;
 use super::lots::record;
+use super::object::Network;
 
 /// Streets, as records for scripts.
 pub struct StreetRecords(Vec<Value>);
@@ -43,7 +43,7 @@ impl Network {
         let mut known = rustc_hash::FxHashMap::<String, u32>::default();
         let records = streets.iter().map(|street| {
             // The id depends on the position, so that adding a street does not change other ids.
-            let id = named(middle(&street.line));
+            let id = place_name(middle(&street.line));
             let count = known.entry(id.clone()).or_default();
             *count += 1;
             self.street_record(street, if *count > 1 { format!("{id}#{count}") } else { id })
@@ -60,7 +60,7 @@ impl Network {
 
     fn street_record(&self, street: &StreetStretch, id: String) -> Value {
         let depth = street.attributes.depth;
-        let kind = StreetKind::of(&self.kinds, depth).adapted(street.attributes);
+        let kind = StreetKind::of(&self.kinds, depth).adapt_to(street.attributes);
         let points: Vec<DVec3> = street.line.iter().map(|at| at.extend(0.0)).collect();
         let [from, to] = street.junctions.map(number);
         let metres = Value::Number;
@@ -89,7 +89,7 @@ impl Network {
         let depth = streets.iter().map(|street| street.depth).min().unwrap_or_default();
         let width = streets.iter().map(|street| street.width).fold(0.0, f64::max);
         record([
-            ("id", Value::Text(named(at).into())),
+            ("id", Value::Text(place_name(at).into())),
             ("geometry", Geometry::Point(Some(at.extend(0.0))).into_value()),
             ("junction", number(id)),
             ("degree", u32::try_from(streets.len()).unwrap_or(u32::MAX).into_value()),
@@ -123,7 +123,7 @@ fn number(junction: JunctionId) -> Value {
 }
 
 /// Returns the id for a position.
-fn named(at: DVec2) -> String {
+fn place_name(at: DVec2) -> String {
     // Adding zero turns -0 into 0.
     format!("{:.0}:{:.0}", at.x.round() + 0.0, at.y.round() + 0.0)
 }

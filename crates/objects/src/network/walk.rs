@@ -72,7 +72,7 @@ impl NetworkWalk {
     ///
     /// A step that an earlier pass has made leads to the same junction. Returns the start of a newly proposed street,
     /// and its outcome.
-    pub(super) fn ahead(
+    pub(super) fn walk_ahead(
         &mut self,
         network: &mut StreetNetwork,
         length: f64,

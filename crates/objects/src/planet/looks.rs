@@ -2,13 +2,13 @@
 
 use glam::{DVec2, DVec3};
 
-use super::PlanetOptions;
+use super::options::PlanetOptions;
 use crate::terrain::looks::{blend, image, material, texels};
 use crate::terrain::mask::{GroundPoint, PatchPlace};
 use burgeon_base::error::Result;
 use burgeon_scene::Material;
 use burgeon_terrain::Tile;
-use burgeon_terrain::globe::{Globe, latitude, within};
+use burgeon_terrain::globe::{Globe, latitude, place_within};
 
 /// Returns the material named `name` for a tile of a face.
 pub(super) fn of(
@@ -78,7 +78,7 @@ struct TileRelief<'a> {
 
 impl<'a> TileRelief<'a> {
     fn new(globe: &Globe, tile: &'a Tile) -> Self {
-        let own = Tile::own(tile.place, tile.detail);
+        let own = Tile::own_cells(tile.place, tile.detail);
         let (across, cell) = (own.columns + 1, globe.world().cell(tile.level()));
         let mut corners = Vec::with_capacity(across * across);
         for y in (own.y..).take(across) {
@@ -108,7 +108,7 @@ impl<'a> TileRelief<'a> {
         (column, row, across): (usize, usize, usize),
     ) -> GroundPoint<'b> {
         let part = DVec2::new(column as f64, row as f64) / (across - 1) as f64;
-        let way = within(face, tile, part);
+        let way = place_within(face, tile, part);
         let along = part * (self.across - 1) as f64;
         let index = |along: f64| (along as usize).min(self.across - 2);
         let (x, y) = (index(along.x), index(along.y));
@@ -116,7 +116,7 @@ impl<'a> TileRelief<'a> {
         let at = |right: usize, down: usize| self.corners[(y + down) * self.across + x + right];
         let north = at(0, 0).lerp(at(1, 0), part.x);
         let here = north.lerp(at(0, 1).lerp(at(1, 1), part.x), part.y);
-        let own = Tile::own(self.tile.place, self.tile.detail);
+        let own = Tile::own_cells(self.tile.place, self.tile.detail);
         let (x, y) = (own.x + x as i64, own.y + y as i64);
         let around: f64 = [(-1, 0), (1, 0), (0, -1), (0, 1)]
             .map(|(right, down)| tile.cell(x + right, y + down))

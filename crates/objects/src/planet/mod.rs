@@ -4,5 +4,7 @@
 
 mod looks;
 mod object;
+mod options;
 
-pub use object::{Planet, PlanetOptions};
+pub use object::Planet;
+pub use options::PlanetOptions;

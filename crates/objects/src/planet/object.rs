@@ -3,67 +3,19 @@
 use std::sync::Arc;
 
 use super::looks;
-use crate::terrain::{GroundCover, RuleLayers, Water, lost_focus, rounded, rules};
+use super::options::PlanetOptions;
+use crate::terrain::{lost_focus, round_length, rules};
 use burgeon_base::error::{Error, Result};
 use burgeon_base::text::number;
 use burgeon_base::warning::Warning;
 use burgeon_base::{MemoryOwner, Stop};
-use burgeon_kit::{Color, Expand, Rewriter, Seed, Show, Vector, Warn, fields, methods, object};
+use burgeon_kit::{Expand, Rewriter, Show, Vector, Warn, methods, object};
 use burgeon_rewriting::ModuleKey;
 use burgeon_scene::{Instance, Material, Mesh, Scene, Upright};
 use burgeon_terrain::globe::{DEEPEST, DETAIL, Globe, GlobeMesh, GlobeView};
 use burgeon_terrain::{Cells, World};
 use glam::{DAffine3, DVec3};
 use rayon::prelude::*;
-
-/// Fields of `planet { ... }`.
-#[fields("planet")]
-pub struct PlanetOptions {
-    /// Radius (m).
-    #[default(6_371_000.0)]
-    pub radius: f64,
-    /// Rules that divide the six faces: a rule table, a system, or a list of these by level.
-    pub rules: RuleLayers,
-    /// Symbol of each face. If omitted, the first symbol by name.
-    pub start: Option<String>,
-    /// Initial height (m) of the whole surface.
-    #[default(0.0)]
-    pub height: f64,
-    /// Initial factor (m) for the height changes of a rule table.
-    #[default(4000.0)]
-    pub decay: f64,
-    /// Maximum number of divisions of a face near the eye.
-    #[default(20)]
-    pub levels: u32,
-    /// Maximum distance of the eye for a division, in tile sizes. A tile is divided while the eye is closer.
-    #[default(3.0)]
-    pub closeness: f64,
-    /// Smooth interpolation of the surface between cells. If false, each cell keeps its own height.
-    #[default(true)]
-    pub smooth: bool,
-    /// Maximum distance between the triangles and the surface, in sizes of the local cells.
-    #[default(0.05)]
-    pub error: f64,
-    /// Centre (m).
-    #[default(Vector(DVec3::ZERO))]
-    pub position: Vector,
-    /// Direction of the north pole, which defines latitudes.
-    #[default(Vector(DVec3::Z))]
-    pub axis: Vector,
-    /// Seed of the random numbers: a number or a string. If omitted, the run's seed.
-    pub seed: Option<Seed>,
-    /// Omit tiles below the horizon of the focus, and keep them coarse.
-    pub horizon: bool,
-    /// Ground covers, from bottom to top.
-    pub covers: Vec<GroundCover>,
-    /// Colour of the ground if there are no covers.
-    #[default(Color([0.30, 0.28, 0.22, 1.0]))]
-    pub color: Color,
-    /// Seas: their level (m), or a table of fields.
-    pub water: Option<Water>,
-    /// Cover on the water, such as ice near the poles.
-    pub ice: Option<GroundCover>,
-}
 
 /// A globe made by repeatedly dividing the six faces of a cube into quadrants, expanded near the eye.
 ///
@@ -105,11 +57,12 @@ impl Planet {
             ))
             .help(format!("its ground is about {radius} m from its middle: look from farther out")));
         }
-        let above = self.globe.height(eye).map(|height| eye.length() - radius - self.globe.shown(height));
+        let above =
+            self.globe.height(eye).map(|height| eye.length() - radius - self.globe.shown_height(height));
         if let Some(below) = above.map(|above| -above).filter(|below| *below > 1e-6 * radius.max(1.0)) {
             return Err(Error::argument(format!(
                 "planet: the focus ({x}, {y}, {z}) is {} m below the {}",
-                number(rounded(below)),
+                number(round_length(below)),
                 self.surface_name(eye)
             ))
             .help(format!(
@@ -127,19 +80,19 @@ impl Planet {
 
     /// Returns the ground height (m) in a direction from the centre. Below water, this is the height of the sea floor.
     pub fn height(&self, direction: Vector) -> Result<f64> {
-        self.known(self.globe.height(towards(direction)?), 0.0)
+        self.require_expanded(self.globe.height(unit_direction(direction)?), 0.0)
     }
 
     /// Returns the position (m) of the ground or water surface in a direction from the centre.
     pub fn surface(&self, direction: Vector) -> Result<DVec3> {
-        let way = towards(direction)?;
-        let height = self.known(self.globe.height(way), 0.0)?;
-        Ok(self.options.position.0 + way * (self.options.radius + self.globe.shown(height)))
+        let way = unit_direction(direction)?;
+        let height = self.require_expanded(self.globe.height(way), 0.0)?;
+        Ok(self.options.position.0 + way * (self.options.radius + self.globe.shown_height(height)))
     }
 
     /// Returns the symbol of the cell in a direction from the centre.
     pub fn symbol(&self, direction: Vector) -> Result<String> {
-        self.known(self.globe.symbol(towards(direction)?), "").map(str::to_owned)
+        self.require_expanded(self.globe.symbol(unit_direction(direction)?), "").map(str::to_owned)
     }
 
     /// Returns the number of heights that are currently expanded.
@@ -155,7 +108,7 @@ const DEEP: f64 = 0.1;
 
 impl Planet {
     /// Returns `found`. If it is `None`, returns `even` while the script is only checked, and otherwise an error.
-    fn known<T>(&self, found: Option<T>, even: T) -> Result<T> {
+    fn require_expanded<T>(&self, found: Option<T>, even: T) -> Result<T> {
         match found {
             None if self.sketched => Ok(even),
             found => found.ok_or_else(nothing),
@@ -226,7 +179,7 @@ impl Planet {
     }
 }
 
-fn towards(direction: Vector) -> Result<DVec3> {
+fn unit_direction(direction: Vector) -> Result<DVec3> {
     direction.0.try_normalize().ok_or_else(|| {
         Error::argument("planet: the direction has no length")
             .help("give a place seen from its middle, such as { 1, 0, 0 }")
@@ -267,7 +220,7 @@ impl Warn for Planet {
 impl Expand for Planet {
     fn expand(&mut self, rules: &dyn Rewriter) -> Result<()> {
         let divide = &Cells::new(rules);
-        if let Some(world) = self.globe.world().begun(divide)? {
+        if let Some(world) = self.globe.world().begin_systems(divide)? {
             self.globe = Globe::new(world, self.options.radius, self.globe.sea());
         }
         (self.eye, self.clearance) = self.wanted.map_or((None, 0.0), |(eye, above)| (Some(eye), above));

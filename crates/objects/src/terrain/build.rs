@@ -4,7 +4,8 @@ use std::sync::Arc;
 
 use glam::DVec2;
 
-use super::{TerrainOptions, rules};
+use super::options::TerrainOptions;
+use super::rules;
 use crate::Elevation;
 use burgeon_base::error::{Error, Result};
 use burgeon_base::text::number;

@@ -165,12 +165,12 @@ impl Mask {
                 octaves_around(place / self.scale, 4, seed, grain / self.scale)
             }
         };
-        let patches = 1.0 - self.patches * (1.0 - eased(0.5 + 2.5 * noise));
-        patches * fades().map(|along| eased(along + noise * self.noise)).product::<f64>()
+        let patches = 1.0 - self.patches * (1.0 - ease(0.5 + 2.5 * noise));
+        patches * fades().map(|along| ease(along + noise * self.noise)).product::<f64>()
     }
 }
 
-fn eased(along: f64) -> f64 {
+fn ease(along: f64) -> f64 {
     let along = along.clamp(0.0, 1.0);
     along * along * (3.0 - 2.0 * along)
 }

@@ -2,75 +2,18 @@
 
 use std::sync::{Arc, OnceLock};
 
+use super::build;
+use super::options::TerrainOptions;
 use super::river::River;
-use super::{EditFile, GroundCover, Plants, RuleLayers, Water, build};
-use crate::{Elevation, Network};
+use super::streets::StreetsOnGround;
 use burgeon_base::error::{Error, Result};
 use burgeon_base::text::number;
 use burgeon_base::warning::{Warning, WarningKind};
-use burgeon_kit::{Color, ObjectParameter, Vector, fields, methods, object};
-use burgeon_kit::{Expand, Rewriter, Show, Warn};
+use burgeon_kit::{Expand, ObjectParameter, Rewriter, Show, Vector, Warn, methods, object};
 use burgeon_rewriting::ModuleKey;
-use burgeon_scene::Scene;
 use burgeon_spatial::Path;
 use burgeon_terrain::{Cells, Channel, DEEPEST, Drainage, Dry, Edit, Edits, Ground, GroundMap, View, World};
 use glam::{DVec2, DVec3};
-
-/// Fields of `terrain { ... }`.
-#[fields("terrain")]
-pub struct TerrainOptions {
-    /// Length (m) of the sides.
-    #[default(1024.0)]
-    pub size: f64,
-    /// Number of divisions of the whole terrain. If omitted, only the focus is expanded.
-    pub levels: Option<u32>,
-    /// Rules that divide the cells: a rule table, a system, or a list of these by level.
-    pub rules: RuleLayers,
-    /// Symbol of the first cell. If omitted, the first symbol by name.
-    pub start: Option<String>,
-    /// Initial height (m) of the whole terrain.
-    #[default(0.0)]
-    pub height: f64,
-    /// Initial factor (m) for the height changes of a rule table.
-    #[default(100.0)]
-    pub decay: f64,
-    /// Smooth interpolation between cells and between measured samples. If false, each cell keeps its own height, and
-    /// the ground is straight between samples.
-    #[default(true)]
-    pub smooth: bool,
-    /// Mapping of heights (m): pairs { from, to }, with linear interpolation between them.
-    pub remap: Vec<Vec<f64>>,
-    /// Maximum distance (m) between the triangles and the surface. If omitted, a tenth of the smallest cell.
-    pub error: Option<f64>,
-    /// Centre of the square (m). Its z is added to all heights.
-    #[default(Vector(DVec3::ZERO))]
-    pub position: Vector,
-    /// Measured heights, which the ground has at each sample; the rules add detail between samples:
-    /// elevation("N43E007.hgt").
-    pub elevation: Option<Elevation>,
-    /// Stored terrain edits: edits("ground.json").
-    pub edits: Option<EditFile>,
-    /// Streets on the terrain: the ground is cut and filled to meet the edges of their sidewalks, with slopes next to
-    /// them.
-    pub under: Option<Arc<Network>>,
-    /// Visible; a hidden terrain can still be queried, and streets can be laid on it.
-    #[default(true)]
-    pub shown: bool,
-    /// Ground covers, from bottom to top.
-    pub covers: Vec<GroundCover>,
-    /// Height (m) of the underside. If given, the terrain is a closed solid with sides.
-    pub base: Option<f64>,
-    /// Colour of the sides.
-    #[default(Color([0.16, 0.12, 0.09, 1.0]))]
-    pub sides: Color,
-    /// Colour of the ground if there are no covers.
-    #[default(Color([0.30, 0.28, 0.22, 1.0]))]
-    pub color: Color,
-    /// Standing water: its level (m), or a table of fields.
-    pub water: Option<Water>,
-    /// Plants on the terrain.
-    pub plants: Vec<Plants>,
-}
 
 /// Ground made by repeatedly dividing a square into quadrants, expanded in the view.
 ///
@@ -129,7 +72,7 @@ impl Terrain {
     /// Levels the ground within an outline when the pass ends: at `height` (m), or at the height of the middle. The
     /// change fades out over `margin` (m, 5 unless given) around the outline.
     pub fn flatten(&mut self, outline: Path, height: Option<f64>, margin: Option<f64>) -> Result<()> {
-        let outline = flat(&outline.points);
+        let outline = flat_points(&outline.points);
         let middle = outline.iter().map(|at| DVec2::from(*at)).sum::<DVec2>() / outline.len().max(1) as f64;
         let height = match height {
             Some(height) => height - self.options.position.0.z,
@@ -149,7 +92,7 @@ impl Terrain {
     /// Lowers the ground along a path of `width` (m) when the pass ends, by `depth` (m) in the middle. A negative depth
     /// raises the ground.
     pub fn dig(&mut self, path: Path, width: f64, depth: f64) -> Result<()> {
-        self.change(Edit::Dig { path: flat(&path.points), width, depth })
+        self.change(Edit::Dig { path: flat_points(&path.points), width, depth })
     }
 
     /// Adds a river of `width` (m) that runs downhill from a position, to the standing water, the edge of the map or an
@@ -189,19 +132,19 @@ impl Terrain {
     /// Returns the height (m) of the ground at a position. Fails if the position is not expanded.
     pub fn height(&self, place: Vector) -> Result<f64> {
         let at = place.0.truncate();
-        Ok(self.known(at, self.ground.height(at), 0.0)? + self.options.position.0.z)
+        Ok(self.require_expanded(at, self.ground.height(at), 0.0)? + self.options.position.0.z)
     }
 
     /// Returns the normal of the ground at a position, as a vector of length 1.
     pub fn normal(&self, place: Vector) -> Result<DVec3> {
         let at = place.0.truncate();
-        self.known(at, self.ground.way_up(at), DVec3::Z)
+        self.require_expanded(at, self.ground.way_up(at), DVec3::Z)
     }
 
     /// Returns the slope (degrees) of the ground at a position.
     pub fn slope(&self, place: Vector) -> Result<f64> {
         let at = place.0.truncate();
-        let up = self.known(at, self.ground.way_up(at), DVec3::Z)?;
+        let up = self.require_expanded(at, self.ground.way_up(at), DVec3::Z)?;
         Ok(up.z.clamp(-1.0, 1.0).acos().to_degrees())
     }
 
@@ -210,7 +153,7 @@ impl Terrain {
     pub fn is_source(&self, place: Vector) -> Result<bool> {
         let at = place.0.truncate();
         let found = self.ground.height(at).map(|_| self.drainage()).transpose()?;
-        self.known(at, found.map(|drainage| drainage.is_source(at)), true)
+        self.require_expanded(at, found.map(|drainage| drainage.is_source(at)), true)
     }
 
     /// Returns the depth (m) of the deepest cut for the bed of a river of `width` (m) from a position, or nil if no
@@ -218,14 +161,15 @@ impl Terrain {
     pub fn river_cut(&self, place: Vector, width: f64) -> Result<Option<f64>> {
         let at = place.0.truncate();
         let drainage = self.ground.height(at).map(|_| self.drainage()).transpose()?;
-        let course = self.known(at, drainage.map(|drainage| drainage.course(at)), Err(Dry::Outlet))?;
+        let course =
+            self.require_expanded(at, drainage.map(|drainage| drainage.course(at)), Err(Dry::Outlet))?;
         Ok(course.ok().map(|path| Channel::new(&path, width, |at| self.ground.height(at)).deepest.1))
     }
 
     /// Returns the symbol of the cell at a position.
     pub fn symbol(&self, place: Vector) -> Result<String> {
         let at = place.0.truncate();
-        self.known(at, self.ground.symbol(at), "").map(str::to_owned)
+        self.require_expanded(at, self.ground.symbol(at), "").map(str::to_owned)
     }
 
     /// Returns the number of heights that are currently expanded.
@@ -281,7 +225,7 @@ impl Terrain {
 
     /// Returns `found`, a value at a position (m). If it is `None`, returns `even` while the script is only checked,
     /// and otherwise an error.
-    fn known<T>(&self, at: DVec2, found: Option<T>, even: T) -> Result<T> {
+    fn require_expanded<T>(&self, at: DVec2, found: Option<T>, even: T) -> Result<T> {
         match found {
             None if self.sketched => Ok(even),
             found => found.ok_or_else(|| self.nothing(at)),
@@ -318,8 +262,8 @@ impl Terrain {
         };
         let text = format!(
             "terrain: cells of {} m cannot show samples that are {} m apart: only height() keeps to each of them",
-            rounded(cell),
-            rounded(step)
+            round_length(cell),
+            round_length(step)
         );
         Some(Warning::new(WarningKind::Doubtful, text).help(help))
     }
@@ -344,16 +288,18 @@ impl Terrain {
 
     /// Adapts the ground to the streets on it, once.
     fn make_room(&mut self, view: &View) -> Result<()> {
-        let Some(streets) = self.options.under.as_ref().filter(|_| !self.has_room) else { return Ok(()) };
+        let Some(StreetsOnGround(streets)) = self.options.under.as_ref().filter(|_| !self.has_room) else {
+            return Ok(());
+        };
         let world = self.ground.world();
         let cell = view.smallest(world)?;
         let lift = self.options.position.0.z;
         for edit in streets.bed(cell, self.options.error.unwrap_or(cell / 10.0))? {
             Arc::make_mut(&mut self.kept)
-                .add(world, edit.raised(-lift))
+                .add(world, edit.raise(-lift))
                 .map_err(|error| error.about("terrain: under"))?;
         }
-        self.warnings.extend(streets.steep()?);
+        self.warnings.extend(streets.steep_warning()?);
         (self.edits, self.has_room) = (Arc::clone(&self.kept), true);
         Ok(())
     }
@@ -390,7 +336,7 @@ pub(crate) fn lost_focus(kind: &str, earlier: &str) -> Warning {
 }
 
 /// Rounds a length (m) to three significant digits, for messages.
-pub(crate) fn rounded(length: f64) -> f64 {
+pub(crate) fn round_length(length: f64) -> f64 {
     let unit = 10f64.powf(2.0 - length.abs().max(1e-9).log10().floor());
     (length * unit).round() / unit
 }
@@ -424,7 +370,7 @@ impl std::fmt::Debug for Terrain {
     }
 }
 
-fn flat(points: &[DVec3]) -> Vec<[f64; 2]> {
+fn flat_points(points: &[DVec3]) -> Vec<[f64; 2]> {
     points.iter().map(|at| at.truncate().to_array()).collect()
 }
 
@@ -463,7 +409,7 @@ impl Expand for Terrain {
             }
             (None, None) => return Ok(()),
         };
-        if let Some(world) = self.ground.world().begun(divide)? {
+        if let Some(world) = self.ground.world().begin_systems(divide)? {
             self.plain = Ground::new(Arc::new(world));
             self.ground = self.plain.clone();
         }
@@ -491,11 +437,5 @@ impl Terrain {
     /// Returns true if the terrain is visible.
     pub(crate) fn is_shown(&self) -> bool {
         self.options.shown
-    }
-}
-
-impl Show for Terrain {
-    fn show(&self, scene: &mut Scene, name: &str, feature: Option<&str>) -> Result<()> {
-        if self.options.shown { self.draw(scene, name, feature) } else { Ok(()) }
     }
 }

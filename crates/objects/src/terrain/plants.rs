@@ -142,7 +142,7 @@ impl Plants {
         }
         let place = ground.world().corner + (DVec2::new(x as f64, y as f64) + along) * cell;
         // Plants stand on the visible triangles of the ground.
-        let shown = ground.shown(place)?;
+        let shown = ground.shown_height(place)?;
         let spot = GroundPoint::new(ground, place, reach, self.on.is_bent());
         if luck >= chance * self.on.at(&spot, key.0) {
             return None;

@@ -3,17 +3,25 @@
 use glam::{DAffine3, DVec3};
 
 use super::beds::RiverBeds;
-use super::{Terrain, looks, sides};
+use super::object::Terrain;
+use super::streets::StreetsOnGround;
+use super::{looks, sides};
 use burgeon_base::Stop;
 use burgeon_base::error::{Error, Result};
-use burgeon_kit::Drawing;
+use burgeon_kit::{Drawing, Show};
 use burgeon_rewriting::ModuleKey;
 use burgeon_scene::{Instance, Material, Mesh, Part, Scene};
 use burgeon_terrain::{GroundCuts, GroundMesh};
 
+impl Show for Terrain {
+    fn show(&self, scene: &mut Scene, name: &str, feature: Option<&str>) -> Result<()> {
+        if self.options.shown { self.draw(scene, name, feature) } else { Ok(()) }
+    }
+}
+
 impl Terrain {
     /// Adds the expanded ground to `scene`: a mesh for each tile, sides, water and rivers, and plants.
-    pub(super) fn draw(&self, scene: &mut Scene, name: &str, feature: Option<&str>) -> Result<()> {
+    fn draw(&self, scene: &mut Scene, name: &str, feature: Option<&str>) -> Result<()> {
         let ground = &self.ground;
         if ground.heights() == 0 {
             return Err(Error::script("terrain: nothing of it is expanded").help(
@@ -23,7 +31,7 @@ impl Terrain {
         let mesh = GroundMesh::new(ground, self.error());
         let lift = DVec3::Z * self.options.position.0.z;
         let cuts = match &self.options.under {
-            Some(streets) => streets.ground_cuts(lift.z)?,
+            Some(StreetsOnGround(streets)) => streets.ground_cuts(lift.z)?,
             None => GroundCuts::default(),
         };
         let masks = self.options.covers.iter().map(|cover| &cover.on);

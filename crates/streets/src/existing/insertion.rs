@@ -5,12 +5,10 @@ use rustc_hash::FxHashSet;
 
 use super::noding::node;
 use super::snapping::{END, snap};
-use crate::grid::{GridPlace, foot};
-use crate::network::{PieceId, StreetAttributes, StreetNetwork, StreetPiece};
+use super::strand::StreetStrand;
+use crate::plan::grid::{GridPlace, foot};
+use crate::plan::network::{PieceId, StreetAttributes, StreetNetwork, StreetPiece};
 use burgeon_base::error::{Error, Limit, Result};
-
-/// Maximum distance (m) between a street and its input line, except at an end that is moved onto another street.
-pub(super) const TOLERANCE: f64 = 0.1;
 
 /// Existing street.
 #[derive(Debug, Clone, PartialEq)]
@@ -71,21 +69,10 @@ pub struct ExistingReport {
 
 impl ExistingReport {
     /// Returns the added length (m); lines that overlap are all counted.
-    pub fn added(&self) -> f64 {
+    pub fn added_length(&self) -> f64 {
         let lost = self.losses.iter().map(|loss| loss.length).filter(|length| length.is_finite());
         self.asked - lost.sum::<f64>()
     }
-}
-
-/// Part of a street with all positions on the grid.
-#[derive(Debug, Clone)]
-pub(crate) struct StreetStrand {
-    /// Index of the street.
-    pub(crate) street: usize,
-    pub(crate) level: i32,
-    /// Length (m) of the input.
-    pub(crate) length: f64,
-    pub(crate) places: Vec<GridPlace>,
 }
 
 impl StreetNetwork {
@@ -112,7 +99,7 @@ impl StreetNetwork {
     ///     street([(150.0, -90.0), (150.0, 90.0)], 1),
     /// ];
     /// let report = network.add_existing(&streets)?;
-    /// assert!(report.losses.is_empty() && report.added() == 560.0);
+    /// assert!(report.losses.is_empty() && report.added_length() == 560.0);
     /// assert_eq!((network.size(), network.components()), (5, 2));
     /// # Ok::<(), burgeon_base::error::Error>(())
     /// ```

@@ -7,9 +7,10 @@
 mod insertion;
 mod noding;
 mod snapping;
+mod strand;
 #[cfg(test)]
 pub(crate) mod tests;
 
-pub(crate) use insertion::StreetStrand;
 pub use insertion::{ExistingLoss, ExistingLossReason, ExistingReport, ExistingStreet};
 pub(crate) use noding::node;
+pub(crate) use strand::StreetStrand;

@@ -8,8 +8,8 @@ use rstar::primitives::{GeomWithData, Line as IndexLine};
 use rstar::{AABB, RTree};
 use rustc_hash::FxHashSet;
 
-use super::insertion::StreetStrand;
-use crate::grid::{GridPlace, PER_METRE, WholePlace, touch};
+use super::strand::StreetStrand;
+use crate::plan::grid::{GridPlace, PER_METRE, WholePlace, touch};
 
 /// Maximum number of rounds; the method needs one, and the second confirms it.
 const ROUNDS: usize = 8;
@@ -39,7 +39,7 @@ pub(crate) fn node(strands: &mut [StreetStrand]) -> Vec<(usize, usize)> {
             let vertices = hot.len();
             let mut faulty = Vec::new();
             for (number, edge) in edges.iter().enumerate() {
-                for other in near(&index, edge.ends).filter(|other| *other < number) {
+                for other in edges_near(&index, edge.ends).filter(|other| *other < number) {
                     if let Some(place) = meeting(edge.ends, edges[other].ends) {
                         hot.insert(place);
                         faulty.push((edge.strand, edge.first));
@@ -80,7 +80,7 @@ fn index_of(edges: &[NodingEdge]) -> EdgeIndex {
 }
 
 /// Returns the sorted indices of the segments whose bounding boxes intersect that of a segment.
-fn near(index: &EdgeIndex, ends: [GridPlace; 2]) -> impl Iterator<Item = usize> {
+fn edges_near(index: &EdgeIndex, ends: [GridPlace; 2]) -> impl Iterator<Item = usize> {
     let [a, b] = ends.map(GridPlace::metres);
     let around = AABB::from_corners(a.min(b).to_array(), a.max(b).to_array());
     let mut found: Vec<usize> =
@@ -158,7 +158,7 @@ fn lead_through(
             .locate_in_envelope(&around)
             .map(|item| item.data)
             .filter(|place| *place != a && *place != b && touches([a, b], *place))
-            .map(|place| (along(a, b, place), place))
+            .map(|place| (position_along(a, b, place), place))
             .collect();
         on.sort_unstable();
         is_changed |= !on.is_empty();
@@ -179,7 +179,7 @@ fn lead_through(
 }
 
 /// Returns the position of a point along a segment, multiplied by the segment's length (squared grid steps).
-fn along(a: GridPlace, b: GridPlace, place: GridPlace) -> i128 {
+fn position_along(a: GridPlace, b: GridPlace, place: GridPlace) -> i128 {
     let [[ax, ay], [bx, by], [x, y]] = [a, b, place].map(|at| at.steps().map(i128::from));
     (bx - ax) * (x - ax) + (by - ay) * (y - ay)
 }

@@ -6,11 +6,13 @@ use rstar::{AABB, RTree};
 use rustc_hash::FxHashMap;
 use smallvec::SmallVec;
 
-use super::insertion::{StreetStrand, TOLERANCE};
-use crate::grid::{GridPlace, PER_METRE, WholePlace, foot};
+use super::strand::StreetStrand;
+use crate::plan::grid::{GridPlace, PER_METRE, WholePlace, foot};
 use burgeon_geometry::planar;
 use glam::DVec2;
 
+/// Maximum distance (m) between a street and its input line, except at an end that is moved onto another street.
+const TOLERANCE: f64 = 0.1;
 /// Snap distance (m) between vertices, and between a line and a vertex.
 const NEAR: f64 = 0.03;
 /// Snap distance (m) between the end of a line and another line.
@@ -41,7 +43,7 @@ impl KnownVertices {
     }
 
     /// Returns the nearest known vertex of a level within `NEAR` of a position.
-    fn near(&self, level: i32, place: GridPlace) -> Option<GridPlace> {
+    fn nearest_vertex(&self, level: i32, place: GridPlace) -> Option<GridPlace> {
         let [x, y] = Self::cell(place);
         let around = (-1..=1).flat_map(|east| (-1..=1).map(move |north| [x + east, y + north]));
         let known = around.filter_map(|cell| self.cells.get(&(level, cell))).flatten().copied();
@@ -63,10 +65,10 @@ fn unite_vertices(strands: &mut [StreetStrand]) {
     for StreetStrand { level, places, .. } in strands {
         let last = places.len() - 1;
         for (index, place) in places.iter_mut().enumerate() {
-            let mut found = known.near(*level, *place);
+            let mut found = known.nearest_vertex(*level, *place);
             if found.is_none() && (index == 0 || index == last) {
                 // A bridge may end at a vertex of a street of another level.
-                found = levels.iter().find_map(|other| known.near(*other, *place));
+                found = levels.iter().find_map(|other| known.nearest_vertex(*other, *place));
             }
             match found {
                 Some(found) => *place = found,
@@ -134,7 +136,7 @@ fn segments(strands: &[StreetStrand]) -> SegmentIndex {
     RTree::bulk_load(all.collect())
 }
 
-fn around(at: DVec2, margin: f64) -> AABB<[f64; 2]> {
+fn search_box(at: DVec2, margin: f64) -> AABB<[f64; 2]> {
     AABB::from_corners((at - margin).to_array(), (at + margin).to_array())
 }
 
@@ -154,7 +156,7 @@ fn lead_ends(strands: &mut [StreetStrand]) {
             }
             let own = if is_last { last.saturating_sub(1) } else { 0 };
             let at = end.metres();
-            let near = index.locate_in_envelope_intersecting(&around(at, END)).filter_map(|item| {
+            let near = index.locate_in_envelope_intersecting(&search_box(at, END)).filter_map(|item| {
                 let (other, segment) = item.data;
                 let level = strands[other].level;
                 let fits = level == strand.level || (strand.level != 0 && level == 0);
@@ -195,7 +197,7 @@ fn lead_past_vertices(strands: &mut [StreetStrand]) {
     for strand in strands.iter() {
         for place in &strand.places {
             let at = place.metres();
-            for item in index.locate_in_envelope_intersecting(&around(at, NEAR)) {
+            for item in index.locate_in_envelope_intersecting(&search_box(at, NEAR)) {
                 let (other, segment) = item.data;
                 let ends = [segment, segment + 1].map(|vertex| strands[other].places[vertex]);
                 if strands[other].level != strand.level || ends.contains(place) {

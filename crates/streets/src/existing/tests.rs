@@ -9,8 +9,8 @@ use glam::DVec2;
 
 use super::snapping::END;
 use super::*;
-use crate::grid::touch;
-use crate::network::{PieceId, StreetAttributes, StreetNetwork};
+use crate::plan::grid::touch;
+use crate::plan::network::{PieceId, StreetAttributes, StreetNetwork};
 use crate::tests::TestNumbers;
 use crate::{Constraints, Obstacles};
 

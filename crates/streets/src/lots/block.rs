@@ -3,8 +3,8 @@
 use glam::DVec2;
 
 use super::fine::{self, FinePlace};
-use crate::network::{PieceId, StreetNetwork};
-use crate::surface::SurfaceOptions;
+use crate::plan::network::{PieceId, StreetNetwork};
+use crate::surface::parts::SurfaceOptions;
 use burgeon_geometry::{Plan, Polygon, Rings};
 
 /// Turn (degrees) of a street above which another side of a block begins.
@@ -62,7 +62,7 @@ impl StreetBlock {
     /// unknown.
     pub(super) fn off_street(&self, side: u32, place: DVec2) -> f64 {
         let lines = self.side_lines.get(side as usize).into_iter().flatten();
-        let off = lines.map(|(line, half)| crate::grid::foot(place, *line).0 - half);
+        let off = lines.map(|(line, half)| crate::plan::grid::foot(place, *line).0 - half);
         off.reduce(f64::min).unwrap_or(0.0)
     }
 
@@ -73,7 +73,7 @@ impl StreetBlock {
             for (edge, (known, piece)) in burgeon_geometry::planar::edges(ring).zip(sides.iter().zip(pieces))
             {
                 if *known == Some(side) {
-                    let (distance, _) = crate::grid::foot(place, edge);
+                    let (distance, _) = crate::plan::grid::foot(place, edge);
                     if distance < best.0 {
                         best = (distance, *piece);
                     }
@@ -116,7 +116,7 @@ impl StreetNetwork {
     /// streets, all edges of the outer ring count as adjacent. Rings that intersect are repaired; `None` if they
     /// enclose no area.
     pub fn block(&self, id: Option<&str>, rings: &Rings<DVec2>, reach: f64) -> Option<StreetBlock> {
-        let polygon = enclosed(rings)?;
+        let polygon = enclosed_area(rings)?;
         let rings = Rings::from(&polygon);
         let id = match id {
             Some(id) => id.to_owned(),
@@ -171,7 +171,7 @@ impl StreetNetwork {
         let middle = (a + b) / 2.0;
         let along = (b - a).normalize_or_zero();
         let beyond = |piece: PieceId| {
-            let (distance, _) = crate::grid::foot(middle, self.line(piece));
+            let (distance, _) = crate::plan::grid::foot(middle, self.line(piece));
             // Of streets at the same distance, the one parallel to the edge is preferred.
             let [from, to] = self.line(piece);
             let turned = along.perp_dot((to - from).normalize_or_zero()).abs();
@@ -190,7 +190,7 @@ impl StreetNetwork {
         };
         let [from, to] = self.line(piece);
         // An edge that starts at a street and leads away from it, such as a river bank, is not adjacent to it.
-        let off = |at: DVec2| crate::grid::foot(at, [from, to]).0 - self.half(piece);
+        let off = |at: DVec2| crate::plan::grid::foot(at, [from, to]).0 - self.half(piece);
         let [begin, end] = [off(a), off(b)];
         if reach.is_finite() {
             let leads_away = (begin - end).abs() > LEADS_AWAY * a.distance(b);
@@ -206,7 +206,7 @@ impl StreetNetwork {
 }
 
 /// Returns the area enclosed by rings; the rings themselves if they are simple.
-fn enclosed(rings: &Rings<DVec2>) -> Option<Polygon> {
+fn enclosed_area(rings: &Rings<DVec2>) -> Option<Polygon> {
     let polygon = Polygon::new(rings.clone()).ok();
     let places =
         |ring: &Vec<DVec2>| ring.iter().map(|at| FinePlace::nearest(*at)).collect::<Option<Vec<_>>>();

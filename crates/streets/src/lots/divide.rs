@@ -6,7 +6,7 @@ use super::block::StreetBlock;
 use super::measure::{FrontRun, extent};
 use super::options::{LotOptions, LotPattern};
 use super::partition::{CellId, CornerId, Cut, Partition};
-use crate::network::PieceId;
+use crate::plan::network::PieceId;
 use burgeon_geometry::{Line, Rings};
 
 /// Use of a part of a block.

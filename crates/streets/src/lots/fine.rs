@@ -3,7 +3,7 @@
 use burgeon_geometry::planar::edges;
 use glam::DVec2;
 
-use crate::grid::{FARTHEST, WholePlace, touch};
+use crate::plan::grid::{FARTHEST, WholePlace, touch};
 
 /// Number of grid steps per metre: 2^20.
 const PER_METRE: f64 = 1_048_576.0;

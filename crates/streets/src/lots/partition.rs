@@ -149,7 +149,7 @@ impl Partition {
     }
 
     /// Returns the cell on the left of an edge.
-    pub(super) fn beside(&self, edge: [CornerId; 2]) -> Option<CellId> {
+    pub(super) fn cell_beside(&self, edge: [CornerId; 2]) -> Option<CellId> {
         self.beside.get(&edge).copied()
     }
 
@@ -364,7 +364,7 @@ impl Partition {
     }
 
     /// Returns the union of cells; `None` if it would touch itself at a corner or fall apart.
-    fn joined(&self, cells: &[CellId]) -> Option<CellRings> {
+    fn joined_rings(&self, cells: &[CellId]) -> Option<CellRings> {
         let all = cells.iter().flat_map(|cell| self.rings(*cell)).flat_map(|ring| edges(ring));
         let all: Vec<[CornerId; 2]> = all.collect();
         let known: FxHashSet<[CornerId; 2]> = all.iter().copied().collect();
@@ -396,7 +396,7 @@ impl Partition {
 
     /// Joins cells; returns the resulting cell, or `None` if it would touch itself at a corner or fall apart.
     pub(super) fn join(&mut self, cells: &[CellId]) -> Option<CellId> {
-        let rings = self.joined(cells)?;
+        let rings = self.joined_rings(cells)?;
         for cell in cells {
             self.take(*cell);
         }

@@ -19,16 +19,16 @@ impl Lot {
         }
         let inwards = -self.facing;
         let last = self.access.dot(inwards) + depth;
-        let left = match inset(&self.rings, joint) {
+        let left = match inset_area(&self.rings, joint) {
             Some(part) => vec![part],
             None => Polygon::new(self.rings.clone()).map(|whole| whole.inset(joint)).unwrap_or_default(),
         };
-        left.into_iter().flat_map(|part| before(part, inwards, last)).collect()
+        left.into_iter().flat_map(|part| part_before(part, inwards, last)).collect()
     }
 }
 
 /// Insets a single ring by `distance` (m) if all edges remain and none intersect; otherwise returns `None`.
-fn inset(rings: &Rings<DVec2>, distance: f64) -> Option<Polygon> {
+fn inset_area(rings: &Rings<DVec2>, distance: f64) -> Option<Polygon> {
     let [ring] = &rings[..] else { return None };
     let count = ring.len();
     let ways: Option<Vec<DVec2>> = planar::edges(ring).map(|[a, b]| (b - a).try_normalize()).collect();
@@ -46,7 +46,7 @@ fn inset(rings: &Rings<DVec2>, distance: f64) -> Option<Polygon> {
 }
 
 /// Returns the parts of a polygon up to the coordinate `last` (m) along a direction.
-fn before(part: Polygon, way: DVec2, last: f64) -> Vec<Polygon> {
+fn part_before(part: Polygon, way: DVec2, last: f64) -> Vec<Polygon> {
     let beyond = |at: &DVec2| at.dot(way) > last;
     let count = part.points().filter(beyond).count();
     if count == 0 {

@@ -173,7 +173,7 @@ impl Division<'_> {
         for ring in self.partition.rings(a) {
             let count = ring.len();
             let shared = |index: usize| {
-                self.partition.beside([ring[(index + 1) % count], ring[index % count]]) == Some(b)
+                self.partition.cell_beside([ring[(index + 1) % count], ring[index % count]]) == Some(b)
             };
             let Some(start) = (0..count).find(|index| shared(*index) && !shared(index + count - 1)) else {
                 continue;
@@ -229,7 +229,7 @@ fn nearest_way(front: &FrontRun, place: DVec2) -> Option<(DVec2, f64)> {
     for pair in front.points.windows(2) {
         let length = pair[0].distance(pair[1]);
         if length > 0.0 {
-            let (distance, part) = crate::grid::foot(place, [pair[0], pair[1]]);
+            let (distance, part) = crate::plan::grid::foot(place, [pair[0], pair[1]]);
             if best.is_none_or(|(known, ..)| distance < known) {
                 best = Some((distance, (pair[1] - pair[0]) / length, passed + part * length));
             }

@@ -145,7 +145,7 @@ fn lots_of_networks_at_random_have_fronts_on_their_streets() {
                 let ratio = (lot.width / lot.depth).max(lot.depth / lot.width);
                 long += usize::from(ratio > options.elongation * 1.5);
                 let piece = lot.piece.expect("a street");
-                let (distance, _) = crate::grid::foot(lot.access, network.line(piece));
+                let (distance, _) = crate::plan::grid::foot(lot.access, network.line(piece));
                 assert!(distance <= network.half(piece) + 6.0, "{distance} m from the street");
             }
         }
@@ -196,14 +196,14 @@ fn lots_whose_front_a_river_cuts_have_their_access_on_the_street() {
                     }
                     let off = |at: DVec2| {
                         let each = network.pieces().map(|(piece, _)| {
-                            crate::grid::foot(at, network.line(piece)).0 - network.half(piece)
+                            crate::plan::grid::foot(at, network.line(piece)).0 - network.half(piece)
                         });
                         each.fold(f64::INFINITY, f64::min)
                     };
                     count += 1;
                     worst = worst.max(off(lot.access));
                     cut += usize::from(off(lot.access) > 2.0);
-                    let on = lot.fronts[0].edges().map(|edge| crate::grid::foot(lot.access, edge).0);
+                    let on = lot.fronts[0].edges().map(|edge| crate::plan::grid::foot(lot.access, edge).0);
                     assert!(on.fold(f64::INFINITY, f64::min) < 1e-6, "the access is not on the front");
                 }
             }
@@ -233,7 +233,7 @@ fn terraces_keep_apart_inside_of_their_lots() {
                     );
                     for at in part.points() {
                         assert!((at - lot.access).dot(inwards) < depth + 1e-9, "{lot:?}");
-                        let near = whole.edges().map(|edge| crate::grid::foot(at, edge).0);
+                        let near = whole.edges().map(|edge| crate::plan::grid::foot(at, edge).0);
                         assert!(near.fold(f64::INFINITY, f64::min) > 0.02 - 1e-6, "{lot:?}");
                     }
                     count += 1;
@@ -405,7 +405,7 @@ fn sites_beside_streets_are_disjoint_and_on_no_street() {
             }
             let middle = (site.corners[0] + site.corners[2]) / 2.0;
             for (piece, _) in network.pieces() {
-                let (distance, _) = crate::grid::foot(middle, network.line(piece));
+                let (distance, _) = crate::plan::grid::foot(middle, network.line(piece));
                 assert!(distance > network.half(piece), "a site is in a street");
             }
         }

@@ -156,7 +156,7 @@ impl Code {
 }
 
 /// Returns the index of a cell along the Z curve.
-pub(super) fn along(x: usize, y: usize) -> usize {
+pub(super) fn z_order_index(x: usize, y: usize) -> usize {
     let spread = |number: usize| (0..16).map(|bit| (number >> bit & 1) << (2 * bit)).sum::<usize>();
     spread(x) + 2 * spread(y)
 }

@@ -114,7 +114,7 @@ impl Problem {
     pub(super) fn retire(&self, code: &mut Code, stream: &mut Stream) -> Option<usize> {
         let survey = self.survey(code, |_| true);
         let mut goers = Vec::new();
-        for gone in used(code).into_iter().skip(1) {
+        for gone in used_symbols(code).into_iter().skip(1) {
             let mut cost = 0.0;
             let mut changes = Vec::new();
             for place in places(code, |symbol| symbol == gone) {
@@ -252,12 +252,13 @@ fn set(code: &mut Code, (symbol, quadrant): QuadrantPlace, choice: QuadrantChoic
 }
 
 /// Returns the used symbols; the first is the root.
-fn used(code: &Code) -> Vec<usize> {
+fn used_symbols(code: &Code) -> Vec<usize> {
     code.uses().iter().enumerate().filter(|(_, uses)| **uses > 0).map(|(symbol, _)| symbol).collect()
 }
 
 /// Returns the quadrants of used rules whose symbol satisfies `wanted`.
 fn places(code: &Code, wanted: impl Fn(usize) -> bool) -> Vec<QuadrantPlace> {
-    let all = used(code).into_iter().flat_map(|symbol| (0..4).map(move |quadrant| (symbol, quadrant)));
+    let all =
+        used_symbols(code).into_iter().flat_map(|symbol| (0..4).map(move |quadrant| (symbol, quadrant)));
     all.filter(|(symbol, quadrant)| wanted(code.rules[*symbol].symbols[*quadrant])).collect()
 }

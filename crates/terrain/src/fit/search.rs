@@ -8,7 +8,7 @@
 
 use rayon::prelude::*;
 
-use super::code::{Code, SymbolRule, along};
+use super::code::{Code, SymbolRule, z_order_index};
 use super::moves::Problem;
 use super::result::FitResult;
 use super::targets::{Target, number};
@@ -184,7 +184,7 @@ fn problem(target: &Target, across: usize) -> Problem {
     let share = 1.0 / number(part * part);
     for (at, height) in target.heights().iter().enumerate() {
         let (x, y) = (at % target.across() / part, at / target.across() / part);
-        wanted[along(x, y)] += share * (height - low) / (high - low);
+        wanted[z_order_index(x, y)] += share * (height - low) / (high - low);
     }
     Problem::new(wanted, across.trailing_zeros() as usize)
 }

@@ -30,7 +30,7 @@ pub(super) fn improve(code: &mut Code, target: &[f64], levels: usize, steps: usi
         let before = best;
         for _ in 0..4 {
             let found = equations.solve(damping).map(|step| {
-                let code = stepped(code, &step);
+                let code = apply_step(code, &step);
                 (misfit(&code.cells(levels), target), code)
             });
             match found {
@@ -49,7 +49,7 @@ pub(super) fn improve(code: &mut Code, target: &[f64], levels: usize, steps: usi
 }
 
 /// Returns `code` with its numbers after a step.
-fn stepped(code: &Code, step: &[f64]) -> Code {
+fn apply_step(code: &Code, step: &[f64]) -> Code {
     let mut made = code.clone();
     made.height += step[0];
     let numbers = made.rules.iter_mut().flat_map(|rule| rule.change.iter_mut().zip(&mut rule.factor));

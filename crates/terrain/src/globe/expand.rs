@@ -5,8 +5,8 @@
 //! missing fourth cell has the mean of the two adjacent cells.
 
 use super::faces::{CubeCell, cell};
-use crate::block::{Area, Block};
-use crate::world::{Divide, World, smooth};
+use crate::division::block::{Area, Block};
+use crate::division::world::{Divide, World, smooth};
 use burgeon_base::error::Result;
 use burgeon_rewriting::ModuleKey;
 
@@ -32,10 +32,10 @@ pub(super) fn expand(
         let mut areas = **wanted;
         if let Some(below) = needed.last() {
             for (area, below) in areas.iter_mut().zip(below) {
-                *area = area.joined(below.above(margin));
+                *area = area.join(below.parent_area(margin));
             }
         }
-        needed.push(settled(&areas, World::across(*level)));
+        needed.push(settle(&areas, World::across(*level)));
     }
     needed.reverse();
     let root = |face| Block {
@@ -45,7 +45,7 @@ pub(super) fn expand(
     let mut blocks: Vec<Block> = (0..6).map(root).collect();
     for ((level, wanted), needed) in levels.into_iter().zip(&needed) {
         if level > 0 {
-            blocks = divided(world, &blocks, needed, level == deepest, divide)?;
+            blocks = divide_cells(world, &blocks, needed, level == deepest, divide)?;
         }
         if wanted.iter().any(|area| !area.is_empty()) {
             found(level, &blocks);
@@ -55,7 +55,7 @@ pub(super) fn expand(
 }
 
 /// Divides the cells above, and returns the cells of `needed`.
-fn divided(
+fn divide_cells(
     world: &World,
     above: &[Block],
     needed: &Areas,
@@ -65,19 +65,19 @@ fn divided(
     let mut made = Vec::with_capacity(6);
     for (face, needed) in needed.iter().enumerate() {
         let cells = &above[face];
-        let mut block = world.quarter(cells, needed.above(0), last, divide)?;
+        let mut block = world.quarter(cells, needed.parent_area(0), last, divide)?;
         if world.smooth && !block.area.is_empty() {
-            let area = cells.area.grown(1);
+            let area = cells.area.grow(1);
             let around = Block {
                 level: cells.level,
                 area,
                 symbols: Vec::new(),
-                heights: padded(above, face, area, |block| &block.heights),
+                heights: pad(above, face, area, |block| &block.heights),
                 rest: Vec::new(),
                 stride: 0,
                 keys: Vec::new(),
                 forms: Vec::new(),
-                smooth: padded(above, face, area, |block| &block.smooth),
+                smooth: pad(above, face, area, |block| &block.smooth),
             };
             smooth(&around, &mut block);
         }
@@ -88,7 +88,7 @@ fn divided(
 }
 
 /// Returns the values of the cells of `area`, which may extend beyond the sides of `face`.
-pub(super) fn padded(blocks: &[Block], face: usize, area: Area, of: fn(&Block) -> &[f64]) -> Vec<f64> {
+pub(super) fn pad(blocks: &[Block], face: usize, area: Area, of: fn(&Block) -> &[f64]) -> Vec<f64> {
     let across = World::across(blocks[face].level);
     let known = |(face, x, y): CubeCell| {
         let (face, x, y) = cell((face, x, y), across)?;
@@ -127,7 +127,7 @@ fn number((face, x, y): CubeCell, across: i64, known: &dyn Fn(CubeCell) -> Optio
 }
 
 /// Clips the areas to their faces, and adds the parts beyond a side to the adjacent face.
-fn settled(areas: &Areas, across: i64) -> Areas {
+fn settle(areas: &Areas, across: i64) -> Areas {
     let clipped = |area: Area| {
         let span = |first: i64, count: usize| {
             let end = (first + i64::try_from(count).unwrap_or(0)).min(across);
@@ -153,7 +153,7 @@ fn settled(areas: &Areas, across: i64) -> Areas {
         for (_, ends) in strips.into_iter().filter(|(reaches, _)| *reaches) {
             let there = ends.map(|(x, y)| cell((face, x, y), across));
             if let [Some((face, x, y)), Some((_, to_x, to_y))] = there {
-                settled[face] = settled[face].joined(Area::around([(x, y), (to_x, to_y)].into_iter()));
+                settled[face] = settled[face].join(Area::bounding([(x, y), (to_x, to_y)].into_iter()));
             }
         }
     }

@@ -25,7 +25,7 @@ const fn same(face: usize, side: usize) -> FaceSide {
     FaceSide { face, side, reversed: false }
 }
 
-const fn reversed(face: usize, side: usize) -> FaceSide {
+const fn reverse_side(face: usize, side: usize) -> FaceSide {
     FaceSide { face, side, reversed: true }
 }
 
@@ -37,23 +37,23 @@ pub(super) static FACES: [CubeFace; 6] = [
     },
     CubeFace {
         axes: [[-1, 0, 0], [0, 0, 1], [0, 1, 0]],
-        beyond: [same(0, EAST), same(2, WEST), reversed(4, EAST), same(5, EAST)],
+        beyond: [same(0, EAST), same(2, WEST), reverse_side(4, EAST), same(5, EAST)],
     },
     CubeFace {
         axes: [[0, -1, 0], [0, 0, 1], [-1, 0, 0]],
-        beyond: [same(1, EAST), same(3, WEST), reversed(4, NORTH), reversed(5, SOUTH)],
+        beyond: [same(1, EAST), same(3, WEST), reverse_side(4, NORTH), reverse_side(5, SOUTH)],
     },
     CubeFace {
         axes: [[1, 0, 0], [0, 0, 1], [0, -1, 0]],
-        beyond: [same(2, EAST), same(0, WEST), same(4, WEST), reversed(5, WEST)],
+        beyond: [same(2, EAST), same(0, WEST), same(4, WEST), reverse_side(5, WEST)],
     },
     CubeFace {
         axes: [[0, 1, 0], [-1, 0, 0], [0, 0, 1]],
-        beyond: [same(3, NORTH), reversed(1, NORTH), reversed(2, NORTH), same(0, NORTH)],
+        beyond: [same(3, NORTH), reverse_side(1, NORTH), reverse_side(2, NORTH), same(0, NORTH)],
     },
     CubeFace {
         axes: [[0, 1, 0], [1, 0, 0], [0, 0, -1]],
-        beyond: [reversed(3, SOUTH), same(1, SOUTH), same(0, SOUTH), reversed(2, SOUTH)],
+        beyond: [reverse_side(3, SOUTH), same(1, SOUTH), same(0, SOUTH), reverse_side(2, SOUTH)],
     },
 ];
 
@@ -67,8 +67,8 @@ pub(super) fn cell((face, x, y): CubeCell, across: i64) -> Option<CubeCell> {
     let outside = |at: i64| if at < 0 { -1 - at } else { at - across };
     match (side(x, last, WEST), side(y, last, NORTH)) {
         (None, None) => Some((face, x, y)),
-        (Some(side), None) => Some(beyond(face, side, (outside(x), y), last)),
-        (None, Some(side)) => Some(beyond(face, side, (outside(y), x), last)),
+        (Some(side), None) => Some(cell_beyond(face, side, (outside(x), y), last)),
+        (None, Some(side)) => Some(cell_beyond(face, side, (outside(y), x), last)),
         (Some(_), Some(_)) => None,
     }
 }
@@ -79,8 +79,8 @@ pub(super) fn corner((face, x, y): CubeCell, across: i64) -> Option<CubeCell> {
     let outside = |at: i64| if at < 0 { -at } else { at - across };
     match (side(x, across, WEST), side(y, across, NORTH)) {
         (None, None) => Some((face, x, y)),
-        (Some(side), None) => Some(beyond(face, side, (outside(x), y), across)),
-        (None, Some(side)) => Some(beyond(face, side, (outside(y), x), across)),
+        (Some(side), None) => Some(cell_beyond(face, side, (outside(x), y), across)),
+        (None, Some(side)) => Some(cell_beyond(face, side, (outside(y), x), across)),
         (Some(_), Some(_)) => None,
     }
 }
@@ -93,8 +93,8 @@ pub(super) fn aliases((face, x, y): CubeCell, across: i64) -> impl Iterator<Item
         _ if at == across => Some(low + 1),
         _ => None,
     };
-    let one = on(x, WEST).map(|side| beyond(face, side, (0, y), across));
-    let other = on(y, NORTH).map(|side| beyond(face, side, (0, x), across));
+    let one = on(x, WEST).map(|side| cell_beyond(face, side, (0, y), across));
+    let other = on(y, NORTH).map(|side| cell_beyond(face, side, (0, x), across));
     [Some((face, x, y)), one, other].into_iter().flatten()
 }
 
@@ -104,7 +104,7 @@ fn side(at: i64, last: i64, low: usize) -> Option<usize> {
 }
 
 /// Returns the cell or corner beyond a side, by its distance from the side and its position along it.
-fn beyond(face: usize, side: usize, (depth, along): (i64, i64), last: i64) -> CubeCell {
+fn cell_beyond(face: usize, side: usize, (depth, along): (i64, i64), last: i64) -> CubeCell {
     let FaceSide { face, side, reversed } = FACES[face].beyond[side];
     let along = if reversed { last - along } else { along };
     match side {

@@ -12,13 +12,13 @@ use rayon::prelude::*;
 use rustc_hash::FxHashMap;
 
 use super::GlobeView;
-use super::expand::{Areas, NONE, expand, padded};
+use super::expand::{Areas, NONE, expand, pad};
 use super::faces::{CubeCell, aliases, corner};
 use super::leaves::{DEEPEST, DETAIL, Leaf, Sight, Tree};
 use super::sphere::{direction, place, side};
-use crate::block::{Area, Block};
-use crate::tile::Tile;
-use crate::world::{Divide, World};
+use crate::division::block::{Area, Block};
+use crate::division::world::{Divide, World};
+use crate::tiles::tile::Tile;
 use burgeon_base::MemoryOwner;
 use burgeon_base::error::Result;
 
@@ -77,7 +77,7 @@ impl Globe {
         let levels = view.levels.min(DEEPEST);
         let eye = match view.eye {
             Some(eye) => {
-                let above = eye.length() - self.radius - self.shown(self.probe(eye, levels, divide)?);
+                let above = eye.length() - self.radius - self.shown_height(self.probe(eye, levels, divide)?);
                 let above = above.max(view.clearance).max(0.0);
                 Some(eye.normalize_or(DVec3::X) * (self.radius + above))
             }
@@ -104,17 +104,17 @@ impl Globe {
                 wanted.resize(level + 1, [NONE; 6]);
                 missing.resize(level + 1, Vec::new());
             }
-            let area = Tile::own(*place, DETAIL).grown(1);
-            wanted[level][*face] = wanted[level][*face].joined(area);
+            let area = Tile::own_cells(*place, DETAIL).grow(1);
+            wanted[level][*face] = wanted[level][*face].join(area);
             missing[level].push(index);
         }
         expand(&self.world, &wanted, divide, &mut |level, blocks| {
             let make = |index: &usize| {
                 let (face, place) = tree.leaves[*index];
-                let area = Tile::own(place, DETAIL).grown(1);
-                let mut heights = padded(blocks, face, area, Block::surface);
+                let area = Tile::own_cells(place, DETAIL).grow(1);
+                let mut heights = pad(blocks, face, area, Block::surface);
                 if blocks.iter().any(|block| !block.forms.is_empty()) {
-                    let forms = padded(blocks, face, area, |block| &block.forms);
+                    let forms = pad(blocks, face, area, |block| &block.forms);
                     heights.iter_mut().zip(forms).for_each(|(height, form)| *height += form);
                 }
                 (*index, Arc::new(Tile::new(place, DETAIL, &blocks[face], area, heights)))
@@ -143,7 +143,7 @@ impl Globe {
             let heights = blocks.iter().flat_map(|block| block.surface());
             highest = heights.fold(highest, |highest: f64, height| highest.max(*height));
         })?;
-        Ok(2.0 * self.shown(highest).max(0.0))
+        Ok(2.0 * self.shown_height(highest).max(0.0))
     }
 
     /// Returns the height (m) of the ground below `eye`, at a depth of `levels` divisions.
@@ -160,7 +160,7 @@ impl Globe {
 
     /// Returns the visible height (m) for a height of the ground: the height of the water, if it is higher.
     #[inline]
-    pub fn shown(&self, height: f64) -> f64 {
+    pub fn shown_height(&self, height: f64) -> f64 {
         self.sea.map_or(height, |sea| height.max(sea))
     }
 
@@ -235,12 +235,12 @@ impl Globe {
         }
         // The corner lies between the corners of larger cells.
         let part = |at: i64| fraction(at & mask, shift);
-        self.between(tile, (face, x >> shift, y >> shift), DVec2::new(part(x), part(y)))
+        self.interpolate(tile, (face, x >> shift, y >> shift), DVec2::new(part(x), part(y)))
     }
 
     /// Returns the height (m) of the ground within a cell of `tile`, at the fraction `part` to the east and
     /// to the south.
-    fn between(&self, tile: &Tile, (face, x, y): CubeCell, part: DVec2) -> f64 {
+    fn interpolate(&self, tile: &Tile, (face, x, y): CubeCell, part: DVec2) -> f64 {
         let shift = self.finest - tile.level();
         let at = |right: i64, down: i64| self.corner((face, (x + right) << shift, (y + down) << shift));
         let (east, south) = (part.x, part.y);
@@ -284,7 +284,7 @@ impl Globe {
     /// Returns the height (m) of the ground in a direction; `None` outside the expanded area.
     pub fn height(&self, direction: DVec3) -> Option<f64> {
         let (tile, cell, part) = self.find(direction)?;
-        Some(self.between(tile, cell, part))
+        Some(self.interpolate(tile, cell, part))
     }
 
     /// Returns the symbol of the cell in a direction; `None` outside the expanded area.
@@ -305,7 +305,7 @@ impl Globe {
 
     /// Returns the position (m) of the ground or the water at a corner of the smallest cells.
     pub(super) fn point(&self, spot: CubeCell) -> DVec3 {
-        self.direction(spot) * (self.radius + self.shown(self.corner(spot)))
+        self.direction(spot) * (self.radius + self.shown_height(self.corner(spot)))
     }
 
     /// Returns the normal (a unit vector) of the ground or the water at a corner of the smallest cells.
@@ -324,7 +324,7 @@ impl Globe {
 
 /// Returns the direction (a unit vector) of a position on a tile, from 0 to 1 to the east and to the south.
 #[allow(clippy::cast_precision_loss, reason = "columns and rows are below 2^53")]
-pub fn within(face: usize, tile: &Tile, part: DVec2) -> DVec3 {
+pub fn place_within(face: usize, tile: &Tile, part: DVec2) -> DVec3 {
     let across = World::across(tile.place.level) as f64;
     let along = (DVec2::new(tile.place.x as f64, tile.place.y as f64) + part) * 2.0 / across - 1.0;
     direction(face, DVec2::new(along.x, -along.y))

@@ -3,9 +3,9 @@
 use glam::{DVec2, DVec3};
 
 use super::sphere::{direction, side};
-use crate::tile::TilePlace;
-use crate::view::MOST_HEIGHTS;
-use crate::world::World;
+use crate::division::world::World;
+use crate::tiles::tile::TilePlace;
+use crate::tiles::view::MOST_HEIGHTS;
 use burgeon_base::error::{Error, Limit, Result};
 
 /// Number of divisions of each tile.

@@ -14,9 +14,10 @@ use rustc_hash::{FxHashMap, FxHashSet};
 use super::faces::{CubeCell, aliases};
 use super::globe::Globe;
 use super::leaves::ball;
-use crate::mesh::{GridCorner, HeightGrid, RightTriangle, corners, diamond, roots};
-use crate::tile::Tile;
-use crate::world::World;
+use crate::division::world::World;
+use crate::mesh::height_grid::HeightGrid;
+use crate::mesh::triangle::{GridCorner, RightTriangle, corners, diamond, roots};
+use crate::tiles::tile::Tile;
 use burgeon_base::MemoryOwner;
 use burgeon_scene::Part;
 
@@ -132,8 +133,8 @@ impl<'a> GlobeMesh<'a> {
         // The origin is on the ground at the centre of the tile, so that all points are near.
         let middle = tile
             .cell((2 * tile.place.x + 1) << (tile.detail - 1), (2 * tile.place.y + 1) << (tile.detail - 1));
-        let out = globe.radius() + globe.shown(middle);
-        let origin = snapped(ball((face, tile.place)).0 * out, own.max(origin_step(globe.radius())));
+        let out = globe.radius() + globe.shown_height(middle);
+        let origin = snap(ball((face, tile.place)).0 * out, own.max(origin_step(globe.radius())));
         // If the whole tile is above the horizon, its triangles need no test.
         let rim =
             corners(tile.place, globe.finest()).map(|[x, y]| globe.direction((face, x, y)) * globe.radius());
@@ -182,7 +183,7 @@ impl<'a> GlobeMesh<'a> {
         let globe = self.globe;
         let spot = (face, x, y);
         let coarsest = globe.coarsest(spot).map_or(tile, |(tile, _)| tile);
-        let point = snapped(globe.point(spot), step(globe, coarsest));
+        let point = snap(globe.point(spot), step(globe, coarsest));
         part.positions.push((point - origin).as_vec3());
         part.normals.push(globe.normal(spot).into());
         // From the tile's south-west corner.
@@ -200,14 +201,14 @@ const STRETCH: f64 = 2.0;
 /// Returns the visible heights at all corners of the cells of a tile.
 fn grid(globe: &Globe, face: usize, tile: &Tile) -> HeightGrid {
     let shift = globe.finest() - tile.level();
-    let own = Tile::own(tile.place, tile.detail);
+    let own = Tile::own_cells(tile.place, tile.detail);
     let across = own.columns + 1;
     let mut heights = Vec::with_capacity(across * across);
     for y in (own.y..).take(across) {
         for x in (own.x..).take(across) {
             let rim = x == own.x || y == own.y || !own.contains(x, y);
             let height = if rim { globe.corner((face, x << shift, y << shift)) } else { tile.corner(x, y) };
-            heights.push(globe.shown(height));
+            heights.push(globe.shown_height(height));
         }
     }
     HeightGrid { heights, across, first: [own.x << shift, own.y << shift], shift }
@@ -225,6 +226,6 @@ fn origin_step(radius: f64) -> f64 {
     ((4.0 * radius).log2().ceil() - 24.0).exp2()
 }
 
-fn snapped(point: DVec3, step: f64) -> DVec3 {
+fn snap(point: DVec3, step: f64) -> DVec3 {
     (point / step).round() * step
 }

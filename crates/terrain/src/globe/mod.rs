@@ -14,7 +14,7 @@ mod sphere;
 mod tests;
 mod view;
 
-pub use globe::{Globe, within};
+pub use globe::{Globe, place_within};
 pub use leaves::{DEEPEST, DETAIL};
 pub use mesh::{GlobeMesh, Pieces};
 pub use sphere::latitude;

@@ -122,7 +122,7 @@ fn the_way_to_a_place_does_not_matter() {
         assert_eq!(walker.tiles().count(), fresh.tiles().count());
         for ((face, one), (there, other)) in walker.tiles().zip(fresh.tiles()) {
             assert!(face == there && one.place == other.place);
-            let cells = Tile::own(one.place, DETAIL).grown(1);
+            let cells = Tile::own_cells(one.place, DETAIL).grow(1);
             assert!(cells.cells().all(|(x, y)| one.cell(x, y).to_bits() == other.cell(x, y).to_bits()));
         }
     }

@@ -1,62 +1,16 @@
 //! The construction of a roof on a footprint.
 
-use super::{RoofDetail, kinds, replace};
-use crate::MaterialOptions;
-use crate::footprint::Footprint;
+use super::options::Roof;
+use super::{kinds, replace};
+use crate::footprint::object::Footprint;
 use burgeon_base::error::{Error, Result};
 use burgeon_geometry::roof::{
     Eaves, Patch, PatchKind, RoofCover, RoofShape, RoofSurface as SurfaceOf, STEEPEST_EAVES, Support,
 };
 use burgeon_geometry::{Plan, fill};
-use burgeon_kit::Color;
-use burgeon_kit::{Note, fields};
+use burgeon_kit::Note;
 use burgeon_scene::SurfaceMeaning;
 use glam::DVec3;
-
-/// Options of `footprint:roof { ... }`.
-#[fields("footprint:roof")]
-pub struct Roof {
-    /// Roof type: "flat", "shed", "gable", "gambrel", "shed_gambrel", "hip", "mansard", "pagoda", "porch" or
-    /// "dutch_hip".
-    #[default("hip".into())]
-    pub kind: String,
-    /// Height of the highest ridge above the eaves (m). If omitted, it follows from `slope`.
-    pub height: Option<f64>,
-    /// Slope (degrees) from the eaves to the highest ridge, if no height is given.
-    #[default(35.0)]
-    pub slope: f64,
-    /// Overhang beyond the outermost walls (m), where there is room.
-    #[default(0.0)]
-    pub overhang: f64,
-    /// Eaves type: "closed", with a level underside; "slab", with upright faces along the outline too; or "open", a
-    /// plate that follows the slope. The default is "slab" if `slab` is given, and "closed" otherwise.
-    pub eaves: Option<String>,
-    /// Height of the upright faces along the outline, and of the edge of a plate (m). If 0, it is 0.15 where one is
-    /// needed.
-    #[default(0.0)]
-    pub slab: f64,
-    /// Height of the border of a flat roof (m).
-    #[default(0.0)]
-    pub border: f64,
-    /// Width of the border of a flat roof (m).
-    #[default(0.3)]
-    pub border_width: f64,
-    /// Colour of the roof.
-    pub color: Option<Color>,
-    /// Material of the roof, instead of the colour.
-    pub material: Option<MaterialOptions>,
-    /// Material of gables. If omitted, the material of the walls below.
-    pub gable: Option<MaterialOptions>,
-    /// Material of slabs and borders. If omitted, the roof's material.
-    pub trim: Option<MaterialOptions>,
-    /// Material of undersides. If omitted, the material of slabs.
-    pub underside: Option<MaterialOptions>,
-    /// Gables on party walls that run away from the street, as in a row of houses.
-    #[default(true)]
-    pub party_gables: bool,
-    /// Objects on the roof: a list of { model, on, every, ... }.
-    pub details: Vec<RoofDetail>,
-}
 
 impl Footprint {
     pub(crate) fn cover(&mut self, options: &Roof) -> Result<()> {
@@ -102,7 +56,7 @@ impl Footprint {
             made.cover.tight.iter().partition(|edge| is_beside(edge));
         for (edges, cause) in [(beside, "a neighbour is near"), (within, "there is no room")] {
             if !edges.is_empty() {
-                let why = tight(&edges, &made.cover.overhangs, options.overhang, &self.plan);
+                let why = overhang_text(&edges, &made.cover.overhangs, options.overhang, &self.plan);
                 note(format!("a smaller overhang over some edges, as {cause}"), why);
             }
         }
@@ -162,7 +116,7 @@ const NAMED: usize = 8;
 
 /// Describes the overhangs of a roof over `edges`, which are smaller than the requested `overhang`, and names the edges
 /// by their given numbers.
-fn tight(edges: &[usize], overhangs: &[f64], overhang: f64, plan: &Plan) -> String {
+fn overhang_text(edges: &[usize], overhangs: &[f64], overhang: f64, plan: &Plan) -> String {
     let found = edges.iter().map(|&edge| overhangs[edge]);
     let (least, most) =
         found.fold((f64::INFINITY, 0.0f64), |(least, most), by| (least.min(by), most.max(by)));

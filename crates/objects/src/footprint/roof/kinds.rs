@@ -1,8 +1,7 @@
 //! The types of roof that scripts can name.
 
-use super::super::object::unknown;
-use super::Roof;
-use crate::footprint::object::check_height;
+use super::options::Roof;
+use crate::footprint::checks::{check_height, unknown_kind};
 use burgeon_base::error::{Error, Result};
 use burgeon_base::text::number;
 use burgeon_geometry::roof::{Border, Eaves, Ends, Rise, RoofShape, RoofSurface};
@@ -44,7 +43,7 @@ pub(super) fn shape(options: &Roof) -> Result<RoofShape> {
         "shed" => RoofSurface::Shed,
         _ => match SLOPED.iter().find(|known| known.name == kind) {
             Some(RoofKind { ends, bends, .. }) => RoofSurface::Sloped(*ends, bends),
-            None => return Err(unknown("footprint:roof", kind, &KINDS)),
+            None => return Err(unknown_kind("footprint:roof", kind, &KINDS)),
         },
     };
     let eaves = match options.eaves.as_deref() {

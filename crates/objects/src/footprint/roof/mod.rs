@@ -6,9 +6,10 @@
 mod cover;
 mod detail;
 mod kinds;
+mod options;
 mod replace;
 #[cfg(test)]
 mod tests;
 
-pub use cover::Roof;
 pub use detail::RoofDetail;
+pub use options::Roof;

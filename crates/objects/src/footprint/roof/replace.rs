@@ -41,7 +41,7 @@ pub(super) fn cover(
     };
     let flush = RoofShape { overhang: 0.0, ..*shape };
     for distance in SIMPLER {
-        let outlines = within(walls, distance);
+        let outlines = inset_parts(walls, distance);
         let covers = outlines.iter().map(|outline| make(&flush, &Support::new(outline, base)));
         let Ok(covers) = covers.collect::<Result<Vec<RoofCover>>>() else { continue };
         if covers.is_empty() {
@@ -66,7 +66,7 @@ pub(super) fn cover(
 
 /// Returns simpler outlines inside the outline of the walls. They keep at least the distance by which simplification
 /// may move them, so that all courtyards stay open. Returns none if one of them is invalid.
-fn within(walls: &Polygon, distance: f64) -> Vec<Polygon> {
+fn inset_parts(walls: &Polygon, distance: f64) -> Vec<Polygon> {
     let mut outlines = Vec::new();
     for part in walls.inset(1.5 * distance) {
         let rings = part.simplified(distance);

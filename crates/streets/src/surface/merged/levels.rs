@@ -1,0 +1,31 @@
+//! Merged surfaces of all levels of a network.
+
+use std::sync::Arc;
+
+use super::mesh;
+use crate::plan::merge_cache::{MergeOptions, MergedStreets};
+use crate::plan::network::StreetNetwork;
+use burgeon_base::locks::LockRecovery;
+
+impl StreetNetwork {
+    /// Returns the merged surfaces of a network with existing streets; `None` for a network that was grown completely.
+    pub(crate) fn merge_levels(&self, options: MergeOptions) -> Option<Arc<MergedStreets>> {
+        if !self.has_existing() {
+            return None;
+        }
+        let mut known = self.merge_cache.surfaces.lock().recover();
+        if let Some((version, of, merged)) = known.as_ref()
+            && (*version, *of) == (self.version(), options)
+        {
+            return Some(Arc::clone(merged));
+        }
+        let mut levels: Vec<i32> = self.pieces().map(|(_, piece)| piece.attributes.level).collect();
+        levels.sort_unstable();
+        levels.dedup();
+        levels.retain(|level| *level >= 0);
+        let levels = levels.into_iter().map(|level| mesh::level(self, level, options)).collect();
+        let merged = Arc::new(MergedStreets { levels });
+        *known = Some((self.version(), options, Arc::clone(&merged)));
+        Some(merged)
+    }
+}
