@@ -68,7 +68,7 @@ impl Session {
     /// Whether there is a package `name` that `asker` can use; the script can use all.
     pub(crate) fn has_package(&self, name: &str, asker: Option<&Package>) -> bool {
         let Some(package) = self.packages().get(name) else { return false };
-        let wanted = asker.and_then(|asker| asker.manifest.wanted().find(|wanted| wanted.name == name));
+        let wanted = asker.and_then(|asker| asker.manifest.dependencies().find(|wanted| wanted.name == name));
         package.problems.is_empty()
             && wanted.is_none_or(|wanted| wanted.versions.matches(&package.manifest.version))
     }
@@ -138,7 +138,7 @@ impl Session {
 
     /// Says of an `error` for a file called `name` that some package has one, if one has.
     pub(crate) fn propose_packages(&self, name: &str, error: Error) -> Error {
-        match self.packages().having(name).as_slice() {
+        match self.packages().files_called(name).as_slice() {
             [] => error,
             names => error.help(format!("a package's file is named with it: {}", names.join(" or "))),
         }

@@ -232,7 +232,7 @@ impl Session {
         let read =
             self.files().into_iter().chain([self.script.clone()]).chain(self.options.inputs.stdlib.clone());
         files.extend(read.map(|path| (path, true)));
-        files.extend(self.packages.sought());
+        files.extend(self.packages.searched_paths());
         files.into_iter().collect()
     }
 
