@@ -98,11 +98,11 @@ impl FileTarget {
                 Err(error) => Err(error),
             },
         };
-        created.map_err(|error: io::Error| self.refused(&error))
+        created.map_err(|error: io::Error| self.write_error(&error))
     }
 
     /// Returns the error for a failed write.
-    pub(super) fn refused(&self, error: &io::Error) -> Error {
+    pub(super) fn write_error(&self, error: &io::Error) -> Error {
         refused(&self.named, error)
     }
 

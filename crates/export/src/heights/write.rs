@@ -1,33 +1,16 @@
-//! Height maps, and the files that store them.
+//! Writes height maps in the format of a file name.
 
 use std::io::{self, Write};
 use std::path::Path;
 
+use super::height_map::{HeightMap, narrow};
 use super::packed;
 use crate::{Files, Out};
 use burgeon_base::error::{Error, Result};
 use burgeon_data::ReferenceFrame;
-use glam::DVec2;
 
 /// Marker of a missing height in an ASCII grid.
 const MISSING: &str = "-9999";
-
-/// Grid of heights of a run's terrain.
-#[derive(Clone)]
-pub struct HeightMap {
-    /// Number of heights from west to east.
-    pub columns: usize,
-    /// Number of heights from north to south.
-    pub rows: usize,
-    /// Spacing (m) of neighbouring heights, in both directions.
-    pub step: f64,
-    /// Outer south-west corner (m): each height is in the centre of a cell, half a step from its edges.
-    pub corner: DVec2,
-    /// Projection and origin of the run, if it has them.
-    pub frame: Option<ReferenceFrame>,
-    /// Heights (m), row by row from the north, each from the west; NaN if missing.
-    pub heights: Vec<f64>,
-}
 
 /// Formats of height maps.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -73,7 +56,7 @@ pub fn write(map: &HeightMap, path: &Path, files: &mut Files) -> Result<()> {
     let format = HeightFormat::of(path)?;
     check(map, format).map_err(|error| error.about(&format!("cannot write {}", path.display())))?;
     let text =
-        map.frame.as_ref().filter(|_| map.needs_text(format)).and_then(ReferenceFrame::well_known_text);
+        map.frame.as_ref().filter(|_| needs_text(map, format)).and_then(ReferenceFrame::well_known_text);
     if let Some(text) = text {
         files.write(&path.with_extension("prj"), |out| writeln!(out, "{text}"))?;
     }
@@ -131,31 +114,11 @@ fn check(map: &HeightMap, format: HeightFormat) -> Result<()> {
     Ok(())
 }
 
-/// Converts a height to the precision of most formats.
-pub(super) fn narrow(height: f64) -> f32 {
-    height as f32
-}
-
-impl HeightMap {
-    /// Returns true if the projection must be told in a `.prj` file: ASCII grids have none, and GeoTIFFs those with an
-    /// EPSG code or around a centre.
-    fn needs_text(&self, format: HeightFormat) -> bool {
-        let is_told = self.frame.as_ref().is_some_and(|frame| frame.epsg.is_some() || frame.middle.is_some());
-        format == HeightFormat::Ascii || format == HeightFormat::GeoTiff && !is_told
-    }
-
-    /// Returns the outer south-west corner: in the projection if a file can name it, otherwise in metres of the run.
-    pub(super) fn projected_corner(&self) -> DVec2 {
-        let frame =
-            self.frame.as_ref().filter(|frame| frame.epsg.is_some() || frame.well_known_text().is_some());
-        self.corner + frame.map_or(DVec2::ZERO, |frame| frame.origin.into())
-    }
-
-    /// Returns the EPSG code of the projection.
-    #[cfg(feature = "data")]
-    pub(super) fn epsg(&self) -> Option<u16> {
-        self.frame.as_ref().and_then(|frame| frame.epsg)
-    }
+/// Returns true if the projection must be told in a `.prj` file: ASCII grids have none, and GeoTIFFs those with an
+/// EPSG code or around a centre.
+fn needs_text(map: &HeightMap, format: HeightFormat) -> bool {
+    let is_told = map.frame.as_ref().is_some_and(|frame| frame.epsg.is_some() || frame.middle.is_some());
+    format == HeightFormat::Ascii || format == HeightFormat::GeoTiff && !is_told
 }
 
 fn write_ascii(map: &HeightMap, out: &mut Out) -> io::Result<()> {
@@ -188,6 +151,7 @@ mod tests {
     }
     use burgeon_data::Crs;
     use burgeon_data::elevation::{HeightOptions, Raster};
+    use glam::DVec2;
 
     /// Returns hills of 12 by `rows` heights.
     fn map(rows: usize, frame: Option<ReferenceFrame>) -> HeightMap {
@@ -202,7 +166,7 @@ mod tests {
     }
 
     /// Writes a map and reads it back.
-    fn again(map: &HeightMap, name: &str, wanted: &HeightOptions) -> Raster {
+    fn write_and_read(map: &HeightMap, name: &str, wanted: &HeightOptions) -> Raster {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join(name);
         write_alone(map, &path).unwrap();
@@ -224,13 +188,13 @@ mod tests {
         let wanted = HeightOptions { bounds: Some(edges), ..HeightOptions::default() };
         let (hills, square) = (map(9, None), map(12, None));
         for (name, tolerance) in [("a.asc", 2e-5), ("a.tif", 2e-5), ("a.TIFF", 2e-5)] {
-            let raster = again(&hills, name, &HeightOptions::default());
+            let raster = write_and_read(&hills, name, &HeightOptions::default());
             assert_same(&raster, &hills, tolerance);
             assert_eq!((raster.bounds(), raster.crs), (edges, None), "{name}");
         }
-        assert_same(&again(&hills, "a.png", &wanted), &hills, 160.0 / 65535.0);
+        assert_same(&write_and_read(&hills, "a.png", &wanted), &hills, 160.0 / 65535.0);
         for name in ["a.r32", "a.f32", "a.r64", "a.f64"] {
-            assert_same(&again(&square, name, &wanted), &square, 2e-5);
+            assert_same(&write_and_read(&square, name, &wanted), &square, 2e-5);
         }
     }
 
@@ -244,7 +208,7 @@ mod tests {
         ] {
             let map = map(9, frame(code, at));
             for name in ["a.tif", "a.asc"] {
-                let raster = again(&map, name, &HeightOptions::default());
+                let raster = write_and_read(&map, name, &HeightOptions::default());
                 assert_same(&raster, &map, 2e-5);
                 assert_eq!(raster.crs.as_ref().unwrap().name(), crs, "{name}");
                 let mut there = map.frame.clone();
@@ -261,10 +225,10 @@ mod tests {
         let mut plain = map(9, None);
         plain.heights.fill(42.0);
         let wanted = HeightOptions { bounds: Some([0.0, 0.0, 1.0, 1.0]), ..HeightOptions::default() };
-        assert_same(&again(&plain, "a.png", &wanted), &plain, 1e-6);
+        assert_same(&write_and_read(&plain, "a.png", &wanted), &plain, 1e-6);
         plain.heights[17] = f64::NAN;
         for name in ["a.asc", "a.tif"] {
-            let raster = again(&plain, name, &HeightOptions::default());
+            let raster = write_and_read(&plain, name, &HeightOptions::default());
             assert_eq!((raster.filled, raster.heights[17]), (1, 42.0));
         }
     }
